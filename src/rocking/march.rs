@@ -1,0 +1,273 @@
+//! The march through a record: rest, uplift, rocking, impacts, overturning.
+
+use std::f64::consts::FRAC_PI_2;
+use std::ops::ControlFlow;
+
+use super::polynomial::{self, Coefficients};
+use super::record::Record;
+use super::response::{Outcome, Response};
+use super::structure::Structure;
+use super::tail::{Tail, free_rocking};
+use super::taylor::{Excess, Slenderness, State, series};
+use crate::units::G_M_S2;
+
+/// After an impact, a velocity eta |theta'| below this share of p counts as none: the structure rests, or uplifts at
+/// once if the ground demands it.
+pub const REST_VELOCITY: f64 = 1e-6;
+
+/// The longest Taylor step, as p dt sqrt(1 + |a|/g): at order 8 its truncation error is below 1e-14 of alpha.
+const LONGEST_STEP: f64 = 0.1;
+
+/// Someone who looks on while a structure rocks. Times in s from the start of the record, angles in rad.
+pub trait Observer {
+    /// A structure at rest uplifts towards `side`.
+    fn uplift(&mut self, _time_s: f64, _side: Side) {}
+    /// It strikes its base with the velocity `before` (rad, per unit of p t) and leaves it with `after`.
+    fn impact(&mut self, _time_s: f64, _side: Side, _before: f64, _after: f64) {}
+    /// It stays on its base after an impact.
+    fn rest(&mut self, _time_s: f64) {}
+    /// It has turned by pi/2, at `velocity`.
+    fn overturn(&mut self, _time_s: f64, _side: Side, _velocity: f64) {}
+    /// The state at a sample of the record; `None` is rest.
+    fn sample(&mut self, _index: usize, _rocking: Option<(Side, State)>) {}
+}
+
+/// The direction in which the structure leans.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// theta > 0.
+    Positive,
+    /// theta < 0.
+    Negative,
+}
+
+impl Side {
+    /// +1 or -1, the sign of theta.
+    pub fn sign(self) -> f64 {
+        match self {
+            Side::Positive => 1.0,
+            Side::Negative => -1.0,
+        }
+    }
+
+    fn other(self) -> Side {
+        match self {
+            Side::Positive => Side::Negative,
+            Side::Negative => Side::Positive,
+        }
+    }
+
+    /// The ground throws the structure to the side it does not accelerate to.
+    fn opposing(ground: f64) -> Side {
+        if ground > 0.0 { Side::Negative } else { Side::Positive }
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Phase {
+    Rest,
+    Rocking(Side, State),
+    Overturned,
+}
+
+/// What is left of the time between two samples; the ground acceleration over g is linear in it.
+#[derive(Clone, Copy)]
+struct Remainder {
+    index: usize,
+    /// The share of the time between the samples that has passed.
+    elapsed: f64,
+    start: f64,
+    end: f64,
+}
+
+impl Remainder {
+    fn ground(&self, share: f64) -> f64 {
+        self.start + share * (self.end - self.start)
+    }
+
+    /// What is left after a share of it has passed, with the ground acceleration at that moment.
+    fn after(&self, share: f64, ground: f64) -> Remainder {
+        let elapsed = if share < 1.0 { self.elapsed + share * (1.0 - self.elapsed) } else { 1.0 };
+        Remainder { elapsed, start: ground, ..*self }
+    }
+}
+
+struct March<'a, O> {
+    slenderness: Slenderness,
+    structure: &'a Structure,
+    dt_s: f64,
+    observer: &'a mut O,
+    rocked: bool,
+    impacts: u32,
+    /// The largest |theta| so far, rad.
+    peak: f64,
+}
+
+/// Marches `structure` through `record` from rest, telling `observer` what happens on the way.
+pub fn march(structure: &Structure, record: &Record, observer: &mut impl Observer) -> Response {
+    let mut march = March {
+        slenderness: Slenderness::new(structure.alpha_rad),
+        structure,
+        dt_s: record.dt_s(),
+        observer,
+        rocked: false,
+        impacts: 0,
+        peak: 0.0,
+    };
+    let phase = march.through(record);
+    march.response(phase)
+}
+
+impl<O: Observer> March<'_, O> {
+    fn through(&mut self, record: &Record) -> Phase {
+        let samples = record.acceleration_m_s2();
+        let uplift = G_M_S2 * self.slenderness.tan;
+        let mut phase = Phase::Rest;
+        let mut index = 0;
+        self.observer.sample(0, None);
+        while index + 1 < samples.len() {
+            if let Phase::Rest = phase
+                && samples[index].abs() < uplift
+                && samples[index + 1].abs() < uplift
+            {
+                index += 1;
+                self.observer.sample(index, None);
+                continue;
+            }
+            let (start, end) = (samples[index] / G_M_S2, samples[index + 1] / G_M_S2);
+            phase = self.between_samples(phase, Remainder { index, elapsed: 0.0, start, end });
+            index += 1;
+            match phase {
+                Phase::Rest => self.observer.sample(index, None),
+                Phase::Rocking(side, state) => self.observer.sample(index, Some((side, state))),
+                Phase::Overturned => return phase,
+            }
+        }
+        phase
+    }
+
+    /// To the next sample, through all that happens before it.
+    fn between_samples(&mut self, mut phase: Phase, mut remainder: Remainder) -> Phase {
+        while remainder.elapsed < 1.0 {
+            (phase, remainder) = match phase {
+                Phase::Rest => self.rest(remainder),
+                Phase::Rocking(side, state) => self.rock(side, state, remainder),
+                Phase::Overturned => return phase,
+            };
+        }
+        phase
+    }
+
+    /// Rests until |a| = g tan(alpha), at the root of the linear acceleration, or to the next sample.
+    fn rest(&mut self, remainder: Remainder) -> (Phase, Remainder) {
+        let Remainder { start, end, .. } = remainder;
+        let tan = self.slenderness.tan;
+        let (share, ground) = if start.abs() > tan {
+            (0.0, start)
+        } else if end.abs() > tan {
+            let threshold = tan.copysign(end);
+            ((threshold - start) / (end - start), threshold)
+        } else {
+            return (Phase::Rest, remainder.after(1.0, end));
+        };
+        let side = Side::opposing(ground);
+        let remainder = remainder.after(share, ground);
+        self.rocked = true;
+        self.observer.uplift(self.time_s(&remainder), side);
+        (Phase::Rocking(side, State { rotation: 0.0, velocity: 0.0 }), remainder)
+    }
+
+    /// Rocks on one side until the first impact, overturning, or the end of the Taylor step.
+    fn rock(&mut self, side: Side, state: State, remainder: Remainder) -> (Phase, Remainder) {
+        let left = self.structure.p_rad_s * self.dt_s * (1.0 - remainder.elapsed);
+        let rate = (1.0 + remainder.start.abs().max(remainder.end.abs())).sqrt();
+        let share = 1.0 / (left * rate / LONGEST_STEP).ceil().max(1.0);
+        let h = left * share;
+        let excess = Excess {
+            start: side.sign() * remainder.start + self.slenderness.tan,
+            end: side.sign() * remainder.ground(share) + self.slenderness.tan,
+        };
+        let rotation = series(&self.slenderness, excess, state, h);
+
+        let (low, high) = polynomial::bounds(&rotation);
+        let impact = if low > 0.0 { None } else { first_impact(&rotation) };
+        let until = impact.unwrap_or(1.0);
+        if high >= FRAC_PI_2
+            && let Some(x) = first_overturning(&rotation).filter(|&x| x <= until)
+        {
+            let remainder = remainder.after(share * x, remainder.ground(share * x));
+            let velocity = polynomial::value(&polynomial::derivative(&rotation), x) / h;
+            self.observer.overturn(self.time_s(&remainder), side, velocity);
+            return (Phase::Overturned, remainder);
+        }
+        if high > self.peak {
+            self.peak = self.peak.max(largest(&rotation, until));
+        }
+        let remainder = remainder.after(share * until, remainder.ground(share * until));
+        let velocity = polynomial::value(&polynomial::derivative(&rotation), until) / h;
+        if impact.is_some() {
+            (self.strike(side, -velocity, &remainder), remainder)
+        } else {
+            let rotation = polynomial::value(&rotation, 1.0).max(0.0);
+            (Phase::Rocking(side, State { rotation, velocity }), remainder)
+        }
+    }
+
+    /// An impact: the velocity eta times as large on the other side, or rest.
+    fn strike(&mut self, side: Side, before: f64, remainder: &Remainder) -> Phase {
+        let after = self.structure.eta * before;
+        let time_s = self.time_s(remainder);
+        self.impacts += 1;
+        self.observer.impact(time_s, side, before, after);
+        if after >= REST_VELOCITY {
+            return Phase::Rocking(side.other(), State { rotation: 0.0, velocity: after });
+        }
+        self.observer.rest(time_s);
+        Phase::Rest
+    }
+
+    fn time_s(&self, remainder: &Remainder) -> f64 {
+        (remainder.index as f64 + remainder.elapsed) * self.dt_s
+    }
+
+    /// The response, once what follows the record is known.
+    fn response(&self, phase: Phase) -> Response {
+        let alpha = self.structure.alpha_rad;
+        let tail = match phase {
+            Phase::Overturned => Tail::Overturns,
+            Phase::Rest => Tail::Settles { peak: 0.0 },
+            Phase::Rocking(_, state) => free_rocking(state, alpha, self.structure.eta),
+        };
+        let (outcome, peak) = match tail {
+            Tail::Overturns => (Outcome::Overturning, FRAC_PI_2),
+            Tail::Settles { peak } if self.rocked => (Outcome::SafeRocking, self.peak.max(peak)),
+            Tail::Settles { .. } => (Outcome::NoRocking, 0.0),
+        };
+        Response { outcome, edp: peak / alpha, impacts: self.impacts }
+    }
+}
+
+/// The first return to the base. A rotation that starts downwards from 0 strikes at once.
+fn first_impact(rotation: &Coefficients) -> Option<f64> {
+    let leading = rotation.iter().find(|&&coefficient| coefficient != 0.0)?;
+    if *leading < 0.0 { Some(0.0) } else { polynomial::first_root(rotation) }
+}
+
+fn first_overturning(rotation: &Coefficients) -> Option<f64> {
+    let mut margin = rotation.map(|coefficient| -coefficient);
+    margin[0] += FRAC_PI_2;
+    polynomial::first_root(&margin)
+}
+
+/// The largest rotation from the start of the step to `until`.
+fn largest(rotation: &Coefficients, until: f64) -> f64 {
+    let mut largest = rotation[0].max(polynomial::value(rotation, until));
+    let _ = polynomial::visit_roots(&polynomial::derivative(rotation), |x| {
+        if x > until {
+            return ControlFlow::Break(());
+        }
+        largest = largest.max(polynomial::value(rotation, x));
+        ControlFlow::Continue(())
+    });
+    largest
+}

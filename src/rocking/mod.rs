@@ -1,0 +1,26 @@
+//! The response of a free-standing rocking block or frame to a ground motion (section 2.2).
+//!
+//! ```text
+//! structure  p, alpha, eta and where they come from
+//! record     the ground acceleration as a piecewise-linear function of time
+//! taylor     the rotation over one step, as the polynomial of its Taylor series
+//! polynomial roots of such polynomials: impacts, peaks and overturning are found as these
+//! march      from rest to uplift, impact, re-uplift, overturning: one record, one structure
+//! tail       what happens after the record has ended, in closed form
+//! response   the outcome and the engineering demand parameter
+//! trace      the same march, observed: rotation, velocity and events over time
+//! ```
+
+mod march;
+mod polynomial;
+mod record;
+mod response;
+mod structure;
+mod tail;
+mod taylor;
+mod trace;
+
+pub use record::{Record, RecordError};
+pub use response::{Outcome, Response, simulate};
+pub use structure::{Structure, StructureError, frame_eta, frame_p, housner_eta, rectangular_p};
+pub use trace::{Event, TracePoint, trace};

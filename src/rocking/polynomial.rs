@@ -1,0 +1,141 @@
+//! Real roots of a polynomial on the unit interval, by the signs of its Bernstein coefficients.
+
+use std::ops::ControlFlow;
+
+/// The order of the Taylor series of a step.
+pub const ORDER: usize = 8;
+
+/// A polynomial in powers of the step's own time, 0 at its start and 1 at its end.
+pub type Coefficients = [f64; ORDER + 1];
+
+/// A bracket this narrow that still shows several sign changes holds a multiple root.
+const NARROWEST_BRACKET: f64 = 1e-12;
+
+/// Value at `x` (Horner).
+#[inline]
+pub fn value(c: &Coefficients, x: f64) -> f64 {
+    c.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
+}
+
+/// The derivative, as a polynomial of the same length.
+#[inline]
+pub fn derivative(c: &Coefficients) -> Coefficients {
+    std::array::from_fn(|k| if k < ORDER { (k + 1) as f64 * c[k + 1] } else { 0.0 })
+}
+
+/// Bounds of the values on [0, 1]: cheap, wide and certain.
+#[inline]
+pub fn bounds(c: &Coefficients) -> (f64, f64) {
+    c[1..].iter().fold((c[0], c[0]), |(low, high), &coefficient| {
+        (low + coefficient.min(0.0), high + coefficient.max(0.0))
+    })
+}
+
+/// The first root in (0, 1), where the leading zero coefficients (the roots at 0 itself) do not count.
+pub fn first_root(c: &Coefficients) -> Option<f64> {
+    let mut first = None;
+    let _ = visit_roots(c, |root| {
+        first = Some(root);
+        ControlFlow::Break(())
+    });
+    first
+}
+
+/// Calls `visit` with each root in (0, 1) in ascending order, until it breaks. Roots at 0 do not count.
+pub fn visit_roots(
+    c: &Coefficients,
+    mut visit: impl FnMut(f64) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    let Some(zeros) = c.iter().position(|&coefficient| coefficient != 0.0) else {
+        return ControlFlow::Continue(());
+    };
+    let deflated = std::array::from_fn(|k| c.get(k + zeros).copied().unwrap_or(0.0));
+    visit_between(&deflated, &bernstein(&deflated), 0.0, 1.0, &mut visit)
+}
+
+/// Left half first, so that the roots come in order. By Descartes' rule the roots between `low` and `high` are at
+/// most as many as the sign changes of the Bernstein coefficients `b`, and of the same parity.
+fn visit_between(
+    c: &Coefficients,
+    b: &Coefficients,
+    low: f64,
+    high: f64,
+    visit: &mut impl FnMut(f64) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    match sign_changes(b) {
+        0 => ControlFlow::Continue(()),
+        1 => visit(root_in_bracket(c, low, high, starts_positive(b))),
+        _ if high - low < NARROWEST_BRACKET => visit(0.5 * (low + high)),
+        _ => {
+            let middle = 0.5 * (low + high);
+            let (left, right) = halves(b);
+            visit_between(c, &left, low, middle, visit)?;
+            if left[ORDER] == 0.0 {
+                visit(middle)?;
+            }
+            visit_between(c, &right, middle, high, visit)
+        }
+    }
+}
+
+/// `b[j] = sum over i <= j of binomial(j, i) / binomial(ORDER, i) c[i]`, in place by repeated sums.
+fn bernstein(c: &Coefficients) -> Coefficients {
+    const INVERSE_BINOMIAL: Coefficients =
+        [1.0, 1.0 / 8.0, 1.0 / 28.0, 1.0 / 56.0, 1.0 / 70.0, 1.0 / 56.0, 1.0 / 28.0, 1.0 / 8.0, 1.0];
+    let mut b: Coefficients = std::array::from_fn(|i| c[i] * INVERSE_BINOMIAL[i]);
+    for pass in 1..=ORDER {
+        for j in (pass..=ORDER).rev() {
+            b[j] += b[j - 1];
+        }
+    }
+    b
+}
+
+/// De Casteljau's subdivision at the middle.
+fn halves(b: &Coefficients) -> (Coefficients, Coefficients) {
+    let mut right = *b;
+    let mut left = *b;
+    for (pass, coefficient) in left.iter_mut().enumerate().skip(1) {
+        for j in 0..=ORDER - pass {
+            right[j] = 0.5 * (right[j] + right[j + 1]);
+        }
+        *coefficient = right[0];
+    }
+    (left, right)
+}
+
+fn sign_changes(b: &Coefficients) -> usize {
+    let mut positive = b.iter().filter(|&&coefficient| coefficient != 0.0).map(|c| *c > 0.0);
+    let Some(mut last) = positive.next() else { return 0 };
+    positive.filter(|&sign| std::mem::replace(&mut last, sign) != sign).count()
+}
+
+fn starts_positive(b: &Coefficients) -> bool {
+    b.iter().find(|&&coefficient| coefficient != 0.0).is_some_and(|&first| first > 0.0)
+}
+
+/// The one root between `low` and `high`: Newton's iterations, kept inside the shrinking bracket by bisection.
+/// `falling` tells whether the values left of the root are positive.
+fn root_in_bracket(c: &Coefficients, low: f64, high: f64, falling: bool) -> f64 {
+    let slope = derivative(c);
+    let (mut low, mut high) = (low, high);
+    let mut x = 0.5 * (low + high);
+    loop {
+        let y = value(c, x);
+        if y == 0.0 {
+            return x;
+        }
+        if (y > 0.0) == falling {
+            low = x;
+        } else {
+            high = x;
+        }
+        let newton = x - y / value(&slope, x);
+        let inside = newton > low && newton < high;
+        let next = if inside { newton } else { 0.5 * (low + high) };
+        if (next - x).abs() <= f64::EPSILON * next.abs() || next == low || next == high {
+            return next;
+        }
+        x = next;
+    }
+}

@@ -1,0 +1,56 @@
+/// A ground acceleration sampled at a constant step: linear between its samples and zero after its last one.
+#[derive(Debug, Clone, Copy)]
+pub struct Record<'a> {
+    acceleration_m_s2: &'a [f64],
+    dt_s: f64,
+}
+
+/// Why a series of samples is no record. `sample` counts from 0.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RecordError {
+    /// The time step is not a positive, finite number.
+    #[error("dt_s is {0}; expected a time step above 0 s")]
+    TimeStep(f64),
+    /// Fewer than two samples span no time.
+    #[error("{0} sample(s) of acceleration; expected 2 or more")]
+    TooShort(usize),
+    /// A sample is NaN or infinite.
+    #[error("sample {sample} of the acceleration is {value}; expected a finite number in m/s2")]
+    NotFinite {
+        /// Where it stands.
+        sample: usize,
+        /// What stands there.
+        value: f64,
+    },
+}
+
+impl<'a> Record<'a> {
+    /// The record of these samples (m/s2), `dt_s` seconds apart.
+    ///
+    /// # Errors
+    /// If the time step or a sample is not finite, the step not positive, or there are fewer than two samples.
+    pub fn new(acceleration_m_s2: &'a [f64], dt_s: f64) -> Result<Record<'a>, RecordError> {
+        if !(dt_s > 0.0 && dt_s.is_finite()) {
+            return Err(RecordError::TimeStep(dt_s));
+        }
+        if acceleration_m_s2.len() < 2 {
+            return Err(RecordError::TooShort(acceleration_m_s2.len()));
+        }
+        match acceleration_m_s2.iter().position(|value| !value.is_finite()) {
+            None => Ok(Record { acceleration_m_s2, dt_s }),
+            Some(sample) => {
+                Err(RecordError::NotFinite { sample, value: acceleration_m_s2[sample] })
+            }
+        }
+    }
+
+    /// The samples, m/s2.
+    pub fn acceleration_m_s2(&self) -> &'a [f64] {
+        self.acceleration_m_s2
+    }
+
+    /// The time between samples, s.
+    pub fn dt_s(&self) -> f64 {
+        self.dt_s
+    }
+}

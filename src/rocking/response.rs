@@ -1,0 +1,49 @@
+use super::march::{Observer, march};
+use super::record::Record;
+use super::structure::Structure;
+
+/// How a structure came through a ground motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// It never left its base.
+    NoRocking,
+    /// It rocked and came back.
+    SafeRocking,
+    /// Its rotation reached pi/2, or will after the record by its energy.
+    Overturning,
+}
+
+impl Outcome {
+    /// All outcomes.
+    pub const ALL: [Outcome; 3] = [Outcome::NoRocking, Outcome::SafeRocking, Outcome::Overturning];
+
+    /// As it is written in the responses file.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Outcome::NoRocking => "no_rocking",
+            Outcome::SafeRocking => "safe_rocking",
+            Outcome::Overturning => "overturning",
+        }
+    }
+}
+
+/// The response of one structure to one ground motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Response {
+    /// Which branch of the tree of Figure 6 it took.
+    pub outcome: Outcome,
+    /// Engineering demand parameter |theta|max / alpha (Eq. 7); where it overturns, pi / (2 alpha).
+    pub edp: f64,
+    /// Impacts within the duration of the record.
+    pub impacts: u32,
+}
+
+/// Simulates a structure, at rest at first, through a record and the free rocking that follows it.
+pub fn simulate(structure: &Structure, record: &Record) -> Response {
+    march(structure, record, &mut Unobserved)
+}
+
+/// Nobody looks on: only the response counts.
+struct Unobserved;
+
+impl Observer for Unobserved {}

@@ -1,0 +1,130 @@
+use std::f64::consts::FRAC_PI_2;
+
+use crate::units::G_M_S2;
+
+/// A rigid rocking structure, reduced to the three numbers that govern its response.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Structure {
+    /// What the structure is called in tables.
+    pub name: String,
+    /// Frequency parameter p, rad/s.
+    pub p_rad_s: f64,
+    /// Slenderness alpha, rad.
+    pub alpha_rad: f64,
+    /// Coefficient of restitution eta: the ratio of the angular velocities after and before impact.
+    pub eta: f64,
+}
+
+/// A parameter outside the range in which a rocking structure exists.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("structure '{structure}': {parameter} is {value}; expected {expected}")]
+pub struct StructureError {
+    structure: String,
+    parameter: &'static str,
+    value: f64,
+    expected: &'static str,
+}
+
+impl Structure {
+    /// A structure of frequency parameter `p_rad_s` (rad/s), slenderness `alpha_rad` (rad) and coefficient of
+    /// restitution `eta`.
+    ///
+    /// # Errors
+    /// If `p` is not positive, `alpha` not in (0, pi/2) or `eta` not in (0, 1].
+    pub fn new(
+        name: &str,
+        p_rad_s: f64,
+        alpha_rad: f64,
+        eta: f64,
+    ) -> Result<Structure, StructureError> {
+        let check = |ok: bool, parameter, value, expected| {
+            if ok {
+                return Ok(());
+            }
+            Err(StructureError { structure: name.to_string(), parameter, value, expected })
+        };
+        let finite_p = p_rad_s > 0.0 && p_rad_s.is_finite();
+        check(finite_p, "p", p_rad_s, "a frequency parameter above 0 rad/s")?;
+        let leaning = alpha_rad > 0.0 && alpha_rad < FRAC_PI_2;
+        check(leaning, "alpha", alpha_rad, "a slenderness between 0 and pi/2 rad")?;
+        let dissipative = eta > 0.0 && eta <= 1.0;
+        check(dissipative, "eta", eta, "a coefficient of restitution above 0 and up to 1")?;
+        Ok(Structure { name: name.to_string(), p_rad_s, alpha_rad, eta })
+    }
+
+    /// A solid rectangular block of width 2b and height 2h (m); `eta` as given, or Housner's.
+    ///
+    /// # Errors
+    /// If a dimension is not positive or finite, or `eta` is out of range: a block so stocky that Housner's
+    /// eta is not positive does not rock.
+    pub fn rectangular_block(
+        name: &str,
+        width_m: f64,
+        height_m: f64,
+        eta: Option<f64>,
+    ) -> Result<Structure, StructureError> {
+        for (parameter, value) in [("width", width_m), ("height", height_m)] {
+            if !(value > 0.0 && value.is_finite()) {
+                let expected = "a length above 0 m";
+                return Err(StructureError { structure: name.to_string(), parameter, value, expected });
+            }
+        }
+        let semi_diagonal_m = 0.5 * width_m.hypot(height_m);
+        let alpha_rad = (width_m / height_m).atan();
+        let eta = eta.unwrap_or_else(|| housner_eta(alpha_rad));
+        Structure::new(name, rectangular_p(semi_diagonal_m), alpha_rad, eta)
+    }
+
+    /// A frame of rocking columns (each a solid rectangle of width 2b and height 2h, m) that carry a rigid beam;
+    /// `beam_mass_ratio` is the mass of the beam over that of all columns. `eta` as given, or the frame's own.
+    ///
+    /// # Errors
+    /// As for [`Structure::rectangular_block`], or if the mass ratio is negative or not finite.
+    pub fn frame(
+        name: &str,
+        width_m: f64,
+        height_m: f64,
+        beam_mass_ratio: f64,
+        eta: Option<f64>,
+    ) -> Result<Structure, StructureError> {
+        if !(beam_mass_ratio >= 0.0 && beam_mass_ratio.is_finite()) {
+            return Err(StructureError {
+                structure: name.to_string(),
+                parameter: "beam-mass-ratio",
+                value: beam_mass_ratio,
+                expected: "a mass ratio of 0 or more",
+            });
+        }
+        let column = Structure::rectangular_block(name, width_m, height_m, Some(1.0))?;
+        let eta = eta.unwrap_or_else(|| frame_eta(column.alpha_rad, beam_mass_ratio));
+        Structure::new(name, frame_p(column.p_rad_s, beam_mass_ratio), column.alpha_rad, eta)
+    }
+
+    /// The ground acceleration g tan(alpha) that makes the structure uplift, m/s2.
+    pub fn uplift_acceleration_m_s2(&self) -> f64 {
+        G_M_S2 * self.alpha_rad.tan()
+    }
+}
+
+/// Frequency parameter of a solid rectangular block: p = sqrt(3 g / (4 R)), rad/s, of its semi-diagonal R, m.
+pub fn rectangular_p(semi_diagonal_m: f64) -> f64 {
+    (3.0 * G_M_S2 / (4.0 * semi_diagonal_m)).sqrt()
+}
+
+/// Frequency parameter of a rocking frame, rad/s: p = pb sqrt((1 + 2 y)/(1 + 3 y)), of that of one column, pb, and the
+/// ratio y of beam to columns mass (Makris & Vassiliou 2013).
+pub fn frame_p(column_p_rad_s: f64, beam_mass_ratio: f64) -> f64 {
+    column_p_rad_s * ((1.0 + 2.0 * beam_mass_ratio) / (1.0 + 3.0 * beam_mass_ratio)).sqrt()
+}
+
+/// Housner's (1963) coefficient of restitution of a rectangular block: eta = 1 - 1.5 sin^2(alpha).
+pub fn housner_eta(alpha_rad: f64) -> f64 {
+    1.0 - 1.5 * alpha_rad.sin().powi(2)
+}
+
+/// Coefficient of restitution of a rocking frame: eta = (1 - 1.5 sin^2(alpha) + 3 y cos(2 alpha)) / (1 + 3 y), of the
+/// ratio y of beam to columns mass (Makris & Vassiliou 2013).
+pub fn frame_eta(alpha_rad: f64, beam_mass_ratio: f64) -> f64 {
+    (housner_eta(alpha_rad) + 3.0 * beam_mass_ratio * (2.0 * alpha_rad).cos())
+        / (1.0 + 3.0 * beam_mass_ratio)
+}

@@ -1,0 +1,203 @@
+//! The columns of a batch, by name: right in type, free of nulls where none may be.
+
+use std::path::Path;
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float32Type, Float64Type, Int32Type, Int64Type};
+use arrow_array::{Array, ArrayRef, RecordBatch};
+use arrow_schema::DataType;
+
+use super::TableError;
+use super::schema::Column;
+
+/// A batch of rows of a file.
+pub struct Columns<'a> {
+    path: &'a Path,
+    batch: &'a RecordBatch,
+    /// The row of the file with which the batch begins.
+    first_row: u64,
+}
+
+impl<'a> Columns<'a> {
+    /// Of a batch that begins at `first_row` of the file at `path`.
+    pub fn new(path: &'a Path, batch: &'a RecordBatch, first_row: u64) -> Columns<'a> {
+        Columns { path, batch, first_row }
+    }
+
+    /// How many rows the batch has.
+    pub fn rows(&self) -> usize {
+        self.batch.num_rows()
+    }
+
+    /// Finite numbers, one in each row.
+    ///
+    /// # Errors
+    /// If the column is missing or of another type, or a value is null, NaN or infinite.
+    pub fn numbers(&self, column: &Column) -> Result<Vec<f64>, TableError> {
+        let values = self.numbers_of(self.required(column)?, column)?;
+        values
+            .into_iter()
+            .enumerate()
+            .map(|(row, value)| match value {
+                Some(value) if value.is_finite() => Ok(value),
+                Some(value) => Err(self.value_error(row, column, &format!("{value}; expected a finite number"))),
+                None => Err(self.value_error(row, column, "null; expected a number")),
+            })
+            .collect()
+    }
+
+    /// Numbers, or `None` where the column or the value is missing (null or NaN).
+    ///
+    /// # Errors
+    /// If the column has another type or a value is infinite.
+    pub fn optional_numbers(&self, column: &Column) -> Result<Vec<Option<f64>>, TableError> {
+        let Some(array) = self.batch.column_by_name(column.name) else {
+            return Ok(vec![None; self.rows()]);
+        };
+        let values = self.numbers_of(array, column)?;
+        let check = |(row, value): (usize, Option<f64>)| match value {
+            Some(value) if value.is_infinite() => {
+                Err(self.value_error(row, column, &format!("{value}; expected a finite number or null")))
+            }
+            Some(value) if value.is_nan() => Ok(None),
+            value => Ok(value),
+        };
+        values.into_iter().enumerate().map(check).collect()
+    }
+
+    /// Whole numbers, one in each row.
+    ///
+    /// # Errors
+    /// If the column is missing or of another type, or a value is null.
+    pub fn integers(&self, column: &Column) -> Result<Vec<i64>, TableError> {
+        let array = self.required(column)?;
+        let value: Box<dyn Fn(usize) -> i64> = match array.data_type() {
+            DataType::Int64 => Box::new(|row| array.as_primitive::<Int64Type>().value(row)),
+            DataType::Int32 => Box::new(|row| i64::from(array.as_primitive::<Int32Type>().value(row))),
+            _ => return Err(self.wrong_type(array, column)),
+        };
+        let each = |row| match array.is_null(row) {
+            true => Err(self.value_error(row, column, "null; expected a whole number")),
+            false => Ok(value(row)),
+        };
+        (0..self.rows()).map(each).collect()
+    }
+
+    /// Text, one in each row.
+    ///
+    /// # Errors
+    /// If the column is missing or of another type, or a value is null.
+    pub fn text(&self, column: &Column) -> Result<Vec<String>, TableError> {
+        let values = self.text_of(self.required(column)?, column)?.into_iter().enumerate();
+        let each = |(row, value): (usize, Option<String>)| {
+            value.ok_or_else(|| self.value_error(row, column, "null; expected text"))
+        };
+        values.map(each).collect()
+    }
+
+    /// Text, or `None` where the column or the value is missing.
+    ///
+    /// # Errors
+    /// If the column has another type.
+    pub fn optional_text(&self, column: &Column) -> Result<Vec<Option<String>>, TableError> {
+        match self.batch.column_by_name(column.name) {
+            Some(array) => self.text_of(array, column),
+            None => Ok(vec![None; self.rows()]),
+        }
+    }
+
+    /// The samples of each row, as f64.
+    ///
+    /// # Errors
+    /// If the column is missing or no list of f32 or f64, or a list or one of its samples is null.
+    pub fn samples(&self, column: &Column) -> Result<Vec<Vec<f64>>, TableError> {
+        let array = self.required(column)?;
+        let list: Box<dyn Fn(usize) -> ArrayRef> = match array.data_type() {
+            DataType::List(_) => Box::new(|row| array.as_list::<i32>().value(row)),
+            DataType::LargeList(_) => Box::new(|row| array.as_list::<i64>().value(row)),
+            DataType::FixedSizeList(..) => Box::new(|row| array.as_fixed_size_list().value(row)),
+            _ => return Err(self.wrong_type(array, column)),
+        };
+        let each = |row| {
+            if array.is_null(row) {
+                return Err(self.value_error(row, column, "null; expected a list of samples"));
+            }
+            let samples = list(row);
+            if let Some(at) = (0..samples.len()).find(|&at| samples.is_null(at)) {
+                return Err(self.value_error(row, column, &format!("sample {at} is null; expected a number")));
+            }
+            match samples.data_type() {
+                DataType::Float32 => {
+                    Ok(samples.as_primitive::<Float32Type>().values().iter().map(|&v| f64::from(v)).collect())
+                }
+                DataType::Float64 => Ok(samples.as_primitive::<Float64Type>().values().to_vec()),
+                _ => Err(self.wrong_type(array, column)),
+            }
+        };
+        (0..self.rows()).map(each).collect()
+    }
+
+    /// Whether the batch has this column as text.
+    pub fn is_text(&self, column: &Column) -> bool {
+        let array = self.batch.column_by_name(column.name);
+        array.is_some_and(|array| is_text(array.data_type()))
+    }
+
+    /// A value of a row of this batch that cannot be used.
+    pub fn value_error(&self, row: usize, column: &Column, problem: &str) -> TableError {
+        TableError::Value {
+            path: self.path.to_path_buf(),
+            row: self.first_row + row as u64,
+            column: column.name.to_string(),
+            problem: problem.to_string(),
+        }
+    }
+
+    fn required(&self, column: &Column) -> Result<&'a ArrayRef, TableError> {
+        self.batch.column_by_name(column.name).ok_or_else(|| missing(self.path, column))
+    }
+
+    fn numbers_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<f64>>, TableError> {
+        match array.data_type() {
+            DataType::Float64 => Ok(array.as_primitive::<Float64Type>().iter().collect()),
+            DataType::Float32 => {
+                Ok(array.as_primitive::<Float32Type>().iter().map(|value| value.map(f64::from)).collect())
+            }
+            DataType::Null => Ok(vec![None; array.len()]),
+            _ => Err(self.wrong_type(array, column)),
+        }
+    }
+
+    fn text_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<String>>, TableError> {
+        let owned = |value: Option<&str>| value.map(str::to_string);
+        match array.data_type() {
+            DataType::Utf8 => Ok(array.as_string::<i32>().iter().map(owned).collect()),
+            DataType::LargeUtf8 => Ok(array.as_string::<i64>().iter().map(owned).collect()),
+            DataType::Utf8View => Ok(array.as_string_view().iter().map(owned).collect()),
+            DataType::Null => Ok(vec![None; array.len()]),
+            _ => Err(self.wrong_type(array, column)),
+        }
+    }
+
+    fn wrong_type(&self, array: &ArrayRef, column: &Column) -> TableError {
+        TableError::WrongType {
+            path: self.path.to_path_buf(),
+            column: column.name.to_string(),
+            found: array.data_type().to_string(),
+            expected: column.words(),
+        }
+    }
+}
+
+/// The error for a column that a file does not have.
+pub(super) fn missing(path: &Path, column: &Column) -> TableError {
+    TableError::MissingColumn {
+        path: path.to_path_buf(),
+        column: column.name.to_string(),
+        expected: column.words(),
+    }
+}
+
+fn is_text(data_type: &DataType) -> bool {
+    matches!(data_type, DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View)
+}

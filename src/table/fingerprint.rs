@@ -1,0 +1,63 @@
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float32Type, Float64Type, Int32Type, Int64Type};
+use arrow_array::{Array, RecordBatch};
+use arrow_schema::{DataType, SchemaRef};
+
+/// Hashes what a table holds, column by column, so that neither batches nor row groups matter.
+pub struct Fingerprint {
+    schema: SchemaRef,
+    columns: Vec<blake3::Hasher>,
+    rows: u64,
+}
+
+impl Fingerprint {
+    /// Of a table without rows yet.
+    pub fn new(schema: SchemaRef) -> Fingerprint {
+        let columns = vec![blake3::Hasher::new(); schema.fields().len()];
+        Fingerprint { schema, columns, rows: 0 }
+    }
+
+    /// Adds the rows of a batch of this schema.
+    pub fn update(&mut self, batch: &RecordBatch) {
+        self.rows += batch.num_rows() as u64;
+        for (hasher, array) in self.columns.iter_mut().zip(batch.columns()) {
+            update_column(hasher, array.as_ref());
+        }
+    }
+
+    /// The fingerprint of all rows so far.
+    pub fn finish(&self) -> String {
+        let mut whole = blake3::Hasher::new();
+        whole.update(&self.rows.to_le_bytes());
+        for (field, column) in self.schema.fields().iter().zip(&self.columns) {
+            whole.update(format!("{} {}\n", field.name(), field.data_type()).as_bytes());
+            whole.update(column.finalize().as_bytes());
+        }
+        whole.finalize().to_hex().to_string()
+    }
+}
+
+fn update_column(hasher: &mut blake3::Hasher, array: &dyn Array) {
+    for row in 0..array.len() {
+        if array.is_null(row) {
+            hasher.update(b"null");
+            continue;
+        }
+        match array.data_type() {
+            DataType::Int64 => update_bytes(hasher, &array.as_primitive::<Int64Type>().value(row).to_le_bytes()),
+            DataType::Int32 => update_bytes(hasher, &array.as_primitive::<Int32Type>().value(row).to_le_bytes()),
+            DataType::Float64 => update_bytes(hasher, &array.as_primitive::<Float64Type>().value(row).to_le_bytes()),
+            DataType::Utf8 => update_bytes(hasher, array.as_string::<i32>().value(row).as_bytes()),
+            _ => {
+                let samples = array.as_list::<i32>().value(row);
+                update_bytes(hasher, samples.as_primitive::<Float32Type>().values().inner().as_slice());
+            }
+        }
+    }
+}
+
+/// With the length in front, so that no two different columns run together into the same bytes.
+fn update_bytes(hasher: &mut blake3::Hasher, bytes: &[u8]) {
+    hasher.update(&(bytes.len() as u64).to_le_bytes());
+    hasher.update(bytes);
+}

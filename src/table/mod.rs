@@ -1,0 +1,121 @@
+//! The Parquet files that the stages hand on.
+//!
+//! ```text
+//! schema       every column once: name, type, unit, words; every table as a list of columns
+//! columns      the columns of one batch, by name, checked
+//! reader       batches from a file; narrow tables whole, as polars frames
+//! writer       batches to a file, written beside its name and renamed when whole
+//! fingerprint  the hash of what a file holds
+//! provenance   what made a file, in its metadata
+//! scenarios, motions, responses, trace, pex, pro, paper   one file a table: its rows as Rust structs
+//! ```
+
+pub mod columns;
+pub mod fingerprint;
+pub mod motions;
+pub mod paper;
+pub mod pex;
+pub mod pro;
+pub mod provenance;
+pub mod reader;
+pub mod responses;
+pub mod scenarios;
+pub mod schema;
+pub mod trace;
+pub mod writer;
+
+use std::path::{Path, PathBuf};
+
+/// What can be wrong with a table in a file. Every message names the file and says what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    /// The file is not there.
+    #[error("{}: no such file; {hint}", path.display())]
+    Missing {
+        /// The file.
+        path: PathBuf,
+        /// How to get it.
+        hint: String,
+    },
+    /// The operating system refused.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What it said.
+        source: std::io::Error,
+    },
+    /// The file cannot be read as Parquet.
+    #[error("{}: not a readable Parquet file ({source}); make it again", path.display())]
+    NotParquet {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said.
+        source: parquet::errors::ParquetError,
+    },
+    /// The file cannot be written.
+    #[error("{}: cannot write: {message}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the writer said.
+        message: String,
+    },
+    /// The file was made by another stage than the one whose output is read here.
+    #[error("{}: made by {found}; expected the output of {expected}", path.display())]
+    OtherStage {
+        /// The file.
+        path: PathBuf,
+        /// The stage in its metadata.
+        found: String,
+        /// The stage whose output it should be.
+        expected: String,
+    },
+    /// A column is missing.
+    #[error("{}: no column '{column}'; expected {expected}", path.display())]
+    MissingColumn {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// Its type and meaning.
+        expected: String,
+    },
+    /// A column has a type that cannot serve.
+    #[error("{}: column '{column}' is {found}; expected {expected}", path.display())]
+    WrongType {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// Its type in the file.
+        found: String,
+        /// The type it should have.
+        expected: String,
+    },
+    /// The table has no rows.
+    #[error("{}: the table is empty; expected at least one row", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A value cannot be used. `row` counts from 0.
+    #[error("{}: row {row}, column '{column}': {problem}", path.display())]
+    Value {
+        /// The file.
+        path: PathBuf,
+        /// Where in the table.
+        row: u64,
+        /// Which column.
+        column: String,
+        /// What stands there and what should.
+        problem: String,
+    },
+}
+
+impl TableError {
+    /// What the operating system said about `path`.
+    pub fn io(path: &Path, source: std::io::Error) -> TableError {
+        TableError::Io { path: path.to_path_buf(), source }
+    }
+}

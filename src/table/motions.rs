@@ -1,0 +1,232 @@
+//! The motions file: one row a ground motion, its samples as a list.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use arrow_array::builder::{Float32Builder, ListBuilder};
+use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
+use arrow_schema::{ArrowError, DataType, Field, SchemaRef};
+
+use super::TableError;
+use super::columns::Columns;
+use super::reader::{Batch, Batches, expect_columns};
+use super::scenarios;
+use super::schema::{self, Column, MOTIONS};
+use crate::motion::{Measures, Scenario, Suite};
+
+/// The stages whose output can stand as a motions file.
+const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
+
+/// What `simulate` cannot do without.
+const REQUIRED: [Column; 3] = [schema::MOTION_ID, schema::DT_S, schema::ACCELERATION_M_S2];
+
+/// What it reads where it is there.
+const READ: [Column; 10] = [
+    schema::MOTION_ID,
+    schema::SUITE,
+    schema::MW,
+    schema::RE_KM,
+    schema::DT_S,
+    schema::PGA_M_S2,
+    schema::PGV_M_S,
+    schema::TM_S,
+    schema::TP_S,
+    schema::ACCELERATION_M_S2,
+];
+
+/// A synthetic motion on its way into a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SyntheticMotion {
+    /// Unique in the file.
+    pub motion_id: i64,
+    /// Its kind.
+    pub suite: Suite,
+    /// The scenario it belongs to.
+    pub scenario: Scenario,
+    /// Time between samples, s.
+    pub dt_s: f64,
+    /// Samples, m/s2, as they are written.
+    pub acceleration_m_s2: Vec<f32>,
+    /// Intensity measures of these samples.
+    pub measures: Measures,
+    /// Housner intensity, m, if asked for.
+    pub housner_m: Option<f64>,
+}
+
+/// The rows of the motions file.
+///
+/// # Errors
+/// If a row cannot be represented, which the schema rules out.
+pub fn batch(motions: &[SyntheticMotion]) -> Result<RecordBatch, ArrowError> {
+    let number = |value: fn(&SyntheticMotion) -> f64| -> ArrayRef {
+        Arc::new(Float64Array::from_iter_values(motions.iter().map(value)))
+    };
+    let optional = |value: fn(&SyntheticMotion) -> Option<f64>| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(motions.iter().map(value)))
+    };
+    let mut columns: Vec<ArrayRef> = vec![
+        Arc::new(Int64Array::from_iter_values(motions.iter().map(|motion| motion.motion_id))),
+        Arc::new(StringArray::from_iter_values(motions.iter().map(|motion| motion.suite.as_str()))),
+    ];
+    columns.extend(scenarios::columns(&motions.iter().map(|motion| motion.scenario).collect::<Vec<_>>()));
+    columns.extend([
+        number(|motion| motion.dt_s),
+        number(|motion| motion.measures.pga_m_s2),
+        number(|motion| motion.measures.pgv_m_s),
+        number(|motion| motion.measures.pgd_m),
+        optional(|motion| motion.measures.tm_s),
+        number(|motion| motion.measures.arias_m_s),
+        number(|motion| motion.measures.cav_m_s),
+        number(|motion| motion.measures.d5_75_s),
+        number(|motion| motion.measures.d5_95_s),
+        optional(|motion| motion.housner_m),
+        samples(motions),
+    ]);
+    RecordBatch::try_new(MOTIONS.schema(), columns)
+}
+
+fn samples(motions: &[SyntheticMotion]) -> ArrayRef {
+    let total = motions.iter().map(|motion| motion.acceleration_m_s2.len()).sum();
+    let item = Field::new("item", DataType::Float32, false);
+    let mut list = ListBuilder::new(Float32Builder::with_capacity(total)).with_field(item);
+    for motion in motions {
+        list.values().append_slice(&motion.acceleration_m_s2);
+        list.append(true);
+    }
+    Arc::new(list.finish())
+}
+
+/// What a motion is called: by number in our files, by number or name in those of others.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum MotionId {
+    /// By number.
+    Number(i64),
+    /// By name.
+    Name(String),
+}
+
+impl std::fmt::Display for MotionId {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            MotionId::Number(number) => write!(f, "{number}"),
+            MotionId::Name(name) => f.write_str(name),
+        }
+    }
+}
+
+/// A motion as `simulate` needs it. Measures that the file does not have are `None`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// What it is called.
+    pub motion_id: MotionId,
+    /// Its kind, if known.
+    pub suite: Option<String>,
+    /// Moment magnitude, if known.
+    pub mw: Option<f64>,
+    /// Distance, km, if known.
+    pub re_km: Option<f64>,
+    /// Time between samples, s.
+    pub dt_s: f64,
+    /// Samples, m/s2.
+    pub acceleration_m_s2: Vec<f64>,
+    /// Peak ground acceleration, m/s2.
+    pub pga_m_s2: Option<f64>,
+    /// Peak ground velocity, m/s.
+    pub pgv_m_s: Option<f64>,
+    /// Mean period, s.
+    pub tm_s: Option<f64>,
+    /// Period of the pulse, s.
+    pub tp_s: Option<f64>,
+    /// Its row in the file.
+    pub row: u64,
+}
+
+/// The motions of a file, some at a time.
+pub struct MotionBatches {
+    path: std::path::PathBuf,
+    batches: Batches,
+}
+
+impl MotionBatches {
+    /// Opens a motions file, ours or anyone's with the three columns that count, `batch_size` motions at a time.
+    ///
+    /// # Errors
+    /// If the file is missing, unreadable, empty, of another stage, or lacks a column.
+    pub fn open(path: &Path, batch_size: usize) -> Result<MotionBatches, TableError> {
+        let batches = Batches::open(path, &STAGES, &READ, batch_size)?;
+        expect_columns(path, batches.schema(), &REQUIRED)?;
+        Ok(MotionBatches { path: path.to_path_buf(), batches })
+    }
+
+    /// How many motions the file has.
+    pub fn rows(&self) -> u64 {
+        self.batches.rows()
+    }
+
+    /// Whether motions go by name rather than by number.
+    pub fn ids_are_names(&self) -> bool {
+        let field = self.batches.schema().field_with_name(schema::MOTION_ID.name);
+        field.is_ok_and(|field| !field.data_type().is_numeric())
+    }
+}
+
+impl Iterator for MotionBatches {
+    type Item = Result<Vec<Motion>, TableError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let batch = self.batches.next()?;
+        Some(batch.and_then(|Batch { rows, first_row }| {
+            motions_of(&Columns::new(&self.path, &rows, first_row), first_row)
+        }))
+    }
+}
+
+fn motions_of(columns: &Columns, first_row: u64) -> Result<Vec<Motion>, TableError> {
+    let ids: Vec<MotionId> = if columns.is_text(&schema::MOTION_ID) {
+        columns.text(&schema::MOTION_ID)?.into_iter().map(MotionId::Name).collect()
+    } else {
+        columns.integers(&schema::MOTION_ID)?.into_iter().map(MotionId::Number).collect()
+    };
+    let suite = columns.optional_text(&schema::SUITE)?;
+    let dt_s = columns.numbers(&schema::DT_S)?;
+    let measure = |column| columns.optional_numbers(column);
+    let (mw, re_km) = (measure(&schema::MW)?, measure(&schema::RE_KM)?);
+    let (pga, pgv) = (measure(&schema::PGA_M_S2)?, measure(&schema::PGV_M_S)?);
+    let (tm, tp) = (measure(&schema::TM_S)?, measure(&schema::TP_S)?);
+    let samples = columns.samples(&schema::ACCELERATION_M_S2)?;
+    let motion = |(row, (motion_id, acceleration_m_s2)): (usize, (MotionId, Vec<f64>))| Motion {
+        motion_id,
+        suite: suite[row].clone(),
+        mw: mw[row],
+        re_km: re_km[row],
+        dt_s: dt_s[row],
+        acceleration_m_s2,
+        pga_m_s2: pga[row],
+        pgv_m_s: pgv[row],
+        tm_s: tm[row],
+        tp_s: tp[row],
+        row: first_row + row as u64,
+    };
+    Ok(ids.into_iter().zip(samples).enumerate().map(motion).collect())
+}
+
+/// The schema of a table in which motions go by name.
+pub fn schema_by_name(table: &schema::Table) -> SchemaRef {
+    let fields = table.schema().fields().iter().map(|field| {
+        let renamed = field.name() == schema::MOTION_ID.name;
+        if renamed { field.as_ref().clone().with_data_type(DataType::Utf8) } else { field.as_ref().clone() }
+    }).collect::<Vec<_>>();
+    Arc::new(arrow_schema::Schema::new(fields))
+}
+
+/// The motion_id column of these ids, all numbers or all names.
+pub(super) fn id_column<'a>(ids: impl Iterator<Item = &'a MotionId> + Clone) -> ArrayRef {
+    let numbers = ids.clone().map(|id| match id {
+        MotionId::Number(number) => Some(*number),
+        MotionId::Name(_) => None,
+    });
+    match numbers.collect::<Option<Vec<i64>>>() {
+        Some(numbers) => Arc::new(Int64Array::from(numbers)),
+        None => Arc::new(StringArray::from_iter_values(ids.map(MotionId::to_string))),
+    }
+}

@@ -1,0 +1,106 @@
+//! What made a file: stage, version, parameters, inputs, fingerprints. It stands in the key-value metadata.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use parquet::file::metadata::KeyValue;
+use serde_json::Value;
+
+use super::TableError;
+use super::reader::open_metadata;
+
+const STAGE: &str = "rockfrag.stage";
+const VERSION: &str = "rockfrag.version";
+const PARAMETERS: &str = "rockfrag.parameters";
+const INPUTS: &str = "rockfrag.inputs";
+const PLAN: &str = "rockfrag.plan";
+const CONTENT: &str = "rockfrag.content";
+
+/// How a file comes to be: enough to make it again, and to know that it need not be made again.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Provenance {
+    /// The subcommand.
+    pub stage: String,
+    /// Of rockfrag.
+    pub version: String,
+    /// All resolved parameters that the rows depend on.
+    pub parameters: Value,
+    /// The fingerprint of what each input holds, by the role it plays.
+    pub inputs: BTreeMap<String, String>,
+}
+
+impl Provenance {
+    /// Of a file that this version of rockfrag makes.
+    pub fn new(stage: &str, parameters: Value, inputs: BTreeMap<String, String>) -> Provenance {
+        let version = env!("CARGO_PKG_VERSION").to_string();
+        Provenance { stage: stage.to_string(), version, parameters, inputs }
+    }
+
+    /// The fingerprint of what is to be done: equal plans give equal rows.
+    pub fn plan(&self) -> String {
+        let plan = serde_json::json!([self.stage, self.version, self.parameters, self.inputs]);
+        blake3::hash(plan.to_string().as_bytes()).to_hex().to_string()
+    }
+
+    pub(super) fn key_values(&self, content: &str) -> Vec<KeyValue> {
+        [
+            (STAGE, self.stage.clone()),
+            (VERSION, self.version.clone()),
+            (PARAMETERS, self.parameters.to_string()),
+            (INPUTS, serde_json::json!(self.inputs).to_string()),
+            (PLAN, self.plan()),
+            (CONTENT, content.to_string()),
+        ]
+        .map(|(key, value)| KeyValue::new(key.to_string(), value))
+        .to_vec()
+    }
+}
+
+/// What a file says of itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stamp {
+    /// How it was made.
+    pub provenance: Provenance,
+    /// The fingerprint of what was to be done.
+    pub plan: String,
+    /// The fingerprint of the rows that it holds.
+    pub content: String,
+}
+
+/// The stamp of a Parquet file, or `None` where another program wrote it.
+///
+/// # Errors
+/// If the file is missing or not readable as Parquet.
+pub fn stamp(path: &Path) -> Result<Option<Stamp>, TableError> {
+    let metadata = open_metadata(path)?;
+    let pairs = metadata.file_metadata().key_value_metadata().map_or(&[][..], Vec::as_slice);
+    let get = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone());
+    let stamp = || {
+        Some(Stamp {
+            provenance: Provenance {
+                stage: get(STAGE)?,
+                version: get(VERSION)?,
+                parameters: serde_json::from_str(&get(PARAMETERS)?).ok()?,
+                inputs: serde_json::from_str(&get(INPUTS)?).ok()?,
+            },
+            plan: get(PLAN)?,
+            content: get(CONTENT)?,
+        })
+    };
+    Ok(stamp())
+}
+
+/// The fingerprint of what an input holds: as recorded by rockfrag, or the hash of its bytes if another program wrote
+/// it.
+///
+/// # Errors
+/// If the file is missing or unreadable.
+pub fn content_of(path: &Path) -> Result<String, TableError> {
+    if let Some(stamp) = stamp(path)? {
+        return Ok(stamp.content);
+    }
+    let mut hasher = blake3::Hasher::new();
+    let file = std::fs::File::open(path).map_err(|source| TableError::io(path, source))?;
+    hasher.update_reader(file).map_err(|source| TableError::io(path, source))?;
+    Ok(format!("bytes:{}", hasher.finalize().to_hex()))
+}

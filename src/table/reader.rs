@@ -1,0 +1,180 @@
+//! Reads a table batch by batch, or a narrow one whole.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use arrow_array::RecordBatch;
+use arrow_schema::SchemaRef;
+use parquet::arrow::ProjectionMask;
+use parquet::arrow::arrow_reader::{ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
+use polars::prelude::{DataFrame, IntoColumn, NamedFrom, Series};
+
+use super::TableError;
+use super::columns::{Columns, missing};
+use super::provenance::stamp;
+use super::schema::{Column, Kind, Table};
+
+/// Rows of a narrow table that are decoded at once.
+const NARROW_BATCH: usize = 8192;
+
+/// The batches of a file in order.
+pub struct Batches {
+    path: PathBuf,
+    reader: ParquetRecordBatchReader,
+    schema: SchemaRef,
+    rows: u64,
+    next_row: u64,
+}
+
+/// A batch and the row of the file with which it begins.
+pub struct Batch {
+    /// The rows.
+    pub rows: RecordBatch,
+    /// The number of rows before them.
+    pub first_row: u64,
+}
+
+impl Batches {
+    /// Opens the file of a table: those of `columns` that it has, `batch_size` rows at a time.
+    ///
+    /// # Errors
+    /// If the file is missing, unreadable, empty, or the output of a stage other than `stages`. A file that another
+    /// program wrote has no stage and is taken by its columns.
+    pub fn open(
+        path: &Path,
+        stages: &[&str],
+        columns: &[Column],
+        batch_size: usize,
+    ) -> Result<Batches, TableError> {
+        expect_stage(path, stages)?;
+        let file = open_file(path)?;
+        let unreadable = |source| not_parquet(path, source);
+        let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(unreadable)?;
+        let roots = builder.parquet_schema().root_schema().get_fields();
+        let wanted = roots.iter().enumerate().filter(|(_, field)| {
+            columns.iter().any(|column| column.name == field.name())
+        });
+        let mask = ProjectionMask::roots(builder.parquet_schema(), wanted.map(|(root, _)| root).collect::<Vec<_>>());
+        let rows = builder.metadata().file_metadata().num_rows();
+        if rows <= 0 {
+            return Err(TableError::Empty { path: path.to_path_buf() });
+        }
+        let reader =
+            builder.with_batch_size(batch_size).with_projection(mask).build().map_err(unreadable)?;
+        let schema = arrow_array::RecordBatchReader::schema(&reader);
+        Ok(Batches { path: path.to_path_buf(), reader, schema, rows: rows.unsigned_abs(), next_row: 0 })
+    }
+
+    /// How many rows the file has.
+    pub fn rows(&self) -> u64 {
+        self.rows
+    }
+
+    /// The columns that will be read.
+    pub fn schema(&self) -> &SchemaRef {
+        &self.schema
+    }
+}
+
+impl Iterator for Batches {
+    type Item = Result<Batch, TableError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let rows = match self.reader.next()? {
+            Ok(rows) => rows,
+            Err(source) => return Some(Err(not_parquet(&self.path, ParquetError::ArrowError(source.to_string())))),
+        };
+        let first_row = self.next_row;
+        self.next_row += rows.num_rows() as u64;
+        Some(Ok(Batch { rows, first_row }))
+    }
+}
+
+/// A narrow table whole. Columns that may be null and are missing in the file become nulls.
+///
+/// # Errors
+/// As [`Batches::open`], or if a column is missing, of another type, or holds a value that it must not.
+pub fn read_frame(path: &Path, table: &Table) -> Result<DataFrame, TableError> {
+    let batches = Batches::open(path, &[table.stage], table.columns, NARROW_BATCH)?;
+    let mut whole = DataFrame::empty();
+    for batch in batches {
+        let Batch { rows, first_row } = batch?;
+        let columns = Columns::new(path, &rows, first_row);
+        let series = table.columns.iter().map(|column| series(&columns, column));
+        let series = series.map(|series| Ok(series?.into_column())).collect::<Result<Vec<_>, TableError>>()?;
+        let frame = DataFrame::new(columns.rows(), series).map_err(|source| polars_error(path, &source))?;
+        whole = if first_row == 0 { frame } else { stack(whole, frame).map_err(|s| polars_error(path, &s))? };
+    }
+    Ok(whole)
+}
+
+fn stack(mut above: DataFrame, below: DataFrame) -> polars::prelude::PolarsResult<DataFrame> {
+    above.vstack_mut_owned(below)?;
+    Ok(above)
+}
+
+fn series(columns: &Columns, column: &Column) -> Result<Series, TableError> {
+    let name = column.name.into();
+    Ok(match (column.kind, column.nullable) {
+        (Kind::Text, true) => Series::new(name, columns.optional_text(column)?),
+        (Kind::Text, false) => Series::new(name, columns.text(column)?),
+        (Kind::Float64, true) => Series::new(name, columns.optional_numbers(column)?),
+        (Kind::Float64, false) => Series::new(name, columns.numbers(column)?),
+        (Kind::Int64 | Kind::Int32, _) if columns.is_text(column) => Series::new(name, columns.text(column)?),
+        (Kind::Int64 | Kind::Int32, _) => Series::new(name, columns.integers(column)?),
+        (Kind::Samples, _) => return Err(columns.value_error(0, column, "no narrow table holds samples")),
+    })
+}
+
+/// The footer of a Parquet file.
+pub(super) fn open_metadata(path: &Path) -> Result<ParquetMetaData, TableError> {
+    let file = open_file(path)?;
+    ParquetMetaDataReader::new().parse_and_finish(&file).map_err(|source| not_parquet(path, source))
+}
+
+/// That a file which says by which stage it was made was made by one of these.
+fn expect_stage(path: &Path, stages: &[&str]) -> Result<(), TableError> {
+    match stamp(path)? {
+        Some(stamp) if !stages.contains(&stamp.provenance.stage.as_str()) => Err(TableError::OtherStage {
+            path: path.to_path_buf(),
+            found: stamp.provenance.stage,
+            expected: stages.join(" or "),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// That a schema has the columns a stage cannot do without.
+///
+/// # Errors
+/// With the first one that is missing.
+pub fn expect_columns(path: &Path, schema: &SchemaRef, columns: &[Column]) -> Result<(), TableError> {
+    match columns.iter().find(|column| schema.field_with_name(column.name).is_err()) {
+        Some(column) => Err(missing(path, column)),
+        None => Ok(()),
+    }
+}
+
+fn open_file(path: &Path) -> Result<File, TableError> {
+    match File::open(path) {
+        Ok(file) if file.metadata().is_ok_and(|metadata| metadata.is_dir()) => {
+            Err(TableError::io(path, std::io::Error::other("a folder; expected a Parquet file")))
+        }
+        Ok(file) => Ok(file),
+        Err(source) if source.kind() == std::io::ErrorKind::NotFound => Err(TableError::Missing {
+            path: path.to_path_buf(),
+            hint: "run the stage that makes it first, or name another file with --in".to_string(),
+        }),
+        Err(source) => Err(TableError::io(path, source)),
+    }
+}
+
+fn not_parquet(path: &Path, source: ParquetError) -> TableError {
+    TableError::NotParquet { path: path.to_path_buf(), source }
+}
+
+fn polars_error(path: &Path, source: &polars::prelude::PolarsError) -> TableError {
+    TableError::Write { path: path.to_path_buf(), message: source.to_string() }
+}

@@ -1,0 +1,302 @@
+//! Every column of every file, once.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use arrow_schema::{DataType, Field, Schema, SchemaRef};
+
+/// The type of a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// 64-bit integers.
+    Int64,
+    /// 32-bit integers.
+    Int32,
+    /// 64-bit floating-point numbers.
+    Float64,
+    /// UTF-8 text.
+    Text,
+    /// A list of 32-bit floating-point samples in each row.
+    Samples,
+}
+
+impl Kind {
+    /// The Arrow type that is written.
+    pub fn data_type(self) -> DataType {
+        match self {
+            Kind::Int64 => DataType::Int64,
+            Kind::Int32 => DataType::Int32,
+            Kind::Float64 => DataType::Float64,
+            Kind::Text => DataType::Utf8,
+            Kind::Samples => DataType::List(Arc::new(Field::new("item", DataType::Float32, false))),
+        }
+    }
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Kind::Int64 => "64-bit integers",
+            Kind::Int32 => "32-bit integers",
+            Kind::Float64 => "64-bit floating-point numbers",
+            Kind::Text => "text",
+            Kind::Samples => "lists of floating-point numbers",
+        }
+    }
+}
+
+/// A column: what it is called, what it holds, in which unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Column {
+    /// Lower snake case with the unit as suffix.
+    pub name: &'static str,
+    /// Its type.
+    pub kind: Kind,
+    /// Whether values may be null.
+    pub nullable: bool,
+    /// Its unit; "1" where it has none.
+    pub unit: &'static str,
+    /// What it means.
+    pub description: &'static str,
+}
+
+impl Column {
+    const fn new(name: &'static str, kind: Kind, unit: &'static str, description: &'static str) -> Column {
+        Column { name, kind, nullable: false, unit, description }
+    }
+
+    /// The same column where values may be missing.
+    pub const fn or_null(self) -> Column {
+        Column { nullable: true, ..self }
+    }
+
+    /// Type and meaning, for a message to the user.
+    pub fn words(&self) -> String {
+        let unit = if self.unit == "1" { String::new() } else { format!(" in {}", self.unit) };
+        format!("{}{unit} ({})", self.kind.words(), self.description)
+    }
+
+    fn field(&self) -> Field {
+        let metadata = [("unit", self.unit), ("description", self.description)]
+            .map(|(key, value)| (key.to_string(), value.to_string()));
+        Field::new(self.name, self.kind.data_type(), self.nullable)
+            .with_metadata(HashMap::from(metadata))
+    }
+}
+
+/// A kind of file: the columns it has and the stage that makes it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Table {
+    /// What its rows are called.
+    pub name: &'static str,
+    /// The subcommand that writes it.
+    pub stage: &'static str,
+    /// Its columns in order.
+    pub columns: &'static [Column],
+}
+
+impl Table {
+    /// The Arrow schema, units and descriptions in the field metadata.
+    pub fn schema(&self) -> SchemaRef {
+        Arc::new(Schema::new(self.columns.iter().map(Column::field).collect::<Vec<_>>()))
+    }
+}
+
+macro_rules! columns {
+    ($($constant:ident = $name:literal, $kind:ident, $unit:literal, $description:literal;)*) => {
+        $(
+            #[doc = $description]
+            pub const $constant: Column = Column::new($name, Kind::$kind, $unit, $description);
+        )*
+    };
+}
+
+columns! {
+    SCENARIO_ID = "scenario_id", Int64, "1", "scenario: cell x samples + sample";
+    CELL = "cell", Int32, "1", "cell of the magnitude-distance grid";
+    SAMPLE = "sample", Int32, "1", "sample within the cell";
+    MW = "mw", Float64, "1", "moment magnitude";
+    RE_KM = "re_km", Float64, "km", "distance from the rupture";
+    VP_M_S = "vp_m_s", Float64, "m/s", "amplitude of the velocity pulse";
+    PULSE_TP_S = "tp_s", Float64, "s", "period of the velocity pulse";
+    GAMMA = "gamma", Float64, "1", "number of half cycles of the pulse";
+    NU_RAD = "nu_rad", Float64, "rad", "phase of the pulse";
+
+    MOTION_ID = "motion_id", Int64, "1", "ground motion, unique in the file";
+    SUITE = "suite", Text, "1", "kind of motion: pulse, csgm, hfc or record";
+    DT_S = "dt_s", Float64, "s", "time between samples";
+    ACCELERATION_M_S2 = "acceleration_m_s2", Samples, "m/s2", "ground acceleration, linear between samples";
+    PGA_M_S2 = "pga_m_s2", Float64, "m/s2", "peak ground acceleration";
+    PGV_M_S = "pgv_m_s", Float64, "m/s", "peak ground velocity";
+    PGD_M = "pgd_m", Float64, "m", "peak ground displacement";
+    TM_S = "tm_s", Float64, "s", "mean period (Rathje et al.)";
+    TP_S = "tp_s", Float64, "s", "predominant period: that of the pulse";
+    ARIAS_M_S = "arias_m_s", Float64, "m/s", "Arias intensity";
+    CAV_M_S = "cav_m_s", Float64, "m/s", "cumulative absolute velocity";
+    D5_75_S = "d5_75_s", Float64, "s", "significant duration, 5 to 75 % of the Arias intensity";
+    D5_95_S = "d5_95_s", Float64, "s", "significant duration, 5 to 95 % of the Arias intensity";
+    HOUSNER_M = "housner_m", Float64, "m", "Housner intensity, 0.1 to 2.5 s at 5 % damping";
+
+    STRUCTURE = "structure", Text, "1", "name of the structure";
+    P_RAD_S = "p_rad_s", Float64, "rad/s", "frequency parameter p of the structure";
+    ALPHA_RAD = "alpha_rad", Float64, "rad", "slenderness of the structure";
+    ETA = "eta", Float64, "1", "coefficient of restitution";
+    OUTCOME = "outcome", Text, "1", "no_rocking, safe_rocking or overturning";
+    EDP = "edp", Float64, "1", "largest rotation over slenderness, |theta|max / alpha (Eq. 7)";
+    IMPACTS = "impacts", Int32, "1", "impacts within the duration of the record";
+    IM1 = "im1", Float64, "1", "wp / p (Eq. 13)";
+    IM2 = "im2", Float64, "1", "wm / p (Eq. 13)";
+    IM3 = "im3", Float64, "1", "PGA / (p PGV) (Eq. 13)";
+    IM4 = "im4", Float64, "1", "PGA / (g tan alpha) (Eq. 13)";
+    IM5 = "im5", Float64, "1", "p PGV / (g tan alpha) (Eq. 13)";
+    IM6 = "im6", Float64, "1", "wm PGV / (g tan alpha) (Eq. 13)";
+
+    TIME_S = "time_s", Float64, "s", "time from the first sample";
+    THETA_RAD = "theta_rad", Float64, "rad", "rotation";
+    THETA_DOT_RAD_S = "theta_dot_rad_s", Float64, "rad/s", "angular velocity; at an impact, that after it";
+    THETA_OVER_ALPHA = "theta_over_alpha", Float64, "1", "rotation over slenderness";
+    GROUND_M_S2 = "ground_m_s2", Float64, "m/s2", "ground acceleration at this moment";
+    EVENT = "event", Text, "1", "uplift, impact, rest or overturn; null at a mere sample";
+
+    MODEL = "model", Text, "1", "univariate, plane or biplanar";
+    IM_X = "im_x", Text, "1", "first intensity measure";
+    IM_Y = "im_y", Text, "1", "second intensity measure";
+    RANGE_LOW = "range_low", Float64, "1", "im_x from which the fit holds";
+    RANGE_HIGH = "range_high", Float64, "1", "im_x up to which the fit holds";
+    LIMIT_STATE = "limit_state", Float64, "1", "demand |theta|max / alpha that P_ex is about";
+    LN_A = "ln_a", Float64, "1", "intercept of ln EDP (Eqs. 15 and 17)";
+    B1 = "b1", Float64, "1", "slope on ln im_x";
+    B2 = "b2", Float64, "1", "slope on ln im_y";
+    R2 = "r2", Float64, "1", "coefficient of determination";
+    R2_POOLED = "r2_pooled", Float64, "1", "coefficient of determination of both planes together";
+    BETA = "beta", Float64, "1", "dispersion: residual standard deviation of ln EDP, or that of the curve P_ro";
+    ZETA = "zeta", Float64, "1", "modified dispersion beta / b1";
+    N = "n", Int64, "1", "cases used";
+    SE_LN_A = "se_ln_a", Float64, "1", "standard error of ln_a";
+    SE_B1 = "se_b1", Float64, "1", "standard error of b1";
+    SE_B2 = "se_b2", Float64, "1", "standard error of b2";
+    LN_A_LOW = "ln_a_low", Float64, "1", "lower 95 % limit of ln_a";
+    LN_A_HIGH = "ln_a_high", Float64, "1", "upper 95 % limit of ln_a";
+    B1_LOW = "b1_low", Float64, "1", "lower 95 % limit of b1";
+    B1_HIGH = "b1_high", Float64, "1", "upper 95 % limit of b1";
+    B2_LOW = "b2_low", Float64, "1", "lower 95 % limit of b2";
+    B2_HIGH = "b2_high", Float64, "1", "upper 95 % limit of b2";
+    STATUS = "status", Text, "1", "ok, or why there is no fit";
+
+    TRANSITION = "transition", Float64, "1", "im4 at which the two planes meet";
+    POOLED_RSS = "pooled_rss", Float64, "1", "residual sum of squares of both planes";
+    N_LOW = "n_low", Int64, "1", "cases below the transition";
+    N_HIGH = "n_high", Int64, "1", "cases above the transition";
+
+    FITTED_EVENT = "event", Text, "1", "overturning, or rocking";
+    LAMBDA = "lambda", Float64, "1", "exponent of im_x in the hybrid measure (Eq. 22)";
+    MU = "mu", Float64, "1", "mean of the logarithm of the measure at overturning";
+    THETA = "theta", Float64, "1", "median exp(mu)";
+    LOG_LIKELIHOOD = "log_likelihood", Float64, "1", "log-likelihood at its maximum";
+    AIC = "aic", Float64, "1", "Akaike's information criterion";
+    BIC = "bic", Float64, "1", "Bayesian information criterion";
+    AUC = "auc", Float64, "1", "area under the receiver operating characteristic";
+    BRIER = "brier", Float64, "1", "Brier score";
+    N_OVERTURNED = "n_overturned", Int64, "1", "cases in which the event happened";
+    SE_LAMBDA = "se_lambda", Float64, "1", "standard error of lambda";
+    SE_MU = "se_mu", Float64, "1", "standard error of mu";
+    SE_BETA = "se_beta", Float64, "1", "standard error of beta";
+    SE_THETA = "se_theta", Float64, "1", "standard error of theta";
+    LAMBDA_LOW = "lambda_low", Float64, "1", "lower 95 % limit of lambda";
+    LAMBDA_HIGH = "lambda_high", Float64, "1", "upper 95 % limit of lambda";
+    MU_LOW = "mu_low", Float64, "1", "lower 95 % limit of mu";
+    MU_HIGH = "mu_high", Float64, "1", "upper 95 % limit of mu";
+    BETA_LOW = "beta_low", Float64, "1", "lower 95 % limit of beta";
+    BETA_HIGH = "beta_high", Float64, "1", "upper 95 % limit of beta";
+    THETA_LOW = "theta_low", Float64, "1", "lower 95 % limit of theta";
+    THETA_HIGH = "theta_high", Float64, "1", "upper 95 % limit of theta";
+
+    QUANTITY = "quantity", Text, "1", "what was published";
+    PLACE = "place", Text, "1", "where the paper prints it";
+    PUBLISHED = "published", Float64, "1", "the published number";
+    OURS = "ours", Float64, "1", "the same number from these files";
+    SPREAD_MEAN = "spread_mean", Float64, "1", "mean of ours over seeds";
+    SPREAD_SD = "spread_sd", Float64, "1", "standard deviation of ours over seeds";
+    SEEDS = "seeds", Int32, "1", "number of seeds of the spread";
+    Z = "z", Float64, "1", "(published - mean) / standard deviation";
+}
+
+/// Earthquake scenarios.
+pub const SCENARIOS: Table = Table {
+    name: "scenarios",
+    stage: "sample-scenarios",
+    columns: &[SCENARIO_ID, CELL, SAMPLE, MW, RE_KM, VP_M_S, PULSE_TP_S, GAMMA, NU_RAD],
+};
+
+/// Synthetic ground motions with their measures and the scenario they belong to.
+pub const MOTIONS: Table = Table {
+    name: "motions",
+    stage: "synthesize-motions",
+    columns: &[
+        MOTION_ID, SUITE, SCENARIO_ID, CELL, SAMPLE, MW, RE_KM, VP_M_S, PULSE_TP_S, GAMMA, NU_RAD, DT_S,
+        PGA_M_S2, PGV_M_S, PGD_M, TM_S.or_null(), ARIAS_M_S, CAV_M_S, D5_75_S, D5_95_S, HOUSNER_M.or_null(),
+        ACCELERATION_M_S2,
+    ],
+};
+
+/// Responses of structures to motions.
+pub const RESPONSES: Table = Table {
+    name: "responses",
+    stage: "simulate",
+    columns: &[
+        MOTION_ID, SUITE.or_null(), STRUCTURE, P_RAD_S, ALPHA_RAD, ETA, OUTCOME, EDP, IMPACTS, MW.or_null(),
+        RE_KM.or_null(), PGA_M_S2, PGV_M_S, TP_S.or_null(), TM_S.or_null(), IM1.or_null(), IM2.or_null(),
+        IM3.or_null(), IM4, IM5, IM6.or_null(),
+    ],
+};
+
+/// Responses over time.
+pub const TRACE: Table = Table {
+    name: "trace",
+    stage: "simulate",
+    columns: &[
+        MOTION_ID, STRUCTURE, TIME_S, THETA_RAD, THETA_DOT_RAD_S, THETA_OVER_ALPHA, GROUND_M_S2, EVENT.or_null(),
+    ],
+};
+
+/// Regressions of the demand in safe rocking.
+pub const PEX: Table = Table {
+    name: "pex",
+    stage: "fit-pex",
+    columns: &[
+        SUITE.or_null(), STRUCTURE, MODEL, IM_X, IM_Y.or_null(), RANGE_LOW.or_null(), RANGE_HIGH.or_null(),
+        LIMIT_STATE, LN_A.or_null(), B1.or_null(), B2.or_null(), R2.or_null(), R2_POOLED.or_null(),
+        BETA.or_null(), ZETA.or_null(), N, SE_LN_A.or_null(), SE_B1.or_null(), SE_B2.or_null(),
+        LN_A_LOW.or_null(), LN_A_HIGH.or_null(), B1_LOW.or_null(), B1_HIGH.or_null(), B2_LOW.or_null(),
+        B2_HIGH.or_null(), STATUS,
+    ],
+};
+
+/// The search for the transition between the two planes.
+pub const PEX_SCAN: Table = Table {
+    name: "transition scan",
+    stage: "fit-pex",
+    columns: &[SUITE.or_null(), STRUCTURE, TRANSITION, POOLED_RSS, N_LOW, N_HIGH],
+};
+
+/// Maximum-likelihood fits of overturning.
+pub const PRO: Table = Table {
+    name: "pro",
+    stage: "fit-pro",
+    columns: &[
+        SUITE.or_null(), STRUCTURE, FITTED_EVENT, IM_X, IM_Y.or_null(), LAMBDA.or_null(), MU.or_null(), BETA.or_null(),
+        THETA.or_null(), LOG_LIKELIHOOD.or_null(), AIC.or_null(), BIC.or_null(), AUC.or_null(),
+        BRIER.or_null(), N, N_OVERTURNED, SE_LAMBDA.or_null(), SE_MU.or_null(), SE_BETA.or_null(),
+        SE_THETA.or_null(), LAMBDA_LOW.or_null(), LAMBDA_HIGH.or_null(), MU_LOW.or_null(), MU_HIGH.or_null(),
+        BETA_LOW.or_null(), BETA_HIGH.or_null(), THETA_LOW.or_null(), THETA_HIGH.or_null(), STATUS,
+    ],
+};
+
+/// Each published number beside ours.
+pub const PAPER: Table = Table {
+    name: "paper comparison",
+    stage: "compare-paper",
+    columns: &[
+        QUANTITY, PLACE, SUITE.or_null(), STRUCTURE.or_null(), PUBLISHED.or_null(), OURS.or_null(),
+        SPREAD_MEAN.or_null(), SPREAD_SD.or_null(), SEEDS, Z.or_null(),
+    ],
+};

@@ -1,0 +1,163 @@
+//! Writes a table beside its name and renames it when it is whole.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use arrow_array::RecordBatch;
+use parquet::arrow::ArrowWriter;
+use parquet::basic::{Compression, Encoding, ZstdLevel};
+use parquet::errors::ParquetError;
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
+use parquet::schema::types::ColumnPath;
+use tempfile::NamedTempFile;
+
+use super::TableError;
+use super::fingerprint::Fingerprint;
+use super::provenance::Provenance;
+use super::schema::{Kind, Table};
+
+/// The end of the name of a file that is still being written.
+const PARTIAL: &str = ".partial";
+
+/// Writes the batches of one table in order.
+pub struct TableWriter {
+    path: PathBuf,
+    provenance: Provenance,
+    writer: ArrowWriter<File>,
+    /// Locked while it is written, so that another run can tell a live file from a stray one.
+    partial: NamedTempFile,
+    fingerprint: Fingerprint,
+}
+
+impl TableWriter {
+    /// Starts a file that will stand at `path` once it is finished. Without a finish nothing stays behind.
+    ///
+    /// # Errors
+    /// If the folder is not there or cannot be written.
+    pub fn create(path: &Path, table: &Table, provenance: Provenance) -> Result<TableWriter, TableError> {
+        let schema = table.schema();
+        TableWriter::with_schema(path, table, schema, provenance)
+    }
+
+    /// As [`TableWriter::create`], with a schema that differs from the table's own (the type of motion_id).
+    ///
+    /// # Errors
+    /// As there.
+    pub fn with_schema(
+        path: &Path,
+        table: &Table,
+        schema: arrow_schema::SchemaRef,
+        provenance: Provenance,
+    ) -> Result<TableWriter, TableError> {
+        let failed = |message: String| TableError::Write { path: path.to_path_buf(), message };
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let name = path.file_name().ok_or_else(|| failed("that is no file name".to_string()))?;
+        let prefix = format!(".{}.", name.to_string_lossy());
+        remove_strays(folder, &prefix);
+        let partial = tempfile::Builder::new()
+            .prefix(&prefix)
+            .suffix(PARTIAL)
+            .permissions(file_permissions())
+            .tempfile_in(folder)
+            .map_err(|source| failed(format!("{source} (folder {})", folder.display())))?;
+        partial.as_file().try_lock().map_err(|source| failed(source.to_string()))?;
+        let file = partial.as_file().try_clone().map_err(|source| failed(source.to_string()))?;
+        let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(table)))
+            .map_err(|source| failed(words(&source)))?;
+        let fingerprint = Fingerprint::new(schema);
+        Ok(TableWriter { path: path.to_path_buf(), provenance, writer, partial, fingerprint })
+    }
+
+    /// Appends a batch and ends the row group, so that a reader streams what was written together.
+    ///
+    /// # Errors
+    /// If the disk is full or the batch has other columns.
+    pub fn write_row_group(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
+        self.append(batch)?;
+        self.writer.flush().map_err(|source| self.failed(&source))
+    }
+
+    /// Appends a batch.
+    ///
+    /// # Errors
+    /// If the disk is full or the batch has other columns.
+    pub fn append(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
+        self.fingerprint.update(batch);
+        self.writer.write(batch).map_err(|source| self.failed(&source))
+    }
+
+    /// Completes the file and puts it at its name.
+    ///
+    /// # Errors
+    /// If the disk is full or the name cannot be taken.
+    pub fn finish(mut self) -> Result<(), TableError> {
+        for pair in self.provenance.key_values(&self.fingerprint.finish()) {
+            self.writer.append_key_value_metadata(pair);
+        }
+        self.writer.finish().map_err(|source| self.failed(&source))?;
+        let failed =
+            |message: String| TableError::Write { path: self.path.clone(), message };
+        self.partial.as_file().sync_all().map_err(|source| failed(source.to_string()))?;
+        self.partial.persist(&self.path).map_err(|refused| failed(refused.error.to_string()))?;
+        Ok(())
+    }
+
+    fn failed(&self, source: &ParquetError) -> TableError {
+        TableError::Write { path: self.path.clone(), message: words(source) }
+    }
+}
+
+/// The operating system's words, without the names of the layers they came through.
+fn words(source: &ParquetError) -> String {
+    match source {
+        ParquetError::External(inner) => inner.to_string(),
+        other => other.to_string(),
+    }
+}
+
+/// Those that any new file gets, not the private ones of a temporary file.
+fn file_permissions() -> std::fs::Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::Permissions::from_mode(0o666)
+}
+
+/// Partial files of the same name that no living run holds: a killed run left them.
+fn remove_strays(folder: &Path, prefix: &str) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if name.starts_with(prefix)
+            && name.ends_with(PARTIAL)
+            && File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok())
+        {
+            // A stray that cannot be removed does no harm.
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Samples as split bytes and lightly compressed: smaller than plain, and as fast to read as it matters; a dictionary
+/// or statistics of samples would only cost time and room.
+fn properties(table: &Table) -> WriterProperties {
+    let zstd = Compression::ZSTD(ZstdLevel::try_new(1).unwrap_or_default());
+    let mut properties = WriterProperties::builder()
+        .set_created_by(format!("rockfrag {}", env!("CARGO_PKG_VERSION")))
+        .set_compression(zstd);
+    for column in table.columns.iter().filter(|column| column.kind == Kind::Samples) {
+        let path = samples_path(column.name);
+        properties = properties
+            .set_column_dictionary_enabled(path.clone(), false)
+            .set_column_statistics_enabled(path.clone(), EnabledStatistics::None)
+            .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT);
+    }
+    properties.build()
+}
+
+/// The leaf that holds the samples of a list column.
+fn samples_path(column: &str) -> ColumnPath {
+    ColumnPath::new([column, "list", "item"].map(String::from).to_vec())
+}

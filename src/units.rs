@@ -1,0 +1,7 @@
+//! Constants that tie units together.
+
+/// Acceleration of gravity, m/s2.
+pub const G_M_S2: f64 = 9.81;
+
+/// Centimetres in a metre: the published ground-motion relations are in cm/s and cm/s2.
+pub const CM_PER_M: f64 = 100.0;
