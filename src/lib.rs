@@ -1,1 +1,32 @@
-//! x
+//! Dimensionless fragility curves for rocking structures in near-fault earthquakes.
+//!
+//! rockfrag implements the system of Dimitrakopoulos & Paraskeva (2015), "Dimensionless fragility curves for rocking
+//! response to near-fault excitations", as a pipeline of stages over Parquet files:
+//!
+//! ```text
+//! sample-scenarios -> scenarios -> synthesize-motions -> motions -> simulate -> responses
+//!                                                                                   |-> fit-pex -> pex --|
+//!                                                                                   |-> fit-pro -> pro --|-> compare-paper
+//! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from
+//! ```
+//!
+//! | the paper | here |
+//! |---|---|
+//! | sections 2.1.1 to 2.1.3, Eqs. 1 and 13: scenarios, motions, intensity measures | [`motion`] |
+//! | section 2.2: the rocking response | [`rocking`] |
+//! | sections 2.3 and 3, Eqs. 12 and 14 to 24: fragility | [`fragility`] |
+//!
+//! These three know no files, threads or command line. [`table`] reads and writes the files, [`pipeline`] decides what
+//! must run, [`stages`] joins them: one file a subcommand.
+
+pub mod cli;
+pub mod fragility;
+pub mod keyword;
+pub mod motion;
+pub mod normal;
+pub mod pipeline;
+pub mod random;
+pub mod rocking;
+pub mod stages;
+pub mod table;
+pub mod units;

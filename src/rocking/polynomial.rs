@@ -42,10 +42,7 @@ pub fn first_root(c: &Coefficients) -> Option<f64> {
 }
 
 /// Calls `visit` with each root in (0, 1) in ascending order, until it breaks. Roots at 0 do not count.
-pub fn visit_roots(
-    c: &Coefficients,
-    mut visit: impl FnMut(f64) -> ControlFlow<()>,
-) -> ControlFlow<()> {
+pub fn visit_roots(c: &Coefficients, mut visit: impl FnMut(f64) -> ControlFlow<()>) -> ControlFlow<()> {
     let Some(zeros) = c.iter().position(|&coefficient| coefficient != 0.0) else {
         return ControlFlow::Continue(());
     };

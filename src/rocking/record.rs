@@ -38,9 +38,7 @@ impl<'a> Record<'a> {
         }
         match acceleration_m_s2.iter().position(|value| !value.is_finite()) {
             None => Ok(Record { acceleration_m_s2, dt_s }),
-            Some(sample) => {
-                Err(RecordError::NotFinite { sample, value: acceleration_m_s2[sample] })
-            }
+            Some(sample) => Err(RecordError::NotFinite { sample, value: acceleration_m_s2[sample] }),
         }
     }
 
@@ -52,5 +50,16 @@ impl<'a> Record<'a> {
     /// The time between samples, s.
     pub fn dt_s(&self) -> f64 {
         self.dt_s
+    }
+
+    /// The acceleration (m/s2) at a time from the first sample, s: linear between samples, zero outside.
+    pub fn acceleration_at(&self, time_s: f64) -> f64 {
+        let position = time_s / self.dt_s;
+        let before = position.floor().max(0.0) as usize;
+        match self.acceleration_m_s2.get(before..) {
+            Some([a, b, ..]) => a + (b - a) * (position - before as f64),
+            Some([last]) if position <= before as f64 => *last,
+            _ => 0.0,
+        }
     }
 }

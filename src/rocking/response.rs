@@ -1,6 +1,7 @@
 use super::march::{Observer, march};
 use super::record::Record;
 use super::structure::Structure;
+use crate::keyword::keywords;
 
 /// How a structure came through a ground motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,19 +14,11 @@ pub enum Outcome {
     Overturning,
 }
 
-impl Outcome {
-    /// All outcomes.
-    pub const ALL: [Outcome; 3] = [Outcome::NoRocking, Outcome::SafeRocking, Outcome::Overturning];
-
-    /// As it is written in the responses file.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Outcome::NoRocking => "no_rocking",
-            Outcome::SafeRocking => "safe_rocking",
-            Outcome::Overturning => "overturning",
-        }
-    }
-}
+keywords!(Outcome {
+    NoRocking = "no_rocking",
+    SafeRocking = "safe_rocking",
+    Overturning = "overturning",
+});
 
 /// The response of one structure to one ground motion.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -31,12 +31,7 @@ impl Structure {
     ///
     /// # Errors
     /// If `p` is not positive, `alpha` not in (0, pi/2) or `eta` not in (0, 1].
-    pub fn new(
-        name: &str,
-        p_rad_s: f64,
-        alpha_rad: f64,
-        eta: f64,
-    ) -> Result<Structure, StructureError> {
+    pub fn new(name: &str, p_rad_s: f64, alpha_rad: f64, eta: f64) -> Result<Structure, StructureError> {
         let check = |ok: bool, parameter, value, expected| {
             if ok {
                 return Ok(());
@@ -125,6 +120,5 @@ pub fn housner_eta(alpha_rad: f64) -> f64 {
 /// Coefficient of restitution of a rocking frame: eta = (1 - 1.5 sin^2(alpha) + 3 y cos(2 alpha)) / (1 + 3 y), of the
 /// ratio y of beam to columns mass (Makris & Vassiliou 2013).
 pub fn frame_eta(alpha_rad: f64, beam_mass_ratio: f64) -> f64 {
-    (housner_eta(alpha_rad) + 3.0 * beam_mass_ratio * (2.0 * alpha_rad).cos())
-        / (1.0 + 3.0 * beam_mass_ratio)
+    (housner_eta(alpha_rad) + 3.0 * beam_mass_ratio * (2.0 * alpha_rad).cos()) / (1.0 + 3.0 * beam_mass_ratio)
 }

@@ -3,6 +3,7 @@ use super::record::Record;
 use super::response::Response;
 use super::structure::Structure;
 use super::taylor::State;
+use crate::keyword::keywords;
 
 /// What happens to a rocking structure at a moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,20 +18,7 @@ pub enum Event {
     Overturn,
 }
 
-impl Event {
-    /// All events.
-    pub const ALL: [Event; 4] = [Event::Uplift, Event::Impact, Event::Rest, Event::Overturn];
-
-    /// As it is written in a trace file.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Event::Uplift => "uplift",
-            Event::Impact => "impact",
-            Event::Rest => "rest",
-            Event::Overturn => "overturn",
-        }
-    }
-}
+keywords!(Event { Uplift = "uplift", Impact = "impact", Rest = "rest", Overturn = "overturn" });
 
 /// A moment of a traced response: a sample of the record, or an event between two of them.
 #[derive(Debug, Clone, Copy, PartialEq)]

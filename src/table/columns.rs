@@ -40,7 +40,9 @@ impl<'a> Columns<'a> {
             .enumerate()
             .map(|(row, value)| match value {
                 Some(value) if value.is_finite() => Ok(value),
-                Some(value) => Err(self.value_error(row, column, &format!("{value}; expected a finite number"))),
+                Some(value) => {
+                    Err(self.value_error(row, column, &format!("{value}; expected a finite number")))
+                }
                 None => Err(self.value_error(row, column, "null; expected a number")),
             })
             .collect()
@@ -124,7 +126,11 @@ impl<'a> Columns<'a> {
             }
             let samples = list(row);
             if let Some(at) = (0..samples.len()).find(|&at| samples.is_null(at)) {
-                return Err(self.value_error(row, column, &format!("sample {at} is null; expected a number")));
+                return Err(self.value_error(
+                    row,
+                    column,
+                    &format!("sample {at} is null; expected a number"),
+                ));
             }
             match samples.data_type() {
                 DataType::Float32 => {

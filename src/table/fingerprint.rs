@@ -44,9 +44,15 @@ fn update_column(hasher: &mut blake3::Hasher, array: &dyn Array) {
             continue;
         }
         match array.data_type() {
-            DataType::Int64 => update_bytes(hasher, &array.as_primitive::<Int64Type>().value(row).to_le_bytes()),
-            DataType::Int32 => update_bytes(hasher, &array.as_primitive::<Int32Type>().value(row).to_le_bytes()),
-            DataType::Float64 => update_bytes(hasher, &array.as_primitive::<Float64Type>().value(row).to_le_bytes()),
+            DataType::Int64 => {
+                update_bytes(hasher, &array.as_primitive::<Int64Type>().value(row).to_le_bytes())
+            }
+            DataType::Int32 => {
+                update_bytes(hasher, &array.as_primitive::<Int32Type>().value(row).to_le_bytes())
+            }
+            DataType::Float64 => {
+                update_bytes(hasher, &array.as_primitive::<Float64Type>().value(row).to_le_bytes())
+            }
             DataType::Utf8 => update_bytes(hasher, array.as_string::<i32>().value(row).as_bytes()),
             _ => {
                 let samples = array.as_list::<i32>().value(row);

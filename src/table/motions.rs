@@ -12,6 +12,7 @@ use super::columns::Columns;
 use super::reader::{Batch, Batches, expect_columns};
 use super::scenarios;
 use super::schema::{self, Column, MOTIONS};
+use crate::keyword::Keyword;
 use crate::motion::{Measures, Scenario, Suite};
 
 /// The stages whose output can stand as a motions file.
@@ -212,21 +213,32 @@ fn motions_of(columns: &Columns, first_row: u64) -> Result<Vec<Motion>, TableErr
 
 /// The schema of a table in which motions go by name.
 pub fn schema_by_name(table: &schema::Table) -> SchemaRef {
-    let fields = table.schema().fields().iter().map(|field| {
-        let renamed = field.name() == schema::MOTION_ID.name;
-        if renamed { field.as_ref().clone().with_data_type(DataType::Utf8) } else { field.as_ref().clone() }
-    }).collect::<Vec<_>>();
+    let fields = table
+        .schema()
+        .fields()
+        .iter()
+        .map(|field| {
+            let renamed = field.name() == schema::MOTION_ID.name;
+            if renamed {
+                field.as_ref().clone().with_data_type(DataType::Utf8)
+            } else {
+                field.as_ref().clone()
+            }
+        })
+        .collect::<Vec<_>>();
     Arc::new(arrow_schema::Schema::new(fields))
 }
 
-/// The motion_id column of these ids, all numbers or all names.
-pub(super) fn id_column<'a>(ids: impl Iterator<Item = &'a MotionId> + Clone) -> ArrayRef {
-    let numbers = ids.clone().map(|id| match id {
-        MotionId::Number(number) => Some(*number),
-        MotionId::Name(_) => None,
-    });
-    match numbers.collect::<Option<Vec<i64>>>() {
-        Some(numbers) => Arc::new(Int64Array::from(numbers)),
-        None => Arc::new(StringArray::from_iter_values(ids.map(MotionId::to_string))),
+/// The motion_id column: all numbers, or all names.
+pub(super) fn id_column<'a>(ids: impl Iterator<Item = &'a MotionId>, by_name: bool) -> ArrayRef {
+    if by_name {
+        return Arc::new(StringArray::from_iter_values(ids.map(MotionId::to_string)));
     }
+    Arc::new(
+        ids.map(|id| match id {
+            MotionId::Number(number) => Some(*number),
+            MotionId::Name(_) => None,
+        })
+        .collect::<Int64Array>(),
+    )
 }

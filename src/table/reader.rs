@@ -53,16 +53,17 @@ impl Batches {
         let unreadable = |source| not_parquet(path, source);
         let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(unreadable)?;
         let roots = builder.parquet_schema().root_schema().get_fields();
-        let wanted = roots.iter().enumerate().filter(|(_, field)| {
-            columns.iter().any(|column| column.name == field.name())
-        });
-        let mask = ProjectionMask::roots(builder.parquet_schema(), wanted.map(|(root, _)| root).collect::<Vec<_>>());
+        let wanted = roots
+            .iter()
+            .enumerate()
+            .filter(|(_, field)| columns.iter().any(|column| column.name == field.name()));
+        let mask =
+            ProjectionMask::roots(builder.parquet_schema(), wanted.map(|(root, _)| root).collect::<Vec<_>>());
         let rows = builder.metadata().file_metadata().num_rows();
         if rows <= 0 {
             return Err(TableError::Empty { path: path.to_path_buf() });
         }
-        let reader =
-            builder.with_batch_size(batch_size).with_projection(mask).build().map_err(unreadable)?;
+        let reader = builder.with_batch_size(batch_size).with_projection(mask).build().map_err(unreadable)?;
         let schema = arrow_array::RecordBatchReader::schema(&reader);
         Ok(Batches { path: path.to_path_buf(), reader, schema, rows: rows.unsigned_abs(), next_row: 0 })
     }
@@ -84,7 +85,9 @@ impl Iterator for Batches {
     fn next(&mut self) -> Option<Self::Item> {
         let rows = match self.reader.next()? {
             Ok(rows) => rows,
-            Err(source) => return Some(Err(not_parquet(&self.path, ParquetError::ArrowError(source.to_string())))),
+            Err(source) => {
+                return Some(Err(not_parquet(&self.path, ParquetError::ArrowError(source.to_string()))));
+            }
         };
         let first_row = self.next_row;
         self.next_row += rows.num_rows() as u64;
@@ -103,9 +106,11 @@ pub fn read_frame(path: &Path, table: &Table) -> Result<DataFrame, TableError> {
         let Batch { rows, first_row } = batch?;
         let columns = Columns::new(path, &rows, first_row);
         let series = table.columns.iter().map(|column| series(&columns, column));
-        let series = series.map(|series| Ok(series?.into_column())).collect::<Result<Vec<_>, TableError>>()?;
+        let series =
+            series.map(|series| Ok(series?.into_column())).collect::<Result<Vec<_>, TableError>>()?;
         let frame = DataFrame::new(columns.rows(), series).map_err(|source| polars_error(path, &source))?;
-        whole = if first_row == 0 { frame } else { stack(whole, frame).map_err(|s| polars_error(path, &s))? };
+        whole =
+            if first_row == 0 { frame } else { stack(whole, frame).map_err(|s| polars_error(path, &s))? };
     }
     Ok(whole)
 }
@@ -128,7 +133,37 @@ fn series(columns: &Columns, column: &Column) -> Result<Series, TableError> {
     })
 }
 
-/// The footer of a Parquet file.
+/// What the end of a Parquet file says of the whole.
+pub struct Footer {
+    /// Rows.
+    pub rows: i64,
+    /// Row groups.
+    pub row_groups: usize,
+    /// Size of the file.
+    pub bytes: u64,
+    /// Columns.
+    pub schema: SchemaRef,
+}
+
+/// Reads only the end of a Parquet file.
+///
+/// # Errors
+/// If it is missing or no Parquet file.
+pub fn footer(path: &Path) -> Result<Footer, TableError> {
+    let file = open_file(path)?;
+    let bytes = file.metadata().map_err(|source| TableError::io(path, source))?.len();
+    let builder =
+        ParquetRecordBatchReaderBuilder::try_new(file).map_err(|source| not_parquet(path, source))?;
+    let metadata = builder.metadata();
+    Ok(Footer {
+        rows: metadata.file_metadata().num_rows(),
+        row_groups: metadata.num_row_groups(),
+        bytes,
+        schema: builder.schema().clone(),
+    })
+}
+
+/// The footer of a Parquet file as the library gives it.
 pub(super) fn open_metadata(path: &Path) -> Result<ParquetMetaData, TableError> {
     let file = open_file(path)?;
     ParquetMetaDataReader::new().parse_and_finish(&file).map_err(|source| not_parquet(path, source))

@@ -93,5 +93,6 @@ fn rows_of(columns: &Columns) -> Result<Vec<Scenario>, TableError> {
 }
 
 fn narrow(columns: &Columns, row: usize, column: &schema::Column, value: i64) -> Result<i32, TableError> {
-    i32::try_from(value).map_err(|_| columns.value_error(row, column, &format!("{value}; expected a 32-bit integer")))
+    i32::try_from(value)
+        .map_err(|_| columns.value_error(row, column, &format!("{value}; expected a 32-bit integer")))
 }

@@ -78,8 +78,7 @@ impl Column {
     fn field(&self) -> Field {
         let metadata = [("unit", self.unit), ("description", self.description)]
             .map(|(key, value)| (key.to_string(), value.to_string()));
-        Field::new(self.name, self.kind.data_type(), self.nullable)
-            .with_metadata(HashMap::from(metadata))
+        Field::new(self.name, self.kind.data_type(), self.nullable).with_metadata(HashMap::from(metadata))
     }
 }
 
@@ -168,6 +167,7 @@ columns! {
     B2 = "b2", Float64, "1", "slope on ln im_y";
     R2 = "r2", Float64, "1", "coefficient of determination";
     R2_POOLED = "r2_pooled", Float64, "1", "coefficient of determination of both planes together";
+    TRANSITION_FOUND = "transition_found", Float64, "1", "im4 of the least pooled residual of two planes";
     BETA = "beta", Float64, "1", "dispersion: residual standard deviation of ln EDP, or that of the curve P_ro";
     ZETA = "zeta", Float64, "1", "modified dispersion beta / b1";
     N = "n", Int64, "1", "cases used";
@@ -232,8 +232,27 @@ pub const MOTIONS: Table = Table {
     name: "motions",
     stage: "synthesize-motions",
     columns: &[
-        MOTION_ID, SUITE, SCENARIO_ID, CELL, SAMPLE, MW, RE_KM, VP_M_S, PULSE_TP_S, GAMMA, NU_RAD, DT_S,
-        PGA_M_S2, PGV_M_S, PGD_M, TM_S.or_null(), ARIAS_M_S, CAV_M_S, D5_75_S, D5_95_S, HOUSNER_M.or_null(),
+        MOTION_ID,
+        SUITE,
+        SCENARIO_ID,
+        CELL,
+        SAMPLE,
+        MW,
+        RE_KM,
+        VP_M_S,
+        PULSE_TP_S,
+        GAMMA,
+        NU_RAD,
+        DT_S,
+        PGA_M_S2,
+        PGV_M_S,
+        PGD_M,
+        TM_S.or_null(),
+        ARIAS_M_S,
+        CAV_M_S,
+        D5_75_S,
+        D5_95_S,
+        HOUSNER_M.or_null(),
         ACCELERATION_M_S2,
     ],
 };
@@ -243,9 +262,27 @@ pub const RESPONSES: Table = Table {
     name: "responses",
     stage: "simulate",
     columns: &[
-        MOTION_ID, SUITE.or_null(), STRUCTURE, P_RAD_S, ALPHA_RAD, ETA, OUTCOME, EDP, IMPACTS, MW.or_null(),
-        RE_KM.or_null(), PGA_M_S2, PGV_M_S, TP_S.or_null(), TM_S.or_null(), IM1.or_null(), IM2.or_null(),
-        IM3.or_null(), IM4, IM5, IM6.or_null(),
+        MOTION_ID,
+        SUITE.or_null(),
+        STRUCTURE,
+        P_RAD_S,
+        ALPHA_RAD,
+        ETA,
+        OUTCOME,
+        EDP,
+        IMPACTS,
+        MW.or_null(),
+        RE_KM.or_null(),
+        PGA_M_S2,
+        PGV_M_S,
+        TP_S.or_null(),
+        TM_S.or_null(),
+        IM1.or_null(),
+        IM2.or_null(),
+        IM3.or_null(),
+        IM4,
+        IM5,
+        IM6.or_null(),
     ],
 };
 
@@ -254,7 +291,14 @@ pub const TRACE: Table = Table {
     name: "trace",
     stage: "simulate",
     columns: &[
-        MOTION_ID, STRUCTURE, TIME_S, THETA_RAD, THETA_DOT_RAD_S, THETA_OVER_ALPHA, GROUND_M_S2, EVENT.or_null(),
+        MOTION_ID,
+        STRUCTURE,
+        TIME_S,
+        THETA_RAD,
+        THETA_DOT_RAD_S,
+        THETA_OVER_ALPHA,
+        GROUND_M_S2,
+        EVENT.or_null(),
     ],
 };
 
@@ -263,11 +307,33 @@ pub const PEX: Table = Table {
     name: "pex",
     stage: "fit-pex",
     columns: &[
-        SUITE.or_null(), STRUCTURE, MODEL, IM_X, IM_Y.or_null(), RANGE_LOW.or_null(), RANGE_HIGH.or_null(),
-        LIMIT_STATE, LN_A.or_null(), B1.or_null(), B2.or_null(), R2.or_null(), R2_POOLED.or_null(),
-        BETA.or_null(), ZETA.or_null(), N, SE_LN_A.or_null(), SE_B1.or_null(), SE_B2.or_null(),
-        LN_A_LOW.or_null(), LN_A_HIGH.or_null(), B1_LOW.or_null(), B1_HIGH.or_null(), B2_LOW.or_null(),
-        B2_HIGH.or_null(), STATUS,
+        SUITE.or_null(),
+        STRUCTURE,
+        MODEL,
+        IM_X,
+        IM_Y.or_null(),
+        RANGE_LOW.or_null(),
+        RANGE_HIGH.or_null(),
+        LIMIT_STATE,
+        LN_A.or_null(),
+        B1.or_null(),
+        B2.or_null(),
+        R2.or_null(),
+        R2_POOLED.or_null(),
+        TRANSITION_FOUND.or_null(),
+        BETA.or_null(),
+        ZETA.or_null(),
+        N,
+        SE_LN_A.or_null(),
+        SE_B1.or_null(),
+        SE_B2.or_null(),
+        LN_A_LOW.or_null(),
+        LN_A_HIGH.or_null(),
+        B1_LOW.or_null(),
+        B1_HIGH.or_null(),
+        B2_LOW.or_null(),
+        B2_HIGH.or_null(),
+        STATUS,
     ],
 };
 
@@ -283,11 +349,35 @@ pub const PRO: Table = Table {
     name: "pro",
     stage: "fit-pro",
     columns: &[
-        SUITE.or_null(), STRUCTURE, FITTED_EVENT, IM_X, IM_Y.or_null(), LAMBDA.or_null(), MU.or_null(), BETA.or_null(),
-        THETA.or_null(), LOG_LIKELIHOOD.or_null(), AIC.or_null(), BIC.or_null(), AUC.or_null(),
-        BRIER.or_null(), N, N_OVERTURNED, SE_LAMBDA.or_null(), SE_MU.or_null(), SE_BETA.or_null(),
-        SE_THETA.or_null(), LAMBDA_LOW.or_null(), LAMBDA_HIGH.or_null(), MU_LOW.or_null(), MU_HIGH.or_null(),
-        BETA_LOW.or_null(), BETA_HIGH.or_null(), THETA_LOW.or_null(), THETA_HIGH.or_null(), STATUS,
+        SUITE.or_null(),
+        STRUCTURE,
+        FITTED_EVENT,
+        IM_X,
+        IM_Y.or_null(),
+        LAMBDA.or_null(),
+        MU.or_null(),
+        BETA.or_null(),
+        THETA.or_null(),
+        LOG_LIKELIHOOD.or_null(),
+        AIC.or_null(),
+        BIC.or_null(),
+        AUC.or_null(),
+        BRIER.or_null(),
+        N,
+        N_OVERTURNED,
+        SE_LAMBDA.or_null(),
+        SE_MU.or_null(),
+        SE_BETA.or_null(),
+        SE_THETA.or_null(),
+        LAMBDA_LOW.or_null(),
+        LAMBDA_HIGH.or_null(),
+        MU_LOW.or_null(),
+        MU_HIGH.or_null(),
+        BETA_LOW.or_null(),
+        BETA_HIGH.or_null(),
+        THETA_LOW.or_null(),
+        THETA_HIGH.or_null(),
+        STATUS,
     ],
 };
 
@@ -296,7 +386,15 @@ pub const PAPER: Table = Table {
     name: "paper comparison",
     stage: "compare-paper",
     columns: &[
-        QUANTITY, PLACE, SUITE.or_null(), STRUCTURE.or_null(), PUBLISHED.or_null(), OURS.or_null(),
-        SPREAD_MEAN.or_null(), SPREAD_SD.or_null(), SEEDS, Z.or_null(),
+        QUANTITY,
+        PLACE,
+        SUITE.or_null(),
+        STRUCTURE.or_null(),
+        PUBLISHED.or_null(),
+        OURS.or_null(),
+        SPREAD_MEAN.or_null(),
+        SPREAD_SD.or_null(),
+        SEEDS,
+        Z.or_null(),
     ],
 };

@@ -98,8 +98,7 @@ impl TableWriter {
             self.writer.append_key_value_metadata(pair);
         }
         self.writer.finish().map_err(|source| self.failed(&source))?;
-        let failed =
-            |message: String| TableError::Write { path: self.path.clone(), message };
+        let failed = |message: String| TableError::Write { path: self.path.clone(), message };
         self.partial.as_file().sync_all().map_err(|source| failed(source.to_string()))?;
         self.partial.persist(&self.path).map_err(|refused| failed(refused.error.to_string()))?;
         Ok(())

@@ -1,0 +1,268 @@
+//! The command line: arguments only, and which stage they call.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+
+use crate::pipeline::config::Config;
+use crate::pipeline::console::Console;
+use crate::pipeline::options::resolve;
+use crate::pipeline::stage::{Stage, beside};
+use crate::pipeline::{UsageError, cache};
+use crate::stages::compare_paper::{ComparePaper, ComparePaperOptions};
+use crate::stages::fit_pex::{FitPex, FitPexOptions};
+use crate::stages::fit_pro::{FitPro, FitProOptions};
+use crate::stages::inspect::inspect;
+use crate::stages::run::{Files, dry_run, run, stages};
+use crate::stages::sample_scenarios::{SampleScenarios, SampleScenariosOptions};
+use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
+use crate::stages::simulate::{Simulate, SimulateOptions};
+use crate::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
+use crate::table::paper;
+
+/// Dimensionless fragility curves for rocking structures in near-fault earthquakes
+#[derive(Debug, Parser)]
+#[command(name = "rockfrag", version, max_term_width = 100)]
+struct Cli {
+    #[command(flatten)]
+    common: Common,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Args)]
+struct Common {
+    /// Pipeline file whose options hold where no flag is given
+    #[arg(long, global = true, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Threads [default: all cores]
+    #[arg(long, global = true, value_name = "N")]
+    threads: Option<usize>,
+    /// Say nothing but errors and results
+    #[arg(long, global = true)]
+    quiet: bool,
+    /// Progress bars on a terminal
+    #[arg(long, global = true, default_value = "auto")]
+    progress: Progress,
+    /// Run even what is up to date
+    #[arg(long, global = true)]
+    force: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Progress {
+    Auto,
+    Never,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Sample earthquake scenarios on a magnitude-distance grid
+    SampleScenarios {
+        /// Scenarios file to write
+        #[arg(long, default_value = "scenarios.parquet")]
+        out: PathBuf,
+        #[command(flatten)]
+        options: SampleScenariosOptions,
+    },
+    /// Synthesize near-fault ground motions: coherent pulse and stochastic high frequencies
+    SynthesizeMotions {
+        /// Scenarios to read
+        #[arg(long = "in", value_name = "FILE", default_value = "scenarios.parquet")]
+        input: PathBuf,
+        /// Motions file to write [default: motions.parquet beside the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: SynthesizeMotionsOptions,
+    },
+    /// Simulate the rocking response of structures to motions
+    Simulate {
+        /// Motions to read: ours, or anyone's with motion_id, dt_s and acceleration_m_s2
+        #[arg(long = "in", value_name = "FILE", default_value = "motions.parquet")]
+        input: PathBuf,
+        /// Responses file to write [default: responses.parquet beside the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: SimulateOptions,
+    },
+    /// Fit the demand in safe rocking: P_ex
+    FitPex {
+        /// Responses to read
+        #[arg(long = "in", value_name = "FILE", default_value = "responses.parquet")]
+        input: PathBuf,
+        /// Fits to write [default: pex.parquet beside the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: FitPexOptions,
+    },
+    /// Fit the probability of overturning: P_ro
+    FitPro {
+        /// Responses to read
+        #[arg(long = "in", value_name = "FILE", default_value = "responses.parquet")]
+        input: PathBuf,
+        /// Fits to write [default: pro.parquet beside the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: FitProOptions,
+    },
+    /// Hold our numbers against the published ones
+    ComparePaper {
+        /// Regressions of fit-pex
+        #[arg(long, default_value = "pex.parquet")]
+        pex: PathBuf,
+        /// Curves of fit-pro
+        #[arg(long, default_value = "pro.parquet")]
+        pro: PathBuf,
+        /// Responses that both were fitted to
+        #[arg(long, default_value = "responses.parquet")]
+        responses: PathBuf,
+        /// Comparison file to write [default: paper.parquet beside the regressions]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: ComparePaperOptions,
+    },
+    /// Run all stages of a pipeline file, skipping what is up to date
+    Run {
+        /// The pipeline file
+        #[arg(default_value = "pipeline.yaml")]
+        pipeline: PathBuf,
+        /// Folder of all files [default: as the pipeline file says, or out beside it]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        /// Seed of all stages
+        #[arg(long)]
+        seed: Option<u64>,
+        /// Only print the resolved plan, and why each stage would or would not run
+        #[arg(long)]
+        dry_run: bool,
+    },
+    /// Repeat the pipeline over seeds, to see how far its numbers move by chance
+    SeedSpread {
+        /// The pipeline file
+        #[arg(default_value = "pipeline.yaml")]
+        pipeline: PathBuf,
+        #[command(flatten)]
+        options: SeedSpreadOptions,
+    },
+    /// Show what a file holds and where it came from
+    Inspect {
+        /// A Parquet file
+        file: PathBuf,
+    },
+}
+
+/// Parses the command line and does what it says.
+///
+/// # Errors
+/// Those of the stage that was called; [`UsageError`] for a mistake in the call.
+pub fn main() -> anyhow::Result<()> {
+    let matches = Cli::command().get_matches();
+    let Cli { common, command } = Cli::from_arg_matches(&matches)?;
+    let console = Console { quiet: common.quiet, progress: common.progress == Progress::Auto };
+    if let Some(threads) = common.threads {
+        if threads == 0 {
+            return Err(UsageError::new("threads is 0; expected 1 or more"));
+        }
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
+    }
+    let config = common.config.as_deref().map(Config::read).transpose()?.unwrap_or_default();
+    let (_, flags) = matches.subcommand().ok_or_else(|| UsageError::new("no subcommand"))?;
+    let call = Call { config, flags, force: common.force, console };
+    call.dispatch(command)
+}
+
+/// A subcommand with what it needs of the command line.
+struct Call<'a> {
+    config: Config,
+    flags: &'a ArgMatches,
+    force: bool,
+    console: Console,
+}
+
+impl Call<'_> {
+    fn dispatch(&self, command: Command) -> anyhow::Result<()> {
+        match command {
+            Command::SampleScenarios { out, .. } => {
+                let options: SampleScenariosOptions =
+                    resolve(self.flags, self.config.sample_scenarios.as_ref())?;
+                self.stage(&SampleScenarios::new(&options, out)?)
+            }
+            Command::SynthesizeMotions { input, out, .. } => {
+                let options = resolve(self.flags, self.config.synthesize_motions.as_ref())?;
+                let out = out.unwrap_or_else(|| beside(&input, "motions.parquet"));
+                self.stage(&SynthesizeMotions::new(&options, input, out)?)
+            }
+            Command::Simulate { input, out, .. } => {
+                let mut options: SimulateOptions = resolve(self.flags, self.config.simulate.as_ref())?;
+                // One structure in flags wins over those of the file.
+                if ["p", "alpha", "eta"].iter().any(|flag| self.given(flag)) {
+                    options.structures = None;
+                }
+                let out = out.unwrap_or_else(|| beside(&input, "responses.parquet"));
+                self.stage(&Simulate::new(&options, input, out)?)
+            }
+            Command::FitPex { input, out, .. } => {
+                let options = resolve(self.flags, self.config.fit_pex.as_ref())?;
+                let out = out.unwrap_or_else(|| beside(&input, "pex.parquet"));
+                self.stage(&FitPex::new(&options, input, out)?)
+            }
+            Command::FitPro { input, out, .. } => {
+                let options = resolve(self.flags, self.config.fit_pro.as_ref())?;
+                let out = out.unwrap_or_else(|| beside(&input, "pro.parquet"));
+                self.stage(&FitPro::new(&options, input, out))
+            }
+            Command::ComparePaper { pex, pro, responses, out, .. } => {
+                let options = resolve(self.flags, self.config.compare_paper.as_ref())?;
+                let out = out.unwrap_or_else(|| beside(&pex, "paper.parquet"));
+                self.stage(&ComparePaper::new(&options, [pex, pro, responses], out.clone())?)?;
+                print(&paper::show(&out)?)
+            }
+            Command::Run { pipeline, out, seed, dry_run } => self.run(&pipeline, out, seed, dry_run),
+            Command::SeedSpread { pipeline, options } => {
+                let console = Console { progress: false, ..self.console };
+                seed_spread(&Config::read(&pipeline)?, &options, &console)
+            }
+            Command::Inspect { file } => print(&inspect(&file)?),
+        }
+    }
+
+    fn run(&self, pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>, dry: bool) -> anyhow::Result<()> {
+        let config = Config::read(pipeline)?;
+        let config = seed.map_or(config.clone(), |seed| config.with_seed(seed));
+        let folder =
+            out.unwrap_or_else(|| beside(pipeline, "").join(config.out.clone().unwrap_or("out".into())));
+        let files = Files::in_folder(&folder);
+        let stages = stages(&config, &files)?;
+        if stages.is_empty() {
+            return Err(UsageError::new(format!("{}: no stage; expected at least one", pipeline.display())));
+        }
+        if dry {
+            return print(&dry_run(&stages, self.force)?);
+        }
+        run(&stages, self.force, &self.console)?;
+        if config.compare_paper.is_some() { print(&paper::show(&files.paper)?) } else { Ok(()) }
+    }
+
+    fn stage(&self, stage: &dyn Stage) -> anyhow::Result<()> {
+        cache::run(stage, self.force, &self.console)
+    }
+
+    fn given(&self, flag: &str) -> bool {
+        self.flags.value_source(flag) == Some(ValueSource::CommandLine)
+    }
+}
+
+/// To stdout; a reader that has seen enough (`| head`) is no error.
+fn print(text: &str) -> anyhow::Result<()> {
+    match std::io::stdout().lock().write_all(text.as_bytes()) {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        done => Ok(done?),
+    }
+}

@@ -1,0 +1,64 @@
+use crate::keyword::keywords;
+use crate::motion::IntensityMeasures;
+use crate::rocking::Outcome;
+
+/// A response as the fits see it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Case {
+    /// Which branch of the tree it took.
+    pub outcome: Outcome,
+    /// |theta|max / alpha.
+    pub edp: f64,
+    /// The measures of Eq. 13.
+    pub measures: IntensityMeasures,
+}
+
+/// A dimensionless intensity measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Measure {
+    /// wp / p.
+    Im1,
+    /// wm / p.
+    Im2,
+    /// PGA / (p PGV).
+    Im3,
+    /// PGA / (g tan alpha).
+    Im4,
+    /// p PGV / (g tan alpha).
+    Im5,
+    /// wm PGV / (g tan alpha).
+    Im6,
+    /// p PGV / PGA: the frequency ratio of Figure 12.
+    Im3Inverse,
+}
+
+keywords!(Measure {
+    Im1 = "im1",
+    Im2 = "im2",
+    Im3 = "im3",
+    Im4 = "im4",
+    Im5 = "im5",
+    Im6 = "im6",
+    Im3Inverse = "im3_inv",
+});
+
+impl Measure {
+    /// The six of Eq. 13.
+    pub const SCALAR: [Measure; 6] =
+        [Measure::Im1, Measure::Im2, Measure::Im3, Measure::Im4, Measure::Im5, Measure::Im6];
+
+    /// Its value in a case; none where it is missing or not positive, so that it has no logarithm.
+    pub fn of(self, case: &Case) -> Option<f64> {
+        let measures = &case.measures;
+        let value = match self {
+            Measure::Im1 => measures.im1,
+            Measure::Im2 => measures.im2,
+            Measure::Im3 => measures.im3,
+            Measure::Im4 => Some(measures.im4),
+            Measure::Im5 => Some(measures.im5),
+            Measure::Im6 => measures.im6,
+            Measure::Im3Inverse => measures.im3.map(|im3| 1.0 / im3),
+        };
+        value.filter(|value| value.is_finite() && *value > 0.0)
+    }
+}

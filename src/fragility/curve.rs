@@ -1,0 +1,22 @@
+use crate::normal;
+
+/// Probability that the demand exceeds `limit` in safe rocking, of the logarithm of its median and its dispersion beta:
+/// Phi((ln Dm - ln c) / beta). Eq. 14 prints the argument with the other sign, by which it would fall with demand.
+pub fn p_exceeding(ln_median_demand: f64, limit: f64, beta: f64) -> f64 {
+    normal::cdf((ln_median_demand - limit.ln()) / beta)
+}
+
+/// Probability of overturning given rocking at the intensity `im` (Eq. 19): Phi((ln IM - mu) / beta).
+pub fn p_overturning(im: f64, mu: f64, beta: f64) -> f64 {
+    normal::cdf((im.ln() - mu) / beta)
+}
+
+/// Probability of no rocking, which IM4 = PGA/(g tan alpha) decides: 1 below uplift, 0 from there on.
+pub fn p_no_rocking(im4: f64) -> f64 {
+    if im4 < 1.0 { 1.0 } else { 0.0 }
+}
+
+/// Probability of failure given rocking (Eq. 12): P_ro + (1 - P_ro) P_ex.
+pub fn p_failure_given_rocking(p_overturning: f64, p_exceeding: f64) -> f64 {
+    p_overturning + (1.0 - p_overturning) * p_exceeding
+}

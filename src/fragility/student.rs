@@ -1,0 +1,67 @@
+/// The `x` below which Student's t with `degrees` > 0 of freedom lies with probability `p` in (0, 1).
+pub fn t_quantile(p: f64, degrees: f64) -> f64 {
+    if p < 0.5 {
+        return -t_quantile(1.0 - p, degrees);
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    while t_cdf(high, degrees) < p {
+        high *= 2.0;
+    }
+    // Bisection to the last bit: called once a fit, it need not be fast.
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle == low || middle == high {
+            return middle;
+        }
+        if t_cdf(middle, degrees) < p {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+}
+
+/// Cumulative probability of Student's t for x >= 0.
+fn t_cdf(x: f64, degrees: f64) -> f64 {
+    let upper_tail =
+        0.5 * incomplete_beta(0.5 * degrees, 0.5, degrees / (degrees + x * x), x * x / (degrees + x * x));
+    1.0 - upper_tail
+}
+
+/// The regularised incomplete beta function I_x(a, b), with `y` = 1 - x, by its continued fraction.
+fn incomplete_beta(a: f64, b: f64, x: f64, y: f64) -> f64 {
+    if x <= 0.0 || y <= 0.0 {
+        return if x <= 0.0 { 0.0 } else { 1.0 };
+    }
+    let ln_front = libm::lgamma(a + b) - libm::lgamma(a) - libm::lgamma(b) + a * x.ln() + b * y.ln();
+    if x < (a + 1.0) / (a + b + 2.0) {
+        ln_front.exp() * continued_fraction(a, b, x) / a
+    } else {
+        1.0 - ln_front.exp() * continued_fraction(b, a, y) / b
+    }
+}
+
+/// Lentz's evaluation.
+fn continued_fraction(a: f64, b: f64, x: f64) -> f64 {
+    const TINY: f64 = 1e-300;
+    let away_from_zero = |value: f64| if value.abs() < TINY { TINY } else { value };
+    let mut c = 1.0;
+    let mut d = 1.0 / away_from_zero(1.0 - (a + b) * x / (a + 1.0));
+    let mut fraction = d;
+    for m in 1..1000 {
+        let m = f64::from(m);
+        let even = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
+        let odd = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
+        let mut change = 1.0;
+        for term in [even, odd] {
+            d = 1.0 / away_from_zero(1.0 + term * d);
+            c = away_from_zero(1.0 + term / c);
+            change = c * d;
+            fraction *= change;
+        }
+        if (change - 1.0).abs() < 1e-16 {
+            break;
+        }
+    }
+    fraction
+}

@@ -1,0 +1,64 @@
+//! Words of a fixed list, as they stand in options and in files.
+
+use std::fmt;
+
+/// An enum whose variants each have one word.
+pub trait Keyword: Copy + PartialEq + 'static {
+    /// All variants.
+    const ALL: &'static [Self];
+
+    /// The word of a variant.
+    fn as_str(self) -> &'static str;
+}
+
+/// Gives each variant of an enum its word.
+macro_rules! keywords {
+    ($type:ident { $($variant:ident = $word:literal),* $(,)? }) => {
+        impl $crate::keyword::Keyword for $type {
+            const ALL: &'static [Self] = &[$(Self::$variant),*];
+
+            fn as_str(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $word),*
+                }
+            }
+        }
+    };
+}
+pub(crate) use keywords;
+
+/// A word that is not on the list.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnknownKeyword {
+    word: String,
+    known: Vec<&'static str>,
+}
+
+impl fmt::Display for UnknownKeyword {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "'{}' is none of {}", self.word, self.known.join(", "))?;
+        match nearest(&self.word, &self.known) {
+            Some(near) => write!(f, "; did you mean '{near}'?"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for UnknownKeyword {}
+
+/// The variant of a word.
+///
+/// # Errors
+/// If no variant has it, naming the nearest one.
+pub fn parse<T: Keyword>(word: &str) -> Result<T, UnknownKeyword> {
+    let known = || T::ALL.iter().map(|keyword| keyword.as_str());
+    let found = T::ALL.iter().find(|keyword| keyword.as_str() == word);
+    found.copied().ok_or_else(|| UnknownKeyword { word: word.to_string(), known: known().collect() })
+}
+
+/// The known word that looks most like this one, if any does.
+pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    let similarity = |candidate: &str| strsim::jaro_winkler(word, candidate);
+    let best = known.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
+    (similarity(best) > 0.7).then_some(*best)
+}

@@ -1,0 +1,57 @@
+use realfft::num_complex::Complex64;
+
+use crate::keyword::keywords;
+
+/// What becomes of the difference D = |H| - |P| of the Fourier amplitudes of high frequencies and pulse. The literature
+/// leaves it open where the pulse is the larger one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Difference {
+    /// |D|.
+    Absolute,
+    /// D, whose sign turns the phase by half a cycle.
+    Signed,
+    /// D where positive, else nothing.
+    Clamp,
+    /// No difference: the plain sum of both.
+    None,
+}
+
+/// The moment of the high-frequency motion at which the pulse peaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Epoch {
+    /// The peak of the window.
+    EnvelopePeak,
+    /// The peak ground acceleration of the high frequencies.
+    Pga,
+    /// Their peak ground velocity.
+    Pgv,
+}
+
+keywords!(Difference { Absolute = "absolute", Signed = "signed", Clamp = "clamp", None = "none" });
+keywords!(Epoch { EnvelopePeak = "envelope-peak", Pga = "pga", Pgv = "pgv" });
+
+impl Difference {
+    /// The amplitude D' that the high frequencies keep, of their own and of the pulse's.
+    pub fn amplitude(self, high_frequency: f64, pulse: f64) -> f64 {
+        match self {
+            Difference::Absolute => (high_frequency - pulse).abs(),
+            Difference::Signed => high_frequency - pulse,
+            Difference::Clamp => (high_frequency - pulse).max(0.0),
+            Difference::None => high_frequency,
+        }
+    }
+}
+
+/// Steps 4 to 6 of section 2.1.3 on Fourier coefficients: the spectrum of the combined motion, D' exp(i arg H) + P, into
+/// `high_frequency`. The mean stays 0, so that the ground comes to rest.
+pub fn combine(high_frequency: &mut [Complex64], pulse: &[Complex64], difference: Difference) {
+    for (h, p) in high_frequency.iter_mut().zip(pulse) {
+        let amplitude = h.norm();
+        let kept = difference.amplitude(amplitude, p.norm());
+        let scale = if amplitude > 0.0 { kept / amplitude } else { 0.0 };
+        *h = *h * scale + p;
+    }
+    if let Some(mean) = high_frequency.first_mut() {
+        *mean = Complex64::ZERO;
+    }
+}

@@ -1,0 +1,34 @@
+//! Near-fault ground motions: a coherent velocity pulse plus stochastic high frequencies (section 2.1).
+//!
+//! ```text
+//! scenario    magnitude, distance and the random parameters of the pulse (section 2.1.1)
+//! design      how a cell of the magnitude-distance grid is sampled
+//! pulse       Mavroeidis & Papageorgiou's pulse (Eq. 1)
+//! stochastic  Boore's stochastic method with the source of Atkinson & Silva (section 2.1.2)
+//! combine     high frequencies and pulse into one motion (section 2.1.3)
+//! synthesis   all of it for one scenario, on one time axis
+//! intensity   measures of any motion
+//! dimensionless  the six measures of Eq. 13
+//! ```
+
+mod combine;
+mod design;
+mod dimensionless;
+pub mod intensity;
+pub mod pulse;
+pub mod scenario;
+mod sobol;
+pub mod stochastic;
+mod suite;
+mod synthesis;
+
+pub use combine::{Difference, Epoch};
+pub use design::{Design, Grid};
+pub use dimensionless::IntensityMeasures;
+pub use intensity::{IntensityScratch, Measures, measures};
+pub use pulse::Pulse;
+pub use scenario::Scenario;
+pub use sobol::SobolSequence;
+pub use stochastic::StochasticModel;
+pub use suite::Suite;
+pub use synthesis::{MotionModel, Synthesizer, Synthetic};

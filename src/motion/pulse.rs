@@ -1,0 +1,88 @@
+//! The pulse of Mavroeidis & Papageorgiou (2003), Eq. 1.
+
+use std::f64::consts::PI;
+
+use super::scenario::Scenario;
+
+/// A velocity pulse: a cosine under a raised-cosine envelope.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pulse {
+    /// Amplitude A of Eq. 1, m/s; the largest velocity is A times [`largest_velocity`].
+    pub amplitude_m_s: f64,
+    /// Period Tp, s.
+    pub tp_s: f64,
+    /// Number of half cycles.
+    pub gamma: f64,
+    /// Phase, rad.
+    pub nu_rad: f64,
+}
+
+impl Pulse {
+    /// The pulse whose largest velocity is the Vp of the scenario.
+    pub fn of(scenario: &Scenario) -> Pulse {
+        let Scenario { vp_m_s, tp_s, gamma, nu_rad, .. } = *scenario;
+        Pulse { amplitude_m_s: vp_m_s / largest_velocity(gamma, nu_rad), tp_s, gamma, nu_rad }
+    }
+
+    /// How long it lasts: gamma Tp, s.
+    pub fn duration_s(&self) -> f64 {
+        self.gamma * self.tp_s
+    }
+
+    /// Ground velocity, m/s, at a time (s) from the middle of the pulse (Eq. 1).
+    pub fn velocity_m_s(&self, time_s: f64) -> f64 {
+        self.phase(time_s).map_or(0.0, |x| self.amplitude_m_s * unit_velocity(x, self.gamma, self.nu_rad))
+    }
+
+    /// Ground acceleration, m/s2, at a time (s) from the middle of the pulse: the derivative of Eq. 1.
+    pub fn acceleration_m_s2(&self, time_s: f64) -> f64 {
+        let wp = 2.0 * PI / self.tp_s;
+        self.phase(time_s)
+            .map_or(0.0, |x| self.amplitude_m_s * wp * unit_acceleration(x, self.gamma, self.nu_rad))
+    }
+
+    /// x = wp (t - t0) inside the pulse.
+    fn phase(&self, time_s: f64) -> Option<f64> {
+        let x = 2.0 * PI / self.tp_s * time_s;
+        (x.abs() <= PI * self.gamma).then_some(x)
+    }
+}
+
+/// v / A of Eq. 1 as a function of x = wp (t - t0).
+fn unit_velocity(x: f64, gamma: f64, nu: f64) -> f64 {
+    0.5 * (1.0 + libm::cos(x / gamma)) * libm::cos(x + nu)
+}
+
+/// dv/dx / A.
+fn unit_acceleration(x: f64, gamma: f64, nu: f64) -> f64 {
+    let (sin, cos) = (libm::sin(x / gamma), libm::cos(x / gamma));
+    -0.5 / gamma * (sin * libm::cos(x + nu) + gamma * (1.0 + cos) * libm::sin(x + nu))
+}
+
+/// F(gamma, nu): the largest |v| / A of a pulse.
+///
+/// Velocities peak where the acceleration changes sign; a scan brackets each such place and bisection finds it.
+pub fn largest_velocity(gamma: f64, nu: f64) -> f64 {
+    let end = PI * gamma;
+    // Eight points in a half cycle separate the peaks, which are a half cycle apart.
+    let points = (8.0 * (gamma + 1.0)).ceil() as usize * 2;
+    let at = |k: usize| -end + 2.0 * end * k as f64 / points as f64;
+    let mut largest = 0.0_f64;
+    for k in 0..points {
+        let (mut low, mut high) = (at(k), at(k + 1));
+        let rising = unit_acceleration(low, gamma, nu) > 0.0;
+        if rising != (unit_acceleration(high, gamma, nu) > 0.0) {
+            // The velocity is stationary at its peak: 30 halvings make its error far smaller than rounding.
+            for _ in 0..30 {
+                let middle = 0.5 * (low + high);
+                if (unit_acceleration(middle, gamma, nu) > 0.0) == rising {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+        }
+        largest = largest.max(unit_velocity(low, gamma, nu).abs()).max(unit_velocity(high, gamma, nu).abs());
+    }
+    largest
+}

@@ -1,0 +1,77 @@
+use crate::normal;
+
+/// An earthquake as seen from a site: where, how large, and the velocity pulse that it sends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scenario {
+    /// Cell times samples in a cell, plus sample.
+    pub scenario_id: i64,
+    /// Cell of the magnitude-distance grid, magnitude first.
+    pub cell: i32,
+    /// Sample within the cell.
+    pub sample: i32,
+    /// Moment magnitude.
+    pub mw: f64,
+    /// Distance from the rupture, km.
+    pub re_km: f64,
+    /// Amplitude of the velocity pulse, m/s.
+    pub vp_m_s: f64,
+    /// Period of the pulse, s.
+    pub tp_s: f64,
+    /// Number of half cycles of the pulse.
+    pub gamma: f64,
+    /// Phase of the pulse, rad.
+    pub nu_rad: f64,
+}
+
+/// Magnitude at which the amplitude of the pulse saturates.
+const SATURATION_MW: f64 = 7.0;
+/// Standard deviation of log10 Vp.
+const SIGMA_LOG10_VP: f64 = 0.16;
+/// Standard deviation of log10 Tp.
+const SIGMA_LOG10_TP: f64 = 0.18;
+/// Mean and standard deviation of gamma, which is normal above 1.
+const GAMMA: (f64, f64) = (1.93, 0.47);
+/// Mean and standard deviation of nu, rad.
+const NU_RAD: (f64, f64) = (1.83, 0.98);
+
+/// The random parameters of a pulse.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PulseParameters {
+    /// Amplitude, m/s.
+    pub vp_m_s: f64,
+    /// Period, s.
+    pub tp_s: f64,
+    /// Number of half cycles.
+    pub gamma: f64,
+    /// Phase, rad.
+    pub nu_rad: f64,
+}
+
+impl PulseParameters {
+    /// The parameters at the quantiles `u` (four numbers in (0, 1), for Vp, Tp, gamma and nu) of their distributions
+    /// for a magnitude and a distance (km): Vp and Tp lognormal, gamma normal truncated below at 1, nu normal.
+    pub fn at_quantiles(mw: f64, re_km: f64, u: [f64; 4]) -> PulseParameters {
+        let log10_vp = median_log10_vp_cm_s(mw, re_km) + SIGMA_LOG10_VP * normal::quantile(u[0]);
+        let log10_tp = median_log10_tp_s(mw) + SIGMA_LOG10_TP * normal::quantile(u[1]);
+        let (mean, sd) = GAMMA;
+        let below = normal::cdf((1.0 - mean) / sd);
+        let gamma = mean + sd * normal::quantile(below + u[2] * (1.0 - below));
+        PulseParameters {
+            vp_m_s: libm::exp10(log10_vp) / crate::units::CM_PER_M,
+            tp_s: libm::exp10(log10_tp),
+            gamma: gamma.max(1.0),
+            nu_rad: NU_RAD.0 + NU_RAD.1 * normal::quantile(u[3]),
+        }
+    }
+}
+
+/// Median log10 of the pulse amplitude Vp, cm/s (section 2.1.1); the magnitude counts up to 7.
+pub fn median_log10_vp_cm_s(mw: f64, re_km: f64) -> f64 {
+    let m = mw.min(SATURATION_MW);
+    -5.17 + 1.98 * m - 0.14 * m * m - 0.10 * libm::log10(re_km * re_km + 0.562)
+}
+
+/// Median log10 of the pulse period Tp, s (section 2.1.1).
+pub fn median_log10_tp_s(mw: f64) -> f64 {
+    -2.87 + 0.47 * mw
+}

@@ -1,0 +1,87 @@
+//! Whether a stage is up to date: the plan recorded in its files equals the plan of what it would do.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::console::Console;
+use super::stage::Stage;
+use crate::table::TableError;
+use crate::table::provenance::{Provenance, stamp};
+
+/// Whether a stage must run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Freshness {
+    /// Its files hold what it would write.
+    UpToDate,
+    /// They do not; why.
+    Stale(String),
+}
+
+/// Compares the files of a stage with what it would write.
+pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
+    for path in stage.outputs() {
+        match stamp(&path) {
+            Ok(Some(stamp)) if stamp.plan == planned.plan() => {}
+            Ok(Some(stamp)) => return Freshness::Stale(difference(&stamp.provenance, planned)),
+            Ok(None) => return Freshness::Stale(format!("{} was not made by rockfrag", path.display())),
+            Err(TableError::Missing { .. }) => {
+                return Freshness::Stale(format!("{} is not there", file_name(&path)));
+            }
+            Err(_) => return Freshness::Stale(format!("{} cannot be read", file_name(&path))),
+        }
+    }
+    Freshness::UpToDate
+}
+
+/// Runs a stage unless it is up to date, and says which.
+///
+/// # Errors
+/// Those of the stage.
+pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<()> {
+    let planned = stage.provenance()?;
+    let name = stage.name();
+    if !force && freshness(stage, &planned) == Freshness::UpToDate {
+        console.note(&format!("{name:20} up to date"));
+        return Ok(());
+    }
+    for path in stage.outputs() {
+        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            std::fs::create_dir_all(folder).map_err(|source| TableError::io(folder, source))?;
+        }
+    }
+    let start = std::time::Instant::now();
+    let summary = stage.execute(&planned, console)?;
+    console.note(&format!("{name:20} {summary} in {:.2} s", start.elapsed().as_secs_f64()));
+    Ok(())
+}
+
+/// The first thing in which two ways of making a file differ.
+fn difference(before: &Provenance, now: &Provenance) -> String {
+    if before.stage != now.stage {
+        return format!("the file there is the output of {}", before.stage);
+    }
+    if before.version != now.version {
+        return format!("made by version {}, this is {}", before.version, now.version);
+    }
+    if let (Value::Object(old), Value::Object(new)) = (&before.parameters, &now.parameters)
+        && let Some((name, value)) = new.iter().find(|(name, value)| old.get(*name) != Some(value))
+    {
+        let old = old.get(name).map_or("nothing".to_string(), short);
+        return format!("{name} changed from {old} to {}", short(value));
+    }
+    let changed = now.inputs.iter().find(|(role, content)| before.inputs.get(*role) != Some(content));
+    match changed {
+        Some((role, _)) => format!("the {role} changed"),
+        None => "its parameters changed".to_string(),
+    }
+}
+
+fn short(value: &Value) -> String {
+    let text = value.to_string();
+    if text.chars().count() > 60 { format!("{}...", text.chars().take(57).collect::<String>()) } else { text }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}

@@ -1,0 +1,99 @@
+//! pipeline.yaml: the stages of a run and their options.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use super::UsageError;
+use crate::keyword::nearest;
+use crate::stages::compare_paper::ComparePaperOptions;
+use crate::stages::fit_pex::FitPexOptions;
+use crate::stages::fit_pro::FitProOptions;
+use crate::stages::sample_scenarios::SampleScenariosOptions;
+use crate::stages::simulate::SimulateOptions;
+use crate::stages::synthesize_motions::SynthesizeMotionsOptions;
+
+/// The whole file. A stage that is left out is not run.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct Config {
+    /// Seed of the stages that draw random numbers, unless they have their own.
+    pub seed: Option<u64>,
+    /// Folder of all files, relative to this one.
+    pub out: Option<PathBuf>,
+    /// Options of sample-scenarios.
+    pub sample_scenarios: Option<SampleScenariosOptions>,
+    /// Options of synthesize-motions.
+    pub synthesize_motions: Option<SynthesizeMotionsOptions>,
+    /// Options of simulate.
+    pub simulate: Option<SimulateOptions>,
+    /// Options of fit-pex.
+    pub fit_pex: Option<FitPexOptions>,
+    /// Options of fit-pro.
+    pub fit_pro: Option<FitProOptions>,
+    /// Options of compare-paper.
+    pub compare_paper: Option<ComparePaperOptions>,
+}
+
+impl Config {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// If it is missing, is no YAML (with line and column), or has an unknown key (naming the nearest known one) or a
+    /// value of another type.
+    pub fn read(path: &Path) -> anyhow::Result<Config> {
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            UsageError::new(format!("{}: {error}; expected a pipeline file", path.display()))
+        })?;
+        let mut config: Config = serde_saphyr::from_str(&text)
+            .map_err(|error| UsageError::new(format!("{}: {}", path.display(), explain(&error))))?;
+        config.spread_seed();
+        if let Some(simulate) = &mut config.simulate {
+            simulate.resolve_paths(path.parent().unwrap_or(Path::new("")));
+        }
+        Ok(config)
+    }
+
+    /// Gives the seed of the file to each stage that has none of its own.
+    pub fn spread_seed(&mut self) {
+        if let (Some(seed), Some(options)) = (self.seed, &mut self.sample_scenarios) {
+            options.seed = options.seed.or(Some(seed));
+        }
+        if let (Some(seed), Some(options)) = (self.seed, &mut self.synthesize_motions) {
+            options.seed = options.seed.or(Some(seed));
+        }
+    }
+
+    /// The same run with another seed in all stages.
+    pub fn with_seed(&self, seed: u64) -> Config {
+        let mut config = self.clone();
+        config.seed = Some(seed);
+        if let Some(options) = &mut config.sample_scenarios {
+            options.seed = None;
+        }
+        if let Some(options) = &mut config.synthesize_motions {
+            options.seed = None;
+        }
+        config.spread_seed();
+        config
+    }
+}
+
+/// One line: where, what, and for an unknown key the nearest known one.
+pub fn explain(error: &serde_saphyr::Error) -> String {
+    let error = error.without_snippet();
+    let place = error
+        .location()
+        .map(|at| format!("line {}, column {}: ", at.line(), at.column()))
+        .unwrap_or_default();
+    if let serde_saphyr::Error::SerdeUnknownField { field, expected, .. } = error {
+        let hint = match nearest(field, expected) {
+            Some(near) => format!("did you mean '{near}'?"),
+            None => format!("expected one of {}", expected.join(", ")),
+        };
+        return format!("{place}unknown key '{field}'; {hint}");
+    }
+    let message = error.to_string();
+    let mut lines = message.lines();
+    format!("{place}{}", lines.next().unwrap_or_default())
+}

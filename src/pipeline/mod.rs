@@ -1,0 +1,29 @@
+//! What must run, and running it.
+//!
+//! ```text
+//! options  words, lists and ranges as they stand in options; flags over file over defaults
+//! config   pipeline.yaml
+//! stage    what every stage has: inputs, parameters, outputs, work
+//! cache    whether a stage is up to date, and if not, why
+//! stream   read, work and write at the same time, in order
+//! console  progress, notes and warnings on stderr
+//! ```
+
+pub mod cache;
+pub mod config;
+pub mod console;
+pub mod options;
+pub mod stage;
+pub mod stream;
+
+/// A mistake in how rockfrag was called or configured: exit code 2.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct UsageError(pub String);
+
+impl UsageError {
+    /// With what was expected.
+    pub fn new(message: impl Into<String>) -> anyhow::Error {
+        UsageError(message.into()).into()
+    }
+}

@@ -1,0 +1,51 @@
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::console::Console;
+use crate::table::TableError;
+use crate::table::provenance::{Provenance, content_of};
+
+/// A stage about to run: files in, parameters, files out.
+pub trait Stage {
+    /// The subcommand.
+    fn name(&self) -> &'static str;
+
+    /// The files it reads, by the role each plays.
+    fn inputs(&self) -> Vec<(&'static str, PathBuf)>;
+
+    /// The files it writes; the last one is complete only when all are.
+    fn outputs(&self) -> Vec<PathBuf>;
+
+    /// All that its rows depend on besides the inputs.
+    fn parameters(&self) -> Value;
+
+    /// Does the work and says in a few words what came of it.
+    ///
+    /// # Errors
+    /// If an input cannot be used or an output not be written.
+    fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String>;
+
+    /// What its files will say of how they were made.
+    ///
+    /// # Errors
+    /// If an input is missing or unreadable.
+    fn provenance(&self) -> Result<Provenance, TableError> {
+        let content = |(role, path): (&str, PathBuf)| Ok((role.to_string(), content_of(&path)?));
+        let inputs =
+            self.inputs().into_iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
+        Ok(Provenance::new(self.name(), self.parameters(), inputs))
+    }
+}
+
+/// `name` in the folder of `path`.
+pub fn beside(path: &Path, name: &str) -> PathBuf {
+    path.with_file_name(name)
+}
+
+/// `pex.parquet` becomes `pex.scan.parquet`: a further output of the same stage.
+pub fn with_part(path: &Path, part: &str) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}.{part}.parquet"))
+}

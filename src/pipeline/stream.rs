@@ -1,0 +1,72 @@
+//! Read, work and write at the same time, in order, with bounded queues between: memory does not grow with the number of
+//! items.
+
+use std::sync::Mutex;
+use std::sync::mpsc::sync_channel;
+use std::thread;
+
+/// Items that wait between two steps.
+const QUEUE: usize = 2;
+
+/// Passes each item of `source` through `work` to `sink`. Source and sink each run on a thread of their own, the work on
+/// this one; the first error of any ends all.
+///
+/// # Errors
+/// The first one of source, work or sink.
+pub fn pipelined<A: Send, B: Send>(
+    source: impl Iterator<Item = anyhow::Result<A>> + Send,
+    work: impl Fn(A) -> anyhow::Result<B>,
+    mut sink: impl FnMut(B) -> anyhow::Result<()> + Send,
+) -> anyhow::Result<()> {
+    thread::scope(|scope| {
+        let (to_work, from_source) = sync_channel(QUEUE);
+        let (to_sink, from_work) = sync_channel(QUEUE);
+        scope.spawn(move || {
+            for item in source {
+                let last = item.is_err();
+                // A closed queue means that a later step has failed and will say so.
+                if to_work.send(item).is_err() || last {
+                    break;
+                }
+            }
+        });
+        let writer = scope.spawn(move || from_work.into_iter().try_for_each(&mut sink));
+        let mut worked = Ok(true);
+        for item in from_source {
+            worked = item.and_then(&work).map(|done| to_sink.send(done).is_ok());
+            // A closed queue means that the sink has failed and will say so.
+            if !matches!(worked, Ok(true)) {
+                break;
+            }
+        }
+        drop(to_sink);
+        let written =
+            writer.join().unwrap_or_else(|_| Err(anyhow::anyhow!("the writer stopped unexpectedly")));
+        worked?;
+        written
+    })
+}
+
+/// Scratch that threads take, use and put back: as many as there are threads, whatever the number of items.
+pub struct Pool<T> {
+    idle: Mutex<Vec<T>>,
+    make: Box<dyn Fn() -> T + Sync>,
+}
+
+impl<T> Pool<T> {
+    /// Of scratch made like this.
+    pub fn new(make: impl Fn() -> T + Sync + 'static) -> Pool<T> {
+        Pool { idle: Mutex::new(Vec::new()), make: Box::new(make) }
+    }
+
+    /// Lends one to `work`.
+    pub fn lend<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
+        let idle = self.idle.lock().ok().and_then(|mut idle| idle.pop());
+        let mut scratch = idle.unwrap_or_else(|| (self.make)());
+        let result = work(&mut scratch);
+        if let Ok(mut idle) = self.idle.lock() {
+            idle.push(scratch);
+        }
+        result
+    }
+}

@@ -1,0 +1,192 @@
+//! compare-paper: each number that the paper publishes beside ours.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use super::groups::{self, Group};
+use crate::fragility::{Plane, p_overturning, rms_difference};
+use crate::pipeline::console::Console;
+use crate::pipeline::options::defaults;
+use crate::pipeline::stage::Stage;
+use crate::table::paper::{self, PaperRow, Published, SpreadRow};
+use crate::table::provenance::Provenance;
+use crate::table::schema::PAPER;
+use crate::table::writer::TableWriter;
+use crate::table::{pex::PexFrame, pro::ProFrame};
+
+/// Against which spread over seeds our numbers are held.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct ComparePaperOptions {
+    /// CSV file of the numbers over seeds, as seed-spread writes it [default: the one shipped, of the paper's set-up]
+    #[arg(long)]
+    pub spread: Option<PathBuf>,
+}
+
+impl Default for ComparePaperOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+/// The stage, ready to run.
+pub struct ComparePaper {
+    published: Vec<Published>,
+    spread: Vec<SpreadRow>,
+    pex: PathBuf,
+    pro: PathBuf,
+    responses: PathBuf,
+    out: PathBuf,
+}
+
+impl ComparePaper {
+    /// Of the fits in `pex` and `pro` and their `responses`, into the file `out`.
+    ///
+    /// # Errors
+    /// If the spread cannot be read.
+    pub fn new(
+        options: &ComparePaperOptions,
+        [pex, pro, responses]: [PathBuf; 3],
+        out: PathBuf,
+    ) -> anyhow::Result<ComparePaper> {
+        let spread = paper::spread(options.spread.as_deref())?;
+        Ok(ComparePaper { published: paper::published()?, spread, pex, pro, responses, out })
+    }
+}
+
+/// The fits and cases from which our numbers come.
+struct Ours {
+    groups: Vec<Group>,
+    pex: PexFrame,
+    pro: ProFrame,
+    published: Vec<Published>,
+}
+
+/// One side of the transition, IM4 = 1.30 in the paper.
+#[derive(Clone, Copy)]
+enum Side {
+    Low,
+    High,
+}
+
+impl Side {
+    fn range(self) -> std::ops::Range<f64> {
+        match self {
+            Side::Low => 1.0..paper::TRANSITION,
+            Side::High => paper::TRANSITION..f64::INFINITY,
+        }
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Side::Low => "low",
+            Side::High => "high",
+        }
+    }
+}
+
+impl Ours {
+    /// Our value of a published quantity; none where our files do not have it.
+    fn value(&self, wanted: &Published) -> Option<f64> {
+        let (suite, structure) = (wanted.suite.as_str(), wanted.structure.as_str());
+        let quantity = wanted.quantity.as_str();
+        for side in [Side::Low, Side::High] {
+            if let Some(rest) = quantity.strip_prefix(side.word()).and_then(|rest| rest.strip_prefix('_')) {
+                return match rest {
+                    "rms_ln_edp" => self.rms(suite, structure, side),
+                    "rms_over_beta" => {
+                        let beta = self.plane_number(suite, structure, side, "beta")?;
+                        Some(self.rms(suite, structure, side)? / beta)
+                    }
+                    column => self.plane_number(suite, structure, side, column),
+                };
+            }
+        }
+        if let Some(im) = quantity.strip_prefix("p_ro_at_") {
+            let curve = |column| self.pro.number(suite, structure, "im4", Some("im3_inv"), column);
+            return Some(p_overturning(im.parse().ok()?, curve("mu")?, curve("beta")?));
+        }
+        match quantity {
+            "transition" => self.plane_number(suite, structure, Side::High, "transition_found"),
+            "r2_pooled" => self.plane_number(suite, structure, Side::High, "r2_pooled"),
+            "hybrid_lambda" => self.pro.number(suite, structure, "im4", Some("im3_inv"), "lambda"),
+            "im5_theta" => self.pro.number(suite, structure, "im5", None, "theta"),
+            "im5_beta" => self.pro.number(suite, structure, "im5", None, "beta"),
+            _ => None,
+        }
+    }
+
+    fn plane_number(&self, suite: &str, structure: &str, side: Side, column: &str) -> Option<f64> {
+        self.pex.plane_number(suite, structure, matches!(side, Side::Low), column)
+    }
+
+    /// How far the published plane lies from ours over our own cases, in ln EDP.
+    fn rms(&self, suite: &str, structure: &str, side: Side) -> Option<f64> {
+        let published = |coefficient: &str| {
+            let quantity = format!("{}_{coefficient}", side.word());
+            self.published.iter().find(|p| p.is(&quantity, suite, structure)).and_then(|p| p.published)
+        };
+        let ours = |coefficient| self.plane_number(suite, structure, side, coefficient);
+        let theirs = Plane { ln_a: published("ln_a")?, b1: published("b1")?, b2: published("b2")? };
+        let ours = Plane { ln_a: ours("ln_a")?, b1: ours("b1")?, b2: ours("b2")? };
+        let group =
+            self.groups.iter().find(|g| g.suite.as_deref() == Some(suite) && g.structure == structure)?;
+        rms_difference(&theirs, &ours, &group.cases, side.range())
+    }
+}
+
+/// Values over seeds of each quantity, suite and structure.
+fn by_quantity(spread: &[SpreadRow]) -> BTreeMap<(&str, &str, &str), Vec<f64>> {
+    let mut values: BTreeMap<_, Vec<f64>> = BTreeMap::new();
+    for row in spread {
+        let key = (row.quantity.as_str(), row.suite.as_str(), row.structure.as_str());
+        values.entry(key).or_default().push(row.value);
+    }
+    values
+}
+
+impl Stage for ComparePaper {
+    fn name(&self) -> &'static str {
+        PAPER.stage
+    }
+
+    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
+        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), ("responses", self.responses.clone())]
+    }
+
+    fn outputs(&self) -> Vec<PathBuf> {
+        vec![self.out.clone()]
+    }
+
+    fn parameters(&self) -> Value {
+        let hash = |rows: Value| blake3::hash(rows.to_string().as_bytes()).to_hex().to_string();
+        json!({ "published": hash(json!(self.published)), "spread": hash(json!(self.spread)) })
+    }
+
+    fn execute(&self, provenance: &Provenance, _console: &Console) -> anyhow::Result<String> {
+        let ours = Ours {
+            groups: groups::read(&self.responses)?,
+            pex: PexFrame::read(&self.pex)?,
+            pro: ProFrame::read(&self.pro)?,
+            published: self.published.clone(),
+        };
+        let spread = by_quantity(&self.spread);
+        let row = |published: &Published| {
+            let key = (published.quantity.as_str(), published.suite.as_str(), published.structure.as_str());
+            let values = spread.get(&key).map_or(&[][..], Vec::as_slice);
+            PaperRow::new(published.clone(), ours.value(published), values)
+        };
+        let rows: Vec<PaperRow> = self.published.iter().map(row).collect();
+        let mut writer = TableWriter::create(&self.out, &PAPER, provenance.clone())?;
+        writer.append(&paper::batch(&rows)?)?;
+        writer.finish()?;
+        Ok(format!(
+            "{} published numbers",
+            rows.iter().filter(|row| row.published.published.is_some()).count()
+        ))
+    }
+}

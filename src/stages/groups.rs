@@ -1,0 +1,67 @@
+//! The responses of each suite and structure, as the fits take them.
+
+use std::path::Path;
+
+use anyhow::Context;
+use polars::prelude::{Column, DataFrame};
+
+use crate::fragility::Case;
+use crate::keyword;
+use crate::motion::IntensityMeasures;
+use crate::table::reader::read_frame;
+use crate::table::schema::{self, RESPONSES};
+
+/// All responses of one structure to one suite.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// The suite, if known.
+    pub suite: Option<String>,
+    /// The structure.
+    pub structure: String,
+    /// Its responses, in the order of the file.
+    pub cases: Vec<Case>,
+}
+
+/// The groups of a responses file, in the order in which they first appear.
+///
+/// # Errors
+/// If the file is none of responses or holds an unknown outcome.
+pub fn read(path: &Path) -> anyhow::Result<Vec<Group>> {
+    let responses = read_frame(path, &RESPONSES)?;
+    let groups = responses.partition_by_stable([schema::SUITE.name, schema::STRUCTURE.name], true)?;
+    groups.iter().map(|group| of(group).with_context(|| path.display().to_string())).collect()
+}
+
+fn of(frame: &DataFrame) -> anyhow::Result<Group> {
+    let number = |column: schema::Column| -> anyhow::Result<Vec<Option<f64>>> {
+        Ok(frame.column(column.name)?.f64()?.iter().collect())
+    };
+    let finite = |column| -> anyhow::Result<Vec<f64>> {
+        Ok(number(column)?.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
+    };
+    let outcomes = frame.column(schema::OUTCOME.name)?.str()?;
+    let edp = finite(schema::EDP)?;
+    let (im1, im2, im3) = (number(schema::IM1)?, number(schema::IM2)?, number(schema::IM3)?);
+    let (im4, im5, im6) = (finite(schema::IM4)?, finite(schema::IM5)?, number(schema::IM6)?);
+    let case = |(row, outcome): (usize, Option<&str>)| {
+        let outcome = keyword::parse(outcome.unwrap_or_default()).context("column 'outcome'")?;
+        let measures = IntensityMeasures {
+            im1: im1[row],
+            im2: im2[row],
+            im3: im3[row],
+            im4: im4[row],
+            im5: im5[row],
+            im6: im6[row],
+        };
+        Ok(Case { outcome, edp: edp[row], measures })
+    };
+    Ok(Group {
+        suite: first_text(frame.column(schema::SUITE.name)?)?,
+        structure: first_text(frame.column(schema::STRUCTURE.name)?)?.unwrap_or_default(),
+        cases: outcomes.iter().enumerate().map(case).collect::<anyhow::Result<_>>()?,
+    })
+}
+
+fn first_text(column: &Column) -> anyhow::Result<Option<String>> {
+    Ok(column.str()?.get(0).map(str::to_string))
+}

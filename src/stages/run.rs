@@ -1,0 +1,118 @@
+//! run: all stages of pipeline.yaml in order, skipping what is up to date.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use super::compare_paper::ComparePaper;
+use super::fit_pex::FitPex;
+use super::fit_pro::FitPro;
+use super::sample_scenarios::SampleScenarios;
+use super::simulate::Simulate;
+use super::synthesize_motions::SynthesizeMotions;
+use crate::pipeline::cache::{self, Freshness, freshness};
+use crate::pipeline::config::Config;
+use crate::pipeline::console::Console;
+use crate::pipeline::stage::Stage;
+
+/// The files of a run, in one folder.
+#[derive(Debug, Clone)]
+pub struct Files {
+    /// Of sample-scenarios.
+    pub scenarios: PathBuf,
+    /// Of synthesize-motions.
+    pub motions: PathBuf,
+    /// Of simulate.
+    pub responses: PathBuf,
+    /// Of fit-pex.
+    pub pex: PathBuf,
+    /// Of fit-pro.
+    pub pro: PathBuf,
+    /// Of compare-paper.
+    pub paper: PathBuf,
+}
+
+impl Files {
+    /// In this folder.
+    pub fn in_folder(folder: &Path) -> Files {
+        let file = |name: &str| folder.join(name);
+        Files {
+            scenarios: file("scenarios.parquet"),
+            motions: file("motions.parquet"),
+            responses: file("responses.parquet"),
+            pex: file("pex.parquet"),
+            pro: file("pro.parquet"),
+            paper: file("paper.parquet"),
+        }
+    }
+}
+
+/// The stages that a configuration asks for, in order.
+///
+/// # Errors
+/// If an option is out of range.
+pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stage>>> {
+    let mut stages: Vec<Box<dyn Stage>> = Vec::new();
+    if let Some(options) = &config.sample_scenarios {
+        stages.push(Box::new(SampleScenarios::new(options, files.scenarios.clone())?));
+    }
+    if let Some(options) = &config.synthesize_motions {
+        let (input, out) = (files.scenarios.clone(), files.motions.clone());
+        stages.push(Box::new(SynthesizeMotions::new(options, input, out)?));
+    }
+    if let Some(options) = &config.simulate {
+        stages.push(Box::new(Simulate::new(options, files.motions.clone(), files.responses.clone())?));
+    }
+    if let Some(options) = &config.fit_pex {
+        stages.push(Box::new(FitPex::new(options, files.responses.clone(), files.pex.clone())?));
+    }
+    if let Some(options) = &config.fit_pro {
+        stages.push(Box::new(FitPro::new(options, files.responses.clone(), files.pro.clone())));
+    }
+    if let Some(options) = &config.compare_paper {
+        let inputs = [files.pex.clone(), files.pro.clone(), files.responses.clone()];
+        stages.push(Box::new(ComparePaper::new(options, inputs, files.paper.clone())?));
+    }
+    Ok(stages)
+}
+
+/// Runs the stages in order.
+///
+/// # Errors
+/// That of the first stage that fails.
+pub fn run(stages: &[Box<dyn Stage>], force: bool, console: &Console) -> anyhow::Result<()> {
+    stages.iter().try_for_each(|stage| cache::run(stage.as_ref(), force, console))
+}
+
+/// What a run would do and why, without doing it.
+///
+/// # Errors
+/// If an input that no stage makes is missing.
+pub fn dry_run(stages: &[Box<dyn Stage>], force: bool) -> anyhow::Result<String> {
+    let mut text = String::new();
+    let mut anew: Vec<PathBuf> = Vec::new();
+    for stage in stages {
+        let waits = stage.inputs().into_iter().find(|(_, path)| anew.contains(path));
+        let state = match waits {
+            Some((role, _)) => Freshness::Stale(format!("the {role} are made anew")),
+            None if force => Freshness::Stale("--force".to_string()),
+            None => freshness(stage.as_ref(), &stage.provenance()?),
+        };
+        let verdict = match &state {
+            Freshness::UpToDate => "up to date".to_string(),
+            Freshness::Stale(reason) => format!("would run: {reason}"),
+        };
+        writeln!(text, "{:20} {verdict}", stage.name())?;
+        if let serde_json::Value::Object(parameters) = stage.parameters() {
+            for (name, value) in parameters {
+                writeln!(text, "    {name}: {value}")?;
+            }
+        }
+        for path in stage.outputs() {
+            writeln!(text, "    -> {}", path.display())?;
+        }
+        if state != Freshness::UpToDate {
+            anew.extend(stage.outputs());
+        }
+    }
+    Ok(text)
+}

@@ -1,0 +1,114 @@
+//! sample-scenarios: the magnitude-distance grid and the random parameters of the pulses.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::motion::{Design, Grid};
+use crate::pipeline::console::Console;
+use crate::pipeline::options::{Steps, Word, check, defaults};
+use crate::pipeline::stage::Stage;
+use crate::table::provenance::Provenance;
+use crate::table::scenarios;
+use crate::table::schema::SCENARIOS;
+use crate::table::writer::TableWriter;
+
+/// Cells in a row group.
+const CELLS_AT_ONCE: usize = 64;
+/// More than this is a slip of the finger.
+const MOST_SAMPLES: usize = 10_000_000;
+/// The seed where none is given.
+pub const DEFAULT_SEED: u64 = 42;
+
+/// Which scenarios.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct SampleScenariosOptions {
+    /// Seed of the random parameters [default: 42]
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Scenarios in each cell of the grid
+    #[arg(long, default_value = "100")]
+    pub samples: usize,
+    /// Moment magnitudes: first:last:step, or numbers parted by commas
+    #[arg(long, default_value = "5.5:7.5:0.5")]
+    pub mw: Steps,
+    /// Distances, km: first:last:step, or numbers parted by commas
+    #[arg(long, default_value = "5:20:2.5")]
+    pub re: Steps,
+    /// How cells are sampled: lhs, random or sobol
+    #[arg(long, default_value = "lhs")]
+    pub design: Word<Design>,
+}
+
+impl Default for SampleScenariosOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+impl SampleScenariosOptions {
+    fn grid(&self) -> anyhow::Result<Grid> {
+        let within = |values: &[f64], low, high| values.iter().all(|value| (low..=high).contains(value));
+        check(within(&self.mw.values, 3.0, 10.0), "mw", &self.mw, "moment magnitudes from 3 to 10")?;
+        check(within(&self.re.values, 0.0, 1000.0), "re", &self.re, "distances from 0 to 1000 km")?;
+        let possible = (1..=MOST_SAMPLES).contains(&self.samples);
+        check(possible, "samples", self.samples, "1 to 10,000,000 scenarios a cell")?;
+        Ok(Grid {
+            mw: self.mw.values.clone(),
+            re_km: self.re.values.clone(),
+            samples: self.samples,
+            design: self.design.0,
+            seed: self.seed.unwrap_or(DEFAULT_SEED),
+        })
+    }
+}
+
+/// The stage, ready to run.
+pub struct SampleScenarios {
+    grid: Grid,
+    out: PathBuf,
+}
+
+impl SampleScenarios {
+    /// Into the file `out`.
+    ///
+    /// # Errors
+    /// If an option is out of range.
+    pub fn new(options: &SampleScenariosOptions, out: PathBuf) -> anyhow::Result<SampleScenarios> {
+        Ok(SampleScenarios { grid: options.grid()?, out })
+    }
+}
+
+impl Stage for SampleScenarios {
+    fn name(&self) -> &'static str {
+        SCENARIOS.stage
+    }
+
+    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
+        Vec::new()
+    }
+
+    fn outputs(&self) -> Vec<PathBuf> {
+        vec![self.out.clone()]
+    }
+
+    fn parameters(&self) -> Value {
+        let Grid { mw, re_km, samples, design, seed } = &self.grid;
+        json!({ "mw": mw, "re": re_km, "samples": samples, "design": Word(*design), "seed": seed })
+    }
+
+    fn execute(&self, provenance: &Provenance, _console: &Console) -> anyhow::Result<String> {
+        let mut writer = TableWriter::create(&self.out, &SCENARIOS, provenance.clone())?;
+        let cells: Vec<usize> = (0..self.grid.cells()).collect();
+        for cells in cells.chunks(CELLS_AT_ONCE) {
+            let scenarios: Vec<_> = cells.par_iter().map(|&cell| self.grid.scenarios_of_cell(cell)).collect();
+            writer.write_row_group(&scenarios::batch(&scenarios.concat())?)?;
+        }
+        writer.finish()?;
+        Ok(format!("{} scenarios", self.grid.cells() * self.grid.samples))
+    }
+}

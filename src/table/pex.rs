@@ -1,0 +1,168 @@
+//! The pex file: one row a regression of the demand in safe rocking; and the scan for the transition.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
+use arrow_schema::ArrowError;
+
+use polars::prelude::{ChunkCompareEq, DataFrame};
+
+use super::TableError;
+use super::reader::read_frame;
+use super::schema::{self, Column, PEX, PEX_SCAN};
+use crate::fragility::{Estimate, FitStatus, LinearFit, Measure, ScanPoint};
+use crate::keyword::{Keyword, keywords};
+
+/// The form of a regression.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Model {
+    /// On one measure.
+    Univariate,
+    /// On two, everywhere.
+    Plane,
+    /// On two, on one side of the transition.
+    Biplanar,
+}
+
+keywords!(Model { Univariate = "univariate", Plane = "plane", Biplanar = "biplanar" });
+
+/// One regression.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PexRow {
+    /// Of which suite.
+    pub suite: Option<String>,
+    /// Of which structure.
+    pub structure: String,
+    /// Its form.
+    pub model: Model,
+    /// First measure.
+    pub im_x: Measure,
+    /// Second measure.
+    pub im_y: Option<Measure>,
+    /// Where it holds.
+    pub range_low: Option<f64>,
+    /// Up to where.
+    pub range_high: Option<f64>,
+    /// The demand that P_ex is about.
+    pub limit_state: f64,
+    /// Of both planes.
+    pub r2_pooled: Option<f64>,
+    /// IM4 of the least pooled residual.
+    pub transition_found: Option<f64>,
+    /// The fit, or why there is none.
+    pub fit: Result<LinearFit, FitStatus>,
+}
+
+impl PexRow {
+    /// Which fit this is, for a message.
+    pub fn words(&self) -> String {
+        let suite = self.suite.as_deref().unwrap_or("the motions");
+        let status = self.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok).as_str();
+        format!("({}, {}) to {suite}, {}: {status}", self.model.as_str(), self.im_x.as_str(), self.structure)
+    }
+
+    fn coefficient(&self, index: usize) -> Option<Estimate> {
+        self.fit.as_ref().ok().and_then(|fit| fit.coefficients.get(index).copied())
+    }
+}
+
+/// The rows of the pex file.
+///
+/// # Errors
+/// If a row cannot be represented, which the schema rules out.
+pub fn batch(rows: &[PexRow]) -> Result<RecordBatch, ArrowError> {
+    let number = |value: &dyn Fn(&PexRow) -> Option<f64>| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(rows.iter().map(value)))
+    };
+    let fitted = |value: fn(&LinearFit) -> f64| number(&|row| row.fit.as_ref().ok().map(value));
+    let estimate = |index: usize, part: fn(Estimate) -> f64| number(&|row| row.coefficient(index).map(part));
+    let text = |value: fn(&PexRow) -> Option<&str>| -> ArrayRef {
+        Arc::new(rows.iter().map(value).collect::<StringArray>())
+    };
+    let zeta = |row: &PexRow| Some(row.fit.as_ref().ok()?.residual_sd / row.coefficient(1)?.value);
+    let mut columns: Vec<ArrayRef> = vec![
+        text(|row| row.suite.as_deref()),
+        text(|row| Some(&row.structure)),
+        text(|row| Some(row.model.as_str())),
+        text(|row| Some(row.im_x.as_str())),
+        text(|row| row.im_y.map(Keyword::as_str)),
+        number(&|row| row.range_low),
+        number(&|row| row.range_high),
+        number(&|row| Some(row.limit_state)),
+    ];
+    columns.extend((0..3).map(|index| estimate(index, |e| e.value)));
+    columns.extend([
+        fitted(|fit| fit.r2),
+        number(&|row| row.r2_pooled),
+        number(&|row| row.transition_found),
+        fitted(|fit| fit.residual_sd),
+        number(&zeta),
+        Arc::new(Int64Array::from_iter_values(
+            rows.iter().map(|row| row.fit.as_ref().map_or(0, |fit| fit.n as i64)),
+        )),
+    ]);
+    columns.extend((0..3).map(|index| estimate(index, |e| e.standard_error)));
+    columns.extend((0..3).flat_map(|index| [estimate(index, |e| e.low), estimate(index, |e| e.high)]));
+    columns.push(text(|row| Some(row.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok).as_str())));
+    RecordBatch::try_new(PEX.schema(), columns)
+}
+
+/// One place that was tried for the transition.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScanRow {
+    /// Of which suite.
+    pub suite: Option<String>,
+    /// Of which structure.
+    pub structure: String,
+    /// The place and its residual.
+    pub point: ScanPoint,
+}
+
+/// The rows of the scan file.
+///
+/// # Errors
+/// If a row cannot be represented, which the schema rules out.
+pub fn scan_batch(rows: &[ScanRow]) -> Result<RecordBatch, ArrowError> {
+    let number = |value: fn(&ScanPoint) -> f64| -> ArrayRef {
+        Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| value(&row.point))))
+    };
+    let count = |value: fn(&ScanPoint) -> usize| -> ArrayRef {
+        Arc::new(Int64Array::from_iter_values(rows.iter().map(|row| value(&row.point) as i64)))
+    };
+    let columns: Vec<ArrayRef> = vec![
+        Arc::new(rows.iter().map(|row| row.suite.as_deref()).collect::<StringArray>()),
+        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| &row.structure))),
+        number(|point| point.im4),
+        number(|point| point.pooled_rss),
+        count(|point| point.n_low),
+        count(|point| point.n_high),
+    ];
+    RecordBatch::try_new(PEX_SCAN.schema(), columns)
+}
+
+/// The regressions of a pex file.
+pub struct PexFrame(DataFrame);
+
+impl PexFrame {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// If it is none of regressions.
+    pub fn read(path: &Path) -> Result<PexFrame, TableError> {
+        read_frame(path, &PEX).map(PexFrame)
+    }
+
+    /// A number of one of the two planes, below the transition or above it.
+    pub fn plane_number(&self, suite: &str, structure: &str, low: bool, column: &str) -> Option<f64> {
+        let equal =
+            |column: Column, word: &str| Some(self.0.column(column.name).ok()?.str().ok()?.equal(word));
+        let open_above = self.0.column(schema::RANGE_HIGH.name).ok()?.is_null();
+        let side = if low { !&open_above } else { open_above };
+        let rows = equal(schema::SUITE, suite)?
+            & equal(schema::STRUCTURE, structure)?
+            & equal(schema::MODEL, Model::Biplanar.as_str())?
+            & side;
+        self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.get(0)
+    }
+}

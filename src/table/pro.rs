@@ -1,0 +1,132 @@
+//! The pro file: one row a fragility curve.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
+use arrow_schema::ArrowError;
+
+use polars::prelude::{ChunkCompareEq, DataFrame};
+
+use super::TableError;
+use super::reader::read_frame;
+use super::schema::{self, Column, PRO};
+use crate::fragility::{Estimate, FitStatus, Measure, OverturningFit};
+use crate::keyword::Keyword;
+
+/// One curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProRow {
+    /// Of which suite.
+    pub suite: Option<String>,
+    /// Of which structure.
+    pub structure: String,
+    /// What it is the probability of.
+    pub event: &'static str,
+    /// First measure.
+    pub im_x: Measure,
+    /// Second measure, of a hybrid.
+    pub im_y: Option<Measure>,
+    /// Cases used.
+    pub n: usize,
+    /// Those in which the event happened.
+    pub events: usize,
+    /// The curve, or why there is none.
+    pub fit: Result<OverturningFit, FitStatus>,
+}
+
+impl ProRow {
+    /// Which curve this is, for a message.
+    pub fn words(&self) -> String {
+        let suite = self.suite.as_deref().unwrap_or("the motions");
+        let status = self.fit.err().unwrap_or(FitStatus::Ok).as_str();
+        let hybrid = self.im_y.map_or(String::new(), |measure| format!(" and {}", measure.as_str()));
+        format!(
+            "of {} on {}{hybrid} for {suite}, {}: {status} ({} of {})",
+            self.event,
+            self.im_x.as_str(),
+            self.structure,
+            self.events,
+            self.n
+        )
+    }
+}
+
+/// The rows of the pro file.
+///
+/// # Errors
+/// If a row cannot be represented, which the schema rules out.
+pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
+    let number = |value: &dyn Fn(&OverturningFit) -> Option<f64>| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(rows.iter().map(|row| row.fit.as_ref().ok().and_then(value))))
+    };
+    let text = |value: fn(&ProRow) -> Option<&str>| -> ArrayRef {
+        Arc::new(rows.iter().map(value).collect::<StringArray>())
+    };
+    let count = |value: fn(&ProRow) -> usize| -> ArrayRef {
+        Arc::new(Int64Array::from_iter_values(rows.iter().map(|row| value(row) as i64)))
+    };
+    let estimates: [fn(&OverturningFit) -> Option<Estimate>; 4] =
+        [|fit| fit.lambda, |fit| Some(fit.mu), |fit| Some(fit.beta), |fit| Some(fit.theta)];
+    let part = |estimate: fn(&OverturningFit) -> Option<Estimate>, part: fn(Estimate) -> f64| {
+        number(&|fit| estimate(fit).map(part))
+    };
+    let mut columns: Vec<ArrayRef> = vec![
+        text(|row| row.suite.as_deref()),
+        text(|row| Some(&row.structure)),
+        text(|row| Some(row.event)),
+        text(|row| Some(row.im_x.as_str())),
+        text(|row| row.im_y.map(Keyword::as_str)),
+    ];
+    columns.extend(estimates.map(|estimate| part(estimate, |e| e.value)));
+    columns.extend([
+        number(&|fit| Some(fit.log_likelihood)),
+        number(&|fit| Some(fit.aic)),
+        number(&|fit| Some(fit.bic)),
+        number(&|fit| Some(fit.auc)),
+        number(&|fit| Some(fit.brier)),
+        count(|row| row.n),
+        count(|row| row.events),
+    ]);
+    columns.extend(estimates.map(|estimate| part(estimate, |e| e.standard_error)));
+    for estimate in estimates {
+        columns.extend([part(estimate, |e| e.low), part(estimate, |e| e.high)]);
+    }
+    columns.push(text(|row| Some(row.fit.err().unwrap_or(FitStatus::Ok).as_str())));
+    RecordBatch::try_new(PRO.schema(), columns)
+}
+
+/// The curves of a pro file.
+pub struct ProFrame(DataFrame);
+
+impl ProFrame {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// If it is none of curves.
+    pub fn read(path: &Path) -> Result<ProFrame, TableError> {
+        read_frame(path, &PRO).map(ProFrame)
+    }
+
+    /// A number of the curve of one measure, or of a hybrid of two.
+    pub fn number(
+        &self,
+        suite: &str,
+        structure: &str,
+        im_x: &str,
+        im_y: Option<&str>,
+        column: &str,
+    ) -> Option<f64> {
+        let equal =
+            |column: Column, word: &str| Some(self.0.column(column.name).ok()?.str().ok()?.equal(word));
+        let second = match im_y {
+            Some(im_y) => equal(schema::IM_Y, im_y)?,
+            None => self.0.column(schema::IM_Y.name).ok()?.is_null(),
+        };
+        let rows = equal(schema::SUITE, suite)?
+            & equal(schema::STRUCTURE, structure)?
+            & equal(schema::IM_X, im_x)?
+            & second;
+        self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.get(0)
+    }
+}

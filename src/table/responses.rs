@@ -1,0 +1,77 @@
+//! The responses file: one row a motion and structure.
+
+use std::sync::Arc;
+
+use arrow_array::{ArrayRef, Float64Array, Int32Array, RecordBatch, StringArray};
+use arrow_schema::ArrowError;
+
+use super::motions::{MotionId, id_column, schema_by_name};
+use super::schema::RESPONSES;
+use crate::keyword::Keyword;
+use crate::motion::IntensityMeasures;
+use crate::rocking::{Response, Structure};
+
+/// The response of a structure to a motion, with the measures that the fits need.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResponseRow {
+    /// Which motion.
+    pub motion_id: MotionId,
+    /// Its kind, if known.
+    pub suite: Option<String>,
+    /// Which structure.
+    pub structure: Structure,
+    /// What came of it.
+    pub response: Response,
+    /// Moment magnitude, if known.
+    pub mw: Option<f64>,
+    /// Distance, km, if known.
+    pub re_km: Option<f64>,
+    /// Peak ground acceleration, m/s2.
+    pub pga_m_s2: f64,
+    /// Peak ground velocity, m/s.
+    pub pgv_m_s: f64,
+    /// Period of the pulse, s, if known.
+    pub tp_s: Option<f64>,
+    /// Mean period, s, if there is one.
+    pub tm_s: Option<f64>,
+    /// Eq. 13.
+    pub measures: IntensityMeasures,
+}
+
+/// The rows of the responses file; `by_name` says whether motions go by name.
+///
+/// # Errors
+/// If a row cannot be represented, which the schema rules out.
+pub fn batch(rows: &[ResponseRow], by_name: bool) -> Result<RecordBatch, ArrowError> {
+    let number = |value: fn(&ResponseRow) -> f64| -> ArrayRef {
+        Arc::new(Float64Array::from_iter_values(rows.iter().map(value)))
+    };
+    let optional = |value: fn(&ResponseRow) -> Option<f64>| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(rows.iter().map(value)))
+    };
+    let schema = if by_name { schema_by_name(&RESPONSES) } else { RESPONSES.schema() };
+    let columns: Vec<ArrayRef> = vec![
+        id_column(rows.iter().map(|row| &row.motion_id), by_name),
+        Arc::new(rows.iter().map(|row| row.suite.as_deref()).collect::<StringArray>()),
+        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| &row.structure.name))),
+        number(|row| row.structure.p_rad_s),
+        number(|row| row.structure.alpha_rad),
+        number(|row| row.structure.eta),
+        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| row.response.outcome.as_str()))),
+        number(|row| row.response.edp),
+        Arc::new(Int32Array::from_iter_values(rows.iter().map(|row| row.response.impacts as i32))),
+        optional(|row| row.mw),
+        optional(|row| row.re_km),
+        number(|row| row.pga_m_s2),
+        number(|row| row.pgv_m_s),
+        optional(|row| row.tp_s),
+        optional(|row| row.tm_s),
+        optional(|row| row.measures.im1),
+        optional(|row| row.measures.im2),
+        optional(|row| row.measures.im3),
+        number(|row| row.measures.im4),
+        number(|row| row.measures.im5),
+        optional(|row| row.measures.im6),
+    ];
+    RecordBatch::try_new(schema, columns)
+}
