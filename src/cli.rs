@@ -190,12 +190,15 @@ impl Call<'_> {
     fn dispatch(&self, command: Command) -> anyhow::Result<()> {
         match command {
             Command::SampleScenarios { out, .. } => {
-                let options: SampleScenariosOptions =
+                let mut options: SampleScenariosOptions =
                     resolve(self.flags, self.config.sample_scenarios.as_ref())?;
+                options.seed = options.seed.or(self.config.seed);
                 self.stage(&SampleScenarios::new(&options, out)?)
             }
             Command::SynthesizeMotions { input, out, .. } => {
-                let options = resolve(self.flags, self.config.synthesize_motions.as_ref())?;
+                let mut options: SynthesizeMotionsOptions =
+                    resolve(self.flags, self.config.synthesize_motions.as_ref())?;
+                options.seed = options.seed.or(self.config.seed);
                 let out = out.unwrap_or_else(|| beside(&input, "motions.parquet"));
                 self.stage(&SynthesizeMotions::new(&options, input, out)?)
             }

@@ -1,4 +1,5 @@
 //! The standard normal distribution.
+#![expect(clippy::excessive_precision, reason = "the coefficients as Wichura published them")]
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 

@@ -1,3 +1,5 @@
+//! An earthquake scenario and the distributions of its random parameters (section 2.1.1).
+
 use crate::normal;
 
 /// An earthquake as seen from a site: where, how large, and the velocity pulse that it sends.

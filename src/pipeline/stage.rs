@@ -1,3 +1,5 @@
+//! What every stage has.
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
