@@ -67,13 +67,13 @@ impl PexRow {
     }
 }
 
-/// The rows of the pex file.
+/// The rows of the pex file; what is no finite number is null.
 ///
 /// # Errors
 /// If a row cannot be represented, which the schema rules out.
 pub fn batch(rows: &[PexRow]) -> Result<RecordBatch, ArrowError> {
     let number = |value: &dyn Fn(&PexRow) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(value)))
+        Arc::new(Float64Array::from_iter(rows.iter().map(|row| value(row).filter(|v| v.is_finite()))))
     };
     let fitted = |value: fn(&LinearFit) -> f64| number(&|row| row.fit.as_ref().ok().map(value));
     let estimate = |index: usize, part: fn(Estimate) -> f64| number(&|row| row.coefficient(index).map(part));

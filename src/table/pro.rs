@@ -52,13 +52,15 @@ impl ProRow {
     }
 }
 
-/// The rows of the pro file.
+/// The rows of the pro file; a limit beyond all numbers is null.
 ///
 /// # Errors
 /// If a row cannot be represented, which the schema rules out.
 pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
     let number = |value: &dyn Fn(&OverturningFit) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(|row| row.fit.as_ref().ok().and_then(value))))
+        Arc::new(Float64Array::from_iter(
+            rows.iter().map(|row| row.fit.as_ref().ok().and_then(value).filter(|v| v.is_finite())),
+        ))
     };
     let text = |value: fn(&ProRow) -> Option<&str>| -> ArrayRef {
         Arc::new(rows.iter().map(value).collect::<StringArray>())

@@ -1,0 +1,277 @@
+//! The fits against statsmodels (scripts/reference/fits.py), scipy, closed forms and invariances.
+
+use std::collections::HashMap;
+
+use proptest::prelude::*;
+use rockfrag::fragility::{
+    Case, EventSample, FitStatus, Measure, OverturningFit, auc, brier_score, find_transition, fit_biplanar,
+    fit_overturning, fit_univariate, is_separated, least_squares, p_exceeding, p_failure_given_rocking,
+    p_no_rocking, p_overturning, probit, t_quantile,
+};
+use rockfrag::motion::IntensityMeasures;
+use rockfrag::rocking::Outcome;
+
+struct Data {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    demand: Vec<f64>,
+    event: Vec<bool>,
+}
+
+fn data() -> Data {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/fits/cases.csv");
+    let rows: Vec<(f64, f64, f64, u8)> =
+        csv::Reader::from_path(path).unwrap().into_deserialize().map(Result::unwrap).collect();
+    Data {
+        x: rows.iter().map(|row| row.0).collect(),
+        y: rows.iter().map(|row| row.1).collect(),
+        demand: rows.iter().map(|row| row.2).collect(),
+        event: rows.iter().map(|row| row.3 == 1).collect(),
+    }
+}
+
+fn statsmodels() -> HashMap<String, f64> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/fits/answers.csv");
+    csv::Reader::from_path(path).unwrap().into_deserialize().map(Result::unwrap).collect()
+}
+
+fn close(value: f64, expected: f64, tolerance: f64, what: &str) {
+    assert!((value - expected).abs() <= tolerance * expected.abs(), "{what}: {value:e}, expected {expected:e}");
+}
+
+fn case(outcome: Outcome, edp: f64, im3: f64, im4: f64) -> Case {
+    let measures = IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5: im4, im6: None };
+    Case { outcome, edp, measures }
+}
+
+/// A curve on IM4 (the logarithm of which is x), or on it and IM3 (y).
+fn curve(x: &[f64], y: &[f64], events: &[bool], measures: &[Measure]) -> Result<OverturningFit, FitStatus> {
+    let outcome = |event| if event { Outcome::Overturning } else { Outcome::SafeRocking };
+    let cases: Vec<Case> =
+        (0..x.len()).map(|k| case(outcome(events[k]), 1.0, y[k].exp(), x[k].exp())).collect();
+    fit_overturning(&EventSample::new(&cases, measures, |case| Some(case.outcome == Outcome::Overturning)))
+}
+
+#[test]
+fn least_squares_equals_statsmodels() {
+    let (data, expected) = (data(), statsmodels());
+    for (name, predictors) in [("x", vec![&data.x[..]]), ("xy", vec![&data.x[..], &data.y[..]])] {
+        let fit = least_squares(&predictors, &data.demand).unwrap();
+        for (k, estimate) in fit.coefficients.iter().enumerate() {
+            let of = |part: &str| expected[&format!("ols_{name}_{part}{k}")];
+            close(estimate.value, of("b"), 1e-10, "coefficient");
+            close(estimate.standard_error, of("se"), 1e-10, "standard error");
+            close(estimate.low, of("low"), 1e-9, "lower limit");
+            close(estimate.high, of("high"), 1e-9, "upper limit");
+        }
+        close(fit.r2, expected[&format!("ols_{name}_r2")], 1e-10, "R2");
+        close(fit.residual_sd, expected[&format!("ols_{name}_sd")], 1e-10, "residual sd");
+    }
+}
+
+#[test]
+fn probit_equals_statsmodels() {
+    let (data, expected) = (data(), statsmodels());
+    for (name, predictors) in [("x", vec![&data.x[..]]), ("xy", vec![&data.x[..], &data.y[..]])] {
+        let fit = probit(&predictors, &data.event).unwrap();
+        for k in 0..fit.coefficients.len() {
+            close(fit.coefficients[k], expected[&format!("probit_{name}_b{k}")], 1e-8, "coefficient");
+            close(fit.covariance[(k, k)].sqrt(), expected[&format!("probit_{name}_se{k}")], 1e-8, "error");
+        }
+        close(fit.log_likelihood, expected[&format!("probit_{name}_llf")], 1e-10, "log-likelihood");
+    }
+    let fit = curve(&data.x, &data.y, &data.event, &[Measure::Im4, Measure::Im3]).unwrap();
+    close(fit.aic, expected["probit_xy_aic"], 1e-9, "AIC");
+    close(fit.bic, expected["probit_xy_bic"], 1e-9, "BIC");
+}
+
+#[test]
+fn hybrid_parameters_follow_from_the_coefficients() {
+    let data = data();
+    let negative: Vec<f64> = data.y.iter().map(|y| -y).collect();
+    let b = probit(&[&data.x, &negative], &data.event).unwrap().coefficients;
+    let fit = curve(&data.x, &negative, &data.event, &[Measure::Im4, Measure::Im3]).unwrap();
+    close(fit.lambda.unwrap().value, b[1] / b[2], 1e-12, "lambda");
+    close(fit.beta.value, 1.0 / (b[1] + b[2]), 1e-12, "beta");
+    close(fit.mu.value, -b[0] / (b[1] + b[2]), 1e-12, "mu");
+    // The curve of the hybrid measure IMx^(lambda/(1+lambda)) IMy^(1/(1+lambda)) is the probit itself (Eq. 22).
+    let lambda = fit.lambda.unwrap().value;
+    for k in [0, 17, 230] {
+        let hybrid = ((lambda * data.x[k] + negative[k]) / (1.0 + lambda)).exp();
+        let index = b[0] + b[1] * data.x[k] + b[2] * negative[k];
+        close(p_overturning(hybrid, fit.mu.value, fit.beta.value), rockfrag::normal::cdf(index), 1e-10, "P_ro");
+    }
+}
+
+#[test]
+fn delta_method_errors_equal_those_of_a_direct_parametrisation() {
+    // For one measure, the inverse information in (mu, beta) itself: by the chain rule at the maximum it is the delta
+    // method's; here by finite differences of the log-likelihood.
+    let data = data();
+    let fit = curve(&data.x, &data.y, &data.event, &[Measure::Im4]).unwrap();
+    let likelihood = |mu: f64, beta: f64| -> f64 {
+        let one = |(x, &event): (&f64, &bool)| {
+            let z = (x - mu) / beta;
+            rockfrag::normal::ln_cdf(if event { z } else { -z })
+        };
+        data.x.iter().zip(&data.event).map(one).sum()
+    };
+    let (m, b, h) = (fit.mu.value, fit.beta.value, 1e-4);
+    let f = |i: f64, j: f64| likelihood(m + i * h, b + j * h);
+    let mm = -(f(1.0, 0.0) - 2.0 * f(0.0, 0.0) + f(-1.0, 0.0)) / (h * h);
+    let bb = -(f(0.0, 1.0) - 2.0 * f(0.0, 0.0) + f(0.0, -1.0)) / (h * h);
+    let mb = -(f(1.0, 1.0) - f(1.0, -1.0) - f(-1.0, 1.0) + f(-1.0, -1.0)) / (4.0 * h * h);
+    let determinant = mm * bb - mb * mb;
+    close(fit.mu.standard_error, (bb / determinant).sqrt(), 1e-4, "error of mu");
+    close(fit.beta.standard_error, (mm / determinant).sqrt(), 1e-4, "error of beta");
+}
+
+#[test]
+fn grouped_collapses_give_the_known_curve() {
+    let ims = [0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0_f64];
+    let collapses = [0, 0, 0, 4, 6, 13, 12, 16];
+    let (mut x, mut events) = (Vec::new(), Vec::new());
+    for (im, collapsed) in ims.iter().zip(collapses) {
+        x.extend([im.ln(); 40]);
+        events.extend((0..40).map(|k| k < collapsed));
+    }
+    let fit = curve(&x, &x, &events, &[Measure::Im4]).unwrap();
+    assert!((fit.theta.value - 1.07612).abs() < 5e-6, "{}", fit.theta.value);
+    assert!((fit.beta.value - 0.42924).abs() < 5e-6, "{}", fit.beta.value);
+    assert_eq!((fit.n, fit.events), (320, 51));
+}
+
+#[test]
+fn student_quantiles_equal_scipys() {
+    for (degrees, expected) in [(1.0, 12.706_204_736_174_698), (5.0, 2.570_581_835_636_314), (30.0, 2.042_272_456_301_237_8), (1000.0, 1.962_339_080_868_978_7)] {
+        close(t_quantile(0.975, degrees), expected, 1e-10, "t");
+        close(t_quantile(0.025, degrees), -expected, 1e-10, "t");
+    }
+}
+
+/// Cases on two planes that meet at `at`.
+fn two_planes(at: f64) -> Vec<Case> {
+    let mut state = 7_u64;
+    let mut uniform = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let mut one = || {
+        let (im4, im3) = (1.0 + 2.0 * uniform(), 0.5 + uniform());
+        let noise = 0.2 * (uniform() - 0.5);
+        let (x, y) = (im4.ln(), im3.ln());
+        let ln_edp = if im4 < at { -8.0 + 25.0 * x - 2.0 * y } else { -1.5 + 1.5 * x - 1.0 * y };
+        case(Outcome::SafeRocking, (ln_edp + noise).exp(), im3, im4)
+    };
+    (0..1500).map(|_| one()).collect()
+}
+
+#[test]
+fn two_planes_and_their_transition_are_found() {
+    let cases = two_planes(1.3);
+    let fit = fit_biplanar(&cases, None).unwrap();
+    assert!((fit.transition - 1.3).abs() < 0.011, "{}", fit.transition);
+    let (low, high) = (fit.low.unwrap(), fit.high.unwrap());
+    for (fit, expected) in [(&low, [-8.0, 25.0, -2.0]), (&high, [-1.5, 1.5, -1.0])] {
+        for (estimate, expected) in fit.coefficients.iter().zip(expected) {
+            let errors = (estimate.value - expected).abs() / estimate.standard_error;
+            assert!(errors < 4.0, "{estimate:?}, expected {expected}");
+        }
+    }
+    assert!(fit.r2_pooled.unwrap() > 0.95);
+    assert_eq!(fit_biplanar(&cases, Some(1.5)).unwrap().transition, 1.5);
+}
+
+#[test]
+fn the_scan_by_sums_equals_fitting_anew_at_each_place() {
+    let cases = two_planes(1.4);
+    let column = |measure: Measure| -> Vec<f64> { cases.iter().map(|c| measure.of(c).unwrap().ln()).collect() };
+    let edp: Vec<f64> = cases.iter().map(|case| case.edp.ln()).collect();
+    let scan = find_transition(&column(Measure::Im4), &column(Measure::Im3), &edp).unwrap().scan;
+    assert!(scan.len() > 50);
+    for point in scan.iter().step_by(13) {
+        let fit = fit_biplanar(&cases, Some(point.im4)).unwrap();
+        let rss = fit.low.unwrap().rss + fit.high.unwrap().rss;
+        close(point.pooled_rss, rss, 1e-8, "pooled residual");
+    }
+}
+
+#[test]
+fn want_of_cases_and_of_events_are_statuses() {
+    let few: Vec<Case> = (0..2).map(|k| case(Outcome::SafeRocking, 0.1, 1.0, 1.5 + f64::from(k))).collect();
+    assert_eq!(fit_univariate(&few, Measure::Im4).unwrap_err(), FitStatus::TooFewCases);
+    assert_eq!(fit_univariate(&few, Measure::Im1).unwrap_err(), FitStatus::TooFewCases);
+    assert_eq!(fit_biplanar(&few, None).unwrap_err(), FitStatus::TooFewCases);
+    let same: Vec<Case> = (0..9).map(|_| case(Outcome::SafeRocking, 0.1, 1.0, 1.5)).collect();
+    assert_eq!(fit_univariate(&same, Measure::Im4).unwrap_err(), FitStatus::Singular);
+    let x: Vec<f64> = (0..50).map(f64::from).collect();
+    let four: Vec<bool> = (0..50).map(|k| k % 13 == 0).collect();
+    assert_eq!(curve(&x, &x, &four, &[Measure::Im4]).unwrap_err(), FitStatus::TooFewEvents);
+    let parted: Vec<bool> = (0..50).map(|k| k > 25).collect();
+    assert_eq!(curve(&x, &x, &parted, &[Measure::Im4]).unwrap_err(), FitStatus::Separated);
+}
+
+#[test]
+fn skill_scores_have_their_textbook_values() {
+    let events = [false, false, true, true];
+    assert_eq!(auc(&[0.1, 0.4, 0.35, 0.8], &events), 0.75);
+    assert_eq!(auc(&[1.0; 4], &events), 0.5);
+    assert_eq!(brier_score(&[0.0, 0.5, 1.0, 0.5], &events), 0.125);
+}
+
+#[test]
+fn the_tree_joins_the_probabilities() {
+    assert_eq!((p_no_rocking(0.999), p_no_rocking(1.0)), (1.0, 0.0));
+    assert_eq!(p_exceeding(0.1_f64.ln(), 0.1, 0.8), 0.5);
+    assert!(p_exceeding(0.2_f64.ln(), 0.1, 0.8) > 0.5, "grows with demand");
+    assert_eq!(p_overturning(1.3, 1.3_f64.ln(), 0.4), 0.5);
+    assert_eq!(p_failure_given_rocking(0.25, 0.5), 0.625);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn units_of_a_measure_move_only_the_median(scale in -3.0..3.0f64) {
+        let data = data();
+        let scaled: Vec<f64> = data.x.iter().map(|x| x + scale).collect();
+        let here = curve(&data.x, &data.y, &data.event, &[Measure::Im4]).unwrap();
+        let there = curve(&scaled, &data.y, &data.event, &[Measure::Im4]).unwrap();
+        prop_assert!((there.mu.value - here.mu.value - scale).abs() < 1e-9);
+        prop_assert!((there.beta.value / here.beta.value - 1.0).abs() < 1e-9);
+        prop_assert!((there.auc - here.auc).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_line_between_two_clouds_is_always_found(angle in 0.0..6.3f64, gap in 0.0..2.0f64, seed in 1u64..1000) {
+        let (mut x, mut y, mut events, mut state) = (vec![], vec![], vec![], seed);
+        for k in 0..60 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let (u, v) = ((state >> 40) as f64 / 2f64.powi(24), (state >> 16 & 0xFF_FFFF) as f64 / 2f64.powi(24));
+            let event = k % 2 == 0;
+            let across = if event { gap + u + 1e-9 } else { -u };
+            x.push(across * angle.cos() - 4.0 * v * angle.sin());
+            y.push(across * angle.sin() + 4.0 * v * angle.cos());
+            events.push(event);
+        }
+        prop_assert!(is_separated(&[&x, &y], &events));
+        // One event deep among the others, on each side, ends it.
+        let middle = |of: bool, values: &[f64]| {
+            let chosen: Vec<f64> = (0..60).filter(|&k| events[k] == of).map(|k| values[k]).collect();
+            chosen.iter().sum::<f64>() / chosen.len() as f64
+        };
+        let (mx, my) = (middle(false, &x), middle(false, &y));
+        let mut mixed = events.clone();
+        mixed.push(true);
+        let (mut xs, mut ys) = (x.clone(), y.clone());
+        xs.push(mx);
+        ys.push(my);
+        prop_assert!(!is_separated(&[&xs, &ys], &mixed));
+    }
+
+    #[test]
+    fn failure_is_at_least_as_likely_as_either_way_to_it(ro in 0.0..=1.0f64, ex in 0.0..=1.0f64) {
+        let failure = p_failure_given_rocking(ro, ex);
+        prop_assert!(failure >= ro.max(ex) - 1e-15 && failure <= 1.0);
+    }
+}
