@@ -36,7 +36,10 @@ fn statsmodels() -> HashMap<String, f64> {
 }
 
 fn close(value: f64, expected: f64, tolerance: f64, what: &str) {
-    assert!((value - expected).abs() <= tolerance * expected.abs(), "{what}: {value:e}, expected {expected:e}");
+    assert!(
+        (value - expected).abs() <= tolerance * expected.abs(),
+        "{what}: {value:e}, expected {expected:e}"
+    );
 }
 
 fn case(outcome: Outcome, edp: f64, im3: f64, im4: f64) -> Case {
@@ -99,7 +102,12 @@ fn hybrid_parameters_follow_from_the_coefficients() {
     for k in [0, 17, 230] {
         let hybrid = ((lambda * data.x[k] + negative[k]) / (1.0 + lambda)).exp();
         let index = b[0] + b[1] * data.x[k] + b[2] * negative[k];
-        close(p_overturning(hybrid, fit.mu.value, fit.beta.value), rockfrag::normal::cdf(index), 1e-10, "P_ro");
+        close(
+            p_overturning(hybrid, fit.mu.value, fit.beta.value),
+            rockfrag::normal::cdf(index),
+            1e-10,
+            "P_ro",
+        );
     }
 }
 
@@ -143,7 +151,12 @@ fn grouped_collapses_give_the_known_curve() {
 
 #[test]
 fn student_quantiles_equal_scipys() {
-    for (degrees, expected) in [(1.0, 12.706_204_736_174_698), (5.0, 2.570_581_835_636_314), (30.0, 2.042_272_456_301_237_8), (1000.0, 1.962_339_080_868_978_7)] {
+    for (degrees, expected) in [
+        (1.0, 12.706_204_736_174_698),
+        (5.0, 2.570_581_835_636_314),
+        (30.0, 2.042_272_456_301_237_8),
+        (1000.0, 1.962_339_080_868_978_7),
+    ] {
         close(t_quantile(0.975, degrees), expected, 1e-10, "t");
         close(t_quantile(0.025, degrees), -expected, 1e-10, "t");
     }
@@ -185,7 +198,8 @@ fn two_planes_and_their_transition_are_found() {
 #[test]
 fn the_scan_by_sums_equals_fitting_anew_at_each_place() {
     let cases = two_planes(1.4);
-    let column = |measure: Measure| -> Vec<f64> { cases.iter().map(|c| measure.of(c).unwrap().ln()).collect() };
+    let column =
+        |measure: Measure| -> Vec<f64> { cases.iter().map(|c| measure.of(c).unwrap().ln()).collect() };
     let edp: Vec<f64> = cases.iter().map(|case| case.edp.ln()).collect();
     let scan = find_transition(&column(Measure::Im4), &column(Measure::Im3), &edp).unwrap().scan;
     assert!(scan.len() > 50);

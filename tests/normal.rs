@@ -25,7 +25,7 @@ fn logarithms_hold_in_the_far_tail() {
 #[test]
 fn quantiles_invert_the_distribution() {
     close(quantile(0.975), 1.959_963_984_540_054, 1e-15);
-    close(quantile(1e-300), -37.047_096_499_407_39, 1e-13);
+    close(quantile(1e-300), -37.047_096_299_361_2, 1e-13);
     for p in [1e-12, 0.001, 0.3, 0.5, 0.8, 0.999] {
         close(cdf(quantile(p)), p, 1e-13);
     }

@@ -73,11 +73,11 @@ fn free_rocking_has_housners_period_and_decay() {
 #[test]
 fn a_rectangular_pulse_overturns_a_slender_block_as_the_linearised_equation_says() {
     // theta'' = p^2 (theta + alpha (A - 1)) from rest under A = a/(g alpha): overturning without impact just when the
-    // unstable mode of the state at the end of the pulse is positive: cosh(p T) > A / (A - 1).
+    // unstable mode of the state at the end of the pulse, theta - alpha + theta'/p, is positive: exp(p T) > A / (A - 1).
     let alpha: f64 = 0.001;
     let s = structure(1.0, alpha, 0.9);
     for amplitude in [1.5, 2.0, 3.0] {
-        let critical = (amplitude / (amplitude - 1.0_f64)).acosh();
+        let critical = (amplitude / (amplitude - 1.0_f64)).ln();
         let outcome = |duration: f64| {
             let dt = duration / 4000.0;
             let samples = rectangular_pulse(amplitude * G_M_S2 * alpha.tan(), duration, 10.0 * dt, dt);
@@ -95,7 +95,9 @@ fn energy_is_conserved_between_impacts() {
     let samples = rectangular_pulse(1.3 * G_M_S2 * 0.3_f64.tan(), 0.4, 6.0, dt);
     let (_, points) = trace(&s, &Record::new(&samples, dt).unwrap());
     let free = points.iter().filter(|q| q.time_s > 0.41);
-    let energy = |theta: f64, velocity: f64| 0.5 * (velocity / 2.0).powi(2) + (0.3 - theta.abs()).cos() - 0.3_f64.cos();
+    let energy = |theta: f64, velocity: f64| {
+        0.5 * (velocity / 2.0).powi(2) + (0.3 - theta.abs()).cos() - 0.3_f64.cos()
+    };
     let mut level: Option<f64> = None;
     let mut compared = 0;
     for point in free {
@@ -117,12 +119,12 @@ fn energy_is_conserved_between_impacts() {
 fn similar_structures_have_the_same_response() {
     // Eq. 10 and Figure 5: with equal wp/p and PGA/(g tan alpha) the response theta/alpha is the same, up to alpha.
     let pulse = |p: f64, alpha: f64| {
-        let tp_s = 2.0 * PI / (3.0 * p);
+        let tp_s = 2.0 * PI / (5.0 * p);
         let pulse = Pulse { amplitude_m_s: 1.0, tp_s, gamma: 1.9, nu_rad: 0.8 };
         let dt = tp_s / 400.0;
         let shape: Vec<f64> = (0..1000).map(|k| pulse.acceleration_m_s2((k as f64 - 500.0) * dt)).collect();
         let largest = shape.iter().fold(0.0_f64, |l, a| l.max(a.abs()));
-        let scale = 2.2 * G_M_S2 * alpha.tan() / largest;
+        let scale = 1.6 * G_M_S2 * alpha.tan() / largest;
         let samples: Vec<f64> = shape.iter().map(|a| a * scale).collect();
         simulate(&structure(p, alpha, 0.92), &Record::new(&samples, dt).unwrap()).edp
     };
@@ -153,11 +155,11 @@ fn what_the_record_leaves_in_motion_is_decided_by_energy() {
     // The same motion with quiet time appended must give the same answer as the closed form at its end.
     let s = structure(1.5, 0.2, 0.9);
     for seed in 1..200 {
-        let samples = synthetic_motion(seed, 300);
+        let mut samples = synthetic_motion(seed, 300);
+        samples[299] = 0.0;
         let mut longer = samples.clone();
         longer.resize(300 + 20_000, 0.0);
         let short = simulate(&s, &Record::new(&samples, 0.02).unwrap());
-        // The quiet tail begins with a ramp from the last sample to zero, which is zero here.
         let long = simulate(&s, &Record::new(&longer, 0.02).unwrap());
         assert_eq!(short.outcome, long.outcome, "seed {seed}");
         assert!((short.edp / long.edp - 1.0).abs() < 1e-9 || short.edp == long.edp, "seed {seed}");

@@ -1,5 +1,6 @@
 //! What a run says while it works: on stderr, and progress only where someone watches.
 
+use std::collections::BTreeMap;
 use std::io::IsTerminal;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -18,6 +19,17 @@ impl Console {
     pub fn note(&self, line: &str) {
         if !self.quiet {
             eprintln!("{line}");
+        }
+    }
+
+    /// A line for each reason, with all that it holds for.
+    pub fn warn_each(&self, warnings: impl Iterator<Item = (String, String)>) {
+        let mut by_reason: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for (reason, what) in warnings {
+            by_reason.entry(reason).or_default().push(what);
+        }
+        for (reason, what) in by_reason {
+            self.note(&format!("warning: {reason}: {}", what.join(", ")));
         }
     }
 

@@ -33,9 +33,13 @@ where
     let flags = to_object(&T::from_arg_matches(matches)?)?;
     let mut resolved = to_object(file.unwrap_or(&T::default()))?;
     for (name, value) in flags {
-        if matches.value_source(&name.replace('-', "_")) == Some(ValueSource::CommandLine) {
-            resolved.insert(name, value);
+        if matches.value_source(&name.replace('-', "_")) != Some(ValueSource::CommandLine) {
+            continue;
         }
+        if value.is_null() {
+            return Err(UsageError::new(format!("{name} is no finite number")));
+        }
+        resolved.insert(name, value);
     }
     serde_json::from_value(Value::Object(resolved)).map_err(|error| UsageError::new(error.to_string()))
 }

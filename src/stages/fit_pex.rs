@@ -164,9 +164,8 @@ impl Stage for FitPex {
         let groups = groups::read(&self.input)?;
         let (rows, scans): (Vec<_>, Vec<_>) = groups.par_iter().map(|group| self.fits_of(group)).unzip();
         let (rows, scans) = (rows.concat(), scans.concat());
-        for row in rows.iter().filter(|row| row.fit.is_err()) {
-            console.note(&format!("warning: no fit {}", row.words()));
-        }
+        let missing = rows.iter().filter(|row| row.fit.is_err());
+        console.warn_each(missing.map(|row| (row.reason(), row.measures())));
         let mut scan_writer = TableWriter::create(&self.scan_path(), &PEX_SCAN, provenance.clone())?;
         scan_writer.append(&pex::scan_batch(&scans)?)?;
         scan_writer.finish()?;

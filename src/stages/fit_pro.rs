@@ -150,9 +150,8 @@ impl Stage for FitPro {
         let groups = groups::read(&self.input)?;
         let rows: Vec<Vec<ProRow>> = groups.par_iter().map(|group| self.fits_of(group)).collect();
         let rows = rows.concat();
-        for row in rows.iter().filter(|row| row.fit.is_err()) {
-            console.note(&format!("warning: no curve {}", row.words()));
-        }
+        let missing = rows.iter().filter(|row| row.fit.is_err());
+        console.warn_each(missing.map(|row| (row.reason(), row.measures())));
         let mut writer = TableWriter::create(&self.out, &PRO, provenance.clone())?;
         writer.append(&pro::batch(&rows)?)?;
         writer.finish()?;

@@ -55,11 +55,16 @@ pub struct PexRow {
 }
 
 impl PexRow {
-    /// Which fit this is, for a message.
-    pub fn words(&self) -> String {
+    /// The form and the measure of the fit, for a message.
+    pub fn measures(&self) -> String {
+        format!("{} {}", self.model.as_str(), self.im_x.as_str())
+    }
+
+    /// Why there is no fit, for a message.
+    pub fn reason(&self) -> String {
         let suite = self.suite.as_deref().unwrap_or("the motions");
         let status = self.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok).as_str();
-        format!("({}, {}) to {suite}, {}: {status}", self.model.as_str(), self.im_x.as_str(), self.structure)
+        format!("no fit of the demand for {suite}, {}: {status}", self.structure)
     }
 
     fn coefficient(&self, index: usize) -> Option<Estimate> {
@@ -163,6 +168,6 @@ impl PexFrame {
             & equal(schema::STRUCTURE, structure)?
             & equal(schema::MODEL, Model::Biplanar.as_str())?
             & side;
-        self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.get(0)
+        self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.iter().next().flatten()
     }
 }

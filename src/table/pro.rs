@@ -36,18 +36,19 @@ pub struct ProRow {
 }
 
 impl ProRow {
-    /// Which curve this is, for a message.
-    pub fn words(&self) -> String {
+    /// The measures of the curve, for a message.
+    pub fn measures(&self) -> String {
+        let second = self.im_y.map_or(String::new(), |measure| format!(":{}", measure.as_str()));
+        format!("{}{second}", self.im_x.as_str())
+    }
+
+    /// Why there is no curve, for a message.
+    pub fn reason(&self) -> String {
         let suite = self.suite.as_deref().unwrap_or("the motions");
         let status = self.fit.err().unwrap_or(FitStatus::Ok).as_str();
-        let hybrid = self.im_y.map_or(String::new(), |measure| format!(" and {}", measure.as_str()));
         format!(
-            "of {} on {}{hybrid} for {suite}, {}: {status} ({} of {})",
-            self.event,
-            self.im_x.as_str(),
-            self.structure,
-            self.events,
-            self.n
+            "no curve of {} for {suite}, {}: {status} ({} of {} cases)",
+            self.event, self.structure, self.events, self.n
         )
     }
 }
@@ -129,6 +130,6 @@ impl ProFrame {
             & equal(schema::STRUCTURE, structure)?
             & equal(schema::IM_X, im_x)?
             & second;
-        self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.get(0)
+        self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.iter().next().flatten()
     }
 }

@@ -1,0 +1,6 @@
+//! The command as a user calls it.
+
+mod bad_input;
+mod common;
+mod kill;
+mod pipeline;

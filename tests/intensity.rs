@@ -1,0 +1,79 @@
+//! Intensity measures against closed forms.
+
+use std::f64::consts::PI;
+
+use rockfrag::motion::intensity::{
+    arias_intensity, cumulative_absolute_velocity, housner_intensity, mean_period, significant_duration,
+    spectral_acceleration,
+};
+use rockfrag::motion::{IntensityScratch, measures};
+
+fn sine(amplitude: f64, f: f64, duration: f64, dt: f64) -> Vec<f64> {
+    (0..=(duration / dt).round() as usize).map(|k| amplitude * (2.0 * PI * f * k as f64 * dt).sin()).collect()
+}
+
+fn close(value: f64, expected: f64, tolerance: f64, what: &str) {
+    assert!((value / expected - 1.0).abs() < tolerance, "{what}: {value}, expected {expected}");
+}
+
+#[test]
+fn a_sine_has_its_closed_forms() {
+    let (a, f, duration, dt) = (2.0, 1.0, 40.0, 0.001);
+    let m = measures(&sine(a, f, duration, dt), dt, &mut IntensityScratch::default());
+    close(m.pga_m_s2, a, 1e-6, "PGA");
+    close(m.pgv_m_s, 2.0 * a / (2.0 * PI * f), 1e-5, "PGV from rest");
+    close(m.pgd_m, a / (2.0 * PI * f) * duration, 1e-5, "PGD of the drift");
+    close(m.arias_m_s, PI / (2.0 * 9.81) * 0.5 * a * a * duration, 1e-5, "Arias");
+    close(m.cav_m_s, 2.0 / PI * a * duration, 1e-5, "CAV");
+    close(m.tm_s.unwrap(), 1.0 / f, 0.02, "Tm");
+    close(m.d5_95_s, 0.9 * duration, 0.02, "D5-95");
+    close(m.d5_75_s, 0.7 * duration, 0.02, "D5-75");
+}
+
+#[test]
+fn constant_acceleration_has_its_closed_forms() {
+    let samples = vec![3.0; 401];
+    close(arias_intensity(&samples, 0.01), PI / (2.0 * 9.81) * 9.0 * 4.0, 1e-12, "Arias");
+    close(cumulative_absolute_velocity(&samples, 0.01), 12.0, 1e-12, "CAV");
+    close(significant_duration(&samples, 0.01, 0.05, 0.95), 3.6, 1e-9, "D5-95");
+    assert_eq!(significant_duration(&[0.0; 9], 0.01, 0.05, 0.95), 0.0);
+    assert_eq!(mean_period(&[0.0; 9], 0.01, &mut IntensityScratch::default()), None);
+}
+
+#[test]
+fn an_oscillator_follows_its_closed_forms() {
+    // A step of acceleration displaces an undamped oscillator by twice the static displacement.
+    let step = vec![1.0; 4001];
+    close(spectral_acceleration(&step, 0.001, 1.0, 0.0), 2.0, 1e-5, "step, undamped");
+    // A damped one overshoots by exp(-pi z / sqrt(1 - z^2)).
+    let z: f64 = 0.05;
+    let overshoot = (-PI * z / (1.0 - z * z).sqrt()).exp();
+    close(spectral_acceleration(&step, 0.001, 1.0, z), 1.0 + overshoot, 1e-5, "step, damped");
+    // Long resonance builds up to 1/(2 z).
+    let resonance = sine(1.0, 1.0, 60.0, 0.005);
+    close(spectral_acceleration(&resonance, 0.005, 1.0, z), 1.0 / (2.0 * z), 5e-3, "resonance");
+    // A very stiff oscillator moves with the ground, exactly linear between samples as the record is.
+    close(spectral_acceleration(&sine(2.0, 1.0, 5.0, 0.01), 0.01, 0.005, z), 2.0, 5e-3, "stiff");
+    // The recursion is exact for a record that is linear between samples: a finer sampling of it changes nothing.
+    let coarse = sine(1.0, 3.0, 4.0, 0.04);
+    let fine: Vec<f64> = coarse
+        .windows(2)
+        .flat_map(|p| (0..8).map(|k| p[0] + (p[1] - p[0]) * f64::from(k) / 8.0).collect::<Vec<_>>())
+        .collect();
+    let peaks = |samples: &[f64], dt: f64| spectral_acceleration(samples, dt, 4.0, z);
+    close(peaks(&coarse, 0.04), peaks(&fine, 0.005), 2e-3, "resampled");
+}
+
+#[test]
+fn the_housner_intensity_of_a_short_pulse_is_its_impulse() {
+    // A pulse far shorter than any period gives every undamped oscillator the pseudo-velocity of its impulse; 5 % of
+    // damping lowers it to exp(-z/sqrt(1-z^2) atan(sqrt(1-z^2)/z)).
+    let dt = 0.0005;
+    let mut samples = vec![0.0; 6001];
+    samples[1] = 10.0;
+    let impulse = 10.0 * dt;
+    let z: f64 = 0.05;
+    let root = (1.0 - z * z).sqrt();
+    let expected = 2.4 * impulse * (-z / root * (root / z).atan()).exp();
+    close(housner_intensity(&samples, dt), expected, 2e-3, "Housner");
+}
