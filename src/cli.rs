@@ -168,12 +168,12 @@ pub fn main() -> anyhow::Result<()> {
     let console = Console { quiet: common.quiet, progress: common.progress == Progress::Auto };
     if let Some(threads) = common.threads {
         if threads == 0 {
-            return Err(UsageError::new("threads is 0; expected 1 or more"));
+            return Err(UsageError::because("threads is 0; expected 1 or more"));
         }
         rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
     }
     let config = common.config.as_deref().map(Config::read).transpose()?.unwrap_or_default();
-    let (_, flags) = matches.subcommand().ok_or_else(|| UsageError::new("no subcommand"))?;
+    let (_, flags) = matches.subcommand().ok_or_else(|| UsageError::because("no subcommand"))?;
     let call = Call { config, flags, force: common.force, console };
     call.dispatch(command)
 }
@@ -244,7 +244,10 @@ impl Call<'_> {
         let files = Files::in_folder(&folder);
         let stages = stages(&config, &files)?;
         if stages.is_empty() {
-            return Err(UsageError::new(format!("{}: no stage; expected at least one", pipeline.display())));
+            return Err(UsageError::because(format!(
+                "{}: no stage; expected at least one",
+                pipeline.display()
+            )));
         }
         if dry {
             return print(&dry_run(&stages, self.force)?);

@@ -40,7 +40,7 @@ pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
 /// Those of the stage.
 pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<()> {
     let planned = stage.provenance()?;
-    let name = stage.name();
+    let name = stage.subcommand();
     if !force && freshness(stage, &planned) == Freshness::UpToDate {
         console.note(&format!("{name:20} up to date"));
         return Ok(());

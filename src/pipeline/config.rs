@@ -43,10 +43,10 @@ impl Config {
     /// value of another type.
     pub fn read(path: &Path) -> anyhow::Result<Config> {
         let text = std::fs::read_to_string(path).map_err(|error| {
-            UsageError::new(format!("{}: {error}; expected a pipeline file", path.display()))
+            UsageError::because(format!("{}: {error}; expected a pipeline file", path.display()))
         })?;
         let mut config: Config = serde_saphyr::from_str(&text)
-            .map_err(|error| UsageError::new(format!("{}: {}", path.display(), explain(&error))))?;
+            .map_err(|error| UsageError::because(format!("{}: {}", path.display(), explain(&error))))?;
         config.spread_seed();
         if let Some(simulate) = &mut config.simulate {
             simulate.resolve_paths(path.parent().unwrap_or(Path::new("")));

@@ -23,7 +23,7 @@ pub struct UsageError(pub String);
 
 impl UsageError {
     /// With what was expected.
-    pub fn new(message: impl Into<String>) -> anyhow::Error {
+    pub fn because(message: impl Into<String>) -> anyhow::Error {
         UsageError(message.into()).into()
     }
 }

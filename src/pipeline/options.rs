@@ -28,7 +28,7 @@ where
 {
     let to_object = |options: &T| match serde_json::to_value(options) {
         Ok(Value::Object(object)) => Ok(object),
-        _ => Err(UsageError::new("options that are no list of names and values")),
+        _ => Err(UsageError::because("options that are no list of names and values")),
     };
     let flags = to_object(&T::from_arg_matches(matches)?)?;
     let mut resolved = to_object(file.unwrap_or(&T::default()))?;
@@ -37,11 +37,11 @@ where
             continue;
         }
         if value.is_null() {
-            return Err(UsageError::new(format!("{name} is no finite number")));
+            return Err(UsageError::because(format!("{name} is no finite number")));
         }
         resolved.insert(name, value);
     }
-    serde_json::from_value(Value::Object(resolved)).map_err(|error| UsageError::new(error.to_string()))
+    serde_json::from_value(Value::Object(resolved)).map_err(|error| UsageError::because(error.to_string()))
 }
 
 /// A word of a fixed list.
@@ -183,5 +183,5 @@ impl<'de, T: Deserialize<'de> + FromStr<Err: fmt::Display>> Deserialize<'de> for
 /// # Errors
 /// With the name of the option and what was expected.
 pub fn check(ok: bool, option: &str, value: impl fmt::Display, expected: &str) -> anyhow::Result<()> {
-    if ok { Ok(()) } else { Err(UsageError::new(format!("{option} is {value}; expected {expected}"))) }
+    if ok { Ok(()) } else { Err(UsageError::because(format!("{option} is {value}; expected {expected}"))) }
 }

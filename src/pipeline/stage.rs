@@ -12,7 +12,7 @@ use crate::table::provenance::{Provenance, content_of};
 /// A stage about to run: files in, parameters, files out.
 pub trait Stage {
     /// The subcommand.
-    fn name(&self) -> &'static str;
+    fn subcommand(&self) -> &'static str;
 
     /// The files it reads, by the role each plays.
     fn inputs(&self) -> Vec<(&'static str, PathBuf)>;
@@ -37,7 +37,7 @@ pub trait Stage {
         let content = |(role, path): (&str, PathBuf)| Ok((role.to_string(), content_of(&path)?));
         let inputs =
             self.inputs().into_iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
-        Ok(Provenance::new(self.name(), self.parameters(), inputs))
+        Ok(Provenance::new(self.subcommand(), self.parameters(), inputs))
     }
 }
 

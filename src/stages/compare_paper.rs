@@ -150,7 +150,7 @@ fn by_quantity(spread: &[SpreadRow]) -> BTreeMap<(&str, &str, &str), Vec<f64>> {
 }
 
 impl Stage for ComparePaper {
-    fn name(&self) -> &'static str {
+    fn subcommand(&self) -> &'static str {
         PAPER.stage
     }
 

@@ -144,7 +144,7 @@ impl FitPex {
 }
 
 impl Stage for FitPex {
-    fn name(&self) -> &'static str {
+    fn subcommand(&self) -> &'static str {
         PEX.stage
     }
 

@@ -130,7 +130,7 @@ impl FitPro {
 }
 
 impl Stage for FitPro {
-    fn name(&self) -> &'static str {
+    fn subcommand(&self) -> &'static str {
         PRO.stage
     }
 

@@ -101,7 +101,7 @@ pub fn dry_run(stages: &[Box<dyn Stage>], force: bool) -> anyhow::Result<String>
             Freshness::UpToDate => "up to date".to_string(),
             Freshness::Stale(reason) => format!("would run: {reason}"),
         };
-        writeln!(text, "{:20} {verdict}", stage.name())?;
+        writeln!(text, "{:20} {verdict}", stage.subcommand())?;
         if let serde_json::Value::Object(parameters) = stage.parameters() {
             for (name, value) in parameters {
                 writeln!(text, "    {name}: {value}")?;

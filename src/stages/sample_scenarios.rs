@@ -84,7 +84,7 @@ impl SampleScenarios {
 }
 
 impl Stage for SampleScenarios {
-    fn name(&self) -> &'static str {
+    fn subcommand(&self) -> &'static str {
         SCENARIOS.stage
     }
 

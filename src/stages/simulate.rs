@@ -208,7 +208,7 @@ impl Peaks {
 }
 
 impl Stage for Simulate {
-    fn name(&self) -> &'static str {
+    fn subcommand(&self) -> &'static str {
         RESPONSES.stage
     }
 
@@ -238,7 +238,7 @@ impl Stage for Simulate {
         let mut seen: HashSet<MotionId> = HashSet::new();
         let mut traces: Vec<TraceRow> = Vec::new();
         let pool = Pool::new(IntensityScratch::default);
-        let bar = console.bar(self.name(), total);
+        let bar = console.bar(self.subcommand(), total);
         pipelined(
             motions.map(|batch| Ok(batch?)),
             |motions| {

@@ -46,12 +46,12 @@ impl StructureSpec {
                 Structure::frame(&name, width, height, ratio, eta)
             }
             _ => {
-                return Err(UsageError::new(format!(
+                return Err(UsageError::because(format!(
                     "structure '{name}': expected p, alpha and eta; or width and height (m), with beam-mass-ratio for a frame"
                 )));
             }
         };
-        structure.map_err(|error| UsageError::new(error.to_string()))
+        structure.map_err(|error| UsageError::because(error.to_string()))
     }
 
     fn generic_name(&self) -> String {
@@ -97,13 +97,13 @@ impl Structures {
             Structures::File(path) => read(path)?,
         };
         if specs.is_empty() {
-            return Err(UsageError::new("structures: none given; expected at least one"));
+            return Err(UsageError::because("structures: none given; expected at least one"));
         }
         let structures = specs.iter().map(StructureSpec::structure).collect::<anyhow::Result<Vec<_>>>()?;
         let mut names: Vec<&str> = structures.iter().map(|structure| structure.name.as_str()).collect();
         names.sort_unstable();
         match names.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(pair) => Err(UsageError::new(format!(
+            Some(pair) => Err(UsageError::because(format!(
                 "structures: two are called '{}'; expected distinct names",
                 pair[0]
             ))),
@@ -113,7 +113,7 @@ impl Structures {
 }
 
 fn read(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
-    let failed = |what: String| UsageError::new(format!("{}: {what}", path.display()));
+    let failed = |what: String| UsageError::because(format!("{}: {what}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extension.as_str() {

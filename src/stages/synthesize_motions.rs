@@ -195,7 +195,7 @@ struct Scratch {
 }
 
 impl Stage for SynthesizeMotions {
-    fn name(&self) -> &'static str {
+    fn subcommand(&self) -> &'static str {
         MOTIONS.stage
     }
 
@@ -232,7 +232,7 @@ impl Stage for SynthesizeMotions {
             intensity: IntensityScratch::default(),
         });
         let mut writer = TableWriter::create(&self.out, &MOTIONS, provenance.clone())?;
-        let bar = console.bar(self.name(), scenarios.len() as u64);
+        let bar = console.bar(self.subcommand(), scenarios.len() as u64);
         pipelined(
             scenarios.chunks(self.row_group).map(Ok),
             |scenarios| {

@@ -1,5 +1,6 @@
 //! Reads a table batch by batch, or a narrow one whole.
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -9,6 +10,7 @@ use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::{ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
+use parquet::file::statistics::Statistics;
 use polars::prelude::{DataFrame, IntoColumn, NamedFrom, Series};
 
 use super::TableError;
@@ -143,6 +145,31 @@ pub struct Footer {
     pub bytes: u64,
     /// Columns.
     pub schema: SchemaRef,
+    /// What the statistics say of the columns of plain numbers and text.
+    pub ranges: HashMap<String, Range>,
+}
+
+/// The range of a column.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Range {
+    /// Rows without a value.
+    pub nulls: u64,
+    /// The least floating-point number.
+    pub least: Option<f64>,
+    /// The largest.
+    pub largest: Option<f64>,
+}
+
+impl Range {
+    fn add(&mut self, statistics: &Statistics) {
+        self.nulls += statistics.null_count_opt().unwrap_or(0);
+        if let Statistics::Double(numbers) = statistics {
+            let least = numbers.min_opt().copied();
+            let largest = numbers.max_opt().copied();
+            self.least = self.least.into_iter().chain(least).reduce(f64::min);
+            self.largest = self.largest.into_iter().chain(largest).reduce(f64::max);
+        }
+    }
 }
 
 /// Reads only the end of a Parquet file.
@@ -160,7 +187,18 @@ pub fn footer(path: &Path) -> Result<Footer, TableError> {
         row_groups: metadata.num_row_groups(),
         bytes,
         schema: builder.schema().clone(),
+        ranges: ranges(metadata),
     })
+}
+
+fn ranges(metadata: &ParquetMetaData) -> HashMap<String, Range> {
+    let mut ranges: HashMap<String, Range> = HashMap::new();
+    for column in metadata.row_groups().iter().flat_map(|group| group.columns()) {
+        if let ([name], Some(statistics)) = (column.column_path().parts(), column.statistics()) {
+            ranges.entry(name.clone()).or_default().add(statistics);
+        }
+    }
+    ranges
 }
 
 /// The footer of a Parquet file as the library gives it.

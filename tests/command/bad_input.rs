@@ -63,8 +63,8 @@ fn motions_that_cannot_be_used_are_named() {
     try_motions(0.01, &[samples(&[0.0, f64::NAN])], &["row 0", "sample 1", "NaN"]);
     try_motions(0.01, &[samples(&[f64::INFINITY, 0.0])], &["sample 0", "inf"]);
     try_motions(0.01, &[samples(&[1.0])], &["row 0", "1 sample(s)", "2 or more"]);
-    try_motions(0.0, &[fine.clone()], &["dt_s", "0", "above 0 s"]);
-    try_motions(-0.01, &[fine.clone()], &["dt_s"]);
+    try_motions(0.0, std::slice::from_ref(&fine), &["dt_s", "0", "above 0 s"]);
+    try_motions(-0.01, std::slice::from_ref(&fine), &["dt_s"]);
     try_motions(f64::NAN, &[fine], &["dt_s", "NaN"]);
     try_motions(0.01, &[], &["empty"]);
 }

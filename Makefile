@@ -1,0 +1,48 @@
+# The stages one by one, each made again only when what it reads has changed:
+#     make                 the comparison with the paper
+#     make out/pex.parquet one file and what it needs
+#     make spread          the spread over seeds that is shipped in data/
+# `rockfrag run` does the same from pipeline.yaml alone. A stage that finds its file up to date leaves it as it is;
+# touching it tells make so.
+
+ROCKFRAG ?= target/release/rockfrag
+CALL := $(ROCKFRAG) --config pipeline.yaml
+OUT := out
+
+.PHONY: all spread picture test clean
+
+all: $(OUT)/paper.parquet
+
+$(ROCKFRAG): Cargo.toml Cargo.lock $(shell find src data -type f)
+	cargo build --release --locked
+
+$(OUT)/scenarios.parquet: pipeline.yaml | $(ROCKFRAG)
+	$(CALL) sample-scenarios --out $@ && touch $@
+
+$(OUT)/motions.parquet: $(OUT)/scenarios.parquet
+	$(CALL) synthesize-motions --in $< --out $@ && touch $@
+
+$(OUT)/responses.parquet: $(OUT)/motions.parquet
+	$(CALL) simulate --in $< --out $@ && touch $@
+
+$(OUT)/pex.parquet: $(OUT)/responses.parquet
+	$(CALL) fit-pex --in $< --out $@ && touch $@
+
+$(OUT)/pro.parquet: $(OUT)/responses.parquet
+	$(CALL) fit-pro --in $< --out $@ && touch $@
+
+$(OUT)/paper.parquet: $(OUT)/pex.parquet $(OUT)/pro.parquet $(OUT)/responses.parquet
+	$(CALL) compare-paper --pex $(OUT)/pex.parquet --pro $(OUT)/pro.parquet --responses $(OUT)/responses.parquet --out $@
+	touch $@
+
+spread: | $(ROCKFRAG)
+	$(ROCKFRAG) seed-spread pipeline.yaml --seeds 20 --out data/seed_spread.csv
+
+picture: $(OUT)/pro.parquet
+	python3 scripts/readme_picture.py $(OUT) docs/fragility.png
+
+test:
+	cargo test --locked
+
+clean:
+	rm -rf $(OUT)
