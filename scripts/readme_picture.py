@@ -40,6 +40,8 @@ left.set(xscale="log", xlabel="p PGV / (g tan α)", ylabel="P(overturning | rock
 left.legend(frameon=False)
 right.axvline(1.3, color="0.6", lw=0.8, ls="--")
 right.set(xscale="log", yscale="log", xlabel="PGA / (g tan α)", ylabel="|θ|max / α in safe rocking", ylim=(1e-6, 2))
-for axes in (left, right):
+for axes, ticks in [(left, [0.2, 0.5, 1, 2, 4]), (right, [1, 1.3, 2, 4, 8])]:
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
     axes.spines[["top", "right"]].set_visible(False)
 figure.savefig(picture)
