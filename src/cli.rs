@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
-use crate::pipeline::config::Config;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::resolve;
 use crate::pipeline::stage::{Stage, beside};
 use crate::pipeline::{UsageError, cache};
 use crate::stages::compare_paper::{ComparePaper, ComparePaperOptions};
+use crate::stages::config::Config;
 use crate::stages::fit_pex::{FitPex, FitPexOptions};
 use crate::stages::fit_pro::{FitPro, FitProOptions};
 use crate::stages::inspect::inspect;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! options  words, lists and ranges as they stand in options; flags over file over defaults
-//! config   pipeline.yaml
+//! yaml     what is wrong with a YAML file
 //! stage    what every stage has: inputs, parameters, outputs, work
 //! cache    whether a stage is up to date, and if not, why
 //! stream   read, work and write at the same time, in order
@@ -10,11 +10,11 @@
 //! ```
 
 pub mod cache;
-pub mod config;
 pub mod console;
 pub mod options;
 pub mod stage;
 pub mod stream;
+pub mod yaml;
 
 /// A mistake in how rockfrag was called or configured: exit code 2.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

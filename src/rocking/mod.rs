@@ -5,6 +5,7 @@
 //! record     the ground acceleration as a piecewise-linear function of time
 //! taylor     the rotation over one step, as the polynomial of its Taylor series
 //! polynomial roots of such polynomials: impacts, peaks and overturning are found as these
+//! observer   who looks on while a structure rocks, and the side to which it leans
 //! march      from rest to uplift, impact, re-uplift, overturning: one record, one structure
 //! tail       what happens after the record has ended, in closed form
 //! response   the outcome and the engineering demand parameter
@@ -12,6 +13,7 @@
 //! ```
 
 mod march;
+mod observer;
 mod polynomial;
 mod record;
 mod response;
@@ -20,7 +22,8 @@ mod tail;
 mod taylor;
 mod trace;
 
+pub use march::simulate;
 pub use record::{Record, RecordError};
-pub use response::{Outcome, Response, simulate};
+pub use response::{Outcome, Response};
 pub use structure::{Structure, StructureError, frame_eta, frame_p, housner_eta, rectangular_p};
 pub use trace::{Event, TracePoint, trace};

@@ -1,6 +1,3 @@
-use super::march::{Observer, march};
-use super::record::Record;
-use super::structure::Structure;
 use crate::keyword::keywords;
 
 /// How a structure came through a ground motion.
@@ -30,13 +27,3 @@ pub struct Response {
     /// Impacts within the duration of the record.
     pub impacts: u32,
 }
-
-/// Simulates a structure, at rest at first, through a record and the free rocking that follows it.
-pub fn simulate(structure: &Structure, record: &Record) -> Response {
-    march(structure, record, &mut Unobserved)
-}
-
-/// Nobody looks on: only the response counts.
-struct Unobserved;
-
-impl Observer for Unobserved {}

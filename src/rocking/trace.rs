@@ -1,4 +1,5 @@
-use super::march::{Observer, Side, march};
+use super::march::march;
+use super::observer::{Observer, Side};
 use super::record::Record;
 use super::response::Response;
 use super::structure::Structure;

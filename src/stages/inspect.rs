@@ -5,8 +5,8 @@ use std::path::Path;
 
 use arrow_schema::DataType;
 
+use crate::table::footer::footer;
 use crate::table::provenance::{Stamp, stamp};
-use crate::table::reader::footer;
 
 /// A description of a Parquet file, ours or another's.
 ///

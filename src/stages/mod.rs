@@ -1,6 +1,8 @@
-//! One subcommand a file: read, call the domain, write.
+//! One subcommand a file: read, call the domain, write. Besides: config (pipeline.yaml, the options of all), structures (as
+//! a user names them), groups (the responses of a suite and structure).
 
 pub mod compare_paper;
+pub mod config;
 pub mod fit_pex;
 pub mod fit_pro;
 pub mod groups;

@@ -4,13 +4,13 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use super::compare_paper::ComparePaper;
+use super::config::Config;
 use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
 use super::sample_scenarios::SampleScenarios;
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
 use crate::pipeline::cache::{self, Freshness, freshness};
-use crate::pipeline::config::Config;
 use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 

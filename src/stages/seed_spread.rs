@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 
+use super::config::Config;
 use super::run::{Files, run, stages};
-use crate::pipeline::config::Config;
 use crate::pipeline::console::Console;
 use crate::table::paper::{self, SpreadRow};
 

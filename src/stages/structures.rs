@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use crate::pipeline::UsageError;
-use crate::pipeline::config::explain;
+use crate::pipeline::yaml::explain;
 use crate::rocking::Structure;
 
 /// One structure: p, alpha and eta; or the width and height (m) of a block or of a frame's columns, with beam-mass-ratio for a

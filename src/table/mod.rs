@@ -3,6 +3,7 @@
 //! ```text
 //! schema       every column once: name, type, unit, words; every table as a list of columns
 //! columns      the columns of one batch, by name, checked
+//! footer       the end of a file, which says what is in it
 //! reader       batches from a file; narrow tables whole, as polars frames
 //! writer       batches to a file, written beside its name and renamed when whole
 //! fingerprint  the hash of what a file holds
@@ -12,6 +13,7 @@
 
 pub mod columns;
 pub mod fingerprint;
+pub mod footer;
 pub mod motions;
 pub mod paper;
 pub mod pex;

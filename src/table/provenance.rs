@@ -7,7 +7,7 @@ use parquet::file::metadata::KeyValue;
 use serde_json::Value;
 
 use super::TableError;
-use super::reader::open_metadata;
+use super::footer::open_metadata;
 
 const STAGE: &str = "rockfrag.stage";
 const VERSION: &str = "rockfrag.version";

@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::UsageError;
-use crate::keyword::nearest;
-use crate::stages::compare_paper::ComparePaperOptions;
-use crate::stages::fit_pex::FitPexOptions;
-use crate::stages::fit_pro::FitProOptions;
-use crate::stages::sample_scenarios::SampleScenariosOptions;
-use crate::stages::simulate::SimulateOptions;
-use crate::stages::synthesize_motions::SynthesizeMotionsOptions;
+use super::compare_paper::ComparePaperOptions;
+use super::fit_pex::FitPexOptions;
+use super::fit_pro::FitProOptions;
+use super::sample_scenarios::SampleScenariosOptions;
+use super::simulate::SimulateOptions;
+use super::synthesize_motions::SynthesizeMotionsOptions;
+use crate::pipeline::UsageError;
+use crate::pipeline::yaml::explain;
 
 /// The whole file. A stage that is left out is not run.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -77,23 +77,4 @@ impl Config {
         config.spread_seed();
         config
     }
-}
-
-/// One line: where, what, and for an unknown key the nearest known one.
-pub fn explain(error: &serde_saphyr::Error) -> String {
-    let error = error.without_snippet();
-    let place = error
-        .location()
-        .map(|at| format!("line {}, column {}: ", at.line(), at.column()))
-        .unwrap_or_default();
-    if let serde_saphyr::Error::SerdeUnknownField { field, expected, .. } = error {
-        let hint = match nearest(field, expected) {
-            Some(near) => format!("did you mean '{near}'?"),
-            None => format!("expected one of {}", expected.join(", ")),
-        };
-        return format!("{place}unknown key '{field}'; {hint}");
-    }
-    let message = error.to_string();
-    let mut lines = message.lines();
-    format!("{place}{}", lines.next().unwrap_or_default())
 }
