@@ -191,7 +191,12 @@ fn two_planes_and_their_transition_are_found() {
             assert!(errors < 4.0, "{estimate:?}, expected {expected}");
         }
     }
-    assert!(fit.r2_pooled.unwrap() > 0.95);
+    let rss = low.rss + high.rss;
+    assert_eq!(fit.r2_pooled.unwrap(), 1.0 - rss / (low.tss + high.tss));
+    assert!(
+        fit.r2_overall.unwrap() > fit.r2_pooled.unwrap(),
+        "the jump between the sides counts only overall"
+    );
     assert_eq!(fit_biplanar(&cases, Some(1.5)).unwrap().transition, 1.5);
 }
 

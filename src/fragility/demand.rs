@@ -82,8 +82,11 @@ pub struct Biplanar {
     pub low: Result<LinearFit, FitStatus>,
     /// Above it.
     pub high: Result<LinearFit, FitStatus>,
-    /// Coefficient of determination of both together.
+    /// Coefficient of determination of both together, each about the mean on its own side: the share that the planes
+    /// explain beyond the jump between the sides. The pooled R2 of the paper follow this definition.
     pub r2_pooled: Option<f64>,
+    /// Coefficient of determination of both together about the mean of all cases.
+    pub r2_overall: Option<f64>,
     /// How the residual depends on the transition.
     pub scan: Vec<ScanPoint>,
 }
@@ -102,11 +105,13 @@ pub fn fit_biplanar(cases: &[Case], transition: Option<f64>) -> Result<Biplanar,
     let transition = transition.or(found).ok_or(FitStatus::TooFewCases)?;
     let low = fit_plane(cases, 0.0..transition);
     let high = fit_plane(cases, transition..f64::INFINITY);
-    let r2_pooled = match (&low, &high) {
-        (Ok(low), Ok(high)) => Some(1.0 - (low.rss + high.rss) / sum_of_squares(&sample.ln_edp)),
-        _ => None,
-    };
-    Ok(Biplanar { transition, found, low, high, r2_pooled, scan })
+    let (mut r2_pooled, mut r2_overall) = (None, None);
+    if let (Ok(low), Ok(high)) = (&low, &high) {
+        let rss = low.rss + high.rss;
+        r2_pooled = Some(1.0 - rss / (low.tss + high.tss));
+        r2_overall = Some(1.0 - rss / sum_of_squares(&sample.ln_edp));
+    }
+    Ok(Biplanar { transition, found, low, high, r2_pooled, r2_overall, scan })
 }
 
 fn sum_of_squares(values: &[f64]) -> f64 {

@@ -102,6 +102,7 @@ impl FitPex {
             range_high: Some(range.end).filter(|end| end.is_finite()),
             limit_state: self.options.limit_state,
             r2_pooled: None,
+            r2_overall: None,
             transition_found: None,
             fit,
         };
@@ -127,7 +128,8 @@ impl FitPex {
             }
         };
         let (at, found) = (biplanar.transition, biplanar.found);
-        let pooled = |row| PexRow { r2_pooled: biplanar.r2_pooled, transition_found: found, ..row };
+        let (r2_pooled, r2_overall) = (biplanar.r2_pooled, biplanar.r2_overall);
+        let pooled = |row| PexRow { r2_pooled, r2_overall, transition_found: found, ..row };
         rows.push(pooled(row(Model::Biplanar, Some(Measure::Im3), 1.0..at, biplanar.low)));
         rows.push(pooled(row(Model::Biplanar, Some(Measure::Im3), at..f64::INFINITY, biplanar.high)));
         let scan = biplanar.scan.into_iter().map(|point| ScanRow {

@@ -46,8 +46,10 @@ pub struct PexRow {
     pub range_high: Option<f64>,
     /// The demand that P_ex is about.
     pub limit_state: f64,
-    /// Of both planes.
+    /// Of both planes, each about the mean on its own side.
     pub r2_pooled: Option<f64>,
+    /// Of both planes, about the mean of all cases.
+    pub r2_overall: Option<f64>,
     /// IM4 of the least pooled residual.
     pub transition_found: Option<f64>,
     /// The fit, or why there is none.
@@ -100,6 +102,7 @@ pub fn batch(rows: &[PexRow]) -> Result<RecordBatch, ArrowError> {
     columns.extend([
         fitted(|fit| fit.r2),
         number(&|row| row.r2_pooled),
+        number(&|row| row.r2_overall),
         number(&|row| row.transition_found),
         fitted(|fit| fit.residual_sd),
         number(&zeta),

@@ -166,7 +166,8 @@ columns! {
     B1 = "b1", Float64, "1", "slope on ln im_x";
     B2 = "b2", Float64, "1", "slope on ln im_y";
     R2 = "r2", Float64, "1", "coefficient of determination";
-    R2_POOLED = "r2_pooled", Float64, "1", "coefficient of determination of both planes together";
+    R2_POOLED = "r2_pooled", Float64, "1", "R2 of both planes together, each about the mean on its own side";
+    R2_OVERALL = "r2_overall", Float64, "1", "R2 of both planes together about the mean of all cases";
     TRANSITION_FOUND = "transition_found", Float64, "1", "im4 of the least pooled residual of two planes";
     BETA = "beta", Float64, "1", "dispersion: residual standard deviation of ln EDP, or that of the curve P_ro";
     ZETA = "zeta", Float64, "1", "modified dispersion beta / b1";
@@ -320,6 +321,7 @@ pub const PEX: Table = Table {
         B2.or_null(),
         R2.or_null(),
         R2_POOLED.or_null(),
+        R2_OVERALL.or_null(),
         TRANSITION_FOUND.or_null(),
         BETA.or_null(),
         ZETA.or_null(),
