@@ -48,3 +48,20 @@ with open(folder / "answers.csv", "w", newline="") as file:
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(["name", "value"])
     writer.writerows([name, repr(float(value))] for name, value in answers.items())
+
+# Classes that barely overlap: the slope is steep and Newton's steps are long.
+random = np.random.default_rng(15)
+x = random.normal(0, 1, 300)
+y = random.normal(0, 1, 300)
+event = (x + y + random.normal(0, 0.05, 300) > 0).astype(int)
+with open(folder / "nearly_separated.csv", "w", newline="") as file:
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(["x", "y", "event"])
+    writer.writerows([repr(float(a)), repr(float(b)), int(e)] for a, b, e in zip(x, y, event))
+probit = sm.Probit(event, sm.add_constant(np.column_stack([x, y]))).fit(method="newton", tol=1e-14, maxiter=500, disp=0)
+with open(folder / "nearly_separated_answers.csv", "w", newline="") as file:
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(["name", "value"])
+    writer.writerows([f"b{k}", repr(float(v))] for k, v in enumerate(probit.params))
+    writer.writerows([f"se{k}", repr(float(v))] for k, v in enumerate(probit.bse))
+    writer.writerow(["llf", repr(float(probit.llf))])

@@ -11,12 +11,23 @@ pub fn p_overturning(im: f64, mu: f64, beta: f64) -> f64 {
     normal::cdf((im.ln() - mu) / beta)
 }
 
-/// Probability of no rocking, which IM4 = PGA/(g tan alpha) decides: 1 below uplift, 0 from there on.
+/// Probability of no rocking, which IM4 = PGA/(g tan alpha) decides: 1 below uplift, 0 from there on; NaN of NaN.
 pub fn p_no_rocking(im4: f64) -> f64 {
-    if im4 < 1.0 { 1.0 } else { 0.0 }
+    if im4.is_nan() {
+        f64::NAN
+    } else if im4 < 1.0 {
+        1.0
+    } else {
+        0.0
+    }
 }
 
 /// Probability of failure given rocking (Eq. 12): P_ro + (1 - P_ro) P_ex.
 pub fn p_failure_given_rocking(p_overturning: f64, p_exceeding: f64) -> f64 {
     p_overturning + (1.0 - p_overturning) * p_exceeding
+}
+
+/// Probability of failure over the whole tree: (1 - P_nr) P_f|r, exactly zero without rocking.
+pub fn p_failure(p_no_rocking: f64, p_failure_given_rocking: f64) -> f64 {
+    (1.0 - p_no_rocking) * p_failure_given_rocking
 }

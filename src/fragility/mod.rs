@@ -26,7 +26,7 @@ mod student;
 mod transition;
 
 pub use case::{Case, Measure};
-pub use curve::{p_exceeding, p_failure_given_rocking, p_no_rocking, p_overturning};
+pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use demand::{Biplanar, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
 pub use overturning::{EventSample, OverturningFit, Z_95, fit_overturning};
 pub use probit::{ProbitError, ProbitFit, probit};

@@ -30,10 +30,11 @@ struct Likelihood {
 }
 
 /// Maximises the Bernoulli likelihood of `events` (true: it happened) under the probit link by Newton's method with step halving; the
-/// likelihood is concave. `predictors` are each as long as `events`.
+/// likelihood is concave. `predictors` are each as long as `events`. Under separation there is no maximum, and the iterations may
+/// still stop, far out where the likelihood is flat: [`is_separated`](super::is_separated) must be asked first.
 ///
 /// # Errors
-/// If the iterations do not converge, as under separation.
+/// If the iterations do not converge, or the predictors are collinear.
 pub fn probit(predictors: &[&[f64]], events: &[bool]) -> Result<ProbitFit, ProbitError> {
     let (n, k) = (events.len(), predictors.len() + 1);
     let design =

@@ -1,7 +1,11 @@
 //! Whether a line through the measures tells the outcomes apart: then the likelihood grows without end.
 
+/// In a plane, classes that overlap by less than this share of the scores count as touching: a smaller overlap is the
+/// rounding of the scores themselves.
+const ROUNDING: f64 = 1e-12;
+
 /// Whether some direction in the space of one or two `predictors` puts every event at or beyond every non-event
-/// (complete or quasi-complete separation). Exact.
+/// (complete or quasi-complete separation). Exact for one; for two, up to the rounding of the scores.
 pub fn is_separated(predictors: &[&[f64]], events: &[bool]) -> bool {
     match predictors {
         [x] => separates(events, |row| x[row]) || separates(events, |row| -x[row]),
@@ -39,7 +43,9 @@ fn planar(x: &[f64], y: &[f64], events: &[bool]) -> bool {
         let score = |p: &Point| normal.0 * p.0 + normal.1 * p.1;
         let least = hull.iter().map(score).fold(f64::INFINITY, f64::min);
         let largest = other.iter().map(score).fold(f64::NEG_INFINITY, f64::max);
-        normal != (0.0, 0.0) && least >= largest
+        let size = |p: &Point| (normal.0 * p.0).abs() + (normal.1 * p.1).abs();
+        let rounding = ROUNDING * hull.iter().chain(&other).map(size).fold(0.0, f64::max);
+        normal != (0.0, 0.0) && least >= largest - rounding
     })
 }
 

@@ -64,7 +64,7 @@ pub struct SynthesizeMotionsOptions {
     #[arg(long)]
     pub housner: bool,
     /// Scenarios in a row group: what is held in memory and read at once; the rows do not depend on it
-    #[arg(long, default_value = "32")]
+    #[arg(long, default_value = "128")]
     pub row_group: usize,
 }
 

@@ -19,6 +19,9 @@ use super::schema::{Kind, Table};
 /// The end of the name of a file that is still being written.
 const PARTIAL: &str = ".partial";
 
+/// Rows that are held before they are written, where the stage itself ends no row group.
+const MOST_ROWS_IN_GROUP: usize = 4096;
+
 /// Writes the batches of one table in order.
 pub struct TableWriter {
     path: PathBuf,
@@ -145,7 +148,11 @@ fn properties(table: &Table) -> WriterProperties {
     let zstd = Compression::ZSTD(ZstdLevel::try_new(1).unwrap_or_default());
     let mut properties = WriterProperties::builder()
         .set_created_by(format!("rockfrag {}", env!("CARGO_PKG_VERSION")))
-        .set_compression(zstd);
+        .set_compression(zstd)
+        .set_max_row_group_row_count(Some(MOST_ROWS_IN_GROUP))
+        // What is kept for each row group until the end: as little as serves, since there may be many.
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_offset_index_disabled(true);
     for column in table.columns.iter().filter(|column| column.kind == Kind::Samples) {
         let path = samples_path(column.name);
         properties = properties
