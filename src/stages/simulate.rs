@@ -182,6 +182,23 @@ impl Simulate {
     }
 }
 
+/// The motions so far; numbers take little room, as there may be millions.
+#[derive(Default)]
+struct SeenIds {
+    numbers: HashSet<i64>,
+    names: HashSet<String>,
+}
+
+impl SeenIds {
+    /// Whether this one is new.
+    fn insert(&mut self, id: &MotionId) -> bool {
+        match id {
+            MotionId::Number(number) => self.numbers.insert(*number),
+            MotionId::Name(name) => self.names.insert(name.clone()),
+        }
+    }
+}
+
 /// What came of one motion.
 struct Responded {
     rows: Vec<ResponseRow>,
@@ -235,7 +252,7 @@ impl Stage for Simulate {
         let motions = MotionBatches::open(&self.input, BATCH)?;
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
         let mut writer = self.writer(&self.out, &RESPONSES, by_name, provenance)?;
-        let mut seen: HashSet<MotionId> = HashSet::new();
+        let mut seen = SeenIds::default();
         let mut traces: Vec<TraceRow> = Vec::new();
         let pool = Pool::new(IntensityScratch::default);
         let bar = console.bar(self.subcommand(), total);
@@ -251,7 +268,7 @@ impl Stage for Simulate {
             |responded| {
                 for motion in &responded {
                     if let Some(row) = motion.rows.first()
-                        && !seen.insert(row.motion_id.clone())
+                        && !seen.insert(&row.motion_id)
                     {
                         bail!(
                             "{}: two motions are called '{}'; expected distinct motion_id",
