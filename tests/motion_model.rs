@@ -1,25 +1,31 @@
-//! Scenarios and ground motions against published values and closed forms.
+//! Ground motions (sections 2.1.2 and 2.1.3) against published values and closed forms.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
 use proptest::prelude::*;
 use realfft::RealFftPlanner;
+use realfft::num_complex::Complex64;
 use rockfrag::motion::pulse::largest_velocity;
-use rockfrag::motion::scenario::{median_log10_tp_s, median_log10_vp_cm_s};
-use rockfrag::motion::stochastic::{CONSTANT, PEAK_SHARE, Site, Source, Window};
+use rockfrag::motion::stochastic::{
+    CONSTANT, LowCut, PEAK_SHARE, Site, SiteTableError, Source, StochasticModel, Window,
+};
 use rockfrag::motion::{
-    Design, Difference, Epoch, Grid, IntensityScratch, MotionModel, Pulse, Scenario, SobolSequence,
-    StochasticModel, Synthesizer, Synthetic, intensity, measures,
+    Design, Difference, Epoch, Grid, IntensityScratch, MotionModel, Pulse, Scenario, Synthesizer, Synthetic,
+    intensity, measures,
 };
 
-fn grid(design: Design) -> Grid {
-    Grid { mw: vec![5.5, 6.5, 7.5], re_km: vec![5.0, 20.0], samples: 100, design, seed: 42 }
+const EPOCHS: [Epoch; 3] = [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv];
+
+/// The scenarios of one magnitude and distance.
+fn cell(mw: f64, re_km: f64, samples: usize, seed: u64) -> Vec<Scenario> {
+    Grid { mw: vec![mw], re_km: vec![re_km], samples, design: Design::Lhs, seed }.scenarios_of_cell(0)
 }
 
-/// The hundred scenarios of one magnitude and distance.
-fn cell(mw: f64, re_km: f64) -> Vec<Scenario> {
-    Grid { mw: vec![mw], re_km: vec![re_km], samples: 100, design: Design::Lhs, seed: 42 }
-        .scenarios_of_cell(0)
+/// Small and large earthquakes: pulses much shorter and much longer than the window.
+fn varied_scenarios() -> Vec<Scenario> {
+    let grid =
+        Grid { mw: vec![5.5, 6.5, 7.5], re_km: vec![5.0, 20.0], samples: 12, design: Design::Lhs, seed: 42 };
+    (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell)).collect()
 }
 
 fn synthesize(model: &MotionModel, scenarios: &[Scenario]) -> Vec<Synthetic> {
@@ -27,86 +33,80 @@ fn synthesize(model: &MotionModel, scenarios: &[Scenario]) -> Vec<Synthetic> {
     scenarios.iter().map(|scenario| synthesizer.synthesize(scenario)).collect()
 }
 
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
+fn with_difference(difference: Difference) -> MotionModel {
+    MotionModel { difference, ..MotionModel::default() }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     0.5 * (values[(values.len() - 1) / 2] + values[values.len() / 2])
 }
 
-/// Medians of PGA (g), PGV (cm/s) and Tm (s).
-fn medians(motions: &[Synthetic], samples: fn(&Synthetic) -> &Vec<f64>) -> [f64; 3] {
-    let mut scratch = IntensityScratch::default();
-    let all: Vec<_> = motions.iter().map(|m| measures(samples(m), m.dt_s, &mut scratch)).collect();
-    [
-        median(all.iter().map(|m| m.pga_m_s2 / 9.81)),
-        median(all.iter().map(|m| m.pgv_m_s * 100.0)),
-        median(all.iter().map(|m| m.tm_s.unwrap())),
-    ]
-}
+/// Seeds whose medians are averaged. One hundred motions leave a standard error of 1 to 2.6 % in a median.
+const SEEDS: u64 = 6;
+/// The published medians come from 100 motions: 2.6 % of their own, 1 % of ours, and half a unit of their last digit.
+const SAMPLING: f64 = 0.06;
 
-#[test]
-fn a_latin_hypercube_has_one_sample_in_each_stratum() {
-    let points = grid(Design::Lhs).quantiles_of_cell(3);
-    for dimension in 0..4 {
-        let mut strata: Vec<usize> = points.iter().map(|u| (u[dimension] * 100.0) as usize).collect();
-        strata.sort_unstable();
-        assert_eq!(strata, (0..100).collect::<Vec<_>>());
-    }
-}
-
-#[test]
-fn sobol_points_equal_scipys() {
-    // scipy.stats.qmc.Sobol(d=4, scramble=False).random(8) times 2^32.
-    let expected = [
-        [0, 0, 0, 0],
-        [2_147_483_648, 2_147_483_648, 2_147_483_648, 2_147_483_648],
-        [3_221_225_472, 1_073_741_824, 1_073_741_824, 1_073_741_824],
-        [1_073_741_824, 3_221_225_472, 3_221_225_472, 3_221_225_472],
-        [1_610_612_736, 1_610_612_736, 2_684_354_560, 3_758_096_384],
-        [3_758_096_384, 3_758_096_384, 536_870_912, 1_610_612_736],
-        [2_684_354_560, 536_870_912, 3_758_096_384, 2_684_354_560],
-        [536_870_912, 2_684_354_560, 1_610_612_736, 536_870_912_u32],
-    ];
-    assert_eq!(SobolSequence::default().take(8).collect::<Vec<_>>(), expected);
-}
-
-#[test]
-fn every_design_has_the_marginals_of_the_paper() {
-    for design in [Design::Lhs, Design::Random, Design::Sobol] {
-        let many = Grid { samples: 4000, ..grid(design) };
-        let scenarios = many.scenarios_of_cell(1);
-        assert_eq!((scenarios[7].scenario_id, scenarios[7].cell, scenarios[7].sample), (4007, 1, 7));
-        let ln_vp = median(scenarios.iter().map(|s| (s.vp_m_s * 100.0).log10()));
-        assert!((ln_vp - median_log10_vp_cm_s(5.5, 20.0)).abs() < 0.01, "{design:?}");
-        assert!((median(scenarios.iter().map(|s| s.tp_s.log10())) - median_log10_tp_s(5.5)).abs() < 0.012);
-        assert!((median(scenarios.iter().map(|s| s.nu_rad)) - 1.83).abs() < 0.06);
-        assert!(scenarios.iter().all(|s| s.gamma >= 1.0));
-        let sd = |values: Vec<f64>| {
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / values.len() as f64).sqrt()
+/// Medians of PGA (g), PGV (cm/s) and Tm (s) of 100 motions, the mean over all seeds.
+fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) -> &Vec<f64>) -> [f64; 3] {
+    let mut mean = [0.0; 3];
+    for seed in 0..SEEDS {
+        let model = MotionModel { seed, ..with_difference(difference) };
+        let mut scratch = IntensityScratch::default();
+        let mut synthesizer = Synthesizer::new(model);
+        let of = |scenario: &Scenario| {
+            let motion = synthesizer.synthesize(scenario);
+            measures(samples(&motion), motion.dt_s, &mut scratch)
         };
-        assert!((sd(scenarios.iter().map(|s| s.vp_m_s.log10()).collect()) - 0.16).abs() < 0.006);
-        assert!((sd(scenarios.iter().map(|s| s.tp_s.log10()).collect()) - 0.18).abs() < 0.007);
+        let all: Vec<_> = cell(mw, re_km, 100, seed).iter().map(of).collect();
+        let of_seed = [
+            median(all.iter().map(|m| m.pga_m_s2 / 9.81).collect()),
+            median(all.iter().map(|m| m.pgv_m_s * 100.0).collect()),
+            median(all.iter().map(|m| m.tm_s.unwrap()).collect()),
+        ];
+        mean.iter_mut().zip(of_seed).for_each(|(mean, value)| *mean += value / SEEDS as f64);
     }
+    mean
 }
 
-#[test]
-fn magnitude_saturates_in_the_amplitude_only() {
-    assert_eq!(median_log10_vp_cm_s(7.5, 10.0), median_log10_vp_cm_s(7.0, 10.0));
-    assert!(median_log10_tp_s(7.5) > median_log10_tp_s(7.0));
+/// The Fourier coefficients of accelerations, as the discrete transform gives them.
+fn spectrum(samples: &[f64]) -> Vec<Complex64> {
+    let fft = RealFftPlanner::<f64>::new().plan_fft_forward(samples.len());
+    let mut spectrum = fft.make_output_vec();
+    fft.process(&mut samples.to_vec(), &mut spectrum).unwrap();
+    spectrum
+}
+
+/// Fourier amplitude of the high frequencies over that of the model, at each frequency (Hz) but the first and last.
+fn relative_amplitudes(motion: &Synthetic, model: &StochasticModel, source: &Source) -> Vec<(f64, f64)> {
+    let step_hz = 1.0 / (motion.high_frequency.len() as f64 * motion.dt_s);
+    let coefficients = spectrum(&motion.high_frequency);
+    let relative = |(k, coefficient): (usize, &Complex64)| {
+        let f = k as f64 * step_hz;
+        (f, coefficient.norm() * motion.dt_s * 100.0 / model.fourier_amplitude_cm_s(source, f))
+    };
+    let last = coefficients.len() - 1;
+    coefficients.iter().enumerate().take(last).skip(1).map(relative).collect()
 }
 
 #[test]
 fn the_largest_velocity_of_a_pulse_has_its_published_values() {
     for (gamma, expected) in [(1.0, 0.6495), (1.5, 0.7939), (1.93, 0.8616), (3.0, 0.9365)] {
-        assert!((largest_velocity(gamma, FRAC_PI_2) - expected).abs() < 5e-5, "gamma = {gamma}");
+        let f = largest_velocity(gamma, FRAC_PI_2);
+        assert!((f - expected).abs() < 5e-5, "gamma = {gamma}: {f}");
         assert!((largest_velocity(gamma, 0.0) - 1.0).abs() < 1e-12);
     }
+    // Of (1 + cos x) sin x / 2, in closed form.
+    assert!((largest_velocity(1.0, FRAC_PI_2) - 3.0 * 3f64.sqrt() / 8.0).abs() < 1e-14);
 }
 
 #[test]
-fn the_stochastic_source_has_its_published_values() {
-    assert!((CONSTANT / 5.155914e-24 - 1.0).abs() < 1e-6);
+fn the_constant_of_the_source_is_the_published_one() {
+    assert!((CONSTANT / 5.155914e-24 - 1.0).abs() < 1e-7, "{CONSTANT:e}");
+}
+
+#[test]
+fn fourier_amplitudes_have_their_published_values() {
     let model = StochasticModel::default();
     for (mw, expected) in [
         (5.5, [0.3425, 8.4266, 12.363]),
@@ -115,110 +115,250 @@ fn the_stochastic_source_has_its_published_values() {
     ] {
         for (f, expected) in [0.1, 1.0, 10.0].into_iter().zip(expected) {
             let amplitude = model.fourier_amplitude_cm_s(&Source::new(mw, 10.0), f);
-            // The published values have four to six digits.
-            assert!((amplitude - expected).abs() < 0.6e-4 * expected.max(1.0), "M {mw}, {f} Hz: {amplitude}");
+            // Half a unit of the last published digit: the fourth decimal, but the third of 12.363.
+            let half_unit = if expected == 12.363 { 5e-4 } else { 5e-5 };
+            assert!((amplitude - expected).abs() < 1.01 * half_unit, "M {mw}, {f} Hz: {amplitude}");
         }
     }
-    let window = Window::new(3.0);
-    assert_eq!(window.duration_s, 6.0);
-    for (value, expected) in [(window.b, 1.2531497), (window.c, 6.2657487), (window.a, 26.3117724)] {
-        assert!((value - expected).abs() < 5e-8, "{value}");
-    }
-    assert!((window.value(PEAK_SHARE * 6.0) - 1.0).abs() < 1e-12);
-    assert!((window.value(6.0) - 0.05).abs() < 1e-12);
-    assert_eq!((window.value(0.0), window.value(6.1)), (0.0, 0.0));
 }
 
 #[test]
-fn two_hundred_motions_have_the_amplitude_of_the_source() {
-    let grid = Grid { mw: vec![6.5], re_km: vec![10.0], samples: 200, design: Design::Lhs, seed: 3 };
-    let scenarios = grid.scenarios_of_cell(0);
-    let model = MotionModel::default();
-    let motions = synthesize(&model, &scenarios);
+fn amplitudes_fall_with_distance_and_filters_as_their_equations_say() {
+    let near = StochasticModel::default();
+    // Spreading is 1/R to 40 km and 1/sqrt(40 R) beyond: at 0.01 Hz nothing else depends on the distance but Q.
+    let spread = |re_km: f64| {
+        let source = Source::new(6.0, re_km);
+        let attenuation = PI * source.distance_km * 0.01_f64.powf(0.55) / (180.0 * 3.5);
+        let amplitude = near.fourier_amplitude_cm_s(&source, 0.01) * attenuation.exp();
+        (source.distance_km, amplitude)
+    };
+    let ((r1, a1), (r2, a2), (r3, a3)) = (spread(10.0), spread(30.0), spread(160.0));
+    assert!((a1 * r1 / (a2 * r2) - 1.0).abs() < 1e-12);
+    assert!((a1 * r1 / (a3 * (40.0 * r3).sqrt()) - 1.0).abs() < 1e-12);
+    let source = Source::new(6.0, 10.0);
+    let ratio = |model: &StochasticModel, f: f64| {
+        model.fourier_amplitude_cm_s(&source, f) / near.fourier_amplitude_cm_s(&source, f)
+    };
+    let fmax = StochasticModel { fmax_hz: Some(15.0), ..near.clone() };
+    assert!((ratio(&fmax, 15.0) - FRAC_1_SQRT_2).abs() < 1e-14);
+    assert!((ratio(&fmax, 30.0) - 1.0 / 257f64.sqrt()).abs() < 1e-14);
+    let low_cut = StochasticModel { low_cut: Some(LowCut { corner_hz: 0.1, order: 4 }), ..near.clone() };
+    assert!((ratio(&low_cut, 0.1) - 0.5).abs() < 1e-14);
+    assert!((ratio(&low_cut, 0.05) - 1.0 / 257.0).abs() < 1e-14);
+    let kappa = StochasticModel { kappa_s: 0.040, ..near.clone() };
+    assert!((ratio(&kappa, 10.0) - (-0.1 * PI).exp()).abs() < 1e-14);
+    let soil = StochasticModel { site: Site::Soil, ..near.clone() };
+    assert!((ratio(&soil, 1.25) - 2.76 / 1.74).abs() < 1e-14);
+}
+
+#[test]
+fn the_window_has_its_published_constants_and_its_peak_of_one_at_a_fifth() {
+    let window = Window::new(3.0);
+    assert_eq!(window.duration_s, 6.0);
+    for (value, expected) in [(window.b, 1.2531497), (window.c, 6.2657487), (window.a, 26.3117724)] {
+        assert!((value - expected).abs() < 5.1e-8, "{value}");
+    }
+    let peak_s = 0.2 * 6.0;
+    assert!((window.value(peak_s) - 1.0).abs() < 1e-12);
+    assert!(window.value(peak_s - 1e-3) < 1.0 && window.value(peak_s + 1e-3) < 1.0);
+    assert!((window.value(6.0) - 0.05).abs() < 1e-12);
+    assert_eq!((window.value(-1.0), window.value(0.0), window.value(6.1)), (0.0, 0.0, 0.0));
+}
+
+#[test]
+fn the_source_lasts_as_long_as_its_equation_says() {
+    // M 6.5 at 10 km: fa 0.09057 Hz and R 13.074 km by hand.
     let source = Source::new(6.5, 10.0);
-    let mut planner = RealFftPlanner::<f64>::new();
-    // The last is all of them. A band has 200 motions x its width x 5 s independent values: a standard error of 1.3 % of the first.
+    let (fa, r) = (10f64.powf(2.181 - 0.496 * 6.5), 10f64.hypot(10f64.powf(-0.05 + 0.15 * 6.5)));
+    assert!((source.duration_s() - (0.5 / fa + 0.05 * r)).abs() < 1e-12);
+    assert!((source.duration_s() - 6.2).abs() < 0.05, "{}", source.duration_s());
+}
+
+#[test]
+fn each_motion_has_the_mean_power_of_the_model() {
+    // The noise is scaled to a mean square of 1 over all frequencies.
+    let model = MotionModel::default();
+    for scenario in varied_scenarios().iter().step_by(7) {
+        let motion = synthesize(&model, std::slice::from_ref(scenario)).remove(0);
+        let source = Source::new(scenario.mw, scenario.re_km);
+        let relative = relative_amplitudes(&motion, &model.stochastic, &source);
+        let power = relative.iter().map(|(_, r)| r * r).sum::<f64>() / relative.len() as f64;
+        assert!((power - 1.0).abs() < 1e-6, "{scenario:?}: {power}");
+    }
+}
+
+#[test]
+fn two_hundred_motions_have_the_amplitude_of_the_model_in_every_band() {
+    let model = MotionModel::default();
+    let source = Source::new(6.5, 10.0);
+    // The last is all of them. A band has 200 motions x its width x 5 s independent values: a standard error of 1.3 % in the
+    // first.
     let bands = [(0.5, 2.0), (2.0, 5.0), (5.0, 10.0), (10.0, 20.0), (0.5, 20.0)];
-    let mut ratio = [(0.0, 0.0); 5];
-    for motion in &motions {
-        let mut samples = motion.high_frequency.clone();
-        let fft = planner.plan_fft_forward(samples.len());
-        let mut spectrum = fft.make_output_vec();
-        fft.process(&mut samples, &mut spectrum).unwrap();
-        for (k, coefficient) in spectrum.iter().enumerate().skip(1) {
-            let f = k as f64 / (motion.high_frequency.len() as f64 * motion.dt_s);
-            let amplitude_cm_s = coefficient.norm() * motion.dt_s * 100.0;
-            let relative = amplitude_cm_s / model.stochastic.fourier_amplitude_cm_s(&source, f);
-            for (sums, band) in ratio.iter_mut().zip(&bands) {
-                if f >= band.0 && f < band.1 {
-                    sums.0 += relative * relative;
-                    sums.1 += 1.0;
+    let mut sums = [(0.0, 0.0); 5];
+    for motion in synthesize(&model, &cell(6.5, 10.0, 200, 3)) {
+        for (f, relative) in relative_amplitudes(&motion, &model.stochastic, &source) {
+            for (sum, band) in sums.iter_mut().zip(&bands) {
+                if (band.0..band.1).contains(&f) {
+                    sum.0 += relative * relative;
+                    sum.1 += 1.0;
                 }
             }
         }
     }
-    for (band, (sum, count)) in bands.iter().zip(ratio) {
-        let rms = (sum / count).sqrt();
-        println!("{:.2}-{:.2} Hz: {rms:.4}", band.0, band.1);
+    for (band, (sum, count)) in bands.iter().zip(sums) {
+        let rms = f64::sqrt(sum / count);
+        println!("{:.1}-{:.1} Hz: {rms:.4}", band.0, band.1);
         assert!((rms - 1.0).abs() < 0.02, "{band:?} Hz: {rms}");
     }
 }
 
 #[test]
+fn high_frequencies_rise_and_decay_with_the_window() {
+    let window = Window::new(Source::new(6.5, 10.0).duration_s());
+    let energy = |from: f64, to: f64| {
+        let value =
+            |k: usize| window.value(window.duration_s * (from + (to - from) * (k as f64 + 0.5) / 1000.0));
+        (0..1000).map(|k| value(k).powi(2)).sum::<f64>() * (to - from)
+    };
+    let total = energy(0.0, 1.0);
+    let shares = [(0.0, 0.1), (0.1, 0.2), (0.2, 0.4), (0.4, 0.7), (0.7, 1.0)];
+    let mut ours = [0.0; 5];
+    let motions = synthesize(&MotionModel::default(), &cell(6.5, 10.0, 200, 3));
+    for motion in &motions {
+        let onset_s = motion.epoch_s - PEAK_SHARE * window.duration_s;
+        let power: f64 = motion.high_frequency.iter().map(|a| a * a).sum();
+        for (k, a) in motion.high_frequency.iter().enumerate() {
+            let place = (k as f64 * motion.dt_s - onset_s) / window.duration_s;
+            if let Some(part) = shares.iter().position(|&(from, to)| place >= from && place < to) {
+                ours[part] += a * a / power / motions.len() as f64;
+            }
+        }
+    }
+    for ((from, to), share) in shares.into_iter().zip(ours) {
+        let expected = energy(from, to) / total;
+        // The first and last parts lose a little to the quiet beyond the window.
+        assert!((share - expected).abs() < 0.02, "{from}-{to}: {share:.4}, expected {expected:.4}");
+    }
+}
+
+#[test]
 fn high_frequencies_have_their_published_medians() {
-    // A hundred motions scatter by about 0.15 in ln PGA, so the median by 2 %; the published ones likewise, to two or
-    // three digits.
     for (mw, re_km, expected) in [
         (5.5, 5.0, [0.259, 9.5, 0.20]),
         (6.5, 5.0, [0.433, 23.0, 0.27]),
         (6.5, 20.0, [0.157, 9.3, 0.30]),
         (7.5, 5.0, [0.590, 48.7, 0.33]),
     ] {
-        let ours = medians(&synthesize(&MotionModel::default(), &cell(mw, re_km)), |m| &m.high_frequency);
+        let ours = medians(Difference::Clamp, mw, re_km, |motion| &motion.high_frequency);
         println!("HFC M {mw} R {re_km}: {ours:.3?}, published {expected:?}");
         for (ours, expected) in ours.into_iter().zip(expected) {
-            assert!((ours / expected - 1.0).abs() < 0.08, "M {mw} R {re_km}: {ours}, published {expected}");
+            assert!(
+                (ours / expected - 1.0).abs() < SAMPLING,
+                "M {mw} R {re_km}: {ours}, published {expected}"
+            );
         }
     }
 }
 
 #[test]
 fn combined_motions_have_their_published_medians() {
-    let clamp = MotionModel { difference: Difference::Clamp, ..MotionModel::default() };
     for (mw, re_km, expected) in
         [(5.5, 5.0, [0.418, 23.5, 0.32]), (6.5, 5.0, [0.526, 50.1, 0.45]), (7.5, 20.0, [0.299, 46.0, 0.41])]
     {
-        let scenarios = cell(mw, re_km);
-        let ours = medians(&synthesize(&clamp, &scenarios), |m| &m.combined);
-        let absolute = medians(&synthesize(&MotionModel::default(), &scenarios), |m| &m.combined);
-        println!("CSGM M {mw} R {re_km}: clamp {ours:.3?}, absolute {absolute:.3?}, published {expected:?}");
-        for (ours, expected) in ours.into_iter().zip(expected) {
-            assert!((ours / expected - 1.0).abs() < 0.10, "M {mw} R {re_km}: {ours}, published {expected}");
-        }
-        // The peaks hardly depend on the difference. The mean period does: what |D| leaves at low frequencies, where the
-        // pulse is the stronger, lengthens it by up to a fifth.
-        for (k, tolerance) in [0.10, 0.10, 0.20].into_iter().enumerate() {
+        let clamp = medians(Difference::Clamp, mw, re_km, |motion| &motion.combined);
+        let absolute = medians(Difference::Absolute, mw, re_km, |motion| &motion.combined);
+        println!("CSGM M {mw} R {re_km}: clamp {clamp:.3?}, absolute {absolute:.3?}, published {expected:?}");
+        for (clamp, expected) in clamp.into_iter().zip(expected) {
             assert!(
-                (absolute[k] / ours[k] - 1.0).abs() < tolerance,
-                "M {mw} R {re_km}: {absolute:?} for {ours:?}"
+                (clamp / expected - 1.0).abs() < SAMPLING,
+                "M {mw} R {re_km}: {clamp}, published {expected}"
             );
+        }
+        // What |D| leaves where the pulse is the stronger lengthens the mean period if it falls into its band: by 12 % at
+        // M 6.5 (an independent program in numpy says the same), less elsewhere. The peaks hardly change.
+        let tm_tolerance = if mw == 6.5 { 0.20 } else { 0.10 };
+        for (k, tolerance) in [0.10, 0.10, tm_tolerance].into_iter().enumerate() {
+            let ratio = absolute[k] / clamp[k];
+            assert!((ratio - 1.0).abs() < tolerance, "M {mw} R {re_km}: {absolute:?} for {clamp:?}");
+        }
+        assert!(absolute[2] > clamp[2], "M {mw} R {re_km}: |D| adds long periods");
+    }
+}
+
+#[test]
+fn each_difference_leaves_its_own_amplitude_and_the_phase_of_the_high_frequencies() {
+    let scenarios = [cell(5.5, 5.0, 5, 1), cell(6.5, 5.0, 5, 1), cell(7.5, 20.0, 5, 1)].concat();
+    for difference in [Difference::Absolute, Difference::Signed, Difference::Clamp, Difference::None] {
+        let mut stronger_pulse = 0;
+        for motion in synthesize(&with_difference(difference), &scenarios) {
+            let [h, p, c] = [&motion.high_frequency, &motion.pulse, &motion.combined].map(|a| spectrum(a));
+            let largest = c.iter().map(|x| x.norm()).fold(0.0, f64::max);
+            assert!(c[0].norm() < 1e-9 * largest, "no velocity is left");
+            for k in 1..h.len() - 1 {
+                let d = h[k].norm() - p[k].norm();
+                stronger_pulse += usize::from(d < 0.0);
+                let kept = match difference {
+                    Difference::Absolute => d.abs(),
+                    Difference::Signed => d,
+                    Difference::Clamp => d.max(0.0),
+                    Difference::None => h[k].norm(),
+                };
+                let expected = p[k] + Complex64::from_polar(kept, h[k].arg());
+                assert!((c[k] - expected).norm() < 1e-9 * largest, "{difference:?}, coefficient {k}");
+            }
+        }
+        assert!(stronger_pulse > 20, "the cases that tell the differences apart: {stronger_pulse}");
+    }
+}
+
+#[test]
+fn without_a_difference_both_motions_are_added() {
+    for motion in synthesize(&with_difference(Difference::None), &varied_scenarios()) {
+        let largest = intensity::peak(&motion.combined);
+        for ((sum, h), p) in motion.combined.iter().zip(&motion.high_frequency).zip(&motion.pulse) {
+            assert!((sum - h - p).abs() < 1e-5 * largest, "{}", (sum - h - p).abs() / largest);
         }
     }
 }
 
 #[test]
-fn the_pulse_is_never_cut_and_ends_at_rest() {
-    for epoch in [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv] {
+fn differences_and_epochs_change_neither_pulse_nor_high_frequencies_of_their_own() {
+    let scenarios = varied_scenarios();
+    let absolute = synthesize(&with_difference(Difference::Absolute), &scenarios);
+    for difference in [Difference::Signed, Difference::Clamp, Difference::None] {
+        for (ours, other) in absolute.iter().zip(synthesize(&with_difference(difference), &scenarios)) {
+            assert_eq!((&ours.pulse, &ours.high_frequency), (&other.pulse, &other.high_frequency));
+            assert_ne!(ours.combined, other.combined, "{difference:?}");
+        }
+    }
+}
+
+#[test]
+fn the_pulse_is_whole_at_its_epoch_and_ends_at_rest() {
+    for epoch in EPOCHS {
         let model = MotionModel { epoch, ..MotionModel::default() };
-        for scenario in grid(Design::Lhs).scenarios_of_cell(4).iter().take(30) {
-            let motion = synthesize(&model, std::slice::from_ref(scenario)).remove(0);
-            let velocity = intensity::velocity(&motion.pulse, motion.dt_s);
-            assert_eq!((motion.pulse[0], *motion.pulse.last().unwrap()), (0.0, 0.0));
+        let scenarios = varied_scenarios();
+        for (scenario, motion) in scenarios.iter().zip(synthesize(&model, &scenarios)) {
+            let pulse = Pulse::of(scenario);
+            let (half, end_s) = (0.5 * pulse.duration_s(), motion.pulse.len() as f64 * motion.dt_s);
             assert!(
-                (intensity::peak(&velocity) / scenario.vp_m_s - 1.0).abs() < 1e-3,
+                motion.epoch_s > half + 1.0 && end_s > motion.epoch_s + half + 1.0,
                 "{epoch:?} {scenario:?}"
             );
-            assert!(velocity.last().unwrap().abs() < 1e-3 * scenario.vp_m_s);
+            assert_eq!((motion.pulse[0], *motion.pulse.last().unwrap()), (0.0, 0.0));
+            for (k, a) in motion.pulse.iter().enumerate() {
+                let from_epoch_s = k as f64 * motion.dt_s - motion.epoch_s;
+                assert_eq!(*a, pulse.acceleration_m_s2(from_epoch_s));
+                assert!(*a == 0.0 || from_epoch_s.abs() <= half + 1e-9);
+            }
+            let velocity = intensity::velocity(&motion.pulse, motion.dt_s);
+            let pgv = intensity::peak(&velocity);
+            // The highest frequency in the pulse is wp (1 + 1/gamma). A peak between samples is missed by up to an
+            // eighth of its square, trapezoids miss a twelfth of it.
+            let x = 2.0 * PI / scenario.tp_s * (1.0 + 1.0 / scenario.gamma) * motion.dt_s;
+            let sampling = x * x * (1.0 / 8.0 + 1.0 / 12.0);
+            assert!((pgv / scenario.vp_m_s - 1.0).abs() < sampling, "{epoch:?} {scenario:?}: {pgv}");
+            assert!(velocity.last().unwrap().abs() < sampling * scenario.vp_m_s);
             let combined = intensity::velocity(&motion.combined, motion.dt_s);
             assert!(combined.last().unwrap().abs() < 0.02 * scenario.vp_m_s, "no velocity is left");
         }
@@ -226,40 +366,121 @@ fn the_pulse_is_never_cut_and_ends_at_rest() {
 }
 
 #[test]
-fn without_a_difference_both_motions_are_added() {
-    let model = MotionModel { difference: Difference::None, ..MotionModel::default() };
-    let motion = synthesize(&model, &cell(6.5, 5.0)[..1]).remove(0);
-    let largest = intensity::peak(&motion.combined);
-    for ((sum, h), p) in motion.combined.iter().zip(&motion.high_frequency).zip(&motion.pulse) {
-        assert!((sum - h - p).abs() < 1e-3 * largest);
+fn the_epoch_is_where_the_option_says() {
+    let scenarios = varied_scenarios();
+    for epoch in EPOCHS {
+        let model = MotionModel { epoch, ..MotionModel::default() };
+        for (scenario, motion) in scenarios.iter().zip(synthesize(&model, &scenarios)) {
+            let window = Window::new(Source::new(scenario.mw, scenario.re_km).duration_s());
+            let at = |series: &[f64]| {
+                let peak = intensity::peak(series);
+                series.iter().position(|a| a.abs() == peak).unwrap() as f64 * motion.dt_s
+            };
+            let half_s = 0.5 * Pulse::of(scenario).duration_s();
+            let peak_s = PEAK_SHARE * window.duration_s;
+            // Two seconds of quiet, then whichever of pulse and window begins first.
+            let expected = match epoch {
+                Epoch::EnvelopePeak => 2.0 + peak_s.max(half_s),
+                Epoch::Pga => at(&motion.high_frequency),
+                Epoch::Pgv => at(&intensity::velocity(&motion.high_frequency, motion.dt_s)),
+            };
+            assert!((motion.epoch_s - expected).abs() < 1e-9, "{epoch:?} {scenario:?}: {}", motion.epoch_s);
+        }
     }
 }
 
 #[test]
-fn a_motion_does_not_depend_on_those_before_it() {
-    let scenarios = cell(6.5, 5.0);
-    let together = synthesize(&MotionModel::default(), &scenarios[..8]);
-    let alone = synthesize(&MotionModel::default(), &scenarios[7..8]);
-    assert_eq!(together[7], alone[0]);
+fn a_motion_is_the_same_whatever_was_synthesized_before() {
+    let bits = |motion: &Synthetic| {
+        let series = [&motion.pulse, &motion.high_frequency, &motion.combined];
+        series.map(|series| series.iter().map(|a| a.to_bits()).collect::<Vec<_>>())
+    };
+    for epoch in EPOCHS {
+        let model = MotionModel { epoch, ..MotionModel::default() };
+        let scenarios = varied_scenarios();
+        let together = synthesize(&model, &scenarios);
+        let mut backwards = Synthesizer::new(model.clone());
+        for (scenario, motion) in scenarios.iter().zip(&together).rev() {
+            assert_eq!(bits(&backwards.synthesize(scenario)), bits(motion), "{epoch:?} {scenario:?}");
+        }
+        let alone = Synthesizer::new(model).synthesize(&scenarios[40]);
+        assert_eq!(bits(&alone), bits(&together[40]));
+    }
 }
 
 #[test]
-fn sites_amplify_as_published_and_tables_are_checked() {
-    assert_eq!((Site::Rock.amplification(6.05), Site::Soil.amplification(6.05)), (2.58, 3.05));
-    assert_eq!((Site::Rock.amplification(1e-4), Site::Rock.amplification(100.0)), (1.0, 4.0));
+fn the_noise_depends_on_seed_and_scenario() {
+    let scenario = cell(6.5, 5.0, 1, 1)[0];
+    let of = |seed: u64, scenario_id: i64| {
+        let model = MotionModel { seed, ..MotionModel::default() };
+        synthesize(&model, &[Scenario { scenario_id, ..scenario }]).remove(0)
+    };
+    let (first, other_seed, other_scenario) = (of(1, 0), of(2, 0), of(1, 1));
+    assert_eq!(first, of(1, 0));
+    assert_ne!(first.high_frequency, other_seed.high_frequency);
+    assert_ne!(first.high_frequency, other_scenario.high_frequency);
+    assert_eq!((&first.pulse, &first.pulse), (&other_seed.pulse, &other_scenario.pulse));
+}
+
+#[test]
+fn the_time_step_is_that_of_the_model() {
+    let scenario = cell(6.5, 5.0, 1, 1);
+    for dt_s in [0.0025, 0.01, 0.02] {
+        let motion = synthesize(&MotionModel { dt_s, ..MotionModel::default() }, &scenario).remove(0);
+        let default = synthesize(&MotionModel::default(), &scenario).remove(0);
+        assert_eq!(motion.dt_s, dt_s);
+        let seconds = |motion: &Synthetic| motion.combined.len() as f64 * motion.dt_s;
+        // The number of samples is rounded up to one without large prime factors.
+        assert!((seconds(&motion) / seconds(&default) - 1.0).abs() < 0.05, "{dt_s}");
+        assert!((motion.epoch_s - default.epoch_s).abs() < 1e-9);
+        let pgv = intensity::peak(&intensity::velocity(&motion.pulse, dt_s));
+        assert!((pgv / scenario[0].vp_m_s - 1.0).abs() < 5e-3, "{dt_s}: {pgv}");
+    }
+}
+
+#[test]
+fn sites_amplify_as_published() {
+    for (f, rock, soil) in [(0.01, 1.0, 1.0), (0.51, 1.42, 2.24), (6.05, 2.58, 3.05), (61.2, 4.0, 3.21)] {
+        assert_eq!((Site::Rock.amplification(f), Site::Soil.amplification(f)), (rock, soil), "{f} Hz");
+    }
+    assert_eq!((Site::Rock.amplification(0.0), Site::Rock.amplification(100.0)), (1.0, 4.0));
+    assert_eq!((Site::Soil.amplification(0.0), Site::Soil.amplification(100.0)), (1.0, 3.21));
     let middle = Site::Rock.amplification(0.5 * (2.26 + 3.17));
-    assert!(
-        (middle - (2.06_f64 * 2.25).sqrt()).abs() < 1e-12,
-        "linear in frequency, logarithmic in the factor"
-    );
+    assert!((middle - (2.06_f64 * 2.25).sqrt()).abs() < 1e-12, "linear in f, logarithmic in the factor");
     assert_eq!(Site::None.amplification(3.0), 1.0);
-    for rows in [
-        vec![(1.0, 2.0)],
-        vec![(1.0, 2.0), (1.0, 3.0)],
-        vec![(1.0, 0.0), (2.0, 1.0)],
-        vec![(f64::NAN, 1.0), (2.0, 1.0)],
+}
+
+#[test]
+fn a_site_table_interpolates_between_its_rows_and_is_constant_beyond() {
+    let site = Site::table(vec![(1.0, 2.0), (3.0, 8.0)]).unwrap();
+    for (f, expected) in [(0.0, 2.0), (1.0, 2.0), (2.0, 4.0), (3.0, 8.0), (50.0, 8.0)] {
+        assert!((site.amplification(f) - expected).abs() < 1e-14, "{f} Hz");
+    }
+    let model = StochasticModel { site, ..StochasticModel::default() };
+    let bare = StochasticModel { site: Site::None, ..StochasticModel::default() };
+    assert!((model.common_factor(2.0) / bare.common_factor(2.0) - 4.0).abs() < 1e-13);
+}
+
+#[test]
+fn a_site_table_that_cannot_be_used_says_which_row_and_why() {
+    for rows in [vec![], vec![(1.0, 2.0)]] {
+        assert_eq!(Site::table(rows.clone()), Err(SiteTableError::TooShort(rows.len())));
+    }
+    for (rows, bad) in [
+        (vec![(1.0, 2.0), (1.0, 3.0)], 1),
+        (vec![(1.0, 2.0), (0.5, 3.0)], 1),
+        (vec![(0.0, 2.0), (1.0, 3.0)], 0),
+        (vec![(-1.0, 2.0), (1.0, 3.0)], 0),
+        (vec![(1.0, 0.0), (2.0, 1.0)], 0),
+        (vec![(1.0, 1.0), (2.0, 1.0), (3.0, -1.0)], 2),
+        (vec![(f64::NAN, 1.0), (2.0, 1.0)], 0),
+        (vec![(1.0, 1.0), (2.0, f64::NAN)], 1),
+        (vec![(1.0, 1.0), (f64::INFINITY, 1.0)], 1),
+        (vec![(1.0, f64::INFINITY), (2.0, 1.0)], 0),
     ] {
-        assert!(Site::table(rows).is_err());
+        let error = Site::table(rows.clone()).unwrap_err();
+        assert!(matches!(error, SiteTableError::Row { row, .. } if row == bad), "{rows:?}: {error}");
+        assert!(error.to_string().starts_with(&format!("site table, row {bad}: frequency ")), "{error}");
     }
 }
 
@@ -272,16 +493,32 @@ proptest! {
     ) {
         let scenario = Scenario { scenario_id: 0, cell: 0, sample: 0, mw: 6.0, re_km: 5.0, vp_m_s: vp, tp_s: tp, gamma, nu_rad: nu };
         let pulse = Pulse::of(&scenario);
+        prop_assert!((pulse.duration_s() - gamma * tp).abs() < 1e-14);
         let half = 0.5 * pulse.duration_s();
         let times: Vec<f64> = (0..=20_000).map(|k| half * (k as f64 / 10_000.0 - 1.0)).collect();
         let largest = times.iter().map(|&t| pulse.velocity_m_s(t).abs()).fold(0.0, f64::max);
-        prop_assert!((largest / vp - 1.0).abs() < 1e-5, "{largest} for {vp}");
-        let h = 1e-5 * tp;
+        prop_assert!(largest <= vp * (1.0 + 1e-12) && largest > vp * (1.0 - 1e-5), "{largest} for {vp}");
+        let (h, wp) = (1e-5 * tp, 2.0 * PI / tp);
         for t in [-0.7 * half, -0.2 * half, 0.1 * half, 0.8 * half] {
             let slope = (pulse.velocity_m_s(t + h) - pulse.velocity_m_s(t - h)) / (2.0 * h);
-            prop_assert!((pulse.acceleration_m_s2(t) - slope).abs() < 1e-6 * vp * 2.0 * PI / tp * 10.0);
+            prop_assert!((pulse.acceleration_m_s2(t) - slope).abs() < 1e-7 * vp * wp);
         }
-        prop_assert!(pulse.acceleration_m_s2(half * 1.0001) == 0.0);
-        prop_assert!(pulse.acceleration_m_s2(half * 0.999_999).abs() < 1e-4 * vp / tp);
+        for side in [-1.0, 1.0] {
+            // The acceleration rises from 0 with the distance from the end, the velocity with its square.
+            let inside = side * half * (1.0 - 1e-6);
+            prop_assert!(pulse.acceleration_m_s2(inside).abs() < 1e-4 * vp * wp);
+            prop_assert!(pulse.velocity_m_s(inside).abs() < 1e-9 * vp);
+            prop_assert_eq!(pulse.acceleration_m_s2(side * half * 1.0001), 0.0);
+            prop_assert_eq!(pulse.velocity_m_s(side * half * 1.0001), 0.0);
+        }
+    }
+
+    #[test]
+    fn the_largest_velocity_has_the_symmetries_of_the_pulse(gamma in 1.0..4.0f64, nu in -3.0..6.0f64) {
+        let f = largest_velocity(gamma, nu);
+        prop_assert!(f > 0.6 && f <= 1.0 + 1e-14, "{f}");
+        for other in [-nu, nu + PI, nu + 2.0 * PI] {
+            prop_assert!((largest_velocity(gamma, other) - f).abs() < 1e-12);
+        }
     }
 }

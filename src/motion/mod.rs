@@ -5,6 +5,7 @@
 //! design      how a cell of the magnitude-distance grid is sampled
 //! pulse       Mavroeidis & Papageorgiou's pulse (Eq. 1)
 //! stochastic  Boore's stochastic method with the source of Atkinson & Silva (section 2.1.2)
+//! fourier     transforms of real series, planned once for each length
 //! combine     high frequencies and pulse into one motion (section 2.1.3)
 //! synthesis   all of it for one scenario, on one time axis
 //! intensity   measures of any motion
@@ -14,6 +15,7 @@
 mod combine;
 mod design;
 mod dimensionless;
+mod fourier;
 pub mod intensity;
 pub mod pulse;
 pub mod scenario;

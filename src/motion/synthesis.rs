@@ -1,11 +1,10 @@
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use rand_distr::{Distribution, StandardNormal};
 use realfft::num_complex::Complex64;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use super::combine::{Difference, Epoch, combine};
+use super::fourier::{ByLength, Transform, even_smooth_at_least};
 use super::intensity::velocity;
 use super::pulse::Pulse;
 use super::scenario::Scenario;
@@ -62,17 +61,15 @@ pub struct Synthetic {
 /// buffers.
 pub struct Synthesizer {
     model: MotionModel,
-    planner: RealFftPlanner<f64>,
-    transforms: HashMap<usize, Arc<Transform>>,
+    axes: ByLength<FrequencyAxis>,
     noise: Vec<Complex64>,
     pulse: Vec<Complex64>,
     scratch: Vec<Complex64>,
 }
 
-/// The Fourier transforms of one length and what all scenarios share at its frequencies.
-struct Transform {
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
+/// The frequencies of all motions of one length.
+struct FrequencyAxis {
+    transform: Transform,
     /// Frequency (Hz), its quality exponent and the common factor of the spectrum.
     bins: Vec<(f64, f64, f64)>,
 }
@@ -89,8 +86,7 @@ impl Synthesizer {
     pub fn new(model: MotionModel) -> Synthesizer {
         Synthesizer {
             model,
-            planner: RealFftPlanner::new(),
-            transforms: HashMap::new(),
+            axes: ByLength::default(),
             noise: Vec::new(),
             pulse: Vec::new(),
             scratch: Vec::new(),
@@ -104,19 +100,19 @@ impl Synthesizer {
         let window = Window::new(source.duration_s());
         let pulse = Pulse::of(scenario);
         let timeline = self.timeline(&window, &pulse);
-        let transform = self.transform(timeline.samples);
+        let axis = self.axis(timeline.samples);
 
         let mut high_frequency = vec![0.0; timeline.samples];
         self.windowed_noise(scenario, &window, &timeline, &mut high_frequency);
-        self.shape_noise(&source, &transform, &mut high_frequency);
+        self.shape_noise(&source, &axis, &mut high_frequency);
         let epoch_s = self.epoch_s(&window, &timeline, &high_frequency);
 
         let pulse: Vec<f64> =
             (0..timeline.samples).map(|k| pulse.acceleration_m_s2(k as f64 * dt_s - epoch_s)).collect();
         let mut combined = pulse.clone();
-        forward(&transform, &mut combined, &mut self.pulse, &mut self.scratch);
+        axis.transform.forward(&mut combined, &mut self.pulse, &mut self.scratch);
         combine(&mut self.noise, &self.pulse, self.model.difference);
-        inverse(&transform, &mut self.noise, &mut combined, &mut self.scratch);
+        axis.transform.inverse(&mut self.noise, &mut combined, &mut self.scratch);
         Synthetic { dt_s, epoch_s, pulse, high_frequency, combined }
     }
 
@@ -145,18 +141,18 @@ impl Synthesizer {
     }
 
     /// Gives the noise the Fourier amplitude of the source, in `samples` and, transformed, in `self.noise`.
-    fn shape_noise(&mut self, source: &Source, transform: &Transform, samples: &mut [f64]) {
-        forward(transform, samples, &mut self.noise, &mut self.scratch);
+    fn shape_noise(&mut self, source: &Source, axis: &FrequencyAxis, samples: &mut [f64]) {
+        axis.transform.forward(samples, &mut self.noise, &mut self.scratch);
         let inner = &self.noise[1..self.noise.len() - 1];
         let mean_square = inner.iter().map(|x| x.norm_sqr()).sum::<f64>() / inner.len() as f64;
         // From cm/s of the continuous spectrum to m/s2 of the discrete one.
         let scale = 1.0 / (mean_square.sqrt() * CM_PER_M * self.model.dt_s);
-        for (x, &(f, quality, common)) in self.noise.iter_mut().zip(&transform.bins) {
+        for (x, &(f, quality, common)) in self.noise.iter_mut().zip(&axis.bins) {
             *x *= scale * source.amplitude(f, quality) * common;
         }
         self.noise[0] = Complex64::ZERO;
         self.pulse.clone_from(&self.noise);
-        inverse(transform, &mut self.pulse, samples, &mut self.scratch);
+        axis.transform.inverse(&mut self.pulse, samples, &mut self.scratch);
     }
 
     fn epoch_s(&self, window: &Window, timeline: &Timeline, high_frequency: &[f64]) -> f64 {
@@ -169,70 +165,17 @@ impl Synthesizer {
         timeline.onset_s + from_onset.clamp(0.0, window.duration_s)
     }
 
-    fn transform(&mut self, samples: usize) -> Arc<Transform> {
+    fn axis(&mut self, samples: usize) -> Arc<FrequencyAxis> {
         let frequency_step_hz = 1.0 / (samples as f64 * self.model.dt_s);
         let model = &self.model.stochastic;
-        let planner = &mut self.planner;
-        let make = || {
+        self.axes.get(samples, || {
             let frequencies = (0..=samples / 2).map(|k| k as f64 * frequency_step_hz);
             let bins = frequencies.map(|f| (f, quality_exponent(f), model.common_factor(f))).collect();
-            let forward = planner.plan_fft_forward(samples);
-            let inverse = planner.plan_fft_inverse(samples);
-            Arc::new(Transform { forward, inverse, bins })
-        };
-        self.transforms.entry(samples).or_insert_with(make).clone()
+            FrequencyAxis { transform: Transform::new(samples), bins }
+        })
     }
-}
-
-/// The Fourier coefficients of `samples`, which are used up.
-fn forward(
-    transform: &Transform,
-    samples: &mut [f64],
-    spectrum: &mut Vec<Complex64>,
-    scratch: &mut Vec<Complex64>,
-) {
-    spectrum.resize(transform.bins.len(), Complex64::ZERO);
-    scratch.resize(transform.forward.get_scratch_len(), Complex64::ZERO);
-    let done = transform.forward.process_with_scratch(samples, spectrum, scratch);
-    debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
-}
-
-/// The samples of these Fourier coefficients, which are used up.
-fn inverse(
-    transform: &Transform,
-    spectrum: &mut [Complex64],
-    samples: &mut [f64],
-    scratch: &mut Vec<Complex64>,
-) {
-    // Of a real series the mean and the Nyquist coefficient are real.
-    if let [first, .., last] = spectrum {
-        first.im = 0.0;
-        last.im = 0.0;
-    }
-    scratch.resize(transform.inverse.get_scratch_len(), Complex64::ZERO);
-    let done = transform.inverse.process_with_scratch(spectrum, samples, scratch);
-    debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
-    let scale = 1.0 / samples.len() as f64;
-    samples.iter_mut().for_each(|sample| *sample *= scale);
 }
 
 fn index_of_peak(series: &[f64]) -> usize {
     (0..series.len()).max_by(|&a, &b| series[a].abs().total_cmp(&series[b].abs())).unwrap_or(0)
-}
-
-/// The least even number of at least `n` without prime factors above 5.
-pub(super) fn even_smooth_at_least(n: usize) -> usize {
-    let smooth = |mut n: usize| {
-        for prime in [2, 3, 5] {
-            while n.is_multiple_of(prime) {
-                n /= prime;
-            }
-        }
-        n == 1
-    };
-    let mut candidate = n.next_multiple_of(2).max(2);
-    while !smooth(candidate) {
-        candidate += 2;
-    }
-    candidate
 }

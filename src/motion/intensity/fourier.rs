@@ -1,7 +1,6 @@
-use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
-use crate::motion::synthesis::even_smooth_at_least;
+use crate::motion::fourier::{ByLength, Transform, even_smooth_at_least};
 
 /// The widest frequency step of the mean period, Hz.
 const FREQUENCY_STEP_HZ: f64 = 0.05;
@@ -9,22 +8,12 @@ const FREQUENCY_STEP_HZ: f64 = 0.05;
 const BAND_HZ: (f64, f64) = (0.25, 20.0);
 
 /// Plans and buffers that one motion after the other uses.
+#[derive(Default)]
 pub struct IntensityScratch {
-    planner: RealFftPlanner<f64>,
+    transforms: ByLength<Transform>,
     samples: Vec<f64>,
     spectrum: Vec<Complex64>,
     scratch: Vec<Complex64>,
-}
-
-impl Default for IntensityScratch {
-    fn default() -> IntensityScratch {
-        IntensityScratch {
-            planner: RealFftPlanner::new(),
-            samples: Vec::new(),
-            spectrum: Vec::new(),
-            scratch: Vec::new(),
-        }
-    }
 }
 
 /// Mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of the acceleration from 0.25
@@ -33,14 +22,11 @@ impl Default for IntensityScratch {
 pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Option<f64> {
     let least = (1.0 / (FREQUENCY_STEP_HZ * dt_s)).ceil() as usize;
     let length = even_smooth_at_least(acceleration.len().max(least));
-    let plan = scratch.planner.plan_fft_forward(length);
+    let transform = scratch.transforms.get(length, || Transform::new(length));
     scratch.samples.clear();
     scratch.samples.extend_from_slice(acceleration);
     scratch.samples.resize(length, 0.0);
-    scratch.spectrum.resize(length / 2 + 1, Complex64::ZERO);
-    scratch.scratch.resize(plan.get_scratch_len(), Complex64::ZERO);
-    let done = plan.process_with_scratch(&mut scratch.samples, &mut scratch.spectrum, &mut scratch.scratch);
-    debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
+    transform.forward(&mut scratch.samples, &mut scratch.spectrum, &mut scratch.scratch);
 
     let step_hz = 1.0 / (length as f64 * dt_s);
     let (mut weighted, mut total) = (0.0, 0.0);

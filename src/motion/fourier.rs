@@ -1,0 +1,75 @@
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use realfft::num_complex::Complex64;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+
+/// The Fourier transforms of real series of one length, even.
+pub struct Transform {
+    forward: Arc<dyn RealToComplex<f64>>,
+    inverse: Arc<dyn ComplexToReal<f64>>,
+}
+
+impl Transform {
+    /// Of `samples` samples. Each length is planned on its own: a shared planner builds on what it has planned
+    /// before, and its last digits then depend on the history of the thread.
+    pub fn new(samples: usize) -> Transform {
+        let mut planner = RealFftPlanner::new();
+        Transform { forward: planner.plan_fft_forward(samples), inverse: planner.plan_fft_inverse(samples) }
+    }
+
+    /// The Fourier coefficients of `samples`, which are used up.
+    pub fn forward(&self, samples: &mut [f64], spectrum: &mut Vec<Complex64>, scratch: &mut Vec<Complex64>) {
+        spectrum.resize(samples.len() / 2 + 1, Complex64::ZERO);
+        scratch.resize(self.forward.get_scratch_len(), Complex64::ZERO);
+        let done = self.forward.process_with_scratch(samples, spectrum, scratch);
+        debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
+    }
+
+    /// The samples of these Fourier coefficients, which are used up.
+    pub fn inverse(&self, spectrum: &mut [Complex64], samples: &mut [f64], scratch: &mut Vec<Complex64>) {
+        // Of a real series the mean and the Nyquist coefficient are real.
+        if let [first, .., last] = spectrum {
+            first.im = 0.0;
+            last.im = 0.0;
+        }
+        scratch.resize(self.inverse.get_scratch_len(), Complex64::ZERO);
+        let done = self.inverse.process_with_scratch(spectrum, samples, scratch);
+        debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
+        let scale = 1.0 / samples.len() as f64;
+        samples.iter_mut().for_each(|sample| *sample *= scale);
+    }
+}
+
+/// What is kept for each length of series that has come.
+pub struct ByLength<T>(HashMap<usize, Arc<T>>);
+
+impl<T> Default for ByLength<T> {
+    fn default() -> ByLength<T> {
+        ByLength(HashMap::new())
+    }
+}
+
+impl<T> ByLength<T> {
+    /// That of this length, made where it is the first.
+    pub fn get(&mut self, length: usize, make: impl FnOnce() -> T) -> Arc<T> {
+        self.0.entry(length).or_insert_with(|| Arc::new(make())).clone()
+    }
+}
+
+/// The least even number of at least `n` without prime factors above 5: a length that a fast Fourier transform likes.
+pub fn even_smooth_at_least(n: usize) -> usize {
+    let smooth = |mut n: usize| {
+        for prime in [2, 3, 5] {
+            while n.is_multiple_of(prime) {
+                n /= prime;
+            }
+        }
+        n == 1
+    };
+    let mut candidate = n.next_multiple_of(2).max(2);
+    while !smooth(candidate) {
+        candidate += 2;
+    }
+    candidate
+}
