@@ -2,6 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+mod noise;
+
+use noise::synthetic_motion;
 use proptest::prelude::*;
 use rockfrag::motion::Pulse;
 use rockfrag::rocking::{
@@ -19,17 +22,6 @@ fn rectangular_pulse(acceleration: f64, duration: f64, rest: f64, dt: f64) -> Ve
     let mut samples = vec![acceleration; on + 1];
     samples.resize(on + (rest / dt).round() as usize, 0.0);
     samples
-}
-
-fn synthetic_motion(seed: u64, length: usize) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-    };
-    (0..length).map(|k| 12.0 * next() * (PI * k as f64 / length as f64).sin()).collect()
 }
 
 #[test]

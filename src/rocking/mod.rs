@@ -6,22 +6,32 @@
 //! taylor     the rotation over one step, as the polynomial of its Taylor series
 //! polynomial roots of such polynomials: impacts, peaks and overturning are found as these
 //! observer   who looks on while a structure rocks, and the side to which it leans
+//! uplift     when a structure at rest leaves its base
 //! march      from rest to uplift, impact, re-uplift, overturning: one record, one structure
 //! tail       what happens after the record has ended, in closed form
 //! response   the outcome and the engineering demand parameter
+//! batch      many structures and records at once, one in each lane of a vector register
+//! lanes      what march does, for all lanes of a vector; real, vector and lane_roots are its numbers and roots
 //! trace      the same march, observed: rotation, velocity and events over time
 //! ```
 
+mod batch;
+mod lane_roots;
+mod lanes;
 mod march;
 mod observer;
 mod polynomial;
+mod real;
 mod record;
 mod response;
 mod structure;
 mod tail;
 mod taylor;
 mod trace;
+mod uplift;
+mod vector;
 
+pub use batch::{Path, Problem, simulate_all};
 pub use march::simulate;
 pub use record::{Record, RecordError};
 pub use response::{Outcome, Response};

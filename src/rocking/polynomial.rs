@@ -2,37 +2,53 @@
 
 use std::ops::ControlFlow;
 
+use super::real::{Real, unrolled};
+
 /// The order of the Taylor series of a step.
 pub const ORDER: usize = 8;
 
 /// A polynomial in powers of the step's own time, 0 at its start and 1 at its end.
-pub type Coefficients = [f64; ORDER + 1];
+pub type Polynomial<T = f64> = [T; ORDER + 1];
 
 /// A bracket this narrow that still shows several sign changes holds a multiple root.
 const NARROWEST_BRACKET: f64 = 1e-12;
 
 /// Value at `x` (Horner).
-#[inline]
-pub fn value(c: &Coefficients, x: f64) -> f64 {
-    c.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
+#[inline(always)]
+pub fn value<T: Real>(c: &Polynomial<T>, x: T) -> T {
+    let mut sum = c[ORDER];
+    for k in (0..ORDER).rev() {
+        sum = sum.mul_add(x, c[k]);
+    }
+    sum
+}
+
+/// Slope at `x` (Horner).
+#[inline(always)]
+pub fn slope<T: Real>(c: &Polynomial<T>, x: T) -> T {
+    let mut sum = c[ORDER] * ORDER as f64;
+    for k in (1..ORDER).rev() {
+        sum = sum.mul_add(x, c[k] * k as f64);
+    }
+    sum
 }
 
 /// The derivative, as a polynomial of the same length.
 #[inline]
-pub fn derivative(c: &Coefficients) -> Coefficients {
+pub fn derivative(c: &Polynomial) -> Polynomial {
     std::array::from_fn(|k| if k < ORDER { (k + 1) as f64 * c[k + 1] } else { 0.0 })
 }
 
 /// Bounds of the values on [0, 1]: cheap, wide and certain.
 #[inline]
-pub fn bounds(c: &Coefficients) -> (f64, f64) {
+pub fn bounds(c: &Polynomial) -> (f64, f64) {
     c[1..].iter().fold((c[0], c[0]), |(low, high), &coefficient| {
         (low + coefficient.min(0.0), high + coefficient.max(0.0))
     })
 }
 
 /// The first root in (0, 1), where the leading zero coefficients (the roots at 0 itself) do not count.
-pub fn first_root(c: &Coefficients) -> Option<f64> {
+pub fn first_root(c: &Polynomial) -> Option<f64> {
     let mut first = None;
     let _ = visit_roots(c, |root| {
         first = Some(root);
@@ -42,7 +58,7 @@ pub fn first_root(c: &Coefficients) -> Option<f64> {
 }
 
 /// Calls `visit` with each root in (0, 1) in ascending order, until it breaks. Roots at 0 do not count.
-pub fn visit_roots(c: &Coefficients, mut visit: impl FnMut(f64) -> ControlFlow<()>) -> ControlFlow<()> {
+pub fn visit_roots(c: &Polynomial, mut visit: impl FnMut(f64) -> ControlFlow<()>) -> ControlFlow<()> {
     let Some(zeros) = c.iter().position(|&coefficient| coefficient != 0.0) else {
         return ControlFlow::Continue(());
     };
@@ -53,8 +69,8 @@ pub fn visit_roots(c: &Coefficients, mut visit: impl FnMut(f64) -> ControlFlow<(
 /// Left half first, so that the roots come in order. By Descartes' rule the roots between `low` and `high` are at
 /// most as many as the sign changes of the Bernstein coefficients `b`, and of the same parity.
 fn visit_between(
-    c: &Coefficients,
-    b: &Coefficients,
+    c: &Polynomial,
+    b: &Polynomial,
     low: f64,
     high: f64,
     visit: &mut impl FnMut(f64) -> ControlFlow<()>,
@@ -76,20 +92,24 @@ fn visit_between(
 }
 
 /// `b[j] = sum over i <= j of binomial(j, i) / binomial(ORDER, i) c[i]`, in place by repeated sums.
-fn bernstein(c: &Coefficients) -> Coefficients {
-    const INVERSE_BINOMIAL: Coefficients =
+#[inline(always)]
+pub fn bernstein<T: Real>(c: &Polynomial<T>) -> Polynomial<T> {
+    const INVERSE_BINOMIAL: Polynomial =
         [1.0, 1.0 / 8.0, 1.0 / 28.0, 1.0 / 56.0, 1.0 / 70.0, 1.0 / 56.0, 1.0 / 28.0, 1.0 / 8.0, 1.0];
-    let mut b: Coefficients = std::array::from_fn(|i| c[i] * INVERSE_BINOMIAL[i]);
-    for pass in 1..=ORDER {
-        for j in (pass..=ORDER).rev() {
-            b[j] += b[j - 1];
-        }
+    let mut b = *c;
+    for (b, inverse) in b.iter_mut().zip(INVERSE_BINOMIAL) {
+        *b = *b * inverse;
     }
+    unrolled!(pass in [1 2 3 4 5 6 7 8] {
+        for j in (pass..ORDER + 1).rev() {
+            b[j] = b[j] + b[j - 1];
+        }
+    });
     b
 }
 
 /// De Casteljau's subdivision at the middle.
-fn halves(b: &Coefficients) -> (Coefficients, Coefficients) {
+fn halves(b: &Polynomial) -> (Polynomial, Polynomial) {
     let mut right = *b;
     let mut left = *b;
     for (pass, coefficient) in left.iter_mut().enumerate().skip(1) {
@@ -101,19 +121,19 @@ fn halves(b: &Coefficients) -> (Coefficients, Coefficients) {
     (left, right)
 }
 
-fn sign_changes(b: &Coefficients) -> usize {
+fn sign_changes(b: &Polynomial) -> usize {
     let mut positive = b.iter().filter(|&&coefficient| coefficient != 0.0).map(|c| *c > 0.0);
     let Some(mut last) = positive.next() else { return 0 };
     positive.filter(|&sign| std::mem::replace(&mut last, sign) != sign).count()
 }
 
-fn starts_positive(b: &Coefficients) -> bool {
+fn starts_positive(b: &Polynomial) -> bool {
     b.iter().find(|&&coefficient| coefficient != 0.0).is_some_and(|&first| first > 0.0)
 }
 
 /// The one root between `low` and `high`: Newton's iterations, kept inside the shrinking bracket by bisection.
 /// `falling` tells whether the values left of the root are positive.
-fn root_in_bracket(c: &Coefficients, low: f64, high: f64, falling: bool) -> f64 {
+fn root_in_bracket(c: &Polynomial, low: f64, high: f64, falling: bool) -> f64 {
     let slope = derivative(c);
     let (mut low, mut high) = (low, high);
     let mut x = 0.5 * (low + high);

@@ -3,6 +3,7 @@
 pub struct Record<'a> {
     acceleration_m_s2: &'a [f64],
     dt_s: f64,
+    peak_m_s2: f64,
 }
 
 /// Why a series of samples is no record. `sample` counts from 0.
@@ -36,10 +37,17 @@ impl<'a> Record<'a> {
         if acceleration_m_s2.len() < 2 {
             return Err(RecordError::TooShort(acceleration_m_s2.len()));
         }
-        match acceleration_m_s2.iter().position(|value| !value.is_finite()) {
-            None => Ok(Record { acceleration_m_s2, dt_s }),
-            Some(sample) => Err(RecordError::NotFinite { sample, value: acceleration_m_s2[sample] }),
+        let finite = acceleration_m_s2.iter().fold(true, |finite, value| finite & value.is_finite());
+        if finite {
+            return Ok(Record { acceleration_m_s2, dt_s, peak_m_s2: largest(acceleration_m_s2) });
         }
+        let sample = acceleration_m_s2.iter().position(|value| !value.is_finite()).unwrap_or_default();
+        Err(RecordError::NotFinite { sample, value: acceleration_m_s2[sample] })
+    }
+
+    /// The largest absolute value of the samples, m/s2.
+    pub fn peak_m_s2(&self) -> f64 {
+        self.peak_m_s2
     }
 
     /// The samples, m/s2.
@@ -62,4 +70,15 @@ impl<'a> Record<'a> {
             _ => 0.0,
         }
     }
+}
+
+/// The largest absolute value, several side by side so that a processor compares them at once.
+fn largest(values: &[f64]) -> f64 {
+    let mut largest = [0.0_f64; 8];
+    for block in values.chunks(largest.len()) {
+        for (largest, value) in largest.iter_mut().zip(block) {
+            *largest = if value.abs() > *largest { value.abs() } else { *largest };
+        }
+    }
+    largest.into_iter().fold(0.0, f64::max)
 }

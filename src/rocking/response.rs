@@ -1,3 +1,6 @@
+use std::f64::consts::FRAC_PI_2;
+
+use super::tail::Tail;
 use crate::keyword::keywords;
 
 /// How a structure came through a ground motion.
@@ -26,4 +29,17 @@ pub struct Response {
     pub edp: f64,
     /// Impacts within the duration of the record.
     pub impacts: u32,
+}
+
+impl Response {
+    pub(super) const NO_ROCKING: Response = Response { outcome: Outcome::NoRocking, edp: 0.0, impacts: 0 };
+
+    /// Of a structure of slenderness `alpha` that rocked up to `peak` (rad) until the end of the record, and has a tail.
+    pub(super) fn of_rocking(tail: Tail, peak: f64, alpha: f64, impacts: u32) -> Response {
+        let (outcome, peak) = match tail {
+            Tail::Overturns => (Outcome::Overturning, FRAC_PI_2),
+            Tail::Settles { peak: later } => (Outcome::SafeRocking, peak.max(later)),
+        };
+        Response { outcome, edp: peak / alpha, impacts }
+    }
 }

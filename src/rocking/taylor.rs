@@ -11,65 +11,81 @@
 //! The second form keeps the full relative precision of a small rotation, and of the excess e of the ground
 //! acceleration over the uplift threshold, which is negative while the ground lifts the structure further.
 
-use super::polynomial::{Coefficients, ORDER};
+use super::polynomial::{ORDER, Polynomial};
+use super::real::{Real, unrolled};
 
 /// What depends on the slenderness alone.
 #[derive(Debug, Clone, Copy)]
-pub struct Slenderness {
-    pub tan: f64,
-    pub sin: f64,
-    pub cos: f64,
+pub struct Slenderness<T = f64> {
+    pub tan: T,
+    pub sin: T,
+    pub cos: T,
+    /// 1 / cos(alpha).
+    pub secant: T,
 }
 
 impl Slenderness {
     pub fn new(alpha_rad: f64) -> Slenderness {
-        let (sin, cos) = (libm::sin(alpha_rad), libm::cos(alpha_rad));
-        Slenderness { tan: libm::tan(alpha_rad), sin, cos }
+        let (sin, cos) = libm::sincos(alpha_rad);
+        Slenderness { tan: libm::tan(alpha_rad), sin, cos, secant: 1.0 / cos }
     }
 }
 
 /// The excess e over a step: linear from its start to its end.
 #[derive(Debug, Clone, Copy)]
-pub struct Excess {
-    pub start: f64,
-    pub end: f64,
+pub struct Excess<T = f64> {
+    pub start: T,
+    pub end: T,
 }
 
 /// Rotation r >= 0 (rad) and velocity dr/dx (rad) on one side of the rest position.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State {
-    pub rotation: f64,
-    pub velocity: f64,
+pub struct State<T = f64> {
+    pub rotation: T,
+    pub velocity: T,
 }
 
 /// The Taylor polynomial of r over a step of `h` = p dt, in powers of the fraction of the step.
 ///
 /// The series of sin r and cos r follow from s' = r' c and c' = -r' s, term by term.
-#[inline]
-pub fn series(slenderness: &Slenderness, excess: Excess, state: State, h: f64) -> Coefficients {
-    let slope = excess.end - excess.start;
-    let a0 = excess.start * slenderness.cos;
-    let a1 = slope * slenderness.cos;
-    let b0 = excess.start * slenderness.sin - 1.0 / slenderness.cos;
-    let b1 = slope * slenderness.sin;
+#[inline(always)]
+pub fn series<T: Real>(
+    slenderness: &Slenderness<T>,
+    excess: Excess<T>,
+    state: State<T>,
+    h: T,
+) -> Polynomial<T> {
+    let Slenderness { sin, cos, secant, .. } = *slenderness;
+    let minus_h2 = -(h * h);
+    let slope = (excess.end - excess.start) * minus_h2;
+    let start = excess.start * minus_h2;
+    let (a0, a1) = (start * cos, slope * cos);
+    let (b0, b1) = (start.mul_add(sin, -(secant * minus_h2)), slope * sin);
 
-    let mut r = [0.0; ORDER + 1];
-    let mut s = [0.0; ORDER - 1];
-    let mut c = [0.0; ORDER - 1];
-    r[0] = state.rotation;
+    let (s0, c0) = state.rotation.sin_cos();
+    let (mut s, mut c) = ([s0; ORDER - 1], [c0; ORDER - 1]);
+    let mut r = [state.rotation; ORDER + 1];
     r[1] = state.velocity * h;
-    s[0] = libm::sin(state.rotation);
-    c[0] = libm::cos(state.rotation);
-    r[2] = -0.5 * h * h * (a0 * c[0] + b0 * s[0]);
-    for k in 1..ORDER - 1 {
-        for j in 1..=k {
-            s[k] += j as f64 * r[j] * c[k - j];
-            c[k] -= j as f64 * r[j] * s[k - j];
-        }
-        s[k] /= k as f64;
-        c[k] /= k as f64;
-        let moment = a0 * c[k] + a1 * c[k - 1] + b0 * s[k] + b1 * s[k - 1];
-        r[k + 2] = -h * h * moment / ((k + 1) * (k + 2)) as f64;
-    }
+    r[2] = a0.mul_add(c0, b0 * s0) * 0.5;
+    // j r[j], the coefficients of r'.
+    let mut rate = [r[1]; ORDER - 1];
+    unrolled!(k in [1 2 3 4 5 6] {
+        rate[k] = r[k] * k as f64;
+        s[k] = product(&rate, &c, k) * (1.0 / k as f64);
+        c[k] = product(&rate, &s, k) * (-1.0 / k as f64);
+        let moment = b0.mul_add(s[k], b1 * s[k - 1]);
+        let moment = a0.mul_add(c[k], a1.mul_add(c[k - 1], moment));
+        r[k + 2] = moment * (1.0 / ((k + 1) * (k + 2)) as f64);
+    });
     r
+}
+
+/// Term k of x r' f, of the terms of x r' and of f up to k. The newest term of f comes last: it is the one to wait for.
+#[inline(always)]
+fn product<T: Real>(rate: &[T; ORDER - 1], f: &[T; ORDER - 1], k: usize) -> T {
+    let mut sum = rate[k] * f[0];
+    for j in (1..k).rev() {
+        sum = rate[j].mul_add(f[k - j], sum);
+    }
+    sum
 }

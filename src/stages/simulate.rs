@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
+use arrow_array::RecordBatch;
 use clap::Args;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -12,10 +13,10 @@ use serde_json::{Value, json};
 use super::structures::{StructureSpec, Structures};
 use crate::motion::{IntensityMeasures, IntensityScratch, intensity};
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{Several, defaults};
+use crate::pipeline::options::{Several, Word, check, defaults};
 use crate::pipeline::stage::{Stage, with_part};
 use crate::pipeline::stream::{Pool, pipelined};
-use crate::rocking::{Record, RecordError, Structure, simulate, trace};
+use crate::rocking::{Path as SolverPath, Problem, Record, RecordError, Structure, simulate_all, trace};
 use crate::table::TableError;
 use crate::table::motions::{Motion, MotionBatches, MotionId, schema_by_name};
 use crate::table::provenance::Provenance;
@@ -25,7 +26,9 @@ use crate::table::trace::{self as trace_table, TraceRow};
 use crate::table::writer::TableWriter;
 
 /// Motions that are read at once.
-const BATCH: usize = 64;
+const BATCH: usize = 256;
+/// Motions that a thread takes at once: enough to keep the lanes of its registers busy.
+const CHUNK: usize = 64;
 /// Quiet time after a traced record in which free rocking shows, s.
 const TRACE_TAIL_S: f64 = 10.0;
 
@@ -46,6 +49,10 @@ pub struct SimulateOptions {
     /// a frame
     #[arg(long, conflicts_with_all = ["p", "alpha", "eta"])]
     pub structures: Option<Structures>,
+    /// How the solver works: scalar, or several motions at once with avx2 or avx512, which give the same bits and differ from
+    /// scalar by rounding [default: the fastest of this processor]
+    #[arg(long)]
+    pub path: Option<Word<SolverPath>>,
     /// Motions whose response over time is written too, beside the output as NAME.trace.parquet
     #[arg(long, value_name = "ID,...")]
     pub trace: Option<Several<String>>,
@@ -63,6 +70,12 @@ impl SimulateOptions {
         if let Some(Structures::File(path)) = &mut self.structures {
             *path = folder.join(&*path);
         }
+    }
+
+    fn path(&self) -> anyhow::Result<SolverPath> {
+        let Some(Word(path)) = self.path else { return Ok(SolverPath::fastest()) };
+        check(path.is_available(), "path", Word(path), "one that this processor has")?;
+        Ok(path)
     }
 
     fn structures(&self) -> anyhow::Result<Vec<Structure>> {
@@ -84,6 +97,7 @@ impl SimulateOptions {
 /// The stage, ready to run.
 pub struct Simulate {
     structures: Vec<Structure>,
+    path: SolverPath,
     traced: Vec<String>,
     input: PathBuf,
     out: PathBuf,
@@ -96,38 +110,64 @@ impl Simulate {
     /// If the structures cannot be read or are impossible.
     pub fn new(options: &SimulateOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<Simulate> {
         let traced = options.trace.clone().map_or(Vec::new(), |Several(ids)| ids);
-        Ok(Simulate { structures: options.structures()?, traced, input, out })
+        Ok(Simulate { structures: options.structures()?, path: options.path()?, traced, input, out })
     }
 
-    fn respond(&self, motion: &Motion, scratch: &mut IntensityScratch) -> Result<Responded, TableError> {
-        let record = self.record(motion)?;
-        let peaks = Peaks::of(motion, &record, scratch);
-        let rows = self.structures.iter().map(|structure| ResponseRow {
-            motion_id: motion.motion_id.clone(),
-            suite: motion.suite.clone(),
-            structure: structure.clone(),
-            response: simulate(structure, &record),
-            mw: motion.mw,
-            re_km: motion.re_km,
-            pga_m_s2: peaks.pga_m_s2,
-            pgv_m_s: peaks.pgv_m_s,
-            tp_s: motion.tp_s,
-            tm_s: peaks.tm_s,
-            measures: IntensityMeasures::new(
+    /// Each motion is read once, and all structures run on it while it is at hand.
+    fn respond(&self, motions: &[Motion], by_name: bool, scratch: &mut Scratch) -> anyhow::Result<Responded> {
+        let Scratch { samples, intensity } = scratch;
+        let records = self.records(motions, samples)?;
+        let problems: Vec<Problem> = records
+            .iter()
+            .flat_map(|&record| self.structures.iter().map(move |structure| Problem { structure, record }))
+            .collect();
+        let mut responses = simulate_all(&problems, self.path).into_iter();
+        let mut rows = Vec::with_capacity(problems.len());
+        for (motion, record) in motions.iter().zip(&records) {
+            let Peaks { pga_m_s2, pgv_m_s, tm_s } = Peaks::of(motion, record, intensity);
+            let each = self.structures.iter().zip(&mut responses);
+            rows.extend(each.map(|(structure, response)| ResponseRow {
+                motion_id: &motion.motion_id,
+                suite: motion.suite.as_deref(),
                 structure,
-                peaks.pga_m_s2,
-                peaks.pgv_m_s,
-                motion.tp_s,
-                peaks.tm_s,
-            ),
-        });
-        let traced = self.traced.contains(&motion.motion_id.to_string());
-        let traces = if traced { self.trace(motion) } else { Vec::new() };
-        Ok(Responded { rows: rows.collect(), traces })
+                response,
+                mw: motion.mw,
+                re_km: motion.re_km,
+                pga_m_s2,
+                pgv_m_s,
+                tp_s: motion.tp_s,
+                tm_s,
+                measures: IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, motion.tp_s, tm_s),
+            }));
+        }
+        let traced = motions.iter().zip(&records);
+        let traced = traced.filter(|(motion, _)| self.traced.contains(&motion.motion_id.to_string()));
+        Ok(Responded {
+            motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
+            rows: responses::batch(&rows, by_name)?,
+            traces: traced.flat_map(|(motion, record)| self.trace(&motion.motion_id, record)).collect(),
+        })
     }
 
-    fn record<'a>(&self, motion: &'a Motion) -> Result<Record<'a>, TableError> {
-        Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| TableError::Value {
+    /// The records of some motions, whose samples are laid out in `samples`.
+    fn records<'a>(
+        &self,
+        motions: &[Motion],
+        samples: &'a mut Vec<f64>,
+    ) -> Result<Vec<Record<'a>>, TableError> {
+        samples.clear();
+        let mut ends = Vec::with_capacity(motions.len());
+        for motion in motions {
+            motion.acceleration_m_s2.append_to(samples);
+            ends.push(samples.len());
+        }
+        let starts = std::iter::once(0).chain(ends.iter().copied());
+        let ranges = starts.zip(ends.iter().copied());
+        ranges.zip(motions).map(|((start, end), motion)| self.record(motion, &samples[start..end])).collect()
+    }
+
+    fn record<'a>(&self, motion: &Motion, samples: &'a [f64]) -> Result<Record<'a>, TableError> {
+        Record::new(samples, motion.dt_s).map_err(|problem| TableError::Value {
             path: self.input.clone(),
             row: motion.row,
             column: match problem {
@@ -138,14 +178,14 @@ impl Simulate {
         })
     }
 
-    fn trace(&self, motion: &Motion) -> Vec<TraceRow> {
-        let quiet = (TRACE_TAIL_S / motion.dt_s).ceil() as usize;
-        let ended = [motion.acceleration_m_s2.as_slice(), &vec![0.0; quiet]].concat();
-        let Ok(record) = Record::new(&ended, motion.dt_s) else { return Vec::new() };
+    fn trace(&self, motion_id: &MotionId, record: &Record) -> Vec<TraceRow> {
+        let quiet = (TRACE_TAIL_S / record.dt_s()).ceil() as usize;
+        let ended = [record.acceleration_m_s2(), &vec![0.0; quiet]].concat();
+        let Ok(record) = Record::new(&ended, record.dt_s()) else { return Vec::new() };
         let rows = |structure: &Structure| {
             let (_, points) = trace(structure, &record);
             let row = |point| TraceRow {
-                motion_id: motion.motion_id.clone(),
+                motion_id: motion_id.clone(),
                 structure: structure.name.clone(),
                 alpha_rad: structure.alpha_rad,
                 point,
@@ -199,10 +239,18 @@ impl SeenIds {
     }
 }
 
-/// What came of one motion.
+/// What came of some motions.
 struct Responded {
-    rows: Vec<ResponseRow>,
+    motion_ids: Vec<MotionId>,
+    rows: RecordBatch,
     traces: Vec<TraceRow>,
+}
+
+/// What a thread keeps from some motions to the next.
+#[derive(Default)]
+struct Scratch {
+    samples: Vec<f64>,
+    intensity: IntensityScratch,
 }
 
 /// Measures of the file, or of the record where the file has none.
@@ -245,7 +293,7 @@ impl Stage for Simulate {
         let structure =
             |s: &Structure| json!({ "name": s.name, "p": s.p_rad_s, "alpha": s.alpha_rad, "eta": s.eta });
         let structures: Vec<Value> = self.structures.iter().map(structure).collect();
-        json!({ "structures": structures, "trace": self.traced, "path": "scalar" })
+        json!({ "structures": structures, "trace": self.traced, "path": self.path.arithmetic() })
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
@@ -254,33 +302,27 @@ impl Stage for Simulate {
         let mut writer = self.writer(&self.out, &RESPONSES, by_name, provenance)?;
         let mut seen = SeenIds::default();
         let mut traces: Vec<TraceRow> = Vec::new();
-        let pool = Pool::new(IntensityScratch::default);
+        let pool = Pool::new(Scratch::default);
         let bar = console.bar(self.subcommand(), total);
         pipelined(
             motions.map(|batch| Ok(batch?)),
             |motions| {
-                let respond = |motion| pool.lend(|scratch| self.respond(motion, scratch));
-                let responded =
-                    motions.par_iter().map(respond).collect::<Result<Vec<Responded>, TableError>>()?;
+                let respond = |motions| pool.lend(|scratch| self.respond(motions, by_name, scratch));
+                let responded: Vec<Responded> =
+                    motions.par_chunks(CHUNK).map(respond).collect::<anyhow::Result<_>>()?;
                 bar.inc(motions.len() as u64);
                 Ok(responded)
             },
             |responded| {
-                for motion in &responded {
-                    if let Some(row) = motion.rows.first()
-                        && !seen.insert(&row.motion_id)
-                    {
-                        bail!(
-                            "{}: two motions are called '{}'; expected distinct motion_id",
-                            self.input.display(),
-                            row.motion_id
-                        );
+                for Responded { motion_ids, rows, traces: traced } in responded {
+                    if let Some(id) = motion_ids.iter().find(|id| !seen.insert(id)) {
+                        let file = self.input.display();
+                        bail!("{file}: two motions are called '{id}'; expected distinct motion_id");
                     }
+                    traces.extend(traced);
+                    writer.append(&rows)?;
                 }
-                let (rows, traced): (Vec<_>, Vec<_>) =
-                    responded.into_iter().map(|r| (r.rows, r.traces)).unzip();
-                traces.extend(traced.into_iter().flatten());
-                Ok(writer.append(&responses::batch(&rows.concat(), by_name)?)?)
+                Ok(())
             },
         )?;
         if !self.traced.is_empty() {

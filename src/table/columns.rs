@@ -4,7 +4,7 @@ use std::path::Path;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type, Int32Type, Int64Type};
-use arrow_array::{Array, ArrayRef, RecordBatch};
+use arrow_array::{Array, ArrayRef, Float32Array, Float64Array, RecordBatch};
 use arrow_schema::DataType;
 
 use super::TableError;
@@ -16,6 +16,27 @@ pub struct Columns<'a> {
     batch: &'a RecordBatch,
     /// The row of the file with which the batch begins.
     first_row: u64,
+}
+
+/// The samples of one row as they stand in the file: nothing is copied until they are used.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Samples {
+    /// In single precision.
+    Float32(Float32Array),
+    /// In double precision.
+    Float64(Float64Array),
+}
+
+impl Samples {
+    /// Appends them to `values`.
+    pub fn append_to(&self, values: &mut Vec<f64>) {
+        match self {
+            Samples::Float32(samples) => {
+                values.extend(samples.values().iter().map(|&value| f64::from(value)))
+            }
+            Samples::Float64(samples) => values.extend_from_slice(samples.values()),
+        }
+    }
 }
 
 impl<'a> Columns<'a> {
@@ -108,11 +129,11 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// The samples of each row, as f64.
+    /// The samples of each row.
     ///
     /// # Errors
     /// If the column is missing or no list of f32 or f64, or a list or one of its samples is null.
-    pub fn samples(&self, column: &Column) -> Result<Vec<Vec<f64>>, TableError> {
+    pub fn samples(&self, column: &Column) -> Result<Vec<Samples>, TableError> {
         let array = self.required(column)?;
         let list: Box<dyn Fn(usize) -> ArrayRef> = match array.data_type() {
             DataType::List(_) => Box::new(|row| array.as_list::<i32>().value(row)),
@@ -125,18 +146,13 @@ impl<'a> Columns<'a> {
                 return Err(self.value_error(row, column, "null; expected a list of samples"));
             }
             let samples = list(row);
-            if let Some(at) = (0..samples.len()).find(|&at| samples.is_null(at)) {
-                return Err(self.value_error(
-                    row,
-                    column,
-                    &format!("sample {at} is null; expected a number"),
-                ));
+            if let Some(at) = samples.nulls().and_then(|nulls| nulls.iter().position(|valid| !valid)) {
+                let problem = format!("sample {at} is null; expected a number");
+                return Err(self.value_error(row, column, &problem));
             }
             match samples.data_type() {
-                DataType::Float32 => {
-                    Ok(samples.as_primitive::<Float32Type>().values().iter().map(|&v| f64::from(v)).collect())
-                }
-                DataType::Float64 => Ok(samples.as_primitive::<Float64Type>().values().to_vec()),
+                DataType::Float32 => Ok(Samples::Float32(samples.as_primitive().clone())),
+                DataType::Float64 => Ok(Samples::Float64(samples.as_primitive().clone())),
                 _ => Err(self.wrong_type(array, column)),
             }
         };

@@ -8,7 +8,7 @@ use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::{ArrowError, DataType, Field, SchemaRef};
 
 use super::TableError;
-use super::columns::Columns;
+use super::columns::{Columns, Samples};
 use super::reader::{Batch, Batches, expect_columns};
 use super::scenarios;
 use super::schema::{self, Column, MOTIONS};
@@ -129,7 +129,7 @@ pub struct Motion {
     /// Time between samples, s.
     pub dt_s: f64,
     /// Samples, m/s2.
-    pub acceleration_m_s2: Vec<f64>,
+    pub acceleration_m_s2: Samples,
     /// Peak ground acceleration, m/s2.
     pub pga_m_s2: Option<f64>,
     /// Peak ground velocity, m/s.
@@ -195,7 +195,7 @@ fn motions_of(columns: &Columns, first_row: u64) -> Result<Vec<Motion>, TableErr
     let (pga, pgv) = (measure(&schema::PGA_M_S2)?, measure(&schema::PGV_M_S)?);
     let (tm, tp) = (measure(&schema::TM_S)?, measure(&schema::TP_S)?);
     let samples = columns.samples(&schema::ACCELERATION_M_S2)?;
-    let motion = |(row, (motion_id, acceleration_m_s2)): (usize, (MotionId, Vec<f64>))| Motion {
+    let motion = |(row, (motion_id, acceleration_m_s2)): (usize, (MotionId, Samples))| Motion {
         motion_id,
         suite: suite[row].clone(),
         mw: mw[row],

@@ -12,14 +12,14 @@ use crate::motion::IntensityMeasures;
 use crate::rocking::{Response, Structure};
 
 /// The response of a structure to a motion, with the measures that the fits need.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ResponseRow {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ResponseRow<'a> {
     /// Which motion.
-    pub motion_id: MotionId,
+    pub motion_id: &'a MotionId,
     /// Its kind, if known.
-    pub suite: Option<String>,
+    pub suite: Option<&'a str>,
     /// Which structure.
-    pub structure: Structure,
+    pub structure: &'a Structure,
     /// What came of it.
     pub response: Response,
     /// Moment magnitude, if known.
@@ -51,8 +51,8 @@ pub fn batch(rows: &[ResponseRow], by_name: bool) -> Result<RecordBatch, ArrowEr
     };
     let schema = if by_name { schema_by_name(&RESPONSES) } else { RESPONSES.schema() };
     let columns: Vec<ArrayRef> = vec![
-        id_column(rows.iter().map(|row| &row.motion_id), by_name),
-        Arc::new(rows.iter().map(|row| row.suite.as_deref()).collect::<StringArray>()),
+        id_column(rows.iter().map(|row| row.motion_id), by_name),
+        Arc::new(rows.iter().map(|row| row.suite).collect::<StringArray>()),
         Arc::new(StringArray::from_iter_values(rows.iter().map(|row| &row.structure.name))),
         number(|row| row.structure.p_rad_s),
         number(|row| row.structure.alpha_rad),

@@ -1,0 +1,159 @@
+//! Many rocking problems at once, one in each lane of the processor's vector registers.
+
+use pulp::{Simd, WithSimd};
+
+use super::lanes::{Events, Lanes, each};
+use super::march::simulate;
+use super::record::Record;
+use super::response::Response;
+use super::structure::Structure;
+use super::tail::{Tail, free_rocking};
+use crate::keyword::keywords;
+
+/// A structure and the record that shakes it.
+#[derive(Debug, Clone, Copy)]
+pub struct Problem<'a> {
+    /// The structure, at rest at first.
+    pub structure: &'a Structure,
+    /// The ground motion.
+    pub record: Record<'a>,
+}
+
+/// How problems are worked on: one after the other, or one in each lane of registers of 256 or 512 bits. The last two
+/// give the same bits; the first one differs from them by rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Path {
+    /// One at a time.
+    Scalar,
+    /// Four in a register.
+    Avx2,
+    /// Eight in a register.
+    Avx512,
+}
+
+keywords!(Path { Scalar = "scalar", Avx2 = "avx2", Avx512 = "avx512" });
+
+impl Path {
+    /// The fastest one of this processor.
+    pub fn fastest() -> Path {
+        [Path::Avx512, Path::Avx2].into_iter().find(|path| path.is_available()).unwrap_or(Path::Scalar)
+    }
+
+    /// Whether this processor has the registers.
+    pub fn is_available(self) -> bool {
+        match self {
+            Path::Scalar => true,
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx2 => pulp::x86::V3::try_new().is_some(),
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx512 => pulp::x86::V4::try_new().is_some(),
+            #[cfg(not(target_arch = "x86_64"))]
+            Path::Avx2 | Path::Avx512 => false,
+        }
+    }
+
+    /// Whose bits the results have: `scalar` or `vector`.
+    pub fn arithmetic(self) -> &'static str {
+        match self {
+            Path::Scalar => "scalar",
+            Path::Avx2 | Path::Avx512 => "vector",
+        }
+    }
+}
+
+/// The response to each problem, in order: as [`simulate`] has it. Where `path` is not available, the scalar one is taken.
+pub fn simulate_all(problems: &[Problem], path: Path) -> Vec<Response> {
+    let batch = Batch { problems };
+    #[cfg(target_arch = "x86_64")]
+    match path {
+        Path::Scalar => {}
+        Path::Avx2 => {
+            if let Some(machine) = pulp::x86::V3::try_new() {
+                return Simd::vectorize(machine, batch);
+            }
+        }
+        Path::Avx512 => {
+            if let Some(machine) = pulp::x86::V4::try_new() {
+                return Simd::vectorize(machine, batch);
+            }
+        }
+    }
+    batch.problems.iter().map(|problem| simulate(problem.structure, &problem.record)).collect()
+}
+
+struct Batch<'a> {
+    problems: &'a [Problem<'a>],
+}
+
+impl WithSimd for Batch<'_> {
+    type Output = Vec<Response>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<Response> {
+        let mut queue = Queue {
+            problems: self.problems,
+            next: 0,
+            responses: vec![Response::NO_ROCKING; self.problems.len()],
+        };
+        // Two registers in flight: while one waits for its results the other one is worked on.
+        let mut vectors = [Lanes::new(simd), Lanes::new(simd)];
+        for lanes in &mut vectors {
+            (0..S::F64_LANES).for_each(|lane| queue.refill(lane, lanes));
+        }
+        while !vectors.iter().all(Lanes::are_idle) {
+            let steps = [vectors[0].step(), vectors[1].step()];
+            for (lanes, step) in vectors.iter_mut().zip(&steps) {
+                let events = lanes.advance(step);
+                if events.any() {
+                    queue.attend(events, lanes);
+                }
+            }
+        }
+        queue.responses
+    }
+}
+
+/// Problems that wait for a lane, and the responses so far.
+struct Queue<'a> {
+    problems: &'a [Problem<'a>],
+    next: usize,
+    responses: Vec<Response>,
+}
+
+impl<'a> Queue<'a> {
+    /// Sees to the lanes that cannot go on by themselves.
+    #[inline(never)]
+    fn attend<S: Simd>(&mut self, events: Events, lanes: &mut Lanes<'a, S>) {
+        for lane in each(events.overturned) {
+            self.conclude(lane, Tail::Overturns, lanes);
+        }
+        for lane in each(events.ended) {
+            let structure = self.problems[lanes.problem(lane)].structure;
+            let tail = free_rocking(lanes.state(lane), structure.alpha_rad, structure.eta);
+            self.conclude(lane, tail, lanes);
+        }
+        for lane in each(events.rested) {
+            if !lanes.leave_rest(lane) {
+                self.conclude(lane, Tail::Settles { peak: 0.0 }, lanes);
+            }
+        }
+    }
+
+    fn conclude<S: Simd>(&mut self, lane: usize, tail: Tail, lanes: &mut Lanes<'a, S>) {
+        let problem = lanes.problem(lane);
+        let alpha = self.problems[problem].structure.alpha_rad;
+        self.responses[problem] = Response::of_rocking(tail, lanes.peak(lane), alpha, lanes.impacts(lane));
+        self.refill(lane, lanes);
+    }
+
+    /// Gives a lane the next problem in which the structure rocks.
+    fn refill<S: Simd>(&mut self, lane: usize, lanes: &mut Lanes<'a, S>) {
+        while let Some(Problem { structure, record }) = self.problems.get(self.next) {
+            self.next += 1;
+            if lanes.occupy(lane, self.next - 1, structure, record) {
+                return;
+            }
+        }
+        lanes.vacate(lane);
+    }
+}

@@ -1,0 +1,231 @@
+//! Several numbers at once: the lanes of a vector register, with the operators of numbers.
+
+use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
+
+use pulp::{Simd, bytemuck};
+
+use super::real::Real;
+
+/// The most numbers a register holds.
+pub const MOST_LANES: usize = 8;
+
+/// As many numbers as a register holds.
+#[derive(Debug, Clone, Copy)]
+pub struct Vector<S: Simd> {
+    simd: S,
+    lanes: S::f64s,
+}
+
+/// A yes or no for each lane.
+#[derive(Debug, Clone, Copy)]
+pub struct Mask<S: Simd> {
+    simd: S,
+    lanes: S::m64s,
+}
+
+impl<S: Simd> Vector<S> {
+    /// The same number in all lanes.
+    #[inline(always)]
+    pub fn splat(simd: S, value: f64) -> Vector<S> {
+        Vector { simd, lanes: simd.splat_f64s(value) }
+    }
+
+    /// The first numbers of `values`, one in each lane.
+    #[inline(always)]
+    pub fn of(simd: S, values: &[f64; MOST_LANES]) -> Vector<S> {
+        Vector {
+            simd,
+            lanes: bytemuck::pod_read_unaligned(&bytemuck::bytes_of(values)[..size_of::<S::f64s>()]),
+        }
+    }
+
+    /// The same number in all lanes.
+    #[inline(always)]
+    pub fn like(self, value: f64) -> Vector<S> {
+        Vector::splat(self.simd, value)
+    }
+
+    /// The number of one lane.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> f64 {
+        bytemuck::cast_slice(std::slice::from_ref(&self.lanes))[lane]
+    }
+
+    /// Changes the number of one lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, value: f64) {
+        bytemuck::cast_slice_mut(std::slice::from_mut(&mut self.lanes))[lane] = value;
+    }
+
+    #[inline(always)]
+    pub fn sqrt(self) -> Vector<S> {
+        Vector { lanes: self.simd.sqrt_f64s(self.lanes), ..self }
+    }
+
+    #[inline(always)]
+    pub fn abs(self) -> Vector<S> {
+        Vector { lanes: self.simd.abs_f64s(self.lanes), ..self }
+    }
+
+    #[inline(always)]
+    pub fn min(self, other: Vector<S>) -> Vector<S> {
+        Vector { lanes: self.simd.min_f64s(self.lanes, other.lanes), ..self }
+    }
+
+    #[inline(always)]
+    pub fn max(self, other: Vector<S>) -> Vector<S> {
+        Vector { lanes: self.simd.max_f64s(self.lanes, other.lanes), ..self }
+    }
+
+    #[inline(always)]
+    pub fn lt(self, other: Vector<S>) -> Mask<S> {
+        Mask { simd: self.simd, lanes: self.simd.less_than_f64s(self.lanes, other.lanes) }
+    }
+
+    #[inline(always)]
+    pub fn le(self, other: Vector<S>) -> Mask<S> {
+        Mask { simd: self.simd, lanes: self.simd.less_than_or_equal_f64s(self.lanes, other.lanes) }
+    }
+
+    #[inline(always)]
+    pub fn equals(self, other: Vector<S>) -> Mask<S> {
+        Mask { simd: self.simd, lanes: self.simd.equal_f64s(self.lanes, other.lanes) }
+    }
+}
+
+impl<S: Simd> Mask<S> {
+    /// The numbers of `yes` in the lanes of the mask, those of `no` in the others.
+    #[inline(always)]
+    pub fn select(self, yes: Vector<S>, no: Vector<S>) -> Vector<S> {
+        Vector { simd: self.simd, lanes: self.simd.select_f64s(self.lanes, yes.lanes, no.lanes) }
+    }
+
+    /// Bit k is that of lane k.
+    #[inline(always)]
+    pub fn bits(self) -> u32 {
+        let bytes = bytemuck::bytes_of(&self.lanes);
+        if let [bits] = bytes {
+            return u32::from(*bits);
+        }
+        // A mask of whole words.
+        bytes
+            .chunks_exact(8)
+            .enumerate()
+            .fold(0, |bits, (lane, word)| bits | (u32::from(word[7] >> 7) << lane))
+    }
+
+    /// Yes in one lane only.
+    pub fn of_lane(simd: S, lane: usize) -> Mask<S> {
+        let mut flag = Vector::splat(simd, 0.0);
+        flag.set(lane, 1.0);
+        Vector::splat(simd, 0.0).lt(flag)
+    }
+
+    #[inline(always)]
+    pub fn any(self) -> bool {
+        self.bits() != 0
+    }
+}
+
+macro_rules! lanewise {
+    ($($trait:ident $method:ident $on:ident $simd:ident),* $(,)?) => {$(
+        impl<S: Simd> $trait for $on<S> {
+            type Output = $on<S>;
+
+            #[inline(always)]
+            fn $method(self, other: $on<S>) -> $on<S> {
+                $on { simd: self.simd, lanes: self.simd.$simd(self.lanes, other.lanes) }
+            }
+        }
+    )*};
+}
+
+lanewise! {
+    Add add Vector add_f64s,
+    Sub sub Vector sub_f64s,
+    Mul mul Vector mul_f64s,
+    Div div Vector div_f64s,
+    BitAnd bitand Mask and_m64s,
+    BitOr bitor Mask or_m64s,
+    BitXor bitxor Mask xor_m64s,
+}
+
+impl<S: Simd> Mul<f64> for Vector<S> {
+    type Output = Vector<S>;
+
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Vector<S> {
+        self * self.like(factor)
+    }
+}
+
+impl<S: Simd> Neg for Vector<S> {
+    type Output = Vector<S>;
+
+    #[inline(always)]
+    fn neg(self) -> Vector<S> {
+        Vector { lanes: self.simd.neg_f64s(self.lanes), ..self }
+    }
+}
+
+impl<S: Simd> Not for Mask<S> {
+    type Output = Mask<S>;
+
+    #[inline(always)]
+    fn not(self) -> Mask<S> {
+        Mask { lanes: self.simd.not_m64s(self.lanes), ..self }
+    }
+}
+
+/// pi/2 as a sum of two numbers.
+const HALF_PI: (f64, f64) = (std::f64::consts::FRAC_PI_2, 6.123233995736766e-17);
+
+/// Coefficients of y^3, y^5 ... of sin y and of y^4, y^6 ... of cos y for |y| <= pi/4 (FreeBSD's msun, k_sin.c and k_cos.c).
+const SINE: [f64; 6] = [
+    -0.16666666666666632,
+    0.00833333333332249,
+    -0.0001984126982985795,
+    2.7557313707070068e-06,
+    -2.5050760253406863e-08,
+    1.58969099521155e-10,
+];
+const COSINE: [f64; 6] = [
+    0.0416666666666666,
+    -0.001388888888887411,
+    2.480158728947673e-05,
+    -2.7557314351390663e-07,
+    2.087572321298175e-09,
+    -1.1359647557788195e-11,
+];
+
+/// c[0] + c[1] z + ...
+#[inline(always)]
+fn horner<S: Simd>(c: &[f64; 6], z: Vector<S>) -> Vector<S> {
+    let [lower @ .., leading] = c;
+    let mut sum = z.like(*leading);
+    for &coefficient in lower.iter().rev() {
+        sum = sum.mul_add(z, z.like(coefficient));
+    }
+    sum
+}
+
+impl<S: Simd> Real for Vector<S> {
+    #[inline(always)]
+    fn mul_add(self, factor: Vector<S>, addend: Vector<S>) -> Vector<S> {
+        Vector { lanes: self.simd.mul_add_f64s(self.lanes, factor.lanes, addend.lanes), ..self }
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Vector<S>, Vector<S>) {
+        let beyond = self.like(std::f64::consts::FRAC_PI_4).lt(self);
+        let complement = (self.like(HALF_PI.0) - self) + self.like(HALF_PI.1);
+        let y = beyond.select(complement, self);
+        let z = y * y;
+        let sine = (y * z).mul_add(horner(&SINE, z), y);
+        let half = z * 0.5;
+        let one = z.like(1.0);
+        let leading = one - half;
+        let cosine = leading + (z * z).mul_add(horner(&COSINE, z), (one - leading) - half);
+        (beyond.select(cosine, sine), beyond.select(sine, cosine))
+    }
+}

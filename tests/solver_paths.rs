@@ -1,0 +1,151 @@
+//! One problem at a time and several at once: the same answers, in any company and order.
+
+mod noise;
+
+use noise::synthetic_motion;
+use proptest::prelude::*;
+use rockfrag::keyword::Keyword;
+use rockfrag::rocking::{Outcome, Path, Problem, Record, Response, Structure, simulate, simulate_all};
+
+/// The paths with several problems at once that this processor has.
+fn vector_paths() -> Vec<Path> {
+    let paths = Path::ALL.iter().copied().filter(|path| *path != Path::Scalar && path.is_available());
+    let paths: Vec<Path> = paths.collect();
+    if paths.is_empty() {
+        eprintln!("nothing to compare: this processor has no registers of 256 or 512 bits");
+    }
+    paths
+}
+
+/// Structures from hardly rocking to overturning.
+fn structures() -> Vec<Structure> {
+    let grid = [0.5, 1.0, 2.5, 4.0].into_iter().flat_map(|p| {
+        [0.02, 0.1, 0.2, 0.35].into_iter().flat_map(move |alpha| [0.6, 0.92, 1.0].map(|eta| (p, alpha, eta)))
+    });
+    grid.map(|(p, alpha, eta)| Structure::new("s", p, alpha, eta).unwrap()).collect()
+}
+
+fn motions(count: u64) -> Vec<Vec<f64>> {
+    // Of different lengths, so that lanes come free at different times.
+    (1..=count).map(|seed| synthetic_motion(seed, 100 + (seed as usize * 37) % 300)).collect()
+}
+
+fn problems<'a>(motions: &'a [Vec<f64>], structures: &'a [Structure], dt_s: f64) -> Vec<Problem<'a>> {
+    let records = motions.iter().map(|samples| Record::new(samples, dt_s).unwrap());
+    records.flat_map(|record| structures.iter().map(move |structure| Problem { structure, record })).collect()
+}
+
+fn one_by_one(problems: &[Problem]) -> Vec<Response> {
+    problems.iter().map(|problem| simulate(problem.structure, &problem.record)).collect()
+}
+
+#[test]
+fn the_scalar_path_is_the_plain_solver() {
+    let (motions, structures) = (motions(4), structures());
+    let problems = problems(&motions, &structures, 0.02);
+    assert_eq!(simulate_all(&problems, Path::Scalar), one_by_one(&problems));
+}
+
+#[test]
+fn registers_of_any_width_give_the_same_bits() {
+    let (motions, structures) = (motions(40), structures());
+    let problems = problems(&motions, &structures, 0.02);
+    let answers: Vec<_> = vector_paths().iter().map(|&path| simulate_all(&problems, path)).collect();
+    assert!(answers.windows(2).all(|pair| pair[0] == pair[1]));
+}
+
+#[test]
+fn an_answer_does_not_depend_on_the_company() {
+    let (motions, structures) = (motions(12), structures());
+    let problems = problems(&motions, &structures, 0.02);
+    for path in vector_paths() {
+        let together = simulate_all(&problems, path);
+        for size in [1, 3, 17] {
+            let apart: Vec<Response> =
+                problems.chunks(size).flat_map(|some| simulate_all(some, path)).collect();
+            assert_eq!(apart, together, "{path:?}, {size} at a time");
+        }
+        let backwards: Vec<Problem> = problems.iter().rev().copied().collect();
+        let mut backwards = simulate_all(&backwards, path);
+        backwards.reverse();
+        assert_eq!(backwards, together, "{path:?}");
+    }
+}
+
+#[test]
+fn outcomes_and_peaks_agree_with_the_scalar_path() {
+    let (motions, structures) = (motions(60), structures());
+    for dt_s in [0.005, 0.02, 0.1] {
+        let problems = problems(&motions, &structures, dt_s);
+        let scalar = one_by_one(&problems);
+        let of = |outcome| scalar.iter().filter(|response| response.outcome == outcome).count();
+        println!("dt {dt_s}: {} safe, {} overturned", of(Outcome::SafeRocking), of(Outcome::Overturning));
+        for path in vector_paths() {
+            let vector = simulate_all(&problems, path);
+            let beyond = |limit: f64| {
+                let differ = |(a, b): &(&Response, &Response)| (a.edp - b.edp).abs() > limit * a.edp;
+                scalar.iter().zip(&vector).filter(differ).count()
+            };
+            let (fine, coarse) = (beyond(1e-9), beyond(1e-6));
+            println!("dt {dt_s}, {path:?}: {fine} differ by more than 1e-9, {coarse} by more than 1e-6");
+            // Those near a separatrix amplify rounding without bound.
+            assert!(fine * 25 <= scalar.len() && coarse * 50 <= scalar.len(), "{path:?}: {fine}, {coarse}");
+        }
+    }
+}
+
+#[test]
+fn no_problems_give_no_answers() {
+    for path in vector_paths() {
+        assert_eq!(simulate_all(&[], path), []);
+    }
+}
+
+#[test]
+fn an_uplift_between_the_last_two_samples_is_answered() {
+    let s = Structure::new("s", 2.0, 0.2, 0.9).unwrap();
+    let uplift = s.uplift_acceleration_m_s2();
+    for samples in [vec![0.0, 1.5 * uplift], vec![2.0 * uplift, 0.0], vec![uplift, uplift, uplift]] {
+        let problem = Problem { structure: &s, record: Record::new(&samples, 0.01).unwrap() };
+        for path in vector_paths() {
+            let [vector] = simulate_all(&[problem], path)[..] else { panic!("one answer") };
+            let scalar = simulate(&s, &problem.record);
+            assert_eq!((vector.outcome, vector.impacts), (scalar.outcome, scalar.impacts), "{samples:?}");
+            assert!((vector.edp - scalar.edp).abs() <= 1e-12 * scalar.edp, "{samples:?}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn every_record_has_the_same_answer_on_all_paths(
+        samples in prop::collection::vec(
+            prop_oneof![Just(0.0), -100.0..100.0f64, -3.0..3.0f64, Just(1e-310), Just(1.5)], 2..60,
+        ),
+        dt in prop_oneof![Just(1e-5), Just(0.1), 0.001..0.05f64],
+        p in 0.1..10.0f64, alpha in 0.01..1.5f64, eta in 0.05..=1.0f64,
+    ) {
+        let structure = Structure::new("s", p, alpha, eta).unwrap();
+        let problem = Problem { structure: &structure, record: Record::new(&samples, dt).unwrap() };
+        let scalar = simulate(&structure, &problem.record);
+        for path in vector_paths() {
+            let vector = simulate_all(&[problem], path)[0];
+            prop_assert_eq!(vector.outcome, scalar.outcome);
+            prop_assert!((vector.edp - scalar.edp).abs() <= 1e-6 * scalar.edp, "{:?} {:?}", vector, scalar);
+        }
+    }
+
+    #[test]
+    fn mirrored_motions_have_the_same_peak(seed in 1u64..10_000, p in 0.5..4.0f64, alpha in 0.05..0.35f64) {
+        let structure = Structure::new("s", p, alpha, 0.92).unwrap();
+        let samples = synthetic_motion(seed, 200);
+        let mirrored: Vec<f64> = samples.iter().map(|a| -a).collect();
+        let problem = |samples| Problem { structure: &structure, record: Record::new(samples, 0.02).unwrap() };
+        for path in vector_paths() {
+            let answers = simulate_all(&[problem(&samples), problem(&mirrored)], path);
+            prop_assert_eq!(answers[0], answers[1]);
+        }
+    }
+}
