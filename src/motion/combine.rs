@@ -31,13 +31,13 @@ keywords!(Difference { Absolute = "absolute", Signed = "signed", Clamp = "clamp"
 keywords!(Epoch { EnvelopePeak = "envelope-peak", Pga = "pga", Pgv = "pgv" });
 
 impl Difference {
-    /// The amplitude D' that the high frequencies keep, of their own and of the pulse's.
-    pub fn amplitude(self, high_frequency: f64, pulse: f64) -> f64 {
+    /// What the high frequencies keep of their amplitude, D' / |H|, where the pulse is `ratio` = |P| / |H| times as large.
+    pub fn kept(self, ratio: f64) -> f64 {
         match self {
-            Difference::Absolute => (high_frequency - pulse).abs(),
-            Difference::Signed => high_frequency - pulse,
-            Difference::Clamp => (high_frequency - pulse).max(0.0),
-            Difference::None => high_frequency,
+            Difference::Absolute => (1.0 - ratio).abs(),
+            Difference::Signed => 1.0 - ratio,
+            Difference::Clamp => (1.0 - ratio).max(0.0),
+            Difference::None => 1.0,
         }
     }
 }
@@ -46,10 +46,12 @@ impl Difference {
 /// `high_frequency`. The mean stays 0, so that the ground comes to rest.
 pub fn combine(high_frequency: &mut [Complex64], pulse: &[Complex64], difference: Difference) {
     for (h, p) in high_frequency.iter_mut().zip(pulse) {
-        let amplitude = h.norm();
-        let kept = difference.amplitude(amplitude, p.norm());
-        let scale = if amplitude > 0.0 { kept / amplitude } else { 0.0 };
-        *h = *h * scale + p;
+        let power = h.norm_sqr();
+        // Where there is no high frequency there is no phase either.
+        if power > 0.0 {
+            *h *= difference.kept((p.norm_sqr() / power).sqrt());
+        }
+        *h += p;
     }
     if let Some(mean) = high_frequency.first_mut() {
         *mean = Complex64::ZERO;

@@ -5,6 +5,7 @@
 //! design      how a cell of the magnitude-distance grid is sampled
 //! pulse       Mavroeidis & Papageorgiou's pulse (Eq. 1)
 //! stochastic  Boore's stochastic method with the source of Atkinson & Silva (section 2.1.2)
+//! circle      sines and cosines of equally spaced angles
 //! fourier     transforms of real series, planned once for each length
 //! combine     high frequencies and pulse into one motion (section 2.1.3)
 //! synthesis   all of it for one scenario, on one time axis
@@ -12,6 +13,7 @@
 //! dimensionless  the six measures of Eq. 13
 //! ```
 
+mod circle;
 mod combine;
 mod design;
 mod dimensionless;

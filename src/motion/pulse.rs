@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::circle::equal_steps;
 use super::scenario::Scenario;
 
 /// A velocity pulse: a cosine under a raised-cosine envelope.
@@ -41,6 +42,22 @@ impl Pulse {
             .map_or(0.0, |x| self.amplitude_m_s * wp * unit_acceleration(x, self.gamma, self.nu_rad))
     }
 
+    /// Ground acceleration (m/s2) of a motion of `samples` samples, `dt_s` apart, with the middle of the pulse at `epoch_s`.
+    pub fn sample(&self, dt_s: f64, epoch_s: f64, samples: usize, acceleration_m_s2: &mut Vec<f64>) {
+        let (wp, gamma, half_s) = (2.0 * PI / self.tp_s, self.gamma, 0.5 * self.duration_s());
+        let first = (((epoch_s - half_s) / dt_s).ceil().max(0.0) as usize).min(samples);
+        let last = (((epoch_s + half_s) / dt_s).floor() as usize + 1).clamp(first, samples);
+        let x = wp * (first as f64 * dt_s - epoch_s);
+        let envelope = equal_steps(x / gamma, wp * dt_s / gamma);
+        let carrier = equal_steps(x + self.nu_rad, wp * dt_s);
+        let pulse = envelope.zip(carrier).take(last - first);
+        let scale = self.amplitude_m_s * wp;
+        acceleration_m_s2.clear();
+        acceleration_m_s2.resize(first, 0.0);
+        acceleration_m_s2.extend(pulse.map(|(envelope, carrier)| scale * slope(envelope, carrier, gamma)));
+        acceleration_m_s2.resize(samples, 0.0);
+    }
+
     /// x = wp (t - t0) inside the pulse.
     fn phase(&self, time_s: f64) -> Option<f64> {
         let x = 2.0 * PI / self.tp_s * time_s;
@@ -55,8 +72,12 @@ fn unit_velocity(x: f64, gamma: f64, nu: f64) -> f64 {
 
 /// dv/dx / A.
 fn unit_acceleration(x: f64, gamma: f64, nu: f64) -> f64 {
-    let (sin, cos) = (libm::sin(x / gamma), libm::cos(x / gamma));
-    -0.5 / gamma * (sin * libm::cos(x + nu) + gamma * (1.0 + cos) * libm::sin(x + nu))
+    slope(libm::sincos(x / gamma), libm::sincos(x + nu), gamma)
+}
+
+/// dv/dx / A of the sines and cosines of x / gamma and x + nu.
+fn slope((sin, cos): (f64, f64), (carrier_sin, carrier_cos): (f64, f64), gamma: f64) -> f64 {
+    -0.5 / gamma * (sin * carrier_cos + gamma * (1.0 + cos) * carrier_sin)
 }
 
 /// F(gamma, nu): the largest |v| / A of a pulse.

@@ -9,6 +9,7 @@ use super::intensity::velocity;
 use super::pulse::Pulse;
 use super::scenario::Scenario;
 use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window, quality_exponent};
+use super::suite::Suite;
 use crate::random::{Purpose, stream};
 use crate::units::CM_PER_M;
 
@@ -42,8 +43,8 @@ impl Default for MotionModel {
     }
 }
 
-/// The motions of one scenario on one time axis: accelerations, m/s2.
-#[derive(Debug, Clone, PartialEq)]
+/// The motions of one scenario on one time axis: accelerations, m/s2. One that nobody asked for is empty.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Synthetic {
     /// Time between samples, s.
     pub dt_s: f64,
@@ -57,14 +58,30 @@ pub struct Synthetic {
     pub combined: Vec<f64>,
 }
 
-/// Makes motions one after the other, each the same whatever came before. One for each thread: it keeps plans and
-/// buffers.
+impl Synthetic {
+    /// The motion of a suite.
+    pub fn samples(&self, suite: Suite) -> &[f64] {
+        match suite {
+            Suite::Pulse => &self.pulse,
+            Suite::Hfc => &self.high_frequency,
+            Suite::Csgm | Suite::Record => &self.combined,
+        }
+    }
+}
+
+/// Makes motions one after the other, each the same whatever came before. One for each thread: it keeps plans, buffers
+/// and what scenarios of one magnitude and distance share.
 pub struct Synthesizer {
     model: MotionModel,
+    /// Whether the suites need them.
+    high_frequency: bool,
+    combined: bool,
     axes: ByLength<FrequencyAxis>,
+    earthquake: Option<Earthquake>,
     noise: Vec<Complex64>,
     pulse: Vec<Complex64>,
     scratch: Vec<Complex64>,
+    synthetic: Synthetic,
 }
 
 /// The frequencies of all motions of one length.
@@ -74,19 +91,55 @@ struct FrequencyAxis {
     bins: Vec<(f64, f64, f64)>,
 }
 
+/// What the scenarios of one magnitude and distance share.
+struct Earthquake {
+    mw: f64,
+    re_km: f64,
+    source: Source,
+    window: Window,
+    /// The window at the samples after its onset.
+    weights: Vec<f64>,
+    /// Fourier amplitudes (m/s), for each length of motion.
+    amplitudes: ByLength<Vec<f64>>,
+}
+
+impl Earthquake {
+    fn new(mw: f64, re_km: f64, dt_s: f64) -> Earthquake {
+        let source = Source::new(mw, re_km);
+        let window = Window::new(source.duration_s());
+        let samples = (window.duration_s / dt_s).floor() as usize;
+        let weights = (1..=samples).map(|k| window.value(k as f64 * dt_s)).collect();
+        Earthquake { mw, re_km, source, window, weights, amplitudes: ByLength::default() }
+    }
+
+    fn amplitudes(&mut self, samples: usize, axis: &FrequencyAxis) -> Arc<Vec<f64>> {
+        let source = &self.source;
+        self.amplitudes.get(samples, || {
+            let amplitude =
+                |&(f, quality, common): &(f64, f64, f64)| source.amplitude(f, quality) * common / CM_PER_M;
+            axis.bins.iter().map(amplitude).collect()
+        })
+    }
+}
+
 /// Where window and pulse lie on the time axis.
 #[derive(Debug, Clone, Copy)]
 struct Timeline {
-    onset_s: f64,
+    /// The sample at which the window begins.
+    onset: usize,
     samples: usize,
 }
 
 impl Synthesizer {
-    /// For a model.
-    pub fn new(model: MotionModel) -> Synthesizer {
+    /// For a model and the suites that are wanted of it.
+    pub fn new(model: MotionModel, suites: &[Suite]) -> Synthesizer {
         Synthesizer {
+            high_frequency: suites.contains(&Suite::Hfc) || model.epoch != Epoch::EnvelopePeak,
+            combined: suites.contains(&Suite::Csgm),
+            synthetic: Synthetic { dt_s: model.dt_s, ..Synthetic::default() },
             model,
             axes: ByLength::default(),
+            earthquake: None,
             noise: Vec::new(),
             pulse: Vec::new(),
             scratch: Vec::new(),
@@ -94,75 +147,94 @@ impl Synthesizer {
     }
 
     /// The motions of a scenario.
-    pub fn synthesize(&mut self, scenario: &Scenario) -> Synthetic {
-        let dt_s = self.model.dt_s;
-        let source = Source::new(scenario.mw, scenario.re_km);
-        let window = Window::new(source.duration_s());
+    pub fn synthesize(&mut self, scenario: &Scenario) -> &Synthetic {
+        let Scenario { mw, re_km, .. } = *scenario;
+        let mut earthquake = match self.earthquake.take() {
+            Some(known) if (known.mw, known.re_km) == (mw, re_km) => known,
+            _ => Earthquake::new(mw, re_km, self.model.dt_s),
+        };
         let pulse = Pulse::of(scenario);
-        let timeline = self.timeline(&window, &pulse);
+        let timeline = self.timeline(&earthquake.window, &pulse);
         let axis = self.axis(timeline.samples);
+        if self.high_frequency || self.combined {
+            let amplitudes = earthquake.amplitudes(timeline.samples, &axis);
+            self.windowed_noise(scenario, &earthquake.weights, &timeline);
+            self.shape_noise(&amplitudes, &axis);
+        }
+        let epoch_s = self.epoch_s(&earthquake.window, &timeline);
+        self.earthquake = Some(earthquake);
 
-        let mut high_frequency = vec![0.0; timeline.samples];
-        self.windowed_noise(scenario, &window, &timeline, &mut high_frequency);
-        self.shape_noise(&source, &axis, &mut high_frequency);
-        let epoch_s = self.epoch_s(&window, &timeline, &high_frequency);
-
-        let pulse: Vec<f64> =
-            (0..timeline.samples).map(|k| pulse.acceleration_m_s2(k as f64 * dt_s - epoch_s)).collect();
-        let mut combined = pulse.clone();
-        axis.transform.forward(&mut combined, &mut self.pulse, &mut self.scratch);
-        combine(&mut self.noise, &self.pulse, self.model.difference);
-        axis.transform.inverse(&mut self.noise, &mut combined, &mut self.scratch);
-        Synthetic { dt_s, epoch_s, pulse, high_frequency, combined }
+        let Synthetic { pulse: samples, combined, .. } = &mut self.synthetic;
+        pulse.sample(self.model.dt_s, epoch_s, timeline.samples, samples);
+        if self.combined {
+            combined.clone_from(samples);
+            axis.transform.forward(combined, &mut self.pulse, &mut self.scratch);
+            combine(&mut self.noise, &self.pulse, self.model.difference);
+            axis.transform.inverse(&mut self.noise, combined, &mut self.scratch);
+        }
+        self.synthetic.epoch_s = epoch_s;
+        &self.synthetic
     }
 
-    /// Padded at the start so that the pulse is never cut, and at the end; as long as a fast Fourier transform likes.
+    /// Padded at the start so that the pulse is never cut, and at the end; as long as a fast Fourier transform likes. The
+    /// window begins at a sample.
     fn timeline(&self, window: &Window, pulse: &Pulse) -> Timeline {
+        let dt_s = self.model.dt_s;
         let half_pulse_s = 0.5 * pulse.duration_s();
         // The earliest and the latest moment at which the pulse may peak, from the onset of the window.
         let (earliest_s, latest_s) = match self.model.epoch {
             Epoch::EnvelopePeak => (PEAK_SHARE * window.duration_s, PEAK_SHARE * window.duration_s),
             Epoch::Pga | Epoch::Pgv => (0.0, window.duration_s),
         };
-        let onset_s = MARGIN_S + (half_pulse_s - earliest_s).max(0.0);
-        let end_s = onset_s + window.duration_s.max(latest_s + half_pulse_s) + MARGIN_S;
-        Timeline { onset_s, samples: even_smooth_at_least((end_s / self.model.dt_s).ceil() as usize + 1) }
+        let onset = ((MARGIN_S + (half_pulse_s - earliest_s).max(0.0)) / dt_s).ceil() as usize;
+        let moving_s = window.duration_s.max(latest_s + half_pulse_s);
+        let after = ((moving_s + MARGIN_S) / dt_s).ceil() as usize + 1;
+        Timeline { onset, samples: even_smooth_at_least(onset + after) }
     }
 
-    fn windowed_noise(&self, scenario: &Scenario, window: &Window, timeline: &Timeline, noise: &mut [f64]) {
+    /// Noise under the window, in `synthetic.high_frequency`.
+    fn windowed_noise(&mut self, scenario: &Scenario, weights: &[f64], timeline: &Timeline) {
         let mut random = stream(self.model.seed, Purpose::Noise, scenario.scenario_id as u64);
-        for (k, sample) in noise.iter_mut().enumerate() {
-            let weight = window.value(k as f64 * self.model.dt_s - timeline.onset_s);
-            if weight > 0.0 {
-                let normal: f64 = StandardNormal.sample(&mut random);
-                *sample = weight * normal;
-            }
-        }
+        let samples = &mut self.synthetic.high_frequency;
+        samples.clear();
+        samples.resize(timeline.onset + 1, 0.0);
+        samples.extend(weights.iter().map(|weight| {
+            let normal: f64 = StandardNormal.sample(&mut random);
+            weight * normal
+        }));
+        samples.resize(timeline.samples, 0.0);
     }
 
-    /// Gives the noise the Fourier amplitude of the source, in `samples` and, transformed, in `self.noise`.
-    fn shape_noise(&mut self, source: &Source, axis: &FrequencyAxis, samples: &mut [f64]) {
+    /// Gives the noise the Fourier amplitude of the source, in `synthetic.high_frequency` if it is wanted and,
+    /// transformed, in `self.noise`.
+    fn shape_noise(&mut self, amplitudes: &[f64], axis: &FrequencyAxis) {
+        let samples = &mut self.synthetic.high_frequency;
         axis.transform.forward(samples, &mut self.noise, &mut self.scratch);
         let inner = &self.noise[1..self.noise.len() - 1];
         let mean_square = inner.iter().map(|x| x.norm_sqr()).sum::<f64>() / inner.len() as f64;
-        // From cm/s of the continuous spectrum to m/s2 of the discrete one.
-        let scale = 1.0 / (mean_square.sqrt() * CM_PER_M * self.model.dt_s);
-        for (x, &(f, quality, common)) in self.noise.iter_mut().zip(&axis.bins) {
-            *x *= scale * source.amplitude(f, quality) * common;
+        // From the continuous spectrum to the discrete one.
+        let scale = 1.0 / (mean_square.sqrt() * self.model.dt_s);
+        for (x, amplitude) in self.noise.iter_mut().zip(amplitudes) {
+            *x *= scale * amplitude;
         }
         self.noise[0] = Complex64::ZERO;
-        self.pulse.clone_from(&self.noise);
-        axis.transform.inverse(&mut self.pulse, samples, &mut self.scratch);
+        if self.high_frequency {
+            self.pulse.clone_from(&self.noise);
+            axis.transform.inverse(&mut self.pulse, samples, &mut self.scratch);
+        } else {
+            samples.clear();
+        }
     }
 
-    fn epoch_s(&self, window: &Window, timeline: &Timeline, high_frequency: &[f64]) -> f64 {
+    fn epoch_s(&self, window: &Window, timeline: &Timeline) -> f64 {
         let dt_s = self.model.dt_s;
+        let (onset_s, high_frequency) = (timeline.onset as f64 * dt_s, &self.synthetic.high_frequency);
         let from_onset = match self.model.epoch {
             Epoch::EnvelopePeak => PEAK_SHARE * window.duration_s,
-            Epoch::Pga => index_of_peak(high_frequency) as f64 * dt_s - timeline.onset_s,
-            Epoch::Pgv => index_of_peak(&velocity(high_frequency, dt_s)) as f64 * dt_s - timeline.onset_s,
+            Epoch::Pga => index_of_peak(high_frequency) as f64 * dt_s - onset_s,
+            Epoch::Pgv => index_of_peak(&velocity(high_frequency, dt_s)) as f64 * dt_s - onset_s,
         };
-        timeline.onset_s + from_onset.clamp(0.0, window.duration_s)
+        onset_s + from_onset.clamp(0.0, window.duration_s)
     }
 
     fn axis(&mut self, samples: usize) -> Arc<FrequencyAxis> {

@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::sample_scenarios::DEFAULT_SEED;
+use crate::motion::intensity::housner_intensity;
 use crate::motion::stochastic::{LowCut, Site};
 use crate::motion::{
-    Difference, Epoch, IntensityScratch, MotionModel, Scenario, StochasticModel, Suite, Synthesizer,
-    Synthetic, intensity, measures,
+    Difference, Epoch, IntensityScratch, MotionModel, Scenario, StochasticModel, Suite, Synthesizer, measures,
 };
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
@@ -161,9 +161,10 @@ impl SynthesizeMotions {
     }
 
     fn motions_of(&self, scenario: &Scenario, scratch: &mut Scratch) -> Vec<SyntheticMotion> {
-        let synthetic = scratch.synthesizer.synthesize(scenario);
+        let Scratch { synthesizer, intensity } = scratch;
+        let synthetic = synthesizer.synthesize(scenario);
         let motion = |&suite| {
-            let acceleration_m_s2: Vec<f32> = samples(&synthetic, suite).iter().map(|&a| a as f32).collect();
+            let acceleration_m_s2: Vec<f32> = synthetic.samples(suite).iter().map(|&a| a as f32).collect();
             // Measured as it will be read.
             let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
             SyntheticMotion {
@@ -171,20 +172,12 @@ impl SynthesizeMotions {
                 suite,
                 scenario: *scenario,
                 dt_s: synthetic.dt_s,
-                measures: measures(&written, synthetic.dt_s, &mut scratch.intensity),
-                housner_m: self.housner.then(|| intensity::housner_intensity(&written, synthetic.dt_s)),
+                measures: measures(&written, synthetic.dt_s, intensity),
+                housner_m: self.housner.then(|| housner_intensity(&written, synthetic.dt_s)),
                 acceleration_m_s2,
             }
         };
         self.suites.iter().map(motion).collect()
-    }
-}
-
-fn samples(synthetic: &Synthetic, suite: Suite) -> &[f64] {
-    match suite {
-        Suite::Pulse => &synthetic.pulse,
-        Suite::Hfc => &synthetic.high_frequency,
-        Suite::Csgm | Suite::Record => &synthetic.combined,
     }
 }
 
@@ -226,9 +219,9 @@ impl Stage for SynthesizeMotions {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let scenarios = scenarios::read(&self.input)?;
-        let model = self.model.clone();
+        let (model, suites) = (self.model.clone(), self.suites.clone());
         let pool = Pool::new(move || Scratch {
-            synthesizer: Synthesizer::new(model.clone()),
+            synthesizer: Synthesizer::new(model.clone(), &suites),
             intensity: IntensityScratch::default(),
         });
         let mut writer = TableWriter::create(&self.out, &MOTIONS, provenance.clone())?;
@@ -236,12 +229,12 @@ impl Stage for SynthesizeMotions {
         pipelined(
             scenarios.chunks(self.row_group).map(Ok),
             |scenarios| {
-                let motions: Vec<Vec<SyntheticMotion>> = scenarios
+                let motions: Vec<SyntheticMotion> = scenarios
                     .par_iter()
-                    .map(|scenario| pool.lend(|scratch| self.motions_of(scenario, scratch)))
+                    .flat_map_iter(|scenario| pool.lend(|scratch| self.motions_of(scenario, scratch)))
                     .collect();
                 bar.inc(scenarios.len() as u64);
-                Ok(motions::batch(&motions.concat())?)
+                Ok(motions::batch(&motions)?)
             },
             |batch| Ok(writer.write_row_group(&batch)?),
         )?;

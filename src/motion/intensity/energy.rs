@@ -4,7 +4,12 @@ use crate::units::G_M_S2;
 
 /// Arias intensity, m/s: pi/(2 g) times the trapezoidal integral of a^2.
 pub fn arias_intensity(acceleration: &[f64], dt_s: f64) -> f64 {
-    0.5 * PI / G_M_S2 * trapezoids(acceleration, dt_s, |a| a * a).sum::<f64>()
+    arias_of(trapezoids(acceleration, dt_s, |a| a * a).sum())
+}
+
+/// Arias intensity, m/s, of the integral of a^2, m2/s3.
+pub(super) fn arias_of(energy: f64) -> f64 {
+    0.5 * PI / G_M_S2 * energy
 }
 
 /// Cumulative absolute velocity, m/s: the trapezoidal integral of |a|.
@@ -15,18 +20,26 @@ pub fn cumulative_absolute_velocity(acceleration: &[f64], dt_s: f64) -> f64 {
 /// Significant duration, s: between the moments at which the shares `from` and `to` of the Arias intensity have come;
 /// within a time step it grows linearly. 0 for a motion without energy.
 pub fn significant_duration(acceleration: &[f64], dt_s: f64, from: f64, to: f64) -> f64 {
-    let total: f64 = trapezoids(acceleration, dt_s, |a| a * a).sum();
-    let moment = |share: f64| {
-        let mut so_far = 0.0;
-        for (step, area) in trapezoids(acceleration, dt_s, |a| a * a).enumerate() {
-            if so_far + area >= share * total && area > 0.0 {
-                return dt_s * (step as f64 + (share * total - so_far) / area);
-            }
-            so_far += area;
-        }
-        0.0
-    };
-    moment(to) - moment(from)
+    let energy: Vec<f64> = running_energy(acceleration, dt_s).collect();
+    moment(&energy, dt_s, to) - moment(&energy, dt_s, from)
+}
+
+/// The integral of a^2 to each sample, m2/s3.
+pub(super) fn running_energy(acceleration: &[f64], dt_s: f64) -> impl Iterator<Item = f64> {
+    let areas = trapezoids(acceleration, dt_s, |a| a * a);
+    std::iter::once(0.0).chain(areas.scan(0.0, |sum, area| {
+        *sum += area;
+        Some(*sum)
+    }))
+}
+
+/// When a share of the last value of a running integral has come, s.
+pub(super) fn moment(energy: &[f64], dt_s: f64, share: f64) -> f64 {
+    let Some(&total) = energy.last().filter(|total| **total > 0.0) else { return 0.0 };
+    let reached = share * total;
+    let after = energy.partition_point(|sum| *sum < reached).max(1);
+    let (before, sum) = (energy[after - 1], energy[after]);
+    dt_s * ((after - 1) as f64 + (reached - before) / (sum - before))
 }
 
 fn trapezoids(acceleration: &[f64], dt_s: f64, height: impl Fn(f64) -> f64) -> impl Iterator<Item = f64> {

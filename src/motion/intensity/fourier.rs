@@ -14,6 +14,8 @@ pub struct IntensityScratch {
     samples: Vec<f64>,
     spectrum: Vec<Complex64>,
     scratch: Vec<Complex64>,
+    /// The running energy of the motion.
+    pub(super) energy: Vec<f64>,
 }
 
 /// Mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of the acceleration from 0.25
@@ -29,13 +31,13 @@ pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScrat
     transform.forward(&mut scratch.samples, &mut scratch.spectrum, &mut scratch.scratch);
 
     let step_hz = 1.0 / (length as f64 * dt_s);
+    let first = (BAND_HZ.0 / step_hz).ceil() as usize;
+    let last = (BAND_HZ.1 / step_hz).floor() as usize;
     let (mut weighted, mut total) = (0.0, 0.0);
-    for (k, coefficient) in scratch.spectrum.iter().enumerate() {
-        let f = k as f64 * step_hz;
-        if (BAND_HZ.0..=BAND_HZ.1).contains(&f) {
-            weighted += coefficient.norm_sqr() / f;
-            total += coefficient.norm_sqr();
-        }
+    for (k, coefficient) in scratch.spectrum.iter().enumerate().take(last + 1).skip(first) {
+        let power = coefficient.norm_sqr();
+        weighted += power / (k as f64 * step_hz);
+        total += power;
     }
     (total > 0.0).then(|| weighted / total)
 }

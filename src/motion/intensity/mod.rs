@@ -5,6 +5,7 @@ mod fourier;
 mod spectral;
 
 pub use energy::{arias_intensity, cumulative_absolute_velocity, significant_duration};
+use energy::{arias_of, moment, running_energy};
 pub use fourier::{IntensityScratch, mean_period};
 pub use spectral::{housner_intensity, spectral_acceleration};
 
@@ -31,18 +32,47 @@ pub struct Measures {
 
 /// All measures of a motion of these samples (m/s2), `dt_s` apart.
 pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Measures {
-    let velocity = velocity(acceleration, dt_s);
-    let displacement = integral(&velocity, dt_s);
-    let [d5_75_s, d5_95_s] = [0.75, 0.95].map(|end| significant_duration(acceleration, dt_s, 0.05, end));
+    let passage = Passage::through(acceleration, dt_s);
+    let energy = &mut scratch.energy;
+    energy.clear();
+    energy.extend(running_energy(acceleration, dt_s));
+    let arias_m_s = arias_of(energy.last().copied().unwrap_or_default());
+    let [d5, d75, d95] = [0.05, 0.75, 0.95].map(|share| moment(energy, dt_s, share));
     Measures {
         pga_m_s2: peak(acceleration),
-        pgv_m_s: peak(&velocity),
-        pgd_m: peak(&displacement),
+        pgv_m_s: passage.pgv_m_s,
+        pgd_m: passage.pgd_m,
         tm_s: mean_period(acceleration, dt_s, scratch),
-        arias_m_s: arias_intensity(acceleration, dt_s),
-        cav_m_s: cumulative_absolute_velocity(acceleration, dt_s),
-        d5_75_s,
-        d5_95_s,
+        arias_m_s,
+        cav_m_s: passage.cav_m_s,
+        d5_75_s: d75 - d5,
+        d5_95_s: d95 - d5,
+    }
+}
+
+/// Trapezoidal integrals of a motion up to a sample, and the peaks so far: all in one pass.
+#[derive(Default)]
+struct Passage {
+    velocity_m_s: f64,
+    displacement_m: f64,
+    pgv_m_s: f64,
+    pgd_m: f64,
+    cav_m_s: f64,
+}
+
+impl Passage {
+    fn through(acceleration: &[f64], dt_s: f64) -> Passage {
+        acceleration.windows(2).fold(Passage::default(), |before, pair| {
+            let velocity_m_s = before.velocity_m_s + 0.5 * dt_s * (pair[0] + pair[1]);
+            let displacement_m = before.displacement_m + 0.5 * dt_s * (before.velocity_m_s + velocity_m_s);
+            Passage {
+                velocity_m_s,
+                displacement_m,
+                pgv_m_s: before.pgv_m_s.max(velocity_m_s.abs()),
+                pgd_m: before.pgd_m.max(displacement_m.abs()),
+                cav_m_s: before.cav_m_s + 0.5 * dt_s * (pair[0].abs() + pair[1].abs()),
+            }
+        })
     }
 }
 
@@ -53,20 +83,10 @@ pub fn peak(series: &[f64]) -> f64 {
 
 /// Ground velocity (m/s): the trapezoidal integral, 0 at the first sample.
 pub fn velocity(acceleration: &[f64], dt_s: f64) -> Vec<f64> {
-    integral(acceleration, dt_s)
-}
-
-fn integral(series: &[f64], dt_s: f64) -> Vec<f64> {
-    let mut sum = 0.0;
-    let mut last = series.first().copied().unwrap_or(0.0);
-    let next = |&value: &f64| {
-        sum += 0.5 * dt_s * (last + value);
-        last = value;
-        sum
-    };
-    let mut integral: Vec<f64> = series.iter().map(next).collect();
-    // The first step above has no length: its sum is a sample's own, not an area.
-    let first = integral.first().copied().unwrap_or(0.0);
-    integral.iter_mut().for_each(|value| *value -= first);
-    integral
+    let steps = acceleration.windows(2).map(|pair| 0.5 * dt_s * (pair[0] + pair[1]));
+    let rest = steps.scan(0.0, |sum, step| {
+        *sum += step;
+        Some(*sum)
+    });
+    acceleration.first().map(|_| 0.0).into_iter().chain(rest).collect()
 }
