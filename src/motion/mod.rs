@@ -9,6 +9,7 @@
 //! combine     high frequencies and pulse into one motion (section 2.1.3)
 //! synthesis   all of it for one scenario, on one time axis
 //! intensity   measures of any motion
+//! records     recorded motions from the files of the strong-motion networks
 //! dimensionless  the six measures of Eq. 13
 //! ```
 
@@ -18,6 +19,7 @@ mod dimensionless;
 mod fourier;
 pub mod intensity;
 pub mod pulse;
+pub mod records;
 pub mod scenario;
 mod sobol;
 pub mod stochastic;
@@ -27,7 +29,7 @@ mod synthesis;
 pub use combine::{Difference, Epoch};
 pub use design::{Design, Grid};
 pub use dimensionless::IntensityMeasures;
-pub use intensity::{IntensityScratch, Measures, measures};
+pub use intensity::{IntensityScratch, MeasurePlan, Measured, Measures, measures};
 pub use pulse::Pulse;
 pub use scenario::Scenario;
 pub use sobol::SobolSequence;

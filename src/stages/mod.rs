@@ -6,6 +6,7 @@ pub mod config;
 pub mod fit_pex;
 pub mod fit_pro;
 pub mod groups;
+pub mod import_motions;
 pub mod inspect;
 pub mod run;
 pub mod sample_scenarios;

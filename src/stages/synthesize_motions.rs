@@ -11,8 +11,8 @@ use serde_json::{Value, json};
 use super::sample_scenarios::DEFAULT_SEED;
 use crate::motion::stochastic::{LowCut, Site};
 use crate::motion::{
-    Difference, Epoch, IntensityScratch, MotionModel, Scenario, StochasticModel, Suite, Synthesizer,
-    Synthetic, intensity, measures,
+    Difference, Epoch, IntensityScratch, MeasurePlan, MotionModel, Scenario, StochasticModel, Suite,
+    Synthesizer, Synthetic,
 };
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
@@ -133,7 +133,7 @@ impl SynthesizeMotionsOptions {
 pub struct SynthesizeMotions {
     model: MotionModel,
     suites: Vec<Suite>,
-    housner: bool,
+    plan: MeasurePlan,
     row_group: usize,
     input: PathBuf,
     out: PathBuf,
@@ -153,7 +153,7 @@ impl SynthesizeMotions {
         Ok(SynthesizeMotions {
             model,
             suites,
-            housner: options.housner,
+            plan: MeasurePlan { housner: options.housner, sa_periods_s: Vec::new() },
             row_group: options.row_group,
             input,
             out,
@@ -171,8 +171,7 @@ impl SynthesizeMotions {
                 suite,
                 scenario: *scenario,
                 dt_s: synthetic.dt_s,
-                measures: measures(&written, synthetic.dt_s, &mut scratch.intensity),
-                housner_m: self.housner.then(|| intensity::housner_intensity(&written, synthetic.dt_s)),
+                measured: self.plan.measure(&written, synthetic.dt_s, &mut scratch.intensity),
                 acceleration_m_s2,
             }
         };
@@ -220,7 +219,7 @@ impl Stage for SynthesizeMotions {
         json!({
             "suite": suites, "dt": dt_s, "difference": Word(*difference), "epoch": Word(*epoch), "site": site,
             "kappa": kappa_s, "fmax": fmax_hz, "low-cut": low_cut.map(|cut| (cut.corner_hz, cut.order)),
-            "housner": self.housner, "seed": seed,
+            "housner": self.plan.housner, "seed": seed,
         })
     }
 

@@ -135,6 +135,16 @@ columns! {
     D5_95_S = "d5_95_s", Float64, "s", "significant duration, 5 to 95 % of the Arias intensity";
     HOUSNER_M = "housner_m", Float64, "m", "Housner intensity, 0.1 to 2.5 s at 5 % damping";
 
+    MOTION_NAME = "motion_id", Text, "1", "ground motion, unique in the file: the name of its file";
+    NAME = "name", Text, "1", "earthquake, station and component in the words of the file";
+    EARTHQUAKE = "event", Text, "1", "earthquake in the words of the file";
+    STATION = "station", Text, "1", "station in the words of the file";
+    COMPONENT = "component", Text, "1", "component in the words of the file";
+    AZIMUTH_DEG = "azimuth_deg", Float64, "deg", "direction of positive acceleration, clockwise from north; null if vertical or unknown";
+    SOURCE_FILE = "source_file", Text, "1", "file that the motion comes from";
+    SOURCE_BLAKE3 = "source_blake3", Text, "1", "BLAKE3 hash of that file";
+    SCALE = "scale", Float64, "1", "factor by which the record is scaled";
+
     STRUCTURE = "structure", Text, "1", "name of the structure";
     P_RAD_S = "p_rad_s", Float64, "rad/s", "frequency parameter p of the structure";
     ALPHA_RAD = "alpha_rad", Float64, "rad", "slenderness of the structure";
@@ -244,6 +254,35 @@ pub const MOTIONS: Table = Table {
         PULSE_TP_S,
         GAMMA,
         NU_RAD,
+        DT_S,
+        PGA_M_S2,
+        PGV_M_S,
+        PGD_M,
+        TM_S.or_null(),
+        ARIAS_M_S,
+        CAV_M_S,
+        D5_75_S,
+        D5_95_S,
+        HOUSNER_M.or_null(),
+        ACCELERATION_M_S2,
+    ],
+};
+
+/// Recorded ground motions with their measures and where they come from.
+pub const RECORDS: Table = Table {
+    name: "records",
+    stage: "import-motions",
+    columns: &[
+        MOTION_NAME,
+        SUITE,
+        NAME.or_null(),
+        EARTHQUAKE.or_null(),
+        STATION.or_null(),
+        COMPONENT.or_null(),
+        AZIMUTH_DEG.or_null(),
+        SOURCE_FILE,
+        SOURCE_BLAKE3,
+        SCALE,
         DT_S,
         PGA_M_S2,
         PGV_M_S,

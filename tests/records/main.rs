@@ -1,0 +1,5 @@
+//! Recorded motions: from files of every format to accelerations, and what becomes of them.
+
+mod quirks;
+mod round_trips;
+mod writers;
