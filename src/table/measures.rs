@@ -24,3 +24,12 @@ pub(super) fn columns<'a>(motions: impl Iterator<Item = &'a Measured> + Clone) -
         optional(|motion| motion.housner_m),
     ]
 }
+
+/// The columns of spectral accelerations, as many as all motions have.
+pub(super) fn spectrum<'a>(motions: impl Iterator<Item = &'a Measured> + Clone) -> Vec<ArrayRef> {
+    let periods = motions.clone().map(|motion| motion.sa_m_s2.len()).min().unwrap_or(0);
+    let column = |period: usize| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(motions.clone().map(|motion| motion.sa_m_s2.get(period).copied())))
+    };
+    (0..periods).map(column).collect()
+}

@@ -12,7 +12,7 @@ use super::columns::Columns;
 use super::measures;
 use super::reader::{Batch, Batches, expect_columns};
 use super::scenarios;
-use super::schema::{self, Column, MOTIONS};
+use super::schema::{self, Column};
 use crate::keyword::Keyword;
 use crate::motion::{Measured, Scenario, Suite};
 
@@ -53,11 +53,11 @@ pub struct SyntheticMotion {
     pub measured: Measured,
 }
 
-/// The rows of the motions file.
+/// The rows of the motions file in its schema, which has the spectral accelerations at its end.
 ///
 /// # Errors
 /// If a row cannot be represented, which the schema rules out.
-pub fn batch(motions: &[SyntheticMotion]) -> Result<RecordBatch, ArrowError> {
+pub fn batch(motions: &[SyntheticMotion], schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
     let mut columns: Vec<ArrayRef> = vec![
         Arc::new(Int64Array::from_iter_values(motions.iter().map(|motion| motion.motion_id))),
         Arc::new(StringArray::from_iter_values(motions.iter().map(|motion| motion.suite.as_str()))),
@@ -66,7 +66,8 @@ pub fn batch(motions: &[SyntheticMotion]) -> Result<RecordBatch, ArrowError> {
     columns.push(Arc::new(Float64Array::from_iter_values(motions.iter().map(|motion| motion.dt_s))));
     columns.extend(measures::columns(motions.iter().map(|motion| &motion.measured)));
     columns.push(samples(motions.iter().map(|motion| motion.acceleration_m_s2.as_slice())));
-    RecordBatch::try_new(MOTIONS.schema(), columns)
+    columns.extend(measures::spectrum(motions.iter().map(|motion| &motion.measured)));
+    RecordBatch::try_new(schema.clone(), columns)
 }
 
 /// The column of samples.

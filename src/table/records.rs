@@ -3,11 +3,14 @@
 use std::sync::Arc;
 
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
-use arrow_schema::ArrowError;
+use arrow_schema::{ArrowError, SchemaRef};
 
-use super::schema::RECORDS;
 use super::{measures, motions};
 use crate::keyword::Keyword;
+use crate::motion::processing::RotD;
+use crate::motion::pulse::largest_velocity;
+use crate::motion::pulse_fit::FittedPulse;
+use crate::motion::pulse_indicator::PulseIndicator;
 use crate::motion::{Measured, Suite};
 
 /// A recorded motion on its way into a file.
@@ -35,6 +38,12 @@ pub struct RecordRow {
     pub acceleration_m_s2: Vec<f32>,
     /// Intensity measures of these samples.
     pub measured: Measured,
+    /// Peaks over all directions of the pair it is rotated from.
+    pub rotd: Option<RotD>,
+    /// Whether it holds a pulse, if that was looked for.
+    pub indicator: Option<PulseIndicator>,
+    /// The pulse that it holds.
+    pub pulse: Option<FittedPulse>,
 }
 
 /// A file, and the hash of what it holds.
@@ -54,11 +63,11 @@ impl RecordRow {
     }
 }
 
-/// The rows of the file.
+/// The rows of the file in its schema, which has the spectral accelerations at its end.
 ///
 /// # Errors
 /// If a row cannot be represented, which the schema rules out.
-pub fn batch(rows: &[RecordRow]) -> Result<RecordBatch, ArrowError> {
+pub fn batch(rows: &[RecordRow], schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
     let text = |value: fn(&RecordRow) -> &str| -> ArrayRef {
         Arc::new(StringArray::from_iter_values(rows.iter().map(value)))
     };
@@ -85,6 +94,32 @@ pub fn batch(rows: &[RecordRow]) -> Result<RecordBatch, ArrowError> {
         number(|row| row.dt_s),
     ];
     columns.extend(measures::columns(rows.iter().map(|row| &row.measured)));
+    let rotd = |value: fn(&RotD) -> f64| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(rows.iter().map(|row| row.rotd.as_ref().map(value))))
+    };
+    let indicator = |value: fn(&PulseIndicator) -> f64| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(rows.iter().map(|row| row.indicator.as_ref().map(value))))
+    };
+    let fitted = |value: fn(&FittedPulse) -> f64| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(rows.iter().map(|row| row.pulse.as_ref().map(value))))
+    };
+    columns.extend([
+        rotd(|rotd| rotd.pga50_m_s2),
+        rotd(|rotd| rotd.pga100_m_s2),
+        rotd(|rotd| rotd.pgv50_m_s),
+        rotd(|rotd| rotd.pgv100_m_s),
+        indicator(|found| found.indicator),
+        optional_text(|row| row.indicator.map(|found| found.verdict.as_str().to_string())),
+        indicator(|found| found.period_s),
+        fitted(|fit| fit.pulse.amplitude_m_s),
+        fitted(|fit| fit.pulse.amplitude_m_s * largest_velocity(fit.pulse.gamma, fit.pulse.nu_rad)),
+        fitted(|fit| fit.pulse.tp_s),
+        fitted(|fit| fit.pulse.gamma),
+        fitted(|fit| fit.pulse.nu_rad),
+        fitted(|fit| fit.t0_s),
+        fitted(|fit| fit.r2),
+    ]);
     columns.push(motions::samples(rows.iter().map(|row| row.acceleration_m_s2.as_slice())));
-    RecordBatch::try_new(RECORDS.schema(), columns)
+    columns.extend(measures::spectrum(rows.iter().map(|row| &row.measured)));
+    RecordBatch::try_new(schema.clone(), columns)
 }

@@ -107,3 +107,107 @@ fn motions_do_not_depend_on_threads() {
     let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
     assert!(bytes("one.parquet") == bytes("two.parquet"));
 }
+
+/// An AT2 file of one component (azimuth or `UP`) of a pulse of 2 s in direction N30E, with PGA in the header.
+fn write_at2(folder: &Path, name: &str, component: &str) {
+    let along = component.parse().map_or(0.1, |azimuth: f64| (30.0 - azimuth).to_radians().cos());
+    let velocity = |t: f64| {
+        let x = std::f64::consts::PI * (t - 8.0);
+        if x.abs() > 2.0 * std::f64::consts::PI { 0.0 } else { 0.5 * (1.0 + (x / 2.0).cos()) * x.cos() }
+    };
+    let acceleration = |k: usize| {
+        let t = k as f64 * 0.01;
+        along * (velocity(t + 5e-3) - velocity(t - 5e-3)) / 0.01 / 9.81
+    };
+    let samples: Vec<f64> = (0..3000).map(acceleration).collect();
+    let peak = samples.iter().fold(0.0_f64, |peak, a| a.abs().max(peak));
+    let rows: String = samples
+        .chunks(5)
+        .map(|row| row.iter().map(|a| format!("{a:15.7E}")).collect::<String>() + "\n")
+        .collect();
+    let text = format!(
+        "PEER STRONG MOTION DATABASE RECORD\nTestville 1/1/2001, Somewhere, {component}\n\
+         ACCELERATION TIME HISTORY IN UNITS OF G,  PGA= {peak:.5} G\nNPTS=  3000, DT= .01000 SEC\n{rows}"
+    );
+    std::fs::write(folder.join(name), text).unwrap();
+}
+
+fn records() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, component) in [("n.at2", "000"), ("e.at2", "090"), ("v.at2", "UP")] {
+        write_at2(folder.path(), name, component);
+    }
+    folder
+}
+
+#[test]
+fn a_pair_is_rotated_and_what_has_no_partner_is_named() {
+    let folder = records();
+    let told = succeed(folder.path(), "import-motions n.at2 e.at2 v.at2 --rotate 30");
+    assert!(told.contains("1 motions are vertical or without a partner") && told.contains(": v"), "{told}");
+    assert!(told.contains("1 motions of 3 files"), "{told}");
+    let rotated = imported(&folder.path().join("motions.parquet")).remove(0);
+    assert_eq!(rotated.motion_id.to_string(), "n+e");
+    assert!((rotated.tp_s.unwrap() / 2.0 - 1.0).abs() < 0.01, "{:?}", rotated.tp_s);
+    succeed(folder.path(), "import-motions n.at2 e.at2 --rotate strongest-pulse --out strongest.parquet");
+    let strongest = imported(&folder.path().join("strongest.parquet")).remove(0);
+    assert!((strongest.pgv_m_s.unwrap() / rotated.pgv_m_s.unwrap() - 1.0).abs() < 1e-5);
+    let text = rockfrag(folder.path()).args(["inspect", "strongest.parquet"]).output().unwrap();
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(text.contains("rotd100_pgv_m_s") && text.contains("azimuth_deg"), "{text}");
+    fail(folder.path(), "import-motions n.at2 v.at2 --rotate 30", 1, &["no motion is imported"]);
+    fail(folder.path(), "import-motions n.at2 --rotate north", 2, &["expected an azimuth"]);
+}
+
+#[test]
+fn factors_make_several_motions_and_peaks_one() {
+    let folder = records();
+    succeed(folder.path(), "import-motions n.at2 e.at2 --scale 0.5:2:0.5 --sa 0.2,1 --residual");
+    let path = folder.path().join("motions.parquet");
+    assert_eq!(ids(&path)[..3], ["n x0.5", "n x0.5 residual", "n x1"]);
+    assert_eq!(imported(&path).len(), 16);
+    let pga: Vec<f64> = imported(&path).iter().filter_map(|motion| motion.pga_m_s2).collect();
+    assert!((pga[2] / pga[0] - 2.0).abs() < 1e-6);
+    let residual = &imported(&path)[3];
+    assert_eq!((residual.suite.as_deref(), residual.tp_s), (Some("residual"), None));
+    assert!(residual.pgv_m_s.unwrap() < 0.02, "the pulse is the whole record: {residual:?}");
+    succeed(folder.path(), "simulate");
+    succeed(folder.path(), "import-motions n.at2 e.at2 --scale-pga 0.4 --force");
+    assert!(imported(&path).iter().all(|motion| (motion.pga_m_s2.unwrap() / 9.81 - 0.4).abs() < 1e-6));
+    succeed(
+        folder.path(),
+        "import-motions n.at2 --scale-pgv 0.7 --baseline linear --high-pass 0.02 --resample 0.02",
+    );
+    let motion = imported(&path).remove(0);
+    assert!((motion.pgv_m_s.unwrap() - 0.7).abs() < 1e-5 && motion.dt_s == 0.02, "{motion:?}");
+    for (flags, expected) in [
+        ("--scale 0,1", "factors above 0"),
+        ("--scale-pga 0", "above 0 g"),
+        ("--high-pass 0", "above 0 Hz"),
+        ("--resample 7", "from 0.0001 to 0.1 s"),
+        ("--residual --pulses skip", "residual motions need their pulses"),
+        ("--sa 0,1", "periods from 0.01 to 20 s"),
+        ("--baseline cubic", "none, mean, linear"),
+    ] {
+        fail(folder.path(), &format!("import-motions n.at2 {flags}"), 2, &[expected]);
+    }
+    let both = "import-motions: { files: [n.at2], scale: 2, scale-pga: 0.3 }\n";
+    std::fs::write(folder.path().join("pipeline.yaml"), both).unwrap();
+    fail(folder.path(), "run", 2, &["exclude each other"]);
+}
+
+#[test]
+fn spectral_accelerations_become_columns_of_both_kinds_of_motions() {
+    let folder = records();
+    succeed(folder.path(), "import-motions n.at2 --sa 0.075,0.2,1 --out r.parquet --pulses skip --housner");
+    succeed(folder.path(), "sample-scenarios --samples 1 --mw 6 --re 10");
+    succeed(folder.path(), "synthesize-motions --in scenarios.parquet --sa 0.2,1");
+    for (file, columns) in [
+        ("r.parquet", &["sa_0p075_m_s2", "sa_0p20_m_s2", "sa_1p00_m_s2"][..]),
+        ("motions.parquet", &["sa_0p20_m_s2"]),
+    ] {
+        let text = rockfrag(folder.path()).args(["inspect", file]).output().unwrap();
+        let text = String::from_utf8(text.stdout).unwrap();
+        columns.iter().for_each(|column| assert!(text.contains(column), "{text}"));
+    }
+}

@@ -1,5 +1,7 @@
 //! Recorded motions: from files of every format to accelerations, and what becomes of them.
 
+mod processing;
+mod pulses;
 mod quirks;
 mod round_trips;
 mod writers;

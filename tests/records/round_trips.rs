@@ -128,7 +128,7 @@ fn knet_ascii() {
     let read = one(&knet(&about_mean));
     assert_is(&read, &about_mean, 2e-6);
     assert_peak(&read);
-    assert_words(&read, "2011/03/11 14:46:00", "MYG004", "E-W surface", Some(90.0));
+    assert_words(&read, "2011/03/11 14:46:00", "MYG004 surface", "E-W", Some(90.0));
 }
 
 #[test]

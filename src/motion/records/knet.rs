@@ -10,17 +10,18 @@ use super::{Given, RecordedMotion};
 
 /// Lines in which the header must come to its end.
 const HEADER: usize = 40;
-/// The directions of K-NET by name and of KiK-net by number, in the borehole and at the surface, with their azimuths.
-const DIRECTIONS: [(&str, &str, Option<f64>); 9] = [
-    ("N-S", "N-S", Some(0.0)),
-    ("E-W", "E-W", Some(90.0)),
-    ("U-D", "U-D", None),
-    ("1", "N-S borehole", Some(0.0)),
-    ("2", "E-W borehole", Some(90.0)),
-    ("3", "U-D borehole", None),
-    ("4", "N-S surface", Some(0.0)),
-    ("5", "E-W surface", Some(90.0)),
-    ("6", "U-D surface", None),
+/// The directions of K-NET by name and of KiK-net by number, in the borehole and at the surface: component, azimuth, and
+/// where at the station.
+const DIRECTIONS: [(&str, &str, Option<f64>, &str); 9] = [
+    ("N-S", "N-S", Some(0.0), ""),
+    ("E-W", "E-W", Some(90.0), ""),
+    ("U-D", "U-D", None, ""),
+    ("1", "N-S", Some(0.0), "borehole"),
+    ("2", "E-W", Some(90.0), "borehole"),
+    ("3", "U-D", None, "borehole"),
+    ("4", "N-S", Some(0.0), "surface"),
+    ("5", "E-W", Some(90.0), "surface"),
+    ("6", "U-D", None, "surface"),
 ];
 
 /// Whether it begins as all of them do.
@@ -57,13 +58,14 @@ pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileErro
     let scale = gal * AccelerationUnit::CentimetrePerSecond2.in_m_s2();
     let direction = find("Dir.").map_or("", |(_, direction)| direction);
     let known = DIRECTIONS.iter().find(|(code, ..)| *code == direction);
+    let place = known.map_or("", |(.., place)| place);
     Ok(RecordedMotion {
         dt_s,
         acceleration_m_s2: counts.into_iter().map(|count| (count - mean) * scale).collect(),
         event: find("Origin Time").and_then(|(_, time)| words(time)),
-        station: find("Station Code").and_then(|(_, code)| words(code)),
-        component: known.map(|(_, name, _)| name.to_string()).or(words(direction)),
-        azimuth_deg: known.and_then(|(.., azimuth)| *azimuth),
+        station: find("Station Code").and_then(|(_, code)| words(&format!("{code} {place}"))),
+        component: known.map_or(words(direction), |(_, name, ..)| words(name)),
+        azimuth_deg: known.and_then(|(_, _, azimuth, _)| *azimuth),
         header_pga: find("Max. Acc. (gal)")
             .and_then(|(_, peak)| header_pga(peak, AccelerationUnit::CentimetrePerSecond2)),
     })

@@ -6,6 +6,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::options::Reading;
+use super::refusals::Refusal;
 use crate::motion::records::{RecordFileError, RecordedMotion, read};
 use crate::pipeline::files;
 use crate::rocking::Record;
@@ -18,21 +19,6 @@ const AT_ONCE: usize = 64;
 const MOST_BYTES: u64 = 512 * 1024 * 1024;
 /// How Parquet files begin.
 const PARQUET: &[u8] = b"PAR1";
-
-/// A file that cannot be imported, and why.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Refusal {
-    /// Its path as given.
-    pub file: String,
-    /// What is wrong with it, and what to do.
-    pub reason: String,
-}
-
-impl Refusal {
-    fn of(file: &Path, reason: &impl ToString) -> Refusal {
-        Refusal { file: file.display().to_string(), reason: reason.to_string() }
-    }
-}
 
 /// A motion and where it comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,14 +114,14 @@ fn stem(file: &Path) -> String {
     file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The motions of an input.
-///
-/// # Errors
-/// With the file and what is wrong with it.
-pub fn motions(input: Input, names: &Names, reading: &Reading) -> Result<Vec<Found>, Refusal> {
+/// The motions of an input, and for what cannot be read the file and what is wrong with it.
+pub fn motions(input: Input, names: &Names, reading: &Reading) -> Vec<Result<Found, Refusal>> {
     match input {
-        Input::Refused(refusal) => Err(refusal),
-        Input::Text(file) => text_file(&file, names, reading).map_err(|reason| Refusal::of(&file, &reason)),
+        Input::Refused(refusal) => vec![Err(refusal)],
+        Input::Text(file) => match text_file(&file, names, reading) {
+            Ok(found) => found.into_iter().map(Ok).collect(),
+            Err(reason) => vec![Err(Refusal::of(&file, &reason))],
+        },
         Input::Motions(source, motions) => {
             let name = names.name(&source.file);
             motions.into_iter().map(|motion| of_parquet(motion, &name, &source)).collect()

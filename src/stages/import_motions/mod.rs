@@ -1,12 +1,20 @@
 //! import-motions: recorded ground motions from files of many formats, as motions that simulate reads.
 //!
 //! ```text
-//! options  which files, and how they are read
-//! inputs   files to records, and what is wrong with those that cannot be read
+//! options     which files, how they are read, what is done to them
+//! inputs      files to records, and what is wrong with those that cannot be read
+//! pairs       which horizontal components belong together
+//! direction   where pairs are rotated to
+//! processing  records to rows: processing, rotation, scaling, measures, pulses
+//! refusals    files that are left out, and why
 //! ```
 
+mod direction;
 mod inputs;
 mod options;
+mod pairs;
+mod processing;
+mod refusals;
 
 use std::collections::{BTreeMap, HashSet};
 use std::path::PathBuf;
@@ -15,14 +23,18 @@ use anyhow::bail;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use self::inputs::{Found, Names, Refusal, groups, motions};
+use self::inputs::{Input, Names, groups, motions};
 pub use self::options::ImportMotionsOptions;
 use self::options::Reading;
+use self::pairs::{Member, Pairs, read_pair};
+use self::processing::{Processing, Scratch};
+use self::refusals::{Refusal, summary};
 use crate::keyword::Keyword;
-use crate::motion::{IntensityScratch, MeasurePlan, Suite};
+use crate::motion::processing::Scaling;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::files::{content_of_all, expand};
+use crate::pipeline::options::Word;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::table::TableError;
@@ -31,13 +43,25 @@ use crate::table::records::{self, RecordRow};
 use crate::table::schema::RECORDS;
 use crate::table::writer::TableWriter;
 
+/// Pairs that are read at once.
+const PAIRS_AT_ONCE: usize = 32;
+/// Motions that a message names.
+const NAMED: usize = 10;
+
 /// The stage, ready to run.
 pub struct ImportMotions {
     files: Vec<PathBuf>,
+    names: Names,
     reading: Reading,
-    plan: MeasurePlan,
+    processing: Processing,
     keep_going: bool,
     out: PathBuf,
+}
+
+/// What one thread turns into rows.
+enum Work {
+    Input(Input),
+    Pair([Member; 2]),
 }
 
 impl ImportMotions {
@@ -50,35 +74,52 @@ impl ImportMotions {
         if files.is_empty() {
             return Err(UsageError::because("no files; expected files or folders of records"));
         }
-        let (reading, plan) = (options.reading()?, MeasurePlan::default());
-        Ok(ImportMotions { files, reading, plan, keep_going: options.keep_going, out })
+        Ok(ImportMotions {
+            names: Names::of(&files),
+            files,
+            reading: options.reading()?,
+            processing: options.processing()?,
+            keep_going: options.keep_going,
+            out,
+        })
     }
 
-    fn row(&self, found: Found, scratch: &mut IntensityScratch) -> RecordRow {
-        let Found { motion_id, source, motion } = found;
-        let acceleration_m_s2: Vec<f32> = motion.acceleration_m_s2.iter().map(|&a| a as f32).collect();
-        // Measured as it will be read.
-        let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
-        RecordRow {
-            motion_id,
-            suite: Suite::Record,
-            event: motion.event,
-            station: motion.station,
-            component: motion.component,
-            azimuth_deg: motion.azimuth_deg,
-            source,
-            scale: 1.0,
-            dt_s: motion.dt_s,
-            measured: self.plan.measure(&written, motion.dt_s, scratch),
-            acceleration_m_s2,
+    fn rows(&self, work: Work, pool: &Pool<Scratch>) -> Vec<Result<Vec<RecordRow>, Refusal>> {
+        match work {
+            Work::Pair(pair) => {
+                let pair = read_pair(&pair, &self.names, &self.reading);
+                vec![pair.and_then(|pair| pool.lend(|scratch| self.processing.rows_of_pair(pair, scratch)))]
+            }
+            Work::Input(input) => {
+                let rows = |found| pool.lend(|scratch| self.processing.rows(found, scratch));
+                let found = motions(input, &self.names, &self.reading);
+                found.into_iter().map(|found| found.and_then(rows)).collect()
+            }
         }
     }
 
-    /// What is said of the files that are refused.
-    fn summary(&self, refused: &[Refusal]) -> String {
-        let lines: Vec<String> =
-            refused.iter().map(|refusal| format!("\n  {}: {}", refusal.file, refusal.reason)).collect();
-        format!("{} of {} files refused:{}", refused.len(), self.files.len(), lines.concat())
+    /// All work in order, in groups that are done at once, and what is refused already.
+    fn work(&self, console: &Console) -> (Box<dyn Iterator<Item = Vec<Work>> + Send + '_>, Vec<Refusal>) {
+        if self.processing.direction.is_none() {
+            let inputs = groups(&self.files).map(|group| group.into_iter().map(Work::Input).collect());
+            return (Box::new(inputs), Vec::new());
+        }
+        let Pairs { pairs, left_out, refused } = Pairs::among(&self.files, &self.names, &self.reading);
+        if !left_out.is_empty() {
+            let more = if left_out.len() > NAMED { ", ..." } else { "" };
+            let named: Vec<&str> = left_out.iter().take(NAMED).map(String::as_str).collect();
+            console.note(&format!(
+                "{} motions are vertical or without a partner at right angles, and are left out: {}{more}",
+                left_out.len(),
+                named.join(", ")
+            ));
+        }
+        let mut pairs = pairs.into_iter();
+        let groups = std::iter::from_fn(move || {
+            let group: Vec<Work> = pairs.by_ref().take(PAIRS_AT_ONCE).map(Work::Pair).collect();
+            (!group.is_empty()).then_some(group)
+        });
+        (Box::new(groups), refused)
     }
 }
 
@@ -97,11 +138,22 @@ impl Stage for ImportMotions {
 
     fn parameters(&self) -> Value {
         let Reading { format, given, pga_tolerance } = &self.reading;
+        let Processing { baseline, high_pass, resample_s, direction, scaling, pulses, residual, plan } =
+            &self.processing;
+        let scaling = match scaling {
+            Scaling::Factors(factors) => json!({ "factors": factors }),
+            Scaling::Pga(target) => json!({ "pga_m_s2": target }),
+            Scaling::Pgv(target) => json!({ "pgv_m_s": target }),
+        };
         json!({
             "format": format.map_or("auto", Keyword::as_str), "dt": given.dt_s,
             "unit": given.unit.map(|unit| unit.to_string()),
             "column": given.column.as_ref().map(ToString::to_string),
-            "pga-tolerance": pga_tolerance, "keep-going": self.keep_going,
+            "pga-tolerance": pga_tolerance, "baseline": Word(*baseline),
+            "high-pass": high_pass.map(|filter| filter.corner_hz), "resample": resample_s,
+            "rotate": direction.map(|direction| direction.to_string()), "scale": scaling,
+            "pulses": Word(*pulses), "residual": residual, "housner": plan.housner, "sa": plan.sa_periods_s,
+            "keep-going": self.keep_going,
         })
     }
 
@@ -111,21 +163,17 @@ impl Stage for ImportMotions {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let mut writer = TableWriter::create(&self.out, &RECORDS, provenance.clone())?;
-        let names = Names::of(&self.files);
-        let pool = Pool::new(IntensityScratch::default);
+        let schema = RECORDS.schema_with_spectrum(&self.processing.plan.sa_periods_s);
+        let mut writer = TableWriter::with_schema(&self.out, &RECORDS, schema.clone(), provenance.clone())?;
+        let pool = Pool::new(Scratch::default);
+        let (work, mut refused) = self.work(console);
         let bar = console.bar(self.subcommand(), self.files.len() as u64);
-        let mut refused: Vec<Refusal> = Vec::new();
         let mut seen = HashSet::new();
         pipelined(
-            groups(&self.files).map(Ok),
-            |inputs| {
-                bar.inc(inputs.len() as u64);
-                let rows = |input| {
-                    let found = motions(input, &names, &self.reading)?;
-                    Ok(found.into_iter().map(|found| pool.lend(|s| self.row(found, s))).collect::<Vec<_>>())
-                };
-                Ok(inputs.into_par_iter().map(rows).collect::<Vec<Result<Vec<RecordRow>, Refusal>>>())
+            work.map(Ok),
+            |work| {
+                bar.inc(work.len() as u64);
+                Ok(work.into_par_iter().flat_map_iter(|work| self.rows(work, &pool)).collect::<Vec<_>>())
             },
             |results| {
                 let mut rows = Vec::new();
@@ -138,17 +186,20 @@ impl Stage for ImportMotions {
                 if let Some(row) = rows.iter().find(|row| !seen.insert(row.motion_id.clone())) {
                     bail!("{}: two motions are called '{}'; rename the file", row.source.file, row.motion_id);
                 }
-                if rows.is_empty() { Ok(()) } else { Ok(writer.write_row_group(&records::batch(&rows)?)?) }
+                if rows.is_empty() {
+                    return Ok(());
+                }
+                Ok(writer.write_row_group(&records::batch(&rows, &schema)?)?)
             },
         )?;
         bar.finish_and_clear();
         if seen.is_empty() {
-            bail!("no motion is imported; {}", self.summary(&refused));
+            bail!("no motion is imported; {}", summary(&refused, self.files.len()));
         }
         if refused.is_empty() || self.keep_going {
             writer.finish()?;
             if !refused.is_empty() {
-                console.note(&format!("warning: {}", self.summary(&refused)));
+                console.note(&format!("warning: {}", summary(&refused, self.files.len())));
             }
             return Ok(format!("{} motions of {} files", seen.len(), self.files.len()));
         }
@@ -156,7 +207,7 @@ impl Stage for ImportMotions {
         writer.finish()?;
         bail!(
             "{}\n{} motions of the others are imported; with --keep-going this is no failure",
-            self.summary(&refused),
+            summary(&refused, self.files.len()),
             seen.len()
         )
     }

@@ -5,9 +5,15 @@ use std::str::FromStr;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use crate::keyword::{self, Keyword};
+use super::direction::Direction;
+use super::processing::Processing;
+use crate::keyword::{self, Keyword, keywords};
+use crate::motion::processing::{Baseline, HighPass, Scaling};
 use crate::motion::records::{AccelerationUnit, ColumnChoice, Format, Given};
-use crate::pipeline::options::{Parsed, check, defaults};
+use crate::pipeline::UsageError;
+use crate::pipeline::options::{Parsed, Steps, Word, check, defaults};
+use crate::stages::measures::measure_plan;
+use crate::units::G_M_S2;
 
 /// Which records, and how they are read.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -32,6 +38,41 @@ pub struct ImportMotionsOptions {
     /// By which share samples may miss the peak that their header gives, and 0 not at all
     #[arg(long, default_value = "0.05")]
     pub pga_tolerance: f64,
+    /// What is removed from the acceleration: none, mean, or linear (the line of least squares)
+    #[arg(long, default_value = "none")]
+    pub baseline: Word<Baseline>,
+    /// Corner of a zero-phase Butterworth high-pass of order 4, Hz [default: none]
+    #[arg(long, value_name = "HZ")]
+    pub high_pass: Option<f64>,
+    /// Another time step, s: band-limited [default: that of the file]
+    #[arg(long, value_name = "DT")]
+    pub resample: Option<f64>,
+    /// Horizontal components of one event and station at right angles become one motion: towards an azimuth in degrees, or
+    /// towards the strongest-pulse; with RotD50 and RotD100 of PGA and PGV. Other motions are left out
+    #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
+    pub rotate: Option<Parsed<Direction>>,
+    /// Factors, parted by commas or first:last:step; several make as many motions of each record
+    #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"])]
+    pub scale: Option<Steps>,
+    /// Scale each motion to this PGA, g
+    #[arg(long, value_name = "G", conflicts_with = "scale_pgv")]
+    pub scale_pga: Option<f64>,
+    /// Scale each motion to this PGV, m/s
+    #[arg(long, value_name = "M/S")]
+    pub scale_pgv: Option<f64>,
+    /// Whether to look for a velocity pulse: find (indicator of Baker 2007, fit of Eq. 1 for tp_s), or skip
+    #[arg(long, default_value = "find")]
+    pub pulses: Word<PulseSearch>,
+    /// Also write each motion that holds a pulse without it, as suite residual
+    #[arg(long)]
+    pub residual: bool,
+    /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers parted by
+    /// commas; sa_0p20_m_s2 is that at 0.2 s
+    #[arg(long)]
+    pub sa: Option<Steps>,
+    /// Also compute the Housner intensity, which doubles the time
+    #[arg(long)]
+    pub housner: bool,
     /// Files that cannot be read are named, and are no failure
     #[arg(long)]
     pub keep_going: bool,
@@ -48,6 +89,54 @@ impl ImportMotionsOptions {
     pub fn resolve_paths(&mut self, folder: &Path) {
         for file in &mut self.files {
             *file = folder.join(&*file);
+        }
+    }
+
+    /// What is done to records.
+    ///
+    /// # Errors
+    /// If an option is out of range, or two ask for different scales.
+    pub(super) fn processing(&self) -> anyhow::Result<Processing> {
+        for (option, value, expected) in [
+            ("high-pass", self.high_pass, "a frequency above 0 Hz"),
+            ("scale-pga", self.scale_pga, "an acceleration above 0 g"),
+            ("scale-pgv", self.scale_pgv, "a velocity above 0 m/s"),
+        ] {
+            if let Some(value) = value {
+                check(value > 0.0 && value.is_finite(), option, value, expected)?;
+            }
+        }
+        if let Some(dt) = self.resample {
+            check((1e-4..=0.1).contains(&dt), "resample", dt, "a time step from 0.0001 to 0.1 s")?;
+        }
+        if self.residual && self.pulses.0 == PulseSearch::Skip {
+            return Err(UsageError::because("residual motions need their pulses; leave out pulses: skip"));
+        }
+        Ok(Processing {
+            baseline: self.baseline.0,
+            high_pass: self.high_pass.map(|corner_hz| HighPass { corner_hz }),
+            resample_s: self.resample,
+            direction: self.rotate.as_ref().map(|direction| direction.0),
+            scaling: self.scaling()?,
+            pulses: self.pulses.0,
+            residual: self.residual,
+            plan: measure_plan(self.housner, self.sa.as_ref())?,
+        })
+    }
+
+    fn scaling(&self) -> anyhow::Result<Scaling> {
+        match (&self.scale, self.scale_pga, self.scale_pgv) {
+            (None, None, None) => Ok(Scaling::Factors(vec![1.0])),
+            (None, Some(pga_g), None) => Ok(Scaling::Pga(pga_g * G_M_S2)),
+            (None, None, Some(pgv_m_s)) => Ok(Scaling::Pgv(pgv_m_s)),
+            (Some(factors), None, None) => {
+                let positive = factors.values.iter().all(|factor| *factor > 0.0);
+                check(positive, "scale", factors, "factors above 0")?;
+                Ok(Scaling::Factors(factors.values.clone()))
+            }
+            _ => Err(UsageError::because(
+                "scale, scale-pga and scale-pgv exclude each other; keep one of them",
+            )),
         }
     }
 
@@ -71,6 +160,17 @@ impl ImportMotionsOptions {
         })
     }
 }
+
+/// Whether pulses are looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PulseSearch {
+    /// They are.
+    Find,
+    /// They are not.
+    Skip,
+}
+
+keywords!(PulseSearch { Find = "find", Skip = "skip" });
 
 /// How files are read.
 #[derive(Debug, Clone, PartialEq)]
