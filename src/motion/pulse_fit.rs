@@ -14,8 +14,8 @@ const GAMMA: (f64, f64) = (1.0, 5.0);
 const START_GAMMAS: [f64; 5] = [1.1, 1.5, 2.0, 2.7, 3.6];
 const START_PERIODS: [f64; 9] = [0.55, 0.65, 0.76, 0.87, 1.0, 1.15, 1.32, 1.52, 1.8];
 const START_TIMES: [f64; 9] = [-0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8];
-/// Samples of the velocity that are looked at in a period: it changes little between them.
-const STEPS_IN_PERIOD: f64 = 60.0;
+/// Parts of a period over which the velocity is averaged: the pulse changes little within them.
+const PARTS_OF_PERIOD: f64 = 100.0;
 /// Steps of the search, and the relative gain below which it ends.
 const MOST_STEPS: usize = 60;
 const LEAST_GAIN: f64 = 1e-12;
@@ -37,10 +37,7 @@ impl FittedPulse {
     /// The pulse nearest to a velocity (m/s) at steps of `dt_s`, searched from a period and a time (s) about which a
     /// wavelet found it. None if the velocity is zero.
     pub fn to(velocity: &[f64], dt_s: f64, period_s: f64, time_s: f64) -> Option<FittedPulse> {
-        let every = ((period_s / STEPS_IN_PERIOD / dt_s) as usize).max(1);
-        let velocity: Vec<f64> = velocity.iter().step_by(every).copied().collect();
-        let energy = velocity.iter().map(|v| v * v).sum();
-        let record = Record { velocity, dt_s: dt_s * every as f64, energy };
+        let record = Record::of(velocity, dt_s, period_s);
         let starts = START_GAMMAS.iter().flat_map(|&gamma| {
             START_PERIODS.iter().flat_map(move |&share| {
                 START_TIMES.iter().map(move |&shift| Shape {
@@ -54,14 +51,16 @@ impl FittedPulse {
             .map(|shape| (record.solve(&shape).explained, shape))
             .max_by(|(a, _), (b, _)| a.total_cmp(b))
             .map(|(_, shape)| record.climb(shape))?;
-        let Linear { cosine, sine, explained } = record.solve(&best);
-        let r2 = explained / record.energy;
+        let Linear { cosine, sine, .. } = record.solve(&best);
         let pulse = Pulse {
             amplitude_m_s: cosine.hypot(sine),
             tp_s: best.tp_s,
             gamma: best.gamma,
             nu_rad: libm::atan2(sine, cosine),
         };
+        let left = |(k, v): (usize, &f64)| (v - pulse.velocity_m_s(k as f64 * dt_s - best.t0_s)).powi(2);
+        let residual: f64 = velocity.iter().enumerate().map(left).sum();
+        let r2 = 1.0 - residual / velocity.iter().map(|v| v * v).sum::<f64>();
         r2.is_finite().then_some(FittedPulse { pulse, t0_s: best.t0_s, r2 })
     }
 
@@ -108,20 +107,38 @@ struct Linear {
     explained: f64,
 }
 
+/// A velocity as means over equal parts of time, which are as good as its samples for a pulse that hardly changes within
+/// them.
 struct Record {
-    velocity: Vec<f64>,
-    dt_s: f64,
+    means: Vec<f64>,
+    /// Middle of the first part, s.
+    first_s: f64,
+    /// Length of a part, s.
+    step_s: f64,
+    /// Sum of the squares of the means.
     energy: f64,
 }
 
 impl Record {
+    fn of(velocity: &[f64], dt_s: f64, period_s: f64) -> Record {
+        let samples = ((period_s / PARTS_OF_PERIOD / dt_s) as usize).max(1);
+        let mean = |part: &[f64]| part.iter().sum::<f64>() / samples as f64;
+        let means: Vec<f64> = velocity.chunks_exact(samples).map(mean).collect();
+        let energy = means.iter().map(|v| v * v).sum();
+        Record { means, first_s: 0.5 * (samples - 1) as f64 * dt_s, step_s: samples as f64 * dt_s, energy }
+    }
+
+    fn time_s(&self, part: usize) -> f64 {
+        self.first_s + part as f64 * self.step_s
+    }
+
     /// Times and velocities where the pulse is not zero.
     fn inside(&self, shape: &Shape) -> impl Iterator<Item = (f64, f64)> {
         let half = 0.5 * shape.gamma * shape.tp_s;
-        let first = ((shape.t0_s - half) / self.dt_s).max(0.0) as usize;
-        let last = ((shape.t0_s + half) / self.dt_s).max(0.0) as usize + 1;
-        let inside = self.velocity.iter().enumerate().take(last).skip(first);
-        inside.map(|(k, v)| (k as f64 * self.dt_s, *v))
+        let part = |time_s: f64| ((time_s - self.first_s) / self.step_s).max(0.0) as usize;
+        let (first, last) = (part(shape.t0_s - half), part(shape.t0_s + half));
+        let inside = self.means.iter().enumerate().take(last.saturating_add(2)).skip(first);
+        inside.map(|(k, v)| (self.time_s(k), *v))
     }
 
     /// The normal equations of A cos nu and A sin nu: the matrix (three numbers, being symmetric) and the right side.
@@ -153,10 +170,10 @@ impl Record {
     fn residual(&self, shape: &Shape) -> Vec<f64> {
         let Linear { cosine, sine, .. } = self.solve(shape);
         let left = |(k, v): (usize, &f64)| {
-            let (c, s) = shape.functions(k as f64 * self.dt_s);
+            let (c, s) = shape.functions(self.time_s(k));
             v - cosine * c - sine * s
         };
-        self.velocity.iter().enumerate().map(left).collect()
+        self.means.iter().enumerate().map(left).collect()
     }
 
     /// Levenberg and Marquardt's steps until nothing is gained.

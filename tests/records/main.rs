@@ -3,5 +3,6 @@
 mod processing;
 mod pulses;
 mod quirks;
+mod references;
 mod round_trips;
 mod writers;
