@@ -1,5 +1,6 @@
 //! Recorded motions: from files of every format to accelerations, and what becomes of them.
 
+mod known_records;
 mod processing;
 mod pulses;
 mod quirks;
