@@ -12,6 +12,14 @@ pub enum Scaling {
 }
 
 impl Scaling {
+    /// How many motions it makes of one record.
+    pub fn count(&self) -> usize {
+        match self {
+            Scaling::Factors(factors) => factors.len(),
+            Scaling::Pga(_) | Scaling::Pgv(_) => 1,
+        }
+    }
+
     /// The factors for an acceleration (m/s2) of this time step (s); none if it has no peak that could be scaled.
     pub fn factors(&self, acceleration: &[f64], dt_s: f64) -> Vec<f64> {
         let to = |target: f64, peak: f64| Some(target / peak).filter(|factor| factor.is_finite());

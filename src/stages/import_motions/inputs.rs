@@ -13,8 +13,6 @@ use crate::rocking::Record;
 use crate::table::motions::{Motion, MotionBatches};
 use crate::table::records::Source;
 
-/// Text files, or motions of a Parquet file, that are read at once.
-const AT_ONCE: usize = 64;
 /// The largest text file that is read: ten million samples and more.
 const MOST_BYTES: u64 = 512 * 1024 * 1024;
 /// How Parquet files begin.
@@ -35,29 +33,29 @@ pub struct Found {
 pub enum Input {
     /// A text file.
     Text(PathBuf),
-    /// Some motions of a Parquet file.
-    Motions(Source, Vec<Motion>),
+    /// A motion of a Parquet file.
+    Motion(Source, Box<Motion>),
     /// What cannot be read.
     Refused(Refusal),
 }
 
-/// The files in order, in groups that are read at once.
-pub fn groups(files: &[PathBuf]) -> impl Iterator<Item = Vec<Input>> {
+/// The files in order, in groups that are read at once: so many text files, or motions of a Parquet file.
+pub fn groups(files: &[PathBuf], at_once: usize) -> impl Iterator<Item = Vec<Input>> {
     let mut files = files.iter().peekable();
-    let mut batches: Option<Box<dyn Iterator<Item = Input> + Send>> = None;
+    let mut batches: Option<Batches> = None;
     std::iter::from_fn(move || {
-        if let Some(input) = batches.as_mut().and_then(Iterator::next) {
-            return Some(vec![input]);
+        if let Some(group) = batches.as_mut().and_then(Iterator::next) {
+            return Some(group);
         }
         batches = None;
         let mut group = Vec::new();
-        while group.len() < AT_ONCE {
+        while group.len() < at_once {
             let Some(file) = files.peek() else { break };
             if !is_parquet(file) {
                 group.push(Input::Text(file.to_path_buf()));
             } else if group.is_empty() {
-                let mut of_file = parquet(file);
-                group.extend(of_file.next());
+                let mut of_file = parquet(file, at_once);
+                group.extend(of_file.next().into_iter().flatten());
                 batches = Some(of_file);
                 files.next();
                 break;
@@ -75,19 +73,23 @@ fn is_parquet(file: &Path) -> bool {
     File::open(file).is_ok_and(|mut file| file.read_exact(&mut magic).is_ok() && magic == PARQUET)
 }
 
-fn parquet(file: &Path) -> Box<dyn Iterator<Item = Input> + Send> {
-    let opened = MotionBatches::open(file, AT_ONCE).map_err(|error| Refusal::of(file, &error));
+/// The motions of a Parquet file, some at a time.
+type Batches = Box<dyn Iterator<Item = Vec<Input>> + Send>;
+
+fn parquet(file: &Path, at_once: usize) -> Batches {
+    let opened = MotionBatches::open(file, at_once).map_err(|error| Refusal::of(file, &error));
     let hash = files::hash(file).map_err(|error| Refusal::of(file, &error));
     match opened.and_then(|batches| Ok((batches, hash?))) {
         Ok((batches, blake3)) => {
             let path = file.to_path_buf();
             let source = Source { file: path.display().to_string(), blake3 };
+            let input = move |motion| Input::Motion(source.clone(), Box::new(motion));
             Box::new(batches.map(move |batch| match batch {
-                Ok(motions) => Input::Motions(source.clone(), motions),
-                Err(error) => Input::Refused(Refusal::of(&path, &error)),
+                Ok(motions) => motions.into_iter().map(&input).collect(),
+                Err(error) => vec![Input::Refused(Refusal::of(&path, &error))],
             }))
         }
-        Err(refusal) => Box::new(std::iter::once(Input::Refused(refusal))),
+        Err(refusal) => Box::new(std::iter::once(vec![Input::Refused(refusal)])),
     }
 }
 
@@ -122,9 +124,9 @@ pub fn motions(input: Input, names: &Names, reading: &Reading) -> Vec<Result<Fou
             Ok(found) => found.into_iter().map(Ok).collect(),
             Err(reason) => vec![Err(Refusal::of(&file, &reason))],
         },
-        Input::Motions(source, motions) => {
+        Input::Motion(source, motion) => {
             let name = names.name(&source.file);
-            motions.into_iter().map(|motion| of_parquet(motion, &name, &source)).collect()
+            vec![of_parquet(*motion, &name, source)]
         }
     }
 }
@@ -155,14 +157,14 @@ fn bytes(file: &Path) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-fn of_parquet(motion: Motion, name: &str, source: &Source) -> Result<Found, Refusal> {
+fn of_parquet(motion: Motion, name: &str, source: Source) -> Result<Found, Refusal> {
     if let Err(problem) = Record::new(&motion.acceleration_m_s2, motion.dt_s) {
         let reason = format!("row {}: {problem}", motion.row);
-        return Err(Refusal { file: source.file.clone(), reason });
+        return Err(Refusal { file: source.file, reason });
     }
     Ok(Found {
         motion_id: format!("{name}:{}", motion.motion_id),
-        source: source.clone(),
+        source,
         motion: RecordedMotion {
             dt_s: motion.dt_s,
             acceleration_m_s2: motion.acceleration_m_s2,

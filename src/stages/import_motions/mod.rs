@@ -43,8 +43,10 @@ use crate::table::records::{self, RecordRow};
 use crate::table::schema::RECORDS;
 use crate::table::writer::TableWriter;
 
-/// Pairs that are read at once.
-const PAIRS_AT_ONCE: usize = 32;
+/// Motions in a row group, and about as many are held at once.
+const ROW_GROUP: usize = 64;
+/// The least number of files that are read at once, to keep threads busy.
+const LEAST_AT_ONCE: usize = 8;
 /// Motions that a message names.
 const NAMED: usize = 10;
 
@@ -100,8 +102,10 @@ impl ImportMotions {
 
     /// All work in order, in groups that are done at once, and what is refused already.
     fn work(&self, console: &Console) -> (Box<dyn Iterator<Item = Vec<Work>> + Send + '_>, Vec<Refusal>) {
+        let at_once = (ROW_GROUP / self.processing.scaling.count().max(1)).max(LEAST_AT_ONCE);
         if self.processing.direction.is_none() {
-            let inputs = groups(&self.files).map(|group| group.into_iter().map(Work::Input).collect());
+            let inputs =
+                groups(&self.files, at_once).map(|group| group.into_iter().map(Work::Input).collect());
             return (Box::new(inputs), Vec::new());
         }
         let Pairs { pairs, left_out, refused } = Pairs::among(&self.files, &self.names, &self.reading);
@@ -116,7 +120,7 @@ impl ImportMotions {
         }
         let mut pairs = pairs.into_iter();
         let groups = std::iter::from_fn(move || {
-            let group: Vec<Work> = pairs.by_ref().take(PAIRS_AT_ONCE).map(Work::Pair).collect();
+            let group: Vec<Work> = pairs.by_ref().take(at_once).map(Work::Pair).collect();
             (!group.is_empty()).then_some(group)
         });
         (Box::new(groups), refused)
@@ -186,10 +190,8 @@ impl Stage for ImportMotions {
                 if let Some(row) = rows.iter().find(|row| !seen.insert(row.motion_id.clone())) {
                     bail!("{}: two motions are called '{}'; rename the file", row.source.file, row.motion_id);
                 }
-                if rows.is_empty() {
-                    return Ok(());
-                }
-                Ok(writer.write_row_group(&records::batch(&rows, &schema)?)?)
+                rows.chunks(ROW_GROUP)
+                    .try_for_each(|rows| Ok(writer.write_row_group(&records::batch(rows, &schema)?)?))
             },
         )?;
         bar.finish_and_clear();

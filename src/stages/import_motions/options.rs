@@ -35,7 +35,7 @@ pub struct ImportMotionsOptions {
     /// [default: the only one, or the second after times]
     #[arg(long, value_name = "N|NAME|all")]
     pub column: Option<Parsed<ColumnChoice>>,
-    /// By which share samples may miss the peak that their header gives, and 0 not at all
+    /// By which share samples may miss the peak that their header gives, besides its rounding
     #[arg(long, default_value = "0.05")]
     pub pga_tolerance: f64,
     /// What is removed from the acceleration: none, mean, or linear (the line of least squares)

@@ -10,6 +10,9 @@ use super::options::Reading;
 use super::refusals::Refusal;
 use crate::motion::processing::HorizontalPair;
 
+/// Files that are read at once.
+const FILES_AT_ONCE: usize = 64;
+
 /// A component: its file, which of the file's motions it is, and its azimuth, degrees.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
@@ -43,7 +46,7 @@ impl Pairs {
     /// Among the motions of these files. Only text files say where a component points.
     pub fn among(files: &[PathBuf], names: &Names, reading: &Reading) -> Pairs {
         let mut search = Search::default();
-        for group in groups(files) {
+        for group in groups(files, FILES_AT_ONCE) {
             let labels: Vec<Vec<_>> =
                 group.into_par_iter().map(|input| labels(input, names, reading)).collect();
             labels.into_iter().flatten().for_each(|label| search.add(label));
@@ -93,7 +96,7 @@ impl Search {
 fn labels(input: Input, names: &Names, reading: &Reading) -> Vec<Result<Label, Refusal>> {
     let file = match &input {
         Input::Text(file) => Some(file.clone()),
-        Input::Motions(..) | Input::Refused(_) => None,
+        Input::Motion(..) | Input::Refused(_) => None,
     };
     let label = |(index, Found { motion_id, motion, .. }): (usize, Found)| {
         let known = motion.event.is_some() || motion.station.is_some();
