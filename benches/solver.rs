@@ -31,10 +31,9 @@ fn motions() -> Vec<Motion> {
 fn read(path: &std::path::Path) -> Vec<Motion> {
     let batches = MotionBatches::open(path, 256).expect("a motions file");
     let motions = batches.flat_map(|batch| batch.expect("a whole motions file"));
-    let motion = |motion: rockfrag::table::motions::Motion| {
-        let mut samples = Vec::new();
-        motion.acceleration_m_s2.append_to(&mut samples);
-        Motion { samples, dt_s: motion.dt_s }
+    let motion = |motion: rockfrag::table::motions::Motion| Motion {
+        samples: motion.acceleration_m_s2.to_vec(),
+        dt_s: motion.dt_s,
     };
     motions.map(motion).collect()
 }

@@ -14,6 +14,7 @@ use crate::stages::compare_paper::{ComparePaper, ComparePaperOptions};
 use crate::stages::config::Config;
 use crate::stages::fit_pex::{FitPex, FitPexOptions};
 use crate::stages::fit_pro::{FitPro, FitProOptions};
+use crate::stages::import_motions::{ImportMotions, ImportMotionsOptions};
 use crate::stages::inspect::inspect;
 use crate::stages::run::{Files, dry_run, run, stages};
 use crate::stages::sample_scenarios::{SampleScenarios, SampleScenariosOptions};
@@ -77,6 +78,14 @@ enum Command {
         out: Option<PathBuf>,
         #[command(flatten)]
         options: SynthesizeMotionsOptions,
+    },
+    /// Import recorded ground motions from the files of strong-motion networks, CSV or Parquet
+    ImportMotions {
+        /// Motions file to write
+        #[arg(long, default_value = "motions.parquet")]
+        out: PathBuf,
+        #[command(flatten)]
+        options: ImportMotionsOptions,
     },
     /// Simulate the rocking response of structures to motions
     Simulate {
@@ -201,6 +210,10 @@ impl Call<'_> {
                 options.seed = options.seed.or(self.config.seed);
                 let out = out.unwrap_or_else(|| beside(&input, "motions.parquet"));
                 self.stage(&SynthesizeMotions::new(&options, input, out)?)
+            }
+            Command::ImportMotions { out, .. } => {
+                let options = resolve(self.flags, self.config.import_motions.as_ref())?;
+                self.stage(&ImportMotions::new(&options, out)?)
             }
             Command::Simulate { input, out, .. } => {
                 let mut options: SimulateOptions = resolve(self.flags, self.config.simulate.as_ref())?;

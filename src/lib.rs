@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! sample-scenarios -> scenarios -> synthesize-motions -> motions -> simulate -> responses
-//!                                                                                   |-> fit-pex -> pex --|
+//!                                  records -> import-motions ----^                  |-> fit-pex -> pex --|
 //!                                                                                   |-> fit-pro -> pro --|-> compare-paper
 //! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from
 //! ```

@@ -49,9 +49,7 @@ fn on_each_path(motions: &Path, answers: &str, check: impl Fn(SolverPath, &[Comp
         .unwrap()
         .flat_map(Result::unwrap)
         .map(|Motion { motion_id, acceleration_m_s2, dt_s, .. }| {
-            let mut samples = Vec::new();
-            acceleration_m_s2.append_to(&mut samples);
-            (motion_id.to_string(), (samples, dt_s))
+            (motion_id.to_string(), (acceleration_m_s2.to_vec(), dt_s))
         })
         .collect();
     let answers = csv::Reader::from_path(in_repository(answers)).unwrap().into_deserialize();

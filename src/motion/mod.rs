@@ -10,6 +10,9 @@
 //! combine     high frequencies and pulse into one motion (section 2.1.3)
 //! synthesis   all of it for one scenario, on one time axis
 //! intensity   measures of any motion
+//! records     recorded motions from the files of the strong-motion networks
+//! processing  what is done to recorded motions before they are used
+//! wavelet, pulse_indicator, pulse_fit  whether a record holds a pulse, and which
 //! dimensionless  the six measures of Eq. 13
 //! ```
 
@@ -19,17 +22,22 @@ mod design;
 mod dimensionless;
 mod fourier;
 pub mod intensity;
+pub mod processing;
 pub mod pulse;
+pub mod pulse_fit;
+pub mod pulse_indicator;
+pub mod records;
 pub mod scenario;
 mod sobol;
 pub mod stochastic;
 mod suite;
 mod synthesis;
+pub mod wavelet;
 
 pub use combine::{Difference, Epoch};
 pub use design::{Design, Grid};
 pub use dimensionless::IntensityMeasures;
-pub use intensity::{IntensityScratch, Measures, measures};
+pub use intensity::{IntensityScratch, MeasurePlan, Measured, Measures, measures};
 pub use pulse::Pulse;
 pub use scenario::Scenario;
 pub use sobol::SobolSequence;

@@ -1,4 +1,4 @@
-use crate::keyword::{Keyword, keywords};
+use crate::keyword::keywords;
 
 /// A kind of ground motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -11,13 +11,18 @@ pub enum Suite {
     Hfc,
     /// A recorded motion.
     Record,
+    /// What is left of a recorded motion without its pulse.
+    Residual,
 }
 
-keywords!(Suite { Pulse = "pulse", Csgm = "csgm", Hfc = "hfc", Record = "record" });
+/// Numbers that each scenario keeps for its motions.
+const MOTIONS_OF_SCENARIO: i64 = 4;
+
+keywords!(Suite { Pulse = "pulse", Csgm = "csgm", Hfc = "hfc", Record = "record", Residual = "residual" });
 
 impl Suite {
-    /// The motion of a scenario in this suite: unique across suites, and the same whichever suites are made.
+    /// The synthetic motion of a scenario in this suite: unique across suites, and the same whichever suites are made.
     pub fn motion_id(self, scenario_id: i64) -> i64 {
-        scenario_id * Suite::ALL.len() as i64 + self as i64
+        scenario_id * MOTIONS_OF_SCENARIO + self as i64
     }
 }

@@ -64,7 +64,7 @@ impl Synthetic {
         match suite {
             Suite::Pulse => &self.pulse,
             Suite::Hfc => &self.high_frequency,
-            Suite::Csgm | Suite::Record => &self.combined,
+            Suite::Csgm | Suite::Record | Suite::Residual => &self.combined,
         }
     }
 }

@@ -62,6 +62,24 @@ impl<T: Keyword> fmt::Display for Word<T> {
     }
 }
 
+/// A value that stands as text in options, or as a bare number in the file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Parsed<T>(pub T);
+
+impl<T: FromStr> FromStr for Parsed<T> {
+    type Err = T::Err;
+
+    fn from_str(text: &str) -> Result<Parsed<T>, T::Err> {
+        text.parse().map(Parsed)
+    }
+}
+
+impl<T: fmt::Display> fmt::Display for Parsed<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
 /// Several values, parted by commas on the command line, a list (or such text) in the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Several<T>(pub Vec<T>);
@@ -139,14 +157,14 @@ pub fn from_scalar<'de, D: Deserializer<'de>, T: FromStr<Err: fmt::Display>>(
 }
 
 macro_rules! as_text {
-    ($($generic:ident)? => $type:ty) => {
-        impl$(<$generic: Keyword>)? Serialize for $type {
+    ([$($generics:tt)*] $type:ty) => {
+        impl<$($generics)*> Serialize for $type {
             fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 serializer.collect_str(self)
             }
         }
 
-        impl<'de $(, $generic: Keyword)?> Deserialize<'de> for $type {
+        impl<'de, $($generics)*> Deserialize<'de> for $type {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 from_scalar(deserializer)
             }
@@ -154,8 +172,9 @@ macro_rules! as_text {
     };
 }
 
-as_text!(T => Word<T>);
-as_text!(=> Steps);
+as_text!([T: Keyword] Word<T>);
+as_text!([T: FromStr<Err: fmt::Display> + fmt::Display] Parsed<T>);
+as_text!([] Steps);
 
 impl<T: Serialize> Serialize for Several<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use super::compare_paper::ComparePaperOptions;
 use super::fit_pex::FitPexOptions;
 use super::fit_pro::FitProOptions;
+use super::import_motions::ImportMotionsOptions;
 use super::sample_scenarios::SampleScenariosOptions;
 use super::simulate::SimulateOptions;
 use super::synthesize_motions::SynthesizeMotionsOptions;
@@ -25,6 +26,8 @@ pub struct Config {
     pub sample_scenarios: Option<SampleScenariosOptions>,
     /// Options of synthesize-motions.
     pub synthesize_motions: Option<SynthesizeMotionsOptions>,
+    /// Options of import-motions, which makes the motions in place of synthesize-motions.
+    pub import_motions: Option<ImportMotionsOptions>,
     /// Options of simulate.
     pub simulate: Option<SimulateOptions>,
     /// Options of fit-pex.
@@ -48,8 +51,12 @@ impl Config {
         let mut config: Config = serde_saphyr::from_str(&text)
             .map_err(|error| UsageError::because(format!("{}: {}", path.display(), explain(&error))))?;
         config.spread_seed();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        if let Some(import) = &mut config.import_motions {
+            import.resolve_paths(folder);
+        }
         if let Some(simulate) = &mut config.simulate {
-            simulate.resolve_paths(path.parent().unwrap_or(Path::new("")));
+            simulate.resolve_paths(folder);
         }
         Ok(config)
     }

@@ -1,12 +1,14 @@
 //! One subcommand a file: read, call the domain, write. Besides: config (pipeline.yaml, the options of all), structures (as
-//! a user names them), groups (the responses of a suite and structure).
+//! a user names them), groups (the responses of a suite and structure), measures (which intensity measures are taken).
 
 pub mod compare_paper;
 pub mod config;
 pub mod fit_pex;
 pub mod fit_pro;
 pub mod groups;
+pub mod import_motions;
 pub mod inspect;
+pub mod measures;
 pub mod run;
 pub mod sample_scenarios;
 pub mod seed_spread;

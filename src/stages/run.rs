@@ -7,9 +7,11 @@ use super::compare_paper::ComparePaper;
 use super::config::Config;
 use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
+use super::import_motions::ImportMotions;
 use super::sample_scenarios::SampleScenarios;
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
+use crate::pipeline::UsageError;
 use crate::pipeline::cache::{self, Freshness, freshness};
 use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
@@ -19,7 +21,7 @@ use crate::pipeline::stage::Stage;
 pub struct Files {
     /// Of sample-scenarios.
     pub scenarios: PathBuf,
-    /// Of synthesize-motions.
+    /// Of synthesize-motions or import-motions.
     pub motions: PathBuf,
     /// Of simulate.
     pub responses: PathBuf,
@@ -49,7 +51,7 @@ impl Files {
 /// The stages that a configuration asks for, in order.
 ///
 /// # Errors
-/// If an option is out of range.
+/// If an option is out of range, or two stages make the motions.
 pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stage>>> {
     let mut stages: Vec<Box<dyn Stage>> = Vec::new();
     if let Some(options) = &config.sample_scenarios {
@@ -58,6 +60,14 @@ pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stag
     if let Some(options) = &config.synthesize_motions {
         let (input, out) = (files.scenarios.clone(), files.motions.clone());
         stages.push(Box::new(SynthesizeMotions::new(options, input, out)?));
+    }
+    if let Some(options) = &config.import_motions {
+        if config.synthesize_motions.is_some() {
+            return Err(UsageError::because(
+                "both synthesize-motions and import-motions make the motions; leave one of them out",
+            ));
+        }
+        stages.push(Box::new(ImportMotions::new(options, files.motions.clone())?));
     }
     if let Some(options) = &config.simulate {
         stages.push(Box::new(Simulate::new(options, files.motions.clone(), files.responses.clone())?));

@@ -8,15 +8,16 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use super::measures::measure_plan;
 use super::sample_scenarios::DEFAULT_SEED;
-use crate::motion::intensity::housner_intensity;
 use crate::motion::stochastic::{LowCut, Site};
 use crate::motion::{
-    Difference, Epoch, IntensityScratch, MotionModel, Scenario, StochasticModel, Suite, Synthesizer, measures,
+    Difference, Epoch, IntensityScratch, MeasurePlan, MotionModel, Scenario, StochasticModel, Suite,
+    Synthesizer,
 };
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{Several, Word, check, defaults};
+use crate::pipeline::options::{Several, Steps, Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::table::motions::{self, SyntheticMotion};
@@ -63,6 +64,10 @@ pub struct SynthesizeMotionsOptions {
     /// Also compute the Housner intensity, which doubles the time
     #[arg(long)]
     pub housner: bool,
+    /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers parted by
+    /// commas; sa_0p20_m_s2 is that at 0.2 s
+    #[arg(long)]
+    pub sa: Option<Steps>,
     /// Scenarios in a row group: what is held in memory and read at once; the rows do not depend on it
     #[arg(long, default_value = "128")]
     pub row_group: usize,
@@ -120,7 +125,7 @@ impl SynthesizeMotionsOptions {
 
     fn suites(&self) -> anyhow::Result<Vec<Suite>> {
         let suites: Vec<Suite> = self.suite.0.iter().map(|word| word.0).collect();
-        let made = |suite: &Suite| *suite != Suite::Record;
+        let made = |suite: &Suite| matches!(suite, Suite::Pulse | Suite::Csgm | Suite::Hfc);
         let distinct = (1..suites.len()).all(|k| !suites[..k].contains(&suites[k]));
         let words: Vec<String> = self.suite.0.iter().map(ToString::to_string).collect();
         let fine = !suites.is_empty() && suites.iter().all(made) && distinct;
@@ -133,7 +138,7 @@ impl SynthesizeMotionsOptions {
 pub struct SynthesizeMotions {
     model: MotionModel,
     suites: Vec<Suite>,
-    housner: bool,
+    plan: MeasurePlan,
     row_group: usize,
     input: PathBuf,
     out: PathBuf,
@@ -153,7 +158,7 @@ impl SynthesizeMotions {
         Ok(SynthesizeMotions {
             model,
             suites,
-            housner: options.housner,
+            plan: measure_plan(options.housner, options.sa.as_ref())?,
             row_group: options.row_group,
             input,
             out,
@@ -172,8 +177,7 @@ impl SynthesizeMotions {
                 suite,
                 scenario: *scenario,
                 dt_s: synthetic.dt_s,
-                measures: measures(&written, synthetic.dt_s, intensity),
-                housner_m: self.housner.then(|| housner_intensity(&written, synthetic.dt_s)),
+                measured: self.plan.measure(&written, synthetic.dt_s, intensity),
                 acceleration_m_s2,
             }
         };
@@ -213,7 +217,7 @@ impl Stage for SynthesizeMotions {
         json!({
             "suite": suites, "dt": dt_s, "difference": Word(*difference), "epoch": Word(*epoch), "site": site,
             "kappa": kappa_s, "fmax": fmax_hz, "low-cut": low_cut.map(|cut| (cut.corner_hz, cut.order)),
-            "housner": self.housner, "seed": seed,
+            "housner": self.plan.housner, "sa": self.plan.sa_periods_s, "seed": seed,
         })
     }
 
@@ -224,7 +228,8 @@ impl Stage for SynthesizeMotions {
             synthesizer: Synthesizer::new(model.clone(), &suites),
             intensity: IntensityScratch::default(),
         });
-        let mut writer = TableWriter::create(&self.out, &MOTIONS, provenance.clone())?;
+        let schema = MOTIONS.schema_with_spectrum(&self.plan.sa_periods_s);
+        let mut writer = TableWriter::with_schema(&self.out, &MOTIONS, schema.clone(), provenance.clone())?;
         let bar = console.bar(self.subcommand(), scenarios.len() as u64);
         pipelined(
             scenarios.chunks(self.row_group).map(Ok),
@@ -234,7 +239,7 @@ impl Stage for SynthesizeMotions {
                     .flat_map_iter(|scenario| pool.lend(|scratch| self.motions_of(scenario, scratch)))
                     .collect();
                 bar.inc(scenarios.len() as u64);
-                Ok(motions::batch(&motions)?)
+                Ok(motions::batch(&motions, &schema)?)
             },
             |batch| Ok(writer.write_row_group(&batch)?),
         )?;

@@ -28,6 +28,13 @@ pub enum Samples {
 }
 
 impl Samples {
+    /// All of them.
+    pub fn to_vec(&self) -> Vec<f64> {
+        let mut values = Vec::new();
+        self.append_to(&mut values);
+        values
+    }
+
     /// Appends them to `values`.
     pub fn append_to(&self, values: &mut Vec<f64>) {
         match self {

@@ -8,18 +8,21 @@
 //! writer       batches to a file, written beside its name and renamed when whole
 //! fingerprint  the hash of what a file holds
 //! provenance   what made a file, in its metadata
-//! scenarios, motions, responses, trace, pex, pro, paper   one file a table: its rows as Rust structs
+//! scenarios, motions, records, responses, trace, pex, pro, paper   one file a table: its rows as Rust structs
+//! measures     the columns of intensity measures, which motions and records share
 //! ```
 
 pub mod columns;
 pub mod fingerprint;
 pub mod footer;
+mod measures;
 pub mod motions;
 pub mod paper;
 pub mod pex;
 pub mod pro;
 pub mod provenance;
 pub mod reader;
+pub mod records;
 pub mod responses;
 pub mod scenarios;
 pub mod schema;

@@ -9,11 +9,12 @@ use arrow_schema::{ArrowError, DataType, Field, SchemaRef};
 
 use super::TableError;
 use super::columns::{Columns, Samples};
+use super::measures;
 use super::reader::{Batch, Batches, expect_columns};
 use super::scenarios;
-use super::schema::{self, Column, MOTIONS};
+use super::schema::{self, Column};
 use crate::keyword::Keyword;
-use crate::motion::{Measures, Scenario, Suite};
+use crate::motion::{Measured, Scenario, Suite};
 
 /// The stages whose output can stand as a motions file.
 const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
@@ -49,49 +50,32 @@ pub struct SyntheticMotion {
     /// Samples, m/s2, as they are written.
     pub acceleration_m_s2: Vec<f32>,
     /// Intensity measures of these samples.
-    pub measures: Measures,
-    /// Housner intensity, m, if asked for.
-    pub housner_m: Option<f64>,
+    pub measured: Measured,
 }
 
-/// The rows of the motions file.
+/// The rows of the motions file in its schema, which has the spectral accelerations at its end.
 ///
 /// # Errors
 /// If a row cannot be represented, which the schema rules out.
-pub fn batch(motions: &[SyntheticMotion]) -> Result<RecordBatch, ArrowError> {
-    let number = |value: fn(&SyntheticMotion) -> f64| -> ArrayRef {
-        Arc::new(Float64Array::from_iter_values(motions.iter().map(value)))
-    };
-    let optional = |value: fn(&SyntheticMotion) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(motions.iter().map(value)))
-    };
+pub fn batch(motions: &[SyntheticMotion], schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
     let mut columns: Vec<ArrayRef> = vec![
         Arc::new(Int64Array::from_iter_values(motions.iter().map(|motion| motion.motion_id))),
         Arc::new(StringArray::from_iter_values(motions.iter().map(|motion| motion.suite.as_str()))),
     ];
     columns.extend(scenarios::columns(&motions.iter().map(|motion| motion.scenario).collect::<Vec<_>>()));
-    columns.extend([
-        number(|motion| motion.dt_s),
-        number(|motion| motion.measures.pga_m_s2),
-        number(|motion| motion.measures.pgv_m_s),
-        number(|motion| motion.measures.pgd_m),
-        optional(|motion| motion.measures.tm_s),
-        number(|motion| motion.measures.arias_m_s),
-        number(|motion| motion.measures.cav_m_s),
-        number(|motion| motion.measures.d5_75_s),
-        number(|motion| motion.measures.d5_95_s),
-        optional(|motion| motion.housner_m),
-        samples(motions),
-    ]);
-    RecordBatch::try_new(MOTIONS.schema(), columns)
+    columns.push(Arc::new(Float64Array::from_iter_values(motions.iter().map(|motion| motion.dt_s))));
+    columns.extend(measures::columns(motions.iter().map(|motion| &motion.measured)));
+    columns.push(samples(motions.iter().map(|motion| motion.acceleration_m_s2.as_slice())));
+    columns.extend(measures::spectrum(motions.iter().map(|motion| &motion.measured)));
+    RecordBatch::try_new(schema.clone(), columns)
 }
 
-fn samples(motions: &[SyntheticMotion]) -> ArrayRef {
-    let total = motions.iter().map(|motion| motion.acceleration_m_s2.len()).sum();
+/// The column of samples.
+pub(super) fn samples<'a>(motions: impl Iterator<Item = &'a [f32]>) -> ArrayRef {
     let item = Field::new("item", DataType::Float32, false);
-    let mut list = ListBuilder::new(Float32Builder::with_capacity(total)).with_field(item);
+    let mut list = ListBuilder::new(Float32Builder::new()).with_field(item);
     for motion in motions {
-        list.values().append_slice(&motion.acceleration_m_s2);
+        list.values().append_slice(motion);
         list.append(true);
     }
     Arc::new(list.finish())

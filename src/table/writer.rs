@@ -74,6 +74,11 @@ impl TableWriter {
         Ok(TableWriter { path: path.to_path_buf(), provenance, writer, partial, fingerprint })
     }
 
+    /// Says in the file that it came to be otherwise than planned, so that it does not count as up to date.
+    pub fn made_otherwise(&mut self, provenance: Provenance) {
+        self.provenance = provenance;
+    }
+
     /// Appends a batch and ends the row group, so that a reader streams what was written together.
     ///
     /// # Errors

@@ -2,11 +2,13 @@
 
 mod energy;
 mod fourier;
+mod plan;
 mod spectral;
 
 pub use energy::{arias_intensity, cumulative_absolute_velocity, significant_duration};
 use energy::{arias_of, moment, running_energy};
 pub use fourier::{IntensityScratch, mean_period};
+pub use plan::{MeasurePlan, Measured};
 pub use spectral::{housner_intensity, spectral_acceleration};
 
 /// Measures of one motion.

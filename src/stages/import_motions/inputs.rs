@@ -1,0 +1,176 @@
+//! What is read of the files that a user names: text files whole, Parquet files some motions at a time.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use super::options::Reading;
+use super::refusals::Refusal;
+use crate::motion::records::{RecordFileError, RecordedMotion, read};
+use crate::pipeline::files;
+use crate::rocking::Record;
+use crate::table::motions::{Motion, MotionBatches};
+use crate::table::records::Source;
+
+/// The largest text file that is read: ten million samples and more.
+const MOST_BYTES: u64 = 512 * 1024 * 1024;
+/// How Parquet files begin.
+const PARQUET: &[u8] = b"PAR1";
+
+/// A motion and where it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// Unique among all that are imported.
+    pub motion_id: String,
+    /// Its file.
+    pub source: Source,
+    /// The record.
+    pub motion: RecordedMotion,
+}
+
+/// What one thread reads.
+pub enum Input {
+    /// A text file.
+    Text(PathBuf),
+    /// A motion of a Parquet file.
+    Motion(Source, Box<Motion>),
+    /// What cannot be read.
+    Refused(Refusal),
+}
+
+/// The files in order, in groups that are read at once: so many text files, or motions of a Parquet file.
+pub fn groups(files: &[PathBuf], at_once: usize) -> impl Iterator<Item = Vec<Input>> {
+    let mut files = files.iter().peekable();
+    let mut batches: Option<Batches> = None;
+    std::iter::from_fn(move || {
+        if let Some(group) = batches.as_mut().and_then(Iterator::next) {
+            return Some(group);
+        }
+        batches = None;
+        let mut group = Vec::new();
+        while group.len() < at_once {
+            let Some(file) = files.peek() else { break };
+            if !is_parquet(file) {
+                group.push(Input::Text(file.to_path_buf()));
+            } else if group.is_empty() {
+                let mut of_file = parquet(file, at_once);
+                group.extend(of_file.next().into_iter().flatten());
+                batches = Some(of_file);
+                files.next();
+                break;
+            } else {
+                break;
+            }
+            files.next();
+        }
+        (!group.is_empty()).then_some(group)
+    })
+}
+
+fn is_parquet(file: &Path) -> bool {
+    let mut magic = [0; PARQUET.len()];
+    File::open(file).is_ok_and(|mut file| file.read_exact(&mut magic).is_ok() && magic == PARQUET)
+}
+
+/// The motions of a Parquet file, some at a time.
+type Batches = Box<dyn Iterator<Item = Vec<Input>> + Send>;
+
+fn parquet(file: &Path, at_once: usize) -> Batches {
+    let opened = MotionBatches::open(file, at_once).map_err(|error| Refusal::of(file, &error));
+    let hash = files::hash(file).map_err(|error| Refusal::of(file, &error));
+    match opened.and_then(|batches| Ok((batches, hash?))) {
+        Ok((batches, blake3)) => {
+            let path = file.to_path_buf();
+            let source = Source { file: path.display().to_string(), blake3 };
+            let input = move |motion| Input::Motion(source.clone(), Box::new(motion));
+            Box::new(batches.map(move |batch| match batch {
+                Ok(motions) => motions.into_iter().map(&input).collect(),
+                Err(error) => vec![Input::Refused(Refusal::of(&path, &error))],
+            }))
+        }
+        Err(refusal) => Box::new(std::iter::once(vec![Input::Refused(refusal)])),
+    }
+}
+
+/// What files are called in motion_id: by the stem of their name where no other file has the same, else by their path.
+pub struct Names(HashMap<String, usize>);
+
+impl Names {
+    /// Of these files.
+    pub fn of(files: &[PathBuf]) -> Names {
+        let mut counts = HashMap::new();
+        for file in files {
+            *counts.entry(stem(file)).or_insert(0) += 1;
+        }
+        Names(counts)
+    }
+
+    fn name(&self, file: &str) -> String {
+        let stem = stem(Path::new(file));
+        if self.0.get(&stem) == Some(&1) { stem } else { file.to_string() }
+    }
+}
+
+fn stem(file: &Path) -> String {
+    file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// The motions of an input, and for what cannot be read the file and what is wrong with it.
+pub fn motions(input: Input, names: &Names, reading: &Reading) -> Vec<Result<Found, Refusal>> {
+    match input {
+        Input::Refused(refusal) => vec![Err(refusal)],
+        Input::Text(file) => match text_file(&file, names, reading) {
+            Ok(found) => found.into_iter().map(Ok).collect(),
+            Err(reason) => vec![Err(Refusal::of(&file, &reason))],
+        },
+        Input::Motion(source, motion) => {
+            let name = names.name(&source.file);
+            vec![of_parquet(*motion, &name, source)]
+        }
+    }
+}
+
+fn text_file(file: &Path, names: &Names, reading: &Reading) -> Result<Vec<Found>, String> {
+    let bytes = bytes(file).map_err(|error| error.to_string())?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(RecordFileError::TooLarge { most_mb: MOST_BYTES >> 20 }.to_string());
+    }
+    let blake3 = blake3::hash(&bytes).to_hex().to_string();
+    let source = Source { file: file.display().to_string(), blake3 };
+    let name = names.name(&source.file);
+    let motions = read(&bytes, reading.format, &reading.given).map_err(|error| error.to_string())?;
+    let several = motions.len() > 1;
+    let check = |(index, motion): (usize, RecordedMotion)| {
+        if let Some(pga) = motion.header_pga {
+            pga.check(&motion.acceleration_m_s2, reading.pga_tolerance).map_err(|error| error.to_string())?;
+        }
+        let motion_id = if several { format!("{name}:{}", index + 1) } else { name.clone() };
+        Ok(Found { motion_id, source: source.clone(), motion })
+    };
+    motions.into_iter().enumerate().map(check).collect()
+}
+
+fn bytes(file: &Path) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(file)?.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn of_parquet(motion: Motion, name: &str, source: Source) -> Result<Found, Refusal> {
+    let acceleration_m_s2 = motion.acceleration_m_s2.to_vec();
+    if let Err(problem) = Record::new(&acceleration_m_s2, motion.dt_s) {
+        let reason = format!("row {}: {problem}", motion.row);
+        return Err(Refusal { file: source.file, reason });
+    }
+    Ok(Found {
+        motion_id: format!("{name}:{}", motion.motion_id),
+        source,
+        motion: RecordedMotion {
+            dt_s: motion.dt_s,
+            acceleration_m_s2,
+            component: Some(motion.motion_id.to_string()),
+            ..RecordedMotion::default()
+        },
+    })
+}

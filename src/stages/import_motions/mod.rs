@@ -1,0 +1,226 @@
+//! import-motions: recorded ground motions from files of many formats, as motions that simulate reads.
+//!
+//! ```text
+//! options     which files, how they are read, what is done to them
+//! inputs      files to records, and what is wrong with those that cannot be read
+//! pairs       which horizontal components belong together
+//! direction   where pairs are rotated to
+//! processing  records to rows: processing, rotation, scaling, measures, pulses
+//! refusals    files that are left out, and why
+//! ```
+
+mod direction;
+mod inputs;
+mod options;
+mod pairs;
+mod processing;
+mod refusals;
+
+use std::collections::{BTreeMap, HashSet};
+use std::path::PathBuf;
+
+use anyhow::bail;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use self::inputs::{Input, Names, groups, motions};
+pub use self::options::ImportMotionsOptions;
+use self::options::Reading;
+use self::pairs::{Member, Pairs, read_pair};
+use self::processing::{Processing, Scratch};
+use self::refusals::{Refusal, summary};
+use crate::keyword::Keyword;
+use crate::motion::processing::Scaling;
+use crate::pipeline::UsageError;
+use crate::pipeline::console::Console;
+use crate::pipeline::files::{content_of_all, expand};
+use crate::pipeline::options::Word;
+use crate::pipeline::stage::Stage;
+use crate::pipeline::stream::{Pool, pipelined};
+use crate::table::TableError;
+use crate::table::provenance::Provenance;
+use crate::table::records::{self, RecordRow};
+use crate::table::schema::RECORDS;
+use crate::table::writer::TableWriter;
+
+/// Motions in a row group, and about as many are held at once.
+const ROW_GROUP: usize = 64;
+/// The least number of files that are read at once, to keep threads busy.
+const LEAST_AT_ONCE: usize = 8;
+/// Motions that a message names.
+const NAMED: usize = 10;
+
+/// The stage, ready to run.
+pub struct ImportMotions {
+    files: Vec<PathBuf>,
+    names: Names,
+    reading: Reading,
+    processing: Processing,
+    keep_going: bool,
+    out: PathBuf,
+}
+
+/// What one thread turns into rows.
+enum Work {
+    Input(Input),
+    Pair([Member; 2]),
+}
+
+impl ImportMotions {
+    /// Into the file `out`.
+    ///
+    /// # Errors
+    /// If an option is out of range, or no file is named.
+    pub fn new(options: &ImportMotionsOptions, out: PathBuf) -> anyhow::Result<ImportMotions> {
+        let files = expand(&options.files);
+        if files.is_empty() {
+            return Err(UsageError::because("no files; expected files or folders of records"));
+        }
+        Ok(ImportMotions {
+            names: Names::of(&files),
+            files,
+            reading: options.reading()?,
+            processing: options.processing()?,
+            keep_going: options.keep_going,
+            out,
+        })
+    }
+
+    fn rows(&self, work: Work, pool: &Pool<Scratch>) -> Vec<Result<Vec<RecordRow>, Refusal>> {
+        match work {
+            Work::Pair(pair) => {
+                let pair = read_pair(&pair, &self.names, &self.reading);
+                vec![pair.and_then(|pair| pool.lend(|scratch| self.processing.rows_of_pair(pair, scratch)))]
+            }
+            Work::Input(input) => {
+                let rows = |found| pool.lend(|scratch| self.processing.rows(found, scratch));
+                let found = motions(input, &self.names, &self.reading);
+                found.into_iter().map(|found| found.and_then(rows)).collect()
+            }
+        }
+    }
+
+    /// All work in order, in groups that are done at once, and what is refused already.
+    fn work(&self, console: &Console) -> (Box<dyn Iterator<Item = Vec<Work>> + Send + '_>, Vec<Refusal>) {
+        let at_once = (ROW_GROUP / self.processing.scaling.count().max(1)).max(LEAST_AT_ONCE);
+        if self.processing.direction.is_none() {
+            let inputs =
+                groups(&self.files, at_once).map(|group| group.into_iter().map(Work::Input).collect());
+            return (Box::new(inputs), Vec::new());
+        }
+        let Pairs { pairs, left_out, refused } = Pairs::among(&self.files, &self.names, &self.reading);
+        if !left_out.is_empty() {
+            let more = if left_out.len() > NAMED { ", ..." } else { "" };
+            let named: Vec<&str> = left_out.iter().take(NAMED).map(String::as_str).collect();
+            console.note(&format!(
+                "{} motions are vertical or without a partner at right angles, and are left out: {}{more}",
+                left_out.len(),
+                named.join(", ")
+            ));
+        }
+        let mut pairs = pairs.into_iter();
+        let groups = std::iter::from_fn(move || {
+            let group: Vec<Work> = pairs.by_ref().take(at_once).map(Work::Pair).collect();
+            (!group.is_empty()).then_some(group)
+        });
+        (Box::new(groups), refused)
+    }
+}
+
+impl Stage for ImportMotions {
+    fn subcommand(&self) -> &'static str {
+        RECORDS.stage
+    }
+
+    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
+        self.files.iter().map(|file| ("files", file.clone())).collect()
+    }
+
+    fn outputs(&self) -> Vec<PathBuf> {
+        vec![self.out.clone()]
+    }
+
+    fn parameters(&self) -> Value {
+        let Reading { format, given, pga_tolerance } = &self.reading;
+        let Processing { baseline, high_pass, resample_s, direction, scaling, pulses, residual, plan } =
+            &self.processing;
+        let scaling = match scaling {
+            Scaling::Factors(factors) => json!({ "factors": factors }),
+            Scaling::Pga(target) => json!({ "pga_m_s2": target }),
+            Scaling::Pgv(target) => json!({ "pgv_m_s": target }),
+        };
+        json!({
+            "format": format.map_or("auto", Keyword::as_str), "dt": given.dt_s,
+            "unit": given.unit.map(|unit| unit.to_string()),
+            "column": given.column.as_ref().map(ToString::to_string),
+            "pga-tolerance": pga_tolerance, "baseline": Word(*baseline),
+            "high-pass": high_pass.map(|filter| filter.corner_hz), "resample": resample_s,
+            "rotate": direction.map(|direction| direction.to_string()), "scale": scaling,
+            "pulses": Word(*pulses), "residual": residual, "housner": plan.housner, "sa": plan.sa_periods_s,
+            "keep-going": self.keep_going,
+        })
+    }
+
+    fn provenance(&self) -> Result<Provenance, TableError> {
+        let inputs = BTreeMap::from([("files".to_string(), content_of_all(&self.files))]);
+        Ok(Provenance::new(self.subcommand(), self.parameters(), inputs))
+    }
+
+    fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        let schema = RECORDS.schema_with_spectrum(&self.processing.plan.sa_periods_s);
+        let mut writer = TableWriter::with_schema(&self.out, &RECORDS, schema.clone(), provenance.clone())?;
+        let pool = Pool::new(Scratch::default);
+        let (work, mut refused) = self.work(console);
+        let bar = console.bar(self.subcommand(), self.files.len() as u64);
+        let mut seen = HashSet::new();
+        pipelined(
+            work.map(Ok),
+            |work| {
+                bar.inc(work.len() as u64);
+                Ok(work.into_par_iter().flat_map_iter(|work| self.rows(work, &pool)).collect::<Vec<_>>())
+            },
+            |results| {
+                let mut rows = Vec::new();
+                for result in results {
+                    match result {
+                        Ok(imported) => rows.extend(imported),
+                        Err(refusal) => refused.push(refusal),
+                    }
+                }
+                if let Some(row) = rows.iter().find(|row| !seen.insert(row.motion_id.clone())) {
+                    bail!("{}: two motions are called '{}'; rename the file", row.source.file, row.motion_id);
+                }
+                rows.chunks(ROW_GROUP)
+                    .try_for_each(|rows| Ok(writer.write_row_group(&records::batch(rows, &schema)?)?))
+            },
+        )?;
+        bar.finish_and_clear();
+        if seen.is_empty() {
+            bail!("no motion is imported; {}", summary(&refused, self.files.len()));
+        }
+        if refused.is_empty() || self.keep_going {
+            writer.finish()?;
+            if !refused.is_empty() {
+                console.note(&format!("warning: {}", summary(&refused, self.files.len())));
+            }
+            return Ok(format!("{} motions of {} files", seen.len(), self.files.len()));
+        }
+        writer.made_otherwise(incomplete(provenance, &refused));
+        writer.finish()?;
+        bail!(
+            "{}\n{} motions of the others are imported; with --keep-going this is no failure",
+            summary(&refused, self.files.len()),
+            seen.len()
+        )
+    }
+}
+
+/// The provenance of a file that lacks what was refused: it is made again as long as that is so.
+fn incomplete(provenance: &Provenance, refused: &[Refusal]) -> Provenance {
+    let mut provenance = provenance.clone();
+    if let Value::Object(parameters) = &mut provenance.parameters {
+        let files: Vec<&str> = refused.iter().map(|refusal| refusal.file.as_str()).collect();
+        parameters.insert("refused".to_string(), json!(files));
+    }
+    provenance
+}

@@ -1,0 +1,206 @@
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use clap::Args;
+use serde::{Deserialize, Serialize};
+
+use super::direction::Direction;
+use super::processing::Processing;
+use crate::keyword::{self, Keyword, keywords};
+use crate::motion::processing::{Baseline, HighPass, Scaling};
+use crate::motion::records::{AccelerationUnit, ColumnChoice, Format, Given};
+use crate::pipeline::UsageError;
+use crate::pipeline::options::{Parsed, Steps, Word, check, defaults};
+use crate::stages::measures::measure_plan;
+use crate::units::G_M_S2;
+
+/// Which records, and how they are read.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct ImportMotionsOptions {
+    /// Files and folders of records; folders are walked
+    #[arg(value_name = "FILE|DIR")]
+    pub files: Vec<PathBuf>,
+    /// Format of text files: auto (by content), at2, cosmos, csmip, esm, knet, smc, or columns (plain numbers)
+    #[arg(long, default_value = "auto")]
+    pub format: Parsed<FormatChoice>,
+    /// Time between samples of files that do not say it, s
+    #[arg(long)]
+    pub dt: Option<f64>,
+    /// Unit of files that do not say it: g, mg, m/s2, cm/s2 (gal) or mm/s2
+    #[arg(long)]
+    pub unit: Option<Parsed<AccelerationUnit>>,
+    /// Column of plain files that holds the acceleration: its number, its name, or all where one series wraps over lines
+    /// [default: the only one, or the second after times]
+    #[arg(long, value_name = "N|NAME|all")]
+    pub column: Option<Parsed<ColumnChoice>>,
+    /// By which share samples may miss the peak that their header gives, besides its rounding
+    #[arg(long, default_value = "0.05")]
+    pub pga_tolerance: f64,
+    /// What is removed from the acceleration: none, mean, or linear (the line of least squares)
+    #[arg(long, default_value = "none")]
+    pub baseline: Word<Baseline>,
+    /// Corner of a zero-phase Butterworth high-pass of order 4, Hz [default: none]
+    #[arg(long, value_name = "HZ")]
+    pub high_pass: Option<f64>,
+    /// Another time step, s: band-limited [default: that of the file]
+    #[arg(long, value_name = "DT")]
+    pub resample: Option<f64>,
+    /// Horizontal components of one event and station at right angles become one motion: towards an azimuth in degrees, or
+    /// towards the strongest-pulse; with RotD50 and RotD100 of PGA and PGV. Other motions are left out
+    #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
+    pub rotate: Option<Parsed<Direction>>,
+    /// Factors, parted by commas or first:last:step; several make as many motions of each record
+    #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"])]
+    pub scale: Option<Steps>,
+    /// Scale each motion to this PGA, g
+    #[arg(long, value_name = "G", conflicts_with = "scale_pgv")]
+    pub scale_pga: Option<f64>,
+    /// Scale each motion to this PGV, m/s
+    #[arg(long, value_name = "M/S")]
+    pub scale_pgv: Option<f64>,
+    /// Whether to look for a velocity pulse: find (indicator of Baker 2007, fit of Eq. 1 for tp_s), or skip
+    #[arg(long, default_value = "find")]
+    pub pulses: Word<PulseSearch>,
+    /// Also write each motion that holds a pulse without it, as suite residual
+    #[arg(long)]
+    pub residual: bool,
+    /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers parted by
+    /// commas; sa_0p20_m_s2 is that at 0.2 s
+    #[arg(long)]
+    pub sa: Option<Steps>,
+    /// Also compute the Housner intensity, which doubles the time
+    #[arg(long)]
+    pub housner: bool,
+    /// Files that cannot be read are named, and are no failure
+    #[arg(long)]
+    pub keep_going: bool,
+}
+
+impl Default for ImportMotionsOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+impl ImportMotionsOptions {
+    /// Makes the paths of files relative to `folder`, that of the pipeline file.
+    pub fn resolve_paths(&mut self, folder: &Path) {
+        for file in &mut self.files {
+            *file = folder.join(&*file);
+        }
+    }
+
+    /// What is done to records.
+    ///
+    /// # Errors
+    /// If an option is out of range, or two ask for different scales.
+    pub(super) fn processing(&self) -> anyhow::Result<Processing> {
+        for (option, value, expected) in [
+            ("high-pass", self.high_pass, "a frequency above 0 Hz"),
+            ("scale-pga", self.scale_pga, "an acceleration above 0 g"),
+            ("scale-pgv", self.scale_pgv, "a velocity above 0 m/s"),
+        ] {
+            if let Some(value) = value {
+                check(value > 0.0 && value.is_finite(), option, value, expected)?;
+            }
+        }
+        if let Some(dt) = self.resample {
+            check((1e-4..=0.1).contains(&dt), "resample", dt, "a time step from 0.0001 to 0.1 s")?;
+        }
+        if self.residual && self.pulses.0 == PulseSearch::Skip {
+            return Err(UsageError::because("residual motions need their pulses; leave out pulses: skip"));
+        }
+        Ok(Processing {
+            baseline: self.baseline.0,
+            high_pass: self.high_pass.map(|corner_hz| HighPass { corner_hz }),
+            resample_s: self.resample,
+            direction: self.rotate.as_ref().map(|direction| direction.0),
+            scaling: self.scaling()?,
+            pulses: self.pulses.0,
+            residual: self.residual,
+            plan: measure_plan(self.housner, self.sa.as_ref())?,
+        })
+    }
+
+    fn scaling(&self) -> anyhow::Result<Scaling> {
+        match (&self.scale, self.scale_pga, self.scale_pgv) {
+            (None, None, None) => Ok(Scaling::Factors(vec![1.0])),
+            (None, Some(pga_g), None) => Ok(Scaling::Pga(pga_g * G_M_S2)),
+            (None, None, Some(pgv_m_s)) => Ok(Scaling::Pgv(pgv_m_s)),
+            (Some(factors), None, None) => {
+                let positive = factors.values.iter().all(|factor| *factor > 0.0);
+                check(positive, "scale", factors, "factors above 0")?;
+                Ok(Scaling::Factors(factors.values.clone()))
+            }
+            _ => Err(UsageError::because(
+                "scale, scale-pga and scale-pgv exclude each other; keep one of them",
+            )),
+        }
+    }
+
+    /// How files are read.
+    ///
+    /// # Errors
+    /// If an option is out of range.
+    pub(super) fn reading(&self) -> anyhow::Result<Reading> {
+        if let Some(dt) = self.dt {
+            check(dt > 0.0 && dt <= 10.0, "dt", dt, "a time step above 0 s and up to 10 s")?;
+        }
+        check(self.pga_tolerance >= 0.0, "pga-tolerance", self.pga_tolerance, "0 or more")?;
+        Ok(Reading {
+            format: self.format.0.0,
+            given: Given {
+                dt_s: self.dt,
+                unit: self.unit.as_ref().map(|unit| unit.0),
+                column: self.column.as_ref().map(|column| column.0.clone()),
+            },
+            pga_tolerance: self.pga_tolerance,
+        })
+    }
+}
+
+/// Whether pulses are looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PulseSearch {
+    /// They are.
+    Find,
+    /// They are not.
+    Skip,
+}
+
+keywords!(PulseSearch { Find = "find", Skip = "skip" });
+
+/// How files are read.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Reading {
+    /// The format, unless the content shows it.
+    pub format: Option<Format>,
+    /// What files may not say themselves.
+    pub given: Given,
+    /// By which share samples may miss the peak of their header.
+    pub pga_tolerance: f64,
+}
+
+/// A format, or `auto`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FormatChoice(Option<Format>);
+
+impl FromStr for FormatChoice {
+    type Err = keyword::UnknownKeyword;
+
+    fn from_str(word: &str) -> Result<FormatChoice, keyword::UnknownKeyword> {
+        if word == "auto" {
+            Ok(FormatChoice(None))
+        } else {
+            keyword::parse(word).map(|f| FormatChoice(Some(f)))
+        }
+    }
+}
+
+impl fmt::Display for FormatChoice {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.0.map_or("auto", Keyword::as_str))
+    }
+}

@@ -1,0 +1,9 @@
+//! Recorded motions: from files of every format to accelerations, and what becomes of them.
+
+mod known_records;
+mod processing;
+mod pulses;
+mod quirks;
+mod references;
+mod round_trips;
+mod writers;

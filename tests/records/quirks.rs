@@ -1,0 +1,194 @@
+//! What real files do to their formats, and what broken ones are told.
+
+use proptest::prelude::*;
+use rockfrag::keyword::Keyword;
+use rockfrag::motion::records::{Format, Given, RecordedMotion, read};
+
+use crate::writers::*;
+
+fn parse(text: &str) -> Result<Vec<RecordedMotion>, String> {
+    read(text.as_bytes(), None, &Given::default()).map_err(|error| error.to_string())
+}
+
+#[track_caller]
+fn same(text: &str, as_in: &str) {
+    assert_eq!(parse(text).unwrap(), parse(as_in).unwrap());
+}
+
+#[track_caller]
+fn refused(text: &str, parts: &[&str]) {
+    let message = parse(text).unwrap_err();
+    parts.iter().for_each(|part| assert!(message.contains(part), "'{part}' is not in: {message}"));
+}
+
+#[test]
+fn line_ends_tabs_and_blanks_do_not_matter() {
+    let samples = motion(103);
+    for text in [
+        nga_at2(&samples),
+        cosmos(&samples, 90),
+        csmip_v2(&samples, " 90 Deg"),
+        csmip_v1(&samples),
+        esm(&samples),
+        knet(&samples[..100]),
+        smc(&samples),
+    ] {
+        same(&text.replace('\n', "\r\n"), &text);
+        same(&text.replace('\n', "   \n"), &text);
+        same(&(text.clone() + "\n\n \n\x1a"), &text);
+    }
+    let text = nga_at2(&samples);
+    same(&text.replace("    ", "\t"), &text);
+    same(&text.replace("   ", " ").replace("  ", " "), &text);
+    same(&("\u{feff}".to_string() + &text), &text);
+}
+
+#[test]
+fn numbers_as_fortran_writes_them() {
+    let samples = motion(103);
+    let text = nga_at2(&samples);
+    let with = |letter| {
+        let in_g: Vec<f64> = samples.iter().map(|a| a / G).collect();
+        rows(&in_g, 5, |a| fortran_e(a, 15, 7, letter))
+    };
+    same(&text.replace(&with('E'), &with('D')), &text);
+    same(&text.replace(&with('E'), &with('e')), &text);
+    // Run together wherever a sign allows it.
+    let run_together = with('E').replace(" -", "-").replace(" -", "-");
+    assert!(run_together.contains("-.") && !run_together.contains(" -."));
+    same(&text.replace(&with('E'), &run_together), &text);
+}
+
+#[test]
+fn fields_without_a_gap_are_read_by_their_width() {
+    let samples: Vec<f64> = motion(103).iter().map(|a| 40.0 + 0.1 * a).collect();
+    let text = cosmos(&samples, 90);
+    assert!(text.lines().any(|line| line.matches('.').count() == 8 && !line.contains(' ')));
+    let read = parse(&text).unwrap();
+    for (a, b) in read[0].acceleration_m_s2.iter().zip(&samples) {
+        assert!((a - b).abs() < 1e-6, "{a} {b}");
+    }
+}
+
+#[test]
+fn latin_1_is_text() {
+    let text = nga_at2(&motion(103)).replace("CHY101", "Cura\u{e7}ao");
+    let latin: Vec<u8> = text.chars().map(|c| c as u8).collect();
+    let motions = read(&latin, None, &Given::default()).unwrap();
+    assert_eq!(motions[0].station.as_deref(), Some("Curaçao"));
+    assert_eq!(motions, parse(&text).unwrap());
+}
+
+#[test]
+fn velocity_and_displacement_are_refused_with_the_reason() {
+    let text = nga_at2(&motion(103));
+    let vt2 = text.replace("ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S");
+    refused(&vt2, &["line 3", "velocity", "VT2", "import the acceleration"]);
+    let dt2 =
+        text.replace("ACCELERATION TIME SERIES IN UNITS OF G", "DISPLACEMENT TIME SERIES IN UNITS OF CM");
+    refused(&dt2, &["line 3", "displacement", "DT2"]);
+    refused(&cosmos(&motion(103), 90).replace("acceleration pts", "velocity pts"), &["velocity"]);
+    refused(&esm(&motion(103)).replace(": ACCELERATION", ": VELOCITY"), &["velocity"]);
+    refused(&smc(&motion(103)).replace("2 CORRECTED ACCELEROGRAM", "3 VELOCITY"), &["line 1", "velocity"]);
+}
+
+#[test]
+fn a_wrong_count_is_named() {
+    let samples = motion(103);
+    let counted = |n: &str| at2(&samples, &format!("NPTS= {n}, DT= .0100 SEC"));
+    refused(&counted("104"), &["announces 104", "103 follow"]);
+    refused(&counted("90"), &["announces 90", "103 follow"]);
+    refused(&counted("1000000000000"), &["announces 1000000000000"]);
+    refused(&counted("1"), &["1 sample"]);
+    // The last line may be filled up.
+    assert_eq!(parse(&counted("101")).unwrap()[0].acceleration_m_s2.len(), 101);
+    let hostile = |text: String| text.replace("103", "999999999999");
+    refused(&hostile(cosmos(&samples, 90)), &["announces 999999999999"]);
+    refused(&hostile(csmip_v2(&samples, " 90 Deg")), &["announces"]);
+    refused(&hostile(esm(&samples)), &["announces"]);
+    refused(&knet(&samples[..100]).replace("Duration Time(s)  1", "Duration Time(s)  1e15"), &["announces"]);
+}
+
+#[test]
+fn missing_parts_are_named_with_their_line() {
+    let samples = motion(103);
+    refused(&at2(&samples, "NPTS= 103"), &["line 4", "no DT", "--dt"]);
+    let given = Given { dt_s: Some(0.02), ..Given::default() };
+    let motions = read(at2(&samples, "NPTS= 103").as_bytes(), None, &given).unwrap();
+    assert_eq!(motions[0].dt_s, 0.02);
+    refused(&at2(&samples, "NPTS= 103, DT= 0.0"), &["line 4", "time step 0 s"]);
+    refused(&at2(&samples, "NPTS= 103, DT= 500"), &["time step 500 s"]);
+    refused(&nga_at2(&samples).replace("UNITS OF G", "UNITS OF FURLONGS"), &["line 3", "FURLONGS", "--unit"]);
+    refused(&knet(&samples[..100]).replace("Memo.", ""), &["Memo."]);
+    refused(&knet(&samples[..100]).replace("/8388608", "/0"), &["line 14"]);
+    refused(&esm(&samples).replace("NDATA", "MDATA"), &["no NDATA"]);
+    refused(&smc(&samples).replace(" 1.0000000E2", "1.7000000E38"), &["uneven"]);
+    refused(&cosmos(&samples, 90).replace("cm/sec2(04)", "counts (50)"), &["counts"]);
+    refused("1.0\n2.0\n", &["line 1", "--unit"]);
+    let given = Given { unit: Some("g".parse().unwrap()), ..Given::default() };
+    let error = |text: &str| read(text.as_bytes(), None, &given).unwrap_err().to_string();
+    assert!(error("1.0\n2.0\n").contains("--dt"));
+    assert!(error("0 1 2\n1 2 3\n").contains("--column"));
+    assert!(error("0 1\n0.01 2\n0.02 2\n0.06 2\n").contains("line 4: a time step of 0.04"));
+    assert!(error("0 1\n0.01 2\n0.02 **\n").contains("line 3: '**' is no number"));
+}
+
+#[test]
+fn what_is_no_record_is_told_so() {
+    refused("", &["empty"]);
+    refused(" \n\n", &["empty"]);
+    refused("Dear colleague,\nplease find attached\n", &["line 1", "Dear colleague", "--format"]);
+    let junk: Vec<u8> = (0..5000u32).map(|k| (k.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
+    assert!(read(&junk, None, &Given::default()).unwrap_err().to_string().contains("binary"));
+    refused(&nga_at2(&motion(103)).replace("E-0", "X-0"), &["is no number", "line"]);
+    refused(
+        &nga_at2(&motion(103)).replacen("E+0", "E+9999", 1).replacen("E-0", "E+999", 1),
+        &["is no number"],
+    );
+}
+
+/// Any bytes, and files of each format with some bytes changed or cut off.
+fn damaged() -> impl Strategy<Value = Vec<u8>> {
+    let samples = motion(40);
+    let files = vec![
+        nga_at2(&samples),
+        cosmos(&samples, 90),
+        csmip_v2(&samples, " 90 Deg"),
+        csmip_v1(&samples),
+        esm(&samples),
+        knet(&samples),
+        smc(&samples),
+        "t;a\n0;1\n0.1;2\n".to_string(),
+    ];
+    let damages = prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..8);
+    (prop::sample::select(files), damages, any::<prop::sample::Index>()).prop_map(|(file, damages, end)| {
+        let mut bytes = file.into_bytes();
+        for (at, byte) in damages {
+            let at = at.index(bytes.len());
+            bytes[at] = byte;
+        }
+        let whole = end.index(2) == 0;
+        bytes.truncate(if whole { bytes.len() } else { end.index(bytes.len()) });
+        bytes
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn no_bytes_panic(bytes in prop_oneof![damaged(), prop::collection::vec(any::<u8>(), 0..400), ".{0,400}".prop_map(String::into_bytes)]) {
+        let given = Given { dt_s: Some(0.01), unit: Some("g".parse().unwrap()), column: None };
+        for given in [Given::default(), given] {
+            let _ = read(&bytes, None, &given);
+            for format in Format::ALL {
+                if let Ok(motions) = read(&bytes, Some(*format), &given) {
+                    for motion in motions {
+                        prop_assert!(motion.acceleration_m_s2.iter().all(|a| a.is_finite()));
+                        prop_assert!(motion.dt_s > 0.0 && motion.acceleration_m_s2.len() >= 2);
+                    }
+                }
+            }
+        }
+    }
+}
