@@ -181,6 +181,13 @@ columns! {
     B1_HIGH = "b1_high", Float64, "1", "upper 95 % limit of b1";
     B2_LOW = "b2_low", Float64, "1", "lower 95 % limit of b2";
     B2_HIGH = "b2_high", Float64, "1", "upper 95 % limit of b2";
+    COV_LN_A_B1 = "cov_ln_a_b1", Float64, "1", "covariance of ln_a and b1";
+    COV_LN_A_B2 = "cov_ln_a_b2", Float64, "1", "covariance of ln_a and b2";
+    COV_B1_B2 = "cov_b1_b2", Float64, "1", "covariance of the slopes on ln im_x and ln im_y";
+    IM_X_LOW = "im_x_low", Float64, "1", "least im_x of the cases";
+    IM_X_HIGH = "im_x_high", Float64, "1", "largest im_x of the cases";
+    IM_Y_LOW = "im_y_low", Float64, "1", "least im_y of the cases";
+    IM_Y_HIGH = "im_y_high", Float64, "1", "largest im_y of the cases";
     STATUS = "status", Text, "1", "ok, or why there is no fit";
 
     TRANSITION = "transition", Float64, "1", "im4 at which the two planes meet";
@@ -210,6 +217,11 @@ columns! {
     BETA_HIGH = "beta_high", Float64, "1", "upper 95 % limit of beta";
     THETA_LOW = "theta_low", Float64, "1", "lower 95 % limit of theta";
     THETA_HIGH = "theta_high", Float64, "1", "upper 95 % limit of theta";
+    COV_B0_B0 = "cov_b0_b0", Float64, "1", "variance of the probit intercept -mu/beta";
+    COV_B0_B1 = "cov_b0_b1", Float64, "1", "covariance of the probit intercept and the slope on ln im_x";
+    COV_B0_B2 = "cov_b0_b2", Float64, "1", "covariance of the probit intercept and the slope on ln im_y";
+    COV_B1_B1 = "cov_b1_b1", Float64, "1", "variance of the probit slope on ln im_x";
+    COV_B2_B2 = "cov_b2_b2", Float64, "1", "variance of the probit slope on ln im_y";
 
     QUANTITY = "quantity", Text, "1", "what was published";
     PLACE = "place", Text, "1", "where the paper prints it";
@@ -335,6 +347,14 @@ pub const PEX: Table = Table {
         B1_HIGH.or_null(),
         B2_LOW.or_null(),
         B2_HIGH.or_null(),
+        COV_LN_A_B1.or_null(),
+        COV_LN_A_B2.or_null(),
+        COV_B1_B2.or_null(),
+        IM_X_LOW.or_null(),
+        IM_X_HIGH.or_null(),
+        IM_Y_LOW.or_null(),
+        IM_Y_HIGH.or_null(),
+        ETA,
         STATUS,
     ],
 };
@@ -379,6 +399,17 @@ pub const PRO: Table = Table {
         BETA_HIGH.or_null(),
         THETA_LOW.or_null(),
         THETA_HIGH.or_null(),
+        COV_B0_B0.or_null(),
+        COV_B0_B1.or_null(),
+        COV_B0_B2.or_null(),
+        COV_B1_B1.or_null(),
+        COV_B1_B2.or_null(),
+        COV_B2_B2.or_null(),
+        IM_X_LOW.or_null(),
+        IM_X_HIGH.or_null(),
+        IM_Y_LOW.or_null(),
+        IM_Y_HIGH.or_null(),
+        ETA,
         STATUS,
     ],
 };
