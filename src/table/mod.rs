@@ -9,11 +9,20 @@
 //! fingerprint  the hash of what a file holds
 //! provenance   what made a file, in its metadata
 //! scenarios, motions, responses, trace, pex, pro, paper   one file a table: its rows as Rust structs
+//! fits         the rows of pex and pro files as the fits they hold
+//! intensities  any table with PGA and PGV, as evaluate takes it
+//! hazard       hazard curves and joint hazards, in CSV files
+//! evaluated    probabilities and annual rates: what evaluate answers
+//! text         any table as aligned text, CSV or JSON
 //! ```
 
 pub mod columns;
+pub mod evaluated;
 pub mod fingerprint;
+pub mod fits;
 pub mod footer;
+pub mod hazard;
+pub mod intensities;
 pub mod motions;
 pub mod paper;
 pub mod pex;
@@ -23,6 +32,7 @@ pub mod reader;
 pub mod responses;
 pub mod scenarios;
 pub mod schema;
+pub mod text;
 pub mod trace;
 pub mod writer;
 
