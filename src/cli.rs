@@ -13,6 +13,7 @@ use crate::pipeline::{UsageError, cache};
 use crate::stages::compare_paper::{ComparePaper, ComparePaperOptions};
 use crate::stages::config::Config;
 use crate::stages::evaluate::{EvaluateOptions, evaluate};
+use crate::stages::export::{ExportOptions, export};
 use crate::stages::fit_pex::{FitPex, FitPexOptions};
 use crate::stages::fit_pro::{FitPro, FitProOptions};
 use crate::stages::inspect::inspect;
@@ -131,6 +132,8 @@ enum Command {
     },
     /// Probabilities of rocking, failure and overturning: at one intensity, at each of a table, or a year at a site
     Evaluate(Box<EvaluateOptions>),
+    /// Write the fragility of a structure for OpenQuake or pelicun
+    Export(Box<ExportOptions>),
     /// Run all stages of a pipeline file, skipping what is up to date
     Run {
         /// The pipeline file
@@ -231,6 +234,7 @@ impl Call<'_> {
                 print(&paper::show(&out)?)
             }
             Command::Evaluate(options) => print(&evaluate(&options, self.force, &self.console)?),
+            Command::Export(options) => export(&options, &self.console),
             Command::Run { pipeline, out, seed, dry_run } => self.run(&pipeline, out, seed, dry_run),
             Command::SeedSpread { pipeline, options } => {
                 let console = Console { progress: false, ..self.console };

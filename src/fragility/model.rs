@@ -139,13 +139,13 @@ impl FragilityModel {
         })
     }
 
-    /// The measures that lie outside of the range of the data, of P_ex and of P_ro. IM4 has no lower end: every structure
-    /// that rocks is at or above uplift, and so are the data.
+    /// The measures that lie outside of the range of the data, of P_ex and of P_ro; none without rocking, which needs no
+    /// data. IM4 has no lower end: whatever rocks is at or above uplift, and so are the data.
     pub fn out_of_range(&self, measures: &IntensityMeasures) -> impl Iterator<Item = OutOfRange> {
+        let rocks = p_no_rocking(measures.im4) == 0.0;
         let demand = self.demand.law(measures).ln_median.out_of_range(measures);
-        demand
-            .chain(self.overturning.out_of_range(measures))
-            .filter(|out| out.measure != Measure::Im4 || out.value > out.range[1])
+        let out = demand.chain(self.overturning.out_of_range(measures));
+        out.filter(move |out| rocks && (out.measure != Measure::Im4 || out.value > out.range[1]))
     }
 
     /// Where P_ex jumps from one law to the other.

@@ -7,6 +7,7 @@ use super::predictor::Predictor;
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
+use crate::units::G_M_S2;
 
 /// The peak that measures the intensity along a slice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +19,16 @@ pub enum Peak {
 }
 
 keywords!(Peak { Pga = "pga", Pgv = "pgv" });
+
+impl Peak {
+    /// The unit in which it is usually stated, and its size in m/s2 or m/s.
+    pub fn usual_unit(self) -> (&'static str, f64) {
+        match self {
+            Peak::Pga => ("g", G_M_S2),
+            Peak::Pgv => ("m/s", 1.0),
+        }
+    }
+}
 
 /// All motions whose p PGV / PGA is the same, ordered by one of the two peaks.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,13 +73,18 @@ impl Slice {
         IntensityMeasures::new(&self.structure, pga_m_s2, pgv_m_s, None, None)
     }
 
-    /// The intensity (m/s2 or m/s) at which PGA/(g tan alpha) has this value; 1 is uplift.
+    /// The intensity (m/s2 or m/s) at which PGA/(g tan alpha) reaches this value; 1 is uplift.
     pub fn intensity_at_im4(&self, im4: f64) -> f64 {
         let pga_m_s2 = im4 * self.structure.uplift_acceleration_m_s2();
-        match self.peak {
+        let mut intensity = match self.peak {
             Peak::Pga => pga_m_s2,
             Peak::Pgv => self.ratio * pga_m_s2 / self.structure.p_rad_s,
+        };
+        // Rounding must not leave it on the near side of a jump.
+        while self.measures(intensity).im4 < im4 {
+            intensity = intensity.next_up();
         }
+        intensity
     }
 
     /// The intensities at which probabilities jump: uplift, and the transition of P_ex.

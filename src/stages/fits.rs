@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::chosen_fits::ChosenFits;
 use super::fit_pro::FittedEvent;
-use crate::fragility::{DemandModel, FragilityModel, LimitState, Measure, OutOfRange};
+use crate::fragility::{DemandModel, FragilityModel, Measure};
 use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
-use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
-use crate::rocking::Structure;
 use crate::table::fits::{self, FitRow};
 use crate::table::pex::Model;
 use crate::table::schema;
@@ -48,71 +47,6 @@ pub enum ModelForm {
 }
 
 keywords!(ModelForm { Univariate = "univariate", Bivariate = "bivariate" });
-
-/// The fits as chosen.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ChosenFits {
-    /// Suite of motions, if it has a name.
-    pub suite: Option<String>,
-    /// Structure that was simulated.
-    pub structure: String,
-    /// The fits joined.
-    pub model: FragilityModel,
-}
-
-/// A difference in eta that the response hardly feels.
-const SAME_ETA: f64 = 0.005;
-
-impl ChosenFits {
-    /// In words: of what, over which measures.
-    pub fn words(&self) -> String {
-        let model = &self.model;
-        let of = |measures: &mut dyn Iterator<Item = Measure>| {
-            measures.map(Keyword::as_str).collect::<Vec<_>>().join(" and ")
-        };
-        let demand = of(&mut model.demand.at_strong_motion().ln_median.measures());
-        let planes = match model.demand {
-            DemandModel::Everywhere(_) => String::new(),
-            DemandModel::Biplanar { transition, .. } => {
-                format!(" in two planes that meet at im4 {transition}")
-            }
-        };
-        let overturning = of(&mut model.overturning.measures());
-        let suite = self.suite.as_deref().map_or(String::new(), |suite| format!(", {suite}"));
-        format!("{}{suite}: P_ex of {demand}{planes}, P_ro of {overturning}", self.structure)
-    }
-
-    /// What a limit state is, in words.
-    pub fn meaning(&self, state: LimitState) -> String {
-        match state {
-            LimitState::Rocking => "rocking".to_string(),
-            LimitState::Failure => format!("|theta|max / alpha above {}, or overturning", self.model.limit),
-            LimitState::Overturning => "overturning".to_string(),
-        }
-    }
-
-    /// That the structure is not of the kind that was simulated.
-    pub fn warn_of_eta(&self, structure: &Structure, console: &Console) {
-        if self.is_other_eta(structure.eta) {
-            console.note(&format!(
-                "warning: eta is {:.4}, but the fits are of eta {:.4}, on which the curves depend: simulate and fit with this eta",
-                structure.eta, self.model.eta
-            ));
-        }
-    }
-
-    /// Whether this coefficient of restitution is another one than that of the fits.
-    pub fn is_other_eta(&self, eta: f64) -> bool {
-        (eta - self.model.eta).abs() > SAME_ETA
-    }
-}
-
-/// Why a measure makes a result an extrapolation.
-pub fn extrapolation(out: &OutOfRange) -> String {
-    let [least, largest] = out.range;
-    let (measure, value) = (out.measure.as_str(), out.value);
-    format!("{measure} is {value:.4}, outside of {least:.4} to {largest:.4} in the data: extrapolated")
-}
 
 impl FitsOptions {
     /// Reads the files and chooses.

@@ -23,7 +23,7 @@ fit-pro: {}
 ";
 
 /// The folder of a run of that pipeline, made once for all tests.
-pub fn run_folder() -> &'static Path {
+fn run_folder() -> &'static Path {
     static RUN: OnceLock<PathBuf> = OnceLock::new();
     RUN.get_or_init(|| {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("evaluate");
@@ -35,7 +35,7 @@ pub fn run_folder() -> &'static Path {
 }
 
 /// A folder of one's own, and options that choose the fits of the worked example.
-fn fitted() -> (tempfile::TempDir, String) {
+pub fn fitted() -> (tempfile::TempDir, String) {
     let run = run_folder().display();
     let chosen = format!(
         "--pex {run}/pex.parquet --pro {run}/pro.parquet --suite csgm --structure electrical-equipment"

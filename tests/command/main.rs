@@ -3,5 +3,6 @@
 mod bad_input;
 mod common;
 mod evaluate;
+mod export;
 mod kill;
 mod pipeline;

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::fits::FitsOptions;
-use super::structures::StructureOptions;
+use super::structure_options::StructureOptions;
 use crate::keyword::keywords;
 use crate::pipeline::cache;
 use crate::pipeline::console::Console;

@@ -2,13 +2,13 @@ use serde_json::json;
 
 use super::PointOptions;
 use super::answer::Answer;
-use crate::fragility::{OutOfRange, Probability};
+use crate::fragility::Probability;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::check;
 use crate::rocking::Structure;
-use crate::stages::fits::{ChosenFits, extrapolation};
+use crate::stages::chosen_fits::ChosenFits;
 use crate::stages::structures::words;
 use crate::table::evaluated::{self, AnswerRow};
 use crate::table::schema::{
@@ -36,11 +36,7 @@ pub fn answer(
     if failure.is_none() {
         console.note("warning: the fits need a measure that is missing: give --pgv above 0, --tp or --tm");
     }
-    if probabilities.given_rocking.is_some() {
-        let mut outside: Vec<OutOfRange> = fits.model.out_of_range(&measures).collect();
-        outside.dedup_by_key(|out| out.measure);
-        outside.iter().for_each(|out| console.note(&format!("warning: {}", extrapolation(out))));
-    }
+    fits.warn_of_range(&measures, "", console);
     let row = |column: Column, value: Option<f64>, p: Option<Probability>| AnswerRow {
         quantity: column.name,
         value: value.or(p.map(|p| p.value)),

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::HazardOptions;
 use super::answer::Answer;
-use crate::fragility::{LimitState, Peak, Probability, Slice};
+use crate::fragility::{LimitState, Probability, Slice};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -12,7 +12,7 @@ use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::check;
 use crate::rocking::Structure;
-use crate::stages::fits::ChosenFits;
+use crate::stages::chosen_fits::ChosenFits;
 use crate::stages::structures::words;
 use crate::table::evaluated::{self, RateRow};
 use crate::table::hazard::{self, Hazard};
@@ -78,27 +78,20 @@ fn along_slice(
     let Some(at_last) = slice.limit_states(model, last) else { return Err(periods_needed()) };
     let probabilities = |intensity: f64| flat(slice.limit_states(model, intensity));
     let rates = curve.mean_annual_rates(&slice.jumps(model), probabilities);
-    let unit = match slice.peak {
-        Peak::Pga => "m/s2",
-        Peak::Pgv => "m/s",
-    };
-    let warn = |warning: String| console.note(&format!("warning: {warning}"));
-    let uplift = slice.intensity_at_im4(1.0);
+    fits.warn_of_slice(slice, last, "the hazard: ", console);
+    let (uplift, (unit, size)) = (slice.intensity_at_im4(1.0), slice.peak.usual_unit());
     if first > uplift {
-        warn(format!(
-            "the hazard begins at {first:.4} {unit}, above uplift at {uplift:.4}: motions between are not counted"
-        ));
-    }
-    let in_data = slice.largest_in_data(model);
-    if last > in_data {
-        warn(format!(
-            "the hazard goes up to {last:.4} {unit}; above {in_data:.4} there are no data: extrapolated"
+        console.note(&format!(
+            "warning: the hazard begins at {:.4} {unit}, above uplift at {:.4} {unit}: motions between are not counted",
+            first / size,
+            uplift / size
         ));
     }
     let uncounted = rate_beyond * (1.0 - at_last[2].value);
     if uncounted > 0.01 * rates[6] {
-        warn(format!(
-            "the hazard ends at {last:.4} {unit}; stronger motions count as this one, and could add {uncounted:.1e} a year"
+        console.note(&format!(
+            "warning: the hazard ends at {:.4} {unit}; stronger motions count as this one, and could add {uncounted:.1e} a year",
+            last / size
         ));
     }
     Ok(rates)

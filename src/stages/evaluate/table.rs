@@ -8,7 +8,7 @@ use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
-use crate::stages::fits::ChosenFits;
+use crate::stages::chosen_fits::ChosenFits;
 use crate::table::evaluated::{self, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
 use crate::table::provenance::Provenance;
@@ -49,14 +49,13 @@ impl EvaluateTable {
     fn row(&self, intensity: &Intensity) -> EvaluatedRow {
         let (model, measures) = (&self.fits.model, &intensity.measures);
         let probabilities = model.probabilities(measures);
-        let rocks = probabilities.given_rocking.is_some();
         EvaluatedRow {
             p_rad_s: intensity.structure.p_rad_s,
             alpha_rad: intensity.structure.alpha_rad,
             pga_m_s2: intensity.pga_m_s2,
             pgv_m_s: intensity.pgv_m_s,
             probabilities,
-            out_of_range: model.out_of_range(measures).next().filter(|_| rocks).map(|out| out.measure),
+            out_of_range: model.out_of_range(measures).next().map(|out| out.measure),
         }
     }
 }
