@@ -9,7 +9,7 @@ ROCKFRAG ?= target/release/rockfrag
 CALL := $(ROCKFRAG) --config pipeline.yaml
 OUT := out
 
-.PHONY: all spread picture test clean
+.PHONY: all spread picture check-exports test clean
 
 all: $(OUT)/paper.parquet
 
@@ -40,6 +40,10 @@ spread: | $(ROCKFRAG)
 
 picture: $(OUT)/pro.parquet
 	python3 scripts/readme_picture.py $(OUT) docs/fragility.png
+
+# OpenQuake and pelicun from PyPI read what export writes: 1.5 GB for the time of the check.
+check-exports: $(OUT)/pex.parquet $(OUT)/pro.parquet
+	scripts/check_exports.sh $(ROCKFRAG) $(OUT)
 
 test:
 	cargo test --locked

@@ -12,6 +12,8 @@ use crate::pipeline::stage::{Stage, beside};
 use crate::pipeline::{UsageError, cache};
 use crate::stages::compare_paper::{ComparePaper, ComparePaperOptions};
 use crate::stages::config::Config;
+use crate::stages::evaluate::{EvaluateOptions, evaluate};
+use crate::stages::export::{ExportOptions, export};
 use crate::stages::fit_pex::{FitPex, FitPexOptions};
 use crate::stages::fit_pro::{FitPro, FitProOptions};
 use crate::stages::import_motions::{ImportMotions, ImportMotionsOptions};
@@ -137,6 +139,10 @@ enum Command {
         #[command(flatten)]
         options: ComparePaperOptions,
     },
+    /// Probabilities of rocking, failure and overturning: at one intensity, at each of a table, or a year at a site
+    Evaluate(Box<EvaluateOptions>),
+    /// Write the fragility of a structure for OpenQuake or pelicun
+    Export(Box<ExportOptions>),
     /// Run all stages of a pipeline file, skipping what is up to date
     Run {
         /// The pipeline file
@@ -240,6 +246,8 @@ impl Call<'_> {
                 self.stage(&ComparePaper::new(&options, [pex, pro, responses], out.clone())?)?;
                 print(&paper::show(&out)?)
             }
+            Command::Evaluate(options) => print(&evaluate(&options, self.force, &self.console)?),
+            Command::Export(options) => export(&options, &self.console),
             Command::Run { pipeline, out, seed, dry_run } => self.run(&pipeline, out, seed, dry_run),
             Command::SeedSpread { pipeline, options } => {
                 let console = Console { progress: false, ..self.console };

@@ -7,6 +7,8 @@
 //! sample-scenarios -> scenarios -> synthesize-motions -> motions -> simulate -> responses
 //!                                  records -> import-motions ----^                  |-> fit-pex -> pex --|
 //!                                                                                   |-> fit-pro -> pro --|-> compare-paper
+//!                                                                                                         |-> evaluate
+//!                                                                                                         |-> export
 //! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from
 //! ```
 //!
@@ -15,12 +17,15 @@
 //! | sections 2.1.1 to 2.1.3, Eqs. 1 and 13: scenarios, motions, intensity measures | [`motion`] |
 //! | section 2.2: the rocking response | [`rocking`] |
 //! | sections 2.3 and 3, Eqs. 12 and 14 to 24: fragility | [`fragility`] |
+//! | beyond it: annual rates at a site | [`hazard`] |
 //!
-//! These three know no files, threads or command line. [`table`] reads and writes the files, [`pipeline`] decides what
+//! These four know no files, threads or command line, nor does [`export`], which words fragility for other programs. [`table`] reads and writes the files, [`pipeline`] decides what
 //! must run, [`stages`] joins them: one file a subcommand.
 
 pub mod cli;
+pub mod export;
 pub mod fragility;
+pub mod hazard;
 pub mod keyword;
 pub mod motion;
 pub mod normal;

@@ -49,7 +49,11 @@ impl Measure {
 
     /// Its value in a case; none where it is missing or not positive, so that it has no logarithm.
     pub fn of(self, case: &Case) -> Option<f64> {
-        let measures = &case.measures;
+        self.among(&case.measures)
+    }
+
+    /// Its value among those of a motion; none as in a case.
+    pub fn among(self, measures: &IntensityMeasures) -> Option<f64> {
         let value = match self {
             Measure::Im1 => measures.im1,
             Measure::Im2 => measures.im2,

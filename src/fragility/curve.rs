@@ -3,7 +3,12 @@ use crate::normal;
 /// Probability that the demand exceeds `limit` in safe rocking, of the logarithm of its median and its dispersion beta:
 /// Phi((ln Dm - ln c) / beta). Eq. 14 prints the argument with the other sign, by which it would fall with demand.
 pub fn p_exceeding(ln_median_demand: f64, limit: f64, beta: f64) -> f64 {
-    normal::cdf((ln_median_demand - limit.ln()) / beta)
+    normal::cdf(exceeding_index(ln_median_demand, limit, beta))
+}
+
+/// The argument of Phi in [`p_exceeding`].
+pub fn exceeding_index(ln_median_demand: f64, limit: f64, beta: f64) -> f64 {
+    (ln_median_demand - limit.ln()) / beta
 }
 
 /// Probability of overturning given rocking at the intensity `im` (Eq. 19): Phi((ln IM - mu) / beta).

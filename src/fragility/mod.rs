@@ -12,27 +12,39 @@
 //! overturning  P_ro: fragility curves of scalar and hybrid measures (Eqs. 19-24)
 //! skill        how well fitted probabilities tell the outcomes apart
 //! curve        the probabilities themselves, and the tree that joins them (Eqs. 12 and 14)
+//! index        their limits of confidence, by the delta method
+//! predictor    a fit as a linear function of ln IM, with the range of its data
+//! model        the fits joined: all probabilities at an intensity
+//! slice        the same along one peak, PGA or PGV, at a fixed p PGV / PGA
 //! ```
 
 mod case;
 mod curve;
 mod demand;
+mod index;
+mod model;
 mod overturning;
+mod predictor;
 mod probit;
 mod regression;
 mod separation;
 mod skill;
+mod slice;
 mod student;
 mod transition;
 
 pub use case::{Case, Measure};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use demand::{Biplanar, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
+pub use index::{Probability, ProbitIndex};
+pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
 pub use overturning::{EventSample, OverturningFit, Z_95, fit_overturning};
+pub use predictor::{OutOfRange, Predicted, Predictor};
 pub use probit::{ProbitError, ProbitFit, probit};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
 pub use separation::is_separated;
 pub use skill::{auc, brier_score};
+pub use slice::{Lognormal, Peak, Slice};
 pub use student::t_quantile;
 pub use transition::{ScanPoint, Transition, find_transition};
 

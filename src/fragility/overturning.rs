@@ -1,11 +1,13 @@
 //! P_ro: the probability of overturning given rocking, as a lognormal curve (Eqs. 19-24).
 
+use std::array::from_fn;
+
 use nalgebra::DVector;
 
 use super::FitStatus;
 use super::case::{Case, Measure};
 use super::probit::{ProbitFit, probit};
-use super::regression::Estimate;
+use super::regression::{Estimate, range};
 use super::separation::is_separated;
 use super::skill::{auc, brier_score};
 use crate::normal;
@@ -44,6 +46,10 @@ pub struct OverturningFit {
     pub n: usize,
     /// Those in which the event happened.
     pub events: usize,
+    /// Covariance of the probit coefficients b0, b1, b2; of one measure without the last row and column, which are 0.
+    pub covariance: [[f64; 3]; 3],
+    /// Least and largest ln IM of each measure; of one measure the second is 0.
+    pub ranges: [[f64; 2]; 2],
 }
 
 /// The cases of a fit: logarithms of their measures, and whether the event happened.
@@ -97,6 +103,7 @@ pub fn fit_overturning(sample: &EventSample) -> Result<OverturningFit, FitStatus
     let probabilities: Vec<f64> = scores.iter().map(|&z| normal::cdf(z)).collect();
     let parameters = fit.coefficients.len() as f64;
     let Curve { lambda, mu, beta } = Curve::of(&fit);
+    let covariance = |i: usize, j: usize| *fit.covariance.get((i, j)).unwrap_or(&0.0);
     Ok(OverturningFit {
         lambda,
         mu,
@@ -114,6 +121,8 @@ pub fn fit_overturning(sample: &EventSample) -> Result<OverturningFit, FitStatus
         brier: brier_score(&probabilities, &sample.happened),
         n,
         events,
+        covariance: from_fn(|i| from_fn(|j| covariance(i, j))),
+        ranges: from_fn(|k| predictors.get(k).map_or([0.0; 2], |values| range(values))),
     })
 }
 

@@ -28,6 +28,10 @@ impl Estimate {
 pub struct LinearFit {
     /// The intercept, then a slope for each predictor; limits by Student's t.
     pub coefficients: Vec<Estimate>,
+    /// Covariance of the coefficients.
+    pub covariance: DMatrix<f64>,
+    /// Least and largest value of each predictor.
+    pub ranges: Vec<[f64; 2]>,
     /// Coefficient of determination.
     pub r2: f64,
     /// Residual standard deviation, with n - k degrees of freedom for k coefficients.
@@ -88,10 +92,19 @@ pub fn least_squares(predictors: &[&[f64]], y: &[f64]) -> Result<LinearFit, Regr
         |j: usize| Estimate::symmetric(coefficients[j], inverse.row(j).norm() * variance.sqrt(), quantile);
     Ok(LinearFit {
         coefficients: (0..k).map(estimate).collect(),
+        covariance: variance * &inverse * inverse.transpose(),
+        ranges: predictors.iter().map(|values| range(values)).collect(),
         r2: 1.0 - rss / tss,
         residual_sd: variance.sqrt(),
         rss,
         tss,
         n,
     })
+}
+
+/// Least and largest of the values.
+pub(super) fn range(values: &[f64]) -> [f64; 2] {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    [least, largest]
 }

@@ -95,6 +95,7 @@ impl FitPex {
         let row = |model, im_y, range: std::ops::Range<f64>, fit: Result<LinearFit, FitStatus>| PexRow {
             suite: group.suite.clone(),
             structure: group.structure.clone(),
+            eta: group.eta,
             model,
             im_x: Measure::Im4,
             im_y,

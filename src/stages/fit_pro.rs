@@ -116,6 +116,7 @@ impl FitPro {
             ProRow {
                 suite: group.suite.clone(),
                 structure: group.structure.clone(),
+                eta: group.eta,
                 event: event.as_str(),
                 im_x,
                 im_y,

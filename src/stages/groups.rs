@@ -18,6 +18,8 @@ pub struct Group {
     pub suite: Option<String>,
     /// The structure.
     pub structure: String,
+    /// Its coefficient of restitution.
+    pub eta: f64,
     /// Its responses, in the order of the file.
     pub cases: Vec<Case>,
 }
@@ -58,6 +60,7 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
     Ok(Group {
         suite: first_text(frame.column(schema::SUITE.name)?)?,
         structure: first_text(frame.column(schema::STRUCTURE.name)?)?.unwrap_or_default(),
+        eta: frame.column(schema::ETA.name)?.f64()?.get(0).unwrap_or(f64::NAN),
         cases: outcomes.iter().enumerate().map(case).collect::<anyhow::Result<_>>()?,
     })
 }

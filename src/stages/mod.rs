@@ -1,10 +1,21 @@
-//! One subcommand a file: read, call the domain, write. Besides: config (pipeline.yaml, the options of all), structures (as
-//! a user names them), groups (the responses of a suite and structure), measures (which intensity measures are taken).
+//! One subcommand a file: read, call the domain, write. Besides these:
+//!
+//! ```text
+//! config             pipeline.yaml, the options of all
+//! structures         structures as a user names them; structure_options one of them on the command line
+//! measures           which intensity measures are taken
+//! groups             the responses of a suite and structure
+//! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
+//! ```
 
+pub mod chosen_fits;
 pub mod compare_paper;
 pub mod config;
+pub mod evaluate;
+pub mod export;
 pub mod fit_pex;
 pub mod fit_pro;
+pub mod fits;
 pub mod groups;
 pub mod import_motions;
 pub mod inspect;
@@ -13,5 +24,6 @@ pub mod run;
 pub mod sample_scenarios;
 pub mod seed_spread;
 pub mod simulate;
+pub mod structure_options;
 pub mod structures;
 pub mod synthesize_motions;

@@ -68,6 +68,13 @@ impl StructureSpec {
     }
 }
 
+/// The parameters of a structure, in words.
+pub fn words(structure: &Structure) -> String {
+    let four_decimals = |value: f64| (value * 1e4).round() / 1e4;
+    let [p, alpha, eta] = [structure.p_rad_s, structure.alpha_rad, structure.eta].map(four_decimals);
+    format!("p {p} rad/s, alpha {alpha} rad, eta {eta}")
+}
+
 /// Where structures come from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]

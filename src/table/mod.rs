@@ -10,11 +10,20 @@
 //! provenance   what made a file, in its metadata
 //! scenarios, motions, records, responses, trace, pex, pro, paper   one file a table: its rows as Rust structs
 //! measures     the columns of intensity measures, which motions and records share
+//! fits         the rows of pex and pro files as the fits they hold
+//! intensities  any table with PGA and PGV, as evaluate takes it
+//! hazard       hazard curves and joint hazards, in CSV files
+//! evaluated    probabilities and annual rates: what evaluate answers
+//! text         any table as aligned text, CSV or JSON
 //! ```
 
 pub mod columns;
+pub mod evaluated;
 pub mod fingerprint;
+pub mod fits;
 pub mod footer;
+pub mod hazard;
+pub mod intensities;
 mod measures;
 pub mod motions;
 pub mod paper;
@@ -26,6 +35,7 @@ pub mod records;
 pub mod responses;
 pub mod scenarios;
 pub mod schema;
+pub mod text;
 pub mod trace;
 pub mod writer;
 

@@ -34,6 +34,8 @@ pub struct PexRow {
     pub suite: Option<String>,
     /// Of which structure.
     pub structure: String,
+    /// Its coefficient of restitution.
+    pub eta: f64,
     /// Its form.
     pub model: Model,
     /// First measure.
@@ -112,6 +114,14 @@ pub fn batch(rows: &[PexRow]) -> Result<RecordBatch, ArrowError> {
     ]);
     columns.extend((0..3).map(|index| estimate(index, |e| e.standard_error)));
     columns.extend((0..3).flat_map(|index| [estimate(index, |e| e.low), estimate(index, |e| e.high)]));
+    let covariance =
+        |place: (usize, usize)| number(&|row| Some(*row.fit.as_ref().ok()?.covariance.get(place)?));
+    columns.extend([(0, 1), (0, 2), (1, 2)].map(covariance));
+    let range = |measure: usize, end: usize| {
+        number(&|row| row.fit.as_ref().ok()?.ranges.get(measure).map(|range| range[end].exp()))
+    };
+    columns.extend([(0, 0), (0, 1), (1, 0), (1, 1)].map(|(measure, end)| range(measure, end)));
+    columns.push(number(&|row| Some(row.eta)));
     columns.push(text(|row| Some(row.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok).as_str())));
     RecordBatch::try_new(PEX.schema(), columns)
 }

@@ -21,6 +21,8 @@ pub struct ProRow {
     pub suite: Option<String>,
     /// Of which structure.
     pub structure: String,
+    /// Its coefficient of restitution.
+    pub eta: f64,
     /// What it is the probability of.
     pub event: &'static str,
     /// First measure.
@@ -95,6 +97,15 @@ pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
     for estimate in estimates {
         columns.extend([part(estimate, |e| e.low), part(estimate, |e| e.high)]);
     }
+    // What belongs to a second measure is null without one.
+    let second = |measure: usize, fit: &OverturningFit| measure < 2 || fit.lambda.is_some();
+    let covariance = |(i, j): (usize, usize)| number(&|fit| second(j, fit).then_some(fit.covariance[i][j]));
+    columns.extend([(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(covariance));
+    let range = |(measure, end): (usize, usize)| {
+        number(&|fit| second(measure + 1, fit).then_some(fit.ranges[measure][end].exp()))
+    };
+    columns.extend([(0, 0), (0, 1), (1, 0), (1, 1)].map(range));
+    columns.push(Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.eta))));
     columns.push(text(|row| Some(row.fit.err().unwrap_or(FitStatus::Ok).as_str())));
     RecordBatch::try_new(PRO.schema(), columns)
 }

@@ -222,6 +222,13 @@ columns! {
     B1_HIGH = "b1_high", Float64, "1", "upper 95 % limit of b1";
     B2_LOW = "b2_low", Float64, "1", "lower 95 % limit of b2";
     B2_HIGH = "b2_high", Float64, "1", "upper 95 % limit of b2";
+    COV_LN_A_B1 = "cov_ln_a_b1", Float64, "1", "covariance of ln_a and b1";
+    COV_LN_A_B2 = "cov_ln_a_b2", Float64, "1", "covariance of ln_a and b2";
+    COV_B1_B2 = "cov_b1_b2", Float64, "1", "covariance of the slopes on ln im_x and ln im_y";
+    IM_X_LOW = "im_x_low", Float64, "1", "least im_x of the cases";
+    IM_X_HIGH = "im_x_high", Float64, "1", "largest im_x of the cases";
+    IM_Y_LOW = "im_y_low", Float64, "1", "least im_y of the cases";
+    IM_Y_HIGH = "im_y_high", Float64, "1", "largest im_y of the cases";
     STATUS = "status", Text, "1", "ok, or why there is no fit";
 
     TRANSITION = "transition", Float64, "1", "im4 at which the two planes meet";
@@ -251,6 +258,40 @@ columns! {
     BETA_HIGH = "beta_high", Float64, "1", "upper 95 % limit of beta";
     THETA_LOW = "theta_low", Float64, "1", "lower 95 % limit of theta";
     THETA_HIGH = "theta_high", Float64, "1", "upper 95 % limit of theta";
+    COV_B0_B0 = "cov_b0_b0", Float64, "1", "variance of the probit intercept -mu/beta";
+    COV_B0_B1 = "cov_b0_b1", Float64, "1", "covariance of the probit intercept and the slope on ln im_x";
+    COV_B0_B2 = "cov_b0_b2", Float64, "1", "covariance of the probit intercept and the slope on ln im_y";
+    COV_B1_B1 = "cov_b1_b1", Float64, "1", "variance of the probit slope on ln im_x";
+    COV_B2_B2 = "cov_b2_b2", Float64, "1", "variance of the probit slope on ln im_y";
+
+    P_NR = "p_nr", Float64, "1", "probability of no rocking";
+    P_EX = "p_ex", Float64, "1", "probability of a demand above the limit state, in safe rocking (Eq. 14)";
+    P_EX_LOW = "p_ex_low", Float64, "1", "lower 95 % limit of p_ex";
+    P_EX_HIGH = "p_ex_high", Float64, "1", "upper 95 % limit of p_ex";
+    P_RO = "p_ro", Float64, "1", "probability of overturning given rocking (Eq. 19)";
+    P_RO_LOW = "p_ro_low", Float64, "1", "lower 95 % limit of p_ro";
+    P_RO_HIGH = "p_ro_high", Float64, "1", "upper 95 % limit of p_ro";
+    P_F_R = "p_f_r", Float64, "1", "probability of failure given rocking (Eq. 12)";
+    P_F_R_LOW = "p_f_r_low", Float64, "1", "lower 95 % limit of p_f_r";
+    P_F_R_HIGH = "p_f_r_high", Float64, "1", "upper 95 % limit of p_f_r";
+    P_F = "p_f", Float64, "1", "probability of failure over the whole tree; exactly 0 without rocking";
+    OUT_OF_RANGE = "out_of_range", Text, "1", "a measure outside of the range of the data of the fits";
+
+    HYBRID = "im_hybrid", Float64, "1", "hybrid measure of P_ro: im_x^(lambda/(1 + lambda)) im_y^(1/(1 + lambda)) (Eq. 22)";
+    ASKED = "quantity", Text, "1", "a probability, or a measure of the intensity";
+    VALUE = "value", Float64, "1", "best estimate";
+    LOW = "low", Float64, "1", "lower 95 % limit";
+    HIGH = "high", Float64, "1", "upper 95 % limit";
+    MEANING = "meaning", Text, "1", "in words";
+
+    STATE = "state", Text, "1", "limit state";
+    ANNUAL_RATE = "annual_rate", Float64, "1/a", "mean annual rate of reaching the limit state";
+    ANNUAL_RATE_LOW = "annual_rate_low", Float64, "1/a", "that of the lower 95 % limits of the probabilities";
+    ANNUAL_RATE_HIGH = "annual_rate_high", Float64, "1/a", "that of the upper 95 % limits of the probabilities";
+    YEARS = "years", Float64, "a", "time of exposure";
+    P_IN_YEARS = "p", Float64, "1", "probability of reaching the limit state in this time";
+    P_IN_YEARS_LOW = "p_low", Float64, "1", "that of annual_rate_low";
+    P_IN_YEARS_HIGH = "p_high", Float64, "1", "that of annual_rate_high";
 
     QUANTITY = "quantity", Text, "1", "what was published";
     PLACE = "place", Text, "1", "where the paper prints it";
@@ -419,6 +460,14 @@ pub const PEX: Table = Table {
         B1_HIGH.or_null(),
         B2_LOW.or_null(),
         B2_HIGH.or_null(),
+        COV_LN_A_B1.or_null(),
+        COV_LN_A_B2.or_null(),
+        COV_B1_B2.or_null(),
+        IM_X_LOW.or_null(),
+        IM_X_HIGH.or_null(),
+        IM_Y_LOW.or_null(),
+        IM_Y_HIGH.or_null(),
+        ETA,
         STATUS,
     ],
 };
@@ -463,7 +512,66 @@ pub const PRO: Table = Table {
         BETA_HIGH.or_null(),
         THETA_LOW.or_null(),
         THETA_HIGH.or_null(),
+        COV_B0_B0.or_null(),
+        COV_B0_B1.or_null(),
+        COV_B0_B2.or_null(),
+        COV_B1_B1.or_null(),
+        COV_B1_B2.or_null(),
+        COV_B2_B2.or_null(),
+        IM_X_LOW.or_null(),
+        IM_X_HIGH.or_null(),
+        IM_Y_LOW.or_null(),
+        IM_Y_HIGH.or_null(),
+        ETA,
         STATUS,
+    ],
+};
+
+/// Probabilities at many intensities.
+pub const EVALUATED: Table = Table {
+    name: "probabilities",
+    stage: "evaluate",
+    columns: &[
+        P_RAD_S,
+        ALPHA_RAD,
+        PGA_M_S2,
+        PGV_M_S,
+        P_NR,
+        P_EX.or_null(),
+        P_EX_LOW.or_null(),
+        P_EX_HIGH.or_null(),
+        P_RO.or_null(),
+        P_RO_LOW.or_null(),
+        P_RO_HIGH.or_null(),
+        P_F_R.or_null(),
+        P_F_R_LOW.or_null(),
+        P_F_R_HIGH.or_null(),
+        P_F.or_null(),
+        OUT_OF_RANGE.or_null(),
+    ],
+};
+
+/// All probabilities at one intensity.
+pub const ANSWER: Table = Table {
+    name: "probabilities at one intensity",
+    stage: "evaluate",
+    columns: &[ASKED, VALUE.or_null(), LOW.or_null(), HIGH.or_null(), MEANING],
+};
+
+/// Annual rates of the limit states.
+pub const RATES: Table = Table {
+    name: "annual rates",
+    stage: "evaluate",
+    columns: &[
+        STATE,
+        ANNUAL_RATE,
+        ANNUAL_RATE_LOW,
+        ANNUAL_RATE_HIGH,
+        YEARS,
+        P_IN_YEARS,
+        P_IN_YEARS_LOW,
+        P_IN_YEARS_HIGH,
+        MEANING,
     ],
 };
 

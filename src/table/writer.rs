@@ -53,19 +53,7 @@ impl TableWriter {
         provenance: Provenance,
     ) -> Result<TableWriter, TableError> {
         let failed = |message: String| TableError::Write { path: path.to_path_buf(), message };
-        let folder = match path.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
-        let name = path.file_name().ok_or_else(|| failed("that is no file name".to_string()))?;
-        let prefix = format!(".{}.", name.to_string_lossy());
-        remove_strays(folder, &prefix);
-        let partial = tempfile::Builder::new()
-            .prefix(&prefix)
-            .suffix(PARTIAL)
-            .permissions(file_permissions())
-            .tempfile_in(folder)
-            .map_err(|source| failed(format!("{source} (folder {})", folder.display())))?;
+        let partial = temporary_beside(path)?;
         partial.as_file().try_lock().map_err(|source| failed(source.to_string()))?;
         let file = partial.as_file().try_clone().map_err(|source| failed(source.to_string()))?;
         let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(table)))
@@ -123,6 +111,24 @@ fn words(source: &ParquetError) -> String {
         ParquetError::External(inner) => inner.to_string(),
         other => other.to_string(),
     }
+}
+
+/// A file in the folder of `path` that can take its name when it is whole; strays of killed runs are removed.
+pub(super) fn temporary_beside(path: &Path) -> Result<NamedTempFile, TableError> {
+    let failed = |message: String| TableError::Write { path: path.to_path_buf(), message };
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let name = path.file_name().ok_or_else(|| failed("that is no file name".to_string()))?;
+    let prefix = format!(".{}.", name.to_string_lossy());
+    remove_strays(folder, &prefix);
+    tempfile::Builder::new()
+        .prefix(&prefix)
+        .suffix(PARTIAL)
+        .permissions(file_permissions())
+        .tempfile_in(folder)
+        .map_err(|source| failed(format!("{source} (folder {})", folder.display())))
 }
 
 /// Those that any new file gets, not the private ones of a temporary file.

@@ -3,10 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::common::{fail, small_pipeline, succeed};
+use crate::common::{fail, small_pipeline, succeed, write};
 use arrow_array::builder::{Float64Builder, ListBuilder};
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
-use parquet::arrow::ArrowWriter;
+use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray};
 
 /// A motions file as another program might write it.
 fn write_motions(path: &Path, dt: f64, motions: &[Option<Vec<Option<f64>>>]) {
@@ -27,14 +26,6 @@ fn write_motions(path: &Path, dt: f64, motions: &[Option<Vec<Option<f64>>>]) {
             ("acceleration_m_s2", Arc::new(list.finish())),
         ],
     );
-}
-
-fn write(path: &Path, columns: Vec<(&str, ArrayRef)>) {
-    let batch = RecordBatch::try_from_iter(columns).unwrap();
-    let mut writer =
-        ArrowWriter::try_new(std::fs::File::create(path).unwrap(), batch.schema(), None).unwrap();
-    writer.write(&batch).unwrap();
-    writer.close().unwrap();
 }
 
 fn samples(values: &[f64]) -> Option<Vec<Option<f64>>> {

@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use arrow_array::{ArrayRef, RecordBatch};
 use assert_cmd::Command;
+use parquet::arrow::ArrowWriter;
 
 /// The command, called in `folder`.
 pub fn rockfrag(folder: &Path) -> Command {
@@ -53,6 +55,15 @@ fit-pex: {}
 fit-pro: {}
 compare-paper: {}
 ";
+
+/// A Parquet file as another program might write it.
+pub fn write(path: &Path, columns: Vec<(&str, ArrayRef)>) {
+    let batch = RecordBatch::try_from_iter(columns).unwrap();
+    let mut writer =
+        ArrowWriter::try_new(std::fs::File::create(path).unwrap(), batch.schema(), None).unwrap();
+    writer.write(&batch).unwrap();
+    writer.close().unwrap();
+}
 
 /// The content fingerprint of a file.
 pub fn content(path: &Path) -> String {

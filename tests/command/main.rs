@@ -2,6 +2,8 @@
 
 mod bad_input;
 mod common;
+mod evaluate;
+mod export;
 mod import;
 mod kill;
 mod pipeline;

@@ -92,7 +92,7 @@ fn periods_of_pulses_are_those_that_baker_published() {
     for motion in MotionBatches::open(&path, 64).unwrap().flat_map(Result::unwrap) {
         let id = motion.motion_id.to_string();
         let Some((_, tp_s)) = published.iter().find(|(name, _)| *name == id) else { continue };
-        let (found, _) = pulse_of(&motion.acceleration_m_s2, motion.dt_s);
+        let (found, _) = pulse_of(&motion.acceleration_m_s2.to_vec(), motion.dt_s);
         assert_eq!(found.verdict, Verdict::Pulse, "{id}");
         assert!((found.period_s - tp_s).abs() < 0.06, "{id}: {found:?} for {tp_s}");
         seen += 1;

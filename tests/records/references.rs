@@ -62,7 +62,8 @@ fn measures_are_those_of_eqsig() {
     let mut worst: HashMap<String, f64> = HashMap::new();
     for Answer { motion_id, measure, value } in rows("records/measures.csv") {
         let motion = &motions[&motion_id];
-        let measured = plan.measure(&motion.acceleration_m_s2, motion.dt_s, &mut IntensityScratch::default());
+        let measured =
+            plan.measure(&motion.acceleration_m_s2.to_vec(), motion.dt_s, &mut IntensityScratch::default());
         let (ours, share, amount) = ours(&measured, &measure, motion.dt_s);
         let difference = (ours - value).abs();
         assert!(difference <= share * value + amount, "motion {motion_id}, {measure}: {ours} for {value}");
@@ -90,7 +91,7 @@ fn pulses_are_those_of_full_resolution_and_global_search() {
     let mut same_period = 0;
     for PulseAnswer { motion_id, indicator, period_s, r2, tp_s } in &answers {
         let motion = &motions[motion_id];
-        let velocity = velocity(&motion.acceleration_m_s2, motion.dt_s);
+        let velocity = velocity(&motion.acceleration_m_s2.to_vec(), motion.dt_s);
         let found = PulseIndicator::of(&velocity, motion.dt_s, &mut WaveletScratch::default()).unwrap();
         assert!((found.indicator - indicator).abs() < 0.01, "motion {motion_id}: {found:?} for {indicator}");
         assert!(

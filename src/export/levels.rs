@@ -1,0 +1,66 @@
+use super::GAP;
+
+/// Every stretch between two edges begins with this many steps, equal in logarithm, so that no bend hides in one.
+const FIRST_STEPS: i32 = 16;
+/// A step is halved no more often than this.
+const MOST_HALVINGS: u32 = 20;
+
+/// Intensities between the first edge and the last at which `f` must be tabulated so that straight lines between them
+/// err by no more than about `tolerance`. `f` may jump at the inner edges: each is a level, and has one just below.
+pub fn levels<const N: usize>(edges: &[f64], tolerance: f64, f: impl Fn(f64) -> [f64; N]) -> Vec<f64> {
+    let mut levels = Vec::new();
+    for (index, stretch) in edges.windows(2).enumerate() {
+        let is_last = index + 2 == edges.len();
+        let (from, to) = (stretch[0], if is_last { stretch[1] } else { stretch[1] * (1.0 - GAP) });
+        let step = |k: i32| from * (to / from).powf(f64::from(k) / f64::from(FIRST_STEPS));
+        for k in 0..FIRST_STEPS {
+            let start = if k == 0 { from } else { step(k) };
+            levels.push(start);
+            refine(
+                (start, f(start)),
+                (step(k + 1), f(step(k + 1))),
+                tolerance,
+                MOST_HALVINGS,
+                &f,
+                &mut levels,
+            );
+        }
+        levels.push(to);
+    }
+    levels
+}
+
+/// Adds the levels needed strictly between two.
+fn refine<const N: usize>(
+    low: (f64, [f64; N]),
+    high: (f64, [f64; N]),
+    tolerance: f64,
+    halvings: u32,
+    f: &impl Fn(f64) -> [f64; N],
+    levels: &mut Vec<f64>,
+) {
+    let at = 0.5 * (low.0 + high.0);
+    let middle = (at, f(at));
+    let error = |k: usize| (middle.1[k] - 0.5 * (low.1[k] + high.1[k])).abs();
+    if halvings == 0 || (0..N).all(|k| error(k) <= tolerance) {
+        return;
+    }
+    refine(low, middle, tolerance, halvings - 1, f, levels);
+    levels.push(at);
+    refine(middle, high, tolerance, halvings - 1, f, levels);
+}
+
+/// The least intensity above `from` at which all of `f`, which rise to 1, are within `tolerance` of it.
+pub fn whole_curve_end<const N: usize>(from: f64, tolerance: f64, f: impl Fn(f64) -> [f64; N]) -> f64 {
+    let is_whole = |intensity: f64| f(intensity).iter().all(|&p| p >= 1.0 - tolerance);
+    let mut high = from;
+    while !is_whole(high) && high.is_finite() {
+        high *= 2.0;
+    }
+    let mut low = from;
+    while high > low * (1.0 + 1e-6) && high.is_finite() {
+        let middle = (low * high).sqrt();
+        if is_whole(middle) { high = middle } else { low = middle }
+    }
+    high
+}

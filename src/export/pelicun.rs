@@ -1,0 +1,103 @@
+//! The fragility parameters of pelicun: a row of CSV for each function, and JSON with what the rows mean. PGA is in g, PGV in
+//! m/s. pelicun draws one uniform number for all limit states of a component, which keeps each within the one before.
+
+use serde_json::{Map, Value, json};
+
+use super::{Function, GAP, Model};
+use crate::fragility::{LimitState, Peak};
+use crate::keyword::Keyword;
+use crate::units::G_M_S2;
+
+/// Probabilities must rise by so much that pelicun, which keeps six digits, sees it.
+const LEAST_RISE: f64 = 2e-6;
+
+/// The name of a peak in pelicun, its unit there, and the size of that unit in m/s2 or m/s.
+fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
+    match peak {
+        Peak::Pga => ("Peak Ground Acceleration", "g", G_M_S2),
+        Peak::Pgv => ("Peak Ground Velocity", "mps", 1.0),
+    }
+}
+
+/// The rows: rocking has a capacity that is known, uplift; the others have tables of their cumulative distribution, which
+/// must rise from 0 (just below uplift) to 1 (at the last level).
+///
+/// # Errors
+/// If memory runs out.
+pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let common = ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"];
+    let of_state = ["Family", "Theta_0", "Theta_1", "DamageStateWeights"];
+    let names = common.map(str::to_string).into_iter();
+    let states = LimitState::ALL.iter();
+    let names = names.chain(states.flat_map(|ls| of_state.map(|name| format!("{}-{name}", ls.as_str()))));
+    writer.write_record(names)?;
+    for function in functions {
+        let (name, unit_name, unit) = demand(function.peak);
+        let uplift = (function.range_of_data[0] / unit).to_string();
+        // Directional: the peaks are those of one component of motion, which pelicun must not enlarge to that of two.
+        let mut row = [&function.id, "0", name, unit_name, "0", "1"].map(str::to_string).to_vec();
+        row.extend(["deterministic", &uplift, "", ""].map(str::to_string));
+        for state in [1, 2] {
+            let table = cumulative_distribution(function, state, unit);
+            row.extend(["multilinear_CDF", &table, "", ""].map(str::to_string));
+        }
+        writer.write_record(row)?;
+    }
+    Ok(String::from_utf8(writer.into_inner()?)?)
+}
+
+/// Levels, a bar, and the probabilities at them.
+fn cumulative_distribution(function: &Function, state: usize, unit: f64) -> String {
+    let below_uplift = (function.range_of_data[0] * (1.0 - GAP), 0.0);
+    let mut points = vec![below_uplift];
+    for (&level, probabilities) in function.levels.iter().zip(&function.probabilities) {
+        let (last_level, last) = points[points.len() - 1];
+        let p = probabilities[state];
+        if level >= last_level * (1.0 + GAP) && p - last > LEAST_RISE && 1.0 - p > LEAST_RISE {
+            points.push((level, p));
+        }
+    }
+    if let Some(&end) = function.levels.last() {
+        points.retain(|&(level, _)| level * (1.0 + GAP) < end);
+        points.push((end, 1.0));
+    }
+    let join = |part: fn(&(f64, f64)) -> f64, unit: f64| {
+        points.iter().map(|point| (part(point) / unit).to_string()).collect::<Vec<_>>().join(",")
+    };
+    format!("{}|{}", join(|point| point.0, unit), join(|point| point.1, 1.0))
+}
+
+/// What the rows mean, as the JSON file beside them.
+pub fn metadata(model: &Model, functions: &[Function]) -> Value {
+    let mut all = Map::new();
+    all.insert(
+        "_GeneralInformation".to_string(),
+        json!({
+            "ShortName": model.id,
+            "Description": model.description,
+            "Version": env!("CARGO_PKG_VERSION"),
+            "ComponentGroups": { "Rocking structures": [] },
+        }),
+    );
+    for function in functions {
+        let (name, unit_name, unit) = demand(function.peak);
+        let [low, high] = function.range_of_data.map(|intensity| intensity / unit);
+        let state = |(index, meaning): (usize, &String)| {
+            (format!("LS{}", index + 1), json!({ format!("DS{}", index + 1): { "Description": meaning } }))
+        };
+        let states: Map<String, Value> = model.limit_states.iter().enumerate().map(state).collect();
+        all.insert(
+            function.id.clone(),
+            json!({
+                "Description": model.description,
+                "Comments": format!("Data from {low:.4} {unit_name} (uplift) to {high:.4} {unit_name}; beyond them the curves are extrapolated."),
+                "SuggestedComponentBlockSize": "1 EA",
+                "RoundUpToIntegerQuantity": "True",
+                "RangeOfData": { "Demand-Type": name, "Demand-Unit": unit_name, "From": low, "To": high },
+                "LimitStates": states,
+            }),
+        );
+    }
+    Value::Object(all)
+}

@@ -1,0 +1,158 @@
+//! The fragility of a structure: P_nr, P_ex and P_ro joined in the tree of Eq. 12.
+
+use super::case::Measure;
+use super::curve::{exceeding_index, p_no_rocking};
+use super::index::{Probability, ProbitIndex};
+use super::predictor::{OutOfRange, Predictor};
+use crate::keyword::keywords;
+use crate::motion::IntensityMeasures;
+
+/// The demand in safe rocking: ln EDP on the measures, and its dispersion (Eqs. 15 and 17).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DemandLaw {
+    /// ln of the median demand.
+    pub ln_median: Predictor,
+    /// Dispersion: the residual standard deviation.
+    pub beta: f64,
+    /// Degrees of freedom of that standard deviation.
+    pub degrees: f64,
+}
+
+impl DemandLaw {
+    /// The index of P_ex (Eq. 14), with the uncertainty of the median and, by the large-sample variance beta^2/(2 degrees),
+    /// of the dispersion; none where a measure is missing.
+    fn exceeding(&self, measures: &IntensityMeasures, limit: f64) -> Option<ProbitIndex> {
+        let ln_median = self.ln_median.at(measures)?;
+        let value = exceeding_index(ln_median.value, limit, self.beta);
+        let variance = ln_median.variance / (self.beta * self.beta) + value * value / (2.0 * self.degrees);
+        Some(ProbitIndex { value, standard_error: variance.sqrt() })
+    }
+}
+
+/// How the demand depends on the intensity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DemandModel {
+    /// One law everywhere (Eqs. 15 and 16).
+    Everywhere(DemandLaw),
+    /// One below an IM4 and one from there on (Eqs. 17 and 18).
+    Biplanar {
+        /// The IM4 at which they meet.
+        transition: f64,
+        /// Below it.
+        low: DemandLaw,
+        /// From it on.
+        high: DemandLaw,
+    },
+}
+
+impl DemandModel {
+    /// The law that holds far above uplift.
+    pub fn at_strong_motion(&self) -> &DemandLaw {
+        match self {
+            DemandModel::Everywhere(law) | DemandModel::Biplanar { high: law, .. } => law,
+        }
+    }
+
+    /// The law that holds at this intensity.
+    pub fn law(&self, measures: &IntensityMeasures) -> &DemandLaw {
+        match self {
+            DemandModel::Everywhere(law) => law,
+            DemandModel::Biplanar { transition, low, .. } if measures.im4 < *transition => low,
+            DemandModel::Biplanar { high, .. } => high,
+        }
+    }
+}
+
+/// All that is fitted to one structure and suite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FragilityModel {
+    /// P_ex.
+    pub demand: DemandModel,
+    /// The demand |theta|max / alpha that P_ex is about.
+    pub limit: f64,
+    /// P_ro: the probit index (ln IM - mu) / beta (Eq. 19).
+    pub overturning: Predictor,
+    /// Coefficient of restitution of the structure that was simulated: the curves do not know any other.
+    pub eta: f64,
+}
+
+/// Probabilities at one intensity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Probabilities {
+    /// No rocking.
+    pub p_nr: f64,
+    /// Given rocking; none where IM4 rules rocking out, or a measure is missing.
+    pub given_rocking: Option<GivenRocking>,
+}
+
+/// Probabilities given that the structure rocks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GivenRocking {
+    /// Demand above the limit, in safe rocking.
+    pub p_ex: Probability,
+    /// Overturning.
+    pub p_ro: Probability,
+    /// Failure, the one or the other (Eq. 12).
+    pub p_failure: Probability,
+}
+
+/// How far a structure goes, each state within the one before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LimitState {
+    /// Rocking.
+    Rocking,
+    /// Demand above the limit, or overturning.
+    Failure,
+    /// Overturning.
+    Overturning,
+}
+
+keywords!(LimitState { Rocking = "LS1", Failure = "LS2", Overturning = "LS3" });
+
+impl Probabilities {
+    /// That each limit state is reached, in the order of [`LimitState::ALL`], over the whole tree: exactly 0 without
+    /// rocking. None where a measure is missing.
+    pub fn limit_states(&self) -> Option<[Probability; 3]> {
+        let rocking = Probability::exact(1.0 - self.p_nr);
+        if self.p_nr == 1.0 {
+            return Some([rocking; 3]);
+        }
+        self.given_rocking.map(|given| [rocking, given.p_failure, given.p_ro])
+    }
+}
+
+impl FragilityModel {
+    /// The probabilities at an intensity.
+    pub fn probabilities(&self, measures: &IntensityMeasures) -> Probabilities {
+        let p_nr = p_no_rocking(measures.im4);
+        Probabilities { p_nr, given_rocking: if p_nr == 0.0 { self.given_rocking(measures) } else { None } }
+    }
+
+    fn given_rocking(&self, measures: &IntensityMeasures) -> Option<GivenRocking> {
+        let exceeding = self.demand.law(measures).exceeding(measures, self.limit)?;
+        let index = self.overturning.at(measures)?;
+        let overturning = ProbitIndex { value: index.value, standard_error: index.variance.sqrt() };
+        Some(GivenRocking {
+            p_ex: exceeding.probability(),
+            p_ro: overturning.probability(),
+            p_failure: ProbitIndex::of_failure(overturning, exceeding).probability(),
+        })
+    }
+
+    /// The measures that lie outside of the range of the data, of P_ex and of P_ro; none without rocking, which needs no
+    /// data. IM4 has no lower end: whatever rocks is at or above uplift, and so are the data.
+    pub fn out_of_range(&self, measures: &IntensityMeasures) -> impl Iterator<Item = OutOfRange> {
+        let rocks = p_no_rocking(measures.im4) == 0.0;
+        let demand = self.demand.law(measures).ln_median.out_of_range(measures);
+        let out = demand.chain(self.overturning.out_of_range(measures));
+        out.filter(move |out| rocks && (out.measure != Measure::Im4 || out.value > out.range[1]))
+    }
+
+    /// Where P_ex jumps from one law to the other.
+    pub fn transition_im4(&self) -> Option<f64> {
+        match self.demand {
+            DemandModel::Everywhere(_) => None,
+            DemandModel::Biplanar { transition, .. } => Some(transition),
+        }
+    }
+}

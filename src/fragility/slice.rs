@@ -1,0 +1,118 @@
+//! A line through the plane of PGA and PGV along which a fragility depends on one peak alone.
+
+use super::case::Measure;
+use super::index::Probability;
+use super::model::FragilityModel;
+use super::predictor::Predictor;
+use crate::keyword::keywords;
+use crate::motion::IntensityMeasures;
+use crate::rocking::Structure;
+use crate::units::G_M_S2;
+
+/// The peak that measures the intensity along a slice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Peak {
+    /// Peak ground acceleration, m/s2.
+    Pga,
+    /// Peak ground velocity, m/s.
+    Pgv,
+}
+
+keywords!(Peak { Pga = "pga", Pgv = "pgv" });
+
+impl Peak {
+    /// The unit in which it is usually stated, and its size in m/s2 or m/s.
+    pub fn usual_unit(self) -> (&'static str, f64) {
+        match self {
+            Peak::Pga => ("g", G_M_S2),
+            Peak::Pgv => ("m/s", 1.0),
+        }
+    }
+}
+
+/// All motions whose p PGV / PGA is the same, ordered by one of the two peaks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slice {
+    /// The structure.
+    pub structure: Structure,
+    /// Which peak is the intensity.
+    pub peak: Peak,
+    /// p PGV / PGA.
+    pub ratio: f64,
+}
+
+/// A lognormal distribution of capacity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lognormal {
+    /// Median.
+    pub theta: f64,
+    /// Standard deviation of the logarithm.
+    pub beta: f64,
+}
+
+impl Lognormal {
+    /// Arithmetic mean: theta exp(beta^2 / 2).
+    pub fn mean(&self) -> f64 {
+        self.theta * (0.5 * self.beta * self.beta).exp()
+    }
+
+    /// Arithmetic standard deviation: mean sqrt(exp(beta^2) - 1).
+    pub fn standard_deviation(&self) -> f64 {
+        self.mean() * (self.beta * self.beta).exp_m1().sqrt()
+    }
+}
+
+impl Slice {
+    /// The measures of Eq. 13 at an intensity (m/s2 or m/s); those that need a period are missing.
+    pub fn measures(&self, intensity: f64) -> IntensityMeasures {
+        let p = self.structure.p_rad_s;
+        let (pga_m_s2, pgv_m_s) = match self.peak {
+            Peak::Pga => (intensity, self.ratio * intensity / p),
+            Peak::Pgv => (p * intensity / self.ratio, intensity),
+        };
+        IntensityMeasures::new(&self.structure, pga_m_s2, pgv_m_s, None, None)
+    }
+
+    /// The intensity (m/s2 or m/s) at which PGA/(g tan alpha) reaches this value; 1 is uplift.
+    pub fn intensity_at_im4(&self, im4: f64) -> f64 {
+        let pga_m_s2 = im4 * self.structure.uplift_acceleration_m_s2();
+        let mut intensity = match self.peak {
+            Peak::Pga => pga_m_s2,
+            Peak::Pgv => self.ratio * pga_m_s2 / self.structure.p_rad_s,
+        };
+        // Rounding must not leave it on the near side of a jump.
+        while self.measures(intensity).im4 < im4 {
+            intensity = intensity.next_up();
+        }
+        intensity
+    }
+
+    /// The intensities at which probabilities jump: uplift, and the transition of P_ex.
+    pub fn jumps(&self, model: &FragilityModel) -> Vec<f64> {
+        std::iter::once(1.0).chain(model.transition_im4()).map(|im4| self.intensity_at_im4(im4)).collect()
+    }
+
+    /// The probability of reaching each limit state at an intensity; none where the fits need a period.
+    pub fn limit_states(&self, model: &FragilityModel, intensity: f64) -> Option<[Probability; 3]> {
+        model.probabilities(&self.measures(intensity)).limit_states()
+    }
+
+    /// P_ro along the slice: of measures that are powers of the intensity, the index is linear in its logarithm, so that
+    /// the curve is lognormal in the intensity too. None where the fit needs a period, or does not grow along the slice.
+    pub fn overturning(&self, curve: &Predictor) -> Option<Lognormal> {
+        let index = |intensity: f64| curve.at(&self.measures(intensity)).map(|index| index.value);
+        let at_one = index(1.0)?;
+        let slope = index(std::f64::consts::E)? - at_one;
+        (slope > 0.0).then(|| Lognormal { theta: (-at_one / slope).exp(), beta: 1.0 / slope })
+    }
+
+    /// The largest intensity for which there are data. Along a slice only IM4 and IM5 grow, each in proportion.
+    pub fn largest_in_data(&self, model: &FragilityModel) -> f64 {
+        let at_one = self.measures(1.0);
+        let fits = [&model.demand.at_strong_motion().ln_median, &model.overturning];
+        let ranges = fits.into_iter().flat_map(|fit| fit.measures().zip(fit.ranges));
+        let growing = ranges.filter(|(measure, _)| matches!(measure, Measure::Im4 | Measure::Im5));
+        let largest = growing.filter_map(|(measure, range)| Some(range[1] / measure.among(&at_one)?));
+        largest.fold(f64::INFINITY, f64::min)
+    }
+}

@@ -1,0 +1,18 @@
+//! Seismic hazard at a site, and the annual rates that follow from it and a fragility.
+//!
+//! ```text
+//! curve  annual rate of exceedance of one intensity; the convolution integral
+//! joint  annual rate of occurrence of pairs of PGA and PGV; the sum over them
+//! ```
+
+mod curve;
+mod joint;
+
+pub use curve::{HazardCurve, HazardError};
+pub use joint::{JointHazard, PairOfPeaks};
+
+/// Probability of one or more events in `years`, of events that come at this annual rate independently of each other
+/// (Poisson): 1 - exp(-rate years).
+pub fn probability_in_years(annual_rate: f64, years: f64) -> f64 {
+    -(-annual_rate * years).exp_m1()
+}

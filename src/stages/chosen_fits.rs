@@ -1,0 +1,91 @@
+//! The fits as chosen: in words, and where they do not hold.
+
+use crate::fragility::{DemandModel, FragilityModel, LimitState, Measure, OutOfRange, Slice};
+use crate::keyword::Keyword;
+use crate::motion::IntensityMeasures;
+use crate::pipeline::console::Console;
+use crate::rocking::Structure;
+
+/// The fits as chosen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChosenFits {
+    /// Suite of motions, if it has a name.
+    pub suite: Option<String>,
+    /// Structure that was simulated.
+    pub structure: String,
+    /// The fits joined.
+    pub model: FragilityModel,
+}
+
+/// A difference in eta that the response hardly feels.
+const SAME_ETA: f64 = 0.005;
+
+impl ChosenFits {
+    /// In words: of what, over which measures.
+    pub fn words(&self) -> String {
+        let model = &self.model;
+        let of = |measures: &mut dyn Iterator<Item = Measure>| {
+            measures.map(Keyword::as_str).collect::<Vec<_>>().join(" and ")
+        };
+        let demand = of(&mut model.demand.at_strong_motion().ln_median.measures());
+        let planes = match model.demand {
+            DemandModel::Everywhere(_) => String::new(),
+            DemandModel::Biplanar { transition, .. } => {
+                format!(" in two planes that meet at im4 {transition}")
+            }
+        };
+        let overturning = of(&mut model.overturning.measures());
+        let suite = self.suite.as_deref().map_or(String::new(), |suite| format!(", {suite}"));
+        format!("{}{suite}: P_ex of {demand}{planes}, P_ro of {overturning}", self.structure)
+    }
+
+    /// What a limit state is, in words.
+    pub fn meaning(&self, state: LimitState) -> String {
+        match state {
+            LimitState::Rocking => "rocking".to_string(),
+            LimitState::Failure => format!("|theta|max / alpha above {}, or overturning", self.model.limit),
+            LimitState::Overturning => "overturning".to_string(),
+        }
+    }
+
+    /// That the structure is not of the kind that was simulated.
+    pub fn warn_of_eta(&self, structure: &Structure, console: &Console) {
+        if self.is_other_eta(structure.eta) {
+            console.note(&format!(
+                "warning: eta is {:.4}, but the fits are of eta {:.4}, on which the curves depend: simulate and fit with this eta",
+                structure.eta, self.model.eta
+            ));
+        }
+    }
+
+    /// That these measures, of what `subject` says, lie outside of the data.
+    pub fn warn_of_range(&self, measures: &IntensityMeasures, subject: &str, console: &Console) {
+        let mut outside: Vec<OutOfRange> = self.model.out_of_range(measures).collect();
+        outside.dedup_by_key(|out| out.measure);
+        for OutOfRange { measure, value, range: [least, largest] } in outside {
+            console.note(&format!(
+                "warning: {subject}{} is {value:.4}, outside of {least:.4} to {largest:.4} in the data: extrapolated",
+                measure.as_str()
+            ));
+        }
+    }
+
+    /// That the p PGV / PGA of a slice lies outside of the data, or that it goes up `to` an intensity above them.
+    pub fn warn_of_slice(&self, slice: &Slice, to: f64, subject: &str, console: &Console) {
+        let strong = slice.intensity_at_im4(self.model.transition_im4().unwrap_or(1.0));
+        self.warn_of_range(&slice.measures(strong), subject, console);
+        let (largest, (unit, size)) = (slice.largest_in_data(&self.model), slice.peak.usual_unit());
+        if to > largest * (1.0 + 1e-9) {
+            console.note(&format!(
+                "warning: {subject}up to {:.4} {unit}, but the data only to {:.4} {unit}: extrapolated",
+                to / size,
+                largest / size
+            ));
+        }
+    }
+
+    /// Whether this coefficient of restitution is another one than that of the fits.
+    pub fn is_other_eta(&self, eta: f64) -> bool {
+        (eta - self.model.eta).abs() > SAME_ETA
+    }
+}

@@ -1,0 +1,61 @@
+use std::path::PathBuf;
+
+use arrow_array::RecordBatch;
+use serde_json::Value;
+
+use super::{EvaluateOptions, Format};
+use crate::pipeline::UsageError;
+use crate::table::provenance::{Provenance, content_of};
+use crate::table::schema::Table;
+use crate::table::text;
+use crate::table::writer::TableWriter;
+
+/// A short answer, in whatever format.
+pub struct Answer {
+    /// What its rows are.
+    pub table: Table,
+    /// The rows.
+    pub rows: RecordBatch,
+    /// What a reader must know, above the table.
+    pub heading: String,
+    /// What it depends on besides the fits.
+    pub parameters: Value,
+    /// A file besides the fits, by the role it plays.
+    pub input: Option<(&'static str, PathBuf)>,
+}
+
+impl Answer {
+    /// Writes it where `--out` says, or gives the text that is to be printed.
+    pub fn deliver(&self, options: &EvaluateOptions) -> anyhow::Result<String> {
+        let text = match (options.format.0, &options.out) {
+            (Format::Table, _) => format!("{}\n{}", self.heading, text::aligned(&self.rows)),
+            (Format::Csv, _) => text::csv(&self.rows)?,
+            (Format::Json, _) => text::json(&self.rows),
+            (Format::Parquet, None) => {
+                return Err(UsageError::because("format parquet needs --out FILE"));
+            }
+            (Format::Parquet, Some(out)) => {
+                let mut writer = TableWriter::create(out, &self.table, self.provenance(options)?)?;
+                writer.append(&self.rows)?;
+                writer.finish()?;
+                return Ok(String::new());
+            }
+        };
+        let Some(out) = &options.out else { return Ok(text) };
+        text::write(out, &text)?;
+        Ok(String::new())
+    }
+
+    fn provenance(&self, options: &EvaluateOptions) -> anyhow::Result<Provenance> {
+        let fits = [("pex", options.fits.pex.clone()), ("pro", options.fits.pro.clone())];
+        let mut inputs = std::collections::BTreeMap::new();
+        for (role, path) in fits.into_iter().chain(self.input.clone()) {
+            let content = match role {
+                "hazard" => blake3::hash(&std::fs::read(&path)?).to_hex().to_string(),
+                _ => content_of(&path)?,
+            };
+            inputs.insert(role.to_string(), content);
+        }
+        Ok(Provenance::new(self.table.stage, self.parameters.clone(), inputs))
+    }
+}

@@ -1,0 +1,133 @@
+use std::path::Path;
+
+use serde_json::json;
+
+use super::HazardOptions;
+use super::answer::Answer;
+use crate::fragility::{LimitState, Probability, Slice};
+use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
+use crate::keyword::Keyword;
+use crate::motion::IntensityMeasures;
+use crate::pipeline::UsageError;
+use crate::pipeline::console::Console;
+use crate::pipeline::options::check;
+use crate::rocking::Structure;
+use crate::stages::chosen_fits::ChosenFits;
+use crate::stages::structures::words;
+use crate::table::evaluated::{self, RateRow};
+use crate::table::hazard::{self, Hazard};
+use crate::table::schema::RATES;
+
+/// Value, lower and upper limit of each limit state in turn.
+type Rates = [f64; 9];
+
+/// The annual rate of each limit state over the hazard of a site. The limits are those of the probabilities at every
+/// intensity at once, as if all were too high or too low together.
+pub fn answer(
+    options: &HazardOptions,
+    path: &Path,
+    fits: &ChosenFits,
+    structure: &Structure,
+    console: &Console,
+) -> anyhow::Result<Answer> {
+    let years = options.years;
+    check(years > 0.0 && years.is_finite(), "years", years, "a time above 0")?;
+    let rates = match hazard::read(path)? {
+        Hazard::Curve(peak, curve) => {
+            let Some(ratio) = options.ratio else {
+                return Err(UsageError::because(format!(
+                    "a hazard of {} alone needs --ratio, the p PGV / PGA of its motions",
+                    peak.as_str()
+                )));
+            };
+            check(ratio > 0.0 && ratio.is_finite(), "ratio", ratio, "a p PGV / PGA above 0")?;
+            let slice = Slice { structure: structure.clone(), peak, ratio };
+            along_slice(&slice, &curve, fits, console)?
+        }
+        Hazard::Joint(joint) => over_pairs(structure, &joint, fits, console)?,
+    };
+    let row = |(index, &state): (usize, &LimitState)| {
+        let annual_rate = [0, 1, 2].map(|part| rates[3 * index + part]);
+        let probability = annual_rate.map(|rate| probability_in_years(rate, years));
+        RateRow { state, annual_rate, years, probability, meaning: fits.meaning(state) }
+    };
+    let rows: Vec<RateRow> = LimitState::ALL.iter().enumerate().map(row).collect();
+    let Structure { p_rad_s, alpha_rad, eta, .. } = structure;
+    Ok(Answer {
+        table: RATES,
+        rows: evaluated::rates(&rows)?,
+        heading: format!(
+            "fits of {}\nstructure of {}, over {}\n",
+            fits.words(),
+            words(structure),
+            path.display()
+        ),
+        parameters: json!({ "p": p_rad_s, "alpha": alpha_rad, "eta": eta, "ratio": options.ratio,
+            "years": years, "fits": fits.words() }),
+        input: Some(("hazard", path.to_path_buf())),
+    })
+}
+
+fn along_slice(
+    slice: &Slice,
+    curve: &HazardCurve,
+    fits: &ChosenFits,
+    console: &Console,
+) -> anyhow::Result<Rates> {
+    let (model, [(first, _), (last, rate_beyond)]) = (&fits.model, curve.ends());
+    let Some(at_last) = slice.limit_states(model, last) else { return Err(periods_needed()) };
+    let probabilities = |intensity: f64| flat(slice.limit_states(model, intensity));
+    let rates = curve.mean_annual_rates(&slice.jumps(model), probabilities);
+    fits.warn_of_slice(slice, last, "the hazard: ", console);
+    let (uplift, (unit, size)) = (slice.intensity_at_im4(1.0), slice.peak.usual_unit());
+    if first > uplift {
+        console.note(&format!(
+            "warning: the hazard begins at {:.4} {unit}, above uplift at {:.4} {unit}: motions between are not counted",
+            first / size,
+            uplift / size
+        ));
+    }
+    let uncounted = rate_beyond * (1.0 - at_last[2].value);
+    if uncounted > 0.01 * rates[6] {
+        console.note(&format!(
+            "warning: the hazard ends at {:.4} {unit}; stronger motions count as this one, and could add {uncounted:.1e} a year",
+            last / size
+        ));
+    }
+    Ok(rates)
+}
+
+fn over_pairs(
+    structure: &Structure,
+    joint: &JointHazard,
+    fits: &ChosenFits,
+    console: &Console,
+) -> anyhow::Result<Rates> {
+    let model = &fits.model;
+    let measures =
+        |bin: &PairOfPeaks| IntensityMeasures::new(structure, bin.pga_m_s2, bin.pgv_m_s, None, None);
+    let states = |bin: &PairOfPeaks| model.probabilities(&measures(bin)).limit_states();
+    if joint.bins.iter().any(|bin| states(bin).is_none()) {
+        return Err(periods_needed());
+    }
+    let is_outside = |bin: &&PairOfPeaks| model.out_of_range(&measures(bin)).next().is_some();
+    let outside = joint.bins.iter().filter(is_outside).count();
+    if outside > 0 {
+        let all = joint.bins.len();
+        console.note(&format!("warning: {outside} of {all} bins lie outside of the data: extrapolated"));
+    }
+    Ok(joint.mean_annual_rates(|bin| flat(states(bin))))
+}
+
+fn flat(states: Option<[Probability; 3]>) -> Rates {
+    let parts = states.map(|states| states.map(|p| [p.value, p.low, p.high]));
+    let mut flat = [f64::NAN; 9];
+    flat.iter_mut().zip(parts.iter().flatten().flatten()).for_each(|(cell, part)| *cell = *part);
+    flat
+}
+
+fn periods_needed() -> anyhow::Error {
+    UsageError::because(
+        "these fits need the period of each motion, or a velocity above 0; a hazard has none: use the bivariate model, or --measure im4 or im5",
+    )
+}

@@ -1,0 +1,135 @@
+use std::path::PathBuf;
+
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use super::EvaluateOptions;
+use crate::pipeline::console::Console;
+use crate::pipeline::stage::Stage;
+use crate::pipeline::stream::pipelined;
+use crate::rocking::Structure;
+use crate::stages::chosen_fits::ChosenFits;
+use crate::table::evaluated::{self, EvaluatedRow};
+use crate::table::intensities::{Intensity, IntensityBatches};
+use crate::table::provenance::Provenance;
+use crate::table::schema::EVALUATED;
+use crate::table::writer::TableWriter;
+
+/// Rows that are read at once.
+const BATCH: usize = 16_384;
+
+/// Probabilities at each intensity of a table, ready to run.
+pub struct EvaluateTable {
+    fits: ChosenFits,
+    pex: PathBuf,
+    pro: PathBuf,
+    /// Of all rows; without it each row has its own.
+    structure: Option<Structure>,
+    input: PathBuf,
+    out: PathBuf,
+}
+
+impl EvaluateTable {
+    /// At the intensities in `input`, into the file `out`.
+    ///
+    /// # Errors
+    /// If the structure in the options is impossible.
+    pub fn new(
+        options: &EvaluateOptions,
+        fits: ChosenFits,
+        input: PathBuf,
+        out: PathBuf,
+    ) -> anyhow::Result<EvaluateTable> {
+        let given = options.structure.is_given();
+        let structure = given.then(|| options.structure.structure(fits.model.eta)).transpose()?;
+        let (pex, pro) = (options.fits.pex.clone(), options.fits.pro.clone());
+        Ok(EvaluateTable { fits, pex, pro, structure, input, out })
+    }
+
+    fn row(&self, intensity: &Intensity) -> EvaluatedRow {
+        let (model, measures) = (&self.fits.model, &intensity.measures);
+        let probabilities = model.probabilities(measures);
+        EvaluatedRow {
+            p_rad_s: intensity.structure.p_rad_s,
+            alpha_rad: intensity.structure.alpha_rad,
+            pga_m_s2: intensity.pga_m_s2,
+            pgv_m_s: intensity.pgv_m_s,
+            probabilities,
+            out_of_range: model.out_of_range(measures).next().map(|out| out.measure),
+        }
+    }
+}
+
+/// Rows that need a word of warning.
+#[derive(Default)]
+struct Doubtful {
+    out_of_range: u64,
+    other_eta: u64,
+    without_measure: u64,
+}
+
+impl Doubtful {
+    fn warn(&self, fits: &ChosenFits, console: &Console) {
+        let eta = format!("another eta than the fits ({}): they depend on it", fits.model.eta);
+        for (rows, reason) in [
+            (self.out_of_range, "a measure outside of the data (column out_of_range): extrapolated"),
+            (self.other_eta, &eta),
+            (self.without_measure, "no value of a measure that the fits need: their probabilities are null"),
+        ] {
+            if rows > 0 {
+                console.note(&format!("warning: {rows} rows have {reason}"));
+            }
+        }
+    }
+}
+
+impl Stage for EvaluateTable {
+    fn subcommand(&self) -> &'static str {
+        EVALUATED.stage
+    }
+
+    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
+        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), ("intensities", self.input.clone())]
+    }
+
+    fn outputs(&self) -> Vec<PathBuf> {
+        vec![self.out.clone()]
+    }
+
+    fn parameters(&self) -> Value {
+        let structure = self.structure.as_ref();
+        let structure = structure.map(|s| json!({ "p": s.p_rad_s, "alpha": s.alpha_rad, "eta": s.eta }));
+        json!({ "fits": self.fits.words(), "structure": structure })
+    }
+
+    fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        let nameless = self.structure.clone().map(|structure| Structure { name: String::new(), ..structure });
+        let intensities = IntensityBatches::open(&self.input, nameless, self.fits.model.eta, BATCH)?;
+        let total = intensities.rows();
+        let mut writer = TableWriter::create(&self.out, &EVALUATED, provenance.clone())?;
+        let mut doubtful = Doubtful::default();
+        let bar = console.bar(self.subcommand(), total);
+        pipelined(
+            intensities.map(|batch| Ok(batch?)),
+            |batch| {
+                let rows: Vec<EvaluatedRow> = batch.par_iter().map(|intensity| self.row(intensity)).collect();
+                let other_eta = batch.iter().filter(|row| self.fits.is_other_eta(row.structure.eta)).count();
+                Ok((evaluated::batch(&rows)?, rows, other_eta))
+            },
+            |(batch, rows, other_eta)| {
+                let rocks_unknown = |row: &&EvaluatedRow| {
+                    row.probabilities.p_nr == 0.0 && row.probabilities.given_rocking.is_none()
+                };
+                doubtful.out_of_range += rows.iter().filter(|row| row.out_of_range.is_some()).count() as u64;
+                doubtful.other_eta += other_eta as u64;
+                doubtful.without_measure += rows.iter().filter(rocks_unknown).count() as u64;
+                bar.inc(rows.len() as u64);
+                Ok(writer.append(&batch)?)
+            },
+        )?;
+        writer.finish()?;
+        bar.finish_and_clear();
+        doubtful.warn(&self.fits, console);
+        Ok(format!("{total} rows"))
+    }
+}

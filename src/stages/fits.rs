@@ -1,0 +1,157 @@
+//! The fits that evaluate and export start from: which suite, which structure, which model.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::chosen_fits::ChosenFits;
+use super::fit_pro::FittedEvent;
+use crate::fragility::{DemandModel, FragilityModel, Measure};
+use crate::keyword::{Keyword, keywords};
+use crate::pipeline::UsageError;
+use crate::pipeline::options::Word;
+use crate::table::fits::{self, FitRow};
+use crate::table::pex::Model;
+use crate::table::schema;
+
+/// Which fits.
+#[derive(Debug, Clone, Args)]
+pub struct FitsOptions {
+    /// Regressions of fit-pex
+    #[arg(long, value_name = "FILE", default_value = "pex.parquet")]
+    pub pex: PathBuf,
+    /// Curves of fit-pro
+    #[arg(long, value_name = "FILE", default_value = "pro.parquet")]
+    pub pro: PathBuf,
+    /// Suite of the fits [default: the only one]
+    #[arg(long)]
+    pub suite: Option<String>,
+    /// Structure of the fits [default: the only one]
+    #[arg(long)]
+    pub structure: Option<String>,
+    /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate
+    #[arg(long, default_value = "bivariate")]
+    pub model: Word<ModelForm>,
+    /// Measure of the univariate model, im1 to im6 [default: im5]
+    #[arg(long, value_name = "IM")]
+    pub measure: Option<Word<Measure>>,
+}
+
+/// How many measures the curves have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ModelForm {
+    /// One.
+    Univariate,
+    /// Two.
+    Bivariate,
+}
+
+keywords!(ModelForm { Univariate = "univariate", Bivariate = "bivariate" });
+
+impl FitsOptions {
+    /// Reads the files and chooses.
+    ///
+    /// # Errors
+    /// If a file cannot be read, the choice is open, or there is no such fit.
+    pub fn choose(&self) -> anyhow::Result<ChosenFits> {
+        let (regressions, curves) = (fits::regressions(&self.pex)?, fits::curves(&self.pro)?);
+        let (suite, structure) = self.group(&regressions)?;
+        let of_group = |row: &&FitRow| group_of(row) == (suite.clone(), structure.clone());
+        let regressions: Vec<&FitRow> = regressions.iter().filter(of_group).collect();
+        let curves: Vec<&FitRow> = curves.iter().filter(of_group).collect();
+        let (demand, pair) = match (self.model.0, self.measure) {
+            (ModelForm::Bivariate, Some(measure)) => {
+                return Err(UsageError::because(format!("measure {measure} needs --model univariate")));
+            }
+            (ModelForm::Bivariate, None) => {
+                (self.biplanar(&regressions)?, (Measure::Im4, Some(Measure::Im3Inverse)))
+            }
+            (ModelForm::Univariate, measure) => {
+                let measure = measure.map_or(Measure::Im5, |word| word.0);
+                (self.univariate(&regressions, measure)?, (measure, None))
+            }
+        };
+        let curve = self.curve(&curves, pair)?;
+        let limit = regressions.first().map(|row| row.number(&schema::LIMIT_STATE));
+        let limit = limit.transpose()?.unwrap_or(f64::NAN);
+        let model =
+            FragilityModel { demand, limit, overturning: curve.probit()?, eta: curve.number(&schema::ETA)? };
+        Ok(ChosenFits { suite, structure, model })
+    }
+
+    /// The one suite and structure that the options leave.
+    fn group(&self, rows: &[FitRow]) -> anyhow::Result<Group> {
+        let mut groups: Vec<Group> = Vec::new();
+        for group in rows.iter().map(group_of) {
+            if !groups.contains(&group) {
+                groups.push(group);
+            }
+        }
+        let asked = |(suite, structure): &&Group| {
+            (self.suite.is_none() || self.suite == *suite)
+                && self.structure.as_ref().is_none_or(|asked| asked == structure)
+        };
+        let left: Vec<&Group> = groups.iter().filter(asked).collect();
+        if let [group] = left[..] {
+            return Ok(group.clone());
+        }
+        let list = if left.is_empty() { groups.iter().collect() } else { left };
+        let words = list.iter().map(|(suite, structure)| match suite {
+            Some(suite) => format!("--suite {suite} --structure {structure}"),
+            None => format!("--structure {structure}"),
+        });
+        let words = words.collect::<Vec<_>>().join(", or ");
+        Err(UsageError::because(format!("{}: expected the choice of one fit: {words}", self.pex.display())))
+    }
+
+    fn biplanar(&self, rows: &[&FitRow]) -> anyhow::Result<DemandModel> {
+        let planes = || rows.iter().filter(|row| row.text(&schema::MODEL) == Some(Model::Biplanar.as_str()));
+        let plane = |below: bool, side: &str| -> anyhow::Result<&FitRow> {
+            let mut on_side =
+                planes().filter(|row| row.optional_number(&schema::RANGE_HIGH).is_some() == below);
+            found(on_side.next().copied(), &self.pex, &format!("plane {side} the transition"))
+        };
+        let (low, high) = (plane(true, "below")?, plane(false, "above")?);
+        let transition = high.number(&schema::RANGE_LOW)?;
+        Ok(DemandModel::Biplanar { transition, low: low.demand()?, high: high.demand()? })
+    }
+
+    fn univariate(&self, rows: &[&FitRow], measure: Measure) -> anyhow::Result<DemandModel> {
+        let mut rows = rows.iter().filter(|row| row.text(&schema::MODEL) == Some(Model::Univariate.as_str()));
+        let row = rows.find(|row| row.text(&schema::IM_X) == Some(measure.as_str()));
+        let row = found(row.copied(), &self.pex, &format!("univariate regression on {}", measure.as_str()))?;
+        Ok(DemandModel::Everywhere(row.demand()?))
+    }
+
+    fn curve<'a>(
+        &self,
+        rows: &[&'a FitRow],
+        (x, y): (Measure, Option<Measure>),
+    ) -> anyhow::Result<&'a FitRow> {
+        let wanted = |row: &&&FitRow| {
+            row.text(&schema::FITTED_EVENT) == Some(FittedEvent::Overturning.as_str())
+                && row.text(&schema::IM_X) == Some(x.as_str())
+                && row.text(&schema::IM_Y) == y.map(Keyword::as_str)
+        };
+        let second = y.map_or(String::new(), |y| format!(":{}", y.as_str()));
+        let what = format!("curve of overturning on {}{second}", x.as_str());
+        found(rows.iter().find(wanted).copied(), &self.pro, &what)
+    }
+}
+
+/// A suite and a structure.
+type Group = (Option<String>, String);
+
+fn group_of(row: &FitRow) -> Group {
+    let structure = row.text(&schema::STRUCTURE).unwrap_or_default().to_string();
+    (row.text(&schema::SUITE).map(str::to_string), structure)
+}
+
+/// The row, if it is there and holds a fit.
+fn found<'a>(row: Option<&'a FitRow>, path: &Path, what: &str) -> anyhow::Result<&'a FitRow> {
+    match row {
+        Some(row) if row.is_ok() => Ok(row),
+        Some(row) => anyhow::bail!("{}: the {what} is {}; expected ok", path.display(), row.status()),
+        None => anyhow::bail!("{}: no {what}; expected the output of fit-pex or fit-pro", path.display()),
+    }
+}

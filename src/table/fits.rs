@@ -1,0 +1,176 @@
+//! The rows of pex and pro files, as evaluate and export take them.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use super::TableError;
+use super::columns::Columns;
+use super::reader::{Batch, Batches};
+use super::schema::{self, Column, Kind, PEX, PRO, Table};
+use crate::fragility::{DemandLaw, FitStatus, Measure, Predictor};
+use crate::keyword::{self, Keyword};
+
+/// Rows that are decoded at once.
+const BATCH: usize = 8192;
+
+/// A row of a pex or pro file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FitRow {
+    path: PathBuf,
+    row: u64,
+    text: HashMap<&'static str, String>,
+    numbers: HashMap<&'static str, f64>,
+}
+
+/// The regressions of a pex file.
+///
+/// # Errors
+/// If it is none.
+pub fn regressions(path: &Path) -> Result<Vec<FitRow>, TableError> {
+    rows(path, &PEX)
+}
+
+/// The curves of a pro file.
+///
+/// # Errors
+/// If it is none.
+pub fn curves(path: &Path) -> Result<Vec<FitRow>, TableError> {
+    rows(path, &PRO)
+}
+
+fn rows(path: &Path, table: &Table) -> Result<Vec<FitRow>, TableError> {
+    let mut rows: Vec<FitRow> = Vec::new();
+    for batch in Batches::open(path, &[table.stage], table.columns, BATCH)? {
+        let Batch { rows: batch, first_row } = batch?;
+        let columns = Columns::new(path, &batch, first_row);
+        let row = |row| FitRow {
+            path: path.to_path_buf(),
+            row: first_row + row as u64,
+            text: HashMap::new(),
+            numbers: HashMap::new(),
+        };
+        let mut fits: Vec<FitRow> = (0..columns.rows()).map(row).collect();
+        for column in table.columns {
+            if column.kind == Kind::Text {
+                for (fit, text) in fits.iter_mut().zip(columns.optional_text(column)?) {
+                    fit.text.extend(text.map(|text| (column.name, text)));
+                }
+            } else {
+                for (fit, number) in fits.iter_mut().zip(numbers(&columns, column)?) {
+                    fit.numbers.extend(number.map(|number| (column.name, number)));
+                }
+            }
+        }
+        rows.extend(fits);
+    }
+    Ok(rows)
+}
+
+fn numbers(columns: &Columns, column: &Column) -> Result<Vec<Option<f64>>, TableError> {
+    match column.kind {
+        Kind::Float64 => columns.optional_numbers(column),
+        _ => Ok(columns.integers(column)?.into_iter().map(|count| Some(count as f64)).collect()),
+    }
+}
+
+impl FitRow {
+    /// The text of a column, if it has one.
+    pub fn text(&self, column: &Column) -> Option<&str> {
+        self.text.get(column.name).map(String::as_str)
+    }
+
+    /// The number of a column, if it has one.
+    pub fn optional_number(&self, column: &Column) -> Option<f64> {
+        self.numbers.get(column.name).copied()
+    }
+
+    /// The number of a column.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn number(&self, column: &Column) -> Result<f64, TableError> {
+        let missing = || self.error(column, "null; expected a number: fit again with --force".to_string());
+        self.optional_number(column).ok_or_else(missing)
+    }
+
+    /// The measure of a column, if it has one.
+    ///
+    /// # Errors
+    /// If it is none of the known ones.
+    pub fn measure(&self, column: &Column) -> Result<Option<Measure>, TableError> {
+        let parse = |word| keyword::parse(word).map_err(|unknown| self.error(column, unknown.to_string()));
+        self.text(column).map(parse).transpose()
+    }
+
+    /// Why there is no fit in this row, or "ok".
+    pub fn status(&self) -> &str {
+        self.text(&schema::STATUS).unwrap_or_default()
+    }
+
+    /// Whether there is a fit in this row.
+    pub fn is_ok(&self) -> bool {
+        self.status() == FitStatus::Ok.as_str()
+    }
+
+    /// The demand in a row of a pex file.
+    ///
+    /// # Errors
+    /// If the row lacks a number.
+    pub fn demand(&self) -> Result<DemandLaw, TableError> {
+        let im_y = self.measure(&schema::IM_Y)?;
+        let second = |column| if im_y.is_some() { self.number(column) } else { Ok(0.0) };
+        let (a, b1, b2) =
+            (self.number(&schema::SE_LN_A)?, self.number(&schema::SE_B1)?, second(&schema::SE_B2)?);
+        let [ab1, ab2, b1b2] =
+            [self.number(&schema::COV_LN_A_B1)?, second(&schema::COV_LN_A_B2)?, second(&schema::COV_B1_B2)?];
+        let ln_median = self.predictor(
+            [self.number(&schema::LN_A)?, self.number(&schema::B1)?, second(&schema::B2)?],
+            [[a * a, ab1, ab2], [ab1, b1 * b1, b1b2], [ab2, b1b2, b2 * b2]],
+        )?;
+        let coefficients = 1.0 + ln_median.measures().count() as f64;
+        let degrees = self.number(&schema::N)? - coefficients;
+        Ok(DemandLaw { ln_median, beta: self.number(&schema::BETA)?, degrees })
+    }
+
+    /// The probit index in a row of a pro file: (ln IM - mu) / beta, with ln IM = (lambda ln IMx + ln IMy) / (1 + lambda)
+    /// (Eq. 22) of two measures.
+    ///
+    /// # Errors
+    /// If the row lacks a number.
+    pub fn probit(&self) -> Result<Predictor, TableError> {
+        let (mu, beta) = (self.number(&schema::MU)?, self.number(&schema::BETA)?);
+        let im_y = self.measure(&schema::IM_Y)?;
+        let weight_x = match im_y {
+            Some(_) => self.number(&schema::LAMBDA).map(|lambda| lambda / (1.0 + lambda))?,
+            None => 1.0,
+        };
+        let second = |column| if im_y.is_some() { self.number(column) } else { Ok(0.0) };
+        let [b00, b01, b11] = [
+            self.number(&schema::COV_B0_B0)?,
+            self.number(&schema::COV_B0_B1)?,
+            self.number(&schema::COV_B1_B1)?,
+        ];
+        let [b02, b12, b22] =
+            [second(&schema::COV_B0_B2)?, second(&schema::COV_B1_B2)?, second(&schema::COV_B2_B2)?];
+        self.predictor(
+            [-mu / beta, weight_x / beta, (1.0 - weight_x) / beta],
+            [[b00, b01, b02], [b01, b11, b12], [b02, b12, b22]],
+        )
+    }
+
+    fn predictor(&self, coefficients: [f64; 3], covariance: [[f64; 3]; 3]) -> Result<Predictor, TableError> {
+        let missing = || self.error(&schema::IM_X, "null; expected a measure".to_string());
+        let im_x = self.measure(&schema::IM_X)?.ok_or_else(missing)?;
+        let im_y = self.measure(&schema::IM_Y)?;
+        let range_x = [self.number(&schema::IM_X_LOW)?, self.number(&schema::IM_X_HIGH)?];
+        let range_y = match im_y {
+            Some(_) => [self.number(&schema::IM_Y_LOW)?, self.number(&schema::IM_Y_HIGH)?],
+            None => [0.0; 2],
+        };
+        Ok(Predictor { im_x, im_y, coefficients, covariance, ranges: [range_x, range_y] })
+    }
+
+    fn error(&self, column: &Column, problem: String) -> TableError {
+        TableError::Value { path: self.path.clone(), row: self.row, column: column.name.to_string(), problem }
+    }
+}

@@ -1,0 +1,129 @@
+//! A table of intensities, ours (motions, responses) or anyone's: pga_m_s2 and pgv_m_s, and what else is there.
+
+use std::f64::consts::FRAC_PI_2;
+use std::path::{Path, PathBuf};
+
+use super::TableError;
+use super::columns::Columns;
+use super::reader::{Batch, Batches, expect_columns};
+use super::schema::{self, Column};
+use crate::motion::IntensityMeasures;
+use crate::rocking::Structure;
+
+/// The stages whose output can stand as a table of intensities.
+const STAGES: [&str; 4] = ["synthesize-motions", "import-motions", "simulate", "evaluate"];
+
+const PEAKS: [Column; 2] = [schema::PGA_M_S2, schema::PGV_M_S];
+const STRUCTURE: [Column; 2] = [schema::P_RAD_S, schema::ALPHA_RAD];
+const READ: [Column; 7] = [
+    schema::PGA_M_S2,
+    schema::PGV_M_S,
+    schema::P_RAD_S,
+    schema::ALPHA_RAD,
+    schema::ETA,
+    schema::TP_S,
+    schema::TM_S,
+];
+
+/// A structure and the motion that it meets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Intensity {
+    /// The structure; nameless where it comes from the row.
+    pub structure: Structure,
+    /// Peak ground acceleration, m/s2.
+    pub pga_m_s2: f64,
+    /// Peak ground velocity, m/s.
+    pub pgv_m_s: f64,
+    /// Eq. 13.
+    pub measures: IntensityMeasures,
+}
+
+/// The rows of a table of intensities, some at a time.
+pub struct IntensityBatches {
+    path: PathBuf,
+    batches: Batches,
+    structure: Option<Structure>,
+    eta: f64,
+}
+
+impl IntensityBatches {
+    /// Opens the table, `batch_size` rows at a time. `structure` holds for all rows; without one each row must have its
+    /// own p and alpha, and `eta` holds where it has no eta.
+    ///
+    /// # Errors
+    /// If the file is missing, unreadable, empty, of another stage, or lacks a column.
+    pub fn open(
+        path: &Path,
+        structure: Option<Structure>,
+        eta: f64,
+        batch_size: usize,
+    ) -> Result<IntensityBatches, TableError> {
+        let batches = Batches::open(path, &STAGES, &READ, batch_size)?;
+        expect_columns(path, batches.schema(), &PEAKS)?;
+        if structure.is_none() {
+            expect_columns(path, batches.schema(), &STRUCTURE)?;
+        }
+        Ok(IntensityBatches { path: path.to_path_buf(), batches, structure, eta })
+    }
+
+    /// How many rows the table has.
+    pub fn rows(&self) -> u64 {
+        self.batches.rows()
+    }
+
+    fn intensities(&self, Batch { rows, first_row }: &Batch) -> Result<Vec<Intensity>, TableError> {
+        let columns = Columns::new(&self.path, rows, *first_row);
+        let not_negative = "0 or more";
+        let pga = within(&columns, &schema::PGA_M_S2, |pga| pga >= 0.0, not_negative)?;
+        let pgv = within(&columns, &schema::PGV_M_S, |pgv| pgv >= 0.0, not_negative)?;
+        let (tp, tm) = (columns.optional_numbers(&schema::TP_S)?, columns.optional_numbers(&schema::TM_S)?);
+        let structures = self.structures(&columns)?;
+        let intensity = |(row, structure): (usize, Structure)| Intensity {
+            measures: IntensityMeasures::new(&structure, pga[row], pgv[row], tp[row], tm[row]),
+            structure,
+            pga_m_s2: pga[row],
+            pgv_m_s: pgv[row],
+        };
+        Ok(structures.into_iter().enumerate().map(intensity).collect())
+    }
+
+    fn structures(&self, columns: &Columns) -> Result<Vec<Structure>, TableError> {
+        if let Some(structure) = &self.structure {
+            return Ok(vec![structure.clone(); columns.rows()]);
+        }
+        let p = within(columns, &schema::P_RAD_S, |p| p > 0.0, "a frequency parameter above 0 rad/s")?;
+        let slender = "a slenderness between 0 and pi/2 rad";
+        let alpha = within(columns, &schema::ALPHA_RAD, |alpha| alpha > 0.0 && alpha < FRAC_PI_2, slender)?;
+        let eta = columns.optional_numbers(&schema::ETA)?;
+        let structure = |((p_rad_s, alpha_rad), eta): ((f64, f64), Option<f64>)| Structure {
+            name: String::new(),
+            p_rad_s,
+            alpha_rad,
+            eta: eta.unwrap_or(self.eta),
+        };
+        Ok(p.into_iter().zip(alpha).zip(eta).map(structure).collect())
+    }
+}
+
+impl Iterator for IntensityBatches {
+    type Item = Result<Vec<Intensity>, TableError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let batch = self.batches.next()?;
+        Some(batch.and_then(|batch| self.intensities(&batch)))
+    }
+}
+
+/// The numbers of a column, all within what is possible.
+fn within(
+    columns: &Columns,
+    column: &Column,
+    possible: impl Fn(f64) -> bool,
+    expected: &str,
+) -> Result<Vec<f64>, TableError> {
+    let values = columns.numbers(column)?;
+    match values.iter().position(|&value| !possible(value)) {
+        Some(row) => Err(columns.value_error(row, column, &format!("{}; expected {expected}", values[row]))),
+        None => Ok(values),
+    }
+}

@@ -1,0 +1,112 @@
+//! A narrow table as text: aligned for reading, CSV, JSON.
+
+use std::io::Write;
+use std::path::Path;
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::Float64Type;
+use arrow_array::{Array, ArrayRef, RecordBatch};
+use arrow_schema::DataType;
+use serde_json::Value;
+
+use super::TableError;
+use super::writer::temporary_beside;
+
+/// Writes a text beside its name and renames it when it is whole.
+///
+/// # Errors
+/// If the folder is not there or cannot be written.
+pub fn write(path: &Path, text: &str) -> Result<(), TableError> {
+    let mut partial = temporary_beside(path)?;
+    partial.write_all(text.as_bytes()).map_err(|source| TableError::io(path, source))?;
+    partial.persist(path).map_err(|refused| TableError::io(path, refused.error))?;
+    Ok(())
+}
+
+/// Aligned columns under their names: numbers to the right with four significant digits, "-" where there is none.
+pub fn aligned(batch: &RecordBatch) -> String {
+    let schema = batch.schema();
+    let columns = schema.fields().iter().zip(batch.columns()).map(|(field, array)| {
+        let cells = (0..array.len()).map(|row| match cell(array, row) {
+            Cell::Nothing => "-".to_string(),
+            Cell::Text(text) => text.to_string(),
+            Cell::Number(number) => short(number),
+        });
+        let cells: Vec<String> = std::iter::once(field.name().clone()).chain(cells).collect();
+        let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0);
+        let to_the_right = field.data_type() != &DataType::Utf8;
+        let pad =
+            |cell: &String| if to_the_right { format!("{cell:>width$}") } else { format!("{cell:width$}") };
+        cells.iter().map(pad).collect::<Vec<String>>()
+    });
+    let columns: Vec<Vec<String>> = columns.collect();
+    let line = |row: usize| {
+        let cells = columns.iter().map(|column| column[row].as_str()).collect::<Vec<_>>();
+        format!("{}\n", cells.join("  ").trim_end())
+    };
+    (0..=batch.num_rows()).map(line).collect()
+}
+
+/// Comma-separated values, names in the first line, numbers in full, nothing where there is none.
+///
+/// # Errors
+/// If memory runs out.
+pub fn csv(batch: &RecordBatch) -> anyhow::Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(batch.schema().fields().iter().map(|field| field.name().as_str()))?;
+    for row in 0..batch.num_rows() {
+        writer.write_record(batch.columns().iter().map(|array| match cell(array, row) {
+            Cell::Nothing => String::new(),
+            Cell::Text(text) => text.to_string(),
+            Cell::Number(number) => number.to_string(),
+        }))?;
+    }
+    Ok(String::from_utf8(writer.into_inner()?)?)
+}
+
+/// A list of objects, one a row; null where there is no value.
+pub fn json(batch: &RecordBatch) -> String {
+    let schema = batch.schema();
+    let object = |row: usize| {
+        let pairs = schema.fields().iter().zip(batch.columns()).map(|(field, array)| {
+            let value = match cell(array, row) {
+                Cell::Nothing => Value::Null,
+                Cell::Text(text) => Value::from(text),
+                Cell::Number(number) => Value::from(number),
+            };
+            format!("{}: {value}", Value::from(field.name().as_str()))
+        });
+        format!("  {{ {} }}", pairs.collect::<Vec<_>>().join(", "))
+    };
+    let objects = (0..batch.num_rows()).map(object).collect::<Vec<_>>();
+    format!("[\n{}\n]\n", objects.join(",\n"))
+}
+
+enum Cell<'a> {
+    Nothing,
+    Text(&'a str),
+    Number(f64),
+}
+
+/// A cell of a column of text or of floating-point numbers; all other types are no part of narrow tables for reading.
+fn cell(array: &ArrayRef, row: usize) -> Cell<'_> {
+    if array.is_null(row) {
+        return Cell::Nothing;
+    }
+    match (array.as_string_opt::<i32>(), array.as_primitive_opt::<Float64Type>()) {
+        (Some(text), _) => Cell::Text(text.value(row)),
+        (_, Some(numbers)) => Cell::Number(numbers.value(row)),
+        _ => Cell::Nothing,
+    }
+}
+
+/// With four significant digits.
+fn short(number: f64) -> String {
+    if number == 0.0 {
+        return "0".to_string();
+    }
+    match number.abs().log10().floor() as i32 {
+        magnitude @ -4..5 => format!("{number:.*}", (3 - magnitude).max(0) as usize),
+        _ => format!("{number:.3e}"),
+    }
+}

@@ -1,0 +1,225 @@
+//! evaluate as a user calls it.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+use arrow_array::{ArrayRef, Float64Array};
+use rockfrag::fragility::{p_failure_given_rocking, p_overturning};
+use rockfrag::table::fits::{FitRow, curves};
+use rockfrag::table::schema;
+
+use crate::common::{content, fail, rockfrag, succeed, write};
+
+/// Enough motions for both planes.
+const PIPELINE: &str = "\
+sample-scenarios: { mw: \"6,7\", re: \"5,10\", samples: 60 }
+synthesize-motions: { suite: [pulse, csgm], dt: 0.01 }
+simulate:
+  structures:
+    - { name: frame, p: 1.0, alpha: 0.15, eta: 0.92 }
+    - { name: electrical-equipment, p: 2.5, alpha: 0.20, eta: 0.92 }
+fit-pex: { transition: 1.3 }
+fit-pro: {}
+";
+
+/// The folder of a run of that pipeline, made once for all tests.
+fn run_folder() -> &'static Path {
+    static RUN: OnceLock<PathBuf> = OnceLock::new();
+    RUN.get_or_init(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("evaluate");
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("pipeline.yaml"), PIPELINE).unwrap();
+        succeed(&folder, "run");
+        folder.join("out")
+    })
+}
+
+/// A folder of one's own, and options that choose the fits of the worked example.
+pub fn fitted() -> (tempfile::TempDir, String) {
+    let run = run_folder().display();
+    let chosen = format!(
+        "--pex {run}/pex.parquet --pro {run}/pro.parquet --suite csgm --structure electrical-equipment"
+    );
+    (tempfile::tempdir().unwrap(), chosen)
+}
+
+fn stdout(folder: &Path, arguments: &str) -> String {
+    let output = rockfrag(folder).args(arguments.split_whitespace()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// A quantity of an answer in CSV.
+fn quantity(answer: &str, name: &str) -> Option<f64> {
+    let row = answer.lines().map(|line| line.split(',').collect::<Vec<_>>()).find(|cells| cells[0] == name);
+    row.unwrap()[1].parse().ok()
+}
+
+#[test]
+fn the_worked_example_of_section_3_is_answered() {
+    let (folder, fits) = fitted();
+    let hybrid = |row: &FitRow| row.text(&schema::IM_Y) == Some("im3_inv");
+    let of = |row: &FitRow| {
+        row.text(&schema::SUITE) == Some("csgm")
+            && row.text(&schema::STRUCTURE) == Some("electrical-equipment")
+    };
+    let rows = curves(&run_folder().join("pro.parquet")).unwrap();
+    let row = rows.iter().find(|row| hybrid(row) && of(row)).unwrap();
+    let [lambda, mu, beta] =
+        [schema::LAMBDA, schema::MU, schema::BETA].map(|column| row.number(&column).unwrap());
+    for im in [1.55f64, 1.88] {
+        // Where p PGV / PGA is 0.3, the PGA that makes the hybrid measure (Eq. 22) this.
+        let im4 = (im.powf(1.0 + lambda) / 0.3).powf(1.0 / lambda);
+        let pga_g = im4 * 0.2f64.tan();
+        let pgv = 0.3 * pga_g * 9.81 / 2.5;
+        let answer = stdout(
+            folder.path(),
+            &format!("evaluate {fits} --p 2.5 --alpha 0.2 --pga {pga_g} --pgv {pgv} --format csv"),
+        );
+        let number = |name| quantity(&answer, name).unwrap();
+        assert!((number("im_hybrid") - im).abs() < 1e-12);
+        assert!((number("p_ro") - p_overturning(im, mu, beta)).abs() < 1e-12);
+        let joined = p_failure_given_rocking(number("p_ro"), number("p_ex"));
+        assert!((number("p_f_r") - joined).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn answers_come_in_every_format() {
+    let (folder, fits) = fitted();
+    let ask = |rest: &str| {
+        stdout(folder.path(), &format!("evaluate {fits} --p 2.5 --alpha 0.2 --pga 0.5 --pgv 0.6 {rest}"))
+    };
+    let table = ask("");
+    assert!(table.contains("p_f_r") && table.contains("Eq. 12"), "{table}");
+    let json: serde_json::Value = serde_json::from_str(&ask("--format json")).unwrap();
+    assert_eq!(json[2]["quantity"], "p_ro");
+    assert_eq!(json[2]["value"].as_f64(), quantity(&ask("--format csv"), "p_ro"));
+    assert_eq!(ask("--format parquet --out a.parquet"), "");
+    assert!(stdout(folder.path(), "inspect a.parquet").contains("made by evaluate"));
+    assert_eq!(ask("--format csv --out a.csv"), "");
+    assert_eq!(std::fs::read_to_string(folder.path().join("a.csv")).unwrap(), ask("--format csv"));
+}
+
+#[test]
+fn below_uplift_nothing_fails() {
+    let (folder, fits) = fitted();
+    let answer = stdout(
+        folder.path(),
+        &format!("evaluate {fits} --p 2.5 --alpha 0.2 --pga 0.2 --pgv 0.6 --format csv"),
+    );
+    assert_eq!((quantity(&answer, "p_nr"), quantity(&answer, "p_ro")), (Some(1.0), None));
+    assert_eq!(quantity(&answer, "p_f"), Some(0.0));
+}
+
+#[test]
+fn extrapolation_is_told_with_the_reason() {
+    let (folder, fits) = fitted();
+    let ask = |rest: &str| succeed(folder.path(), &format!("evaluate {fits} {rest}"));
+    assert_eq!(ask("--p 2.5 --alpha 0.2 --pga 0.5 --pgv 0.6"), "");
+    let told = ask("--p 2.5 --alpha 0.2 --pga 5 --pgv 6");
+    assert!(told.contains("im4 is 24.6658, outside of 1.30"), "{told}");
+    let told = ask("--p 2.5 --alpha 0.2 --eta 0.8 --pga 0.5 --pgv 0.6");
+    assert!(told.contains("eta is 0.8000, but the fits are of eta 0.9200"), "{told}");
+}
+
+#[test]
+fn structures_come_by_dimensions_or_by_name() {
+    let (folder, fits) = fitted();
+    let ask = |rest: &str| {
+        stdout(folder.path(), &format!("evaluate {fits} --pga 0.5 --pgv 0.6 --format csv {rest}"))
+    };
+    std::fs::write(folder.path().join("s.yaml"), "- { name: a, width: 0.4, height: 1.6, eta: 0.92 }\n")
+        .unwrap();
+    assert_eq!(
+        ask("--structures s.yaml --name a"),
+        ask("--width 0.4 --height 1.6 --eta 0.92"),
+        "the same block either way"
+    );
+    let univariate = ask("--p 2.5 --alpha 0.2 --model univariate --measure im4");
+    assert!(!univariate.contains("im_hybrid") && quantity(&univariate, "p_ro").is_some());
+}
+
+#[test]
+fn a_table_has_the_same_answers_on_any_number_of_threads() {
+    let (folder, fits) = fitted();
+    let run = run_folder().display();
+    let table = format!("--in {run}/motions.parquet --p 2.5 --alpha 0.2");
+    succeed(folder.path(), &format!("evaluate {fits} {table} --out one.parquet --threads 1"));
+    succeed(folder.path(), &format!("evaluate {fits} {table} --out two.parquet --threads 2"));
+    assert_eq!(content(&folder.path().join("one.parquet")), content(&folder.path().join("two.parquet")));
+    let again = succeed(folder.path(), &format!("evaluate {fits} {table} --out two.parquet"));
+    assert!(again.contains("up to date"), "{again}");
+    // Each row of responses has its own structure.
+    let told =
+        succeed(folder.path(), &format!("evaluate {fits} --in {run}/responses.parquet --out r.parquet"));
+    assert!(told.contains("960 rows"), "{told}");
+}
+
+#[test]
+fn a_table_of_anyone_will_do() {
+    let (folder, fits) = fitted();
+    let numbers = |values: Vec<f64>| -> ArrayRef { Arc::new(Float64Array::from(values)) };
+    let path = folder.path().join("t.parquet");
+    let (pga, pgv) = (numbers(vec![1.0, 5.0, 5.0]), numbers(vec![0.1, 0.6, 0.0]));
+    write(&path, vec![("pga_m_s2", pga.clone()), ("pgv_m_s", pgv.clone())]);
+    let told = succeed(folder.path(), &format!("evaluate {fits} --in t.parquet --p 2.5 --alpha 0.2"));
+    assert!(told.contains("1 rows have no value of a measure"), "{told}");
+    fail(folder.path(), &format!("evaluate {fits} --in t.parquet"), 1, &["no column 'p_rad_s'"]);
+    let p = numbers(vec![2.5, 0.0, 2.5]);
+    write(&path, vec![("pga_m_s2", pga), ("pgv_m_s", pgv), ("p_rad_s", p.clone()), ("alpha_rad", p)]);
+    fail(folder.path(), &format!("evaluate {fits} --in t.parquet"), 1, &["row 1", "p_rad_s", "above 0"]);
+}
+
+#[test]
+fn a_hazard_gives_annual_rates() {
+    let (folder, fits) = fitted();
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/data");
+    let ask = |rest: &str| {
+        stdout(folder.path(), &format!("evaluate {fits} --p 2.5 --alpha 0.2 --format csv {rest}"))
+    };
+    let curve = ask(&format!("--hazard {data}/hazard.csv --ratio 0.25"));
+    let [rocking, failure, overturning] = ["LS1", "LS2", "LS3"].map(|state| quantity(&curve, state).unwrap());
+    assert!(rocking > failure && failure > overturning && overturning > 0.0, "{curve}");
+    // ln H is linear in ln PGA between 0.20 and 0.30 g, and uplift is at g tan alpha.
+    let expected = 7e-3 * (0.2f64.tan() / 0.2).powf((3.6e-3f64 / 7e-3).ln() / 1.5f64.ln());
+    assert!((rocking / expected - 1.0).abs() < 1e-9);
+    // The same site with both peaks known: the ratio of 0.25 is the median of its motions.
+    let joint = ask(&format!("--hazard {data}/hazard_joint.csv"));
+    assert!((quantity(&joint, "LS2").unwrap() / failure - 1.0).abs() < 0.2, "{joint}");
+}
+
+#[test]
+fn questions_without_an_answer_are_explained() {
+    let (folder, fits) = fitted();
+    let ask = |rest: &str, code, expected: &[&str]| {
+        fail(folder.path(), &format!("evaluate {rest}"), code, expected);
+    };
+    let structure = "--p 2.5 --alpha 0.2";
+    let run = run_folder().display();
+    let files = format!("--pex {run}/pex.parquet --pro {run}/pro.parquet");
+    ask(&format!("{files} --suite csgm {structure} --pga 1 --pgv 1"), 2, &["--suite csgm --structure frame"]);
+    ask(
+        &format!("{files} --suite cgsm {structure} --pga 1 --pgv 1"),
+        2,
+        &["--suite pulse --structure frame"],
+    );
+    ask(&format!("{fits} --pga 1 --pgv 1"), 2, &["expected p, alpha and eta"]);
+    ask(&format!("{fits} {structure} --pga 1"), 2, &["--pga (g) and --pgv (m/s)"]);
+    ask(&format!("{fits} {structure} --pga=-1 --pgv 1"), 2, &["pga is -1"]);
+    ask(&format!("{fits} {structure} --pga nan --pgv 1"), 2, &["pga is NaN"]);
+    ask(&format!("{fits} {structure} --pga 1 --pgv 1 --measure im4"), 2, &["needs --model univariate"]);
+    ask(&format!("{fits} {structure} --pga 1 --pgv 1 --format parquet"), 2, &["--out"]);
+    ask("--pex none.parquet --p 1 --alpha 0.2 --pga 1 --pgv 1", 1, &["none.parquet: no such file"]);
+    let hazard = |text: &str, rest: &str, code, expected: &[&str]| {
+        std::fs::write(folder.path().join("h.csv"), text).unwrap();
+        ask(&format!("{fits} {structure} --hazard h.csv {rest}"), code, expected);
+    };
+    let good = "pga_g,annual_rate_of_exceedance\n0.1,0.01\n1,0.001\n";
+    hazard(good, "", 2, &["needs --ratio"]);
+    hazard(good, "--ratio 0", 2, &["ratio is 0"]);
+    hazard("pga,rate\n1,1\n", "--ratio 1", 1, &["h.csv", "columns pga, rate", "expected pga_g"]);
+    hazard(&good.replace("0.001", "x"), "--ratio 1", 1, &["h.csv", "line 3", "'x'"]);
+    hazard(&good.replace("0.001", "0.1"), "--ratio 1", 1, &["h.csv", "point 1"]);
+    hazard(good, "--ratio 1 --model univariate --measure im1", 2, &["need the period"]);
+}

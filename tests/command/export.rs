@@ -1,0 +1,53 @@
+//! export as a user calls it.
+
+use crate::common::{fail, succeed};
+use crate::evaluate::fitted;
+
+#[test]
+fn each_program_gets_its_files() {
+    let (folder, fits) = fitted();
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let export = |rest: &str| {
+        succeed(folder.path(), &format!("export {fits} --p 2.5 --alpha 0.2 --tolerance 1e-3 {rest}"))
+    };
+    let told = export("--to openquake --ratio 0.2,0.4");
+    assert!(told.contains("2 functions") && told.contains("fragility.xml"), "{told}");
+    assert_eq!(read("fragility.xml").matches("<fragilityFunction ").count(), 2);
+    export("--to openquake-continuous --im pgv --ratio 0.3 --out c.xml");
+    assert!(read("c.xml").contains("imt=\"PGV\""));
+    export("--to pelicun --ratio 0.3 --out p.csv");
+    assert!(read("p.csv").contains("p2_5_alpha0_2_eta0_92_ratio0_3,0,Peak Ground Acceleration,g,0,1,"));
+    assert!(read("p.json").contains("RangeOfData"));
+}
+
+#[test]
+fn the_levels_are_the_users() {
+    let (folder, fits) = fitted();
+    let export = |rest: &str| {
+        let told = succeed(
+            folder.path(),
+            &format!("export {fits} --p 2.5 --alpha 0.2 --ratio 0.3 --out f.xml {rest}"),
+        );
+        let xml = std::fs::read_to_string(folder.path().join("f.xml")).unwrap_or_default();
+        (told, xml)
+    };
+    let (_, xml) = export("--to openquake --levels 0.1,0.4,0.8");
+    assert!(xml.contains("\">0.2027100355086725 0.4 0.8</imls>"), "uplift comes first: {xml}");
+    let (told, xml) = export("--to openquake --upto 3");
+    assert!(xml.contains(" 3</imls>") && told.contains("up to 3.0000 g"), "{told}");
+}
+
+#[test]
+fn what_cannot_be_exported_is_explained() {
+    let (folder, fits) = fitted();
+    let export = |rest: &str, expected: &[&str]| {
+        fail(folder.path(), &format!("export {fits} --p 2.5 --alpha 0.2 {rest}"), 2, expected);
+    };
+    export("--to openquak --ratio 0.3", &["did you mean 'openquake'"]);
+    export("--to openquake --ratio 0", &["ratio is 0"]);
+    export("--to openquake --ratio 0.3 --tolerance 0", &["tolerance is 0"]);
+    export("--to openquake --ratio 0.3 --levels 0.1,0.2", &["above uplift, 0.2027"]);
+    export("--to openquake --ratio 0.3 --model univariate --measure im2", &["use the bivariate model"]);
+    export("--to openquake", &["--ratio"]);
+    assert!(!folder.path().join("fragility.xml").exists());
+}

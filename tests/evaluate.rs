@@ -1,0 +1,130 @@
+//! Probabilities and their limits at an intensity, and along a slice.
+
+mod paper_model;
+
+use paper_model::{BETA, LAMBDA, MU, equipment, model};
+use proptest::prelude::*;
+use rockfrag::fragility::{
+    Measure, Peak, Predictor, Probability, ProbitIndex, Slice, least_squares, p_exceeding,
+    p_failure_given_rocking, p_overturning,
+};
+use rockfrag::motion::IntensityMeasures;
+use rockfrag::normal;
+
+fn at(pga_m_s2: f64, pgv_m_s: f64) -> IntensityMeasures {
+    IntensityMeasures::new(&equipment(), pga_m_s2, pgv_m_s, None, None)
+}
+
+#[test]
+fn probabilities_are_those_of_the_papers_equations() {
+    for (pga, pgv) in [(2.1, 0.2), (2.4, 0.3), (2.7, 0.3), (5.0, 0.6), (9.0, 1.1)] {
+        let measures = at(pga, pgv);
+        let (im4, ratio) = (measures.im4, 1.0 / measures.im3.unwrap());
+        let ln_demand = if im4 < 1.3 {
+            -11.39 + 30.39 * im4.ln() - 0.072 * (1.0 / ratio).ln()
+        } else {
+            -2.765 + 2.954 * im4.ln() - 0.942 * (1.0 / ratio).ln()
+        };
+        let hybrid = (im4.powf(LAMBDA) * ratio).powf(1.0 / (1.0 + LAMBDA));
+        let (p_ex, p_ro) = (p_exceeding(ln_demand, 0.1, 1.0), p_overturning(hybrid, MU, BETA));
+        let given = model().probabilities(&measures).given_rocking.unwrap();
+        assert!((given.p_ex.value - p_ex).abs() < 1e-13);
+        assert!((given.p_ro.value - p_ro).abs() < 1e-13);
+        assert!((given.p_failure.value - p_failure_given_rocking(p_ro, p_ex)).abs() < 1e-13);
+        assert!((model().overturning.hybrid_measure(&measures).unwrap() - hybrid).abs() < 1e-13);
+    }
+}
+
+#[test]
+fn below_uplift_all_is_exactly_zero() {
+    let uplift = equipment().uplift_acceleration_m_s2();
+    let below = model().probabilities(&at(uplift * (1.0 - 1e-12), 1.0));
+    assert_eq!(below.limit_states(), Some([Probability::exact(0.0); 3]));
+    let above = model().probabilities(&at(uplift * (1.0 + 1e-12), 1.0)).limit_states().unwrap();
+    assert_eq!(above[0], Probability::exact(1.0));
+    assert!(above[1].value > 0.0 && above[2].value > 0.0);
+    assert_eq!(model().probabilities(&at(9.0, 0.0)).limit_states(), None);
+}
+
+#[test]
+fn the_variance_of_a_prediction_is_that_of_the_textbook() {
+    let x: Vec<f64> = (0..12).map(|k| 0.1 * f64::from(k)).collect();
+    let y: Vec<f64> = x.iter().map(|x| 1.0 + 2.0 * x + (17.0 * x).sin()).collect();
+    let fit = least_squares(&[&x], &y).unwrap();
+    let covariance = |i: usize, j: usize| if i < 2 && j < 2 { fit.covariance[(i, j)] } else { 0.0 };
+    let predictor = Predictor {
+        im_x: Measure::Im4,
+        im_y: None,
+        coefficients: [fit.coefficients[0].value, fit.coefficients[1].value, 0.0],
+        covariance: std::array::from_fn(|i| std::array::from_fn(|j| covariance(i, j))),
+        ranges: [[1.0, x[11].exp()], [0.0; 2]],
+    };
+    let measures = at(1.5 * equipment().uplift_acceleration_m_s2(), 1.0);
+    let (n, mean) = (12.0, x.iter().sum::<f64>() / 12.0);
+    let spread: f64 = x.iter().map(|x| (x - mean).powi(2)).sum();
+    let variance = fit.residual_sd.powi(2) * (1.0 / n + (1.5f64.ln() - mean).powi(2) / spread);
+    assert!((predictor.at(&measures).unwrap().variance / variance - 1.0).abs() < 1e-10);
+    assert_eq!(fit.ranges, [[0.0, x[11]]]);
+}
+
+#[test]
+fn what_lies_outside_of_the_data_is_named() {
+    let names = |measures| model().out_of_range(&measures).map(|out| out.measure).collect::<Vec<_>>();
+    assert_eq!(names(at(5.0, 0.6)), []);
+    assert_eq!(names(at(2.0, 0.2)), [], "just above uplift there are data");
+    assert_eq!(names(at(40.0, 4.0)), [Measure::Im4, Measure::Im4]);
+    assert_eq!(names(at(5.0, 5.0)), [Measure::Im3, Measure::Im3Inverse]);
+}
+
+#[test]
+fn a_slice_is_lognormal_in_either_peak() {
+    for peak in [Peak::Pga, Peak::Pgv] {
+        let slice = Slice { structure: equipment(), peak, ratio: 0.4 };
+        let curve = slice.overturning(&model().overturning).unwrap();
+        for k in 1..20 {
+            let intensity = slice.intensity_at_im4(1.0 + 0.3 * f64::from(k));
+            let p_ro = slice.limit_states(&model(), intensity).unwrap()[2].value;
+            assert!((p_overturning(intensity, curve.theta.ln(), curve.beta) - p_ro).abs() < 1e-12);
+        }
+        assert!((slice.largest_in_data(&model()) / slice.intensity_at_im4(7.4) - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn mean_and_standard_deviation_are_those_of_the_lognormal() {
+    let slice = Slice { structure: equipment(), peak: Peak::Pga, ratio: 0.4 };
+    let curve = slice.overturning(&model().overturning).unwrap();
+    // Moments by the midpoint rule over quantiles.
+    let n = 200_000;
+    let quantile =
+        |k| curve.theta * (curve.beta * normal::quantile((f64::from(k) + 0.5) / f64::from(n))).exp();
+    let mean = (0..n).map(quantile).sum::<f64>() / f64::from(n);
+    let variance = (0..n).map(|k| (quantile(k) - mean).powi(2)).sum::<f64>() / f64::from(n);
+    assert!((curve.mean() / mean - 1.0).abs() < 1e-5);
+    assert!((curve.standard_deviation() / variance.sqrt() - 1.0).abs() < 1e-3);
+}
+
+proptest! {
+    #[test]
+    fn limits_enclose_the_estimate(ro in -45.0..45.0f64, ex in -45.0..45.0f64, se in 0.0..2.0f64) {
+        let index = |value| ProbitIndex { value, standard_error: se };
+        let failure = ProbitIndex::of_failure(index(ro), index(ex));
+        let p = failure.probability();
+        prop_assert!(0.0 <= p.low && p.low <= p.value && p.value <= p.high && p.high <= 1.0, "{p:?}");
+        let expected = p_failure_given_rocking(normal::cdf(ro), normal::cdf(ex));
+        prop_assert!((p.value - expected).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_error_of_failure_follows_from_small_changes(ro in -5.0..5.0f64, ex in -5.0..5.0f64) {
+        let sure = |value| ProbitIndex { value, standard_error: 0.0 };
+        let step = 1e-5;
+        let slope = |up: ProbitIndex, down: ProbitIndex| (up.value - down.value) / (2.0 * step);
+        let of = |ro, ex| ProbitIndex::of_failure(sure(ro), sure(ex));
+        let by_ro = slope(of(ro + step, ex), of(ro - step, ex));
+        let by_ex = slope(of(ro, ex + step), of(ro, ex - step));
+        let with_error = |value, standard_error| ProbitIndex { value, standard_error };
+        let error = ProbitIndex::of_failure(with_error(ro, 0.3), with_error(ex, 0.2)).standard_error;
+        prop_assert!((error / (0.3 * by_ro).hypot(0.2 * by_ex) - 1.0).abs() < 1e-4);
+    }
+}
