@@ -2,39 +2,69 @@
 //! and 3).
 //!
 //! ```text
-//! case         one response as the fits see it: outcome, demand and intensity measures
-//! regression   least squares with standard errors and limits
-//! student      the t distribution behind those limits
-//! demand       P_ex: univariate, plane and biplanar regressions of the demand in safe rocking (Eqs. 14-18)
-//! transition   where the two planes meet
-//! probit       maximum likelihood of binary outcomes
-//! separation   whether that likelihood has a maximum at all
-//! overturning  P_ro: fragility curves of scalar and hybrid measures (Eqs. 19-24)
-//! skill        how well fitted probabilities tell the outcomes apart
-//! curve        the probabilities themselves, and the tree that joins them (Eqs. 12 and 14)
+//! case             one response as the fits see it: outcome, demand and intensity measures
+//! demand_sample    the cases of a regression of the demand, event_sample those of a curve
+//! demand           P_ex: univariate, plane and biplanar regressions of the demand in safe rocking (Eqs. 14-18)
+//! transition       where the two planes meet
+//! overturning      P_ro: fragility curves of scalar and hybrid measures (Eqs. 19-24)
+//! curve_parameter  lambda, mu and beta of a curve from the coefficients of its regression
+//! curve            the probabilities themselves, and the tree that joins them (Eqs. 12 and 14)
+//! skill            how well fitted probabilities tell the outcomes apart
+//!
+//! regression       least squares with standard errors and limits
+//! binary           maximum likelihood of binary outcomes
+//! link             how its index becomes a probability
+//! newton           the method that finds the maximum
+//! separation       whether there is a maximum at all
+//! design_matrix    the rows of a regression
+//! student          the t distribution
+//!
+//! influence        what each case adds to a fit
+//! bootstrap        resampling within the cells of the design
+//! curve_refit      a curve fitted again to resampled cases, demand_refit a regression of the demand
+//! limits           percentile and BCa limits from the replicates
 //! ```
 
+mod binary;
+mod bootstrap;
 mod case;
 mod curve;
+mod curve_parameter;
+mod curve_refit;
 mod demand;
+mod demand_refit;
+mod demand_sample;
+mod design_matrix;
+mod event_sample;
+mod influence;
+mod limits;
+mod link;
+mod newton;
 mod overturning;
-mod probit;
 mod regression;
 mod separation;
 mod skill;
 mod student;
 mod transition;
 
+pub use binary::{BinaryError, BinaryFit, binary_regression};
+pub use bootstrap::{Strata, bootstrap};
 pub use case::{Case, Measure};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
-pub use demand::{Biplanar, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
-pub use overturning::{EventSample, OverturningFit, Z_95, fit_overturning};
-pub use probit::{ProbitError, ProbitFit, probit};
+pub use curve_parameter::CurveParameter;
+pub use curve_refit::CurveRefit;
+pub use demand::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
+pub use demand_refit::{DemandRefit, DemandReplicate};
+pub use demand_sample::DemandSample;
+pub use event_sample::EventSample;
+pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
+pub use link::{Information, Link, LnProbability};
+pub use overturning::{CurveModel, OverturningFit, fit_overturning};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
 pub use separation::is_separated;
 pub use skill::{auc, brier_score};
 pub use student::t_quantile;
-pub use transition::{ScanPoint, Transition, find_transition};
+pub use transition::{ScanPoint, Transition, TransitionSearch, find_transition};
 
 use crate::keyword::keywords;
 

@@ -9,9 +9,9 @@ pub struct Estimate {
     pub value: f64,
     /// Its standard error.
     pub standard_error: f64,
-    /// Its lower 95 % limit of confidence.
+    /// Its lower limit of confidence.
     pub low: f64,
-    /// Its upper 95 % limit of confidence.
+    /// Its upper limit of confidence.
     pub high: f64,
 }
 
@@ -26,8 +26,10 @@ impl Estimate {
 /// A linear regression with an intercept.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearFit {
-    /// The intercept, then a slope for each predictor; limits by Student's t.
+    /// The intercept, then a slope for each predictor; 95 % limits by Student's t.
     pub coefficients: Vec<Estimate>,
+    /// Of the coefficients.
+    pub covariance: DMatrix<f64>,
     /// Coefficient of determination.
     pub r2: f64,
     /// Residual standard deviation, with n - k degrees of freedom for k coefficients.
@@ -38,6 +40,23 @@ pub struct LinearFit {
     pub tss: f64,
     /// Cases.
     pub n: usize,
+}
+
+impl LinearFit {
+    /// The same fit with the limits of the coefficients at this confidence.
+    pub fn at_confidence(mut self, confidence: f64) -> LinearFit {
+        let degrees = self.n - self.coefficients.len();
+        let quantile = t_quantile(0.5 * (1.0 + confidence), degrees as f64);
+        for estimate in &mut self.coefficients {
+            *estimate = Estimate::symmetric(estimate.value, estimate.standard_error, quantile);
+        }
+        self
+    }
+
+    /// The values of the coefficients.
+    pub fn values(&self) -> DVector<f64> {
+        DVector::from_iterator(self.coefficients.len(), self.coefficients.iter().map(|b| b.value))
+    }
 }
 
 /// Why there is no regression.
@@ -83,11 +102,12 @@ pub fn least_squares(predictors: &[&[f64]], y: &[f64]) -> Result<LinearFit, Regr
     let degrees = (n - k) as f64;
     let variance = rss / degrees;
     let quantile = t_quantile(0.975, degrees);
-    // (X'X)^-1 = R^-1 R^-T: its diagonal holds the squared lengths of the rows of R^-1.
-    let estimate =
-        |j: usize| Estimate::symmetric(coefficients[j], inverse.row(j).norm() * variance.sqrt(), quantile);
+    // (X'X)^-1 = R^-1 R^-T.
+    let covariance = &inverse * inverse.transpose() * variance;
+    let estimate = |j: usize| Estimate::symmetric(coefficients[j], covariance[(j, j)].sqrt(), quantile);
     Ok(LinearFit {
         coefficients: (0..k).map(estimate).collect(),
+        covariance,
         r2: 1.0 - rss / tss,
         residual_sd: variance.sqrt(),
         rss,

@@ -1,5 +1,6 @@
 //! The pex file: one row a regression of the demand in safe rocking; and the scan for the transition.
 
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -11,7 +12,9 @@ use polars::prelude::{ChunkCompareEq, DataFrame};
 use super::TableError;
 use super::reader::read_frame;
 use super::schema::{self, Column, PEX, PEX_SCAN};
-use crate::fragility::{Estimate, FitStatus, LinearFit, Measure, ScanPoint};
+use crate::fragility::{
+    BootstrapLimits, DemandReplicate, Estimate, FitStatus, Limits, LinearFit, Measure, ScanPoint,
+};
 use crate::keyword::{Keyword, keywords};
 
 /// The form of a regression.
@@ -52,8 +55,25 @@ pub struct PexRow {
     pub r2_overall: Option<f64>,
     /// IM4 of the least pooled residual.
     pub transition_found: Option<f64>,
+    /// Its percentile limits.
+    pub transition_limits: Option<Limits>,
     /// The fit, or why there is none.
     pub fit: Result<LinearFit, FitStatus>,
+    /// Probability with which limits hold the truth.
+    pub confidence: f64,
+    /// Bootstrap limits of the coefficients and of the dispersion; empty without replicates.
+    pub limits: Vec<Option<BootstrapLimits>>,
+    /// Of the bootstrap.
+    pub replicates: Vec<Option<PexReplicate>>,
+}
+
+/// A regression of a resample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PexReplicate {
+    /// Where it holds.
+    pub range: Range<f64>,
+    /// Its numbers.
+    pub fit: DemandReplicate,
 }
 
 impl PexRow {
@@ -69,9 +89,43 @@ impl PexRow {
         format!("no fit of the demand for {suite}, {}: {status}", self.structure)
     }
 
+    /// Where the fit holds.
+    pub fn range(&self) -> Range<f64> {
+        self.range_low.unwrap_or(0.0)..self.range_high.unwrap_or(f64::INFINITY)
+    }
+
+    /// Where it holds if two planes meet at this IM4; none of two planes that meet nowhere.
+    pub fn range_at(&self, transition: Option<f64>) -> Option<Range<f64>> {
+        match (self.model, self.range_high) {
+            (Model::Univariate | Model::Plane, _) => Some(self.range()),
+            (Model::Biplanar, Some(_)) => Some(self.range().start..transition?),
+            (Model::Biplanar, None) => Some(transition?..f64::INFINITY),
+        }
+    }
+
     fn coefficient(&self, index: usize) -> Option<Estimate> {
         self.fit.as_ref().ok().and_then(|fit| fit.coefficients.get(index).copied())
     }
+
+    fn covariance(&self, place: (usize, usize)) -> Option<f64> {
+        self.fit.as_ref().ok().and_then(|fit| fit.covariance.get(place).copied())
+    }
+
+    fn limits_of(&self, parameter: Parameter) -> Option<BootstrapLimits> {
+        let coefficients = self.fit.as_ref().ok()?.coefficients.len();
+        match parameter {
+            Parameter::Coefficient(index) if index >= coefficients => None,
+            Parameter::Coefficient(index) => *self.limits.get(index)?,
+            Parameter::Beta => *self.limits.get(coefficients)?,
+        }
+    }
+}
+
+/// What has bootstrap limits.
+#[derive(Clone, Copy)]
+enum Parameter {
+    Coefficient(usize),
+    Beta,
 }
 
 /// The rows of the pex file; what is no finite number is null.
@@ -112,6 +166,18 @@ pub fn batch(rows: &[PexRow]) -> Result<RecordBatch, ArrowError> {
     ]);
     columns.extend((0..3).map(|index| estimate(index, |e| e.standard_error)));
     columns.extend((0..3).flat_map(|index| [estimate(index, |e| e.low), estimate(index, |e| e.high)]));
+    columns.extend([(0, 1), (0, 2), (1, 2)].map(|place| number(&|row| row.covariance(place))));
+    columns.push(number(&|row| Some(row.confidence)));
+    columns.push(Arc::new(Int64Array::from_iter_values(
+        rows.iter().map(|row| row.replicates.iter().flatten().count() as i64),
+    )));
+    let coefficients = (0..3).map(Parameter::Coefficient);
+    for parameter in coefficients.chain([Parameter::Beta]) {
+        let limit = |k: usize| number(&|row| row.limits_of(parameter)?.in_order()[k]);
+        columns.extend((0..4).map(limit));
+    }
+    columns.push(number(&|row| Some(row.transition_limits?.low)));
+    columns.push(number(&|row| Some(row.transition_limits?.high)));
     columns.push(text(|row| Some(row.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok).as_str())));
     RecordBatch::try_new(PEX.schema(), columns)
 }

@@ -5,14 +5,17 @@ use std::sync::Arc;
 
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
+use nalgebra::DVector;
 
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
 use super::reader::read_frame;
 use super::schema::{self, Column, PRO};
-use crate::fragility::{Estimate, FitStatus, Measure, OverturningFit};
-use crate::keyword::Keyword;
+use crate::fragility::{
+    BootstrapLimits, CurveModel, CurveParameter, Estimate, FitStatus, Link, Measure, OverturningFit,
+};
+use crate::keyword::{self, Keyword};
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,8 +34,14 @@ pub struct ProRow {
     pub n: usize,
     /// Those in which the event happened.
     pub events: usize,
+    /// How the curve was fitted.
+    pub model: CurveModel,
     /// The curve, or why there is none.
     pub fit: Result<OverturningFit, FitStatus>,
+    /// Bootstrap limits of the parameters of the curve; empty without replicates.
+    pub limits: Vec<(CurveParameter, BootstrapLimits)>,
+    /// The coefficients in each resample, where it has a curve.
+    pub replicates: Vec<Option<DVector<f64>>>,
 }
 
 impl ProRow {
@@ -42,10 +51,19 @@ impl ProRow {
         format!("{}{second}", self.im_x.as_str())
     }
 
+    /// Whether there is a curve, and if not, why.
+    pub fn status(&self) -> FitStatus {
+        self.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok)
+    }
+
+    fn limits_of(&self, parameter: CurveParameter) -> Option<BootstrapLimits> {
+        self.limits.iter().find(|(of, _)| *of == parameter).map(|(_, limits)| *limits)
+    }
+
     /// Why there is no curve, for a message.
     pub fn reason(&self) -> String {
         let suite = self.suite.as_deref().unwrap_or("the motions");
-        let status = self.fit.err().unwrap_or(FitStatus::Ok).as_str();
+        let status = self.status().as_str();
         format!(
             "no curve of {} for {suite}, {}: {status} ({} of {} cases)",
             self.event, self.structure, self.events, self.n
@@ -83,7 +101,7 @@ pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
     ];
     columns.extend(estimates.map(|estimate| part(estimate, |e| e.value)));
     columns.extend([
-        number(&|fit| Some(fit.log_likelihood)),
+        number(&|fit| Some(fit.regression.log_likelihood)),
         number(&|fit| Some(fit.aic)),
         number(&|fit| Some(fit.bic)),
         number(&|fit| Some(fit.auc)),
@@ -95,7 +113,21 @@ pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
     for estimate in estimates {
         columns.extend([part(estimate, |e| e.low), part(estimate, |e| e.high)]);
     }
-    columns.push(text(|row| Some(row.fit.err().unwrap_or(FitStatus::Ok).as_str())));
+    columns.push(text(|row| Some(row.model.link.as_str())));
+    columns.extend((0..3).map(|k| number(&|fit| fit.regression.coefficients.get(k).copied())));
+    let covariance = |place: (usize, usize)| number(&|fit| fit.regression.covariance.get(place).copied());
+    columns.extend((0..3).map(|k| number(&|fit| Some(fit.regression.covariance.get((k, k))?.sqrt()))));
+    columns.extend([(0, 1), (0, 2), (1, 2)].map(covariance));
+    columns.push(Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.model.confidence))));
+    columns.push(count(|row| row.replicates.iter().flatten().count()));
+    for parameter in CurveParameter::ALL {
+        let limit = |k: usize| -> ArrayRef {
+            let values = rows.iter().map(|row| row.limits_of(parameter)?.in_order()[k]);
+            Arc::new(Float64Array::from_iter(values))
+        };
+        columns.extend((0..4).map(limit));
+    }
+    columns.push(text(|row| Some(row.status().as_str())));
     RecordBatch::try_new(PRO.schema(), columns)
 }
 
@@ -131,5 +163,10 @@ impl ProFrame {
             & equal(schema::IM_X, im_x)?
             & second;
         self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.iter().next().flatten()
+    }
+
+    /// The link of all curves.
+    pub fn link(&self) -> Option<Link> {
+        keyword::parse(self.0.column(schema::LINK.name).ok()?.str().ok()?.get(0)?).ok()
     }
 }

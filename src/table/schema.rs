@@ -175,12 +175,36 @@ columns! {
     SE_LN_A = "se_ln_a", Float64, "1", "standard error of ln_a";
     SE_B1 = "se_b1", Float64, "1", "standard error of b1";
     SE_B2 = "se_b2", Float64, "1", "standard error of b2";
-    LN_A_LOW = "ln_a_low", Float64, "1", "lower 95 % limit of ln_a";
-    LN_A_HIGH = "ln_a_high", Float64, "1", "upper 95 % limit of ln_a";
-    B1_LOW = "b1_low", Float64, "1", "lower 95 % limit of b1";
-    B1_HIGH = "b1_high", Float64, "1", "upper 95 % limit of b1";
-    B2_LOW = "b2_low", Float64, "1", "lower 95 % limit of b2";
-    B2_HIGH = "b2_high", Float64, "1", "upper 95 % limit of b2";
+    LN_A_LOW = "ln_a_low", Float64, "1", "lower limit of ln_a";
+    LN_A_HIGH = "ln_a_high", Float64, "1", "upper limit of ln_a";
+    B1_LOW = "b1_low", Float64, "1", "lower limit of b1";
+    B1_HIGH = "b1_high", Float64, "1", "upper limit of b1";
+    B2_LOW = "b2_low", Float64, "1", "lower limit of b2";
+    B2_HIGH = "b2_high", Float64, "1", "upper limit of b2";
+    COV_LN_A_B1 = "cov_ln_a_b1", Float64, "1", "covariance of ln_a and b1";
+    COV_LN_A_B2 = "cov_ln_a_b2", Float64, "1", "covariance of ln_a and b2";
+    COV_B1_B2 = "cov_b1_b2", Float64, "1", "covariance of b1 and b2";
+    CONFIDENCE = "confidence", Float64, "1", "probability with which the limits hold the truth";
+    REPLICATES = "replicates", Int64, "1", "bootstrap replicates that have a fit";
+    LN_A_PERCENTILE_LOW = "ln_a_percentile_low", Float64, "1", "lower percentile limit of ln_a";
+    LN_A_PERCENTILE_HIGH = "ln_a_percentile_high", Float64, "1", "upper percentile limit of ln_a";
+    LN_A_BCA_LOW = "ln_a_bca_low", Float64, "1", "lower BCa limit of ln_a";
+    LN_A_BCA_HIGH = "ln_a_bca_high", Float64, "1", "upper BCa limit of ln_a";
+    B1_PERCENTILE_LOW = "b1_percentile_low", Float64, "1", "lower percentile limit of b1";
+    B1_PERCENTILE_HIGH = "b1_percentile_high", Float64, "1", "upper percentile limit of b1";
+    B1_BCA_LOW = "b1_bca_low", Float64, "1", "lower BCa limit of b1";
+    B1_BCA_HIGH = "b1_bca_high", Float64, "1", "upper BCa limit of b1";
+    B2_PERCENTILE_LOW = "b2_percentile_low", Float64, "1", "lower percentile limit of b2";
+    B2_PERCENTILE_HIGH = "b2_percentile_high", Float64, "1", "upper percentile limit of b2";
+    B2_BCA_LOW = "b2_bca_low", Float64, "1", "lower BCa limit of b2";
+    B2_BCA_HIGH = "b2_bca_high", Float64, "1", "upper BCa limit of b2";
+    BETA_PERCENTILE_LOW = "beta_percentile_low", Float64, "1", "lower percentile limit of beta";
+    BETA_PERCENTILE_HIGH = "beta_percentile_high", Float64, "1", "upper percentile limit of beta";
+    BETA_BCA_LOW = "beta_bca_low", Float64, "1", "lower BCa limit of beta";
+    BETA_BCA_HIGH = "beta_bca_high", Float64, "1", "upper BCa limit of beta";
+    TRANSITION_PERCENTILE_LOW = "transition_percentile_low", Float64, "1", "lower percentile limit of transition_found";
+    TRANSITION_PERCENTILE_HIGH = "transition_percentile_high", Float64, "1", "upper percentile limit of transition_found";
+    REPLICATE = "replicate", Int64, "1", "resample: the same in all fits of the same responses and seed";
     STATUS = "status", Text, "1", "ok, or why there is no fit";
 
     TRANSITION = "transition", Float64, "1", "im4 at which the two planes meet";
@@ -190,7 +214,7 @@ columns! {
 
     FITTED_EVENT = "event", Text, "1", "overturning, or rocking";
     LAMBDA = "lambda", Float64, "1", "exponent of im_x in the hybrid measure (Eq. 22)";
-    MU = "mu", Float64, "1", "mean of the logarithm of the measure at overturning";
+    MU = "mu", Float64, "1", "logarithm of the median of the measure at overturning (its mean, for the probit)";
     THETA = "theta", Float64, "1", "median exp(mu)";
     LOG_LIKELIHOOD = "log_likelihood", Float64, "1", "log-likelihood at its maximum";
     AIC = "aic", Float64, "1", "Akaike's information criterion";
@@ -202,14 +226,29 @@ columns! {
     SE_MU = "se_mu", Float64, "1", "standard error of mu";
     SE_BETA = "se_beta", Float64, "1", "standard error of beta";
     SE_THETA = "se_theta", Float64, "1", "standard error of theta";
-    LAMBDA_LOW = "lambda_low", Float64, "1", "lower 95 % limit of lambda";
-    LAMBDA_HIGH = "lambda_high", Float64, "1", "upper 95 % limit of lambda";
-    MU_LOW = "mu_low", Float64, "1", "lower 95 % limit of mu";
-    MU_HIGH = "mu_high", Float64, "1", "upper 95 % limit of mu";
-    BETA_LOW = "beta_low", Float64, "1", "lower 95 % limit of beta";
-    BETA_HIGH = "beta_high", Float64, "1", "upper 95 % limit of beta";
-    THETA_LOW = "theta_low", Float64, "1", "lower 95 % limit of theta";
-    THETA_HIGH = "theta_high", Float64, "1", "upper 95 % limit of theta";
+    LAMBDA_LOW = "lambda_low", Float64, "1", "lower limit of lambda";
+    LAMBDA_HIGH = "lambda_high", Float64, "1", "upper limit of lambda";
+    MU_LOW = "mu_low", Float64, "1", "lower limit of mu";
+    MU_HIGH = "mu_high", Float64, "1", "upper limit of mu";
+    BETA_LOW = "beta_low", Float64, "1", "lower limit of beta";
+    BETA_HIGH = "beta_high", Float64, "1", "upper limit of beta";
+    THETA_LOW = "theta_low", Float64, "1", "lower limit of theta";
+    THETA_HIGH = "theta_high", Float64, "1", "upper limit of theta";
+    LINK = "link", Text, "1", "probit, logit or cloglog: the probability is F(b0 + b1 ln im_x + b2 ln im_y)";
+    B0 = "b0", Float64, "1", "intercept of the index";
+    INDEX_B1 = "b1", Float64, "1", "slope of the index on ln im_x";
+    INDEX_B2 = "b2", Float64, "1", "slope of the index on ln im_y";
+    SE_B0 = "se_b0", Float64, "1", "standard error of b0";
+    COV_B0_B1 = "cov_b0_b1", Float64, "1", "covariance of b0 and b1";
+    COV_B0_B2 = "cov_b0_b2", Float64, "1", "covariance of b0 and b2";
+    LAMBDA_PERCENTILE_LOW = "lambda_percentile_low", Float64, "1", "lower percentile limit of lambda";
+    LAMBDA_PERCENTILE_HIGH = "lambda_percentile_high", Float64, "1", "upper percentile limit of lambda";
+    LAMBDA_BCA_LOW = "lambda_bca_low", Float64, "1", "lower BCa limit of lambda";
+    LAMBDA_BCA_HIGH = "lambda_bca_high", Float64, "1", "upper BCa limit of lambda";
+    MU_PERCENTILE_LOW = "mu_percentile_low", Float64, "1", "lower percentile limit of mu (and, as its logarithm, of theta)";
+    MU_PERCENTILE_HIGH = "mu_percentile_high", Float64, "1", "upper percentile limit of mu (and, as its logarithm, of theta)";
+    MU_BCA_LOW = "mu_bca_low", Float64, "1", "lower BCa limit of mu (and, as its logarithm, of theta)";
+    MU_BCA_HIGH = "mu_bca_high", Float64, "1", "upper BCa limit of mu (and, as its logarithm, of theta)";
 
     QUANTITY = "quantity", Text, "1", "what was published";
     PLACE = "place", Text, "1", "where the paper prints it";
@@ -335,7 +374,50 @@ pub const PEX: Table = Table {
         B1_HIGH.or_null(),
         B2_LOW.or_null(),
         B2_HIGH.or_null(),
+        COV_LN_A_B1.or_null(),
+        COV_LN_A_B2.or_null(),
+        COV_B1_B2.or_null(),
+        CONFIDENCE,
+        REPLICATES,
+        LN_A_PERCENTILE_LOW.or_null(),
+        LN_A_PERCENTILE_HIGH.or_null(),
+        LN_A_BCA_LOW.or_null(),
+        LN_A_BCA_HIGH.or_null(),
+        B1_PERCENTILE_LOW.or_null(),
+        B1_PERCENTILE_HIGH.or_null(),
+        B1_BCA_LOW.or_null(),
+        B1_BCA_HIGH.or_null(),
+        B2_PERCENTILE_LOW.or_null(),
+        B2_PERCENTILE_HIGH.or_null(),
+        B2_BCA_LOW.or_null(),
+        B2_BCA_HIGH.or_null(),
+        BETA_PERCENTILE_LOW.or_null(),
+        BETA_PERCENTILE_HIGH.or_null(),
+        BETA_BCA_LOW.or_null(),
+        BETA_BCA_HIGH.or_null(),
+        TRANSITION_PERCENTILE_LOW.or_null(),
+        TRANSITION_PERCENTILE_HIGH.or_null(),
         STATUS,
+    ],
+};
+
+/// The regressions of resampled cases.
+pub const PEX_BOOTSTRAP: Table = Table {
+    name: "bootstrap replicates of pex",
+    stage: "fit-pex",
+    columns: &[
+        SUITE.or_null(),
+        STRUCTURE,
+        MODEL,
+        IM_X,
+        IM_Y.or_null(),
+        REPLICATE,
+        RANGE_LOW.or_null(),
+        RANGE_HIGH.or_null(),
+        LN_A.or_null(),
+        B1.or_null(),
+        B2.or_null(),
+        BETA.or_null(),
     ],
 };
 
@@ -379,7 +461,48 @@ pub const PRO: Table = Table {
         BETA_HIGH.or_null(),
         THETA_LOW.or_null(),
         THETA_HIGH.or_null(),
+        LINK,
+        B0.or_null(),
+        INDEX_B1.or_null(),
+        INDEX_B2.or_null(),
+        SE_B0.or_null(),
+        SE_B1.or_null(),
+        SE_B2.or_null(),
+        COV_B0_B1.or_null(),
+        COV_B0_B2.or_null(),
+        COV_B1_B2.or_null(),
+        CONFIDENCE,
+        REPLICATES,
+        LAMBDA_PERCENTILE_LOW.or_null(),
+        LAMBDA_PERCENTILE_HIGH.or_null(),
+        LAMBDA_BCA_LOW.or_null(),
+        LAMBDA_BCA_HIGH.or_null(),
+        MU_PERCENTILE_LOW.or_null(),
+        MU_PERCENTILE_HIGH.or_null(),
+        MU_BCA_LOW.or_null(),
+        MU_BCA_HIGH.or_null(),
+        BETA_PERCENTILE_LOW.or_null(),
+        BETA_PERCENTILE_HIGH.or_null(),
+        BETA_BCA_LOW.or_null(),
+        BETA_BCA_HIGH.or_null(),
         STATUS,
+    ],
+};
+
+/// The curves of resampled cases.
+pub const PRO_BOOTSTRAP: Table = Table {
+    name: "bootstrap replicates of pro",
+    stage: "fit-pro",
+    columns: &[
+        SUITE.or_null(),
+        STRUCTURE,
+        FITTED_EVENT,
+        IM_X,
+        IM_Y.or_null(),
+        REPLICATE,
+        B0.or_null(),
+        INDEX_B1.or_null(),
+        INDEX_B2.or_null(),
     ],
 };
 

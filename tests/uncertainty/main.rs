@@ -1,0 +1,5 @@
+//! The uncertainty of the fits against statsmodels, pyFragility, firthmodels and scipy (scripts/reference/uncertainty.py).
+
+mod bootstrap;
+mod data;
+mod links;
