@@ -4,9 +4,10 @@ use std::collections::HashMap;
 
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Case, CurveModel, EventSample, FitStatus, Link, Measure, OverturningFit, auc, binary_regression,
-    brier_score, find_transition, fit_biplanar, fit_overturning, fit_univariate, is_separated, least_squares,
-    p_exceeding, p_failure_given_rocking, p_no_rocking, p_overturning, t_quantile,
+    Case, CurveModel, Estimator, EventSample, FitStatus, Link, Measure, OverturningFit, auc,
+    binary_regression, brier_score, find_transition, fit_biplanar, fit_overturning, fit_univariate,
+    is_separated, least_squares, p_exceeding, p_failure_given_rocking, p_no_rocking, p_overturning,
+    t_quantile,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -79,7 +80,7 @@ fn least_squares_equals_statsmodels() {
 fn probit_equals_statsmodels() {
     let (data, expected) = (data(), statsmodels());
     for (name, predictors) in [("x", vec![&data.x[..]]), ("xy", vec![&data.x[..], &data.y[..]])] {
-        let fit = binary_regression(&predictors, &data.event, Link::Probit).unwrap();
+        let fit = binary_regression(&predictors, &data.event, Link::Probit, Estimator::Ml).unwrap();
         for k in 0..fit.coefficients.len() {
             close(fit.coefficients[k], expected[&format!("probit_{name}_b{k}")], 1e-8, "coefficient");
             close(fit.covariance[(k, k)].sqrt(), expected[&format!("probit_{name}_se{k}")], 1e-8, "error");
@@ -95,7 +96,9 @@ fn probit_equals_statsmodels() {
 fn hybrid_parameters_follow_from_the_coefficients() {
     let data = data();
     let negative: Vec<f64> = data.y.iter().map(|y| -y).collect();
-    let b = binary_regression(&[&data.x, &negative], &data.event, Link::Probit).unwrap().coefficients;
+    let b = binary_regression(&[&data.x, &negative], &data.event, Link::Probit, Estimator::Ml)
+        .unwrap()
+        .coefficients;
     let fit = curve(&data.x, &negative, &data.event, &[Measure::Im4, Measure::Im3]).unwrap();
     close(fit.lambda.unwrap().value, b[1] / b[2], 1e-12, "lambda");
     close(fit.beta.value, 1.0 / (b[1] + b[2]), 1e-12, "beta");

@@ -122,7 +122,10 @@ sets = {"few": (designs["xy"][few], event[few]), "parted": (designs["x"][:30], p
 for name, (design, outcome) in sets.items():
     logistic = FirthLogisticRegression(max_iter=1000, gtol=1e-12, xtol=1e-12, backend="numpy").fit(design[:, 1:], outcome)
     limits = np.roll(logistic.conf_int(0.05, method="pl", max_iter=1000, tol=1e-9), 1, axis=0)
-    coefficients, errors = np.append(logistic.intercept_, logistic.coef_), np.roll(logistic.bse_, 1)
+    coefficients = np.append(logistic.intercept_, logistic.coef_)
+    # Its own errors take the information of the augmented data; Heinze and Schemper's, and ours, that of the data.
+    p = 1 / (1 + np.exp(-design @ coefficients))
+    errors = np.sqrt(np.diag(np.linalg.inv((design * (p * (1 - p))[:, None]).T @ design)))
     for k in range(design.shape[1]):
         answers[f"firth_logit_{name}_b{k}"] = coefficients[k]
         answers[f"firth_logit_{name}_se{k}"] = errors[k]

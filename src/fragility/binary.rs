@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::design_matrix::{DesignMatrix, dot};
+use super::firth::{Estimator, penalty};
 use super::link::Link;
 use super::newton::{Along, Maximum, Objective, maximise};
 
@@ -11,12 +12,16 @@ use super::newton::{Along, Maximum, Objective, maximise};
 pub struct BinaryFit {
     /// F.
     pub link: Link,
+    /// What was maximised.
+    pub estimator: Estimator,
     /// Intercept first.
     pub coefficients: DVector<f64>,
-    /// Inverse of the observed information.
+    /// Inverse of the information: observed of the likelihood, expected of Firth's.
     pub covariance: DMatrix<f64>,
-    /// At the maximum.
+    /// Of the coefficients, without a penalty.
     pub log_likelihood: f64,
+    /// What was maximised: the log-likelihood, with the penalty if there is one.
+    pub objective: f64,
 }
 
 impl BinaryFit {
@@ -31,9 +36,9 @@ impl BinaryFit {
 #[error("the likelihood has no maximum that Newton's iterations reach")]
 pub struct BinaryError;
 
-/// Maximises the Bernoulli likelihood of `events` (true: it happened) by Newton's method; it is concave for each of the
-/// links. `predictors` are each as long as `events`. Under separation there is no maximum, and the iterations may
-/// still stop, far out where the likelihood is flat: [`is_separated`](super::is_separated) must be asked first.
+/// Maximises the Bernoulli likelihood of `events` (true: it happened), or as `estimator` says Firth's of them, by Newton's
+/// method. `predictors` are each as long as `events`. Under separation the likelihood has no maximum, and the iterations
+/// may still stop, far out where it is flat: [`is_separated`](super::is_separated) must be asked first.
 ///
 /// # Errors
 /// If the iterations do not converge, or the predictors are collinear.
@@ -41,17 +46,31 @@ pub fn binary_regression(
     predictors: &[&[f64]],
     events: &[bool],
     link: Link,
+    estimator: Estimator,
 ) -> Result<BinaryFit, BinaryError> {
     let design = DesignMatrix::new(predictors, events.len());
     let weights = vec![1.0; events.len()];
-    let likelihood = BinaryLikelihood { design: &design, events, weights: &weights, link };
+    let likelihood = BinaryLikelihood { design: &design, events, weights: &weights, link, estimator };
     let start = DVector::zeros(design.columns());
     let Maximum { at, objective, .. } = likelihood.maximise(&start, Along::All, 0.0).ok_or(BinaryError)?;
-    let covariance = objective.information.cholesky().ok_or(BinaryError)?.inverse();
-    Ok(BinaryFit { link, coefficients: at, covariance, log_likelihood: objective.value })
+    let information = match estimator {
+        Estimator::Ml => objective.information,
+        Estimator::Firth => penalty(&likelihood, &at).ok_or(BinaryError)?.information,
+    };
+    let covariance = information.cholesky().ok_or(BinaryError)?.inverse();
+    let log_likelihood = BinaryLikelihood { estimator: Estimator::Ml, ..likelihood }.at(&at).value;
+    Ok(BinaryFit {
+        link,
+        estimator,
+        coefficients: at,
+        covariance,
+        log_likelihood,
+        objective: objective.value,
+    })
 }
 
 /// The likelihood of outcomes as a function of the coefficients.
+#[derive(Clone, Copy)]
 pub struct BinaryLikelihood<'a> {
     /// The cases.
     pub design: &'a DesignMatrix,
@@ -61,6 +80,8 @@ pub struct BinaryLikelihood<'a> {
     pub weights: &'a [f64],
     /// F.
     pub link: Link,
+    /// Whether it is penalised.
+    pub estimator: Estimator,
 }
 
 impl BinaryLikelihood<'_> {
@@ -69,7 +90,8 @@ impl BinaryLikelihood<'_> {
         maximise(|coefficients| self.at(coefficients), start, along, tolerance)
     }
 
-    /// Value and derivatives at these coefficients.
+    /// Value and derivatives at these coefficients. The second derivatives are those of the likelihood alone, for which
+    /// it is concave; with a penalty, which changes them by some n-th part, Newton's steps converge linearly.
     pub fn at(&self, coefficients: &DVector<f64>) -> Objective {
         let mut sums = Derivatives::new(coefficients.len());
         for ((row, &event), &weight) in self.design.rows().zip(self.events).zip(self.weights) {
@@ -79,7 +101,17 @@ impl BinaryLikelihood<'_> {
                 sums.add(row, weight * ln_p.score, weight * ln_p.curvature);
             }
         }
-        sums.objective()
+        let mut objective = sums.objective();
+        if self.estimator == Estimator::Firth {
+            match penalty(self, coefficients) {
+                Some(penalty) => {
+                    objective.value += penalty.value;
+                    objective.gradient += penalty.gradient;
+                }
+                None => objective.value = f64::NEG_INFINITY,
+            }
+        }
+        objective
     }
 }
 

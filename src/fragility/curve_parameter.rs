@@ -72,6 +72,6 @@ fn last(b: &DVector<f64>) -> f64 {
 }
 
 /// The slope of the index on ln IM.
-fn slope(b: &DVector<f64>) -> f64 {
+pub fn slope(b: &DVector<f64>) -> f64 {
     b.iter().skip(1).sum()
 }

@@ -18,29 +18,33 @@
 //! separation       whether there is a maximum at all
 //! design_matrix    the rows of a regression
 //! student          the t distribution
+//! firth            the penalised likelihood for few events or separation
 //!
-//! influence        what each case adds to a fit
-//! bootstrap        resampling within the cells of the design
-//! curve_refit      a curve fitted again to resampled cases, demand_refit a regression of the demand
-//! limits           percentile and BCa limits from the replicates
+//! influence         what each case adds to a fit: jackknife, clustered errors, first step of a refit
+//! profile           limits by the profile likelihood
+//! bootstrap         resampling within the cells of the design
+//! limits            percentile and BCa limits from the replicates
+//! curve_inference   all of these for a curve, demand_inference for a regression of the demand
 //! ```
 
 mod binary;
 mod bootstrap;
 mod case;
 mod curve;
+mod curve_inference;
 mod curve_parameter;
-mod curve_refit;
 mod demand;
-mod demand_refit;
+mod demand_inference;
 mod demand_sample;
 mod design_matrix;
 mod event_sample;
+mod firth;
 mod influence;
 mod limits;
 mod link;
 mod newton;
 mod overturning;
+mod profile;
 mod regression;
 mod separation;
 mod skill;
@@ -51,12 +55,13 @@ pub use binary::{BinaryError, BinaryFit, binary_regression};
 pub use bootstrap::{Strata, bootstrap};
 pub use case::{Case, Measure};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
+pub use curve_inference::CurveInference;
 pub use curve_parameter::CurveParameter;
-pub use curve_refit::CurveRefit;
 pub use demand::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
-pub use demand_refit::{DemandRefit, DemandReplicate};
+pub use demand_inference::{DemandInference, DemandReplicate};
 pub use demand_sample::DemandSample;
 pub use event_sample::EventSample;
+pub use firth::Estimator;
 pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
 pub use link::{Information, Link, LnProbability};
 pub use overturning::{CurveModel, OverturningFit, fit_overturning};

@@ -4,13 +4,15 @@ use super::FitStatus;
 use super::binary::{BinaryFit, binary_regression};
 use super::curve_parameter::CurveParameter;
 use super::event_sample::EventSample;
+use super::firth::Estimator;
 use super::link::Link;
 use super::regression::Estimate;
 use super::separation::is_separated;
 use super::skill::{auc, brier_score};
 use crate::normal;
 
-/// A curve from fewer events, or non-events, would be an opinion.
+/// A curve from fewer events, or non-events, would be an opinion; Firth's needs one, and says in its limits how little it
+/// knows.
 const LEAST_EVENTS: usize = 5;
 
 /// How a curve is fitted.
@@ -18,13 +20,15 @@ const LEAST_EVENTS: usize = 5;
 pub struct CurveModel {
     /// How the index becomes a probability.
     pub link: Link,
+    /// What is maximised.
+    pub estimator: Estimator,
     /// Probability with which the limits hold the truth.
     pub confidence: f64,
 }
 
 impl Default for CurveModel {
     fn default() -> CurveModel {
-        CurveModel { link: Link::Probit, confidence: 0.95 }
+        CurveModel { link: Link::Probit, estimator: Estimator::Ml, confidence: 0.95 }
     }
 }
 
@@ -62,15 +66,16 @@ pub struct OverturningFit {
 /// With the status that says why there is no curve: too few events, separation, no convergence.
 pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<OverturningFit, FitStatus> {
     let (n, events) = (sample.happened.len(), sample.events());
-    if events < LEAST_EVENTS || n - events < LEAST_EVENTS {
+    let least = if model.estimator == Estimator::Firth { 1 } else { LEAST_EVENTS };
+    if events < least || n - events < least {
         return Err(FitStatus::TooFewEvents);
     }
     let predictors = sample.predictors();
-    if is_separated(&predictors, &sample.happened) {
+    if model.estimator == Estimator::Ml && is_separated(&predictors, &sample.happened) {
         return Err(FitStatus::Separated);
     }
-    let regression =
-        binary_regression(&predictors, &sample.happened, model.link).map_err(|_| FitStatus::NotConverged)?;
+    let regression = binary_regression(&predictors, &sample.happened, model.link, model.estimator)
+        .map_err(|_| FitStatus::NotConverged)?;
     let scores = regression.indices(&sample.design());
     let probabilities: Vec<f64> = scores.iter().map(|&score| model.link.probability(score)).collect();
     let log_likelihood = regression.log_likelihood;

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::groups;
 use super::pro_group::ProModel;
 use super::uncertainty::Uncertainty;
-use crate::fragility::{Case, CurveModel, Link, Measure};
+use crate::fragility::{Case, CurveModel, Estimator, Link, Measure};
 use crate::keyword::{self, Keyword, keywords};
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Several, Word, defaults};
@@ -37,6 +37,9 @@ pub struct FitProOptions {
     /// How the index becomes a probability: probit (lognormal curve), logit or cloglog
     #[arg(long, default_value = "probit")]
     pub link: Word<Link>,
+    /// What is maximised: ml (the likelihood), or firth (penalised, for few events or separation)
+    #[arg(long, default_value = "ml")]
+    pub estimator: Word<Estimator>,
     /// Resamples for bootstrap limits, drawn within each cell of magnitude and distance
     #[arg(long, default_value = "0", value_name = "N")]
     pub bootstrap: usize,
@@ -125,7 +128,11 @@ impl FitPro {
     /// If an option is out of range.
     pub fn new(options: &FitProOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<FitPro> {
         let uncertainty = Uncertainty::new(options.bootstrap, options.confidence, options.seed)?;
-        let curve = CurveModel { link: options.link.0, confidence: uncertainty.confidence };
+        let curve = CurveModel {
+            link: options.link.0,
+            estimator: options.estimator.0,
+            confidence: uncertainty.confidence,
+        };
         let model = ProModel { event: options.event.0, pairs: options.pairs.0.clone(), curve, uncertainty };
         let options = FitProOptions { seed: Some(uncertainty.seed), ..options.clone() };
         Ok(FitPro { options, model, input, out })

@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::groups::Group;
 use super::uncertainty::Uncertainty;
 use crate::fragility::{
-    Biplanar, BootstrapLimits, DemandRefit, DemandSample, FitStatus, LinearFit, Measure, PLANE, Strata,
-    bootstrap_limits, fit_biplanar, fit_plane, fit_univariate,
+    Biplanar, DemandInference, DemandSample, FitStatus, LinearFit, Measure, PLANE, Strata, bootstrap_limits,
+    fit_biplanar, fit_plane, fit_univariate,
 };
 use crate::table::pex::{Model, PexReplicate, PexRow, ScanRow};
 
@@ -33,6 +33,7 @@ impl PexModel {
         if self.uncertainty.replicates > 0 {
             self.resample(group, &mut rows);
         }
+        rows.iter_mut().for_each(|row| self.infer(group, row));
         (rows, scan)
     }
 
@@ -52,6 +53,7 @@ impl PexModel {
             transition_limits: None,
             fit: fit.map(|fit| fit.at_confidence(self.uncertainty.confidence)),
             confidence: self.uncertainty.confidence,
+            clustered_errors: Vec::new(),
             limits: Vec::new(),
             replicates: Vec::new(),
         };
@@ -86,25 +88,22 @@ impl PexModel {
     fn resample(&self, group: &Group, rows: &mut [PexRow]) {
         let both = DemandSample::new(&group.cases, &PLANE, 0.0..f64::INFINITY);
         let search = both.transition_search();
-        let samples: Vec<DemandSample> = rows.iter().map(|row| sample(group, row)).collect();
-        let refit = |(row, sample): (&PexRow, _)| Some(DemandRefit::new(sample, row.fit.as_ref().ok()?));
-        let refits: Vec<Option<DemandRefit>> = rows.iter().zip(&samples).map(refit).collect();
+        let samples: Vec<DemandSample> =
+            rows.iter().map(|row| sample(group, row, 0.0..f64::INFINITY)).collect();
+        let refit = |(row, sample): (&PexRow, _)| Some(DemandInference::new(sample, row.fit.as_ref().ok()?));
+        let refits: Vec<Option<DemandInference>> = rows.iter().zip(&samples).map(refit).collect();
         let resampled = self.uncertainty.bootstrap(group, |counts| {
             let found = search.find(|case| counts[both.rows[case]]).map(|transition| transition.im4);
-            let replicate = |(row, refit): (&PexRow, &Option<DemandRefit>)| {
+            let replicate = |(row, refit): (&PexRow, &Option<DemandInference>)| {
                 let range = row.range_at(self.transition.or(found))?;
                 let fit = refit.as_ref()?.replicate(counts, range.clone())?;
                 Some(PexReplicate { range, fit })
             };
             Resampled { found, fits: rows.iter().zip(&refits).map(replicate).collect() }
         });
-        let strata = Strata::new(&group.cells);
         let found: Vec<Option<f64>> = resampled.iter().map(|resample| resample.found).collect();
-        for (k, (row, refit)) in rows.iter_mut().zip(&refits).enumerate() {
+        for (k, row) in rows.iter_mut().enumerate() {
             row.replicates = resampled.iter().map(|resample| resample.fits[k].clone()).collect();
-            if let Some(refit) = refit {
-                row.limits = self.limits(refit, &strata, row);
-            }
             if let Some(estimate) = row.transition_found {
                 let limits = bootstrap_limits(estimate, &found, 0.0, self.uncertainty.confidence);
                 row.transition_limits = limits.map(|limits| limits.percentile);
@@ -112,19 +111,27 @@ impl PexModel {
         }
     }
 
-    /// Of coefficients and dispersion.
-    fn limits(&self, refit: &DemandRefit, strata: &Strata, row: &PexRow) -> Vec<Option<BootstrapLimits>> {
-        let accelerations = refit.accelerations(strata, row.range());
+    /// Adds clustered errors, and limits from the replicates if there are any.
+    fn infer(&self, group: &Group, row: &mut PexRow) {
+        let Ok(fit) = &row.fit else { return };
+        let sample = sample(group, row, row.range());
+        let inference = DemandInference::new(&sample, fit);
+        row.clustered_errors = inference.clustered_errors(&group.cells);
+        if row.replicates.is_empty() {
+            return;
+        }
         let limits = |(k, (estimate, acceleration)): (usize, (f64, f64))| {
             let parameter = |replicate: &Option<PexReplicate>| replicate.as_ref()?.fit.parameters().nth(k);
             let replicates: Vec<Option<f64>> = row.replicates.iter().map(parameter).collect();
             bootstrap_limits(estimate, &replicates, acceleration, self.uncertainty.confidence)
         };
-        refit.fitted().parameters().zip(accelerations).enumerate().map(limits).collect()
+        let accelerations = inference.accelerations(&Strata::new(&group.cells));
+        row.limits = inference.fitted().parameters().zip(accelerations).enumerate().map(limits).collect();
     }
 }
 
-fn sample(group: &Group, row: &PexRow) -> DemandSample {
+/// The cases of a regression in a range of its first measure.
+fn sample(group: &Group, row: &PexRow, range: Range<f64>) -> DemandSample {
     let measures: Vec<Measure> = std::iter::once(row.im_x).chain(row.im_y).collect();
-    DemandSample::new(&group.cases, &measures, 0.0..f64::INFINITY)
+    DemandSample::new(&group.cases, &measures, range)
 }

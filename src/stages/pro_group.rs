@@ -4,10 +4,11 @@ use super::fit_pro::{FittedEvent, Pair};
 use super::groups::Group;
 use super::uncertainty::Uncertainty;
 use crate::fragility::{
-    CurveModel, CurveParameter, CurveRefit, EventSample, Measure, Strata, bootstrap_limits, fit_overturning,
+    CurveInference, CurveModel, CurveParameter, EventSample, Measure, Strata, bootstrap_limits,
+    fit_overturning,
 };
 use crate::keyword::Keyword;
-use crate::table::pro::ProRow;
+use crate::table::pro::{ParameterInference, ProRow};
 
 /// How all curves are made.
 pub struct ProModel {
@@ -31,6 +32,7 @@ impl ProModel {
         if self.uncertainty.replicates > 0 {
             self.resample(group, &mut rows, &samples);
         }
+        rows.iter_mut().zip(&samples).for_each(|(row, sample)| self.infer(group, row, sample));
         rows
     }
 
@@ -47,33 +49,43 @@ impl ProModel {
             events: sample.events(),
             model: self.curve,
             fit: fit_overturning(&sample, &self.curve),
-            limits: Vec::new(),
+            inference: Vec::new(),
             replicates: Vec::new(),
         };
         (row, sample)
     }
 
+    /// Adds the coefficients in each resample.
     fn resample(&self, group: &Group, rows: &mut [ProRow], samples: &[EventSample]) {
-        let regressions: Vec<_> =
-            rows.iter().map(|row| Some(row.fit.as_ref().ok()?.regression.clone())).collect();
-        let refit = |(fit, sample)| Option::map(fit, |fit| CurveRefit::new(sample, fit));
-        let fits = regressions.iter().map(Option::as_ref);
-        let refits: Vec<Option<CurveRefit>> = fits.zip(samples).map(refit).collect();
+        let pairs = rows.iter().zip(samples);
+        let refits: Vec<Option<CurveInference>> = pairs
+            .map(|(row, sample)| Some(CurveInference::new(sample, &row.fit.as_ref().ok()?.regression)))
+            .collect();
         let resampled = self.uncertainty.bootstrap(group, |counts| -> Vec<_> {
             refits.iter().map(|refit| refit.as_ref()?.coefficients(counts)).collect()
         });
-        let strata = Strata::new(&group.cells);
-        for (k, (row, refit)) in rows.iter_mut().zip(&refits).enumerate() {
+        for (k, row) in rows.iter_mut().enumerate() {
             row.replicates = resampled.iter().map(|fits| fits[k].clone()).collect();
-            let Some(refit) = refit else { continue };
-            let limits = |parameter: &CurveParameter| {
-                let replicates = refit.parameters(*parameter, &row.replicates);
-                let acceleration = refit.acceleration(*parameter, &strata);
-                let confidence = self.uncertainty.confidence;
-                let estimate = refit.fitted(*parameter);
-                Some((*parameter, bootstrap_limits(estimate, &replicates, acceleration, confidence)?))
-            };
-            row.limits = refit.curve_parameters().iter().filter_map(limits).collect();
         }
+    }
+
+    /// Adds clustered errors, profile-likelihood limits, and limits from the replicates if there are any.
+    fn infer(&self, group: &Group, row: &mut ProRow, sample: &EventSample) {
+        let Ok(fit) = &row.fit else { return };
+        let (inference, confidence) =
+            (CurveInference::new(sample, &fit.regression), self.uncertainty.confidence);
+        let (strata, clustered) = (Strata::new(&group.cells), inference.clustered_covariance(&group.cells));
+        let of = |parameter: &CurveParameter| {
+            let replicates = inference.parameters(*parameter, &row.replicates);
+            let acceleration = inference.acceleration(*parameter, &strata);
+            let estimate = inference.fitted(*parameter);
+            ParameterInference {
+                parameter: *parameter,
+                clustered_error: inference.standard_error(*parameter, &clustered),
+                profile: inference.profile_limits(*parameter, confidence),
+                bootstrap: bootstrap_limits(estimate, &replicates, acceleration, confidence),
+            }
+        };
+        row.inference = inference.curve_parameters().iter().map(of).collect();
     }
 }

@@ -61,6 +61,8 @@ pub struct PexRow {
     pub fit: Result<LinearFit, FitStatus>,
     /// Probability with which limits hold the truth.
     pub confidence: f64,
+    /// Standard errors of the coefficients where cases of one cell may depend on each other.
+    pub clustered_errors: Vec<f64>,
     /// Bootstrap limits of the coefficients and of the dispersion; empty without replicates.
     pub limits: Vec<Option<BootstrapLimits>>,
     /// Of the bootstrap.
@@ -167,6 +169,7 @@ pub fn batch(rows: &[PexRow]) -> Result<RecordBatch, ArrowError> {
     columns.extend((0..3).map(|index| estimate(index, |e| e.standard_error)));
     columns.extend((0..3).flat_map(|index| [estimate(index, |e| e.low), estimate(index, |e| e.high)]));
     columns.extend([(0, 1), (0, 2), (1, 2)].map(|place| number(&|row| row.covariance(place))));
+    columns.extend((0..3).map(|k| number(&|row| row.clustered_errors.get(k).copied())));
     columns.push(number(&|row| Some(row.confidence)));
     columns.push(Arc::new(Int64Array::from_iter_values(
         rows.iter().map(|row| row.replicates.iter().flatten().count() as i64),

@@ -13,7 +13,7 @@ use super::TableError;
 use super::reader::read_frame;
 use super::schema::{self, Column, PRO};
 use crate::fragility::{
-    BootstrapLimits, CurveModel, CurveParameter, Estimate, FitStatus, Link, Measure, OverturningFit,
+    BootstrapLimits, CurveModel, CurveParameter, Estimate, FitStatus, Limits, Link, Measure, OverturningFit,
 };
 use crate::keyword::{self, Keyword};
 
@@ -38,8 +38,8 @@ pub struct ProRow {
     pub model: CurveModel,
     /// The curve, or why there is none.
     pub fit: Result<OverturningFit, FitStatus>,
-    /// Bootstrap limits of the parameters of the curve; empty without replicates.
-    pub limits: Vec<(CurveParameter, BootstrapLimits)>,
+    /// How sure its parameters are.
+    pub inference: Vec<ParameterInference>,
     /// The coefficients in each resample, where it has a curve.
     pub replicates: Vec<Option<DVector<f64>>>,
 }
@@ -56,8 +56,8 @@ impl ProRow {
         self.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok)
     }
 
-    fn limits_of(&self, parameter: CurveParameter) -> Option<BootstrapLimits> {
-        self.limits.iter().find(|(of, _)| *of == parameter).map(|(_, limits)| *limits)
+    fn inference_of(&self, parameter: CurveParameter) -> Option<&ParameterInference> {
+        self.inference.iter().find(|inference| inference.parameter == parameter)
     }
 
     /// Why there is no curve, for a message.
@@ -69,6 +69,19 @@ impl ProRow {
             self.event, self.structure, self.events, self.n
         )
     }
+}
+
+/// How sure a parameter of a curve is, besides the errors and limits of the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParameterInference {
+    /// Which.
+    pub parameter: CurveParameter,
+    /// Standard error where cases of one cell may depend on each other.
+    pub clustered_error: f64,
+    /// By the profile likelihood.
+    pub profile: Limits,
+    /// From the replicates, if they give any.
+    pub bootstrap: Option<BootstrapLimits>,
 }
 
 /// The rows of the pro file; a limit beyond all numbers is null.
@@ -114,18 +127,25 @@ pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
         columns.extend([part(estimate, |e| e.low), part(estimate, |e| e.high)]);
     }
     columns.push(text(|row| Some(row.model.link.as_str())));
+    columns.push(text(|row| Some(row.model.estimator.as_str())));
     columns.extend((0..3).map(|k| number(&|fit| fit.regression.coefficients.get(k).copied())));
     let covariance = |place: (usize, usize)| number(&|fit| fit.regression.covariance.get(place).copied());
     columns.extend((0..3).map(|k| number(&|fit| Some(fit.regression.covariance.get((k, k))?.sqrt()))));
     columns.extend([(0, 1), (0, 2), (1, 2)].map(covariance));
+    let inferred =
+        |parameter: CurveParameter, value: &dyn Fn(&ParameterInference) -> Option<f64>| -> ArrayRef {
+            let value = |row: &ProRow| row.inference_of(parameter).and_then(value).filter(|v| v.is_finite());
+            Arc::new(Float64Array::from_iter(rows.iter().map(value)))
+        };
+    columns.extend(CurveParameter::ALL.map(|parameter| inferred(parameter, &|i| Some(i.clustered_error))));
+    for parameter in CurveParameter::ALL {
+        columns.push(inferred(parameter, &|i| Some(i.profile.low)));
+        columns.push(inferred(parameter, &|i| Some(i.profile.high)));
+    }
     columns.push(Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.model.confidence))));
     columns.push(count(|row| row.replicates.iter().flatten().count()));
     for parameter in CurveParameter::ALL {
-        let limit = |k: usize| -> ArrayRef {
-            let values = rows.iter().map(|row| row.limits_of(parameter)?.in_order()[k]);
-            Arc::new(Float64Array::from_iter(values))
-        };
-        columns.extend((0..4).map(limit));
+        columns.extend((0..4).map(|k| inferred(parameter, &|i| i.bootstrap?.in_order()[k])));
     }
     columns.push(text(|row| Some(row.status().as_str())));
     RecordBatch::try_new(PRO.schema(), columns)

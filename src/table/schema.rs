@@ -184,6 +184,9 @@ columns! {
     COV_LN_A_B1 = "cov_ln_a_b1", Float64, "1", "covariance of ln_a and b1";
     COV_LN_A_B2 = "cov_ln_a_b2", Float64, "1", "covariance of ln_a and b2";
     COV_B1_B2 = "cov_b1_b2", Float64, "1", "covariance of b1 and b2";
+    SE_LN_A_CLUSTERED = "se_ln_a_clustered", Float64, "1", "standard error of ln_a, robust to dependence within a cell";
+    SE_B1_CLUSTERED = "se_b1_clustered", Float64, "1", "standard error of b1, robust to dependence within a cell";
+    SE_B2_CLUSTERED = "se_b2_clustered", Float64, "1", "standard error of b2, robust to dependence within a cell";
     CONFIDENCE = "confidence", Float64, "1", "probability with which the limits hold the truth";
     REPLICATES = "replicates", Int64, "1", "bootstrap replicates that have a fit";
     LN_A_PERCENTILE_LOW = "ln_a_percentile_low", Float64, "1", "lower percentile limit of ln_a";
@@ -234,6 +237,16 @@ columns! {
     BETA_HIGH = "beta_high", Float64, "1", "upper limit of beta";
     THETA_LOW = "theta_low", Float64, "1", "lower limit of theta";
     THETA_HIGH = "theta_high", Float64, "1", "upper limit of theta";
+    ESTIMATOR = "estimator", Text, "1", "ml (maximum likelihood), or firth (penalised)";
+    SE_LAMBDA_CLUSTERED = "se_lambda_clustered", Float64, "1", "standard error of lambda, robust to dependence within a cell";
+    SE_MU_CLUSTERED = "se_mu_clustered", Float64, "1", "standard error of mu, robust to dependence within a cell";
+    SE_BETA_CLUSTERED = "se_beta_clustered", Float64, "1", "standard error of beta, robust to dependence within a cell";
+    LAMBDA_PROFILE_LOW = "lambda_profile_low", Float64, "1", "lower profile-likelihood limit of lambda; null: none";
+    LAMBDA_PROFILE_HIGH = "lambda_profile_high", Float64, "1", "upper profile-likelihood limit of lambda; null: none";
+    MU_PROFILE_LOW = "mu_profile_low", Float64, "1", "lower profile-likelihood limit of mu; null: none";
+    MU_PROFILE_HIGH = "mu_profile_high", Float64, "1", "upper profile-likelihood limit of mu; null: none";
+    BETA_PROFILE_LOW = "beta_profile_low", Float64, "1", "lower profile-likelihood limit of beta; null: none";
+    BETA_PROFILE_HIGH = "beta_profile_high", Float64, "1", "upper profile-likelihood limit of beta; null: none";
     LINK = "link", Text, "1", "probit, logit or cloglog: the probability is F(b0 + b1 ln im_x + b2 ln im_y)";
     B0 = "b0", Float64, "1", "intercept of the index";
     INDEX_B1 = "b1", Float64, "1", "slope of the index on ln im_x";
@@ -377,6 +390,9 @@ pub const PEX: Table = Table {
         COV_LN_A_B1.or_null(),
         COV_LN_A_B2.or_null(),
         COV_B1_B2.or_null(),
+        SE_LN_A_CLUSTERED.or_null(),
+        SE_B1_CLUSTERED.or_null(),
+        SE_B2_CLUSTERED.or_null(),
         CONFIDENCE,
         REPLICATES,
         LN_A_PERCENTILE_LOW.or_null(),
@@ -462,6 +478,7 @@ pub const PRO: Table = Table {
         THETA_LOW.or_null(),
         THETA_HIGH.or_null(),
         LINK,
+        ESTIMATOR,
         B0.or_null(),
         INDEX_B1.or_null(),
         INDEX_B2.or_null(),
@@ -471,6 +488,15 @@ pub const PRO: Table = Table {
         COV_B0_B1.or_null(),
         COV_B0_B2.or_null(),
         COV_B1_B2.or_null(),
+        SE_LAMBDA_CLUSTERED.or_null(),
+        SE_MU_CLUSTERED.or_null(),
+        SE_BETA_CLUSTERED.or_null(),
+        LAMBDA_PROFILE_LOW.or_null(),
+        LAMBDA_PROFILE_HIGH.or_null(),
+        MU_PROFILE_LOW.or_null(),
+        MU_PROFILE_HIGH.or_null(),
+        BETA_PROFILE_LOW.or_null(),
+        BETA_PROFILE_HIGH.or_null(),
         CONFIDENCE,
         REPLICATES,
         LAMBDA_PERCENTILE_LOW.or_null(),

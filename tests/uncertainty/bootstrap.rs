@@ -1,7 +1,7 @@
 //! Resampling within cells, refits and limits against statsmodels and scipy.stats.bootstrap.
 
 use rockfrag::fragility::{
-    CurveModel, CurveParameter, CurveRefit, DemandRefit, Link, Strata, acceleration, bootstrap,
+    CurveInference, CurveModel, CurveParameter, DemandInference, Link, Strata, acceleration, bootstrap,
     bootstrap_limits, fit_overturning,
 };
 
@@ -21,12 +21,13 @@ fn a_refit_equals_the_fit_of_repeated_cases() {
     for name in ["x", "xy"] {
         let sample = data.event_sample(name);
         let fit = fit_overturning(&sample, &CurveModel::default()).unwrap();
-        let b = CurveRefit::new(&sample, &fit.regression).coefficients(&counts).unwrap();
+        let b = CurveInference::new(&sample, &fit.regression).coefficients(&counts).unwrap();
         for (k, b) in b.iter().enumerate() {
             answers.check(&format!("weighted_probit_{name}_b{k}"), *b, 1e-7);
         }
         let sample = data.demand_sample(name);
-        let refit = DemandRefit::new(&sample, &sample.fit().unwrap()).replicate(&counts, EVERYWHERE).unwrap();
+        let refit =
+            DemandInference::new(&sample, &sample.fit().unwrap()).replicate(&counts, EVERYWHERE).unwrap();
         for (k, b) in refit.coefficients.iter().enumerate() {
             answers.check(&format!("weighted_ols_{name}_b{k}"), *b, 1e-10);
         }
@@ -48,12 +49,12 @@ fn limits_equal_scipys_on_the_same_replicates() {
     };
     let sample = data.demand_sample("x");
     let fit = sample.fit().unwrap();
-    let accelerations = DemandRefit::new(&sample, &fit).accelerations(&strata, EVERYWHERE);
+    let accelerations = DemandInference::new(&sample, &fit).accelerations(&strata);
     check("slope", fit.coefficients[1].value, accelerations[1], 1e-9);
 
     let sample = data.event_sample("x");
     let fit = fit_overturning(&sample, &CurveModel::default()).unwrap();
-    let refit = CurveRefit::new(&sample, &fit.regression);
+    let refit = CurveInference::new(&sample, &fit.regression);
     // The jackknife with every refit carried to its end is scipy's; ours stops after one Newton step.
     let without = |row: usize| {
         let mut counts = vec![1.0; data.x.len()];
@@ -72,7 +73,7 @@ fn our_own_resamples_spread_as_scipys() {
     let (data, answers) = (data(), answers());
     let sample = data.demand_sample("x");
     let fit = sample.fit().unwrap();
-    let refit = DemandRefit::new(&sample, &fit);
+    let refit = DemandInference::new(&sample, &fit);
     let slopes: Vec<f64> = bootstrap(&Strata::new(&data.cells), 4000, 42, |counts| {
         refit.replicate(counts, EVERYWHERE).unwrap().coefficients[1]
     });

@@ -40,6 +40,13 @@ impl Data {
         if name == "x" { vec![&self.x] } else { vec![&self.x, &self.y] }
     }
 
+    /// Keeps only the first cases.
+    pub fn first(&mut self, cases: usize) {
+        [&mut self.x, &mut self.y, &mut self.demand].into_iter().for_each(|column| column.truncate(cases));
+        self.event.truncate(cases);
+        self.cells.truncate(cases);
+    }
+
     /// The measures whose logarithms these are.
     pub fn measures(name: &str) -> Vec<Measure> {
         if name == "x" { vec![Measure::Im4] } else { vec![Measure::Im4, Measure::Im3] }

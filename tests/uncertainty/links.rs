@@ -1,6 +1,6 @@
 //! Each link against statsmodels and pyFragility.
 
-use rockfrag::fragility::{CurveModel, CurveParameter, Link, binary_regression, fit_overturning};
+use rockfrag::fragility::{CurveModel, CurveParameter, Estimator, Link, binary_regression, fit_overturning};
 use rockfrag::keyword::Keyword;
 
 use crate::data::{answers, data};
@@ -10,7 +10,7 @@ fn every_link_equals_statsmodels() {
     let (data, answers) = (data(), answers());
     for link in Link::ALL {
         for name in ["x", "xy"] {
-            let fit = binary_regression(&data.predictors(name), &data.event, *link).unwrap();
+            let fit = binary_regression(&data.predictors(name), &data.event, *link, Estimator::Ml).unwrap();
             let key = format!("{}_{name}", link.as_str());
             for k in 0..fit.coefficients.len() {
                 answers.check(&format!("{key}_b{k}"), fit.coefficients[k], 1e-8);

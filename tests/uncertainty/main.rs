@@ -2,4 +2,6 @@
 
 mod bootstrap;
 mod data;
+mod firth;
 mod links;
+mod robust;

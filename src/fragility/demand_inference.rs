@@ -1,4 +1,4 @@
-//! Regressions of the demand fitted again to resampled cases.
+//! How sure a regression of the demand is: clustered errors and refits of resampled cases.
 
 use std::ops::Range;
 
@@ -27,8 +27,8 @@ impl DemandReplicate {
     }
 }
 
-/// A regression, ready to be fitted again.
-pub struct DemandRefit<'a> {
+/// A regression with cases: those it was fitted to, or for refits a larger sample.
+pub struct DemandInference<'a> {
     sample: &'a DemandSample,
     coefficients: DVector<f64>,
     residual_sd: f64,
@@ -41,17 +41,25 @@ pub struct DemandRefit<'a> {
     influence: Influence,
 }
 
-impl<'a> DemandRefit<'a> {
+impl<'a> DemandInference<'a> {
     /// Of a regression to any sample of the same measures. Least squares being quadratic, one Newton step leads from
     /// one sample to another.
-    pub fn new(sample: &'a DemandSample, fit: &LinearFit) -> DemandRefit<'a> {
+    pub fn new(sample: &'a DemandSample, fit: &LinearFit) -> DemandInference<'a> {
         let (design, coefficients) = (sample.design(), fit.values());
         let residual = |(row, y): (&[f64], &f64)| y - dot(row, coefficients.as_slice());
         let residuals: Vec<f64> = design.rows().zip(&sample.ln_edp).map(residual).collect();
         let influence = Influence::of_residuals(residuals.clone());
         let bread = &fit.covariance / fit.residual_sd.powi(2);
         let LinearFit { residual_sd, rss, n, .. } = *fit;
-        DemandRefit { sample, coefficients, residual_sd, bread, rss, n, design, residuals, influence }
+        DemandInference { sample, coefficients, residual_sd, bread, rss, n, design, residuals, influence }
+    }
+
+    /// Standard errors of the coefficients where cases of one cell may depend on each other; `cells` are those of all
+    /// cases. Of the sample of the fit.
+    pub fn clustered_errors(&self, cells: &[usize]) -> Vec<f64> {
+        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| cells[row]).collect();
+        let covariance = self.influence.clustered_covariance(&self.design, &self.bread, &clusters);
+        covariance.diagonal().iter().map(|variance| variance.sqrt()).collect()
     }
 
     /// The fit itself.
@@ -76,15 +84,14 @@ impl<'a> DemandRefit<'a> {
         })
     }
 
-    /// Of coefficients and dispersion, for BCa limits of the fit over the cases in `range`.
-    pub fn accelerations(&self, strata: &Strata, range: Range<f64>) -> Vec<f64> {
+    /// Of coefficients and dispersion, for BCa limits. Of the sample of the fit.
+    pub fn accelerations(&self, strata: &Strata) -> Vec<f64> {
         let fit = self.fitted();
         let mut without_each = vec![fit.clone(); strata.rows()];
         let degrees = (self.n - 1 - fit.coefficients.len()) as f64;
         let changes = self.influence.without_each(&self.design, &self.bread);
-        let used = self.weights(&vec![1.0; strata.rows()], range);
-        let cases = self.sample.rows.iter().zip(&self.residuals).zip(self.design.rows()).zip(changes);
-        for ((((&row, residual), x), change), _) in cases.zip(&used).filter(|(_, used)| **used > 0.0) {
+        let cases = self.sample.rows.iter().zip(&self.residuals).zip(self.design.rows());
+        for (((&row, residual), x), change) in cases.zip(changes) {
             let rss = self.rss - residual * (residual - dot(x, change.as_slice()));
             without_each[row].residual_sd = (rss / degrees).sqrt();
             without_each[row].coefficients.iter_mut().zip(&change).for_each(|(b, change)| *b += change);
