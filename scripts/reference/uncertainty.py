@@ -1,7 +1,7 @@
 """Other programs' answers for links, errors, limits and tests: python uncertainty.py tests/reference/fits
 
-Reads cases.csv (of fits.py; 20 rows make a cell) and writes uncertainty_answers.csv (each number) and
-bootstrap_distribution.csv (the replicates behind the BCa limits). Needs numpy, scipy, statsmodels, pyFragility, firthmodels
+Reads cases.csv (of fits.py; 20 rows make a cell) and writes uncertainty_answers.csv (each number), smooth.csv (cases of a
+smooth transition) and bootstrap_distribution.csv (the replicates behind the BCa limits). Needs numpy, scipy, statsmodels, pyFragility, firthmodels
 and mpmath.
 """
 
@@ -15,6 +15,7 @@ import statsmodels.api as sm
 from firthmodels import FirthLogisticRegression
 from mpmath import mp
 from scipy import optimize, stats
+from scipy.interpolate import CubicSpline
 from statsmodels.stats.diagnostic import linear_reset
 from statsmodels.stats.diagnostic_gen import test_chisquare_binning
 
@@ -73,6 +74,18 @@ for name, design in designs.items():
     answers[f"ols_{name}_hc1_1"] = each_alone.bse[1]
     reset = linear_reset(ols, power=3, test_type="fitted", use_f=True)
     answers[f"ols_{name}_reset"], answers[f"ols_{name}_reset_p"] = reset.fvalue, reset.pvalue
+
+# A natural cubic spline with knots at quantiles, straight beyond the outer ones, and an interaction.
+knots = np.quantile(x, [0.05, 0.35, 0.65, 0.95])
+cubic = CubicSpline(knots, np.eye(4), bc_type="natural")
+inside = np.clip(x, knots[0], knots[-1])
+basis = cubic(inside) + (x - inside)[:, None] * cubic(inside, 1)
+answers["spline_llf"] = glm("probit", basis, event).llf
+answers["spline_xy_llf"] = glm("probit", np.column_stack([basis, y]), event).llf
+answers["interaction_llf"] = glm("probit", sm.add_constant(np.column_stack([x, y, x * y])), event).llf
+for name, quantile in [("chi_squared", stats.chi2.sf(7.3, 5)), ("chi_squared_even", stats.chi2.sf(21.4, 8))]:
+    answers[name] = quantile
+answers["f"] = stats.f.sf(4.2, 2, 37)
 
 # Profile-likelihood limits of the median and the dispersion.
 for name, rows in [("all", slice(None)), ("few", slice(0, 60))]:
@@ -134,6 +147,28 @@ for name, (design, outcome) in sets.items():
     for link in ["probit", "cloglog"]:
         for k, b in enumerate(firth(link, design, outcome)):
             answers[f"firth_{link}_{name}_b{k}"] = b
+
+# Two planes that pass into one another, by scipy from many starts: 600 cases of a known transition.
+random = np.random.default_rng(21)
+ln_im4, ln_im3 = random.uniform(0.01, 1.0, 600), random.normal(0.0, 0.3, 600)
+share = 1 / (1 + np.exp(-(ln_im4 - 0.3) / 0.03))
+ln_edp = (1 - share) * (-8 + 25 * ln_im4 - 2 * ln_im3) + share * (-1.5 + 1.5 * ln_im4 - ln_im3) + random.normal(0, 0.4, 600)
+
+
+def smooth(p):
+    share = 1 / (1 + np.exp(-(ln_im4 - p[6]) / p[7]))
+    return (1 - share) * (p[0] + p[1] * ln_im4 + p[2] * ln_im3) + share * (p[3] + p[4] * ln_im4 + p[5] * ln_im3) - ln_edp
+
+
+best = optimize.least_squares(smooth, [-8, 25, -2, -1.5, 1.5, -1, 0.3, 0.03], method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15)
+covariance = np.linalg.inv(best.jac.T @ best.jac) * 2 * best.cost / (600 - 8)
+for k, name in enumerate(["low0", "low1", "low2", "high0", "high1", "high2", "ln_centre", "width"]):
+    answers[f"smooth_{name}"], answers[f"smooth_se_{name}"] = best.x[k], np.sqrt(covariance[k, k])
+answers["smooth_rss"] = 2 * best.cost
+with open(folder / "smooth.csv", "w", newline="") as file:
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(["ln_im4", "ln_im3", "ln_edp"])
+    writer.writerows([repr(float(v)) for v in row] for row in zip(ln_im4, ln_im3, ln_edp))
 
 # BCa limits of the slope of the regression and of mu of the curve, resampled within cells.
 rows = tuple(np.flatnonzero(cell == c) for c in np.unique(cell))

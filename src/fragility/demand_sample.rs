@@ -44,7 +44,8 @@ impl DemandSample {
     pub fn fit(&self) -> Result<LinearFit, FitStatus> {
         least_squares(&self.predictors(), &self.ln_edp).map_err(|error| match error {
             RegressionError::TooFewCases { .. } => FitStatus::TooFewCases,
-            RegressionError::Singular => FitStatus::Singular,
+            RegressionError::Constant => FitStatus::Constant,
+            RegressionError::Collinear => FitStatus::Collinear,
         })
     }
 

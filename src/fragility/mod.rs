@@ -6,9 +6,11 @@
 //! demand_sample    the cases of a regression of the demand, event_sample those of a curve
 //! demand           P_ex: univariate, plane and biplanar regressions of the demand in safe rocking (Eqs. 14-18)
 //! transition       where the two planes meet
+//! smooth           a smooth transition in place of the break
 //! overturning      P_ro: fragility curves of scalar and hybrid measures (Eqs. 19-24)
 //! curve_parameter  lambda, mu and beta of a curve from the coefficients of its regression
 //! curve            the probabilities themselves, and the tree that joins them (Eqs. 12 and 14)
+//! bent_curve       curves with a spline or an interaction more
 //! skill            how well fitted probabilities tell the outcomes apart
 //!
 //! regression       least squares with standard errors and limits
@@ -17,7 +19,10 @@
 //! newton           the method that finds the maximum
 //! separation       whether there is a maximum at all
 //! design_matrix    the rows of a regression
-//! student          the t distribution
+//! dependence       whether the predictors can be told apart
+//! spline           columns that bend a line
+//! goodness         whether a model fits
+//! distribution     Student's t, F and chi squared
 //! firth            the penalised likelihood for few events or separation
 //!
 //! influence         what each case adds to a fit: jackknife, clustered errors, first step of a refit
@@ -27,6 +32,7 @@
 //! curve_inference   all of these for a curve, demand_inference for a regression of the demand
 //! ```
 
+mod bent_curve;
 mod binary;
 mod bootstrap;
 mod case;
@@ -36,9 +42,12 @@ mod curve_parameter;
 mod demand;
 mod demand_inference;
 mod demand_sample;
+mod dependence;
 mod design_matrix;
+mod distribution;
 mod event_sample;
 mod firth;
+mod goodness;
 mod influence;
 mod limits;
 mod link;
@@ -48,9 +57,11 @@ mod profile;
 mod regression;
 mod separation;
 mod skill;
-mod student;
+mod smooth;
+mod spline;
 mod transition;
 
+pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use binary::{BinaryError, BinaryFit, binary_regression};
 pub use bootstrap::{Strata, bootstrap};
 pub use case::{Case, Measure};
@@ -60,16 +71,19 @@ pub use curve_parameter::CurveParameter;
 pub use demand::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
 pub use demand_inference::{DemandInference, DemandReplicate};
 pub use demand_sample::DemandSample;
+pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
 pub use event_sample::EventSample;
 pub use firth::Estimator;
+pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
 pub use link::{Information, Link, LnProbability};
 pub use overturning::{CurveModel, OverturningFit, fit_overturning};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
 pub use separation::is_separated;
 pub use skill::{auc, brier_score};
-pub use student::t_quantile;
-pub use transition::{ScanPoint, Transition, TransitionSearch, find_transition};
+pub use smooth::{SmoothFit, fit_smooth};
+pub use spline::natural_spline;
+pub use transition::{ScanPoint, Transition, TransitionSearch, find_transition, transition_limits};
 
 use crate::keyword::keywords;
 
@@ -78,23 +92,29 @@ use crate::keyword::keywords;
 pub enum FitStatus {
     /// There is.
     Ok,
+    /// There is, but what it is about falls as the measure (of two, the hybrid or the first) grows.
+    Falling,
     /// Fewer cases than the fit needs.
     TooFewCases,
     /// Fewer events, or fewer non-events, than say anything about a probability.
     TooFewEvents,
     /// The measure tells the outcomes apart without overlap: the likelihood has no maximum.
     Separated,
+    /// A measure, or the demand, does not vary.
+    Constant,
     /// The measures do not vary independently of each other.
-    Singular,
+    Collinear,
     /// The iterations did not come to an end.
     NotConverged,
 }
 
 keywords!(FitStatus {
     Ok = "ok",
+    Falling = "falling",
     TooFewCases = "too_few_cases",
     TooFewEvents = "too_few_events",
     Separated = "separated",
-    Singular = "singular",
+    Constant = "constant",
+    Collinear = "collinear",
     NotConverged = "not_converged",
 });

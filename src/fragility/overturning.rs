@@ -3,8 +3,10 @@
 use super::FitStatus;
 use super::binary::{BinaryFit, binary_regression};
 use super::curve_parameter::CurveParameter;
+use super::dependence::{Dependence, dependence};
 use super::event_sample::EventSample;
 use super::firth::Estimator;
+use super::goodness::{Test, hosmer_lemeshow};
 use super::link::Link;
 use super::regression::Estimate;
 use super::separation::is_separated;
@@ -54,16 +56,25 @@ pub struct OverturningFit {
     pub auc: f64,
     /// Brier score.
     pub brier: f64,
+    /// Hosmer and Lemeshow's test of the probabilities, where there are cases enough.
+    pub hosmer_lemeshow: Option<Test>,
     /// Cases used.
     pub n: usize,
     /// Those in which the event happened.
     pub events: usize,
 }
 
+impl OverturningFit {
+    /// Whether the probability grows with the measure.
+    pub fn status(&self) -> FitStatus {
+        if self.beta.value > 0.0 { FitStatus::Ok } else { FitStatus::Falling }
+    }
+}
+
 /// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood (Eq. 20).
 ///
 /// # Errors
-/// With the status that says why there is no curve: too few events, separation, no convergence.
+/// With the status that says why there is no curve: too few events, measures that do not vary, separation, no convergence.
 pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<OverturningFit, FitStatus> {
     let (n, events) = (sample.happened.len(), sample.events());
     let least = if model.estimator == Estimator::Firth { 1 } else { LEAST_EVENTS };
@@ -71,6 +82,11 @@ pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<Overt
         return Err(FitStatus::TooFewEvents);
     }
     let predictors = sample.predictors();
+    match dependence(&predictors) {
+        Some(Dependence::Constant) => return Err(FitStatus::Constant),
+        Some(Dependence::Collinear) => return Err(FitStatus::Collinear),
+        None => {}
+    }
     if model.estimator == Estimator::Ml && is_separated(&predictors, &sample.happened) {
         return Err(FitStatus::Separated);
     }
@@ -100,6 +116,7 @@ pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<Overt
         bic: parameters * (n as f64).ln() - 2.0 * log_likelihood,
         auc: auc(&scores, &sample.happened),
         brier: brier_score(&probabilities, &sample.happened),
+        hosmer_lemeshow: hosmer_lemeshow(&probabilities, &sample.happened),
         n,
         events,
         regression,

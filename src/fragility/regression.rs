@@ -1,6 +1,9 @@
 use nalgebra::{DMatrix, DVector};
 
-use super::student::t_quantile;
+use super::FitStatus;
+use super::dependence::{Dependence, dependence, is_constant};
+use super::distribution::t_quantile;
+use super::limits::Limits;
 
 /// A number with its uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +23,11 @@ impl Estimate {
     pub fn symmetric(value: f64, standard_error: f64, quantile: f64) -> Estimate {
         let half_width = quantile * standard_error;
         Estimate { value, standard_error, low: value - half_width, high: value + half_width }
+    }
+
+    /// Its limits alone.
+    pub fn limits(&self) -> Limits {
+        Limits { low: self.low, high: self.high }
     }
 }
 
@@ -53,6 +61,11 @@ impl LinearFit {
         self
     }
 
+    /// Whether the response grows with the first predictor.
+    pub fn status(&self) -> FitStatus {
+        if self.coefficients[1].value > 0.0 { FitStatus::Ok } else { FitStatus::Falling }
+    }
+
     /// The values of the coefficients.
     pub fn values(&self) -> DVector<f64> {
         DVector::from_iterator(self.coefficients.len(), self.coefficients.iter().map(|b| b.value))
@@ -70,30 +83,35 @@ pub enum RegressionError {
         /// How many are needed.
         needed: usize,
     },
-    /// A predictor is constant or a combination of the others.
+    /// A predictor or the response does not vary.
+    #[error("a predictor or the response does not vary")]
+    Constant,
+    /// A predictor is a combination of the others.
     #[error("the predictors do not vary independently")]
-    Singular,
+    Collinear,
 }
 
 /// Ordinary least squares of `y` on an intercept and `predictors`, each as long as `y`, by QR decomposition.
 ///
 /// # Errors
-/// If there are too few cases or the predictors are collinear.
+/// If there are too few cases, something does not vary, or the predictors are collinear.
 pub fn least_squares(predictors: &[&[f64]], y: &[f64]) -> Result<LinearFit, RegressionError> {
     let (n, k) = (y.len(), predictors.len() + 1);
     if n <= k {
         return Err(RegressionError::TooFewCases { cases: n, needed: k + 1 });
+    }
+    match dependence(predictors) {
+        Some(Dependence::Constant) => return Err(RegressionError::Constant),
+        Some(Dependence::Collinear) => return Err(RegressionError::Collinear),
+        None if is_constant(y) => return Err(RegressionError::Constant),
+        None => {}
     }
     let design =
         DMatrix::from_fn(n, k, |row, column| if column == 0 { 1.0 } else { predictors[column - 1][row] });
     let response = DVector::from_column_slice(y);
     let qr = design.clone().qr();
     let r = qr.r();
-    let largest = r.diagonal().amax();
-    if !r.diagonal().iter().all(|pivot| pivot.abs() > 1e-12 * largest) {
-        return Err(RegressionError::Singular);
-    }
-    let inverse = r.clone().try_inverse().ok_or(RegressionError::Singular)?;
+    let inverse = r.clone().try_inverse().ok_or(RegressionError::Collinear)?;
     let coefficients = &inverse * (qr.q().transpose() * &response);
     let residuals = &response - design * &coefficients;
     let rss = residuals.norm_squared();

@@ -2,6 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::limits::Limits;
+
 /// The IM4 at which the planes may meet: first, last and step of the scan.
 const SCAN: (f64, f64, f64) = (1.05, 2.0, 0.01);
 /// A plane needs this many cases on its side.
@@ -27,6 +29,21 @@ pub struct Transition {
     pub im4: f64,
     /// All places that were tried.
     pub scan: Vec<ScanPoint>,
+}
+
+/// The first and last place of a scan whose residual is no more than chance above the least: limits that hold the place of
+/// a break with this confidence, its jump being large against the scatter (Hansen 2000, Sample splitting and threshold
+/// estimation, Econometrica 68, 575-603; for the same scatter on both sides). None without a scan.
+pub fn transition_limits(scan: &[ScanPoint], confidence: f64) -> Option<Limits> {
+    let least = scan.iter().map(|point| point.pooled_rss).min_by(f64::total_cmp)?;
+    let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
+    let likely = |point: &&ScanPoint| {
+        let cases = (point.n_low + point.n_high) as f64;
+        cases * (point.pooled_rss - least) / least <= critical
+    };
+    let mut places = scan.iter().filter(likely).map(|point| point.im4);
+    let low = places.next()?;
+    Some(Limits { low, high: places.next_back().unwrap_or(low) })
 }
 
 /// Sums from which the residual of a plane follows. Predictors and response are centred beforehand, so that the sums do not cancel.

@@ -140,7 +140,7 @@ impl Stage for FitPex {
         let groups = groups::read(&self.input)?;
         let (rows, scans): (Vec<_>, Vec<_>) = groups.par_iter().map(|group| self.model.fit(group)).unzip();
         let (rows, scans) = (rows.concat(), scans.concat());
-        let missing = rows.iter().filter(|row| row.fit.is_err());
+        let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (row.reason(), row.measures())));
         let mut scan_writer = TableWriter::create(&self.scan_path(), &PEX_SCAN, provenance.clone())?;
         scan_writer.append(&pex::scan_batch(&scans)?)?;
@@ -153,7 +153,7 @@ impl Stage for FitPex {
         let mut writer = TableWriter::create(&self.out, &PEX, provenance.clone())?;
         writer.append(&pex::batch(&rows)?)?;
         writer.finish()?;
-        let fitted = rows.iter().filter(|row| row.fit.is_ok()).count();
+        let fitted = rows.iter().filter(|row| row.status() == FitStatus::Ok).count();
         let status = FitStatus::Ok.as_str();
         Ok(format!("{fitted} of {} fits {status}", rows.len()))
     }

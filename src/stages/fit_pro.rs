@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::groups;
 use super::pro_group::ProModel;
 use super::uncertainty::Uncertainty;
-use crate::fragility::{Case, CurveModel, Estimator, Link, Measure};
+use crate::fragility::{Case, CurveModel, Estimator, FitStatus, Link, Measure};
 use crate::keyword::{self, Keyword, keywords};
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Several, Word, defaults};
@@ -164,7 +164,7 @@ impl Stage for FitPro {
         let groups = groups::read(&self.input)?;
         let rows: Vec<Vec<ProRow>> = groups.par_iter().map(|group| self.model.fit(group)).collect();
         let rows = rows.concat();
-        let missing = rows.iter().filter(|row| row.fit.is_err());
+        let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (row.reason(), row.measures())));
         if let Some(path) = self.bootstrap_path() {
             let mut writer = TableWriter::create(&path, &PRO_BOOTSTRAP, provenance.clone())?;
@@ -174,6 +174,10 @@ impl Stage for FitPro {
         let mut writer = TableWriter::create(&self.out, &PRO, provenance.clone())?;
         writer.append(&pro::batch(&rows)?)?;
         writer.finish()?;
-        Ok(format!("{} of {} curves ok", rows.iter().filter(|row| row.fit.is_ok()).count(), rows.len()))
+        Ok(format!(
+            "{} of {} curves ok",
+            rows.iter().filter(|row| row.status() == FitStatus::Ok).count(),
+            rows.len()
+        ))
     }
 }

@@ -5,10 +5,15 @@ use std::ops::Range;
 use super::groups::Group;
 use super::uncertainty::Uncertainty;
 use crate::fragility::{
-    Biplanar, DemandInference, DemandSample, FitStatus, LinearFit, Measure, PLANE, Strata, bootstrap_limits,
-    fit_biplanar, fit_plane, fit_univariate,
+    Biplanar, DemandInference, DemandSample, FitStatus, LinearFit, Measure, PLANE, ScanPoint, SmoothFit,
+    Strata, bootstrap_limits, fit_biplanar, fit_plane, fit_smooth, fit_univariate, reset, transition_limits,
 };
 use crate::table::pex::{Model, PexReplicate, PexRow, ScanRow};
+
+/// Every value of a measure.
+const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
+/// Every IM4 at which there is rocking.
+const ABOVE_UPLIFT: Range<f64> = 1.0..f64::INFINITY;
 
 /// How all regressions are made.
 pub struct PexModel {
@@ -27,23 +32,88 @@ struct Resampled {
 }
 
 impl PexModel {
-    /// The six univariate regressions, the plane and the two planes, and the search for the transition.
+    /// The six univariate regressions, the plane, the two planes and those with a smooth transition, and the search for the
+    /// break. The smooth ones have no replicates: a search for each would take a hundred times as long as all others.
     pub fn fit(&self, group: &Group) -> (Vec<PexRow>, Vec<ScanRow>) {
         let (mut rows, scan) = self.regressions(group);
         if self.uncertainty.replicates > 0 {
             self.resample(group, &mut rows);
         }
         rows.iter_mut().for_each(|row| self.infer(group, row));
+        rows.extend(self.smooth(group));
         (rows, scan)
     }
 
     fn regressions(&self, group: &Group) -> (Vec<PexRow>, Vec<ScanRow>) {
-        let row = |model, im_y, range: Range<f64>, fit: Result<LinearFit, FitStatus>| PexRow {
+        let univariate = |&measure: &Measure| PexRow {
+            im_x: measure,
+            im_y: None,
+            range_low: None,
+            ..self.row(group, Model::Univariate, EVERYWHERE, fit_univariate(&group.cases, measure))
+        };
+        let mut rows: Vec<PexRow> = Measure::SCALAR.iter().map(univariate).collect();
+        rows.push(self.row(group, Model::Plane, ABOVE_UPLIFT, fit_plane(&group.cases, ABOVE_UPLIFT)));
+        let (biplanar, scan) = self.biplanar(group);
+        rows.extend(biplanar);
+        (rows, scan)
+    }
+
+    fn biplanar(&self, group: &Group) -> (Vec<PexRow>, Vec<ScanRow>) {
+        let Biplanar { transition, found, low, high, r2_pooled, r2_overall, scan } =
+            match fit_biplanar(&group.cases, self.transition) {
+                Ok(biplanar) => biplanar,
+                Err(status) => {
+                    return (vec![self.row(group, Model::Biplanar, ABOVE_UPLIFT, Err(status))], Vec::new());
+                }
+            };
+        let side = |range, fit| PexRow {
+            r2_pooled,
+            r2_overall,
+            transition_found: found,
+            transition_limits: transition_limits(&scan, self.uncertainty.confidence),
+            ..self.row(group, Model::Biplanar, range, fit)
+        };
+        let rows = vec![side(1.0..transition, low), side(transition..f64::INFINITY, high)];
+        let place = |&point: &ScanPoint| ScanRow {
+            suite: group.suite.clone(),
+            structure: group.structure.clone(),
+            point,
+        };
+        (rows, scan.iter().map(place).collect())
+    }
+
+    fn smooth(&self, group: &Group) -> Vec<PexRow> {
+        let sample = DemandSample::new(&group.cases, &PLANE, EVERYWHERE);
+        let SmoothFit { transition, width, low, high, reset } =
+            match fit_smooth(&sample, self.uncertainty.confidence) {
+                Ok(smooth) => smooth,
+                Err(status) => return vec![self.row(group, Model::Smooth, ABOVE_UPLIFT, Err(status))],
+            };
+        let side = |range, fit: LinearFit| PexRow {
+            r2_overall: Some(fit.r2),
+            transition_found: Some(transition.value),
+            transition_limits: Some(transition.limits()),
+            transition_width: Some(width),
+            reset,
+            ..self.row(group, Model::Smooth, range, Ok(fit))
+        };
+        vec![side(1.0..transition.value, low), side(transition.value..f64::INFINITY, high)]
+    }
+
+    /// A regression on IM4 and IM3 with nothing said of the transition.
+    fn row(
+        &self,
+        group: &Group,
+        model: Model,
+        range: Range<f64>,
+        fit: Result<LinearFit, FitStatus>,
+    ) -> PexRow {
+        PexRow {
             suite: group.suite.clone(),
             structure: group.structure.clone(),
             model,
             im_x: Measure::Im4,
-            im_y,
+            im_y: Some(Measure::Im3),
             range_low: Some(range.start),
             range_high: Some(range.end).filter(|end| end.is_finite()),
             limit_state: self.limit_state,
@@ -51,45 +121,22 @@ impl PexModel {
             r2_overall: None,
             transition_found: None,
             transition_limits: None,
+            transition_percentile: None,
+            transition_width: None,
+            reset: None,
             fit: fit.map(|fit| fit.at_confidence(self.uncertainty.confidence)),
             confidence: self.uncertainty.confidence,
             clustered_errors: Vec::new(),
             limits: Vec::new(),
             replicates: Vec::new(),
-        };
-        let univariate = |&measure: &Measure| PexRow {
-            im_x: measure,
-            range_low: None,
-            ..row(Model::Univariate, None, 0.0..f64::INFINITY, fit_univariate(&group.cases, measure))
-        };
-        let mut rows: Vec<PexRow> = Measure::SCALAR.iter().map(univariate).collect();
-        let everywhere = 1.0..f64::INFINITY;
-        let plane = fit_plane(&group.cases, everywhere.clone());
-        rows.push(row(Model::Plane, Some(Measure::Im3), everywhere.clone(), plane));
-        let biplanar = match fit_biplanar(&group.cases, self.transition) {
-            Ok(biplanar) => biplanar,
-            Err(status) => {
-                rows.push(row(Model::Biplanar, Some(Measure::Im3), everywhere, Err(status)));
-                return (rows, Vec::new());
-            }
-        };
-        let Biplanar { transition: at, found, low, high, r2_pooled, r2_overall, scan } = biplanar;
-        let pooled = |row| PexRow { r2_pooled, r2_overall, transition_found: found, ..row };
-        rows.push(pooled(row(Model::Biplanar, Some(Measure::Im3), 1.0..at, low)));
-        rows.push(pooled(row(Model::Biplanar, Some(Measure::Im3), at..f64::INFINITY, high)));
-        let scan = scan.into_iter().map(|point| ScanRow {
-            suite: group.suite.clone(),
-            structure: group.structure.clone(),
-            point,
-        });
-        (rows, scan.collect())
+        }
     }
 
+    /// Adds the regressions of each resample.
     fn resample(&self, group: &Group, rows: &mut [PexRow]) {
-        let both = DemandSample::new(&group.cases, &PLANE, 0.0..f64::INFINITY);
+        let both = DemandSample::new(&group.cases, &PLANE, EVERYWHERE);
         let search = both.transition_search();
-        let samples: Vec<DemandSample> =
-            rows.iter().map(|row| sample(group, row, 0.0..f64::INFINITY)).collect();
+        let samples: Vec<DemandSample> = rows.iter().map(|row| sample(group, row, EVERYWHERE)).collect();
         let refit = |(row, sample): (&PexRow, _)| Some(DemandInference::new(sample, row.fit.as_ref().ok()?));
         let refits: Vec<Option<DemandInference>> = rows.iter().zip(&samples).map(refit).collect();
         let resampled = self.uncertainty.bootstrap(group, |counts| {
@@ -106,16 +153,17 @@ impl PexModel {
             row.replicates = resampled.iter().map(|resample| resample.fits[k].clone()).collect();
             if let Some(estimate) = row.transition_found {
                 let limits = bootstrap_limits(estimate, &found, 0.0, self.uncertainty.confidence);
-                row.transition_limits = limits.map(|limits| limits.percentile);
+                row.transition_percentile = limits.map(|limits| limits.percentile);
             }
         }
     }
 
-    /// Adds clustered errors, and limits from the replicates if there are any.
+    /// Adds Ramsey's test, clustered errors, and limits from the replicates if there are any.
     fn infer(&self, group: &Group, row: &mut PexRow) {
         let Ok(fit) = &row.fit else { return };
         let sample = sample(group, row, row.range());
         let inference = DemandInference::new(&sample, fit);
+        row.reset = reset(&sample.predictors(), &sample.ln_edp, fit);
         row.clustered_errors = inference.clustered_errors(&group.cells);
         if row.replicates.is_empty() {
             return;

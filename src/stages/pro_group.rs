@@ -4,8 +4,8 @@ use super::fit_pro::{FittedEvent, Pair};
 use super::groups::Group;
 use super::uncertainty::Uncertainty;
 use crate::fragility::{
-    CurveInference, CurveModel, CurveParameter, EventSample, Measure, Strata, bootstrap_limits,
-    fit_overturning,
+    BinaryFit, CurveInference, CurveModel, CurveParameter, Estimator, EventSample, FitStatus, Measure,
+    Strata, bootstrap_limits, fit_overturning, fit_with_interaction, fit_with_spline, likelihood_ratio,
 };
 use crate::keyword::Keyword;
 use crate::table::pro::{ParameterInference, ProRow};
@@ -39,6 +39,12 @@ impl ProModel {
     fn curve(&self, group: &Group, im_x: Measure, im_y: Option<Measure>) -> (ProRow, EventSample) {
         let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
         let sample = EventSample::new(&group.cases, &measures, |case| self.event.happened(case));
+        let fit = fit_overturning(&sample, &self.curve);
+        let needed = |bent: fn(&EventSample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
+            let straight = &fit.as_ref().ok().filter(|_| self.curve.estimator == Estimator::Ml)?.regression;
+            Some(likelihood_ratio(straight, &bent(&sample, &self.curve).ok()?))
+        };
+        let (spline, interaction) = (needed(fit_with_spline), needed(fit_with_interaction));
         let row = ProRow {
             suite: group.suite.clone(),
             structure: group.structure.clone(),
@@ -48,7 +54,9 @@ impl ProModel {
             n: sample.happened.len(),
             events: sample.events(),
             model: self.curve,
-            fit: fit_overturning(&sample, &self.curve),
+            fit,
+            spline,
+            interaction,
             inference: Vec::new(),
             replicates: Vec::new(),
         };

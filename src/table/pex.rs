@@ -13,7 +13,7 @@ use super::TableError;
 use super::reader::read_frame;
 use super::schema::{self, Column, PEX, PEX_SCAN};
 use crate::fragility::{
-    BootstrapLimits, DemandReplicate, Estimate, FitStatus, Limits, LinearFit, Measure, ScanPoint,
+    BootstrapLimits, DemandReplicate, Estimate, FitStatus, Limits, LinearFit, Measure, ScanPoint, Test,
 };
 use crate::keyword::{Keyword, keywords};
 
@@ -26,9 +26,11 @@ pub enum Model {
     Plane,
     /// On two, on one side of the transition.
     Biplanar,
+    /// On two, on one side of a smooth transition; fitted together.
+    Smooth,
 }
 
-keywords!(Model { Univariate = "univariate", Plane = "plane", Biplanar = "biplanar" });
+keywords!(Model { Univariate = "univariate", Plane = "plane", Biplanar = "biplanar", Smooth = "smooth" });
 
 /// One regression.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,10 +55,16 @@ pub struct PexRow {
     pub r2_pooled: Option<f64>,
     /// Of both planes, about the mean of all cases.
     pub r2_overall: Option<f64>,
-    /// IM4 of the least pooled residual.
+    /// IM4 of the least pooled residual, or the centre of the smooth transition.
     pub transition_found: Option<f64>,
-    /// Its percentile limits.
+    /// Its limits: by the residual (Hansen) of a break, by linearisation of a smooth transition.
     pub transition_limits: Option<Limits>,
+    /// Its percentile limits.
+    pub transition_percentile: Option<Limits>,
+    /// Of a smooth transition, in ln IM4.
+    pub transition_width: Option<Estimate>,
+    /// Ramsey's test.
+    pub reset: Option<Test>,
     /// The fit, or why there is none.
     pub fit: Result<LinearFit, FitStatus>,
     /// Probability with which limits hold the truth.
@@ -84,11 +92,23 @@ impl PexRow {
         format!("{} {}", self.model.as_str(), self.im_x.as_str())
     }
 
-    /// Why there is no fit, for a message.
+    /// Whether there is a fit, and if not, why.
+    pub fn status(&self) -> FitStatus {
+        match &self.fit {
+            Ok(fit) => fit.status(),
+            Err(status) => *status,
+        }
+    }
+
+    /// What is wrong with the fit, for a message.
     pub fn reason(&self) -> String {
         let suite = self.suite.as_deref().unwrap_or("the motions");
-        let status = self.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok).as_str();
-        format!("no fit of the demand for {suite}, {}: {status}", self.structure)
+        match self.status() {
+            FitStatus::Falling => {
+                format!("the demand for {suite}, {}, falls with the measure", self.structure)
+            }
+            status => format!("no fit of the demand for {suite}, {}: {}", self.structure, status.as_str()),
+        }
     }
 
     /// Where the fit holds.
@@ -99,7 +119,7 @@ impl PexRow {
     /// Where it holds if two planes meet at this IM4; none of two planes that meet nowhere.
     pub fn range_at(&self, transition: Option<f64>) -> Option<Range<f64>> {
         match (self.model, self.range_high) {
-            (Model::Univariate | Model::Plane, _) => Some(self.range()),
+            (Model::Univariate | Model::Plane | Model::Smooth, _) => Some(self.range()),
             (Model::Biplanar, Some(_)) => Some(self.range().start..transition?),
             (Model::Biplanar, None) => Some(transition?..f64::INFINITY),
         }
@@ -179,9 +199,17 @@ pub fn batch(rows: &[PexRow]) -> Result<RecordBatch, ArrowError> {
         let limit = |k: usize| number(&|row| row.limits_of(parameter)?.in_order()[k]);
         columns.extend((0..4).map(limit));
     }
-    columns.push(number(&|row| Some(row.transition_limits?.low)));
-    columns.push(number(&|row| Some(row.transition_limits?.high)));
-    columns.push(text(|row| Some(row.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok).as_str())));
+    columns.extend([
+        number(&|row| Some(row.transition_limits?.low)),
+        number(&|row| Some(row.transition_limits?.high)),
+        number(&|row| Some(row.transition_percentile?.low)),
+        number(&|row| Some(row.transition_percentile?.high)),
+        number(&|row| Some(row.transition_width?.value)),
+        number(&|row| Some(row.transition_width?.standard_error)),
+        number(&|row| Some(row.reset?.statistic)),
+        number(&|row| Some(row.reset?.p)),
+    ]);
+    columns.push(text(|row| Some(row.status().as_str())));
     RecordBatch::try_new(PEX.schema(), columns)
 }
 

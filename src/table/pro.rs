@@ -14,6 +14,7 @@ use super::reader::read_frame;
 use super::schema::{self, Column, PRO};
 use crate::fragility::{
     BootstrapLimits, CurveModel, CurveParameter, Estimate, FitStatus, Limits, Link, Measure, OverturningFit,
+    Test,
 };
 use crate::keyword::{self, Keyword};
 
@@ -38,6 +39,10 @@ pub struct ProRow {
     pub model: CurveModel,
     /// The curve, or why there is none.
     pub fit: Result<OverturningFit, FitStatus>,
+    /// The likelihood-ratio test against a curve that bends as a spline.
+    pub spline: Option<Test>,
+    /// The same against one with an interaction.
+    pub interaction: Option<Test>,
     /// How sure its parameters are.
     pub inference: Vec<ParameterInference>,
     /// The coefficients in each resample, where it has a curve.
@@ -53,21 +58,35 @@ impl ProRow {
 
     /// Whether there is a curve, and if not, why.
     pub fn status(&self) -> FitStatus {
-        self.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok)
+        match &self.fit {
+            Ok(fit) => fit.status(),
+            Err(status) => *status,
+        }
     }
 
     fn inference_of(&self, parameter: CurveParameter) -> Option<&ParameterInference> {
         self.inference.iter().find(|inference| inference.parameter == parameter)
     }
 
-    /// Why there is no curve, for a message.
+    /// What is wrong with the curve, for a message.
     pub fn reason(&self) -> String {
         let suite = self.suite.as_deref().unwrap_or("the motions");
-        let status = self.status().as_str();
-        format!(
-            "no curve of {} for {suite}, {}: {status} ({} of {} cases)",
-            self.event, self.structure, self.events, self.n
-        )
+        match self.status() {
+            FitStatus::Falling => {
+                format!(
+                    "the probability of {} for {suite}, {}, falls with the measure",
+                    self.event, self.structure
+                )
+            }
+            status => format!(
+                "no curve of {} for {suite}, {}: {} ({} of {} cases)",
+                self.event,
+                self.structure,
+                status.as_str(),
+                self.events,
+                self.n
+            ),
+        }
     }
 }
 
@@ -147,6 +166,16 @@ pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
     for parameter in CurveParameter::ALL {
         columns.extend((0..4).map(|k| inferred(parameter, &|i| i.bootstrap?.in_order()[k])));
     }
+    let test = |test: fn(&ProRow) -> Option<Test>, part: fn(Test) -> f64| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(rows.iter().map(|row| test(row).map(part))))
+    };
+    let hosmer_lemeshow = |row: &ProRow| row.fit.as_ref().ok()?.hosmer_lemeshow;
+    columns.extend([
+        test(hosmer_lemeshow, |test| test.statistic),
+        test(hosmer_lemeshow, |test| test.p),
+        test(|row| row.spline, |test| test.p),
+        test(|row| row.interaction, |test| test.p),
+    ]);
     columns.push(text(|row| Some(row.status().as_str())));
     RecordBatch::try_new(PRO.schema(), columns)
 }

@@ -156,7 +156,7 @@ columns! {
     GROUND_M_S2 = "ground_m_s2", Float64, "m/s2", "ground acceleration at this moment";
     EVENT = "event", Text, "1", "uplift, impact, rest or overturn; null at a mere sample";
 
-    MODEL = "model", Text, "1", "univariate, plane or biplanar";
+    MODEL = "model", Text, "1", "univariate, plane, biplanar, or smooth (two planes that pass into one another)";
     IM_X = "im_x", Text, "1", "first intensity measure";
     IM_Y = "im_y", Text, "1", "second intensity measure";
     RANGE_LOW = "range_low", Float64, "1", "im_x from which the fit holds";
@@ -168,7 +168,7 @@ columns! {
     R2 = "r2", Float64, "1", "coefficient of determination";
     R2_POOLED = "r2_pooled", Float64, "1", "R2 of both planes together, each about the mean on its own side";
     R2_OVERALL = "r2_overall", Float64, "1", "R2 of both planes together about the mean of all cases";
-    TRANSITION_FOUND = "transition_found", Float64, "1", "im4 of the least pooled residual of two planes";
+    TRANSITION_FOUND = "transition_found", Float64, "1", "im4 of the least pooled residual of two planes; of smooth, the centre of the transition";
     BETA = "beta", Float64, "1", "dispersion: residual standard deviation of ln EDP, or that of the curve P_ro";
     ZETA = "zeta", Float64, "1", "modified dispersion beta / b1";
     N = "n", Int64, "1", "cases used";
@@ -205,10 +205,16 @@ columns! {
     BETA_PERCENTILE_HIGH = "beta_percentile_high", Float64, "1", "upper percentile limit of beta";
     BETA_BCA_LOW = "beta_bca_low", Float64, "1", "lower BCa limit of beta";
     BETA_BCA_HIGH = "beta_bca_high", Float64, "1", "upper BCa limit of beta";
+    TRANSITION_LOW = "transition_low", Float64, "1", "lower limit of transition_found: Hansen's of a break, linearised of a smooth one";
+    TRANSITION_HIGH = "transition_high", Float64, "1", "upper limit of transition_found, likewise";
+    TRANSITION_WIDTH = "transition_width", Float64, "1", "width of a smooth transition in ln im4";
+    SE_TRANSITION_WIDTH = "se_transition_width", Float64, "1", "standard error of transition_width";
+    RESET = "reset", Float64, "1", "Ramsey's F: whether squares and cubes of the fitted values are missing";
+    RESET_P = "reset_p", Float64, "1", "probability of as large a reset if the regression holds";
     TRANSITION_PERCENTILE_LOW = "transition_percentile_low", Float64, "1", "lower percentile limit of transition_found";
     TRANSITION_PERCENTILE_HIGH = "transition_percentile_high", Float64, "1", "upper percentile limit of transition_found";
     REPLICATE = "replicate", Int64, "1", "resample: the same in all fits of the same responses and seed";
-    STATUS = "status", Text, "1", "ok, or why there is no fit";
+    STATUS = "status", Text, "1", "ok, falling (with the measure), or why there is no fit";
 
     TRANSITION = "transition", Float64, "1", "im4 at which the two planes meet";
     POOLED_RSS = "pooled_rss", Float64, "1", "residual sum of squares of both planes";
@@ -247,6 +253,10 @@ columns! {
     MU_PROFILE_HIGH = "mu_profile_high", Float64, "1", "upper profile-likelihood limit of mu; null: none";
     BETA_PROFILE_LOW = "beta_profile_low", Float64, "1", "lower profile-likelihood limit of beta; null: none";
     BETA_PROFILE_HIGH = "beta_profile_high", Float64, "1", "upper profile-likelihood limit of beta; null: none";
+    HOSMER_LEMESHOW = "hosmer_lemeshow", Float64, "1", "Hosmer-Lemeshow chi squared of ten groups";
+    HOSMER_LEMESHOW_P = "hosmer_lemeshow_p", Float64, "1", "probability of as large a hosmer_lemeshow if the curve holds";
+    SPLINE_P = "spline_p", Float64, "1", "likelihood-ratio test against a natural spline of ln im_x: probability if none is needed";
+    INTERACTION_P = "interaction_p", Float64, "1", "likelihood-ratio test against a term ln im_x ln im_y (or ln im_x squared)";
     LINK = "link", Text, "1", "probit, logit or cloglog: the probability is F(b0 + b1 ln im_x + b2 ln im_y)";
     B0 = "b0", Float64, "1", "intercept of the index";
     INDEX_B1 = "b1", Float64, "1", "slope of the index on ln im_x";
@@ -411,8 +421,14 @@ pub const PEX: Table = Table {
         BETA_PERCENTILE_HIGH.or_null(),
         BETA_BCA_LOW.or_null(),
         BETA_BCA_HIGH.or_null(),
+        TRANSITION_LOW.or_null(),
+        TRANSITION_HIGH.or_null(),
         TRANSITION_PERCENTILE_LOW.or_null(),
         TRANSITION_PERCENTILE_HIGH.or_null(),
+        TRANSITION_WIDTH.or_null(),
+        SE_TRANSITION_WIDTH.or_null(),
+        RESET.or_null(),
+        RESET_P.or_null(),
         STATUS,
     ],
 };
@@ -511,6 +527,10 @@ pub const PRO: Table = Table {
         BETA_PERCENTILE_HIGH.or_null(),
         BETA_BCA_LOW.or_null(),
         BETA_BCA_HIGH.or_null(),
+        HOSMER_LEMESHOW.or_null(),
+        HOSMER_LEMESHOW_P.or_null(),
+        SPLINE_P.or_null(),
+        INTERACTION_P.or_null(),
         STATUS,
     ],
 };

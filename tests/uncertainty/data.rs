@@ -106,3 +106,20 @@ pub fn distribution(statistic: &str) -> Vec<f64> {
     let rows: Vec<(String, f64)> = read("bootstrap_distribution.csv");
     rows.into_iter().filter(|row| row.0 == statistic).map(|row| row.1).collect()
 }
+
+/// Safe-rocking cases of two planes that pass into one another.
+pub fn smooth_cases() -> Vec<Case> {
+    let case = |(ln_im4, ln_im3, ln_edp): (f64, f64, f64)| Case {
+        outcome: Outcome::SafeRocking,
+        edp: ln_edp.exp(),
+        measures: IntensityMeasures {
+            im1: None,
+            im2: None,
+            im3: Some(ln_im3.exp()),
+            im4: ln_im4.exp(),
+            im5: 1.0,
+            im6: None,
+        },
+    };
+    read("smooth.csv").into_iter().map(case).collect()
+}

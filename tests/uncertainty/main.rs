@@ -3,5 +3,6 @@
 mod bootstrap;
 mod data;
 mod firth;
+mod goodness;
 mod links;
 mod robust;
