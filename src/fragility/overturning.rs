@@ -106,12 +106,7 @@ pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<Overt
         lambda: (b.len() == 3).then(|| estimate(CurveParameter::Lambda)),
         mu,
         beta: estimate(CurveParameter::Beta),
-        theta: Estimate {
-            value: mu.value.exp(),
-            standard_error: mu.value.exp() * mu.standard_error,
-            low: mu.low.exp(),
-            high: mu.high.exp(),
-        },
+        theta: mu.exp(),
         aic: 2.0 * parameters - 2.0 * log_likelihood,
         bic: parameters * (n as f64).ln() - 2.0 * log_likelihood,
         auc: auc(&scores, &sample.happened),

@@ -25,6 +25,17 @@ impl Estimate {
         Estimate { value, standard_error, low: value - half_width, high: value + half_width }
     }
 
+    /// Of the exponential: the error by the delta method, the limits those of this one.
+    pub fn exp(&self) -> Estimate {
+        let value = self.value.exp();
+        Estimate {
+            value,
+            standard_error: value * self.standard_error,
+            low: self.low.exp(),
+            high: self.high.exp(),
+        }
+    }
+
     /// Its limits alone.
     pub fn limits(&self) -> Limits {
         Limits { low: self.low, high: self.high }

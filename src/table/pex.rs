@@ -55,13 +55,13 @@ pub struct PexRow {
     pub r2_pooled: Option<f64>,
     /// Of both planes, about the mean of all cases.
     pub r2_overall: Option<f64>,
-    /// IM4 of the least pooled residual, or the centre of the smooth transition.
+    /// IM4 of the least pooled residual, or where the planes of a smooth transition count the same.
     pub transition_found: Option<f64>,
     /// Its limits: by the residual (Hansen) of a break, by linearisation of a smooth transition.
     pub transition_limits: Option<Limits>,
     /// Its percentile limits.
     pub transition_percentile: Option<Limits>,
-    /// Of a smooth transition, in ln IM4.
+    /// Width of a smooth transition, in ln IM4.
     pub transition_width: Option<Estimate>,
     /// Ramsey's test.
     pub reset: Option<Test>,

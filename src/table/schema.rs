@@ -168,7 +168,7 @@ columns! {
     R2 = "r2", Float64, "1", "coefficient of determination";
     R2_POOLED = "r2_pooled", Float64, "1", "R2 of both planes together, each about the mean on its own side";
     R2_OVERALL = "r2_overall", Float64, "1", "R2 of both planes together about the mean of all cases";
-    TRANSITION_FOUND = "transition_found", Float64, "1", "im4 of the least pooled residual of two planes; of smooth, the centre of the transition";
+    TRANSITION_FOUND = "transition_found", Float64, "1", "im4 of the least pooled residual of two planes; of smooth, where both count the same";
     BETA = "beta", Float64, "1", "dispersion: residual standard deviation of ln EDP, or that of the curve P_ro";
     ZETA = "zeta", Float64, "1", "modified dispersion beta / b1";
     N = "n", Int64, "1", "cases used";
@@ -207,7 +207,7 @@ columns! {
     BETA_BCA_HIGH = "beta_bca_high", Float64, "1", "upper BCa limit of beta";
     TRANSITION_LOW = "transition_low", Float64, "1", "lower limit of transition_found: Hansen's of a break, linearised of a smooth one";
     TRANSITION_HIGH = "transition_high", Float64, "1", "upper limit of transition_found, likewise";
-    TRANSITION_WIDTH = "transition_width", Float64, "1", "width of a smooth transition in ln im4";
+    TRANSITION_WIDTH = "transition_width", Float64, "1", "width d of a smooth transition: the share of the upper plane is 1 - im4^(-1/d)";
     SE_TRANSITION_WIDTH = "se_transition_width", Float64, "1", "standard error of transition_width";
     RESET = "reset", Float64, "1", "Ramsey's F: whether squares and cubes of the fitted values are missing";
     RESET_P = "reset_p", Float64, "1", "probability of as large a reset if the regression holds";
