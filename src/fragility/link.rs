@@ -1,7 +1,7 @@
 //! How the index of a binary regression becomes a probability.
 
 use crate::keyword::keywords;
-use crate::normal;
+use crate::normal::{self, LowerTail};
 
 /// The link: P(event) = F(index), with index = b0 + b1 x1 + ...
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -61,8 +61,7 @@ impl Link {
         match self {
             Link::Probit => {
                 let z = sign * index;
-                let value = normal::ln_cdf(z);
-                let mills = inverse_mills(z, value);
+                let LowerTail { ln_cdf: value, mills } = normal::lower_tail(z);
                 LnProbability { value, score: sign * mills, curvature: mills * (mills + z) }
             }
             Link::Logit => {
@@ -89,11 +88,11 @@ impl Link {
     pub fn information(self, index: f64) -> Information {
         match self {
             Link::Probit => {
-                let mills = inverse_mills(index, normal::ln_cdf(index));
-                let mills_of_rest = inverse_mills(-index, normal::ln_cdf(-index));
+                let (of_event, of_other) =
+                    (normal::lower_tail(index).mills, normal::lower_tail(-index).mills);
                 Information {
-                    weight: mills * mills_of_rest,
-                    ln_weight_slope: mills_of_rest - mills - 2.0 * index,
+                    weight: of_event * of_other,
+                    ln_weight_slope: of_other - of_event - 2.0 * index,
                 }
             }
             Link::Logit => {
@@ -107,11 +106,6 @@ impl Link {
             }
         }
     }
-}
-
-/// pdf(z) / cdf(z), by logarithms so that it survives the far tail.
-fn inverse_mills(z: f64, ln_cdf: f64) -> f64 {
-    (-0.5 * z * z - 0.5 * (2.0 * std::f64::consts::PI).ln() - ln_cdf).exp()
 }
 
 /// f / F of the complementary log-log: m / (exp(m) - 1) with m = exp(index).

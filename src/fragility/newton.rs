@@ -21,7 +21,7 @@ pub struct Objective {
 pub struct Maximum {
     /// The place.
     pub at: DVector<f64>,
-    /// The function there.
+    /// The function there, or a last small step before.
     pub objective: Objective,
     /// Newton steps that it took.
     pub steps: usize,
@@ -49,12 +49,15 @@ pub fn maximise(
     for steps in 1..=MOST_STEPS {
         let step = newton_step(&here, along)?;
         let promised = 0.5 * step.dot(&here.gradient);
+        if promised <= tolerance.max(1e-20 * (1.0 + here.value.abs())) {
+            // So small a step needs no look where it leads.
+            return here.value.is_finite().then_some(Maximum { at: at + step, objective: here, steps });
+        }
         let (next, there) = ascend(&objective, &at, &step, &here);
-        let stopped = next == at;
-        (at, here) = (next, there);
-        if promised <= tolerance.max(1e-20 * (1.0 + here.value.abs())) || stopped {
+        if next == at {
             return here.value.is_finite().then_some(Maximum { at, objective: here, steps });
         }
+        (at, here) = (next, there);
     }
     None
 }
