@@ -231,14 +231,16 @@ impl Call<'_> {
                 self.stage(&Simulate::new(&options, input, out)?)
             }
             Command::FitPex { input, out, .. } => {
-                let options = resolve(self.flags, self.config.fit_pex.as_ref())?;
+                let mut options: FitPexOptions = resolve(self.flags, self.config.fit_pex.as_ref())?;
+                options.seed = options.seed.or(self.config.seed);
                 let out = out.unwrap_or_else(|| beside(&input, "pex.parquet"));
                 self.stage(&FitPex::new(&options, input, out)?)
             }
             Command::FitPro { input, out, .. } => {
-                let options = resolve(self.flags, self.config.fit_pro.as_ref())?;
+                let mut options: FitProOptions = resolve(self.flags, self.config.fit_pro.as_ref())?;
+                options.seed = options.seed.or(self.config.seed);
                 let out = out.unwrap_or_else(|| beside(&input, "pro.parquet"));
-                self.stage(&FitPro::new(&options, input, out))
+                self.stage(&FitPro::new(&options, input, out)?)
             }
             Command::ComparePaper { pex, pro, responses, out, .. } => {
                 let options = resolve(self.flags, self.config.compare_paper.as_ref())?;

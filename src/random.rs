@@ -14,6 +14,8 @@ pub enum Purpose {
     SobolShift,
     /// The noise of the stochastic motion; the row is the scenario.
     Noise,
+    /// The rows of a resample; the row is the replicate.
+    Bootstrap,
 }
 
 impl Purpose {
@@ -23,6 +25,7 @@ impl Purpose {
             Purpose::Sample => "sample",
             Purpose::SobolShift => "sobol-shift",
             Purpose::Noise => "noise",
+            Purpose::Bootstrap => "bootstrap",
         }
     }
 }

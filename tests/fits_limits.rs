@@ -4,8 +4,9 @@ use std::collections::HashMap;
 
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Case, EventSample, FitStatus, Measure, OverturningFit, Plane, auc, fit_overturning, is_separated,
-    p_failure, p_failure_given_rocking, p_no_rocking, probit, rms_difference,
+    Case, CurveModel, Estimator, EventSample, FitStatus, Link, Measure, OverturningFit, Plane, auc,
+    binary_regression, fit_overturning, is_separated, p_failure, p_failure_given_rocking, p_no_rocking,
+    rms_difference,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -26,7 +27,7 @@ fn hybrid(x: &[f64], y: &[f64], events: &[bool]) -> Result<OverturningFit, FitSt
     };
     let cases: Vec<Case> = (0..x.len()).map(case).collect();
     let event = |case: &Case| Some(case.outcome == Outcome::Overturning);
-    fit_overturning(&EventSample::new(&cases, &[Measure::Im4, Measure::Im3], event))
+    fit_overturning(&EventSample::new(&cases, &[Measure::Im4, Measure::Im3], event), &CurveModel::default())
 }
 
 type Points = (Vec<f64>, Vec<f64>, Vec<bool>);
@@ -92,7 +93,7 @@ fn probit_equals_statsmodels_where_classes_barely_overlap() {
     let expected: HashMap<String, f64> =
         read::<(String, f64)>("nearly_separated_answers.csv").into_iter().collect();
     let (x, y, events) = nearly_separated();
-    let fit = probit(&[&x, &y], &events).unwrap();
+    let fit = binary_regression(&[&x, &y], &events, Link::Probit, Estimator::Ml).unwrap();
     let close = |value: f64, name: &str| {
         let expected = expected[name];
         assert!((value / expected - 1.0).abs() < 1e-8, "{name}: {value:e}, expected {expected:e}");
@@ -169,7 +170,7 @@ proptest! {
     fn swapping_the_classes_turns_the_signs(seed in 1u64..100_000) {
         let (x, y, events) = overlapping(seed);
         let swapped: Vec<bool> = events.iter().map(|event| !event).collect();
-        let (here, there) = (probit(&[&x, &y], &events).unwrap(), probit(&[&x, &y], &swapped).unwrap());
+        let (here, there) = (binary_regression(&[&x, &y], &events, Link::Probit, Estimator::Ml).unwrap(), binary_regression(&[&x, &y], &swapped, Link::Probit, Estimator::Ml).unwrap());
         for k in 0..3 {
             let sum = here.coefficients[k] + there.coefficients[k];
             prop_assert!(sum.abs() < 1e-9 * (1.0 + here.coefficients[k].abs()));

@@ -1,6 +1,6 @@
 //! Annual rates against closed forms.
 
-use rockfrag::fragility::p_overturning;
+use rockfrag::fragility::{Link, p_overturning};
 use rockfrag::hazard::{HazardCurve, HazardError, JointHazard, PairOfPeaks, probability_in_years};
 use rockfrag::normal;
 
@@ -15,7 +15,8 @@ fn a_power_law_and_a_lognormal_have_a_rate_in_closed_form() {
     // H(theta) exp(k^2 beta^2 / 2), whatever the points of the curve.
     for (k, theta, beta, n) in [(1.0, 0.3, 0.4, 2), (2.5, 1.0, 0.2, 17), (3.0, 0.7, 0.08, 301)] {
         let curve = power_law(1e-3, k, n);
-        let [rate] = curve.mean_annual_rates(&[], |im| [p_overturning(im, f64::ln(theta), beta)]);
+        let [rate] =
+            curve.mean_annual_rates(&[], |im| [p_overturning(im, f64::ln(theta), beta, Link::Probit)]);
         let expected = 1e-3 * theta.powf(-k) * (0.5 * k * k * beta * beta).exp();
         assert!((rate / expected - 1.0).abs() < 1e-9, "k {k}: {rate} for {expected}");
     }
@@ -47,7 +48,7 @@ fn a_joint_hazard_of_lognormal_velocities_widens_the_curve() {
         annual_rate: 0.02 / n as f64,
     };
     let joint = JointHazard { bins: (0..n).map(bin).collect() };
-    let [rate] = joint.mean_annual_rates(|bin| [p_overturning(bin.pgv_m_s, mu, beta)]);
+    let [rate] = joint.mean_annual_rates(|bin| [p_overturning(bin.pgv_m_s, mu, beta, Link::Probit)]);
     let expected = 0.02 * normal::cdf((m - mu) / beta.hypot(s));
     assert!((rate / expected - 1.0).abs() < 1e-4, "{rate} for {expected}");
 }

@@ -57,7 +57,7 @@ fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) 
         let mut synthesizer = Synthesizer::new(model, &ALL);
         let of = |scenario: &Scenario| {
             let motion = synthesizer.synthesize(scenario);
-            measures(samples(&motion), motion.dt_s, &mut scratch)
+            measures(samples(motion), motion.dt_s, &mut scratch)
         };
         let all: Vec<_> = cell(mw, re_km, 100, seed).iter().map(of).collect();
         let of_seed = [

@@ -1,6 +1,6 @@
 //! The normal distribution against scipy.special.
 
-use rockfrag::normal::{cdf, ln_cdf, pdf, quantile};
+use rockfrag::normal::{cdf, ln_cdf, lower_tail, pdf, quantile};
 
 fn close(value: f64, expected: f64, tolerance: f64) {
     assert!((value / expected - 1.0).abs() < tolerance, "{value:e}, expected {expected:e}");
@@ -19,7 +19,30 @@ fn logarithms_hold_in_the_far_tail() {
     close(ln_cdf(-29.999), -454.291_211_196_123_87, 1e-13);
     close(ln_cdf(-40.0), -804.608_442_013_754, 1e-13);
     close(ln_cdf(8.0), -6.220_960_574_271_786e-16, 1e-9);
-    assert!((ln_cdf(-30.0 - 1e-9) - ln_cdf(-30.0 + 1e-9)).abs() < 1e-6);
+}
+
+#[test]
+fn mills_ratio_holds_everywhere() {
+    // mpmath with 40 digits; on both sides of the places where the approximations meet.
+    let expected = [
+        (-1e5, -5_000_000_012.431_863_999, 100_000.000_01),
+        (-30.0, -454.321_243_956_343_197_1, 30.033_259_667_433_677),
+        (-5.66, -18.699_251_153_702_777_06, 5.827_060_206_839_706_6),
+        (-5.65, -18.641_029_223_787_848_98, 5.817_325_910_362_101_5),
+        (-1.5, -2.705_944_400_823_889_807, 1.938_677_166_622_543_2),
+        (-0.664, -1.373_002_468_841_511_707, 1.263_159_264_575_901_2),
+        (-0.662, -1.370_477_663_784_373_594, 1.261_645_890_163_249_8),
+        (0.0, -std::f64::consts::LN_2, 0.797_884_560_802_865_4),
+        (0.6629, -0.292_623_998_166_673_515_8, 0.429_113_966_122_087_4),
+        (0.664, -0.292_152_256_243_063_212, 0.428_598_679_477_312_7),
+        (2.5, -0.006_229_025_485_860_002_4, 0.017_637_825_486_916_735),
+        (5.7, -5.990_371_419_005_803e-9, 3.513_955_115_870_33e-8),
+        (8.0, -6.220_960_574_271_786e-16, 5.052_271_083_536_9e-15),
+    ];
+    for (x, ln_cdf, mills) in expected {
+        close(lower_tail(x).ln_cdf, ln_cdf, 5e-15);
+        close(lower_tail(x).mills, mills, 5e-15);
+    }
 }
 
 #[test]

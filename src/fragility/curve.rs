@@ -1,3 +1,4 @@
+use super::link::Link;
 use crate::normal;
 
 /// Probability that the demand exceeds `limit` in safe rocking, of the logarithm of its median and its dispersion beta:
@@ -11,9 +12,10 @@ pub fn exceeding_index(ln_median_demand: f64, limit: f64, beta: f64) -> f64 {
     (ln_median_demand - limit.ln()) / beta
 }
 
-/// Probability of overturning given rocking at the intensity `im` (Eq. 19): Phi((ln IM - mu) / beta).
-pub fn p_overturning(im: f64, mu: f64, beta: f64) -> f64 {
-    normal::cdf((im.ln() - mu) / beta)
+/// Probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta) by the probit (Eq. 19), for every
+/// link one half at IM = exp(mu).
+pub fn p_overturning(im: f64, mu: f64, beta: f64, link: Link) -> f64 {
+    link.probability((im.ln() - mu) / beta + link.median_index())
 }
 
 /// Probability of no rocking, which IM4 = PGA/(g tan alpha) decides: 1 below uplift, 0 from there on; NaN of NaN.

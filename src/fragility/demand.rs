@@ -2,9 +2,12 @@
 
 use super::FitStatus;
 use super::case::{Case, Measure};
-use super::regression::{LinearFit, RegressionError, least_squares};
-use super::transition::{ScanPoint, Transition, find_transition};
-use crate::rocking::Outcome;
+use super::demand_sample::DemandSample;
+use super::regression::LinearFit;
+use super::transition::{ScanPoint, Transition};
+
+/// The measures of a plane.
+pub const PLANE: [Measure; 2] = [Measure::Im4, Measure::Im3];
 
 /// ln EDP = ln a + b1 ln IMx + b2 ln IMy.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,43 +27,13 @@ impl Plane {
     }
 }
 
-/// The demands of the safe-rocking cases and the logarithms of their measures, where all are there.
-struct Sample {
-    ln_edp: Vec<f64>,
-    ln_im: Vec<Vec<f64>>,
-}
-
-fn safe_rocking(cases: &[Case], measures: &[Measure], range: std::ops::Range<f64>) -> Sample {
-    let mut sample = Sample { ln_edp: Vec::new(), ln_im: vec![Vec::new(); measures.len()] };
-    for case in cases.iter().filter(|case| case.outcome == Outcome::SafeRocking && case.edp > 0.0) {
-        let values = measures.iter().map(|measure| measure.of(case)).collect::<Option<Vec<f64>>>();
-        if let Some(values) = values
-            && values.first().is_some_and(|first| range.contains(first))
-        {
-            sample.ln_edp.push(case.edp.ln());
-            for (column, value) in sample.ln_im.iter_mut().zip(values) {
-                column.push(value.ln());
-            }
-        }
-    }
-    sample
-}
-
-fn fit(sample: &Sample) -> Result<LinearFit, FitStatus> {
-    let predictors: Vec<&[f64]> = sample.ln_im.iter().map(Vec::as_slice).collect();
-    least_squares(&predictors, &sample.ln_edp).map_err(|error| match error {
-        RegressionError::TooFewCases { .. } => FitStatus::TooFewCases,
-        RegressionError::Singular => FitStatus::Singular,
-    })
-}
-
 /// ln EDP on ln IM over all safe-rocking cases that have the measure (Eq. 15). Its dispersion beta is the residual
 /// standard deviation, zeta = beta / b.
 ///
 /// # Errors
 /// With the status that says why there is no fit.
 pub fn fit_univariate(cases: &[Case], measure: Measure) -> Result<LinearFit, FitStatus> {
-    fit(&safe_rocking(cases, &[measure], 0.0..f64::INFINITY))
+    DemandSample::new(cases, &[measure], 0.0..f64::INFINITY).fit()
 }
 
 /// ln EDP on ln IM4 and ln IM3 over the safe-rocking cases whose IM4 lies in `range` (Eq. 17).
@@ -68,7 +41,7 @@ pub fn fit_univariate(cases: &[Case], measure: Measure) -> Result<LinearFit, Fit
 /// # Errors
 /// With the status that says why there is no fit.
 pub fn fit_plane(cases: &[Case], range: std::ops::Range<f64>) -> Result<LinearFit, FitStatus> {
-    fit(&safe_rocking(cases, &[Measure::Im4, Measure::Im3], range))
+    DemandSample::new(cases, &PLANE, range).fit()
 }
 
 /// Two planes that meet at an IM4.
@@ -96,8 +69,8 @@ pub struct Biplanar {
 /// # Errors
 /// If no transition can be found for want of cases.
 pub fn fit_biplanar(cases: &[Case], transition: Option<f64>) -> Result<Biplanar, FitStatus> {
-    let sample = safe_rocking(cases, &[Measure::Im4, Measure::Im3], 0.0..f64::INFINITY);
-    let found = find_transition(&sample.ln_im[0], &sample.ln_im[1], &sample.ln_edp);
+    let sample = DemandSample::new(cases, &PLANE, 0.0..f64::INFINITY);
+    let found = sample.transition_search().find(|_| 1.0);
     let (found, scan) = match found {
         Some(Transition { im4, scan }) => (Some(im4), scan),
         None => (None, Vec::new()),
@@ -122,7 +95,7 @@ fn sum_of_squares(values: &[f64]) -> f64 {
 /// Root of the mean squared difference of two planes in ln EDP, over the safe-rocking cases whose IM4 lies in `range`; none without
 /// such cases.
 pub fn rms_difference(a: &Plane, b: &Plane, cases: &[Case], range: std::ops::Range<f64>) -> Option<f64> {
-    let sample = safe_rocking(cases, &[Measure::Im4, Measure::Im3], range);
+    let sample = DemandSample::new(cases, &PLANE, range);
     let [ln_x, ln_y] = sample.ln_im.as_slice() else { return None };
     let squares = ln_x.iter().zip(ln_y).map(|(x, y)| {
         let difference = (a.ln_a - b.ln_a) + (a.b1 - b.b1) * x + (a.b2 - b.b2) * y;

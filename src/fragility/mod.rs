@@ -2,51 +2,100 @@
 //! and 3).
 //!
 //! ```text
-//! case         one response as the fits see it: outcome, demand and intensity measures
-//! regression   least squares with standard errors and limits
-//! student      the t distribution behind those limits
-//! demand       P_ex: univariate, plane and biplanar regressions of the demand in safe rocking (Eqs. 14-18)
-//! transition   where the two planes meet
-//! probit       maximum likelihood of binary outcomes
-//! separation   whether that likelihood has a maximum at all
-//! overturning  P_ro: fragility curves of scalar and hybrid measures (Eqs. 19-24)
-//! skill        how well fitted probabilities tell the outcomes apart
-//! curve        the probabilities themselves, and the tree that joins them (Eqs. 12 and 14)
-//! index        their limits of confidence, by the delta method
-//! predictor    a fit as a linear function of ln IM, with the range of its data
-//! model        the fits joined: all probabilities at an intensity
-//! slice        the same along one peak, PGA or PGV, at a fixed p PGV / PGA
+//! case             one response as the fits see it: outcome, demand and intensity measures
+//! demand_sample    the cases of a regression of the demand, event_sample those of a curve
+//! demand           P_ex: univariate, plane and biplanar regressions of the demand in safe rocking (Eqs. 14-18)
+//! transition       where the two planes meet
+//! smooth           a smooth transition in place of the break
+//! overturning      P_ro: fragility curves of scalar and hybrid measures (Eqs. 19-24)
+//! curve_parameter  lambda, mu and beta of a curve from the coefficients of its regression
+//! curve            the probabilities themselves, and the tree that joins them (Eqs. 12 and 14)
+//! index            the limits of probabilities, by the delta method
+//! predictor        a fit as a linear function of ln IM, with the range of its data
+//! model            the fits joined: all probabilities at an intensity
+//! slice            the same along one peak, PGA or PGV, at a fixed p PGV / PGA
+//! bent_curve       curves with a spline or an interaction more
+//! skill            how well fitted probabilities tell the outcomes apart
+//!
+//! regression       least squares with standard errors and limits
+//! binary           maximum likelihood of binary outcomes
+//! link             how its index becomes a probability
+//! newton           the method that finds the maximum
+//! separation       whether there is a maximum at all
+//! design_matrix    the rows of a regression
+//! dependence       whether the predictors can be told apart
+//! spline           columns that bend a line
+//! goodness         whether a model fits
+//! distribution     Student's t, F and chi squared
+//! firth            the penalised likelihood for few events or separation
+//!
+//! influence         what each case adds to a fit: jackknife, clustered errors, first step of a refit
+//! profile           limits by the profile likelihood
+//! bootstrap         resampling within the cells of the design
+//! limits            percentile and BCa limits from the replicates
+//! curve_inference   all of these for a curve, demand_inference for a regression of the demand
 //! ```
 
+mod bent_curve;
+mod binary;
+mod bootstrap;
 mod case;
 mod curve;
+mod curve_inference;
+mod curve_parameter;
 mod demand;
+mod demand_inference;
+mod demand_sample;
+mod dependence;
+mod design_matrix;
+mod distribution;
+mod event_sample;
+mod firth;
+mod goodness;
 mod index;
+mod influence;
+mod limits;
+mod link;
 mod model;
+mod newton;
 mod overturning;
 mod predictor;
-mod probit;
+mod profile;
 mod regression;
 mod separation;
 mod skill;
 mod slice;
-mod student;
+mod smooth;
+mod spline;
 mod transition;
 
+pub use bent_curve::{fit_with_interaction, fit_with_spline};
+pub use binary::{BinaryError, BinaryFit, binary_regression};
+pub use bootstrap::{Strata, bootstrap};
 pub use case::{Case, Measure};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
-pub use demand::{Biplanar, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
+pub use curve_inference::CurveInference;
+pub use curve_parameter::CurveParameter;
+pub use demand::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
+pub use demand_inference::{DemandInference, DemandReplicate};
+pub use demand_sample::DemandSample;
+pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
+pub use event_sample::EventSample;
+pub use firth::Estimator;
+pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use index::{Probability, ProbitIndex};
+pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
+pub use link::{Information, Link, LnProbability};
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
-pub use overturning::{EventSample, OverturningFit, Z_95, fit_overturning};
-pub use predictor::{OutOfRange, Predicted, Predictor};
-pub use probit::{ProbitError, ProbitFit, probit};
+pub use overturning::{CurveModel, OverturningFit, fit_overturning};
+pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
 pub use separation::is_separated;
 pub use skill::{auc, brier_score};
 pub use slice::{Lognormal, Peak, Slice};
-pub use student::t_quantile;
-pub use transition::{ScanPoint, Transition, find_transition};
+pub use smooth::{SmoothFit, fit_smooth};
+pub use spline::natural_spline;
+pub use transition::{ScanPoint, Transition, TransitionSearch, find_transition, transition_limits};
 
 use crate::keyword::keywords;
 
@@ -55,23 +104,29 @@ use crate::keyword::keywords;
 pub enum FitStatus {
     /// There is.
     Ok,
+    /// There is, but what it is about falls as the measure (of two, the hybrid or the first) grows.
+    Falling,
     /// Fewer cases than the fit needs.
     TooFewCases,
     /// Fewer events, or fewer non-events, than say anything about a probability.
     TooFewEvents,
     /// The measure tells the outcomes apart without overlap: the likelihood has no maximum.
     Separated,
+    /// A measure, or the demand, does not vary.
+    Constant,
     /// The measures do not vary independently of each other.
-    Singular,
+    Collinear,
     /// The iterations did not come to an end.
     NotConverged,
 }
 
 keywords!(FitStatus {
     Ok = "ok",
+    Falling = "falling",
     TooFewCases = "too_few_cases",
     TooFewEvents = "too_few_events",
     Separated = "separated",
-    Singular = "singular",
+    Constant = "constant",
+    Collinear = "collinear",
     NotConverged = "not_converged",
 });

@@ -1,39 +1,53 @@
 //! P_ro: the probability of overturning given rocking, as a lognormal curve (Eqs. 19-24).
 
-use std::array::from_fn;
-
-use nalgebra::DVector;
-
 use super::FitStatus;
-use super::case::{Case, Measure};
-use super::probit::{ProbitFit, probit};
-use super::regression::{Estimate, range};
+use super::binary::{BinaryFit, binary_regression};
+use super::curve_parameter::CurveParameter;
+use super::dependence::{Dependence, dependence};
+use super::event_sample::EventSample;
+use super::firth::Estimator;
+use super::goodness::{Test, hosmer_lemeshow};
+use super::link::Link;
+use super::regression::Estimate;
 use super::separation::is_separated;
 use super::skill::{auc, brier_score};
 use crate::normal;
 
-/// Standard errors to a 95 % limit of confidence.
-pub const Z_95: f64 = 1.959_963_984_540_054;
-
-/// A curve from fewer events, or non-events, would be an opinion.
+/// A curve from fewer events, or non-events, would be an opinion; Firth's needs one, and says in its limits how little it
+/// knows.
 const LEAST_EVENTS: usize = 5;
 
-/// A fitted fragility curve Phi((ln IM - mu) / beta).
-///
-/// Of two measures IM is the hybrid IMx^(lambda/(1 + lambda)) IMy^(1/(1 + lambda)) (Eq. 22), so that with the probit
-/// index b0 + b1 ln IMx + b2 ln IMy: lambda = b1/b2, beta = 1/(b1 + b2), mu = -b0/(b1 + b2).
+/// How a curve is fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveModel {
+    /// How the index becomes a probability.
+    pub link: Link,
+    /// What is maximised.
+    pub estimator: Estimator,
+    /// Probability with which the limits hold the truth.
+    pub confidence: f64,
+}
+
+impl Default for CurveModel {
+    fn default() -> CurveModel {
+        CurveModel { link: Link::Probit, estimator: Estimator::Ml, confidence: 0.95 }
+    }
+}
+
+/// A fitted fragility curve: Phi((ln IM - mu) / beta), or with another link as [`CurveParameter`] says. Errors by the
+/// delta method, limits by the normal distribution.
+#[derive(Debug, Clone, PartialEq)]
 pub struct OverturningFit {
+    /// The regression behind it.
+    pub regression: BinaryFit,
     /// Exponent of the first measure; of two only.
     pub lambda: Option<Estimate>,
-    /// Mean of ln IM at overturning.
+    /// ln of the median.
     pub mu: Estimate,
     /// Dispersion.
     pub beta: Estimate,
     /// Median exp(mu); its limits are those of mu.
     pub theta: Estimate,
-    /// At the maximum.
-    pub log_likelihood: f64,
     /// Akaike's criterion.
     pub aic: f64,
     /// Bayesian criterion.
@@ -42,111 +56,64 @@ pub struct OverturningFit {
     pub auc: f64,
     /// Brier score.
     pub brier: f64,
+    /// Hosmer and Lemeshow's test of the probabilities, where there are cases enough.
+    pub hosmer_lemeshow: Option<Test>,
     /// Cases used.
     pub n: usize,
     /// Those in which the event happened.
     pub events: usize,
-    /// Covariance of the probit coefficients b0, b1, b2; of one measure without the last row and column, which are 0.
-    pub covariance: [[f64; 3]; 3],
-    /// Least and largest ln IM of each measure; of one measure the second is 0.
-    pub ranges: [[f64; 2]; 2],
 }
 
-/// The cases of a fit: logarithms of their measures, and whether the event happened.
-pub struct EventSample {
-    ln_im: Vec<Vec<f64>>,
-    /// In each case.
-    pub happened: Vec<bool>,
-}
-
-impl EventSample {
-    /// Of the cases that have all the measures; `event` says whether it happened, or that the case does not count.
-    pub fn new(cases: &[Case], measures: &[Measure], event: impl Fn(&Case) -> Option<bool>) -> EventSample {
-        let mut sample = EventSample { ln_im: vec![Vec::new(); measures.len()], happened: Vec::new() };
-        for case in cases {
-            let values = measures.iter().map(|measure| measure.of(case)).collect::<Option<Vec<f64>>>();
-            if let (Some(values), Some(happened)) = (values, event(case)) {
-                sample.happened.push(happened);
-                for (column, value) in sample.ln_im.iter_mut().zip(values) {
-                    column.push(value.ln());
-                }
-            }
-        }
-        sample
-    }
-
-    /// In how many cases the event happened.
-    pub fn events(&self) -> usize {
-        self.happened.iter().filter(|&&happened| happened).count()
+impl OverturningFit {
+    /// Whether the probability grows with the measure.
+    pub fn status(&self) -> FitStatus {
+        if self.beta.value > 0.0 { FitStatus::Ok } else { FitStatus::Falling }
     }
 }
 
 /// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood (Eq. 20).
 ///
 /// # Errors
-/// With the status that says why there is no curve: too few events, separation, no convergence.
-pub fn fit_overturning(sample: &EventSample) -> Result<OverturningFit, FitStatus> {
+/// With the status that says why there is no curve: too few events, measures that do not vary, separation, no convergence.
+pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<OverturningFit, FitStatus> {
     let (n, events) = (sample.happened.len(), sample.events());
-    if events < LEAST_EVENTS || n - events < LEAST_EVENTS {
+    let least = if model.estimator == Estimator::Firth { 1 } else { LEAST_EVENTS };
+    if events < least || n - events < least {
         return Err(FitStatus::TooFewEvents);
     }
-    let predictors: Vec<&[f64]> = sample.ln_im.iter().map(Vec::as_slice).collect();
-    if is_separated(&predictors, &sample.happened) {
+    let predictors = sample.predictors();
+    match dependence(&predictors) {
+        Some(Dependence::Constant) => return Err(FitStatus::Constant),
+        Some(Dependence::Collinear) => return Err(FitStatus::Collinear),
+        None => {}
+    }
+    if model.estimator == Estimator::Ml && is_separated(&predictors, &sample.happened) {
         return Err(FitStatus::Separated);
     }
-    let fit = probit(&predictors, &sample.happened).map_err(|_| FitStatus::NotConverged)?;
-    let index = |row: usize| {
-        let slopes = fit.coefficients.iter().skip(1).zip(&predictors);
-        fit.coefficients[0] + slopes.map(|(b, x)| b * x[row]).sum::<f64>()
+    let regression = binary_regression(&predictors, &sample.happened, model.link, model.estimator)
+        .map_err(|_| FitStatus::NotConverged)?;
+    let scores = regression.indices(&sample.design());
+    let probabilities: Vec<f64> = scores.iter().map(|&score| model.link.probability(score)).collect();
+    let log_likelihood = regression.log_likelihood;
+    let b = &regression.coefficients;
+    let quantile = normal::quantile(0.5 * (1.0 + model.confidence));
+    let estimate = |parameter: CurveParameter| {
+        let error = parameter.standard_error(model.link, b, &regression.covariance);
+        Estimate::symmetric(parameter.value(model.link, b), error, quantile)
     };
-    let scores: Vec<f64> = (0..n).map(index).collect();
-    let probabilities: Vec<f64> = scores.iter().map(|&z| normal::cdf(z)).collect();
-    let parameters = fit.coefficients.len() as f64;
-    let Curve { lambda, mu, beta } = Curve::of(&fit);
-    let covariance = |i: usize, j: usize| *fit.covariance.get((i, j)).unwrap_or(&0.0);
+    let (parameters, mu) = (b.len() as f64, estimate(CurveParameter::Mu));
     Ok(OverturningFit {
-        lambda,
+        lambda: (b.len() == 3).then(|| estimate(CurveParameter::Lambda)),
         mu,
-        beta,
-        theta: Estimate {
-            value: mu.value.exp(),
-            standard_error: mu.value.exp() * mu.standard_error,
-            low: mu.low.exp(),
-            high: mu.high.exp(),
-        },
-        log_likelihood: fit.log_likelihood,
-        aic: 2.0 * parameters - 2.0 * fit.log_likelihood,
-        bic: parameters * (n as f64).ln() - 2.0 * fit.log_likelihood,
+        beta: estimate(CurveParameter::Beta),
+        theta: mu.exp(),
+        aic: 2.0 * parameters - 2.0 * log_likelihood,
+        bic: parameters * (n as f64).ln() - 2.0 * log_likelihood,
         auc: auc(&scores, &sample.happened),
         brier: brier_score(&probabilities, &sample.happened),
+        hosmer_lemeshow: hosmer_lemeshow(&probabilities, &sample.happened),
         n,
         events,
-        covariance: from_fn(|i| from_fn(|j| covariance(i, j))),
-        ranges: from_fn(|k| predictors.get(k).map_or([0.0; 2], |values| range(values))),
+        regression,
     })
-}
-
-struct Curve {
-    lambda: Option<Estimate>,
-    mu: Estimate,
-    beta: Estimate,
-}
-
-impl Curve {
-    /// From the coefficients of the probit; standard errors by the delta method.
-    fn of(fit: &ProbitFit) -> Curve {
-        let b = &fit.coefficients;
-        let slope: f64 = b.iter().skip(1).sum();
-        let estimate = |value: f64, gradient: Vec<f64>| {
-            let gradient = DVector::from_vec(gradient);
-            let variance = (gradient.transpose() * &fit.covariance * &gradient)[(0, 0)];
-            Estimate::symmetric(value, variance.sqrt(), Z_95)
-        };
-        let slopes = b.len() - 1;
-        let mu_gradient = [vec![-1.0 / slope], vec![b[0] / (slope * slope); slopes]].concat();
-        let beta_gradient = [vec![0.0], vec![-1.0 / (slope * slope); slopes]].concat();
-        let lambda =
-            (slopes == 2).then(|| estimate(b[1] / b[2], vec![0.0, 1.0 / b[2], -b[1] / (b[2] * b[2])]));
-        Curve { lambda, mu: estimate(-b[0] / slope, mu_gradient), beta: estimate(1.0 / slope, beta_gradient) }
-    }
 }

@@ -38,6 +38,16 @@ pub struct OutOfRange {
     pub range: [f64; 2],
 }
 
+/// Least and largest value of each measure whose logarithms these are.
+pub fn ranges(ln_im: &[&[f64]]) -> Vec<[f64; 2]> {
+    let range = |values: &&[f64]| {
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        [least.exp(), largest.exp()]
+    };
+    ln_im.iter().map(range).collect()
+}
+
 impl Predictor {
     /// Its value and variance; none where a measure is missing.
     pub fn at(&self, measures: &IntensityMeasures) -> Option<Predicted> {

@@ -1,6 +1,9 @@
 use nalgebra::{DMatrix, DVector};
 
-use super::student::t_quantile;
+use super::FitStatus;
+use super::dependence::{Dependence, dependence, is_constant};
+use super::distribution::t_quantile;
+use super::limits::Limits;
 
 /// A number with its uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,9 +12,9 @@ pub struct Estimate {
     pub value: f64,
     /// Its standard error.
     pub standard_error: f64,
-    /// Its lower 95 % limit of confidence.
+    /// Its lower limit of confidence.
     pub low: f64,
-    /// Its upper 95 % limit of confidence.
+    /// Its upper limit of confidence.
     pub high: f64,
 }
 
@@ -21,17 +24,31 @@ impl Estimate {
         let half_width = quantile * standard_error;
         Estimate { value, standard_error, low: value - half_width, high: value + half_width }
     }
+
+    /// Of the exponential: the error by the delta method, the limits those of this one.
+    pub fn exp(&self) -> Estimate {
+        let value = self.value.exp();
+        Estimate {
+            value,
+            standard_error: value * self.standard_error,
+            low: self.low.exp(),
+            high: self.high.exp(),
+        }
+    }
+
+    /// Its limits alone.
+    pub fn limits(&self) -> Limits {
+        Limits { low: self.low, high: self.high }
+    }
 }
 
 /// A linear regression with an intercept.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearFit {
-    /// The intercept, then a slope for each predictor; limits by Student's t.
+    /// The intercept, then a slope for each predictor; 95 % limits by Student's t.
     pub coefficients: Vec<Estimate>,
-    /// Covariance of the coefficients.
+    /// Of the coefficients.
     pub covariance: DMatrix<f64>,
-    /// Least and largest value of each predictor.
-    pub ranges: Vec<[f64; 2]>,
     /// Coefficient of determination.
     pub r2: f64,
     /// Residual standard deviation, with n - k degrees of freedom for k coefficients.
@@ -42,6 +59,28 @@ pub struct LinearFit {
     pub tss: f64,
     /// Cases.
     pub n: usize,
+}
+
+impl LinearFit {
+    /// The same fit with the limits of the coefficients at this confidence.
+    pub fn at_confidence(mut self, confidence: f64) -> LinearFit {
+        let degrees = self.n - self.coefficients.len();
+        let quantile = t_quantile(0.5 * (1.0 + confidence), degrees as f64);
+        for estimate in &mut self.coefficients {
+            *estimate = Estimate::symmetric(estimate.value, estimate.standard_error, quantile);
+        }
+        self
+    }
+
+    /// Whether the response grows with the first predictor.
+    pub fn status(&self) -> FitStatus {
+        if self.coefficients[1].value > 0.0 { FitStatus::Ok } else { FitStatus::Falling }
+    }
+
+    /// The values of the coefficients.
+    pub fn values(&self) -> DVector<f64> {
+        DVector::from_iterator(self.coefficients.len(), self.coefficients.iter().map(|b| b.value))
+    }
 }
 
 /// Why there is no regression.
@@ -55,30 +94,35 @@ pub enum RegressionError {
         /// How many are needed.
         needed: usize,
     },
-    /// A predictor is constant or a combination of the others.
+    /// A predictor or the response does not vary.
+    #[error("a predictor or the response does not vary")]
+    Constant,
+    /// A predictor is a combination of the others.
     #[error("the predictors do not vary independently")]
-    Singular,
+    Collinear,
 }
 
 /// Ordinary least squares of `y` on an intercept and `predictors`, each as long as `y`, by QR decomposition.
 ///
 /// # Errors
-/// If there are too few cases or the predictors are collinear.
+/// If there are too few cases, something does not vary, or the predictors are collinear.
 pub fn least_squares(predictors: &[&[f64]], y: &[f64]) -> Result<LinearFit, RegressionError> {
     let (n, k) = (y.len(), predictors.len() + 1);
     if n <= k {
         return Err(RegressionError::TooFewCases { cases: n, needed: k + 1 });
+    }
+    match dependence(predictors) {
+        Some(Dependence::Constant) => return Err(RegressionError::Constant),
+        Some(Dependence::Collinear) => return Err(RegressionError::Collinear),
+        None if is_constant(y) => return Err(RegressionError::Constant),
+        None => {}
     }
     let design =
         DMatrix::from_fn(n, k, |row, column| if column == 0 { 1.0 } else { predictors[column - 1][row] });
     let response = DVector::from_column_slice(y);
     let qr = design.clone().qr();
     let r = qr.r();
-    let largest = r.diagonal().amax();
-    if !r.diagonal().iter().all(|pivot| pivot.abs() > 1e-12 * largest) {
-        return Err(RegressionError::Singular);
-    }
-    let inverse = r.clone().try_inverse().ok_or(RegressionError::Singular)?;
+    let inverse = r.clone().try_inverse().ok_or(RegressionError::Collinear)?;
     let coefficients = &inverse * (qr.q().transpose() * &response);
     let residuals = &response - design * &coefficients;
     let rss = residuals.norm_squared();
@@ -87,24 +131,16 @@ pub fn least_squares(predictors: &[&[f64]], y: &[f64]) -> Result<LinearFit, Regr
     let degrees = (n - k) as f64;
     let variance = rss / degrees;
     let quantile = t_quantile(0.975, degrees);
-    // (X'X)^-1 = R^-1 R^-T: its diagonal holds the squared lengths of the rows of R^-1.
-    let estimate =
-        |j: usize| Estimate::symmetric(coefficients[j], inverse.row(j).norm() * variance.sqrt(), quantile);
+    // (X'X)^-1 = R^-1 R^-T.
+    let covariance = &inverse * inverse.transpose() * variance;
+    let estimate = |j: usize| Estimate::symmetric(coefficients[j], covariance[(j, j)].sqrt(), quantile);
     Ok(LinearFit {
         coefficients: (0..k).map(estimate).collect(),
-        covariance: variance * &inverse * inverse.transpose(),
-        ranges: predictors.iter().map(|values| range(values)).collect(),
+        covariance,
         r2: 1.0 - rss / tss,
         residual_sd: variance.sqrt(),
         rss,
         tss,
         n,
     })
-}
-
-/// Least and largest of the values.
-pub(super) fn range(values: &[f64]) -> [f64; 2] {
-    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    [least, largest]
 }

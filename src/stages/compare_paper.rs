@@ -108,7 +108,7 @@ impl Ours {
         }
         if let Some(im) = quantity.strip_prefix("p_ro_at_") {
             let curve = |column| self.pro.number(suite, structure, "im4", Some("im3_inv"), column);
-            return Some(p_overturning(im.parse().ok()?, curve("mu")?, curve("beta")?));
+            return Some(p_overturning(im.parse().ok()?, curve("mu")?, curve("beta")?, self.pro.link()?));
         }
         match quantity {
             "transition" => self.plane_number(suite, structure, Side::High, "transition_found"),

@@ -69,6 +69,12 @@ impl Config {
         if let (Some(seed), Some(options)) = (self.seed, &mut self.synthesize_motions) {
             options.seed = options.seed.or(Some(seed));
         }
+        if let (Some(seed), Some(options)) = (self.seed, &mut self.fit_pex) {
+            options.seed = options.seed.or(Some(seed));
+        }
+        if let (Some(seed), Some(options)) = (self.seed, &mut self.fit_pro) {
+            options.seed = options.seed.or(Some(seed));
+        }
     }
 
     /// The same run with another seed in all stages.
@@ -79,6 +85,12 @@ impl Config {
             options.seed = None;
         }
         if let Some(options) = &mut config.synthesize_motions {
+            options.seed = None;
+        }
+        if let Some(options) = &mut config.fit_pex {
+            options.seed = None;
+        }
+        if let Some(options) = &mut config.fit_pro {
             options.seed = None;
         }
         config.spread_seed();

@@ -8,16 +8,18 @@ use rayon::prelude::*;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
-use super::groups::{self, Group};
-use crate::fragility::{FitStatus, LinearFit, Measure, fit_biplanar, fit_plane, fit_univariate};
+use super::groups;
+use super::pex_group::PexModel;
+use super::uncertainty::Uncertainty;
+use crate::fragility::FitStatus;
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, defaults, from_scalar};
 use crate::pipeline::stage::{Stage, with_part};
-use crate::table::pex::{self, Model, PexRow, ScanRow};
 use crate::table::provenance::Provenance;
-use crate::table::schema::{PEX, PEX_SCAN};
+use crate::table::schema::{PEX, PEX_BOOTSTRAP, PEX_SCAN};
 use crate::table::writer::TableWriter;
+use crate::table::{pex, replicates};
 
 /// How the demand is fitted.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -29,6 +31,15 @@ pub struct FitPexOptions {
     /// IM4 at which the two planes meet: found (least pooled residual), or a number
     #[arg(long, default_value = "found")]
     pub transition: TransitionAt,
+    /// Resamples for bootstrap limits, drawn within each cell of magnitude and distance
+    #[arg(long, default_value = "0", value_name = "N")]
+    pub bootstrap: usize,
+    /// Probability with which limits of confidence hold the truth
+    #[arg(long, default_value = "0.95")]
+    pub confidence: f64,
+    /// Seed of the resamples [default: 42]
+    #[arg(long)]
+    pub seed: Option<u64>,
 }
 
 impl Default for FitPexOptions {
@@ -76,6 +87,7 @@ impl<'de> Deserialize<'de> for TransitionAt {
 /// The stage, ready to run.
 pub struct FitPex {
     options: FitPexOptions,
+    model: PexModel,
     input: PathBuf,
     out: PathBuf,
 }
@@ -88,61 +100,22 @@ impl FitPex {
     pub fn new(options: &FitPexOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<FitPex> {
         let limit = options.limit_state;
         check(limit > 0.0 && limit.is_finite(), "limit-state", limit, "a demand |theta|max / alpha above 0")?;
-        Ok(FitPex { options: options.clone(), input, out })
-    }
-
-    fn fits_of(&self, group: &Group) -> (Vec<PexRow>, Vec<ScanRow>) {
-        let row = |model, im_y, range: std::ops::Range<f64>, fit: Result<LinearFit, FitStatus>| PexRow {
-            suite: group.suite.clone(),
-            structure: group.structure.clone(),
-            eta: group.eta,
-            model,
-            im_x: Measure::Im4,
-            im_y,
-            range_low: Some(range.start),
-            range_high: Some(range.end).filter(|end| end.is_finite()),
-            limit_state: self.options.limit_state,
-            r2_pooled: None,
-            r2_overall: None,
-            transition_found: None,
-            fit,
-        };
-        let univariate = |&measure: &Measure| PexRow {
-            im_x: measure,
-            range_low: None,
-            ..row(Model::Univariate, None, 0.0..f64::INFINITY, fit_univariate(&group.cases, measure))
-        };
-        let mut rows: Vec<PexRow> = Measure::SCALAR.iter().map(univariate).collect();
-        let everywhere = 1.0..f64::INFINITY;
-        let plane = fit_plane(&group.cases, everywhere.clone());
-        rows.push(row(Model::Plane, Some(Measure::Im3), everywhere.clone(), plane));
-
-        let fixed = match self.options.transition {
+        let transition = match options.transition {
             TransitionAt::Found => None,
             TransitionAt::Fixed(im4) => Some(im4),
         };
-        let biplanar = match fit_biplanar(&group.cases, fixed) {
-            Ok(biplanar) => biplanar,
-            Err(status) => {
-                rows.push(row(Model::Biplanar, Some(Measure::Im3), everywhere, Err(status)));
-                return (rows, Vec::new());
-            }
-        };
-        let (at, found) = (biplanar.transition, biplanar.found);
-        let (r2_pooled, r2_overall) = (biplanar.r2_pooled, biplanar.r2_overall);
-        let pooled = |row| PexRow { r2_pooled, r2_overall, transition_found: found, ..row };
-        rows.push(pooled(row(Model::Biplanar, Some(Measure::Im3), 1.0..at, biplanar.low)));
-        rows.push(pooled(row(Model::Biplanar, Some(Measure::Im3), at..f64::INFINITY, biplanar.high)));
-        let scan = biplanar.scan.into_iter().map(|point| ScanRow {
-            suite: group.suite.clone(),
-            structure: group.structure.clone(),
-            point,
-        });
-        (rows, scan.collect())
+        let uncertainty = Uncertainty::new(options.bootstrap, options.confidence, options.seed)?;
+        let options = FitPexOptions { seed: Some(uncertainty.seed), ..options.clone() };
+        let model = PexModel { limit_state: limit, transition, uncertainty };
+        Ok(FitPex { options, model, input, out })
     }
 
     fn scan_path(&self) -> PathBuf {
         with_part(&self.out, "scan")
+    }
+
+    fn bootstrap_path(&self) -> Option<PathBuf> {
+        (self.options.bootstrap > 0).then(|| with_part(&self.out, "bootstrap"))
     }
 }
 
@@ -156,7 +129,7 @@ impl Stage for FitPex {
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.scan_path(), self.out.clone()]
+        [self.scan_path()].into_iter().chain(self.bootstrap_path()).chain([self.out.clone()]).collect()
     }
 
     fn parameters(&self) -> Value {
@@ -165,17 +138,22 @@ impl Stage for FitPex {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let (rows, scans): (Vec<_>, Vec<_>) = groups.par_iter().map(|group| self.fits_of(group)).unzip();
+        let (rows, scans): (Vec<_>, Vec<_>) = groups.par_iter().map(|group| self.model.fit(group)).unzip();
         let (rows, scans) = (rows.concat(), scans.concat());
-        let missing = rows.iter().filter(|row| row.fit.is_err());
+        let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (row.reason(), row.measures())));
         let mut scan_writer = TableWriter::create(&self.scan_path(), &PEX_SCAN, provenance.clone())?;
         scan_writer.append(&pex::scan_batch(&scans)?)?;
         scan_writer.finish()?;
+        if let Some(path) = self.bootstrap_path() {
+            let mut writer = TableWriter::create(&path, &PEX_BOOTSTRAP, provenance.clone())?;
+            rows.iter().try_for_each(|row| anyhow::Ok(writer.append(&replicates::pex_batch(row)?)?))?;
+            writer.finish()?;
+        }
         let mut writer = TableWriter::create(&self.out, &PEX, provenance.clone())?;
         writer.append(&pex::batch(&rows)?)?;
         writer.finish()?;
-        let fitted = rows.iter().filter(|row| row.fit.is_ok()).count();
+        let fitted = rows.iter().filter(|row| row.status() == FitStatus::Ok).count();
         let status = FitStatus::Ok.as_str();
         Ok(format!("{fitted} of {} fits {status}", rows.len()))
     }

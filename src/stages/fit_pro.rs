@@ -9,16 +9,19 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::groups::{self, Group};
-use crate::fragility::{Case, EventSample, Measure, fit_overturning};
+use super::groups;
+use super::pro_group::ProModel;
+use super::uncertainty::Uncertainty;
+use crate::fragility::{Case, CurveModel, Estimator, FitStatus, Link, Measure};
 use crate::keyword::{self, Keyword, keywords};
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Several, Word, defaults};
-use crate::pipeline::stage::Stage;
+use crate::pipeline::stage::{Stage, with_part};
 use crate::rocking::Outcome;
 use crate::table::pro::{self, ProRow};
 use crate::table::provenance::Provenance;
-use crate::table::schema::PRO;
+use crate::table::replicates;
+use crate::table::schema::{PRO, PRO_BOOTSTRAP};
 use crate::table::writer::TableWriter;
 
 /// Which curves.
@@ -31,6 +34,21 @@ pub struct FitProOptions {
     /// Pairs of measures that make hybrid ones, besides the six scalar measures
     #[arg(long, default_value = "im4:im3_inv")]
     pub pairs: Several<Pair>,
+    /// How the index becomes a probability: probit (lognormal curve), logit or cloglog
+    #[arg(long, default_value = "probit")]
+    pub link: Word<Link>,
+    /// What is maximised: ml (the likelihood), or firth (penalised, for few events or separation)
+    #[arg(long, default_value = "ml")]
+    pub estimator: Word<Estimator>,
+    /// Resamples for bootstrap limits, drawn within each cell of magnitude and distance
+    #[arg(long, default_value = "0", value_name = "N")]
+    pub bootstrap: usize,
+    /// Probability with which limits of confidence hold the truth
+    #[arg(long, default_value = "0.95")]
+    pub confidence: f64,
+    /// Seed of the resamples [default: 42]
+    #[arg(long)]
+    pub seed: Option<u64>,
 }
 
 impl Default for FitProOptions {
@@ -52,7 +70,7 @@ keywords!(FittedEvent { Overturning = "overturning", Rocking = "rocking" });
 
 impl FittedEvent {
     /// Whether it happened in a case; none if the case does not count.
-    fn happened(self, case: &Case) -> Option<bool> {
+    pub fn happened(self, case: &Case) -> Option<bool> {
         match (self, case.outcome) {
             (FittedEvent::Overturning, Outcome::NoRocking) => None,
             (FittedEvent::Overturning, outcome) => Some(outcome == Outcome::Overturning),
@@ -98,35 +116,30 @@ impl<'de> Deserialize<'de> for Pair {
 /// The stage, ready to run.
 pub struct FitPro {
     options: FitProOptions,
+    model: ProModel,
     input: PathBuf,
     out: PathBuf,
 }
 
 impl FitPro {
     /// Of the responses in `input`, into the file `out`.
-    pub fn new(options: &FitProOptions, input: PathBuf, out: PathBuf) -> FitPro {
-        FitPro { options: options.clone(), input, out }
+    ///
+    /// # Errors
+    /// If an option is out of range.
+    pub fn new(options: &FitProOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<FitPro> {
+        let uncertainty = Uncertainty::new(options.bootstrap, options.confidence, options.seed)?;
+        let curve = CurveModel {
+            link: options.link.0,
+            estimator: options.estimator.0,
+            confidence: uncertainty.confidence,
+        };
+        let model = ProModel { event: options.event.0, pairs: options.pairs.0.clone(), curve, uncertainty };
+        let options = FitProOptions { seed: Some(uncertainty.seed), ..options.clone() };
+        Ok(FitPro { options, model, input, out })
     }
 
-    fn fits_of(&self, group: &Group) -> Vec<ProRow> {
-        let event = self.options.event.0;
-        let fit = |im_x: Measure, im_y: Option<Measure>| {
-            let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
-            let sample = EventSample::new(&group.cases, &measures, |case| event.happened(case));
-            ProRow {
-                suite: group.suite.clone(),
-                structure: group.structure.clone(),
-                eta: group.eta,
-                event: event.as_str(),
-                im_x,
-                im_y,
-                n: sample.happened.len(),
-                events: sample.events(),
-                fit: fit_overturning(&sample),
-            }
-        };
-        let scalar = Measure::SCALAR.into_iter().map(|measure| fit(measure, None));
-        scalar.chain(self.options.pairs.0.iter().map(|&Pair(x, y)| fit(x, Some(y)))).collect()
+    fn bootstrap_path(&self) -> Option<PathBuf> {
+        (self.options.bootstrap > 0).then(|| with_part(&self.out, "bootstrap"))
     }
 }
 
@@ -140,7 +153,7 @@ impl Stage for FitPro {
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.clone()]
+        self.bootstrap_path().into_iter().chain([self.out.clone()]).collect()
     }
 
     fn parameters(&self) -> Value {
@@ -149,13 +162,22 @@ impl Stage for FitPro {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let rows: Vec<Vec<ProRow>> = groups.par_iter().map(|group| self.fits_of(group)).collect();
+        let rows: Vec<Vec<ProRow>> = groups.par_iter().map(|group| self.model.fit(group)).collect();
         let rows = rows.concat();
-        let missing = rows.iter().filter(|row| row.fit.is_err());
+        let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (row.reason(), row.measures())));
+        if let Some(path) = self.bootstrap_path() {
+            let mut writer = TableWriter::create(&path, &PRO_BOOTSTRAP, provenance.clone())?;
+            rows.iter().try_for_each(|row| anyhow::Ok(writer.append(&replicates::pro_batch(row)?)?))?;
+            writer.finish()?;
+        }
         let mut writer = TableWriter::create(&self.out, &PRO, provenance.clone())?;
         writer.append(&pro::batch(&rows)?)?;
         writer.finish()?;
-        Ok(format!("{} of {} curves ok", rows.iter().filter(|row| row.fit.is_ok()).count(), rows.len()))
+        Ok(format!(
+            "{} of {} curves ok",
+            rows.iter().filter(|row| row.status() == FitStatus::Ok).count(),
+            rows.len()
+        ))
     }
 }

@@ -1,5 +1,6 @@
 //! The responses of each suite and structure, as the fits take them.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use anyhow::Context;
@@ -22,6 +23,8 @@ pub struct Group {
     pub eta: f64,
     /// Its responses, in the order of the file.
     pub cases: Vec<Case>,
+    /// The number of the cell of magnitude and distance of each; one cell for all that have neither.
+    pub cells: Vec<usize>,
 }
 
 /// The groups of a responses file, in the order in which they first appear.
@@ -62,7 +65,21 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
         structure: first_text(frame.column(schema::STRUCTURE.name)?)?.unwrap_or_default(),
         eta: frame.column(schema::ETA.name)?.f64()?.get(0).unwrap_or(f64::NAN),
         cases: outcomes.iter().enumerate().map(case).collect::<anyhow::Result<_>>()?,
+        cells: cells(&number(schema::MW)?, &number(schema::RE_KM)?),
     })
+}
+
+/// Numbers the cells in the order in which they first appear.
+fn cells(mw: &[Option<f64>], re_km: &[Option<f64>]) -> Vec<usize> {
+    let mut numbers = HashMap::new();
+    let bits = |value: &Option<f64>| value.map(f64::to_bits);
+    mw.iter()
+        .zip(re_km)
+        .map(|(mw, re_km)| {
+            let next = numbers.len();
+            *numbers.entry((bits(mw), bits(re_km))).or_insert(next)
+        })
+        .collect()
 }
 
 fn first_text(column: &Column) -> anyhow::Result<Option<String>> {

@@ -4,7 +4,8 @@
 //! config             pipeline.yaml, the options of all
 //! structures         structures as a user names them; structure_options one of them on the command line
 //! measures           which intensity measures are taken
-//! groups             the responses of a suite and structure
+//! groups             the responses of a suite and structure; pex_group and pro_group their fits
+//! uncertainty        the limits that both are asked for
 //! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
 //! ```
 
@@ -20,6 +21,8 @@ pub mod groups;
 pub mod import_motions;
 pub mod inspect;
 pub mod measures;
+pub mod pex_group;
+pub mod pro_group;
 pub mod run;
 pub mod sample_scenarios;
 pub mod seed_spread;
@@ -27,3 +30,4 @@ pub mod simulate;
 pub mod structure_options;
 pub mod structures;
 pub mod synthesize_motions;
+pub mod uncertainty;

@@ -76,7 +76,7 @@ pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stag
         stages.push(Box::new(FitPex::new(options, files.responses.clone(), files.pex.clone())?));
     }
     if let Some(options) = &config.fit_pro {
-        stages.push(Box::new(FitPro::new(options, files.responses.clone(), files.pro.clone())));
+        stages.push(Box::new(FitPro::new(options, files.responses.clone(), files.pro.clone())?));
     }
     if let Some(options) = &config.compare_paper {
         let inputs = [files.pex.clone(), files.pro.clone(), files.responses.clone()];

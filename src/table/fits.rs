@@ -7,7 +7,7 @@ use super::TableError;
 use super::columns::Columns;
 use super::reader::{Batch, Batches};
 use super::schema::{self, Column, Kind, PEX, PRO, Table};
-use crate::fragility::{DemandLaw, FitStatus, Measure, Predictor};
+use crate::fragility::{DemandLaw, FitStatus, Link, Measure, Predictor};
 use crate::keyword::{self, Keyword};
 
 /// Rows that are decoded at once.
@@ -132,29 +132,23 @@ impl FitRow {
         Ok(DemandLaw { ln_median, beta: self.number(&schema::BETA)?, degrees })
     }
 
-    /// The probit index in a row of a pro file: (ln IM - mu) / beta, with ln IM = (lambda ln IMx + ln IMy) / (1 + lambda)
-    /// (Eq. 22) of two measures.
+    /// The probit index in a row of a pro file: b0 + b1 ln IMx + b2 ln IMy.
     ///
     /// # Errors
-    /// If the row lacks a number.
+    /// If the row lacks a number, or the curve has another link.
     pub fn probit(&self) -> Result<Predictor, TableError> {
-        let (mu, beta) = (self.number(&schema::MU)?, self.number(&schema::BETA)?);
-        let im_y = self.measure(&schema::IM_Y)?;
-        let weight_x = match im_y {
-            Some(_) => self.number(&schema::LAMBDA).map(|lambda| lambda / (1.0 + lambda))?,
-            None => 1.0,
-        };
-        let second = |column| if im_y.is_some() { self.number(column) } else { Ok(0.0) };
-        let [b00, b01, b11] = [
-            self.number(&schema::COV_B0_B0)?,
-            self.number(&schema::COV_B0_B1)?,
-            self.number(&schema::COV_B1_B1)?,
-        ];
-        let [b02, b12, b22] =
-            [second(&schema::COV_B0_B2)?, second(&schema::COV_B1_B2)?, second(&schema::COV_B2_B2)?];
+        let link = self.text(&schema::LINK).unwrap_or_default();
+        if link != Link::Probit.as_str() {
+            return Err(self.error(&schema::LINK, format!("{link}; expected probit: fit with --link probit")));
+        }
+        let second = |column| if self.text(&schema::IM_Y).is_some() { self.number(column) } else { Ok(0.0) };
+        let [se_0, se_1, se_2] =
+            [self.number(&schema::SE_B0)?, self.number(&schema::SE_B1)?, second(&schema::SE_B2)?];
+        let [b01, b02, b12] =
+            [self.number(&schema::COV_B0_B1)?, second(&schema::COV_B0_B2)?, second(&schema::COV_B1_B2)?];
         self.predictor(
-            [-mu / beta, weight_x / beta, (1.0 - weight_x) / beta],
-            [[b00, b01, b02], [b01, b11, b12], [b02, b12, b22]],
+            [self.number(&schema::B0)?, self.number(&schema::INDEX_B1)?, second(&schema::INDEX_B2)?],
+            [[se_0 * se_0, b01, b02], [b01, se_1 * se_1, b12], [b02, b12, se_2 * se_2]],
         )
     }
 

@@ -8,7 +8,8 @@
 //! writer       batches to a file, written beside its name and renamed when whole
 //! fingerprint  the hash of what a file holds
 //! provenance   what made a file, in its metadata
-//! scenarios, motions, records, responses, trace, pex, pro, paper   one file a table: its rows as Rust structs
+//! scenarios, motions, records, responses, trace, pex, pro, replicates, paper
+//!              one file a table: its rows as Rust structs
 //! measures     the columns of intensity measures, which motions and records share
 //! fits         the rows of pex and pro files as the fits they hold
 //! intensities  any table with PGA and PGV, as evaluate takes it
@@ -32,6 +33,7 @@ pub mod pro;
 pub mod provenance;
 pub mod reader;
 pub mod records;
+pub mod replicates;
 pub mod responses;
 pub mod scenarios;
 pub mod schema;

@@ -1,5 +1,6 @@
 //! The pex file: one row a regression of the demand in safe rocking; and the scan for the transition.
 
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -11,7 +12,9 @@ use polars::prelude::{ChunkCompareEq, DataFrame};
 use super::TableError;
 use super::reader::read_frame;
 use super::schema::{self, Column, PEX, PEX_SCAN};
-use crate::fragility::{Estimate, FitStatus, LinearFit, Measure, ScanPoint};
+use crate::fragility::{
+    BootstrapLimits, DemandReplicate, Estimate, FitStatus, Limits, LinearFit, Measure, ScanPoint, Test,
+};
 use crate::keyword::{Keyword, keywords};
 
 /// The form of a regression.
@@ -23,9 +26,11 @@ pub enum Model {
     Plane,
     /// On two, on one side of the transition.
     Biplanar,
+    /// On two, on one side of a smooth transition; fitted together.
+    Smooth,
 }
 
-keywords!(Model { Univariate = "univariate", Plane = "plane", Biplanar = "biplanar" });
+keywords!(Model { Univariate = "univariate", Plane = "plane", Biplanar = "biplanar", Smooth = "smooth" });
 
 /// One regression.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,14 +53,41 @@ pub struct PexRow {
     pub range_high: Option<f64>,
     /// The demand that P_ex is about.
     pub limit_state: f64,
+    /// Least and largest value of each measure in the cases.
+    pub ranges: Vec<[f64; 2]>,
     /// Of both planes, each about the mean on its own side.
     pub r2_pooled: Option<f64>,
     /// Of both planes, about the mean of all cases.
     pub r2_overall: Option<f64>,
-    /// IM4 of the least pooled residual.
+    /// IM4 of the least pooled residual, or where the planes of a smooth transition count the same.
     pub transition_found: Option<f64>,
+    /// Its limits: by the residual (Hansen) of a break, by linearisation of a smooth transition.
+    pub transition_limits: Option<Limits>,
+    /// Its percentile limits.
+    pub transition_percentile: Option<Limits>,
+    /// Width of a smooth transition, in ln IM4.
+    pub transition_width: Option<Estimate>,
+    /// Ramsey's test.
+    pub reset: Option<Test>,
     /// The fit, or why there is none.
     pub fit: Result<LinearFit, FitStatus>,
+    /// Probability with which limits hold the truth.
+    pub confidence: f64,
+    /// Standard errors of the coefficients where cases of one cell may depend on each other.
+    pub clustered_errors: Vec<f64>,
+    /// Bootstrap limits of the coefficients and of the dispersion; empty without replicates.
+    pub limits: Vec<Option<BootstrapLimits>>,
+    /// Of the bootstrap.
+    pub replicates: Vec<Option<PexReplicate>>,
+}
+
+/// A regression of a resample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PexReplicate {
+    /// Where it holds.
+    pub range: Range<f64>,
+    /// Its numbers.
+    pub fit: DemandReplicate,
 }
 
 impl PexRow {
@@ -64,16 +96,62 @@ impl PexRow {
         format!("{} {}", self.model.as_str(), self.im_x.as_str())
     }
 
-    /// Why there is no fit, for a message.
+    /// Whether there is a fit, and if not, why.
+    pub fn status(&self) -> FitStatus {
+        match &self.fit {
+            Ok(fit) => fit.status(),
+            Err(status) => *status,
+        }
+    }
+
+    /// What is wrong with the fit, for a message.
     pub fn reason(&self) -> String {
         let suite = self.suite.as_deref().unwrap_or("the motions");
-        let status = self.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok).as_str();
-        format!("no fit of the demand for {suite}, {}: {status}", self.structure)
+        match self.status() {
+            FitStatus::Falling => {
+                format!("the demand for {suite}, {}, falls with the measure", self.structure)
+            }
+            status => format!("no fit of the demand for {suite}, {}: {}", self.structure, status.as_str()),
+        }
+    }
+
+    /// Where the fit holds.
+    pub fn range(&self) -> Range<f64> {
+        self.range_low.unwrap_or(0.0)..self.range_high.unwrap_or(f64::INFINITY)
+    }
+
+    /// Where it holds if two planes meet at this IM4; none of two planes that meet nowhere.
+    pub fn range_at(&self, transition: Option<f64>) -> Option<Range<f64>> {
+        match (self.model, self.range_high) {
+            (Model::Univariate | Model::Plane | Model::Smooth, _) => Some(self.range()),
+            (Model::Biplanar, Some(_)) => Some(self.range().start..transition?),
+            (Model::Biplanar, None) => Some(transition?..f64::INFINITY),
+        }
     }
 
     fn coefficient(&self, index: usize) -> Option<Estimate> {
         self.fit.as_ref().ok().and_then(|fit| fit.coefficients.get(index).copied())
     }
+
+    fn covariance(&self, place: (usize, usize)) -> Option<f64> {
+        self.fit.as_ref().ok().and_then(|fit| fit.covariance.get(place).copied())
+    }
+
+    fn limits_of(&self, parameter: Parameter) -> Option<BootstrapLimits> {
+        let coefficients = self.fit.as_ref().ok()?.coefficients.len();
+        match parameter {
+            Parameter::Coefficient(index) if index >= coefficients => None,
+            Parameter::Coefficient(index) => *self.limits.get(index)?,
+            Parameter::Beta => *self.limits.get(coefficients)?,
+        }
+    }
+}
+
+/// What has bootstrap limits.
+#[derive(Clone, Copy)]
+enum Parameter {
+    Coefficient(usize),
+    Beta,
 }
 
 /// The rows of the pex file; what is no finite number is null.
@@ -114,15 +192,31 @@ pub fn batch(rows: &[PexRow]) -> Result<RecordBatch, ArrowError> {
     ]);
     columns.extend((0..3).map(|index| estimate(index, |e| e.standard_error)));
     columns.extend((0..3).flat_map(|index| [estimate(index, |e| e.low), estimate(index, |e| e.high)]));
-    let covariance =
-        |place: (usize, usize)| number(&|row| Some(*row.fit.as_ref().ok()?.covariance.get(place)?));
-    columns.extend([(0, 1), (0, 2), (1, 2)].map(covariance));
-    let range = |measure: usize, end: usize| {
-        number(&|row| row.fit.as_ref().ok()?.ranges.get(measure).map(|range| range[end].exp()))
-    };
-    columns.extend([(0, 0), (0, 1), (1, 0), (1, 1)].map(|(measure, end)| range(measure, end)));
+    columns.extend([(0, 1), (0, 2), (1, 2)].map(|place| number(&|row| row.covariance(place))));
+    columns.extend((0..3).map(|k| number(&|row| row.clustered_errors.get(k).copied())));
+    columns.push(number(&|row| Some(row.confidence)));
+    columns.push(Arc::new(Int64Array::from_iter_values(
+        rows.iter().map(|row| row.replicates.iter().flatten().count() as i64),
+    )));
+    let coefficients = (0..3).map(Parameter::Coefficient);
+    for parameter in coefficients.chain([Parameter::Beta]) {
+        let limit = |k: usize| number(&|row| row.limits_of(parameter)?.in_order()[k]);
+        columns.extend((0..4).map(limit));
+    }
+    columns.extend([
+        number(&|row| Some(row.transition_limits?.low)),
+        number(&|row| Some(row.transition_limits?.high)),
+        number(&|row| Some(row.transition_percentile?.low)),
+        number(&|row| Some(row.transition_percentile?.high)),
+        number(&|row| Some(row.transition_width?.value)),
+        number(&|row| Some(row.transition_width?.standard_error)),
+        number(&|row| Some(row.reset?.statistic)),
+        number(&|row| Some(row.reset?.p)),
+    ]);
+    let end = |(measure, end): (usize, usize)| number(&|row| Some(row.ranges.get(measure)?[end]));
+    columns.extend([(0, 0), (0, 1), (1, 0), (1, 1)].map(end));
     columns.push(number(&|row| Some(row.eta)));
-    columns.push(text(|row| Some(row.fit.as_ref().err().copied().unwrap_or(FitStatus::Ok).as_str())));
+    columns.push(text(|row| Some(row.status().as_str())));
     RecordBatch::try_new(PEX.schema(), columns)
 }
 

@@ -5,14 +5,18 @@ use std::sync::Arc;
 
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
+use nalgebra::DVector;
 
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
 use super::reader::read_frame;
 use super::schema::{self, Column, PRO};
-use crate::fragility::{Estimate, FitStatus, Measure, OverturningFit};
-use crate::keyword::Keyword;
+use crate::fragility::{
+    BootstrapLimits, CurveModel, CurveParameter, Estimate, FitStatus, Limits, Link, Measure, OverturningFit,
+    Test,
+};
+use crate::keyword::{self, Keyword};
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,8 +37,20 @@ pub struct ProRow {
     pub n: usize,
     /// Those in which the event happened.
     pub events: usize,
+    /// Least and largest value of each measure in the cases.
+    pub ranges: Vec<[f64; 2]>,
+    /// How the curve was fitted.
+    pub model: CurveModel,
     /// The curve, or why there is none.
     pub fit: Result<OverturningFit, FitStatus>,
+    /// The likelihood-ratio test against a curve that bends as a spline.
+    pub spline: Option<Test>,
+    /// The same against one with an interaction.
+    pub interaction: Option<Test>,
+    /// How sure its parameters are.
+    pub inference: Vec<ParameterInference>,
+    /// The coefficients in each resample, where it has a curve.
+    pub replicates: Vec<Option<DVector<f64>>>,
 }
 
 impl ProRow {
@@ -44,15 +60,51 @@ impl ProRow {
         format!("{}{second}", self.im_x.as_str())
     }
 
-    /// Why there is no curve, for a message.
+    /// Whether there is a curve, and if not, why.
+    pub fn status(&self) -> FitStatus {
+        match &self.fit {
+            Ok(fit) => fit.status(),
+            Err(status) => *status,
+        }
+    }
+
+    fn inference_of(&self, parameter: CurveParameter) -> Option<&ParameterInference> {
+        self.inference.iter().find(|inference| inference.parameter == parameter)
+    }
+
+    /// What is wrong with the curve, for a message.
     pub fn reason(&self) -> String {
         let suite = self.suite.as_deref().unwrap_or("the motions");
-        let status = self.fit.err().unwrap_or(FitStatus::Ok).as_str();
-        format!(
-            "no curve of {} for {suite}, {}: {status} ({} of {} cases)",
-            self.event, self.structure, self.events, self.n
-        )
+        match self.status() {
+            FitStatus::Falling => {
+                format!(
+                    "the probability of {} for {suite}, {}, falls with the measure",
+                    self.event, self.structure
+                )
+            }
+            status => format!(
+                "no curve of {} for {suite}, {}: {} ({} of {} cases)",
+                self.event,
+                self.structure,
+                status.as_str(),
+                self.events,
+                self.n
+            ),
+        }
     }
+}
+
+/// How sure a parameter of a curve is, besides the errors and limits of the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParameterInference {
+    /// Which.
+    pub parameter: CurveParameter,
+    /// Standard error where cases of one cell may depend on each other.
+    pub clustered_error: f64,
+    /// By the profile likelihood.
+    pub profile: Limits,
+    /// From the replicates, if they give any.
+    pub bootstrap: Option<BootstrapLimits>,
 }
 
 /// The rows of the pro file; a limit beyond all numbers is null.
@@ -85,7 +137,7 @@ pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
     ];
     columns.extend(estimates.map(|estimate| part(estimate, |e| e.value)));
     columns.extend([
-        number(&|fit| Some(fit.log_likelihood)),
+        number(&|fit| Some(fit.regression.log_likelihood)),
         number(&|fit| Some(fit.aic)),
         number(&|fit| Some(fit.bic)),
         number(&|fit| Some(fit.auc)),
@@ -97,16 +149,44 @@ pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
     for estimate in estimates {
         columns.extend([part(estimate, |e| e.low), part(estimate, |e| e.high)]);
     }
-    // What belongs to a second measure is null without one.
-    let second = |measure: usize, fit: &OverturningFit| measure < 2 || fit.lambda.is_some();
-    let covariance = |(i, j): (usize, usize)| number(&|fit| second(j, fit).then_some(fit.covariance[i][j]));
-    columns.extend([(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(covariance));
-    let range = |(measure, end): (usize, usize)| {
-        number(&|fit| second(measure + 1, fit).then_some(fit.ranges[measure][end].exp()))
+    columns.push(text(|row| Some(row.model.link.as_str())));
+    columns.push(text(|row| Some(row.model.estimator.as_str())));
+    columns.extend((0..3).map(|k| number(&|fit| fit.regression.coefficients.get(k).copied())));
+    let covariance = |place: (usize, usize)| number(&|fit| fit.regression.covariance.get(place).copied());
+    columns.extend((0..3).map(|k| number(&|fit| Some(fit.regression.covariance.get((k, k))?.sqrt()))));
+    columns.extend([(0, 1), (0, 2), (1, 2)].map(covariance));
+    let inferred =
+        |parameter: CurveParameter, value: &dyn Fn(&ParameterInference) -> Option<f64>| -> ArrayRef {
+            let value = |row: &ProRow| row.inference_of(parameter).and_then(value).filter(|v| v.is_finite());
+            Arc::new(Float64Array::from_iter(rows.iter().map(value)))
+        };
+    columns.extend(CurveParameter::ALL.map(|parameter| inferred(parameter, &|i| Some(i.clustered_error))));
+    for parameter in CurveParameter::ALL {
+        columns.push(inferred(parameter, &|i| Some(i.profile.low)));
+        columns.push(inferred(parameter, &|i| Some(i.profile.high)));
+    }
+    columns.push(Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.model.confidence))));
+    columns.push(count(|row| row.replicates.iter().flatten().count()));
+    for parameter in CurveParameter::ALL {
+        columns.extend((0..4).map(|k| inferred(parameter, &|i| i.bootstrap?.in_order()[k])));
+    }
+    let test = |test: fn(&ProRow) -> Option<Test>, part: fn(Test) -> f64| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(rows.iter().map(|row| test(row).map(part))))
     };
-    columns.extend([(0, 0), (0, 1), (1, 0), (1, 1)].map(range));
-    columns.push(Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.eta))));
-    columns.push(text(|row| Some(row.fit.err().unwrap_or(FitStatus::Ok).as_str())));
+    let hosmer_lemeshow = |row: &ProRow| row.fit.as_ref().ok()?.hosmer_lemeshow;
+    columns.extend([
+        test(hosmer_lemeshow, |test| test.statistic),
+        test(hosmer_lemeshow, |test| test.p),
+        test(|row| row.spline, |test| test.p),
+        test(|row| row.interaction, |test| test.p),
+    ]);
+    let of_row = |value: &dyn Fn(&ProRow) -> Option<f64>| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(rows.iter().map(|row| value(row).filter(|v| v.is_finite()))))
+    };
+    let end = |(measure, end): (usize, usize)| of_row(&|row| Some(row.ranges.get(measure)?[end]));
+    columns.extend([(0, 0), (0, 1), (1, 0), (1, 1)].map(end));
+    columns.push(of_row(&|row| Some(row.eta)));
+    columns.push(text(|row| Some(row.status().as_str())));
     RecordBatch::try_new(PRO.schema(), columns)
 }
 
@@ -142,5 +222,10 @@ impl ProFrame {
             & equal(schema::IM_X, im_x)?
             & second;
         self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.iter().next().flatten()
+    }
+
+    /// The link of all curves.
+    pub fn link(&self) -> Option<Link> {
+        keyword::parse(self.0.column(schema::LINK.name).ok()?.str().ok()?.get(0)?).ok()
     }
 }

@@ -197,7 +197,7 @@ columns! {
     GROUND_M_S2 = "ground_m_s2", Float64, "m/s2", "ground acceleration at this moment";
     EVENT = "event", Text, "1", "uplift, impact, rest or overturn; null at a mere sample";
 
-    MODEL = "model", Text, "1", "univariate, plane or biplanar";
+    MODEL = "model", Text, "1", "univariate, plane, biplanar, or smooth (two planes that pass into one another)";
     IM_X = "im_x", Text, "1", "first intensity measure";
     IM_Y = "im_y", Text, "1", "second intensity measure";
     RANGE_LOW = "range_low", Float64, "1", "im_x from which the fit holds";
@@ -209,27 +209,57 @@ columns! {
     R2 = "r2", Float64, "1", "coefficient of determination";
     R2_POOLED = "r2_pooled", Float64, "1", "R2 of both planes together, each about the mean on its own side";
     R2_OVERALL = "r2_overall", Float64, "1", "R2 of both planes together about the mean of all cases";
-    TRANSITION_FOUND = "transition_found", Float64, "1", "im4 of the least pooled residual of two planes";
+    TRANSITION_FOUND = "transition_found", Float64, "1", "im4 of the least pooled residual of two planes; of smooth, where both count the same";
     BETA = "beta", Float64, "1", "dispersion: residual standard deviation of ln EDP, or that of the curve P_ro";
     ZETA = "zeta", Float64, "1", "modified dispersion beta / b1";
     N = "n", Int64, "1", "cases used";
     SE_LN_A = "se_ln_a", Float64, "1", "standard error of ln_a";
     SE_B1 = "se_b1", Float64, "1", "standard error of b1";
     SE_B2 = "se_b2", Float64, "1", "standard error of b2";
-    LN_A_LOW = "ln_a_low", Float64, "1", "lower 95 % limit of ln_a";
-    LN_A_HIGH = "ln_a_high", Float64, "1", "upper 95 % limit of ln_a";
-    B1_LOW = "b1_low", Float64, "1", "lower 95 % limit of b1";
-    B1_HIGH = "b1_high", Float64, "1", "upper 95 % limit of b1";
-    B2_LOW = "b2_low", Float64, "1", "lower 95 % limit of b2";
-    B2_HIGH = "b2_high", Float64, "1", "upper 95 % limit of b2";
+    LN_A_LOW = "ln_a_low", Float64, "1", "lower limit of ln_a";
+    LN_A_HIGH = "ln_a_high", Float64, "1", "upper limit of ln_a";
+    B1_LOW = "b1_low", Float64, "1", "lower limit of b1";
+    B1_HIGH = "b1_high", Float64, "1", "upper limit of b1";
+    B2_LOW = "b2_low", Float64, "1", "lower limit of b2";
+    B2_HIGH = "b2_high", Float64, "1", "upper limit of b2";
     COV_LN_A_B1 = "cov_ln_a_b1", Float64, "1", "covariance of ln_a and b1";
     COV_LN_A_B2 = "cov_ln_a_b2", Float64, "1", "covariance of ln_a and b2";
-    COV_B1_B2 = "cov_b1_b2", Float64, "1", "covariance of the slopes on ln im_x and ln im_y";
+    COV_B1_B2 = "cov_b1_b2", Float64, "1", "covariance of b1 and b2";
     IM_X_LOW = "im_x_low", Float64, "1", "least im_x of the cases";
     IM_X_HIGH = "im_x_high", Float64, "1", "largest im_x of the cases";
     IM_Y_LOW = "im_y_low", Float64, "1", "least im_y of the cases";
     IM_Y_HIGH = "im_y_high", Float64, "1", "largest im_y of the cases";
-    STATUS = "status", Text, "1", "ok, or why there is no fit";
+    SE_LN_A_CLUSTERED = "se_ln_a_clustered", Float64, "1", "standard error of ln_a, robust to dependence within a cell";
+    SE_B1_CLUSTERED = "se_b1_clustered", Float64, "1", "standard error of b1, robust to dependence within a cell";
+    SE_B2_CLUSTERED = "se_b2_clustered", Float64, "1", "standard error of b2, robust to dependence within a cell";
+    CONFIDENCE = "confidence", Float64, "1", "probability with which the limits hold the truth";
+    REPLICATES = "replicates", Int64, "1", "bootstrap replicates that have a fit";
+    LN_A_PERCENTILE_LOW = "ln_a_percentile_low", Float64, "1", "lower percentile limit of ln_a";
+    LN_A_PERCENTILE_HIGH = "ln_a_percentile_high", Float64, "1", "upper percentile limit of ln_a";
+    LN_A_BCA_LOW = "ln_a_bca_low", Float64, "1", "lower BCa limit of ln_a";
+    LN_A_BCA_HIGH = "ln_a_bca_high", Float64, "1", "upper BCa limit of ln_a";
+    B1_PERCENTILE_LOW = "b1_percentile_low", Float64, "1", "lower percentile limit of b1";
+    B1_PERCENTILE_HIGH = "b1_percentile_high", Float64, "1", "upper percentile limit of b1";
+    B1_BCA_LOW = "b1_bca_low", Float64, "1", "lower BCa limit of b1";
+    B1_BCA_HIGH = "b1_bca_high", Float64, "1", "upper BCa limit of b1";
+    B2_PERCENTILE_LOW = "b2_percentile_low", Float64, "1", "lower percentile limit of b2";
+    B2_PERCENTILE_HIGH = "b2_percentile_high", Float64, "1", "upper percentile limit of b2";
+    B2_BCA_LOW = "b2_bca_low", Float64, "1", "lower BCa limit of b2";
+    B2_BCA_HIGH = "b2_bca_high", Float64, "1", "upper BCa limit of b2";
+    BETA_PERCENTILE_LOW = "beta_percentile_low", Float64, "1", "lower percentile limit of beta";
+    BETA_PERCENTILE_HIGH = "beta_percentile_high", Float64, "1", "upper percentile limit of beta";
+    BETA_BCA_LOW = "beta_bca_low", Float64, "1", "lower BCa limit of beta";
+    BETA_BCA_HIGH = "beta_bca_high", Float64, "1", "upper BCa limit of beta";
+    TRANSITION_LOW = "transition_low", Float64, "1", "lower limit of transition_found: Hansen's of a break, linearised of a smooth one";
+    TRANSITION_HIGH = "transition_high", Float64, "1", "upper limit of transition_found, likewise";
+    TRANSITION_WIDTH = "transition_width", Float64, "1", "width d of a smooth transition: the share of the upper plane is 1 - im4^(-1/d)";
+    SE_TRANSITION_WIDTH = "se_transition_width", Float64, "1", "standard error of transition_width";
+    RESET = "reset", Float64, "1", "Ramsey's F: whether squares and cubes of the fitted values are missing";
+    RESET_P = "reset_p", Float64, "1", "probability of as large a reset if the regression holds";
+    TRANSITION_PERCENTILE_LOW = "transition_percentile_low", Float64, "1", "lower percentile limit of transition_found";
+    TRANSITION_PERCENTILE_HIGH = "transition_percentile_high", Float64, "1", "upper percentile limit of transition_found";
+    REPLICATE = "replicate", Int64, "1", "resample: the same in all fits of the same responses and seed";
+    STATUS = "status", Text, "1", "ok, falling (with the measure), or why there is no fit";
 
     TRANSITION = "transition", Float64, "1", "im4 at which the two planes meet";
     POOLED_RSS = "pooled_rss", Float64, "1", "residual sum of squares of both planes";
@@ -238,7 +268,7 @@ columns! {
 
     FITTED_EVENT = "event", Text, "1", "overturning, or rocking";
     LAMBDA = "lambda", Float64, "1", "exponent of im_x in the hybrid measure (Eq. 22)";
-    MU = "mu", Float64, "1", "mean of the logarithm of the measure at overturning";
+    MU = "mu", Float64, "1", "logarithm of the median of the measure at overturning (its mean, for the probit)";
     THETA = "theta", Float64, "1", "median exp(mu)";
     LOG_LIKELIHOOD = "log_likelihood", Float64, "1", "log-likelihood at its maximum";
     AIC = "aic", Float64, "1", "Akaike's information criterion";
@@ -250,19 +280,43 @@ columns! {
     SE_MU = "se_mu", Float64, "1", "standard error of mu";
     SE_BETA = "se_beta", Float64, "1", "standard error of beta";
     SE_THETA = "se_theta", Float64, "1", "standard error of theta";
-    LAMBDA_LOW = "lambda_low", Float64, "1", "lower 95 % limit of lambda";
-    LAMBDA_HIGH = "lambda_high", Float64, "1", "upper 95 % limit of lambda";
-    MU_LOW = "mu_low", Float64, "1", "lower 95 % limit of mu";
-    MU_HIGH = "mu_high", Float64, "1", "upper 95 % limit of mu";
-    BETA_LOW = "beta_low", Float64, "1", "lower 95 % limit of beta";
-    BETA_HIGH = "beta_high", Float64, "1", "upper 95 % limit of beta";
-    THETA_LOW = "theta_low", Float64, "1", "lower 95 % limit of theta";
-    THETA_HIGH = "theta_high", Float64, "1", "upper 95 % limit of theta";
-    COV_B0_B0 = "cov_b0_b0", Float64, "1", "variance of the probit intercept -mu/beta";
-    COV_B0_B1 = "cov_b0_b1", Float64, "1", "covariance of the probit intercept and the slope on ln im_x";
-    COV_B0_B2 = "cov_b0_b2", Float64, "1", "covariance of the probit intercept and the slope on ln im_y";
-    COV_B1_B1 = "cov_b1_b1", Float64, "1", "variance of the probit slope on ln im_x";
-    COV_B2_B2 = "cov_b2_b2", Float64, "1", "variance of the probit slope on ln im_y";
+    LAMBDA_LOW = "lambda_low", Float64, "1", "lower limit of lambda";
+    LAMBDA_HIGH = "lambda_high", Float64, "1", "upper limit of lambda";
+    MU_LOW = "mu_low", Float64, "1", "lower limit of mu";
+    MU_HIGH = "mu_high", Float64, "1", "upper limit of mu";
+    BETA_LOW = "beta_low", Float64, "1", "lower limit of beta";
+    BETA_HIGH = "beta_high", Float64, "1", "upper limit of beta";
+    THETA_LOW = "theta_low", Float64, "1", "lower limit of theta";
+    THETA_HIGH = "theta_high", Float64, "1", "upper limit of theta";
+    ESTIMATOR = "estimator", Text, "1", "ml (maximum likelihood), or firth (penalised)";
+    SE_LAMBDA_CLUSTERED = "se_lambda_clustered", Float64, "1", "standard error of lambda, robust to dependence within a cell";
+    SE_MU_CLUSTERED = "se_mu_clustered", Float64, "1", "standard error of mu, robust to dependence within a cell";
+    SE_BETA_CLUSTERED = "se_beta_clustered", Float64, "1", "standard error of beta, robust to dependence within a cell";
+    LAMBDA_PROFILE_LOW = "lambda_profile_low", Float64, "1", "lower profile-likelihood limit of lambda; null: none";
+    LAMBDA_PROFILE_HIGH = "lambda_profile_high", Float64, "1", "upper profile-likelihood limit of lambda; null: none";
+    MU_PROFILE_LOW = "mu_profile_low", Float64, "1", "lower profile-likelihood limit of mu; null: none";
+    MU_PROFILE_HIGH = "mu_profile_high", Float64, "1", "upper profile-likelihood limit of mu; null: none";
+    BETA_PROFILE_LOW = "beta_profile_low", Float64, "1", "lower profile-likelihood limit of beta; null: none";
+    BETA_PROFILE_HIGH = "beta_profile_high", Float64, "1", "upper profile-likelihood limit of beta; null: none";
+    HOSMER_LEMESHOW = "hosmer_lemeshow", Float64, "1", "Hosmer-Lemeshow chi squared of ten groups";
+    HOSMER_LEMESHOW_P = "hosmer_lemeshow_p", Float64, "1", "probability of as large a hosmer_lemeshow if the curve holds";
+    SPLINE_P = "spline_p", Float64, "1", "likelihood-ratio test against a natural spline of ln im_x: probability if none is needed";
+    INTERACTION_P = "interaction_p", Float64, "1", "likelihood-ratio test against a term ln im_x ln im_y (or ln im_x squared)";
+    LINK = "link", Text, "1", "probit, logit or cloglog: the probability is F(b0 + b1 ln im_x + b2 ln im_y)";
+    B0 = "b0", Float64, "1", "intercept of the index";
+    INDEX_B1 = "b1", Float64, "1", "slope of the index on ln im_x";
+    INDEX_B2 = "b2", Float64, "1", "slope of the index on ln im_y";
+    SE_B0 = "se_b0", Float64, "1", "standard error of b0";
+    COV_B0_B1 = "cov_b0_b1", Float64, "1", "covariance of b0 and b1";
+    COV_B0_B2 = "cov_b0_b2", Float64, "1", "covariance of b0 and b2";
+    LAMBDA_PERCENTILE_LOW = "lambda_percentile_low", Float64, "1", "lower percentile limit of lambda";
+    LAMBDA_PERCENTILE_HIGH = "lambda_percentile_high", Float64, "1", "upper percentile limit of lambda";
+    LAMBDA_BCA_LOW = "lambda_bca_low", Float64, "1", "lower BCa limit of lambda";
+    LAMBDA_BCA_HIGH = "lambda_bca_high", Float64, "1", "upper BCa limit of lambda";
+    MU_PERCENTILE_LOW = "mu_percentile_low", Float64, "1", "lower percentile limit of mu (and, as its logarithm, of theta)";
+    MU_PERCENTILE_HIGH = "mu_percentile_high", Float64, "1", "upper percentile limit of mu (and, as its logarithm, of theta)";
+    MU_BCA_LOW = "mu_bca_low", Float64, "1", "lower BCa limit of mu (and, as its logarithm, of theta)";
+    MU_BCA_HIGH = "mu_bca_high", Float64, "1", "upper BCa limit of mu (and, as its logarithm, of theta)";
 
     P_NR = "p_nr", Float64, "1", "probability of no rocking";
     P_EX = "p_ex", Float64, "1", "probability of a demand above the limit state, in safe rocking (Eq. 14)";
@@ -463,12 +517,61 @@ pub const PEX: Table = Table {
         COV_LN_A_B1.or_null(),
         COV_LN_A_B2.or_null(),
         COV_B1_B2.or_null(),
+        SE_LN_A_CLUSTERED.or_null(),
+        SE_B1_CLUSTERED.or_null(),
+        SE_B2_CLUSTERED.or_null(),
+        CONFIDENCE,
+        REPLICATES,
+        LN_A_PERCENTILE_LOW.or_null(),
+        LN_A_PERCENTILE_HIGH.or_null(),
+        LN_A_BCA_LOW.or_null(),
+        LN_A_BCA_HIGH.or_null(),
+        B1_PERCENTILE_LOW.or_null(),
+        B1_PERCENTILE_HIGH.or_null(),
+        B1_BCA_LOW.or_null(),
+        B1_BCA_HIGH.or_null(),
+        B2_PERCENTILE_LOW.or_null(),
+        B2_PERCENTILE_HIGH.or_null(),
+        B2_BCA_LOW.or_null(),
+        B2_BCA_HIGH.or_null(),
+        BETA_PERCENTILE_LOW.or_null(),
+        BETA_PERCENTILE_HIGH.or_null(),
+        BETA_BCA_LOW.or_null(),
+        BETA_BCA_HIGH.or_null(),
+        TRANSITION_LOW.or_null(),
+        TRANSITION_HIGH.or_null(),
+        TRANSITION_PERCENTILE_LOW.or_null(),
+        TRANSITION_PERCENTILE_HIGH.or_null(),
+        TRANSITION_WIDTH.or_null(),
+        SE_TRANSITION_WIDTH.or_null(),
+        RESET.or_null(),
+        RESET_P.or_null(),
         IM_X_LOW.or_null(),
         IM_X_HIGH.or_null(),
         IM_Y_LOW.or_null(),
         IM_Y_HIGH.or_null(),
         ETA,
         STATUS,
+    ],
+};
+
+/// The regressions of resampled cases.
+pub const PEX_BOOTSTRAP: Table = Table {
+    name: "bootstrap replicates of pex",
+    stage: "fit-pex",
+    columns: &[
+        SUITE.or_null(),
+        STRUCTURE,
+        MODEL,
+        IM_X,
+        IM_Y.or_null(),
+        REPLICATE,
+        RANGE_LOW.or_null(),
+        RANGE_HIGH.or_null(),
+        LN_A.or_null(),
+        B1.or_null(),
+        B2.or_null(),
+        BETA.or_null(),
     ],
 };
 
@@ -512,12 +615,44 @@ pub const PRO: Table = Table {
         BETA_HIGH.or_null(),
         THETA_LOW.or_null(),
         THETA_HIGH.or_null(),
-        COV_B0_B0.or_null(),
+        LINK,
+        ESTIMATOR,
+        B0.or_null(),
+        INDEX_B1.or_null(),
+        INDEX_B2.or_null(),
+        SE_B0.or_null(),
+        SE_B1.or_null(),
+        SE_B2.or_null(),
         COV_B0_B1.or_null(),
         COV_B0_B2.or_null(),
-        COV_B1_B1.or_null(),
         COV_B1_B2.or_null(),
-        COV_B2_B2.or_null(),
+        SE_LAMBDA_CLUSTERED.or_null(),
+        SE_MU_CLUSTERED.or_null(),
+        SE_BETA_CLUSTERED.or_null(),
+        LAMBDA_PROFILE_LOW.or_null(),
+        LAMBDA_PROFILE_HIGH.or_null(),
+        MU_PROFILE_LOW.or_null(),
+        MU_PROFILE_HIGH.or_null(),
+        BETA_PROFILE_LOW.or_null(),
+        BETA_PROFILE_HIGH.or_null(),
+        CONFIDENCE,
+        REPLICATES,
+        LAMBDA_PERCENTILE_LOW.or_null(),
+        LAMBDA_PERCENTILE_HIGH.or_null(),
+        LAMBDA_BCA_LOW.or_null(),
+        LAMBDA_BCA_HIGH.or_null(),
+        MU_PERCENTILE_LOW.or_null(),
+        MU_PERCENTILE_HIGH.or_null(),
+        MU_BCA_LOW.or_null(),
+        MU_BCA_HIGH.or_null(),
+        BETA_PERCENTILE_LOW.or_null(),
+        BETA_PERCENTILE_HIGH.or_null(),
+        BETA_BCA_LOW.or_null(),
+        BETA_BCA_HIGH.or_null(),
+        HOSMER_LEMESHOW.or_null(),
+        HOSMER_LEMESHOW_P.or_null(),
+        SPLINE_P.or_null(),
+        INTERACTION_P.or_null(),
         IM_X_LOW.or_null(),
         IM_X_HIGH.or_null(),
         IM_Y_LOW.or_null(),
@@ -572,6 +707,23 @@ pub const RATES: Table = Table {
         P_IN_YEARS_LOW,
         P_IN_YEARS_HIGH,
         MEANING,
+    ],
+};
+
+/// The curves of resampled cases.
+pub const PRO_BOOTSTRAP: Table = Table {
+    name: "bootstrap replicates of pro",
+    stage: "fit-pro",
+    columns: &[
+        SUITE.or_null(),
+        STRUCTURE,
+        FITTED_EVENT,
+        IM_X,
+        IM_Y.or_null(),
+        REPLICATE,
+        B0.or_null(),
+        INDEX_B1.or_null(),
+        INDEX_B2.or_null(),
     ],
 };
 

@@ -162,6 +162,8 @@ fn impossible_parameters_are_named() {
     fail(folder.path(), "sample-scenarios --mw 7:5:0.5", 2, &["7:5:0.5", "first <= last"]);
     fail(folder.path(), "sample-scenarios --samples 0", 2, &["samples is 0"]);
     fail(folder.path(), "fit-pex --in out/responses.parquet --limit-state 0", 2, &["limit-state is 0"]);
+    fail(folder.path(), "fit-pex --in out/responses.parquet --confidence 1", 2, &["confidence is 1"]);
+    fail(folder.path(), "fit-pro --in out/responses.parquet --link probt", 2, &["did you mean 'probit'"]);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use arrow_array::{ArrayRef, Float64Array};
-use rockfrag::fragility::{p_failure_given_rocking, p_overturning};
+use rockfrag::fragility::{Link, p_failure_given_rocking, p_overturning};
 use rockfrag::table::fits::{FitRow, curves};
 use rockfrag::table::schema;
 
@@ -78,7 +78,7 @@ fn the_worked_example_of_section_3_is_answered() {
         );
         let number = |name| quantity(&answer, name).unwrap();
         assert!((number("im_hybrid") - im).abs() < 1e-12);
-        assert!((number("p_ro") - p_overturning(im, mu, beta)).abs() < 1e-12);
+        assert!((number("p_ro") - p_overturning(im, mu, beta, Link::Probit)).abs() < 1e-12);
         let joined = p_failure_given_rocking(number("p_ro"), number("p_ex"));
         assert!((number("p_f_r") - joined).abs() < 1e-12);
     }

@@ -64,6 +64,29 @@ fn rows_do_not_depend_on_threads_or_row_groups() {
 }
 
 #[test]
+fn a_bootstrap_is_the_same_on_any_number_of_threads() {
+    let (folder, _) = small_pipeline();
+    succeed(folder.path(), "run");
+    for threads in [1, 2] {
+        for fit in ["fit-pex", "fit-pro"] {
+            let out = format!("{fit}.{threads}.parquet");
+            let call =
+                format!("{fit} --in out/responses.parquet --out {out} --bootstrap 30 --threads {threads}");
+            succeed(folder.path(), &call);
+        }
+    }
+    for name in ["fit-pex.N", "fit-pex.N.bootstrap", "fit-pro.N", "fit-pro.N.bootstrap"] {
+        let read = |threads: &str| {
+            std::fs::read(folder.path().join(format!("{}.parquet", name.replace('N', threads)))).unwrap()
+        };
+        assert!(read("1") == read("2"), "{name} is the same to the byte");
+    }
+    let text = rockfrag(folder.path()).args(["inspect", "fit-pex.1.bootstrap.parquet"]).output().unwrap();
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(text.contains("bootstrap: 30") && text.contains("seed: 42"), "{text}");
+}
+
+#[test]
 fn a_scenario_and_its_motion_are_the_same_alone_and_among_others() {
     let folder = tempfile::tempdir().unwrap();
     let make = |cells: &str, out: &str| {

@@ -1,3 +1,5 @@
+//! Student's t, F and chi squared.
+
 /// The `x` below which Student's t with `degrees` > 0 of freedom lies with probability `p` in (0, 1).
 pub fn t_quantile(p: f64, degrees: f64) -> f64 {
     if p < 0.5 {
@@ -26,6 +28,28 @@ fn t_cdf(x: f64, degrees: f64) -> f64 {
     let upper_tail =
         0.5 * incomplete_beta(0.5 * degrees, 0.5, degrees / (degrees + x * x), x * x / (degrees + x * x));
     1.0 - upper_tail
+}
+
+/// Probability that F with these degrees of freedom lies above `f` >= 0.
+pub fn f_upper_tail(f: f64, numerator: f64, denominator: f64) -> f64 {
+    let sum = denominator + numerator * f;
+    incomplete_beta(0.5 * denominator, 0.5 * numerator, denominator / sum, numerator * f / sum)
+}
+
+/// Probability that chi squared with so many degrees of freedom lies above `x` >= 0: a finite sum.
+pub fn chi_squared_upper_tail(x: f64, degrees: usize) -> f64 {
+    let half = 0.5 * x;
+    // Q(a + 1, x/2) = Q(a, x/2) + (x/2)^a exp(-x/2) / Gamma(a + 1), from a = 1/2 or a = 0.
+    let (mut a, mut tail) = if degrees % 2 == 1 { (0.5, libm::erfc(half.sqrt())) } else { (0.0, 0.0) };
+    while a < 0.5 * degrees as f64 {
+        tail += if half > 0.0 {
+            (a * half.ln() - half - libm::lgamma(a + 1.0)).exp()
+        } else {
+            f64::from(a == 0.0)
+        };
+        a += 1.0;
+    }
+    tail
 }
 
 /// The regularised incomplete beta function I_x(a, b), with `y` = 1 - x, by its continued fraction.

@@ -1,33 +1,4 @@
-//! The standard normal distribution.
 #![expect(clippy::excessive_precision, reason = "the coefficients as Wichura published them")]
-
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
-
-/// Below this the complementary error function nears underflow and its asymptotic series is exact to rounding.
-const FAR_TAIL: f64 = -30.0;
-
-/// Probability density at `x`.
-pub fn pdf(x: f64) -> f64 {
-    libm::exp(-0.5 * x * x) / (2.0 * PI).sqrt()
-}
-
-/// Cumulative probability at `x`, with full relative precision in the lower tail.
-pub fn cdf(x: f64) -> f64 {
-    0.5 * libm::erfc(-x * FRAC_1_SQRT_2)
-}
-
-/// Logarithm of the cumulative probability at `x`, precise in both tails.
-pub fn ln_cdf(x: f64) -> f64 {
-    if x > 0.0 {
-        libm::log1p(-cdf(-x))
-    } else if x > FAR_TAIL {
-        libm::log(cdf(x))
-    } else {
-        let u = 1.0 / (x * x);
-        let series = -u * (1.0 - u * (3.0 - u * (15.0 - 105.0 * u)));
-        -0.5 * x * x - libm::log(-x) - 0.5 * libm::log(2.0 * PI) + libm::log1p(series)
-    }
-}
 
 /// The `x` whose cumulative probability is `p` in (0, 1), by Wichura's algorithm AS 241 (relative error 1e-16).
 /// Infinite at 0 and 1, NaN outside.

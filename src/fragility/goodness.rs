@@ -1,0 +1,72 @@
+//! Whether a model fits: tests whose small probabilities speak against it.
+
+use super::binary::BinaryFit;
+use super::distribution::{chi_squared_upper_tail, f_upper_tail};
+use super::regression::{LinearFit, least_squares};
+
+/// Groups of a Hosmer-Lemeshow test.
+const GROUPS: usize = 10;
+
+/// The outcome of a test.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Test {
+    /// The statistic.
+    pub statistic: f64,
+    /// Probability of one as large, if the model holds.
+    pub p: f64,
+}
+
+/// Hosmer and Lemeshow's test of fitted probabilities: in ten groups of rising probability, as many events as expected?
+/// (Hosmer & Lemeshow 1980, Communications in Statistics A9, 1043-1069). None with fewer than two cases a group, or if a
+/// group is certain of its outcome.
+pub fn hosmer_lemeshow(probabilities: &[f64], events: &[bool]) -> Option<Test> {
+    let n = probabilities.len();
+    if n < 2 * GROUPS {
+        return None;
+    }
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&a, &b| probabilities[a].total_cmp(&probabilities[b]));
+    // The first groups take what does not divide by their number.
+    let (size, larger) = (n / GROUPS, n % GROUPS);
+    let (first, rest) = order.split_at(larger * (size + 1));
+    let of_group = |rows: &[usize]| {
+        let expected: f64 = rows.iter().map(|&row| probabilities[row]).sum();
+        let observed = rows.iter().filter(|&&row| events[row]).count() as f64;
+        (observed - expected).powi(2) / (expected * (1.0 - expected / rows.len() as f64))
+    };
+    let statistic: f64 = first.chunks(size + 1).chain(rest.chunks(size)).map(of_group).sum();
+    let test = Test { statistic, p: chi_squared_upper_tail(statistic, GROUPS - 2) };
+    statistic.is_finite().then_some(test)
+}
+
+/// The likelihood-ratio test of a binary regression against a larger one that contains it.
+pub fn likelihood_ratio(restricted: &BinaryFit, full: &BinaryFit) -> Test {
+    let statistic = (2.0 * (full.log_likelihood - restricted.log_likelihood)).max(0.0);
+    let degrees = full.coefficients.len() - restricted.coefficients.len();
+    Test { statistic, p: chi_squared_upper_tail(statistic, degrees) }
+}
+
+/// Ramsey's test of a linear regression: do squares and cubes of the fitted values add to it? (Ramsey 1969, J. Royal
+/// Statistical Society B31, 350-371). None where they do not vary on their own.
+pub fn reset(predictors: &[&[f64]], y: &[f64], fit: &LinearFit) -> Option<Test> {
+    let fitted = |row: usize| -> f64 {
+        let slopes = fit.coefficients.iter().skip(1).zip(predictors);
+        fit.coefficients[0].value + slopes.map(|(b, x)| b.value * x[row]).sum::<f64>()
+    };
+    added_powers(predictors, y, &(0..y.len()).map(fitted).collect::<Vec<_>>(), fit.rss)
+}
+
+/// The F test of what squares and cubes of `fitted` add to a regression on `predictors` that leaves `rss`.
+pub fn added_powers(predictors: &[&[f64]], y: &[f64], fitted: &[f64], rss: f64) -> Option<Test> {
+    let n = fitted.len() as f64;
+    // Standardised, which changes nothing but the conditioning.
+    let mean = fitted.iter().sum::<f64>() / n;
+    let sd = (fitted.iter().map(|f| (f - mean).powi(2)).sum::<f64>() / n).sqrt();
+    let power = |k: i32| fitted.iter().map(|f| ((f - mean) / sd).powi(k)).collect::<Vec<f64>>();
+    let (squares, cubes) = (power(2), power(3));
+    let more: Vec<&[f64]> = predictors.iter().copied().chain([&squares[..], &cubes[..]]).collect();
+    let full = least_squares(&more, y).ok()?;
+    let degrees = (full.n - full.coefficients.len()) as f64;
+    let statistic = (rss - full.rss) / 2.0 / (full.rss / degrees);
+    statistic.is_finite().then(|| Test { statistic, p: f_upper_tail(statistic, 2.0, degrees) })
+}

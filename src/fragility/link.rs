@@ -1,0 +1,114 @@
+//! How the index of a binary regression becomes a probability.
+
+use crate::keyword::keywords;
+use crate::normal::{self, LowerTail};
+
+/// The link: P(event) = F(index), with index = b0 + b1 x1 + ...
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Link {
+    /// The normal distribution: the lognormal curve of the paper.
+    #[default]
+    Probit,
+    /// The logistic distribution: heavier tails.
+    Logit,
+    /// The complementary log-log, F = 1 - exp(-exp(index)): the Weibull distribution of the measure, skewed.
+    Cloglog,
+}
+
+keywords!(Link { Probit = "probit", Logit = "logit", Cloglog = "cloglog" });
+
+/// The logarithm of the probability of what happened in a case, as a function of the index.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LnProbability {
+    /// Its value.
+    pub value: f64,
+    /// Its derivative: the score.
+    pub score: f64,
+    /// The negative of its second derivative, at least zero: all three links have log-concave likelihoods.
+    pub curvature: f64,
+}
+
+/// The expected information of a case about its index.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Information {
+    /// f^2 / (F (1 - F)).
+    pub weight: f64,
+    /// The derivative of its logarithm.
+    pub ln_weight_slope: f64,
+}
+
+impl Link {
+    /// F(index).
+    pub fn probability(self, index: f64) -> f64 {
+        match self {
+            Link::Probit => normal::cdf(index),
+            Link::Logit => 1.0 / (1.0 + (-index).exp()),
+            Link::Cloglog => -(-index.exp()).exp_m1(),
+        }
+    }
+
+    /// The index at which an event is as likely as not.
+    pub fn median_index(self) -> f64 {
+        match self {
+            Link::Probit | Link::Logit => 0.0,
+            Link::Cloglog => std::f64::consts::LN_2.ln(),
+        }
+    }
+
+    /// ln F(index) or ln(1 - F(index)) with its derivatives.
+    pub fn ln_probability(self, index: f64, event: bool) -> LnProbability {
+        let sign = if event { 1.0 } else { -1.0 };
+        match self {
+            Link::Probit => {
+                let z = sign * index;
+                let LowerTail { ln_cdf: value, mills } = normal::lower_tail(z);
+                LnProbability { value, score: sign * mills, curvature: mills * (mills + z) }
+            }
+            Link::Logit => {
+                let z = sign * index;
+                let (p, q) = (1.0 / (1.0 + (-z).exp()), 1.0 / (1.0 + z.exp()));
+                let value = if z > 0.0 { -(-z).exp().ln_1p() } else { z - z.exp().ln_1p() };
+                LnProbability { value, score: sign * q, curvature: p * q }
+            }
+            Link::Cloglog => {
+                let hazard = index.exp();
+                if event {
+                    let ratio = hazard_ratio(hazard);
+                    let value = (-(-hazard).exp_m1()).ln();
+                    let curvature = (ratio * (ratio + hazard - 1.0)).max(0.0);
+                    LnProbability { value, score: ratio, curvature }
+                } else {
+                    LnProbability { value: -hazard, score: -hazard, curvature: hazard }
+                }
+            }
+        }
+    }
+
+    /// The expected information at an index.
+    pub fn information(self, index: f64) -> Information {
+        match self {
+            Link::Probit => {
+                let (of_event, of_other) =
+                    (normal::lower_tail(index).mills, normal::lower_tail(-index).mills);
+                Information {
+                    weight: of_event * of_other,
+                    ln_weight_slope: of_other - of_event - 2.0 * index,
+                }
+            }
+            Link::Logit => {
+                let p = self.probability(index);
+                Information { weight: p * (1.0 - p), ln_weight_slope: 1.0 - 2.0 * p }
+            }
+            Link::Cloglog => {
+                let hazard = index.exp();
+                let ratio = hazard_ratio(hazard);
+                Information { weight: hazard * ratio, ln_weight_slope: 2.0 - hazard - ratio }
+            }
+        }
+    }
+}
+
+/// f / F of the complementary log-log: m / (exp(m) - 1) with m = exp(index).
+fn hazard_ratio(hazard: f64) -> f64 {
+    if hazard > 0.0 { hazard / hazard.exp_m1() } else { 1.0 }
+}

@@ -1,0 +1,38 @@
+//! How uncertain the fits are: the options that fit-pex and fit-pro share, checked.
+
+use super::groups::Group;
+use super::sample_scenarios::DEFAULT_SEED;
+use crate::fragility::{Strata, bootstrap};
+use crate::pipeline::options::check;
+
+/// More than this is a slip of the finger.
+const MOST_REPLICATES: usize = 1_000_000;
+
+/// The limits that are asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Uncertainty {
+    /// How many resamples.
+    pub replicates: usize,
+    /// Probability with which limits hold the truth.
+    pub confidence: f64,
+    /// Seed of the resamples.
+    pub seed: u64,
+}
+
+impl Uncertainty {
+    /// Of the options.
+    ///
+    /// # Errors
+    /// If one is out of range.
+    pub fn new(replicates: usize, confidence: f64, seed: Option<u64>) -> anyhow::Result<Uncertainty> {
+        check(replicates <= MOST_REPLICATES, "bootstrap", replicates, "up to 1,000,000 replicates")?;
+        let possible = (0.5..1.0).contains(&confidence);
+        check(possible, "confidence", confidence, "a probability from 0.5 to below 1")?;
+        Ok(Uncertainty { replicates, confidence, seed: seed.unwrap_or(DEFAULT_SEED) })
+    }
+
+    /// Refits of a group, resampled within its cells.
+    pub fn bootstrap<T: Send>(&self, group: &Group, refit: impl Fn(&[f64]) -> T + Sync) -> Vec<T> {
+        bootstrap(&Strata::new(&group.cells), self.replicates, self.seed, refit)
+    }
+}

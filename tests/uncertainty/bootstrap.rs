@@ -1,0 +1,120 @@
+//! Resampling within cells, refits and limits against statsmodels and scipy.stats.bootstrap.
+
+use rockfrag::fragility::{
+    CurveInference, CurveModel, CurveParameter, DemandInference, Link, Strata, acceleration, bootstrap,
+    bootstrap_limits, fit_overturning,
+};
+
+use crate::data::{answers, data, distribution};
+
+const EVERYWHERE: std::ops::Range<f64> = 0.0..f64::INFINITY;
+
+/// The weights of the reference: row k counts (k^2 + 1) mod 3 times.
+fn counts(rows: usize) -> Vec<f64> {
+    (0..rows).map(|k| ((k * k + 1) % 3) as f64).collect()
+}
+
+#[test]
+fn a_refit_equals_the_fit_of_repeated_cases() {
+    let (data, answers) = (data(), answers());
+    let counts = counts(data.x.len());
+    for name in ["x", "xy"] {
+        let sample = data.event_sample(name);
+        let fit = fit_overturning(&sample, &CurveModel::default()).unwrap();
+        let b = CurveInference::new(&sample, &fit.regression).coefficients(&counts).unwrap();
+        for (k, b) in b.iter().enumerate() {
+            answers.check(&format!("weighted_probit_{name}_b{k}"), *b, 1e-7);
+        }
+        let sample = data.demand_sample(name);
+        let refit =
+            DemandInference::new(&sample, &sample.fit().unwrap()).replicate(&counts, EVERYWHERE).unwrap();
+        for (k, b) in refit.coefficients.iter().enumerate() {
+            answers.check(&format!("weighted_ols_{name}_b{k}"), *b, 1e-10);
+        }
+        answers.check(&format!("weighted_ols_{name}_sd"), refit.residual_sd, 1e-10);
+    }
+}
+
+#[test]
+fn limits_equal_scipys_on_the_same_replicates() {
+    let (data, answers) = (data(), answers());
+    let strata = Strata::new(&data.cells);
+    let check = |statistic: &str, estimate: f64, acceleration: f64, tolerance: f64| {
+        let replicates: Vec<Option<f64>> = distribution(statistic).into_iter().map(Some).collect();
+        let limits = bootstrap_limits(estimate, &replicates, acceleration, 0.95).unwrap();
+        answers.check(&format!("percentile_{statistic}_low"), limits.percentile.low, 1e-12);
+        answers.check(&format!("percentile_{statistic}_high"), limits.percentile.high, 1e-12);
+        answers.check(&format!("bca_{statistic}_low"), limits.bca.unwrap().low, tolerance);
+        answers.check(&format!("bca_{statistic}_high"), limits.bca.unwrap().high, tolerance);
+    };
+    let sample = data.demand_sample("x");
+    let fit = sample.fit().unwrap();
+    let accelerations = DemandInference::new(&sample, &fit).accelerations(&strata);
+    check("slope", fit.coefficients[1].value, accelerations[1], 1e-9);
+
+    let sample = data.event_sample("x");
+    let fit = fit_overturning(&sample, &CurveModel::default()).unwrap();
+    let refit = CurveInference::new(&sample, &fit.regression);
+    // The jackknife with every refit carried to its end is scipy's; ours stops after one Newton step.
+    let without = |row: usize| {
+        let mut counts = vec![1.0; data.x.len()];
+        counts[row] = 0.0;
+        CurveParameter::Mu.value(Link::Probit, &refit.coefficients(&counts).unwrap())
+    };
+    let exact = acceleration(&(0..data.x.len()).map(without).collect::<Vec<_>>(), &strata);
+    let one_step = refit.acceleration(CurveParameter::Mu, &strata);
+    assert!((one_step / exact - 1.0).abs() < 0.05, "{one_step} for {exact}");
+    check("mu", fit.mu.value, exact, 1e-7);
+    check("mu", fit.mu.value, one_step, 1e-3);
+}
+
+#[test]
+fn our_own_resamples_spread_as_scipys() {
+    let (data, answers) = (data(), answers());
+    let sample = data.demand_sample("x");
+    let fit = sample.fit().unwrap();
+    let refit = DemandInference::new(&sample, &fit);
+    let slopes: Vec<f64> = bootstrap(&Strata::new(&data.cells), 4000, 42, |counts| {
+        refit.replicate(counts, EVERYWHERE).unwrap().coefficients[1]
+    });
+    let mean = slopes.iter().sum::<f64>() / slopes.len() as f64;
+    let sd = (slopes.iter().map(|b| (b - mean).powi(2)).sum::<f64>() / slopes.len() as f64).sqrt();
+    // scipy's 999 replicates give its standard error to 2 %.
+    answers.check("bootstrap_slope_error", sd, 0.08);
+}
+
+#[test]
+fn every_cell_keeps_its_size_in_every_resample() {
+    let cells: Vec<usize> = (0..300).map(|row| row % 7 + row % 2).collect();
+    let strata = Strata::new(&cells);
+    let sizes = |counts: &[f64]| -> Vec<f64> {
+        strata.members().iter().map(|rows| rows.iter().map(|&row| counts[row]).sum()).collect()
+    };
+    let original = sizes(&[1.0; 300]);
+    let resamples = bootstrap(&strata, 50, 1, |counts| (sizes(counts), counts.to_vec()));
+    assert!(resamples.iter().all(|(sizes, _)| *sizes == original));
+    assert!(resamples.windows(2).all(|pair| pair[0].1 != pair[1].1), "each resample is another");
+}
+
+#[test]
+fn a_replicate_depends_on_its_number_and_the_seed_alone() {
+    let strata = Strata::new(&[0, 0, 0, 1, 1, 2]);
+    let draw = |replicates, seed| bootstrap(&strata, replicates, seed, <[f64]>::to_vec);
+    let many = draw(40, 5);
+    assert_eq!(draw(7, 5), many[..7]);
+    assert_ne!(draw(7, 6), many[..7]);
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    assert_eq!(one_thread.install(|| draw(40, 5)), many);
+}
+
+#[test]
+fn replicates_without_a_fit_must_not_fill_the_tails() {
+    let values = |missing: usize| -> Vec<Option<f64>> {
+        (0..100).map(|k| (k >= missing).then_some(k as f64)).collect()
+    };
+    assert!(bootstrap_limits(50.0, &values(4), 0.0, 0.95).is_some());
+    assert!(bootstrap_limits(50.0, &values(6), 0.0, 0.95).is_none());
+    assert!(bootstrap_limits(50.0, &[], 0.0, 0.95).is_none());
+    let aside = bootstrap_limits(200.0, &values(0), 0.0, 0.95).unwrap();
+    assert!(aside.bca.is_none(), "no bias can be told where all replicates lie below the estimate");
+}

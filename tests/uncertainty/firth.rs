@@ -1,0 +1,76 @@
+//! Firth's estimator against firthmodels (logistic) and the penalised likelihood in 30 digits (the other links).
+
+use rockfrag::fragility::{
+    BinaryFit, CurveInference, CurveModel, CurveParameter, Estimator, FitStatus, Link, binary_regression,
+    fit_overturning, is_separated,
+};
+use rockfrag::keyword::Keyword;
+
+use crate::data::{Data, answers, data};
+
+/// Two measures and few cases; or one measure that parts the outcomes.
+fn sets() -> [(&'static str, &'static str, Data); 2] {
+    let (mut few, mut parted) = (data(), data());
+    few.first(60);
+    parted.first(30);
+    parted.event = parted.x.iter().map(|x| *x > 0.4).collect();
+    [("few", "xy", few), ("parted", "x", parted)]
+}
+
+fn firth(data: &Data, name: &str, link: Link) -> BinaryFit {
+    binary_regression(&data.predictors(name), &data.event, link, Estimator::Firth).unwrap()
+}
+
+#[test]
+fn every_link_has_the_maximum_of_the_penalised_likelihood() {
+    let answers = answers();
+    for (set, name, data) in sets() {
+        for &link in Link::ALL {
+            let fit = firth(&data, name, link);
+            for (k, b) in fit.coefficients.iter().enumerate() {
+                answers.check(&format!("firth_{}_{set}_b{k}", link.as_str()), *b, 1e-7);
+            }
+        }
+        let fit = firth(&data, name, Link::Logit);
+        answers.check(&format!("firth_logit_{set}_penalised"), fit.objective, 1e-9);
+        for k in 0..fit.coefficients.len() {
+            answers.check(&format!("firth_logit_{set}_se{k}"), fit.covariance[(k, k)].sqrt(), 1e-7);
+        }
+    }
+}
+
+#[test]
+fn penalised_profile_limits_equal_firthmodels() {
+    let answers = answers();
+    let [.., (set, name, data)] = sets();
+    let sample = data.event_sample(name);
+    let model = CurveModel { link: Link::Logit, estimator: Estimator::Firth, ..CurveModel::default() };
+    let fit = fit_overturning(&sample, &model).unwrap();
+    let beta = CurveInference::new(&sample, &fit.regression).profile_limits(CurveParameter::Beta, 0.95);
+    answers.check(&format!("firth_logit_{set}_high1"), 1.0 / beta.low, 1e-6);
+    answers.check(&format!("firth_logit_{set}_low1"), 1.0 / beta.high, 1e-6);
+}
+
+#[test]
+fn what_separates_has_a_curve_by_firth_alone() {
+    let [.., (_, name, data)] = sets();
+    assert!(is_separated(&data.predictors(name), &data.event));
+    let sample = data.event_sample(name);
+    assert_eq!(fit_overturning(&sample, &CurveModel::default()).unwrap_err(), FitStatus::Separated);
+    let model = CurveModel { estimator: Estimator::Firth, ..CurveModel::default() };
+    let fit = fit_overturning(&sample, &model).unwrap();
+    assert!(fit.beta.value > 0.0 && fit.beta.value < 1.0);
+    assert!(fit.regression.log_likelihood > fit.regression.objective - 10.0);
+}
+
+#[test]
+fn the_penalty_fades_with_many_cases() {
+    let data = data();
+    let ml = binary_regression(&data.predictors("xy"), &data.event, Link::Probit, Estimator::Ml).unwrap();
+    let firth = firth(&data, "xy", Link::Probit);
+    for k in 0..3 {
+        let moved = (firth.coefficients[k] - ml.coefficients[k]).abs() / ml.covariance[(k, k)].sqrt();
+        assert!(moved < 0.2, "{moved} standard errors");
+        assert!(firth.coefficients[k].abs() < ml.coefficients[k].abs(), "it shrinks");
+    }
+}

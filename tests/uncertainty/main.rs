@@ -1,0 +1,8 @@
+//! The uncertainty of the fits against statsmodels, pyFragility, firthmodels and scipy (scripts/reference/uncertainty.py).
+
+mod bootstrap;
+mod data;
+mod firth;
+mod goodness;
+mod links;
+mod robust;
