@@ -103,7 +103,7 @@ impl Strongest {
         let Thinned { velocities, dt_s } = Thinned::of(&[velocity], dt_s);
         let at = |k: usize| {
             let steps = k as f64 / REFINED as f64 - 1.0;
-            let period_s = self.wavelet.period_s * self.ratio.powf(steps);
+            let period_s = self.wavelet.period_s * libm::pow(self.ratio, steps);
             Wavelet { period_s: period_s.clamp(PERIODS_S.0, PERIODS_S.1), ..self.wavelet }
         };
         let strength =
@@ -116,7 +116,7 @@ impl Strongest {
 
 fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64, scratch: &mut WaveletScratch) -> Option<Strongest> {
     let (shortest, longest) = PERIODS_S;
-    let ratio = (longest / shortest).powf(1.0 / (PERIODS - 1) as f64);
+    let ratio = libm::pow(longest / shortest, 1.0 / (PERIODS - 1) as f64);
     let Thinned { velocities, dt_s } = Thinned::of(velocities, dt_s);
     let transformable: Vec<Transformable> =
         velocities.iter().map(|velocity| Transformable::new(velocity, dt_s, longest, scratch)).collect();

@@ -31,12 +31,20 @@ fn folders_are_walked_and_simulate_reads_what_comes() {
     write_csv(folder.path(), "records/a/x.csv", 1.0);
     write_csv(folder.path(), "records/a/.hidden.csv", 1.0);
     write_csv(folder.path(), "x.csv", 3.0);
-    let told = succeed(folder.path(), "import-motions records x.csv x.csv --unit g");
-    assert!(told.contains("3 motions of 3 files"), "{told}");
-    // Two files are called x: their paths tell them apart.
-    assert_eq!(ids(&folder.path().join("motions.parquet")), ["records/a/x.csv", "b", "x.csv"]);
+    write_csv(folder.path(), "c.NS", 3.0);
+    write_csv(folder.path(), "c.EW", 3.0);
+    let told = succeed(folder.path(), "import-motions records x.csv x.csv c.NS c.EW --unit g");
+    assert!(told.contains("5 motions of 5 files"), "{told}");
+    // Of two files of one name the ending or the path tells which is which.
+    let expected = ["records/a/x.csv", "b", "x.csv", "c.NS", "c.EW"];
+    assert_eq!(ids(&folder.path().join("motions.parquet")), expected);
     let told = succeed(folder.path(), "simulate --in motions.parquet --trace b");
-    assert!(told.contains("3 responses"), "{told}");
+    assert!(told.contains("5 responses"), "{told}");
+    // What it wrote is no record, even where it lies among them.
+    let told = succeed(folder.path(), "import-motions records --out records/out.parquet --unit g");
+    assert!(told.contains("2 motions of 2 files"), "{told}");
+    let told = succeed(folder.path(), "import-motions records --out records/out.parquet --unit g");
+    assert!(told.contains("up to date"), "{told}");
     // What was imported can be imported again.
     succeed(folder.path(), "import-motions motions.parquet --out again.parquet");
     let (first, second) = ("motions.parquet", "again.parquet");
@@ -70,6 +78,9 @@ fn a_bad_file_is_named_and_the_rest_imported() {
     assert!(told.contains("warning: 3 of 151 files refused") && told.contains("oops"), "{told}");
     assert!(succeed(folder.path(), &format!("{call} --keep-going")).contains("up to date"));
     fail(folder.path(), "import-motions none.csv", 1, &["no motion is imported", "none.csv"]);
+    let huge = std::fs::File::create(folder.path().join("huge.csv")).unwrap();
+    huge.set_len(600 << 20).unwrap();
+    fail(folder.path(), "import-motions huge.csv", 1, &["huge.csv: larger than 512 MB"]);
     fail(folder.path(), "import-motions", 2, &["no files"]);
     fail(folder.path(), "import-motions records --format at3", 2, &["did you mean 'at2'"]);
     fail(folder.path(), "import-motions records --unit furlong", 2, &["expected g, mg, m/s2"]);

@@ -118,6 +118,7 @@ fn esm_ascii() {
     assert_is(&read, &samples, 0.5e-8);
     assert_peak(&read);
     assert_words(&read, "NORTHERN_ITALY 20120529 070002", "IT MRN MIRANDOLA", "HNE", Some(90.0));
+    assert_eq!(one(&esm(&samples).replace("HNE", "HN2")).azimuth_deg, None);
 }
 
 #[test]

@@ -42,8 +42,8 @@ impl HorizontalPair {
         ((first_deg - second_deg).rem_euclid(180.0) - 90.0).abs() <= 1.0
     }
 
-    /// Of accelerations (m/s2) of one time step (s) and their azimuths (degrees clockwise from north); the longer one
-    /// is cut.
+    /// Of accelerations (m/s2) of one time step (s) that start together, and their azimuths (degrees clockwise from
+    /// north); the longer one is cut.
     pub fn new(dt_s: f64, azimuths_deg: [f64; 2], mut accelerations: [Vec<f64>; 2]) -> HorizontalPair {
         let length = accelerations.iter().map(Vec::len).min().unwrap_or(0);
         accelerations.iter_mut().for_each(|samples| samples.truncate(length));
@@ -92,7 +92,7 @@ impl HorizontalPair {
 /// The peak in each direction, in ascending order.
 fn peaks_over_directions(first: &[f64], second: &[f64]) -> Vec<f64> {
     let in_direction = |degrees: usize| {
-        let (sin, cos) = (degrees as f64).to_radians().sin_cos();
+        let (sin, cos) = libm::sincos((degrees as f64).to_radians());
         first.iter().zip(second).fold(0.0_f64, |peak, (a, b)| (cos * a + sin * b).abs().max(peak))
     };
     let mut peaks: Vec<f64> = (0..DIRECTIONS).map(in_direction).collect();

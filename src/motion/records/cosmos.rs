@@ -42,6 +42,7 @@ pub fn parse(text: &str, given: &Given) -> Result<Vec<RecordedMotion>, RecordFil
                 motions.push(std::mem::take(&mut channel).motion(values, line, given)?);
             }
             Part::Other(quantity) => {
+                rest.by_ref().take(Extent::of(line).map_or(0, |extent| extent.lines)).for_each(drop);
                 other = Some(RecordFileError::NotAcceleration { line: line.number, quantity });
                 channel = Channel::default();
             }
@@ -67,17 +68,35 @@ enum Part {
 
 impl Part {
     fn announced_by(line: Line) -> Part {
-        const PARTS: [(&str, Part); 6] = [
+        const PARTS: [(&str, Part); 5] = [
             ("integer-header values", Part::Integers),
             ("real-header values", Part::Reals),
             ("acceleration pts", Part::Acceleration),
             ("velocity pts", Part::Other("velocity")),
             ("displacement pts", Part::Other("displacement")),
-            ("counts pts", Part::Other("raw counts")),
         ];
         let announces = leading_number(line.text).is_some();
         let part = PARTS.into_iter().find(|(words, _)| announces && after(line.text, words).is_some());
         part.map_or(Part::Text, |(_, part)| part)
+    }
+}
+
+/// What a line announces: how many numbers follow, how, and on how many lines.
+struct Extent {
+    count: u64,
+    layout: Layout,
+    lines: usize,
+}
+
+impl Extent {
+    fn of(line: Line) -> Result<Extent, RecordFileError> {
+        let missing = |what, expected| RecordFileError::Missing { line: line.number, what, expected };
+        let count = leading_number(line.text).filter(|count| *count >= 0.0);
+        let count = count.ok_or_else(|| missing("count", "how many numbers follow"))? as u64;
+        let layout =
+            Layout::in_text(line.text).ok_or_else(|| missing("format", "one such as 'Format=(8F10.5)'"))?;
+        let lines = usize::try_from(layout.lines(count)).unwrap_or(usize::MAX);
+        Ok(Extent { count, layout, lines })
     }
 }
 
@@ -86,15 +105,10 @@ fn part<'a>(
     rest: &mut (impl Iterator<Item = Line<'a>> + Clone),
     line: Line<'a>,
 ) -> Result<Vec<f64>, RecordFileError> {
-    let missing = |what, expected| RecordFileError::Missing { line: line.number, what, expected };
-    let count = leading_number(line.text).filter(|count| *count >= 0.0);
-    let count = count.ok_or_else(|| missing("count", "how many numbers follow"))? as u64;
-    let layout =
-        Layout::in_text(line.text).ok_or_else(|| missing("format", "one such as 'Format=(8F10.5)'"))?;
-    let wanted = usize::try_from(layout.lines(count)).unwrap_or(usize::MAX);
+    let Extent { count, layout, lines } = Extent::of(line)?;
     let to_end = |line: &Line| after(line.text, "end-of-data").is_none();
-    let numbers = samples(rest.clone().take(wanted).take_while(to_end), count, Some(layout))?;
-    rest.by_ref().take(wanted).for_each(drop);
+    let numbers = samples(rest.clone().take(lines).take_while(to_end), count, Some(layout))?;
+    rest.by_ref().take(lines).for_each(drop);
     Ok(numbers)
 }
 

@@ -53,11 +53,16 @@ pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileErro
         event: joined(&[find("EVENT_NAME"), find("EVENT_DATE_YYYYMMDD"), find("EVENT_TIME_HHMMSS")]),
         station: joined(&[find("NETWORK"), find("STATION_CODE"), find("STATION_NAME")]),
         component: words(stream),
-        // The last letter of a channel code is its direction.
-        azimuth_deg: stream.char_indices().next_back().and_then(|(at, _)| azimuth_of(stream.get(at..)?)),
+        azimuth_deg: direction(stream),
         header_pga: find("PGA_CM/S^2")
             .and_then(|(_, peak)| header_pga(peak, AccelerationUnit::CentimetrePerSecond2)),
     })
+}
+
+/// The azimuth that the last letter of a channel code names; a digit names none.
+fn direction(stream: &str) -> Option<f64> {
+    let (at, _) = stream.char_indices().next_back().filter(|(_, letter)| letter.is_alphabetic())?;
+    azimuth_of(stream.get(at..)?)
 }
 
 /// The lines of `KEY: value` at the beginning.

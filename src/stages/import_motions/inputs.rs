@@ -1,6 +1,7 @@
 //! What is read of the files that a user names: text files whole, Parquet files some motions at a time.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -93,7 +94,8 @@ fn parquet(file: &Path, at_once: usize) -> Batches {
     }
 }
 
-/// What files are called in motion_id: by the stem of their name where no other file has the same, else by their path.
+/// What files are called in motion_id: by the name without its ending where no other file has the same, else by the name
+/// (K-NET tells components by the ending), else by the path.
 pub struct Names(HashMap<String, usize>);
 
 impl Names {
@@ -101,19 +103,23 @@ impl Names {
     pub fn of(files: &[PathBuf]) -> Names {
         let mut counts = HashMap::new();
         for file in files {
-            *counts.entry(stem(file)).or_insert(0) += 1;
+            // A name without an ending is its own stem, and counts once.
+            let names = HashSet::from([text(file.file_stem()), text(file.file_name())]);
+            names.into_iter().for_each(|name| *counts.entry(name).or_insert(0) += 1);
         }
         Names(counts)
     }
 
-    fn name(&self, file: &str) -> String {
-        let stem = stem(Path::new(file));
-        if self.0.get(&stem) == Some(&1) { stem } else { file.to_string() }
+    fn name(&self, path: &str) -> String {
+        let file = Path::new(path);
+        let unique = |name: &String| self.0.get(name) == Some(&1);
+        let names = [text(file.file_stem()), text(file.file_name())];
+        names.into_iter().find(unique).unwrap_or_else(|| path.to_string())
     }
 }
 
-fn stem(file: &Path) -> String {
-    file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+fn text(name: Option<&OsStr>) -> String {
+    name.unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// The motions of an input, and for what cannot be read the file and what is wrong with it.
@@ -132,10 +138,10 @@ pub fn motions(input: Input, names: &Names, reading: &Reading) -> Vec<Result<Fou
 }
 
 fn text_file(file: &Path, names: &Names, reading: &Reading) -> Result<Vec<Found>, String> {
-    let bytes = bytes(file).map_err(|error| error.to_string())?;
-    if bytes.len() as u64 > MOST_BYTES {
+    if std::fs::metadata(file).is_ok_and(|metadata| metadata.len() > MOST_BYTES) {
         return Err(RecordFileError::TooLarge { most_mb: MOST_BYTES >> 20 }.to_string());
     }
+    let bytes = std::fs::read(file).map_err(|error| error.to_string())?;
     let blake3 = blake3::hash(&bytes).to_hex().to_string();
     let source = Source { file: file.display().to_string(), blake3 };
     let name = names.name(&source.file);
@@ -149,12 +155,6 @@ fn text_file(file: &Path, names: &Names, reading: &Reading) -> Result<Vec<Found>
         Ok(Found { motion_id, source: source.clone(), motion })
     };
     motions.into_iter().enumerate().map(check).collect()
-}
-
-fn bytes(file: &Path) -> std::io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(file)?.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 fn of_parquet(motion: Motion, name: &str, source: Source) -> Result<Found, Refusal> {

@@ -5,7 +5,9 @@
 //! inputs      files to records, and what is wrong with those that cannot be read
 //! pairs       which horizontal components belong together
 //! direction   where pairs are rotated to
-//! processing  records to rows: processing, rotation, scaling, measures, pulses
+//! processing  what is done to records before they become rows
+//! rows        processed motions to rows: scaling, measures, pulses
+//! work        files or pairs in groups that are done at once
 //! refusals    files that are left out, and why
 //! ```
 
@@ -15,20 +17,22 @@ mod options;
 mod pairs;
 mod processing;
 mod refusals;
+mod rows;
+mod work;
 
 use std::collections::{BTreeMap, HashSet};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use self::inputs::{Input, Names, groups, motions};
+use self::inputs::Names;
 pub use self::options::ImportMotionsOptions;
 use self::options::Reading;
-use self::pairs::{Member, Pairs, read_pair};
 use self::processing::{Processing, Scratch};
 use self::refusals::{Refusal, summary};
+use self::work::Plan;
 use crate::keyword::Keyword;
 use crate::motion::processing::Scaling;
 use crate::pipeline::UsageError;
@@ -39,16 +43,12 @@ use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::table::TableError;
 use crate::table::provenance::Provenance;
-use crate::table::records::{self, RecordRow};
+use crate::table::records;
 use crate::table::schema::RECORDS;
 use crate::table::writer::TableWriter;
 
-/// Motions in a row group, and about as many are held at once.
+/// Motions in a row group.
 const ROW_GROUP: usize = 64;
-/// The least number of files that are read at once, to keep threads busy.
-const LEAST_AT_ONCE: usize = 8;
-/// Motions that a message names.
-const NAMED: usize = 10;
 
 /// The stage, ready to run.
 pub struct ImportMotions {
@@ -60,19 +60,16 @@ pub struct ImportMotions {
     out: PathBuf,
 }
 
-/// What one thread turns into rows.
-enum Work {
-    Input(Input),
-    Pair([Member; 2]),
-}
-
 impl ImportMotions {
     /// Into the file `out`.
     ///
     /// # Errors
     /// If an option is out of range, or no file is named.
     pub fn new(options: &ImportMotionsOptions, out: PathBuf) -> anyhow::Result<ImportMotions> {
-        let files = expand(&options.files);
+        let mut files = expand(&options.files);
+        // What an earlier run wrote into a folder of records is no record.
+        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+        files.retain(|file| absolute(file) != absolute(&out));
         if files.is_empty() {
             return Err(UsageError::because("no files; expected files or folders of records"));
         }
@@ -84,46 +81,6 @@ impl ImportMotions {
             keep_going: options.keep_going,
             out,
         })
-    }
-
-    fn rows(&self, work: Work, pool: &Pool<Scratch>) -> Vec<Result<Vec<RecordRow>, Refusal>> {
-        match work {
-            Work::Pair(pair) => {
-                let pair = read_pair(&pair, &self.names, &self.reading);
-                vec![pair.and_then(|pair| pool.lend(|scratch| self.processing.rows_of_pair(pair, scratch)))]
-            }
-            Work::Input(input) => {
-                let rows = |found| pool.lend(|scratch| self.processing.rows(found, scratch));
-                let found = motions(input, &self.names, &self.reading);
-                found.into_iter().map(|found| found.and_then(rows)).collect()
-            }
-        }
-    }
-
-    /// All work in order, in groups that are done at once, and what is refused already.
-    fn work(&self, console: &Console) -> (Box<dyn Iterator<Item = Vec<Work>> + Send + '_>, Vec<Refusal>) {
-        let at_once = (ROW_GROUP / self.processing.scaling.count().max(1)).max(LEAST_AT_ONCE);
-        if self.processing.direction.is_none() {
-            let inputs =
-                groups(&self.files, at_once).map(|group| group.into_iter().map(Work::Input).collect());
-            return (Box::new(inputs), Vec::new());
-        }
-        let Pairs { pairs, left_out, refused } = Pairs::among(&self.files, &self.names, &self.reading);
-        if !left_out.is_empty() {
-            let more = if left_out.len() > NAMED { ", ..." } else { "" };
-            let named: Vec<&str> = left_out.iter().take(NAMED).map(String::as_str).collect();
-            console.note(&format!(
-                "{} motions are vertical or without a partner at right angles, and are left out: {}{more}",
-                left_out.len(),
-                named.join(", ")
-            ));
-        }
-        let mut pairs = pairs.into_iter();
-        let groups = std::iter::from_fn(move || {
-            let group: Vec<Work> = pairs.by_ref().take(at_once).map(Work::Pair).collect();
-            (!group.is_empty()).then_some(group)
-        });
-        (Box::new(groups), refused)
     }
 }
 
@@ -170,14 +127,14 @@ impl Stage for ImportMotions {
         let schema = RECORDS.schema_with_spectrum(&self.processing.plan.sa_periods_s);
         let mut writer = TableWriter::with_schema(&self.out, &RECORDS, schema.clone(), provenance.clone())?;
         let pool = Pool::new(Scratch::default);
-        let (work, mut refused) = self.work(console);
+        let Plan { work, mut refused } = self.plan(console);
         let bar = console.bar(self.subcommand(), self.files.len() as u64);
         let mut seen = HashSet::new();
         pipelined(
             work.map(Ok),
             |work| {
                 bar.inc(work.len() as u64);
-                Ok(work.into_par_iter().flat_map_iter(|work| self.rows(work, &pool)).collect::<Vec<_>>())
+                Ok(work.into_par_iter().flat_map_iter(|work| self.rows_of(work, &pool)).collect::<Vec<_>>())
             },
             |results| {
                 let mut rows = Vec::new();

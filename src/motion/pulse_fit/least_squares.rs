@@ -1,19 +1,11 @@
-//! The pulse of Mavroeidis & Papageorgiou (Eq. 1) that is nearest to a recorded velocity, by separable least squares: Eq. 1
-//! is linear in A cos nu and A sin nu, so that only period, gamma and time are searched.
-
 use std::f64::consts::PI;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::pulse::Pulse;
-use super::pulse_indicator::PERIODS_S;
+use crate::motion::pulse_indicator::PERIODS_S;
 
 /// The numbers of half cycles between which gamma lies. Eq. 1 needs more than 1.
 const GAMMA: (f64, f64) = (1.0, 5.0);
-/// Where the search starts: gammas, periods as shares of the given one, times from the given one in periods.
-const START_GAMMAS: [f64; 5] = [1.1, 1.5, 2.0, 2.7, 3.6];
-const START_PERIODS: [f64; 9] = [0.55, 0.65, 0.76, 0.87, 1.0, 1.15, 1.32, 1.52, 1.8];
-const START_TIMES: [f64; 9] = [-0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8];
 /// Parts of a period over which the velocity is averaged: the pulse changes little within them.
 const PARTS_OF_PERIOD: f64 = 100.0;
 /// Steps of the search, and the relative gain below which it ends.
@@ -22,61 +14,15 @@ const LEAST_GAIN: f64 = 1e-12;
 /// Step of the derivatives by differences, in units of the search.
 const DIFFERENCE: f64 = 1e-5;
 
-/// A pulse fitted to a record.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FittedPulse {
-    /// Amplitude A, period, gamma and phase.
-    pub pulse: Pulse,
-    /// Time t0 of its middle from the first sample, s.
-    pub t0_s: f64,
-    /// Share of the squared velocity that it explains.
-    pub r2: f64,
-}
-
-impl FittedPulse {
-    /// The pulse nearest to a velocity (m/s) at steps of `dt_s`, searched from a period and a time (s) about which a
-    /// wavelet found it. None if the velocity is zero.
-    pub fn to(velocity: &[f64], dt_s: f64, period_s: f64, time_s: f64) -> Option<FittedPulse> {
-        let record = Record::of(velocity, dt_s, period_s);
-        let starts = START_GAMMAS.iter().flat_map(|&gamma| {
-            START_PERIODS.iter().flat_map(move |&share| {
-                START_TIMES.iter().map(move |&shift| Shape {
-                    tp_s: (share * period_s).clamp(PERIODS_S.0, PERIODS_S.1),
-                    gamma,
-                    t0_s: time_s + shift * period_s,
-                })
-            })
-        });
-        let best = starts
-            .map(|shape| (record.solve(&shape).explained, shape))
-            .max_by(|(a, _), (b, _)| a.total_cmp(b))
-            .map(|(_, shape)| record.climb(shape))?;
-        let Linear { cosine, sine, .. } = record.solve(&best);
-        let pulse = Pulse {
-            amplitude_m_s: cosine.hypot(sine),
-            tp_s: best.tp_s,
-            gamma: best.gamma,
-            nu_rad: libm::atan2(sine, cosine),
-        };
-        let left = |(k, v): (usize, &f64)| (v - pulse.velocity_m_s(k as f64 * dt_s - best.t0_s)).powi(2);
-        let residual: f64 = velocity.iter().enumerate().map(left).sum();
-        let r2 = 1.0 - residual / velocity.iter().map(|v| v * v).sum::<f64>();
-        r2.is_finite().then_some(FittedPulse { pulse, t0_s: best.t0_s, r2 })
-    }
-
-    /// The pulse of the same record scaled by a factor.
-    pub fn scaled(&self, factor: f64) -> FittedPulse {
-        let pulse = Pulse { amplitude_m_s: factor * self.pulse.amplitude_m_s, ..self.pulse };
-        FittedPulse { pulse, ..*self }
-    }
-}
-
 /// The parameters in which Eq. 1 is not linear.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Shape {
-    tp_s: f64,
-    gamma: f64,
-    t0_s: f64,
+pub struct Shape {
+    /// Period, s.
+    pub tp_s: f64,
+    /// Number of half cycles.
+    pub gamma: f64,
+    /// Time of the middle, s.
+    pub t0_s: f64,
 }
 
 impl Shape {
@@ -100,16 +46,19 @@ impl Shape {
     }
 }
 
-/// The parameters in which it is.
-struct Linear {
-    cosine: f64,
-    sine: f64,
-    explained: f64,
+/// The parameters in which it is: A cos nu and A sin nu (m/s), and how much of the squared velocity they explain.
+pub struct Linear {
+    /// A cos nu.
+    pub cosine: f64,
+    /// A sin nu.
+    pub sine: f64,
+    /// In the unit of the sum of squares.
+    pub explained: f64,
 }
 
 /// A velocity as means over equal parts of time, which are as good as its samples for a pulse that hardly changes within
 /// them.
-struct Record {
+pub struct Series {
     means: Vec<f64>,
     /// Middle of the first part, s.
     first_s: f64,
@@ -119,13 +68,14 @@ struct Record {
     energy: f64,
 }
 
-impl Record {
-    fn of(velocity: &[f64], dt_s: f64, period_s: f64) -> Record {
+impl Series {
+    /// Of a velocity (m/s) at steps of `dt_s`, for pulses of about this period (s).
+    pub fn of(velocity: &[f64], dt_s: f64, period_s: f64) -> Series {
         let samples = ((period_s / PARTS_OF_PERIOD / dt_s) as usize).max(1);
         let mean = |part: &[f64]| part.iter().sum::<f64>() / samples as f64;
         let means: Vec<f64> = velocity.chunks_exact(samples).map(mean).collect();
         let energy = means.iter().map(|v| v * v).sum();
-        Record { means, first_s: 0.5 * (samples - 1) as f64 * dt_s, step_s: samples as f64 * dt_s, energy }
+        Series { means, first_s: 0.5 * (samples - 1) as f64 * dt_s, step_s: samples as f64 * dt_s, energy }
     }
 
     fn time_s(&self, part: usize) -> f64 {
@@ -155,8 +105,8 @@ impl Record {
         (matrix, right)
     }
 
-    /// A cos nu and A sin nu of least squares, and how much of the squared velocity they explain.
-    fn solve(&self, shape: &Shape) -> Linear {
+    /// The best pulse of a shape.
+    pub fn solve(&self, shape: &Shape) -> Linear {
         let ([cc, cs, ss], [cv, sv]) = self.normal(shape);
         let determinant = cc * ss - cs * cs;
         if determinant <= 1e-12 * cc * ss {
@@ -177,7 +127,7 @@ impl Record {
     }
 
     /// Levenberg and Marquardt's steps until nothing is gained.
-    fn climb(&self, mut shape: Shape) -> Shape {
+    pub fn climb(&self, mut shape: Shape) -> Shape {
         let mut damping = 1e-3;
         let mut explained = self.solve(&shape).explained;
         for _ in 0..MOST_STEPS {
