@@ -1,4 +1,5 @@
-/// The widest step of the quadrature, in ln IM: a third of the narrowest dispersion of a fragility that we know.
+/// The widest step of the quadrature, in ln IM: less than the narrowest dispersion of a fragility that we know, the zeta of
+/// 0.03 of the lower plane under pulses.
 const WIDEST_PANEL: f64 = 0.02;
 
 /// Nodes and weights on (0, 1) of the Gauss-Legendre rule of order 8, exact for polynomials of degree 15.

@@ -99,5 +99,10 @@ pub(super) fn open_file(path: &Path) -> Result<File, TableError> {
 }
 
 pub(super) fn not_parquet(path: &Path, source: ParquetError) -> TableError {
-    TableError::NotParquet { path: path.to_path_buf(), source }
+    let path = path.to_path_buf();
+    let message = source.to_string();
+    if message.contains("Disabled feature") {
+        return TableError::Codec { path, message };
+    }
+    TableError::NotParquet { path, source }
 }

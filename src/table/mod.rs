@@ -70,6 +70,14 @@ pub enum TableError {
         /// What the reader said.
         source: parquet::errors::ParquetError,
     },
+    /// The file is compressed in a way that is not built in.
+    #[error("{}: compressed in a way that rockfrag does not read ({message}); write it with zstd, or uncompressed", path.display())]
+    Codec {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said.
+        message: String,
+    },
     /// The file cannot be written.
     #[error("{}: cannot write: {message}", path.display())]
     Write {

@@ -550,7 +550,7 @@ pub const PEX: Table = Table {
         IM_X_HIGH.or_null(),
         IM_Y_LOW.or_null(),
         IM_Y_HIGH.or_null(),
-        ETA,
+        ETA.or_null(),
         STATUS,
     ],
 };
@@ -657,7 +657,7 @@ pub const PRO: Table = Table {
         IM_X_HIGH.or_null(),
         IM_Y_LOW.or_null(),
         IM_Y_HIGH.or_null(),
-        ETA,
+        ETA.or_null(),
         STATUS,
     ],
 };

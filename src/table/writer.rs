@@ -19,8 +19,8 @@ use super::schema::{Kind, Table};
 /// The end of the name of a file that is still being written.
 const PARTIAL: &str = ".partial";
 
-/// Rows that are held before they are written, where the stage itself ends no row group.
-const MOST_ROWS_IN_GROUP: usize = 4096;
+/// Rows after which a batch ends a row group, where the stage itself ends none: few, since they are held until then.
+const ROWS_IN_GROUP: usize = 4096;
 
 /// Writes the batches of one table in order.
 pub struct TableWriter {
@@ -82,7 +82,11 @@ impl TableWriter {
     /// If the disk is full or the batch has other columns.
     pub fn append(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
         self.fingerprint.update(batch);
-        self.writer.write(batch).map_err(|source| self.failed(&source))
+        self.writer.write(batch).map_err(|source| self.failed(&source))?;
+        if self.writer.in_progress_rows() < ROWS_IN_GROUP {
+            return Ok(());
+        }
+        self.writer.flush().map_err(|source| self.failed(&source))
     }
 
     /// Completes the file and puts it at its name.
@@ -160,10 +164,13 @@ fn properties(table: &Table) -> WriterProperties {
     let mut properties = WriterProperties::builder()
         .set_created_by(format!("rockfrag {}", env!("CARGO_PKG_VERSION")))
         .set_compression(zstd)
-        .set_max_row_group_row_count(Some(MOST_ROWS_IN_GROUP))
         // What is kept for each row group until the end: as little as serves, since there may be many.
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true);
+    // Few numbers occur twice: a dictionary of them would only cost time.
+    for column in table.columns.iter().filter(|column| column.kind == Kind::Float64) {
+        properties = properties.set_column_dictionary_enabled(ColumnPath::from(column.name), false);
+    }
     for column in table.columns.iter().filter(|column| column.kind == Kind::Samples) {
         let path = samples_path(column.name);
         properties = properties

@@ -87,8 +87,9 @@ fn along_slice(
             uplift / size
         ));
     }
+    let [.., overturning, _, _] = rates;
     let uncounted = rate_beyond * (1.0 - at_last[2].value);
-    if uncounted > 0.01 * rates[6] {
+    if uncounted > 0.01 * overturning {
         console.note(&format!(
             "warning: the hazard ends at {:.4} {unit}; stronger motions count as this one, and could add {uncounted:.1e} a year",
             last / size

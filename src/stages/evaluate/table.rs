@@ -15,7 +15,7 @@ use crate::table::provenance::Provenance;
 use crate::table::schema::EVALUATED;
 use crate::table::writer::TableWriter;
 
-/// Rows that are read at once.
+/// Rows that are read at once, and written as a row group.
 const BATCH: usize = 16_384;
 
 /// Probabilities at each intensity of a table, ready to run.
@@ -63,12 +63,29 @@ impl EvaluateTable {
 /// Rows that need a word of warning.
 #[derive(Default)]
 struct Doubtful {
-    out_of_range: u64,
-    other_eta: u64,
-    without_measure: u64,
+    out_of_range: usize,
+    other_eta: usize,
+    without_measure: usize,
 }
 
 impl Doubtful {
+    fn among(rows: &[EvaluatedRow], intensities: &[Intensity], fits: &ChosenFits) -> Doubtful {
+        let has_no_measure =
+            |row: &&EvaluatedRow| row.probabilities.p_nr == 0.0 && row.probabilities.given_rocking.is_none();
+        let has_other_eta = |intensity: &&Intensity| fits.is_other_eta(intensity.structure.eta);
+        Doubtful {
+            out_of_range: rows.iter().filter(|row| row.out_of_range.is_some()).count(),
+            other_eta: intensities.iter().filter(has_other_eta).count(),
+            without_measure: rows.iter().filter(has_no_measure).count(),
+        }
+    }
+
+    fn add(&mut self, more: &Doubtful) {
+        self.out_of_range += more.out_of_range;
+        self.other_eta += more.other_eta;
+        self.without_measure += more.without_measure;
+    }
+
     fn warn(&self, fits: &ChosenFits, console: &Console) {
         let eta = format!("another eta than the fits ({}): they depend on it", fits.model.eta);
         for (rows, reason) in [
@@ -111,20 +128,15 @@ impl Stage for EvaluateTable {
         let bar = console.bar(self.subcommand(), total);
         pipelined(
             intensities.map(|batch| Ok(batch?)),
-            |batch| {
-                let rows: Vec<EvaluatedRow> = batch.par_iter().map(|intensity| self.row(intensity)).collect();
-                let other_eta = batch.iter().filter(|row| self.fits.is_other_eta(row.structure.eta)).count();
-                Ok((evaluated::batch(&rows)?, rows, other_eta))
-            },
-            |(batch, rows, other_eta)| {
-                let rocks_unknown = |row: &&EvaluatedRow| {
-                    row.probabilities.p_nr == 0.0 && row.probabilities.given_rocking.is_none()
-                };
-                doubtful.out_of_range += rows.iter().filter(|row| row.out_of_range.is_some()).count() as u64;
-                doubtful.other_eta += other_eta as u64;
-                doubtful.without_measure += rows.iter().filter(rocks_unknown).count() as u64;
+            |intensities| {
+                let rows: Vec<EvaluatedRow> = intensities.par_iter().map(|one| self.row(one)).collect();
+                let doubtful = Doubtful::among(&rows, &intensities, &self.fits);
                 bar.inc(rows.len() as u64);
-                Ok(writer.append(&batch)?)
+                Ok((evaluated::batch(&rows)?, doubtful))
+            },
+            |(batch, more)| {
+                doubtful.add(&more);
+                Ok(writer.write_row_group(&batch)?)
             },
         )?;
         writer.finish()?;
