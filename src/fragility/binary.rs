@@ -132,11 +132,14 @@ impl Derivatives {
 
     /// Adds a case with this row of the design.
     pub fn add(&mut self, row: &[f64], score: f64, curvature: f64) {
-        let mut triangle = self.information.iter_mut();
-        for (i, (sum, x)) in self.gradient.iter_mut().zip(row).enumerate() {
-            *sum += score * x;
+        let mut place = 0;
+        for (i, x) in row.iter().enumerate() {
+            self.gradient[i] += score * x;
             let scaled = curvature * x;
-            row[..=i].iter().zip(&mut triangle).for_each(|(y, sum)| *sum += scaled * y);
+            for y in &row[..=i] {
+                self.information[place] += scaled * y;
+                place += 1;
+            }
         }
     }
 

@@ -8,7 +8,7 @@
 //! writer       batches to a file, written beside its name and renamed when whole
 //! fingerprint  the hash of what a file holds
 //! provenance   what made a file, in its metadata
-//! scenarios, motions, responses, trace, pex, pro, replicates, paper   one file a table: its rows as Rust structs
+//! scenarios, motions, responses, trace, pex, pex_scan, pro, replicates, paper   one file a table: its rows as Rust structs
 //! ```
 
 pub mod columns;
@@ -17,6 +17,7 @@ pub mod footer;
 pub mod motions;
 pub mod paper;
 pub mod pex;
+pub mod pex_scan;
 pub mod pro;
 pub mod provenance;
 pub mod reader;
