@@ -76,7 +76,7 @@ pub use event_sample::EventSample;
 pub use firth::Estimator;
 pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
-pub use link::{Information, Link, LnProbability};
+pub use link::{Information, Link, Score};
 pub use overturning::{CurveModel, OverturningFit, fit_overturning};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
 pub use separation::is_separated;
