@@ -93,15 +93,11 @@ impl BinaryLikelihood<'_> {
     /// Value and derivatives at these coefficients. The second derivatives are those of the likelihood alone, for which
     /// it is concave; with a penalty, which changes them by some n-th part, Newton's steps converge linearly.
     pub fn at(&self, coefficients: &DVector<f64>) -> Objective {
-        let mut sums = Derivatives::new(coefficients.len());
-        for ((row, &event), &weight) in self.design.rows().zip(self.events).zip(self.weights) {
-            if weight > 0.0 {
-                let ln_p = self.link.ln_probability(dot(row, coefficients.as_slice()), event);
-                sums.value += weight * ln_p.value;
-                sums.add(row, weight * ln_p.score, weight * ln_p.curvature);
-            }
+        let mut objective = self.derivatives_at(coefficients);
+        for (row, event, weight) in self.cases() {
+            let index = dot(row, coefficients.as_slice());
+            objective.value += weight * self.link.ln_probability(index, event);
         }
-        let mut objective = sums.objective();
         if self.estimator == Estimator::Firth {
             match penalty(self, coefficients) {
                 Some(penalty) => {
@@ -113,11 +109,26 @@ impl BinaryLikelihood<'_> {
         }
         objective
     }
+
+    /// Derivatives of the likelihood alone, its value left at zero: all that plain Newton steps need, in half the time.
+    pub fn derivatives_at(&self, coefficients: &DVector<f64>) -> Objective {
+        let mut sums = Derivatives::new(coefficients.len());
+        for (row, event, weight) in self.cases() {
+            let score = self.link.score(dot(row, coefficients.as_slice()), event);
+            sums.add(row, weight * score.slope, weight * score.curvature);
+        }
+        sums.objective()
+    }
+
+    /// Row of the design, outcome and weight of each case that counts.
+    fn cases(&self) -> impl Iterator<Item = (&[f64], bool, f64)> {
+        let cases = self.design.rows().zip(self.events).zip(self.weights);
+        cases.map(|((row, &event), &weight)| (row, event, weight)).filter(|(.., weight)| *weight > 0.0)
+    }
 }
 
 /// Derivatives with respect to the coefficients, summed from those with respect to the indices.
 pub struct Derivatives {
-    value: f64,
     gradient: Vec<f64>,
     /// The lower triangle row by row.
     information: Vec<f64>,
@@ -127,24 +138,27 @@ impl Derivatives {
     /// Of nothing yet.
     pub fn new(coefficients: usize) -> Derivatives {
         let triangle = coefficients * (coefficients + 1) / 2;
-        Derivatives { value: 0.0, gradient: vec![0.0; coefficients], information: vec![0.0; triangle] }
+        Derivatives { gradient: vec![0.0; coefficients], information: vec![0.0; triangle] }
     }
 
     /// Adds a case with this row of the design.
     pub fn add(&mut self, row: &[f64], score: f64, curvature: f64) {
-        let mut triangle = self.information.iter_mut();
-        for (i, (sum, x)) in self.gradient.iter_mut().zip(row).enumerate() {
-            *sum += score * x;
+        let mut place = 0;
+        for (i, x) in row.iter().enumerate() {
+            self.gradient[i] += score * x;
             let scaled = curvature * x;
-            row[..=i].iter().zip(&mut triangle).for_each(|(y, sum)| *sum += scaled * y);
+            for y in &row[..=i] {
+                self.information[place] += scaled * y;
+                place += 1;
+            }
         }
     }
 
-    /// The sums.
+    /// The sums, with no value.
     pub fn objective(self) -> Objective {
         let k = self.gradient.len();
         let entry = |i: usize, j: usize| self.information[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
         let information = DMatrix::from_fn(k, k, entry);
-        Objective { value: self.value, gradient: DVector::from_vec(self.gradient), information }
+        Objective { value: 0.0, gradient: DVector::from_vec(self.gradient), information }
     }
 }

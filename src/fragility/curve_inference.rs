@@ -10,14 +10,15 @@ use super::event_sample::EventSample;
 use super::firth::Estimator;
 use super::influence::Influence;
 use super::limits::{Limits, acceleration};
-use super::newton::{Along, Maximum};
+use super::newton::{Along, Maximum, maximise};
 use super::profile::profile_limits;
 use super::separation::is_separated;
 
 /// What the last step may gain in log-likelihood. It then moves the coefficients by some 1e-4 of their standard errors, and
 /// Newton's convergence squares that.
 const TOLERANCE: f64 = 1e-8;
-/// Newton's method, so started, needs fewer steps than this; more raise the suspicion that there is no maximum.
+/// Plain Newton steps from where one step leads from the fit are fewer than this; more raise the suspicion that there is no
+/// maximum.
 const SUSPICIOUS_STEPS: usize = 6;
 
 /// A curve with the cases it was fitted to.
@@ -56,10 +57,19 @@ impl<'a> CurveInference<'a> {
     /// The coefficients where each of all cases counts so often; none without a maximum of the likelihood.
     pub fn coefficients(&self, counts: &[f64]) -> Option<DVector<f64>> {
         let weights: Vec<f64> = self.sample.rows.iter().map(|&row| counts[row]).collect();
-        let start = &self.fit.coefficients + self.influence.step(&self.design, &weights)?;
-        let Maximum { at, steps, .. } = self.likelihood(&weights).maximise(&start, Along::All, TOLERANCE)?;
-        let suspicious = self.fit.estimator == Estimator::Ml && steps >= SUSPICIOUS_STEPS;
-        (!suspicious || !self.separated(&weights)).then_some(at)
+        let (likelihood, fitted) = (self.likelihood(&weights), &self.fit.coefficients);
+        if self.fit.estimator == Estimator::Ml {
+            let start = fitted + self.influence.step(&self.design, &weights)?;
+            let derivatives = |b: &DVector<f64>| likelihood.derivatives_at(b);
+            let plain = maximise(derivatives, &start, Along::All, TOLERANCE);
+            if let Some(Maximum { at, .. }) = plain.filter(|maximum| maximum.steps < SUSPICIOUS_STEPS) {
+                return Some(at);
+            }
+            if self.separated(&weights) {
+                return None;
+            }
+        }
+        likelihood.maximise(fitted, Along::All, TOLERANCE).map(|maximum| maximum.at)
     }
 
     /// The parameters of the curve.

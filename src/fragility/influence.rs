@@ -26,11 +26,9 @@ impl Influence {
 
     /// Of a binary regression.
     pub fn of_regression(fit: &BinaryFit, design: &DesignMatrix, events: &[bool]) -> Influence {
-        let of = |(index, &event): (f64, &bool)| {
-            let ln_p = fit.link.ln_probability(index, event);
-            (ln_p.score, ln_p.curvature)
-        };
-        let (score, curvature) = fit.indices(design).into_iter().zip(events).map(of).unzip();
+        let cases = fit.indices(design).into_iter().zip(events);
+        let scores = cases.map(|(index, &event)| fit.link.score(index, event));
+        let (score, curvature) = scores.map(|score| (score.slope, score.curvature)).unzip();
         Influence { score, curvature }
     }
 

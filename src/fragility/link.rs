@@ -1,7 +1,7 @@
 //! How the index of a binary regression becomes a probability.
 
 use crate::keyword::keywords;
-use crate::normal::{self, LowerTail};
+use crate::normal;
 
 /// The link: P(event) = F(index), with index = b0 + b1 x1 + ...
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -17,14 +17,12 @@ pub enum Link {
 
 keywords!(Link { Probit = "probit", Logit = "logit", Cloglog = "cloglog" });
 
-/// The logarithm of the probability of what happened in a case, as a function of the index.
+/// Derivatives of the logarithm of the probability of what happened in a case with respect to its index.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LnProbability {
-    /// Its value.
-    pub value: f64,
-    /// Its derivative: the score.
-    pub score: f64,
-    /// The negative of its second derivative, at least zero: all three links have log-concave likelihoods.
+pub struct Score {
+    /// The first.
+    pub slope: f64,
+    /// The negative of the second, at least zero: all three links have log-concave likelihoods.
     pub curvature: f64,
 }
 
@@ -55,30 +53,39 @@ impl Link {
         }
     }
 
-    /// ln F(index) or ln(1 - F(index)) with its derivatives.
-    pub fn ln_probability(self, index: f64, event: bool) -> LnProbability {
+    /// ln F(index), or of no event ln(1 - F(index)).
+    pub fn ln_probability(self, index: f64, event: bool) -> f64 {
+        let z = if event { index } else { -index };
+        match self {
+            Link::Probit => normal::ln_cdf(z),
+            Link::Logit if z > 0.0 => -(-z).exp().ln_1p(),
+            Link::Logit => z - z.exp().ln_1p(),
+            Link::Cloglog if event => (-(-index.exp()).exp_m1()).ln(),
+            Link::Cloglog => -index.exp(),
+        }
+    }
+
+    /// The derivatives of [`Link::ln_probability`].
+    pub fn score(self, index: f64, event: bool) -> Score {
         let sign = if event { 1.0 } else { -1.0 };
         match self {
             Link::Probit => {
                 let z = sign * index;
-                let LowerTail { ln_cdf: value, mills } = normal::lower_tail(z);
-                LnProbability { value, score: sign * mills, curvature: mills * (mills + z) }
+                let mills = normal::inverse_mills(z);
+                Score { slope: sign * mills, curvature: mills * (mills + z) }
             }
             Link::Logit => {
                 let z = sign * index;
                 let (p, q) = (1.0 / (1.0 + (-z).exp()), 1.0 / (1.0 + z.exp()));
-                let value = if z > 0.0 { -(-z).exp().ln_1p() } else { z - z.exp().ln_1p() };
-                LnProbability { value, score: sign * q, curvature: p * q }
+                Score { slope: sign * q, curvature: p * q }
             }
             Link::Cloglog => {
                 let hazard = index.exp();
                 if event {
                     let ratio = hazard_ratio(hazard);
-                    let value = (-(-hazard).exp_m1()).ln();
-                    let curvature = (ratio * (ratio + hazard - 1.0)).max(0.0);
-                    LnProbability { value, score: ratio, curvature }
+                    Score { slope: ratio, curvature: (ratio * (ratio + hazard - 1.0)).max(0.0) }
                 } else {
-                    LnProbability { value: -hazard, score: -hazard, curvature: hazard }
+                    Score { slope: -hazard, curvature: hazard }
                 }
             }
         }
@@ -88,8 +95,7 @@ impl Link {
     pub fn information(self, index: f64) -> Information {
         match self {
             Link::Probit => {
-                let (of_event, of_other) =
-                    (normal::lower_tail(index).mills, normal::lower_tail(-index).mills);
+                let (of_event, of_other) = (normal::inverse_mills(index), normal::inverse_mills(-index));
                 Information {
                     weight: of_event * of_other,
                     ln_weight_slope: of_other - of_event - 2.0 * index,

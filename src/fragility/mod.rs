@@ -85,7 +85,7 @@ pub use firth::Estimator;
 pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use index::{Probability, ProbitIndex};
 pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
-pub use link::{Information, Link, LnProbability};
+pub use link::{Information, Link, Score};
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
 pub use overturning::{CurveModel, OverturningFit, fit_overturning};
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};

@@ -6,7 +6,7 @@ mod tail;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 pub use quantile::quantile;
-pub use tail::{LowerTail, lower_tail};
+pub use tail::{inverse_mills, ln_cdf};
 
 /// Probability density at `x`.
 pub fn pdf(x: f64) -> f64 {
@@ -16,9 +16,4 @@ pub fn pdf(x: f64) -> f64 {
 /// Cumulative probability at `x`, with full relative precision in the lower tail.
 pub fn cdf(x: f64) -> f64 {
     0.5 * libm::erfc(-x * FRAC_1_SQRT_2)
-}
-
-/// Logarithm of the cumulative probability at `x`, precise in both tails.
-pub fn ln_cdf(x: f64) -> f64 {
-    lower_tail(x).ln_cdf
 }

@@ -2,37 +2,46 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI, LN_2};
 
-/// What a likelihood needs of the distribution at one place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LowerTail {
-    /// Logarithm of the cumulative probability.
-    pub ln_cdf: f64,
-    /// Density over cumulative probability: the inverse Mills ratio.
-    pub mills: f64,
-}
-
-/// Logarithm of the cumulative probability and its derivative, precise in both tails, by the rational approximations of the
-/// scaled complementary error function exp(y^2) erfc(y) (Cody 1969, Rational Chebyshev approximations for the error
-/// function, Mathematics of Computation 23, 631-637): at most one exponential, however far out.
-pub fn lower_tail(x: f64) -> LowerTail {
+/// Logarithm of the cumulative probability at `x`, precise in both tails.
+pub fn ln_cdf(x: f64) -> f64 {
     let y = x.abs() * FRAC_1_SQRT_2;
     if y <= CENTRE_UP_TO {
-        let erf = x * FRAC_1_SQRT_2 * ratio(y * y, &CENTRE);
-        let cdf = 0.5 + 0.5 * erf;
-        return LowerTail { ln_cdf: libm::log(cdf), mills: DENSITY_AT_0 * libm::exp(-0.5 * x * x) / cdf };
+        libm::log(central_cdf(x))
+    } else if x < 0.0 {
+        libm::log(scaled_erfc(y)) - LN_2 - 0.5 * x * x
+    } else {
+        libm::log1p(-0.5 * libm::exp(-0.5 * x * x) * scaled_erfc(y))
     }
-    let scaled = if y <= FLANK_UP_TO {
+}
+
+/// Density over cumulative probability at `x`, the inverse Mills ratio and derivative of [`ln_cdf`], precise in both tails
+/// and without any logarithm.
+pub fn inverse_mills(x: f64) -> f64 {
+    let y = x.abs() * FRAC_1_SQRT_2;
+    if y <= CENTRE_UP_TO {
+        DENSITY_AT_0 * libm::exp(-0.5 * x * x) / central_cdf(x)
+    } else if x < 0.0 {
+        2.0 * DENSITY_AT_0 / scaled_erfc(y)
+    } else {
+        let fall = libm::exp(-0.5 * x * x);
+        DENSITY_AT_0 * fall / (1.0 - 0.5 * fall * scaled_erfc(y))
+    }
+}
+
+/// The cumulative probability where |x| is small.
+fn central_cdf(x: f64) -> f64 {
+    let y = x * FRAC_1_SQRT_2;
+    0.5 + 0.5 * y * ratio(y * y, &CENTRE)
+}
+
+/// exp(y^2) erfc(y) for y above 0.47, by rational approximations (Cody 1969, Rational Chebyshev approximations for the error
+/// function, Mathematics of Computation 23, 631-637).
+fn scaled_erfc(y: f64) -> f64 {
+    if y <= FLANK_UP_TO {
         ratio(y, &FLANK)
     } else {
         let u = 1.0 / (y * y);
         (0.5 * FRAC_2_SQRT_PI - u * ratio(u, &TAIL)) / y
-    };
-    if x < 0.0 {
-        LowerTail { ln_cdf: libm::log(scaled) - LN_2 - 0.5 * x * x, mills: 2.0 * DENSITY_AT_0 / scaled }
-    } else {
-        let fall = libm::exp(-0.5 * x * x);
-        let upper = 0.5 * fall * scaled;
-        LowerTail { ln_cdf: libm::log1p(-upper), mills: DENSITY_AT_0 * fall / (1.0 - upper) }
     }
 }
 

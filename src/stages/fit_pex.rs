@@ -19,7 +19,7 @@ use crate::pipeline::stage::{Stage, with_part};
 use crate::table::provenance::Provenance;
 use crate::table::schema::{PEX, PEX_BOOTSTRAP, PEX_SCAN};
 use crate::table::writer::TableWriter;
-use crate::table::{pex, replicates};
+use crate::table::{pex, pex_scan, replicates};
 
 /// How the demand is fitted.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -143,7 +143,7 @@ impl Stage for FitPex {
         let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (row.reason(), row.measures())));
         let mut scan_writer = TableWriter::create(&self.scan_path(), &PEX_SCAN, provenance.clone())?;
-        scan_writer.append(&pex::scan_batch(&scans)?)?;
+        scan_writer.append(&pex_scan::batch(&scans)?)?;
         scan_writer.finish()?;
         if let Some(path) = self.bootstrap_path() {
             let mut writer = TableWriter::create(&path, &PEX_BOOTSTRAP, provenance.clone())?;

@@ -9,7 +9,8 @@ use crate::fragility::{
     Strata, bootstrap_limits, fit_biplanar, fit_plane, fit_smooth, fit_univariate, ranges, reset,
     transition_limits,
 };
-use crate::table::pex::{Model, PexReplicate, PexRow, ScanRow};
+use crate::table::pex::{Model, PexReplicate, PexRow};
+use crate::table::pex_scan::ScanRow;
 
 /// Every value of a measure.
 const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;

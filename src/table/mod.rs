@@ -8,7 +8,7 @@
 //! writer       batches to a file, written beside its name and renamed when whole
 //! fingerprint  the hash of what a file holds
 //! provenance   what made a file, in its metadata
-//! scenarios, motions, records, responses, trace, pex, pro, replicates, paper
+//! scenarios, motions, records, responses, trace, pex, pex_scan, pro, replicates, paper
 //!              one file a table: its rows as Rust structs
 //! measures     the columns of intensity measures, which motions and records share
 //! fits         the rows of pex and pro files as the fits they hold
@@ -29,6 +29,7 @@ mod measures;
 pub mod motions;
 pub mod paper;
 pub mod pex;
+pub mod pex_scan;
 pub mod pro;
 pub mod provenance;
 pub mod reader;

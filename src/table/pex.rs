@@ -1,4 +1,4 @@
-//! The pex file: one row a regression of the demand in safe rocking; and the scan for the transition.
+//! The pex file: one row a regression of the demand in safe rocking.
 
 use std::ops::Range;
 use std::path::Path;
@@ -11,9 +11,9 @@ use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
 use super::reader::read_frame;
-use super::schema::{self, Column, PEX, PEX_SCAN};
+use super::schema::{self, Column, PEX};
 use crate::fragility::{
-    BootstrapLimits, DemandReplicate, Estimate, FitStatus, Limits, LinearFit, Measure, ScanPoint, Test,
+    BootstrapLimits, DemandReplicate, Estimate, FitStatus, Limits, LinearFit, Measure, Test,
 };
 use crate::keyword::{Keyword, keywords};
 
@@ -218,39 +218,6 @@ pub fn batch(rows: &[PexRow]) -> Result<RecordBatch, ArrowError> {
     columns.push(number(&|row| Some(row.eta)));
     columns.push(text(|row| Some(row.status().as_str())));
     RecordBatch::try_new(PEX.schema(), columns)
-}
-
-/// One place that was tried for the transition.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ScanRow {
-    /// Of which suite.
-    pub suite: Option<String>,
-    /// Of which structure.
-    pub structure: String,
-    /// The place and its residual.
-    pub point: ScanPoint,
-}
-
-/// The rows of the scan file.
-///
-/// # Errors
-/// If a row cannot be represented, which the schema rules out.
-pub fn scan_batch(rows: &[ScanRow]) -> Result<RecordBatch, ArrowError> {
-    let number = |value: fn(&ScanPoint) -> f64| -> ArrayRef {
-        Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| value(&row.point))))
-    };
-    let count = |value: fn(&ScanPoint) -> usize| -> ArrayRef {
-        Arc::new(Int64Array::from_iter_values(rows.iter().map(|row| value(&row.point) as i64)))
-    };
-    let columns: Vec<ArrayRef> = vec![
-        Arc::new(rows.iter().map(|row| row.suite.as_deref()).collect::<StringArray>()),
-        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| &row.structure))),
-        number(|point| point.im4),
-        number(|point| point.pooled_rss),
-        count(|point| point.n_low),
-        count(|point| point.n_high),
-    ];
-    RecordBatch::try_new(PEX_SCAN.schema(), columns)
 }
 
 /// The regressions of a pex file.

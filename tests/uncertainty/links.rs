@@ -27,12 +27,12 @@ fn derivatives_of_the_links_are_those_of_their_values() {
     for &link in Link::ALL {
         for index in [-3.0, -1.2, -0.1, 0.0, 0.4, 1.3, 2.1] {
             for event in [false, true] {
-                let at = |index| link.ln_probability(index, event);
+                let (value, at) = (|x| link.ln_probability(x, event), |x| link.score(x, event));
                 let p = link.probability(index);
-                assert!((at(index).value - if event { p } else { 1.0 - p }.ln()).abs() < 1e-12);
-                let score = (at(index + h).value - at(index - h).value) / (2.0 * h);
-                assert!((at(index).score - score).abs() < 1e-8 * (1.0 + score.abs()), "{link:?} {index}");
-                let curvature = -(at(index + h).score - at(index - h).score) / (2.0 * h);
+                assert!((value(index) - if event { p } else { 1.0 - p }.ln()).abs() < 1e-12);
+                let slope = (value(index + h) - value(index - h)) / (2.0 * h);
+                assert!((at(index).slope - slope).abs() < 1e-8 * (1.0 + slope.abs()), "{link:?} {index}");
+                let curvature = -(at(index + h).slope - at(index - h).slope) / (2.0 * h);
                 assert!(
                     (at(index).curvature - curvature).abs() < 1e-8 * (1.0 + curvature),
                     "{link:?} {index}"
@@ -41,8 +41,7 @@ fn derivatives_of_the_links_are_those_of_their_values() {
             let of = |index: f64| link.information(index);
             let expected = {
                 let p = link.probability(index);
-                p * link.ln_probability(index, true).curvature
-                    + (1.0 - p) * link.ln_probability(index, false).curvature
+                p * link.score(index, true).curvature + (1.0 - p) * link.score(index, false).curvature
             };
             assert!((of(index).weight / expected - 1.0).abs() < 1e-12, "{link:?} {index}");
             let slope = (of(index + h).weight.ln() - of(index - h).weight.ln()) / (2.0 * h);
