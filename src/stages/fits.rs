@@ -151,7 +151,11 @@ fn group_of(row: &FitRow) -> Group {
 fn found<'a>(row: Option<&'a FitRow>, path: &Path, what: &str) -> anyhow::Result<&'a FitRow> {
     match row {
         Some(row) if row.is_ok() => Ok(row),
-        Some(row) => anyhow::bail!("{}: the {what} is {}; expected ok", path.display(), row.status()),
+        Some(row) => Err(UsageError::because(format!(
+            "{}: the {what} is {}; choose a measure whose fit is ok",
+            path.display(),
+            row.status()
+        ))),
         None => anyhow::bail!("{}: no {what}; expected the output of fit-pex or fit-pro", path.display()),
     }
 }

@@ -72,7 +72,7 @@ pub enum TableError {
         source: parquet::errors::ParquetError,
     },
     /// The file is compressed in a way that is not built in.
-    #[error("{}: compressed in a way that rockfrag does not read ({message}); write it with zstd, or uncompressed", path.display())]
+    #[error("{}: compressed in a way that rockfrag does not read ({message}); write it with zstd or snappy, or uncompressed", path.display())]
     Codec {
         /// The file.
         path: PathBuf,

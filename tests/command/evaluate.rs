@@ -221,5 +221,6 @@ fn questions_without_an_answer_are_explained() {
     hazard("pga,rate\n1,1\n", "--ratio 1", 1, &["h.csv", "columns pga, rate", "expected pga_g"]);
     hazard(&good.replace("0.001", "x"), "--ratio 1", 1, &["h.csv", "line 3", "'x'"]);
     hazard(&good.replace("0.001", "0.1"), "--ratio 1", 1, &["h.csv", "point 1"]);
-    hazard(good, "--ratio 1 --model univariate --measure im1", 2, &["need the period"]);
+    hazard(good, "--ratio 1 --model univariate --measure im6", 2, &["need the period"]);
+    hazard(good, "--ratio 1 --model univariate --measure im1", 2, &["im1 is falling", "choose a measure"]);
 }

@@ -47,7 +47,7 @@ fn what_cannot_be_exported_is_explained() {
     export("--to openquake --ratio 0", &["ratio is 0"]);
     export("--to openquake --ratio 0.3 --tolerance 0", &["tolerance is 0"]);
     export("--to openquake --ratio 0.3 --levels 0.1,0.2", &["above uplift, 0.2027"]);
-    export("--to openquake --ratio 0.3 --model univariate --measure im2", &["use the bivariate model"]);
+    export("--to openquake --ratio 0.3 --model univariate --measure im6", &["use the bivariate model"]);
     export("--to openquake", &["--ratio"]);
     assert!(!folder.path().join("fragility.xml").exists());
 }
