@@ -47,6 +47,21 @@ pub fn pipelined<A: Send, B: Send>(
     })
 }
 
+/// The items of `source`, `size` at a time; an error ends them.
+pub fn batches<A, E: Into<anyhow::Error>>(
+    source: impl Iterator<Item = Result<A, E>>,
+    size: usize,
+) -> impl Iterator<Item = anyhow::Result<Vec<A>>> {
+    let mut source = source.fuse();
+    std::iter::from_fn(move || {
+        let batch: Result<Vec<A>, E> = source.by_ref().take(size).collect();
+        match batch {
+            Ok(batch) if batch.is_empty() => None,
+            batch => Some(batch.map_err(Into::into)),
+        }
+    })
+}
+
 /// Scratch that threads take, use and put back: as many as there are threads, whatever the number of items.
 pub struct Pool<T> {
     idle: Mutex<Vec<T>>,

@@ -2,7 +2,8 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::lanes::{Events, Lanes, each};
+use super::lane_step::Events;
+use super::lanes::{Lanes, each};
 use super::march::simulate;
 use super::record::Record;
 use super::response::Response;

@@ -11,12 +11,14 @@
 //! tail       what happens after the record has ended, in closed form
 //! response   the outcome and the engineering demand parameter
 //! batch      many structures and records at once, one in each lane of a vector register
-//! lanes      what march does, for all lanes of a vector; real, vector and lane_roots are its numbers and roots
+//! lanes      where each lane stands; lane_step what march does, for all of them; real, vector and lane_roots their numbers
+//!            and roots
 //! trace      the same march, observed: rotation, velocity and events over time
 //! ```
 
 mod batch;
 mod lane_roots;
+mod lane_step;
 mod lanes;
 mod march;
 mod observer;

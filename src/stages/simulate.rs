@@ -15,18 +15,18 @@ use crate::motion::{IntensityMeasures, IntensityScratch, intensity};
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Several, Word, check, defaults};
 use crate::pipeline::stage::{Stage, with_part};
-use crate::pipeline::stream::{Pool, pipelined};
+use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Path as SolverPath, Problem, Record, RecordError, Structure, simulate_all, trace};
 use crate::table::TableError;
-use crate::table::motions::{Motion, MotionBatches, MotionId, schema_by_name};
+use crate::table::motions::{Motion, MotionFile, MotionId, Part, schema_by_name};
 use crate::table::provenance::Provenance;
 use crate::table::responses::{self, ResponseRow};
 use crate::table::schema::{self, RESPONSES, TRACE, Table};
 use crate::table::trace::{self as trace_table, TraceRow};
 use crate::table::writer::TableWriter;
 
-/// Motions that are read at once.
-const BATCH: usize = 256;
+/// Parts of the file that all threads together read at once.
+const PARTS: usize = 8;
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy.
 const CHUNK: usize = 64;
 /// Quiet time after a traced record in which free rocking shows, s.
@@ -297,7 +297,7 @@ impl Stage for Simulate {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let motions = MotionBatches::open(&self.input, BATCH)?;
+        let motions = MotionFile::open(&self.input)?;
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
         let mut writer = self.writer(&self.out, &RESPONSES, by_name, provenance)?;
         let mut seen = SeenIds::default();
@@ -305,13 +305,18 @@ impl Stage for Simulate {
         let pool = Pool::new(Scratch::default);
         let bar = console.bar(self.subcommand(), total);
         pipelined(
-            motions.map(|batch| Ok(batch?)),
-            |motions| {
-                let respond = |motions| pool.lend(|scratch| self.respond(motions, by_name, scratch));
-                let responded: Vec<Responded> =
-                    motions.par_chunks(CHUNK).map(respond).collect::<anyhow::Result<_>>()?;
-                bar.inc(motions.len() as u64);
-                Ok(responded)
+            batches(motions.parts(), PARTS),
+            |parts| {
+                let respond = |part: &Part| -> anyhow::Result<Vec<Responded>> {
+                    let motions = motions.motions(part)?;
+                    let respond = |motions| pool.lend(|scratch| self.respond(motions, by_name, scratch));
+                    let responded = motions.par_chunks(CHUNK).map(respond).collect();
+                    bar.inc(motions.len() as u64);
+                    responded
+                };
+                let responded: Vec<Vec<Responded>> =
+                    parts.par_iter().map(respond).collect::<anyhow::Result<_>>()?;
+                Ok(responded.into_iter().flatten())
             },
             |responded| {
                 for Responded { motion_ids, rows, traces: traced } in responded {

@@ -5,6 +5,7 @@
 //! columns      the columns of one batch, by name, checked
 //! footer       the end of a file, which says what is in it
 //! reader       batches from a file; narrow tables whole, as polars frames
+//! shared_file  a file that several threads read at once
 //! writer       batches to a file, written beside its name and renamed when whole
 //! fingerprint  the hash of what a file holds
 //! provenance   what made a file, in its metadata
@@ -38,6 +39,7 @@ pub mod replicates;
 pub mod responses;
 pub mod scenarios;
 pub mod schema;
+mod shared_file;
 pub mod text;
 pub mod trace;
 pub mod writer;

@@ -1,6 +1,6 @@
 //! The motions file: one row a ground motion, its samples as a list.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use arrow_array::builder::{Float32Builder, ListBuilder};
@@ -10,7 +10,7 @@ use arrow_schema::{ArrowError, DataType, Field, SchemaRef};
 use super::TableError;
 use super::columns::{Columns, Samples};
 use super::measures;
-use super::reader::{Batch, Batches, expect_columns};
+use super::reader::{Batch, Batches, TableFile, expect_columns};
 use super::scenarios;
 use super::schema::{self, Column};
 use crate::keyword::Keyword;
@@ -18,6 +18,9 @@ use crate::motion::{Measured, Scenario, Suite};
 
 /// The stages whose output can stand as a motions file.
 const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
+
+/// The most motions that a thread reads at once.
+const LARGEST_PART: usize = 128;
 
 /// What `simulate` cannot do without.
 const REQUIRED: [Column; 3] = [schema::MOTION_ID, schema::DT_S, schema::ACCELERATION_M_S2];
@@ -150,9 +153,84 @@ impl MotionBatches {
 
     /// Whether motions go by name rather than by number.
     pub fn ids_are_names(&self) -> bool {
-        let field = self.batches.schema().field_with_name(schema::MOTION_ID.name);
-        field.is_ok_and(|field| !field.data_type().is_numeric())
+        ids_are_names(self.batches.schema())
     }
+}
+
+/// A motions file that several threads read.
+pub struct MotionFile {
+    path: PathBuf,
+    file: TableFile,
+    by_name: bool,
+}
+
+/// Some motions of a file, in order.
+pub enum Part {
+    /// A row group that is not yet read.
+    RowGroup(usize),
+    /// Rows of a row group that is too large to be read at once.
+    Rows(Batch),
+}
+
+impl MotionFile {
+    /// Opens a motions file.
+    ///
+    /// # Errors
+    /// As [`MotionBatches::open`].
+    pub fn open(path: &Path) -> Result<MotionFile, TableError> {
+        let file = TableFile::open(path, &STAGES, &READ)?;
+        let batches = file.batches(LARGEST_PART)?;
+        expect_columns(path, batches.schema(), &REQUIRED)?;
+        let by_name = ids_are_names(batches.schema());
+        Ok(MotionFile { path: path.to_path_buf(), file, by_name })
+    }
+
+    /// How many motions the file has.
+    pub fn rows(&self) -> u64 {
+        self.file.rows_of_groups().iter().sum()
+    }
+
+    /// Whether motions go by name rather than by number.
+    pub fn ids_are_names(&self) -> bool {
+        self.by_name
+    }
+
+    /// All motions: row groups, which any thread may read, where they are small.
+    pub fn parts(&self) -> impl Iterator<Item = Result<Part, TableError>> {
+        let groups = self.file.rows_of_groups().into_iter().enumerate().filter(|&(_, rows)| rows > 0);
+        groups.flat_map(|(group, rows)| -> Box<dyn Iterator<Item = Result<Part, TableError>> + Send> {
+            if rows <= LARGEST_PART as u64 {
+                return Box::new(std::iter::once(Ok(Part::RowGroup(group))));
+            }
+            match self.file.row_group(group, LARGEST_PART) {
+                Ok(batches) => Box::new(batches.map(|batch| batch.map(Part::Rows))),
+                Err(error) => Box::new(std::iter::once(Err(error))),
+            }
+        })
+    }
+
+    /// The motions of a part.
+    ///
+    /// # Errors
+    /// If the file is damaged or a value cannot be used.
+    pub fn motions(&self, part: &Part) -> Result<Vec<Motion>, TableError> {
+        let of = |Batch { rows, first_row }: &Batch| {
+            motions_of(&Columns::new(&self.path, rows, *first_row), *first_row)
+        };
+        match part {
+            Part::Rows(batch) => of(batch),
+            Part::RowGroup(group) => {
+                let batches = self.file.row_group(*group, LARGEST_PART)?;
+                let motions = batches.map(|batch| of(&batch?)).collect::<Result<Vec<_>, TableError>>()?;
+                Ok(motions.into_iter().flatten().collect())
+            }
+        }
+    }
+}
+
+fn ids_are_names(schema: &SchemaRef) -> bool {
+    let field = schema.field_with_name(schema::MOTION_ID.name);
+    field.is_ok_and(|field| !field.data_type().is_numeric())
 }
 
 impl Iterator for MotionBatches {

@@ -5,8 +5,11 @@ use std::path::{Path, PathBuf};
 use arrow_array::RecordBatch;
 use arrow_schema::SchemaRef;
 use parquet::arrow::ProjectionMask;
-use parquet::arrow::arrow_reader::{ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder};
+use parquet::arrow::arrow_reader::{
+    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder,
+};
 use parquet::errors::ParquetError;
+use parquet::schema::types::TypePtr;
 use polars::prelude::{DataFrame, IntoColumn, NamedFrom, Series};
 
 use super::TableError;
@@ -14,9 +17,18 @@ use super::columns::{Columns, missing};
 use super::footer::{not_parquet, open_file};
 use super::provenance::stamp;
 use super::schema::{Column, Kind, Table};
+use super::shared_file::SharedFile;
 
 /// Rows of a narrow table that are decoded at once.
 const NARROW_BATCH: usize = 8192;
+
+/// A file of a table, open at those of its columns that are wanted.
+pub struct TableFile {
+    path: PathBuf,
+    file: SharedFile,
+    metadata: ArrowReaderMetadata,
+    columns: ProjectionMask,
+}
 
 /// The batches of a file in order.
 pub struct Batches {
@@ -35,36 +47,81 @@ pub struct Batch {
     pub first_row: u64,
 }
 
-impl Batches {
-    /// Opens the file of a table: those of `columns` that it has, `batch_size` rows at a time.
+impl TableFile {
+    /// Opens the file of a table at those of `columns` that it has.
     ///
     /// # Errors
     /// If the file is missing, unreadable, empty, or the output of a stage other than `stages`. A file that another
     /// program wrote has no stage and is taken by its columns.
+    pub fn open(path: &Path, stages: &[&str], columns: &[Column]) -> Result<TableFile, TableError> {
+        expect_stage(path, stages)?;
+        let file = SharedFile::new(open_file(path)?).map_err(|source| TableError::io(path, source))?;
+        let metadata = ArrowReaderMetadata::load(&file, ArrowReaderOptions::default())
+            .map_err(|source| not_parquet(path, source))?;
+        if metadata.metadata().file_metadata().num_rows() <= 0 {
+            return Err(TableError::Empty { path: path.to_path_buf() });
+        }
+        let roots = metadata.parquet_schema().root_schema().get_fields();
+        let wanted = |field: &TypePtr| columns.iter().any(|column| column.name == field.name());
+        let wanted: Vec<usize> = (0..roots.len()).filter(|&root| wanted(&roots[root])).collect();
+        let columns = ProjectionMask::roots(metadata.parquet_schema(), wanted);
+        Ok(TableFile { path: path.to_path_buf(), file, metadata, columns })
+    }
+
+    /// How many rows each of its row groups has.
+    pub fn rows_of_groups(&self) -> Vec<u64> {
+        let groups = self.metadata.metadata().row_groups();
+        groups.iter().map(|group| group.num_rows().max(0).unsigned_abs()).collect()
+    }
+
+    /// The rows of one row group, `batch_size` at a time.
+    ///
+    /// # Errors
+    /// If the file is damaged.
+    pub fn row_group(&self, group: usize, batch_size: usize) -> Result<Batches, TableError> {
+        let rows = self.rows_of_groups();
+        let first_row = rows[..group].iter().sum();
+        self.read(batch_size, rows[group], first_row, |builder| builder.with_row_groups(vec![group]))
+    }
+
+    /// All rows, `batch_size` at a time.
+    ///
+    /// # Errors
+    /// If the file is damaged.
+    pub fn batches(&self, batch_size: usize) -> Result<Batches, TableError> {
+        let rows = self.metadata.metadata().file_metadata().num_rows();
+        self.read(batch_size, rows.unsigned_abs(), 0, |builder| builder)
+    }
+
+    fn read(
+        &self,
+        batch_size: usize,
+        rows: u64,
+        next_row: u64,
+        choose: impl FnOnce(Builder) -> Builder,
+    ) -> Result<Batches, TableError> {
+        let builder = Builder::new_with_metadata(self.file.clone(), self.metadata.clone());
+        let builder = choose(builder).with_batch_size(batch_size).with_projection(self.columns.clone());
+        let reader = builder.build().map_err(|source| not_parquet(&self.path, source))?;
+        let schema = arrow_array::RecordBatchReader::schema(&reader);
+        Ok(Batches { path: self.path.clone(), reader, schema, rows, next_row })
+    }
+}
+
+type Builder = ParquetRecordBatchReaderBuilder<SharedFile>;
+
+impl Batches {
+    /// Opens the file of a table: those of `columns` that it has, `batch_size` rows at a time.
+    ///
+    /// # Errors
+    /// As [`TableFile::open`].
     pub fn open(
         path: &Path,
         stages: &[&str],
         columns: &[Column],
         batch_size: usize,
     ) -> Result<Batches, TableError> {
-        expect_stage(path, stages)?;
-        let file = open_file(path)?;
-        let unreadable = |source| not_parquet(path, source);
-        let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(unreadable)?;
-        let roots = builder.parquet_schema().root_schema().get_fields();
-        let wanted = roots
-            .iter()
-            .enumerate()
-            .filter(|(_, field)| columns.iter().any(|column| column.name == field.name()));
-        let mask =
-            ProjectionMask::roots(builder.parquet_schema(), wanted.map(|(root, _)| root).collect::<Vec<_>>());
-        let rows = builder.metadata().file_metadata().num_rows();
-        if rows <= 0 {
-            return Err(TableError::Empty { path: path.to_path_buf() });
-        }
-        let reader = builder.with_batch_size(batch_size).with_projection(mask).build().map_err(unreadable)?;
-        let schema = arrow_array::RecordBatchReader::schema(&reader);
-        Ok(Batches { path: path.to_path_buf(), reader, schema, rows: rows.unsigned_abs(), next_row: 0 })
+        TableFile::open(path, stages, columns)?.batches(batch_size)
     }
 
     /// How many rows the file has.

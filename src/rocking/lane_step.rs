@@ -1,0 +1,195 @@
+//! A step of all lanes at once: what [`super::march`] does for one structure. The Taylor polynomial to the next sample, its
+//! first root if it strikes before, the peak. What is rare (several roots, a new peak within a step, overturning) is left to
+//! the scalar code for the lane that needs it.
+
+use std::f64::consts::FRAC_PI_2;
+
+use pulp::Simd;
+
+use super::lane_roots::{count, deflated, falling_root};
+use super::lanes::{Lanes, each};
+use super::march::{REST_VELOCITY, first_impact, first_overturning, largest};
+use super::polynomial::{self, Polynomial};
+use super::real::Real;
+use super::taylor::{Excess, State, series};
+use super::vector::{MOST_LANES, Mask, Vector};
+use crate::units::PER_G;
+
+/// What happened in the lanes during a step, a bit for each.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Events {
+    /// The record is over while the structure rocks.
+    pub ended: u32,
+    /// It came to rest after an impact.
+    pub rested: u32,
+    /// It overturned.
+    pub overturned: u32,
+}
+
+impl Events {
+    pub fn any(&self) -> bool {
+        self.ended | self.rested | self.overturned != 0
+    }
+}
+
+/// A Taylor step from where the lanes stand.
+pub struct Step<S: Simd> {
+    rotation: Polynomial<Vector<S>>,
+    /// The inverse of its length in p t, and its share of the time to the next sample.
+    per_h: Vector<S>,
+    share: Vector<S>,
+    end: State<Vector<S>>,
+    /// Bounds of the rotation.
+    low: Vector<S>,
+    high: Vector<S>,
+}
+
+impl<S: Simd> Lanes<'_, S> {
+    /// The Taylor polynomials from where the lanes stand to their next samples, or as far as the series holds.
+    #[inline(always)]
+    pub fn step(&self) -> Step<S> {
+        let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
+        let next = self.next * PER_G;
+        let (mut share, mut h, mut per_h, mut ground) = (one, self.left, self.per_left, next);
+        let far = self.longest.lt(self.left);
+        if far.any() {
+            share = far.select(self.longest * self.per_left, one);
+            h = far.select(self.longest, self.left);
+            per_h = far.select(one / self.longest, self.per_left);
+            ground = far.select(share.mul_add(next - self.now, self.now), next);
+        }
+        let tan = self.slenderness.tan;
+        let excess = Excess { start: self.side.mul_add(self.now, tan), end: self.side.mul_add(ground, tan) };
+        let r = series(&self.slenderness, excess, self.state, h);
+
+        let mut rise = r[1].max(zero);
+        for coefficient in &r[2..] {
+            rise = rise + coefficient.max(zero);
+        }
+        let rotation = polynomial::value(&r, one);
+        let velocity = polynomial::slope(&r, one) * per_h;
+        Step {
+            rotation: r,
+            per_h,
+            share,
+            end: State { rotation: rotation.max(zero), velocity },
+            low: rotation - rise,
+            high: r[0] + rise,
+        }
+    }
+
+    /// Takes a step as far as the first impact in it.
+    #[inline(always)]
+    pub fn advance(&mut self, step: &Step<S>) -> Events {
+        let one = Vector::splat(self.simd, 1.0);
+        let mut events = Events::default();
+        let zero = Vector::splat(self.simd, 0.0);
+        let doubtful = step.low.le(zero);
+        let struck = if doubtful.any() { self.impact(step, doubtful) } else { None };
+        let until = struck.as_ref().map_or(one, |struck| struck.until);
+        self.state = step.end;
+        if Vector::splat(self.simd, FRAC_PI_2).le(step.high).any() {
+            events.overturned = self.overturned(step, until);
+        }
+        if self.peak.lt(step.high).any() {
+            self.raise_peak(step, until);
+        }
+        let passed = until * step.share;
+        let within = passed.lt(one);
+        let arrived = !within.bits();
+        let next = self.next * PER_G;
+        self.now = within.select(passed.mul_add(next - self.now, self.now), next);
+        self.left = within.select((one - passed) * self.left, self.p_dt);
+        self.per_left = one / self.left;
+        if let Some(Struck { lanes, velocity, .. }) = struck {
+            let after = -(velocity * self.eta);
+            self.state.rotation = lanes.select(zero, self.state.rotation);
+            self.state.velocity = lanes.select(after, self.state.velocity);
+            self.side = lanes.select(-self.side, self.side);
+            self.impacts = self.impacts + lanes.select(one, zero);
+            events.rested = (lanes & after.lt(Vector::splat(self.simd, REST_VELOCITY))).bits();
+        }
+        events.ended = self.pass_samples(arrived) & self.busy & !(events.overturned | events.rested);
+        events
+    }
+
+    /// The lanes of `doubtful` that strike during a step.
+    #[inline(always)]
+    fn impact(&self, step: &Step<S>, doubtful: Mask<S>) -> Option<Struck<S>> {
+        let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
+        let c = deflated(&step.rotation, step.rotation[0].equals(zero));
+        let roots = count(&c);
+        let mut lanes = roots.one & doubtful;
+        let mut until = one;
+        if lanes.any() {
+            until = lanes.select(falling_root(&c, lanes), one);
+        }
+        for lane in each((roots.unclear & doubtful).bits()) {
+            if let Some(x) = first_impact(&of_lane(&step.rotation, lane)) {
+                until.set(lane, x);
+                lanes = lanes | Mask::of_lane(self.simd, lane);
+            }
+        }
+        let velocity = polynomial::slope(&step.rotation, until) * step.per_h;
+        lanes.any().then_some(Struck { lanes, until, velocity })
+    }
+
+    #[inline(never)]
+    fn overturned(&self, step: &Step<S>, until: Vector<S>) -> u32 {
+        let high = Vector::splat(self.simd, FRAC_PI_2).le(step.high).bits() & self.busy;
+        let falls = |lane: &usize| {
+            first_overturning(&of_lane(&step.rotation, *lane)).is_some_and(|x| x <= until.lane(*lane))
+        };
+        each(high).filter(falls).fold(0, |bits, lane| bits | 1 << lane)
+    }
+
+    /// Raises the peak of the lanes that come higher than ever.
+    #[inline(always)]
+    fn raise_peak(&mut self, step: &Step<S>, until: Vector<S>) {
+        let zero = Vector::splat(self.simd, 0.0);
+        let r = &step.rotation;
+        let (mut least, mut most) = (r[1], r[1]);
+        for (k, &coefficient) in r.iter().enumerate().skip(2) {
+            let rate = coefficient * k as f64;
+            least = least + rate.min(zero);
+            most = most + rate.max(zero);
+        }
+        let (rising, falling) = (zero.le(least), most.le(zero));
+        let higher = self.peak.lt(step.high);
+        self.peak = (higher & rising).select(self.peak.max(step.end.rotation), self.peak);
+        for lane in each((higher & !rising & !falling).bits()) {
+            let top = largest(&of_lane(r, lane), until.lane(lane));
+            self.peak.set(lane, self.peak.lane(lane).max(top));
+        }
+    }
+
+    /// Counts the samples at which lanes have `arrived` and looks up the next ones; the lanes at their last sample.
+    #[inline(always)]
+    fn pass_samples(&mut self, arrived: u32) -> u32 {
+        let mut ended = 0;
+        let mut next = [0.0; MOST_LANES];
+        for (lane, next) in next.iter_mut().enumerate().take(S::F64_LANES) {
+            let ahead = self.index[lane] + 1 + (arrived >> lane & 1) as usize;
+            self.index[lane] = ahead - 1;
+            let sample = self.samples[lane].get(ahead);
+            ended |= u32::from(sample.is_none()) << lane;
+            *next = sample.copied().unwrap_or(0.0);
+        }
+        self.next = Vector::of(self.simd, &next);
+        ended
+    }
+}
+
+/// Impacts during a step.
+struct Struck<S: Simd> {
+    /// The lanes that strike.
+    lanes: Mask<S>,
+    /// The share of the step that passes before, 1 in the other lanes.
+    until: Vector<S>,
+    /// The velocity at that moment.
+    velocity: Vector<S>,
+}
+
+fn of_lane<S: Simd>(c: &Polynomial<Vector<S>>, lane: usize) -> Polynomial {
+    std::array::from_fn(|k| c[k].lane(lane))
+}
