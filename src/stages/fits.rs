@@ -23,10 +23,10 @@ pub struct FitsOptions {
     /// Curves of fit-pro
     #[arg(long, value_name = "FILE", default_value = "pro.parquet")]
     pub pro: PathBuf,
-    /// Suite of the fits [default: the only one]
+    /// Suite of the fits [default: the only one; of validate, all]
     #[arg(long)]
     pub suite: Option<String>,
-    /// Structure of the fits [default: the only one]
+    /// Structure of the fits [default: the only one; of validate, all]
     #[arg(long)]
     pub structure: Option<String>,
     /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate

@@ -26,7 +26,7 @@ pub struct ValidateOptions {
     /// Validation file to write [default: validation.parquet beside the input]
     #[arg(long)]
     pub out: Option<PathBuf>,
-    #[command(flatten, next_help_heading = "Fits (of every suite and structure, if not chosen)")]
+    #[command(flatten, next_help_heading = "Fits")]
     fits: FitsOptions,
 }
 
