@@ -23,7 +23,8 @@ use crate::stages::sample_scenarios::{SampleScenarios, SampleScenariosOptions};
 use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
 use crate::stages::simulate::{Simulate, SimulateOptions};
 use crate::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
-use crate::table::paper;
+use crate::stages::validate::{Validate, ValidateOptions};
+use crate::table::{paper, validation};
 
 /// Dimensionless fragility curves for rocking structures in near-fault earthquakes
 #[derive(Debug, Parser)]
@@ -141,6 +142,8 @@ enum Command {
     },
     /// Probabilities of rocking, failure and overturning: at one intensity, at each of a table, or a year at a site
     Evaluate(Box<EvaluateOptions>),
+    /// Hold fits against responses they were not made from, such as those to records: counts seen and expected, scores
+    Validate(Box<ValidateOptions>),
     /// Write the fragility of a structure for OpenQuake or pelicun
     Export(Box<ExportOptions>),
     /// Run all stages of a pipeline file, skipping what is up to date
@@ -249,6 +252,12 @@ impl Call<'_> {
                 print(&paper::show(&out)?)
             }
             Command::Evaluate(options) => print(&evaluate(&options, self.force, &self.console)?),
+            Command::Validate(options) => {
+                let out = options.out.clone();
+                let out = out.unwrap_or_else(|| beside(&options.input, "validation.parquet"));
+                self.stage(&Validate::new(&options, out.clone())?)?;
+                print(&validation::show(&out)?)
+            }
             Command::Export(options) => export(&options, &self.console),
             Command::Run { pipeline, out, seed, dry_run } => self.run(&pipeline, out, seed, dry_run),
             Command::SeedSpread { pipeline, options } => {

@@ -3,7 +3,7 @@
 use crate::normal;
 
 /// The 97.5 % quantile of the normal distribution.
-const Z_95: f64 = 1.959_963_984_540_054;
+pub(super) const Z_95: f64 = 1.959_963_984_540_054;
 
 /// A probability with its 95 % limits of confidence.
 #[derive(Debug, Clone, Copy, PartialEq)]

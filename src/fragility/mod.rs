@@ -15,7 +15,10 @@
 //! model            the fits joined: all probabilities at an intensity
 //! slice            the same along one peak, PGA or PGV, at a fixed p PGV / PGA
 //! bent_curve       curves with a spline or an interaction more
-//! skill            how well fitted probabilities tell the outcomes apart
+//! skill            how well probabilities tell the outcomes apart
+//! forecast         what the curves foretell of cases that were not fitted
+//! validation       such forecasts against what happened
+//! poisson_binomial the number of events of unequal probability
 //!
 //! regression       least squares with standard errors and limits
 //! binary           maximum likelihood of binary outcomes
@@ -51,6 +54,7 @@ mod design_matrix;
 mod distribution;
 mod event_sample;
 mod firth;
+mod forecast;
 mod goodness;
 mod index;
 mod influence;
@@ -59,6 +63,7 @@ mod link;
 mod model;
 mod newton;
 mod overturning;
+mod poisson_binomial;
 mod predictor;
 mod profile;
 mod regression;
@@ -68,6 +73,7 @@ mod slice;
 mod smooth;
 mod spline;
 mod transition;
+mod validation;
 
 pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use binary::{BinaryError, BinaryFit, binary_regression};
@@ -82,20 +88,23 @@ pub use demand_sample::DemandSample;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
 pub use event_sample::EventSample;
 pub use firth::Estimator;
+pub use forecast::{Forecast, Forecasts, Foretold};
 pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use index::{Probability, ProbitIndex};
 pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
 pub use link::{Information, Link, Score};
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
 pub use overturning::{CurveModel, OverturningFit, fit_overturning};
+pub use poisson_binomial::PoissonBinomial;
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
 pub use separation::is_separated;
-pub use skill::{auc, brier_score};
+pub use skill::{auc, brier_score, expected_log_score, log_score};
 pub use slice::{Lognormal, Peak, Slice};
 pub use smooth::{SmoothFit, fit_smooth};
 pub use spline::natural_spline;
 pub use transition::{ScanPoint, Transition, TransitionSearch, find_transition, transition_limits};
+pub use validation::{Validation, calibration_in_the_large, wilson_limits};
 
 use crate::keyword::keywords;
 

@@ -23,10 +23,10 @@ pub struct FitsOptions {
     /// Curves of fit-pro
     #[arg(long, value_name = "FILE", default_value = "pro.parquet")]
     pub pro: PathBuf,
-    /// Suite of the fits [default: the only one]
+    /// Suite of the fits [default: the only one; of validate, all]
     #[arg(long)]
     pub suite: Option<String>,
-    /// Structure of the fits [default: the only one]
+    /// Structure of the fits [default: the only one; of validate, all]
     #[arg(long)]
     pub structure: Option<String>,
     /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate
@@ -54,11 +54,53 @@ impl FitsOptions {
     /// # Errors
     /// If a file cannot be read, the choice is open, or there is no such fit.
     pub fn choose(&self) -> anyhow::Result<ChosenFits> {
-        let (regressions, curves) = (fits::regressions(&self.pex)?, fits::curves(&self.pro)?);
-        let (suite, structure) = self.group(&regressions)?;
-        let of_group = |row: &&FitRow| group_of(row) == (suite.clone(), structure.clone());
-        let regressions: Vec<&FitRow> = regressions.iter().filter(of_group).collect();
-        let curves: Vec<&FitRow> = curves.iter().filter(of_group).collect();
+        let files = self.read()?;
+        let asked = self.asked(&files);
+        let [group] = &asked[..] else { return Err(self.open_choice(&files, asked)) };
+        self.join(&files, group)
+    }
+
+    /// The fits of each suite and structure that the options leave, in the order of the file; each one, or why there is none.
+    ///
+    /// # Errors
+    /// If a file cannot be read, or nothing is left.
+    pub fn choose_each(&self) -> anyhow::Result<Vec<anyhow::Result<ChosenFits>>> {
+        let files = self.read()?;
+        let asked = self.asked(&files);
+        if asked.is_empty() {
+            return Err(self.open_choice(&files, asked));
+        }
+        Ok(asked.iter().map(|group| self.join(&files, group)).collect())
+    }
+
+    fn read(&self) -> anyhow::Result<FitRows> {
+        Ok(FitRows { regressions: fits::regressions(&self.pex)?, curves: fits::curves(&self.pro)? })
+    }
+
+    /// The suites and structures that the options leave.
+    fn asked(&self, files: &FitRows) -> Vec<Group> {
+        let asked = |(suite, structure): &Group| {
+            (self.suite.is_none() || self.suite == *suite)
+                && self.structure.as_ref().is_none_or(|asked| asked == structure)
+        };
+        files.groups().into_iter().filter(asked).collect()
+    }
+
+    fn open_choice(&self, files: &FitRows, asked: Vec<Group>) -> anyhow::Error {
+        let list = if asked.is_empty() { files.groups() } else { asked };
+        let words = list.iter().map(|(suite, structure)| match suite {
+            Some(suite) => format!("--suite {suite} --structure {structure}"),
+            None => format!("--structure {structure}"),
+        });
+        let words = words.collect::<Vec<_>>().join(", or ");
+        UsageError::because(format!("{}: expected the choice of one fit: {words}", self.pex.display()))
+    }
+
+    /// All fits of a suite and structure, joined.
+    fn join(&self, files: &FitRows, group: &Group) -> anyhow::Result<ChosenFits> {
+        let of_group = |row: &&FitRow| group_of(row) == *group;
+        let regressions: Vec<&FitRow> = files.regressions.iter().filter(of_group).collect();
+        let curves: Vec<&FitRow> = files.curves.iter().filter(of_group).collect();
         let (demand, pair) = match (self.model.0, self.measure) {
             (ModelForm::Bivariate, Some(measure)) => {
                 return Err(UsageError::because(format!("measure {measure} needs --model univariate")));
@@ -76,32 +118,8 @@ impl FitsOptions {
         let limit = limit.transpose()?.unwrap_or(f64::NAN);
         let model =
             FragilityModel { demand, limit, overturning: curve.probit()?, eta: curve.number(&schema::ETA)? };
+        let (suite, structure) = group.clone();
         Ok(ChosenFits { suite, structure, model })
-    }
-
-    /// The one suite and structure that the options leave.
-    fn group(&self, rows: &[FitRow]) -> anyhow::Result<Group> {
-        let mut groups: Vec<Group> = Vec::new();
-        for group in rows.iter().map(group_of) {
-            if !groups.contains(&group) {
-                groups.push(group);
-            }
-        }
-        let asked = |(suite, structure): &&Group| {
-            (self.suite.is_none() || self.suite == *suite)
-                && self.structure.as_ref().is_none_or(|asked| asked == structure)
-        };
-        let left: Vec<&Group> = groups.iter().filter(asked).collect();
-        if let [group] = left[..] {
-            return Ok(group.clone());
-        }
-        let list = if left.is_empty() { groups.iter().collect() } else { left };
-        let words = list.iter().map(|(suite, structure)| match suite {
-            Some(suite) => format!("--suite {suite} --structure {structure}"),
-            None => format!("--structure {structure}"),
-        });
-        let words = words.collect::<Vec<_>>().join(", or ");
-        Err(UsageError::because(format!("{}: expected the choice of one fit: {words}", self.pex.display())))
     }
 
     fn biplanar(&self, rows: &[&FitRow]) -> anyhow::Result<DemandModel> {
@@ -136,6 +154,25 @@ impl FitsOptions {
         let second = y.map_or(String::new(), |y| format!(":{}", y.as_str()));
         let what = format!("curve of overturning on {}{second}", x.as_str());
         found(rows.iter().find(wanted).copied(), &self.pro, &what)
+    }
+}
+
+/// The rows of both files.
+struct FitRows {
+    regressions: Vec<FitRow>,
+    curves: Vec<FitRow>,
+}
+
+impl FitRows {
+    /// The suites and structures, in the order in which they first appear.
+    fn groups(&self) -> Vec<Group> {
+        let mut groups: Vec<Group> = Vec::new();
+        for group in self.regressions.iter().map(group_of) {
+            if !groups.contains(&group) {
+                groups.push(group);
+            }
+        }
+        groups
     }
 }
 

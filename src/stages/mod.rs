@@ -31,3 +31,4 @@ pub mod structure_options;
 pub mod structures;
 pub mod synthesize_motions;
 pub mod uncertainty;
+pub mod validate;

@@ -16,6 +16,7 @@
 //! intensities  any table with PGA and PGV, as evaluate takes it
 //! hazard       hazard curves and joint hazards, in CSV files
 //! evaluated    probabilities and annual rates: what evaluate answers
+//! validation   forecasts beside what happened
 //! text         any table as aligned text, CSV or JSON
 //! ```
 
@@ -42,6 +43,7 @@ pub mod schema;
 mod shared_file;
 pub mod text;
 pub mod trace;
+pub mod validation;
 pub mod writer;
 
 use std::path::{Path, PathBuf};

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::Float64Type;
+use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, ArrayRef, RecordBatch};
 use arrow_schema::DataType;
 use serde_json::Value;
@@ -31,6 +31,7 @@ pub fn aligned(batch: &RecordBatch) -> String {
             Cell::Nothing => "-".to_string(),
             Cell::Text(text) => text.to_string(),
             Cell::Number(number) => short(number),
+            Cell::Count(count) => count.to_string(),
         });
         let cells: Vec<String> = std::iter::once(field.name().clone()).chain(cells).collect();
         let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0);
@@ -59,6 +60,7 @@ pub fn csv(batch: &RecordBatch) -> anyhow::Result<String> {
             Cell::Nothing => String::new(),
             Cell::Text(text) => text.to_string(),
             Cell::Number(number) => number.to_string(),
+            Cell::Count(count) => count.to_string(),
         }))?;
     }
     Ok(String::from_utf8(writer.into_inner()?)?)
@@ -73,6 +75,7 @@ pub fn json(batch: &RecordBatch) -> String {
                 Cell::Nothing => Value::Null,
                 Cell::Text(text) => Value::from(text),
                 Cell::Number(number) => Value::from(number),
+                Cell::Count(count) => Value::from(count),
             };
             format!("{}: {value}", Value::from(field.name().as_str()))
         });
@@ -86,17 +89,22 @@ enum Cell<'a> {
     Nothing,
     Text(&'a str),
     Number(f64),
+    Count(i64),
 }
 
-/// A cell of a column of text or of floating-point numbers; all other types are no part of narrow tables for reading.
+/// A cell of a column of text or of 64-bit numbers; all other types are no part of narrow tables for reading.
 fn cell(array: &ArrayRef, row: usize) -> Cell<'_> {
     if array.is_null(row) {
         return Cell::Nothing;
     }
-    match (array.as_string_opt::<i32>(), array.as_primitive_opt::<Float64Type>()) {
-        (Some(text), _) => Cell::Text(text.value(row)),
-        (_, Some(numbers)) => Cell::Number(numbers.value(row)),
-        _ => Cell::Nothing,
+    if let Some(text) = array.as_string_opt::<i32>() {
+        Cell::Text(text.value(row))
+    } else if let Some(numbers) = array.as_primitive_opt::<Float64Type>() {
+        Cell::Number(numbers.value(row))
+    } else if let Some(counts) = array.as_primitive_opt::<Int64Type>() {
+        Cell::Count(counts.value(row))
+    } else {
+        Cell::Nothing
     }
 }
 

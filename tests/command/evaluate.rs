@@ -23,7 +23,7 @@ fit-pro: {}
 ";
 
 /// The folder of a run of that pipeline, made once for all tests.
-fn run_folder() -> &'static Path {
+pub fn run_folder() -> &'static Path {
     static RUN: OnceLock<PathBuf> = OnceLock::new();
     RUN.get_or_init(|| {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("evaluate");

@@ -7,3 +7,4 @@ mod export;
 mod import;
 mod kill;
 mod pipeline;
+mod validate;

@@ -1,0 +1,59 @@
+//! validate as a user calls it.
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, Int64Type};
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+
+use crate::common::{content, fail, rockfrag, succeed};
+use crate::evaluate::{fitted, run_folder};
+
+#[test]
+fn fitted_curves_foretell_the_counts_they_were_fitted_to() {
+    let (folder, fits) = fitted();
+    let run = run_folder().display();
+    let call = format!("validate --in {run}/responses.parquet {fits} --out own.parquet");
+    let output = rockfrag(folder.path()).args(call.split_whitespace()).output().unwrap();
+    let table = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success() && table.contains("overturning"), "{table}");
+    let file = std::fs::File::open(folder.path().join("own.parquet")).unwrap();
+    let rows =
+        ParquetRecordBatchReaderBuilder::try_new(file).unwrap().build().unwrap().next().unwrap().unwrap();
+    let text = |name: &str, row| rows[name].as_string::<i32>().value(row).to_string();
+    let count = |name: &str, row| rows[name].as_primitive::<Int64Type>().value(row);
+    let number = |name: &str, row| rows[name].as_primitive::<Float64Type>().value(row);
+    for row in 0..rows.num_rows() {
+        assert_eq!(text("structure", row), "electrical-equipment");
+        assert_eq!(count("without_measure", row), 0);
+        assert!(number("expected_low", row) < number("expected", row));
+        // Maximum likelihood makes the expected count nearly the seen one on the cases of the fit itself.
+        if text("suite", row) == text("fits_suite", row) && text("event", row) == "overturning" {
+            let difference = number("expected", row) - count("seen", row) as f64;
+            assert!(difference.abs() < 0.05 * count("n", row) as f64, "{difference}");
+        }
+    }
+    assert_eq!(rows.num_rows(), 2 * 3);
+}
+
+#[test]
+fn the_order_of_the_threads_does_not_matter() {
+    let (folder, fits) = fitted();
+    let run = run_folder().display();
+    for threads in [1, 2] {
+        let out = format!("--out {threads}.parquet --threads {threads}");
+        succeed(folder.path(), &format!("validate --in {run}/responses.parquet {fits} {out}"));
+    }
+    let [one, two] = ["1.parquet", "2.parquet"].map(|file| content(&folder.path().join(file)));
+    assert_eq!(one, two);
+}
+
+#[test]
+fn responses_of_other_structures_are_refused() {
+    let (folder, fits) = fitted();
+    let run = run_folder().display();
+    let motions = format!("--in {run}/motions.parquet --out other.parquet");
+    succeed(folder.path(), &format!("simulate {motions} --p 1.7 --alpha 0.2 --eta 0.92"));
+    fail(folder.path(), &format!("validate --in other.parquet {fits}"), 1, &["same structures"]);
+    let pex = format!("--pex {run}/pex.parquet --pro {run}/pro.parquet");
+    let call = format!("validate --in {run}/responses.parquet {pex} --suite csmg");
+    fail(folder.path(), &call, 2, &["--suite csgm"]);
+}
