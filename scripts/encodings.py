@@ -61,8 +61,17 @@ def main():
                     )
                     read = seconds(lambda: pq.read_table(path, use_threads=False))
                     name = codec if level is None else f"{codec} {level}"
-                    row = (str(kind), encoding.lower().replace("_", " "), name, f"{os.path.getsize(path) / 1e6:.1f}")
-                    print("| " + " | ".join((*row, f"{megabytes / write:.0f}", f"{megabytes / read:.0f}")) + " |")
+                    row = (
+                        str(kind),
+                        encoding.lower().replace("_", " "),
+                        name,
+                        f"{os.path.getsize(path) / 1e6:.1f}",
+                    )
+                    print(
+                        "| "
+                        + " | ".join((*row, f"{megabytes / write:.0f}", f"{megabytes / read:.0f}"))
+                        + " |"
+                    )
 
 
 if __name__ == "__main__":

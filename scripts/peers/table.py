@@ -30,7 +30,9 @@ def run(*command, env=None, core=None):
         command = ("taskset", "-c", str(core), *command)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     start = time.perf_counter()
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, env={**os.environ, **(env or {})})
+    done = subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, env={**os.environ, **(env or {})}
+    )
     wall = time.perf_counter() - start
     if done.returncode:
         raise SystemExit(f"{' '.join(map(str, command))}\n{done.stderr}")
@@ -58,7 +60,9 @@ def bench_seconds(target, motions, *names):
 
 def peak_memory_mb(*command):
     """The largest resident set of a command, MB."""
-    done = subprocess.run(["/usr/bin/time", "-f", "%M", *map(str, command)], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        ["/usr/bin/time", "-f", "%M", *map(str, command)], capture_output=True, text=True, check=True
+    )
     return int(done.stderr.split()[-1]) / 1e3
 
 
@@ -90,9 +94,21 @@ def in_turns(repeat, *works):
 def compare(folder, rockfrag, repeat):
     """All rows, with files in `folder`."""
     table = Comparison()
-    scenarios, motions, responses = (folder / f"{name}.parquet" for name in ("scenarios", "csgm", "responses"))
+    scenarios, motions, responses = (
+        folder / f"{name}.parquet" for name in ("scenarios", "csgm", "responses")
+    )
     run(rockfrag, "sample-scenarios", "--out", scenarios)
-    synthesize = (rockfrag, "synthesize-motions", "--in", scenarios, "--out", motions, "--suite", "csgm", "--force")
+    synthesize = (
+        rockfrag,
+        "synthesize-motions",
+        "--in",
+        scenarios,
+        "--out",
+        motions,
+        "--suite",
+        "csgm",
+        "--force",
+    )
     run(*synthesize)
     count = 3500
 
@@ -102,11 +118,24 @@ def compare(folder, rockfrag, repeat):
         repeat, lambda: run(*simulate)[0], lambda: run(*read)[0], lambda: float(run(*read)[2])
     )
     work = "simulate, 3500 csgm motions, whole command"
-    table.add(work, f"{whole:.3f} s", "pyarrow, whole process", f"{reading:.3f} s", "<= 1.5", f"{whole / reading:.2f}")
-    table.add(work, f"{whole:.3f} s", "pyarrow, the read alone", f"{first:.3f} s", "<= 1.5", f"{whole / first:.2f}")
+    table.add(
+        work,
+        f"{whole:.3f} s",
+        "pyarrow, whole process",
+        f"{reading:.3f} s",
+        "<= 1.5",
+        f"{whole / reading:.2f}",
+    )
+    table.add(
+        work, f"{whole:.3f} s", "pyarrow, the read alone", f"{first:.3f} s", "<= 1.5", f"{whole / first:.2f}"
+    )
 
     paths = ("scalar", "avx2", "avx512")
-    names = [f"solver/{path}" for path in paths] + ["structures/grid", "structures/one-by-one", "processor/multiply-adds"]
+    names = [f"solver/{path}" for path in paths] + [
+        "structures/grid",
+        "structures/one-by-one",
+        "processor/multiply-adds",
+    ]
     solver = bench_seconds("solver", motions, *names)
     ms = {path: 1e3 * solver[f"solver/{path}"] / count for path in paths if f"solver/{path}" in solver}
     fastest = list(ms)[-1]
@@ -123,7 +152,14 @@ def compare(folder, rockfrag, repeat):
     for path, asked in (("avx512", ">= 4"), ("avx2", ">= 2.5")):
         if path in ms:
             ratio = f"{ms['scalar'] / ms[path]:.1f}"
-            table.add(f"solver alone, {path}", f"{ms[path]:.4f} ms", "its scalar path", f"{ms['scalar']:.4f} ms", asked, ratio)
+            table.add(
+                f"solver alone, {path}",
+                f"{ms[path]:.4f} ms",
+                "its scalar path",
+                f"{ms['scalar']:.4f} ms",
+                asked,
+                ratio,
+            )
 
     grid, singly = solver["structures/grid"], solver["structures/one-by-one"]
     analyses = 400 * 350
@@ -141,36 +177,85 @@ def compare(folder, rockfrag, repeat):
     numpy_wall = lambda: sum(
         json.loads(
             run(
-                sys.executable, HERE / "synthesize_numpy.py", scenarios, "--out", numpy_motions, "--repeat", 1,
-                env=ONE_THREAD, core=0,
+                sys.executable,
+                HERE / "synthesize_numpy.py",
+                scenarios,
+                "--out",
+                numpy_motions,
+                "--repeat",
+                1,
+                env=ONE_THREAD,
+                core=0,
             )[2]
         )["seconds"].values()
     )
     ours, theirs = in_turns(repeat, one_core, numpy_wall)
-    table.add("synthesize-motions, 3500, one core", f"{ours:.2f} s", "numpy, written too", f"{theirs:.2f} s", ">= 12", f"{theirs / ours:.1f}")
+    table.add(
+        "synthesize-motions, 3500, one core",
+        f"{ours:.2f} s",
+        "numpy, written too",
+        f"{theirs:.2f} s",
+        ">= 12",
+        f"{theirs / ours:.1f}",
+    )
     made = bench_seconds("motions", motions, "motions/synthesis", "motions/measures", "motions/transforms")
     making, transforms = made["motions/synthesis"] + made["motions/measures"], made["motions/transforms"]
-    table.add("the same, without files", f"{making:.3f} s", "its transforms alone", f"{transforms:.3f} s", "<= 2.5", f"{making / transforms:.2f}")
+    table.add(
+        "the same, without files",
+        f"{making:.3f} s",
+        "its transforms alone",
+        f"{transforms:.3f} s",
+        "<= 2.5",
+        f"{making / transforms:.2f}",
+    )
 
     run(rockfrag, "run", ROOT / "pipeline.yaml", "--out", folder / "out")
     paper = folder / "out" / "responses.parquet"
     fits = lambda: sum(
-        run(rockfrag, stage, "--in", paper, "--out", folder / f"{stage}.parquet", "--bootstrap", REPLICATES, "--threads", 1,
-            "--force", core=0)[0]
+        run(
+            rockfrag,
+            stage,
+            "--in",
+            paper,
+            "--out",
+            folder / f"{stage}.parquet",
+            "--bootstrap",
+            REPLICATES,
+            "--threads",
+            1,
+            "--force",
+            core=0,
+        )[0]
         for stage in ("fit-pex", "fit-pro")
     )
     (ours,) = in_turns(repeat, fits)
-    theirs = peer("fits_statsmodels", paper, "--replicates", 20, "--scale-to", REPLICATES, "--out", folder / "fits.csv")
+    theirs = peer(
+        "fits_statsmodels", paper, "--replicates", 20, "--scale-to", REPLICATES, "--out", folder / "fits.csv"
+    )
     theirs = theirs["scaled_seconds"]
     theirs = sum(theirs.values()) if isinstance(theirs, dict) else theirs
-    table.add(f"all fits, {REPLICATES} replicates, one core", f"{ours:.2f} s", "statsmodels, scaled from 20", f"{theirs:.0f} s", ">= 100", f"{theirs / ours:.0f}")
+    table.add(
+        f"all fits, {REPLICATES} replicates, one core",
+        f"{ours:.2f} s",
+        "statsmodels, scaled from 20",
+        f"{theirs:.0f} s",
+        ">= 100",
+        f"{theirs / ours:.0f}",
+    )
 
     many, ten = folder / "many.parquet", folder / "ten.parquet"
     run(rockfrag, "sample-scenarios", "--out", many, "--samples", 1000)
     run(rockfrag, "synthesize-motions", "--in", many, "--out", ten, "--suite", "csgm")
     small = peak_memory_mb(*simulate)
     large = peak_memory_mb(rockfrag, "simulate", "--in", ten, "--out", responses, "--force", "--quiet")
-    table.add("simulate, peak memory, 35,000 motions", f"{large:.0f} MB", "3500 motions", f"{small:.0f} MB", "<= 1.2, 400 MB", f"{large / small:.2f}")
+    table.add(
+        "simulate, peak memory, 35,000 motions",
+        f"{large:.0f} MB",
+        "3500 motions",
+        f"{small:.0f} MB",
+        "<= 1.2, 400 MB",
+        f"{large / small:.2f}",
+    )
     return table
 
 
