@@ -25,8 +25,8 @@ use crate::table::schema::{self, RESPONSES, TRACE, Table};
 use crate::table::trace::{self as trace_table, TraceRow};
 use crate::table::writer::TableWriter;
 
-/// Parts of the file that all threads together read at once.
-const PARTS: usize = 8;
+/// Parts of the file that are read at once, for each thread.
+const PARTS_A_THREAD: usize = 4;
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy.
 const CHUNK: usize = 64;
 /// Quiet time after a traced record in which free rocking shows, s.
@@ -305,12 +305,12 @@ impl Stage for Simulate {
         let pool = Pool::new(Scratch::default);
         let bar = console.bar(self.subcommand(), total);
         pipelined(
-            batches(motions.parts(), PARTS),
+            batches(motions.parts(), PARTS_A_THREAD * rayon::current_num_threads()),
             |parts| {
                 let respond = |part: &Part| -> anyhow::Result<Vec<Responded>> {
                     let motions = motions.motions(part)?;
                     let respond = |motions| pool.lend(|scratch| self.respond(motions, by_name, scratch));
-                    let responded = motions.par_chunks(CHUNK).map(respond).collect();
+                    let responded = motions.chunks(CHUNK).map(respond).collect();
                     bar.inc(motions.len() as u64);
                     responded
                 };
