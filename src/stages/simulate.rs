@@ -265,7 +265,7 @@ impl Peaks {
         let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
         let pgv = || intensity::peak(&intensity::velocity(samples, dt_s));
         Peaks {
-            pga_m_s2: motion.pga_m_s2.unwrap_or_else(|| intensity::peak(samples)),
+            pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
             pgv_m_s: motion.pgv_m_s.unwrap_or_else(pgv),
             tm_s: motion.tm_s.or_else(|| intensity::mean_period(samples, dt_s, scratch)),
         }
