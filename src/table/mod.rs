@@ -1,7 +1,7 @@
 //! The Parquet files that the stages hand on.
 //!
 //! ```text
-//! schema       every column once: name, type, unit, words; every table as a list of columns
+//! schema       every column once: name, type, unit, words; every table as a list of columns (one file a subject)
 //! columns      the columns of one batch, by name, checked
 //! footer       the end of a file, which says what is in it
 //! reader       batches from a file; narrow tables whole, as polars frames

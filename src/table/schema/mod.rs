@@ -1,0 +1,30 @@
+//! Every column of every file, once.
+//!
+//! ```text
+//! column       name, type, unit, words
+//! table        columns in order, and the stage that writes them
+//! scenario, motion, response, pex, pro, evaluated, validation, paper
+//!              the columns of a subject and the tables that have them
+//! ```
+
+mod column;
+mod evaluated;
+mod motion;
+mod paper;
+mod pex;
+mod pro;
+mod response;
+mod scenario;
+mod table;
+mod validation;
+
+pub use column::{Column, Kind};
+pub use evaluated::*;
+pub use motion::*;
+pub use paper::*;
+pub use pex::*;
+pub use pro::*;
+pub use response::*;
+pub use scenario::*;
+pub use table::{Table, spectral_acceleration_name};
+pub use validation::*;
