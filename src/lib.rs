@@ -36,3 +36,4 @@ pub mod rocking;
 pub mod stages;
 pub mod table;
 pub mod units;
+mod wide;

@@ -14,9 +14,9 @@ use super::newton::{Along, Maximum, maximise};
 use super::profile::profile_limits;
 use super::separation::is_separated;
 
-/// What the last step may gain in log-likelihood. It then moves the coefficients by some 1e-4 of their standard errors, and
+/// What the last step may gain in log-likelihood. It then moves the coefficients by some 1e-3 of their standard errors, and
 /// Newton's convergence squares that.
-const TOLERANCE: f64 = 1e-8;
+const TOLERANCE: f64 = 1e-6;
 /// Plain Newton steps from where one step leads from the fit are fewer than this; more raise the suspicion that there is no
 /// maximum.
 const SUSPICIOUS_STEPS: usize = 6;

@@ -25,7 +25,8 @@
 //! link             how its index becomes a probability
 //! newton           the method that finds the maximum
 //! separation       whether there is a maximum at all
-//! design_matrix    the rows of a regression
+//! design_matrix    the columns of a regression
+//! derivatives      sums over its cases, in wide registers
 //! dependence       whether the predictors can be told apart
 //! spline           columns that bend a line
 //! goodness         whether a model fits
@@ -50,6 +51,7 @@ mod demand;
 mod demand_inference;
 mod demand_sample;
 mod dependence;
+mod derivatives;
 mod design_matrix;
 mod distribution;
 mod event_sample;
@@ -85,6 +87,7 @@ pub use curve_parameter::CurveParameter;
 pub use demand::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
 pub use demand_inference::{DemandInference, DemandReplicate};
 pub use demand_sample::DemandSample;
+pub use derivatives::Score;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
 pub use event_sample::EventSample;
 pub use firth::Estimator;
@@ -92,7 +95,7 @@ pub use forecast::{Forecast, Forecasts, Foretold};
 pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use index::{Probability, ProbitIndex};
 pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
-pub use link::{Information, Link, Score};
+pub use link::{Information, Link};
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
 pub use overturning::{CurveModel, OverturningFit, fit_overturning};
 pub use poisson_binomial::PoissonBinomial;
