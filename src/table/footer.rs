@@ -7,7 +7,10 @@ use std::path::Path;
 use arrow_schema::SchemaRef;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::errors::ParquetError;
-use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
+use parquet::file::metadata::{
+    ParquetMetaData, ParquetMetaDataOptions, ParquetMetaDataReader, ParquetStatisticsPolicy,
+};
+use parquet::file::reader::ChunkReader;
 use parquet::file::statistics::Statistics;
 
 use super::TableError;
@@ -78,10 +81,16 @@ fn ranges(metadata: &ParquetMetaData) -> HashMap<String, Range> {
     ranges
 }
 
-/// The footer of a Parquet file as the library gives it.
-pub(super) fn open_metadata(path: &Path) -> Result<ParquetMetaData, TableError> {
-    let file = open_file(path)?;
-    ParquetMetaDataReader::new().parse_and_finish(&file).map_err(|source| not_parquet(path, source))
+/// The footer of a Parquet file as the library gives it, without statistics: they take more room than all else, for each
+/// column of each row group.
+pub(super) fn metadata(path: &Path, file: &impl ChunkReader) -> Result<ParquetMetaData, TableError> {
+    let none = ParquetStatisticsPolicy::SkipAll;
+    let options = ParquetMetaDataOptions::new()
+        .with_column_stats_policy(none.clone())
+        .with_encoding_stats_policy(none.clone())
+        .with_size_stats_policy(none);
+    let reader = ParquetMetaDataReader::new().with_metadata_options(Some(options));
+    reader.parse_and_finish(file).map_err(|source| not_parquet(path, source))
 }
 
 pub(super) fn open_file(path: &Path) -> Result<File, TableError> {

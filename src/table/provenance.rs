@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use parquet::file::metadata::KeyValue;
+use parquet::file::metadata::{KeyValue, ParquetMetaData};
 use serde_json::Value;
 
 use super::TableError;
-use super::footer::open_metadata;
+use super::footer::{metadata, open_file};
 
 const STAGE: &str = "rockfrag.stage";
 const VERSION: &str = "rockfrag.version";
@@ -72,22 +72,23 @@ pub struct Stamp {
 /// # Errors
 /// If the file is missing or not readable as Parquet.
 pub fn stamp(path: &Path) -> Result<Option<Stamp>, TableError> {
-    let metadata = open_metadata(path)?;
+    Ok(stamp_in(&metadata(path, &open_file(path)?)?))
+}
+
+/// The stamp in a footer.
+pub(super) fn stamp_in(metadata: &ParquetMetaData) -> Option<Stamp> {
     let pairs = metadata.file_metadata().key_value_metadata().map_or(&[][..], Vec::as_slice);
     let get = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone());
-    let stamp = || {
-        Some(Stamp {
-            provenance: Provenance {
-                stage: get(STAGE)?,
-                version: get(VERSION)?,
-                parameters: serde_json::from_str(&get(PARAMETERS)?).ok()?,
-                inputs: serde_json::from_str(&get(INPUTS)?).ok()?,
-            },
-            plan: get(PLAN)?,
-            content: get(CONTENT)?,
-        })
-    };
-    Ok(stamp())
+    Some(Stamp {
+        provenance: Provenance {
+            stage: get(STAGE)?,
+            version: get(VERSION)?,
+            parameters: serde_json::from_str(&get(PARAMETERS)?).ok()?,
+            inputs: serde_json::from_str(&get(INPUTS)?).ok()?,
+        },
+        plan: get(PLAN)?,
+        content: get(CONTENT)?,
+    })
 }
 
 /// The fingerprint of what an input holds: as recorded by rockfrag, or the hash of its bytes if another program wrote

@@ -1,6 +1,7 @@
 //! Reads a table batch by batch, or a narrow one whole.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use arrow_array::RecordBatch;
 use arrow_schema::SchemaRef;
@@ -9,13 +10,14 @@ use parquet::arrow::arrow_reader::{
     ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder,
 };
 use parquet::errors::ParquetError;
+use parquet::file::metadata::ParquetMetaData;
 use parquet::schema::types::TypePtr;
 use polars::prelude::{DataFrame, IntoColumn, NamedFrom, Series};
 
 use super::TableError;
 use super::columns::{Columns, missing};
-use super::footer::{not_parquet, open_file};
-use super::provenance::stamp;
+use super::footer::{metadata, not_parquet, open_file};
+use super::provenance::stamp_in;
 use super::schema::{Column, Kind, Table};
 use super::shared_file::SharedFile;
 
@@ -54,9 +56,10 @@ impl TableFile {
     /// If the file is missing, unreadable, empty, or the output of a stage other than `stages`. A file that another
     /// program wrote has no stage and is taken by its columns.
     pub fn open(path: &Path, stages: &[&str], columns: &[Column]) -> Result<TableFile, TableError> {
-        expect_stage(path, stages)?;
         let file = SharedFile::new(open_file(path)?).map_err(|source| TableError::io(path, source))?;
-        let metadata = ArrowReaderMetadata::load(&file, ArrowReaderOptions::default())
+        let metadata = Arc::new(metadata(path, &file)?);
+        expect_stage(path, &metadata, stages)?;
+        let metadata = ArrowReaderMetadata::try_new(metadata, ArrowReaderOptions::default())
             .map_err(|source| not_parquet(path, source))?;
         if metadata.metadata().file_metadata().num_rows() <= 0 {
             return Err(TableError::Empty { path: path.to_path_buf() });
@@ -190,8 +193,8 @@ fn series(columns: &Columns, column: &Column) -> Result<Series, TableError> {
 }
 
 /// That a file which says by which stage it was made was made by one of these.
-fn expect_stage(path: &Path, stages: &[&str]) -> Result<(), TableError> {
-    match stamp(path)? {
+fn expect_stage(path: &Path, metadata: &ParquetMetaData, stages: &[&str]) -> Result<(), TableError> {
+    match stamp_in(metadata) {
         Some(stamp) if !stages.contains(&stamp.provenance.stage.as_str()) => Err(TableError::OtherStage {
             path: path.to_path_buf(),
             found: stamp.provenance.stage,
