@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::real::{Real, unrolled};
+use super::real::Real;
 
 /// The order of the Taylor series of a step.
 pub const ORDER: usize = 8;
@@ -93,18 +93,18 @@ fn visit_between(
 
 /// `b[j] = sum over i <= j of binomial(j, i) / binomial(ORDER, i) c[i]`, in place by repeated sums.
 #[inline(always)]
-pub fn bernstein<T: Real>(c: &Polynomial<T>) -> Polynomial<T> {
+pub fn bernstein(c: &Polynomial) -> Polynomial {
     const INVERSE_BINOMIAL: Polynomial =
         [1.0, 1.0 / 8.0, 1.0 / 28.0, 1.0 / 56.0, 1.0 / 70.0, 1.0 / 56.0, 1.0 / 28.0, 1.0 / 8.0, 1.0];
     let mut b = *c;
     for (b, inverse) in b.iter_mut().zip(INVERSE_BINOMIAL) {
-        *b = *b * inverse;
+        *b *= inverse;
     }
-    unrolled!(pass in [1 2 3 4 5 6 7 8] {
-        for j in (pass..ORDER + 1).rev() {
-            b[j] = b[j] + b[j - 1];
+    for pass in 1..=ORDER {
+        for j in (pass..=ORDER).rev() {
+            b[j] += b[j - 1];
         }
-    });
+    }
     b
 }
 
