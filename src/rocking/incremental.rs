@@ -8,7 +8,7 @@ use super::response::{Outcome, Response};
 use crate::keyword::keywords;
 
 /// The demand |theta|max / alpha from which a structure that survives may have a neighbour that does not.
-const NEAR_OVERTURNING: f64 = 0.5;
+const NEAR_OVERTURNING: f64 = 0.2;
 
 /// The intensities at which a structure is looked at: levels in equal ratios, and more between them where the outcome changes
 /// or may change twice.

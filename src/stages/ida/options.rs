@@ -28,7 +28,7 @@ pub struct IdaOptions {
     #[arg(long, default_value = "60")]
     pub steps: usize,
     /// How often a step is halved in search of safe windows, near overturning and where its ends overturn in different ways
-    #[arg(long, default_value = "3")]
+    #[arg(long, default_value = "4")]
     pub halvings: u32,
     /// Relative error of the intensities at which the outcome changes
     #[arg(long, default_value = "0.001")]
