@@ -65,7 +65,7 @@ fn overturns_under_sine(amplitude: f64, w: f64, eta: f64) -> Option<u32> {
         let velocity = |x: f64| grows * (x - t).exp() - decays * (t - x).exp() + forced * w * (w * x).cos();
         let time = |k: usize| t + (end - t) * k as f64 / 2000.0;
         let Some(k) = (1..=2000).find(|&k| side * rotation(time(k)) < 0.0) else {
-            (y, v, t) = (rotation(end), velocity(end), end);
+            (y, v) = (rotation(end), velocity(end));
             break;
         };
         let (mut before, mut after) = (time(k - 1), time(k));
