@@ -202,6 +202,6 @@ fn what_cannot_be_scaled_or_scanned_is_told_so() {
     fail(folder.path(), "ida --in ida.parquet --out other.parquet", 1, &missing);
     fail(folder.path(), "fit-pro --in ida.parquet", 1, &["no column"]);
     // Too large a factor is named, not simulated.
-    fail(folder.path(), "ida --from 1 --to 1e300 --steps 1", 1, &["row 0", "inf"]);
+    fail(folder.path(), "ida --from 1 --to 1e300 --steps 1", 1, &["row 0", "motion '1'", "by a lower --to"]);
     assert!(!folder.path().join("other.parquet").exists());
 }

@@ -13,6 +13,9 @@ use crate::table::schema;
 /// Scaled samples that are held at once, or those of one motion.
 const MOST_SAMPLES: usize = 1 << 20;
 
+/// Beyond any ground; the solver's steps shorten with the root of the peak.
+const LARGEST_PEAK_M_S2: f64 = 1e6;
+
 /// A structure under a motion.
 struct Case<'m, 's> {
     motion: &'m Motion,
@@ -62,16 +65,30 @@ impl Ida {
     fn unscaled(&self, motion: &Motion, peaks: &Peaks, structure: &Structure) -> Result<f64, TableError> {
         let measures =
             IntensityMeasures::new(structure, peaks.pga_m_s2, peaks.pgv_m_s, motion.tp_s, peaks.tm_s);
-        self.options.measure.0.unscaled(peaks, &measures).ok_or_else(|| TableError::Value {
-            path: self.input.clone(),
-            row: motion.row,
-            column: schema::ACCELERATION_M_S2.name.to_string(),
-            problem: format!(
-                "motion '{}' has no {} above 0 that could be scaled; leave it out, or take --measure scale",
-                motion.motion_id,
-                self.measure()
-            ),
+        self.options.measure.0.unscaled(peaks, &measures).ok_or_else(|| {
+            let (id, measure) = (&motion.motion_id, self.measure());
+            let problem = format!(
+                "motion '{id}' has no {measure} above 0 that could be scaled; leave it out, or take --measure scale"
+            );
+            self.value_error(motion, problem)
         })
+    }
+
+    /// That a scaled motion is one that the solver can go through.
+    fn expect_ground(&self, motion: &Motion, peak_m_s2: f64) -> Result<(), TableError> {
+        if peak_m_s2 <= LARGEST_PEAK_M_S2 {
+            return Ok(());
+        }
+        let problem = format!(
+            "motion '{}' is scaled to a peak of {peak_m_s2:e} m/s2; expected up to {LARGEST_PEAK_M_S2:e}, by a lower --to",
+            motion.motion_id
+        );
+        Err(self.value_error(motion, problem))
+    }
+
+    fn value_error(&self, motion: &Motion, problem: String) -> TableError {
+        let column = schema::ACCELERATION_M_S2.name.to_string();
+        TableError::Value { path: self.input.clone(), row: motion.row, column, problem }
     }
 
     /// The responses to scaled copies of the samples, as many at once as fit.
@@ -83,7 +100,9 @@ impl Ida {
             let scaled: Vec<Vec<f64>> = block.iter().map(|look| cases[look.case].scaled(look)).collect();
             let problems = block.iter().zip(&scaled).map(|(look, samples)| {
                 let Case { structure, motion, .. } = &cases[look.case];
-                Ok(Problem { structure, record: record(&self.input, motion, samples)? })
+                let record = record(&self.input, motion, samples)?;
+                self.expect_ground(motion, record.peak_m_s2())?;
+                Ok(Problem { structure, record })
             });
             let problems = problems.collect::<Result<Vec<Problem>, TableError>>()?;
             responses.extend(simulate_all(&problems, self.path));
