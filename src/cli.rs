@@ -16,6 +16,7 @@ use crate::stages::evaluate::{EvaluateOptions, evaluate};
 use crate::stages::export::{ExportOptions, export};
 use crate::stages::fit_pex::{FitPex, FitPexOptions};
 use crate::stages::fit_pro::{FitPro, FitProOptions};
+use crate::stages::ida::{Ida, IdaOptions};
 use crate::stages::import_motions::{ImportMotions, ImportMotionsOptions};
 use crate::stages::inspect::inspect;
 use crate::stages::run::{Files, dry_run, run, stages};
@@ -24,7 +25,7 @@ use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
 use crate::stages::simulate::{Simulate, SimulateOptions};
 use crate::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 use crate::stages::validate::{Validate, ValidateOptions};
-use crate::table::{paper, validation};
+use crate::table::{ida, paper, validation};
 
 /// Dimensionless fragility curves for rocking structures in near-fault earthquakes
 #[derive(Debug, Parser)]
@@ -100,6 +101,19 @@ enum Command {
         out: Option<PathBuf>,
         #[command(flatten)]
         options: SimulateOptions,
+    },
+    /// Incremental dynamic analysis: at which intensities of each motion each structure overturns, and which larger ones it
+    /// survives
+    Ida {
+        /// Motions to read, as simulate does
+        #[arg(long = "in", value_name = "FILE", default_value = "motions.parquet")]
+        input: PathBuf,
+        /// File of overturning intensities to write; NAME.stripes, NAME.windows, NAME.shares and NAME.fragility stand beside it
+        /// [default: ida.parquet beside the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: IdaOptions,
     },
     /// Fit the demand in safe rocking: P_ex
     FitPex {
@@ -227,11 +241,20 @@ impl Call<'_> {
             Command::Simulate { input, out, .. } => {
                 let mut options: SimulateOptions = resolve(self.flags, self.config.simulate.as_ref())?;
                 // One structure in flags wins over those of the file.
-                if ["p", "alpha", "eta"].iter().any(|flag| self.given(flag)) {
+                if self.one_structure_is_given() {
                     options.structures = None;
                 }
                 let out = out.unwrap_or_else(|| beside(&input, "responses.parquet"));
                 self.stage(&Simulate::new(&options, input, out)?)
+            }
+            Command::Ida { input, out, .. } => {
+                let mut options: IdaOptions = resolve(self.flags, self.config.ida.as_ref())?;
+                if self.one_structure_is_given() {
+                    options.structures = None;
+                }
+                let out = out.unwrap_or_else(|| beside(&input, "ida.parquet"));
+                self.stage(&Ida::new(&options, input, out.clone())?)?;
+                print(&ida::show(&Ida::fragility_path(&out))?)
             }
             Command::FitPex { input, out, .. } => {
                 let mut options: FitPexOptions = resolve(self.flags, self.config.fit_pex.as_ref())?;
@@ -292,8 +315,9 @@ impl Call<'_> {
         cache::run(stage, self.force, &self.console)
     }
 
-    fn given(&self, flag: &str) -> bool {
-        self.flags.value_source(flag) == Some(ValueSource::CommandLine)
+    fn one_structure_is_given(&self) -> bool {
+        let given = |flag: &&str| self.flags.value_source(flag) == Some(ValueSource::CommandLine);
+        ["p", "alpha", "eta"].iter().any(given)
     }
 }
 

@@ -14,6 +14,7 @@
 //! predictor        a fit as a linear function of ln IM, with the range of its data
 //! model            the fits joined: all probabilities at an intensity
 //! slice            the same along one peak, PGA or PGV, at a fixed p PGV / PGA
+//! capacity         the lognormal distribution of capacities of an incremental dynamic analysis
 //! bent_curve       curves with a spline or an interaction more
 //! skill            how well probabilities tell the outcomes apart
 //! forecast         what the curves foretell of cases that were not fitted
@@ -43,6 +44,7 @@
 mod bent_curve;
 mod binary;
 mod bootstrap;
+mod capacity;
 mod case;
 mod curve;
 mod curve_inference;
@@ -80,6 +82,7 @@ mod validation;
 pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use binary::{BinaryError, BinaryFit, binary_regression};
 pub use bootstrap::{Strata, bootstrap};
+pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Measure};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use curve_inference::CurveInference;

@@ -142,10 +142,23 @@ impl FragilityModel {
     /// The measures that lie outside of the range of the data, of P_ex and of P_ro; none without rocking, which needs no
     /// data. IM4 has no lower end: whatever rocks is at or above uplift, and so are the data.
     pub fn out_of_range(&self, measures: &IntensityMeasures) -> impl Iterator<Item = OutOfRange> {
-        let rocks = p_no_rocking(measures.im4) == 0.0;
-        let demand = self.demand.law(measures).ln_median.out_of_range(measures);
-        let out = demand.chain(self.overturning.out_of_range(measures));
-        out.filter(move |out| rocks && (out.measure != Measure::Im4 || out.value > out.range[1]))
+        self.demand_out_of_range(measures).chain(self.overturning_out_of_range(measures))
+    }
+
+    /// Those of P_ex.
+    pub(super) fn demand_out_of_range(
+        &self,
+        measures: &IntensityMeasures,
+    ) -> impl Iterator<Item = OutOfRange> {
+        out_of_range(&self.demand.law(measures).ln_median, measures)
+    }
+
+    /// Those of P_ro.
+    pub(super) fn overturning_out_of_range(
+        &self,
+        measures: &IntensityMeasures,
+    ) -> impl Iterator<Item = OutOfRange> {
+        out_of_range(&self.overturning, measures)
     }
 
     /// Where P_ex jumps from one law to the other.
@@ -155,4 +168,10 @@ impl FragilityModel {
             DemandModel::Biplanar { transition, .. } => Some(transition),
         }
     }
+}
+
+fn out_of_range(fit: &Predictor, measures: &IntensityMeasures) -> impl Iterator<Item = OutOfRange> {
+    let rocks = p_no_rocking(measures.im4) == 0.0;
+    let out = fit.out_of_range(measures);
+    out.filter(move |out| rocks && (out.measure != Measure::Im4 || out.value > out.range[1]))
 }

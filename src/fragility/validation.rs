@@ -11,7 +11,7 @@ use super::skill::{auc, brier_score, expected_log_score, log_score};
 pub struct Validation {
     /// How many.
     pub n: usize,
-    /// Those in which a measure lies outside of the range of the data of the fits.
+    /// Those in which a measure lies outside of the range of the data of the fit.
     pub extrapolated: usize,
     /// Events seen.
     pub seen: usize,
@@ -27,8 +27,10 @@ pub struct Validation {
     pub share: f64,
     /// Its limits (Wilson).
     pub share_limits: Limits,
-    /// Mean logarithm of the probability of what happened.
-    pub log_score: f64,
+    /// Those in which happened what has a probability of exactly 0 in double precision.
+    pub impossible: usize,
+    /// Mean logarithm of the probability of what happened; none, that is minus infinity, if there are impossible cases.
+    pub log_score: Option<f64>,
     /// What this would be in the mean if the probabilities are right.
     pub log_score_expected: f64,
     /// Brier score.
@@ -64,7 +66,8 @@ impl Validation {
             chance_p: count.two_sided_p(seen),
             share: seen as f64 / n as f64,
             share_limits: wilson_limits(seen, n),
-            log_score: log_score(&probabilities, &happened),
+            impossible: forecasts.iter().filter(|forecast| forecast.is_impossible()).count(),
+            log_score: Some(log_score(&probabilities, &happened)).filter(|score| score.is_finite()),
             log_score_expected: expected_log_score(&probabilities),
             brier: brier_score(&probabilities, &happened),
             auc: is_mixed.then(|| auc(&probabilities, &happened)),

@@ -7,6 +7,7 @@ use serde::Deserialize;
 use super::compare_paper::ComparePaperOptions;
 use super::fit_pex::FitPexOptions;
 use super::fit_pro::FitProOptions;
+use super::ida::IdaOptions;
 use super::import_motions::ImportMotionsOptions;
 use super::sample_scenarios::SampleScenariosOptions;
 use super::simulate::SimulateOptions;
@@ -30,6 +31,8 @@ pub struct Config {
     pub import_motions: Option<ImportMotionsOptions>,
     /// Options of simulate.
     pub simulate: Option<SimulateOptions>,
+    /// Options of ida.
+    pub ida: Option<IdaOptions>,
     /// Options of fit-pex.
     pub fit_pex: Option<FitPexOptions>,
     /// Options of fit-pro.
@@ -57,6 +60,9 @@ impl Config {
         }
         if let Some(simulate) = &mut config.simulate {
             simulate.resolve_paths(folder);
+        }
+        if let Some(ida) = &mut config.ida {
+            ida.resolve_paths(folder);
         }
         Ok(config)
     }

@@ -9,8 +9,8 @@ use polars::prelude::{Column, DataFrame};
 use crate::fragility::Case;
 use crate::keyword;
 use crate::motion::IntensityMeasures;
-use crate::table::reader::read_frame;
-use crate::table::schema::{self, RESPONSES};
+use crate::table::reader::read_frame_of;
+use crate::table::schema::{self, IDA_STRIPES, RESPONSES};
 
 /// All responses of one structure to one suite.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,12 +27,12 @@ pub struct Group {
     pub cells: Vec<usize>,
 }
 
-/// The groups of a responses file, in the order in which they first appear.
+/// The groups of a responses file, or of the stripes of ida, in the order in which they first appear.
 ///
 /// # Errors
 /// If the file is none of responses or holds an unknown outcome.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Group>> {
-    let responses = read_frame(path, &RESPONSES)?;
+    let responses = read_frame_of(path, &RESPONSES, &[RESPONSES.stage, IDA_STRIPES.stage])?;
     let groups = responses.partition_by_stable([schema::SUITE.name, schema::STRUCTURE.name], true)?;
     groups.iter().map(|group| of(group).with_context(|| path.display().to_string())).collect()
 }

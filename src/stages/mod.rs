@@ -3,6 +3,7 @@
 //! ```text
 //! config             pipeline.yaml, the options of all
 //! structures         structures as a user names them; structure_options one of them on the command line
+//! motions            records and peaks of motions, under distinct names
 //! measures           which intensity measures are taken
 //! groups             the responses of a suite and structure; pex_group and pro_group their fits
 //! uncertainty        the limits that both are asked for
@@ -18,9 +19,11 @@ pub mod fit_pex;
 pub mod fit_pro;
 pub mod fits;
 pub mod groups;
+pub mod ida;
 pub mod import_motions;
 pub mod inspect;
 pub mod measures;
+pub mod motions;
 pub mod pex_group;
 pub mod pro_group;
 pub mod run;

@@ -7,6 +7,7 @@ use super::compare_paper::ComparePaper;
 use super::config::Config;
 use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
+use super::ida::Ida;
 use super::import_motions::ImportMotions;
 use super::sample_scenarios::SampleScenarios;
 use super::simulate::Simulate;
@@ -25,6 +26,8 @@ pub struct Files {
     pub motions: PathBuf,
     /// Of simulate.
     pub responses: PathBuf,
+    /// Of ida.
+    pub ida: PathBuf,
     /// Of fit-pex.
     pub pex: PathBuf,
     /// Of fit-pro.
@@ -41,6 +44,7 @@ impl Files {
             scenarios: file("scenarios.parquet"),
             motions: file("motions.parquet"),
             responses: file("responses.parquet"),
+            ida: file("ida.parquet"),
             pex: file("pex.parquet"),
             pro: file("pro.parquet"),
             paper: file("paper.parquet"),
@@ -71,6 +75,9 @@ pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stag
     }
     if let Some(options) = &config.simulate {
         stages.push(Box::new(Simulate::new(options, files.motions.clone(), files.responses.clone())?));
+    }
+    if let Some(options) = &config.ida {
+        stages.push(Box::new(Ida::new(options, files.motions.clone(), files.ida.clone())?));
     }
     if let Some(options) = &config.fit_pex {
         stages.push(Box::new(FitPex::new(options, files.responses.clone(), files.pex.clone())?));

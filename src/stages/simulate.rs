@@ -10,18 +10,19 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::structures::{StructureSpec, Structures};
-use crate::motion::{IntensityMeasures, IntensityScratch, intensity};
+use super::motions::{Peaks, SeenIds, record};
+use super::structures::{StructureSpec, Structures, parameters};
+use crate::motion::{IntensityMeasures, IntensityScratch};
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Several, Word, check, defaults};
 use crate::pipeline::stage::{Stage, with_part};
 use crate::pipeline::stream::{Pool, batches, pipelined};
-use crate::rocking::{Path as SolverPath, Problem, Record, RecordError, Structure, simulate_all, trace};
+use crate::rocking::{Path as SolverPath, Problem, Record, Structure, simulate_all, trace};
 use crate::table::TableError;
-use crate::table::motions::{Motion, MotionFile, MotionId, Part, schema_by_name};
+use crate::table::motions::{Motion, MotionFile, MotionId, Part, schema_of};
 use crate::table::provenance::Provenance;
 use crate::table::responses::{self, ResponseRow};
-use crate::table::schema::{self, RESPONSES, TRACE, Table};
+use crate::table::schema::{RESPONSES, TRACE, Table};
 use crate::table::trace::{self as trace_table, TraceRow};
 use crate::table::writer::TableWriter;
 
@@ -67,18 +68,18 @@ impl Default for SimulateOptions {
 impl SimulateOptions {
     /// Makes the path of a structures file relative to `folder`, that of the pipeline file.
     pub fn resolve_paths(&mut self, folder: &Path) {
-        if let Some(Structures::File(path)) = &mut self.structures {
-            *path = folder.join(&*path);
+        if let Some(structures) = &mut self.structures {
+            structures.resolve_path(folder);
         }
     }
 
-    fn path(&self) -> anyhow::Result<SolverPath> {
+    pub(super) fn path(&self) -> anyhow::Result<SolverPath> {
         let Some(Word(path)) = self.path else { return Ok(SolverPath::fastest()) };
         check(path.is_available(), "path", Word(path), "one that this processor has")?;
         Ok(path)
     }
 
-    fn structures(&self) -> anyhow::Result<Vec<Structure>> {
+    pub(super) fn structures(&self) -> anyhow::Result<Vec<Structure>> {
         match &self.structures {
             Some(structures) => structures.resolve(),
             None => {
@@ -163,19 +164,10 @@ impl Simulate {
         }
         let starts = std::iter::once(0).chain(ends.iter().copied());
         let ranges = starts.zip(ends.iter().copied());
-        ranges.zip(motions).map(|((start, end), motion)| self.record(motion, &samples[start..end])).collect()
-    }
-
-    fn record<'a>(&self, motion: &Motion, samples: &'a [f64]) -> Result<Record<'a>, TableError> {
-        Record::new(samples, motion.dt_s).map_err(|problem| TableError::Value {
-            path: self.input.clone(),
-            row: motion.row,
-            column: match problem {
-                RecordError::TimeStep(_) => schema::DT_S.name.to_string(),
-                _ => schema::ACCELERATION_M_S2.name.to_string(),
-            },
-            problem: problem.to_string(),
-        })
+        ranges
+            .zip(motions)
+            .map(|((start, end), motion)| record(&self.input, motion, &samples[start..end]))
+            .collect()
     }
 
     fn trace(&self, motion_id: &MotionId, record: &Record) -> Vec<TraceRow> {
@@ -207,8 +199,7 @@ impl Simulate {
         by_name: bool,
         provenance: &Provenance,
     ) -> Result<TableWriter, TableError> {
-        let schema = if by_name { schema_by_name(table) } else { table.schema() };
-        TableWriter::with_schema(path, table, schema, provenance.clone())
+        TableWriter::with_schema(path, table, schema_of(table, by_name), provenance.clone())
     }
 
     fn expect_traced(&self, traces: &[TraceRow]) -> anyhow::Result<()> {
@@ -218,23 +209,6 @@ impl Simulate {
                 bail!("{}: no motion '{id}' to trace; expected one of its motion_id", self.input.display())
             }
             None => Ok(()),
-        }
-    }
-}
-
-/// The motions so far; numbers take little room, as there may be millions.
-#[derive(Default)]
-struct SeenIds {
-    numbers: HashSet<i64>,
-    names: HashSet<String>,
-}
-
-impl SeenIds {
-    /// Whether this one is new.
-    fn insert(&mut self, id: &MotionId) -> bool {
-        match id {
-            MotionId::Number(number) => self.numbers.insert(*number),
-            MotionId::Name(name) => self.names.insert(name.clone()),
         }
     }
 }
@@ -251,25 +225,6 @@ struct Responded {
 struct Scratch {
     samples: Vec<f64>,
     intensity: IntensityScratch,
-}
-
-/// Measures of the file, or of the record where the file has none.
-struct Peaks {
-    pga_m_s2: f64,
-    pgv_m_s: f64,
-    tm_s: Option<f64>,
-}
-
-impl Peaks {
-    fn of(motion: &Motion, record: &Record, scratch: &mut IntensityScratch) -> Peaks {
-        let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
-        let pgv = || intensity::peak(&intensity::velocity(samples, dt_s));
-        Peaks {
-            pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
-            pgv_m_s: motion.pgv_m_s.unwrap_or_else(pgv),
-            tm_s: motion.tm_s.or_else(|| intensity::mean_period(samples, dt_s, scratch)),
-        }
-    }
 }
 
 impl Stage for Simulate {
@@ -290,10 +245,7 @@ impl Stage for Simulate {
     }
 
     fn parameters(&self) -> Value {
-        let structure =
-            |s: &Structure| json!({ "name": s.name, "p": s.p_rad_s, "alpha": s.alpha_rad, "eta": s.eta });
-        let structures: Vec<Value> = self.structures.iter().map(structure).collect();
-        json!({ "structures": structures, "trace": self.traced, "path": self.path.arithmetic() })
+        json!({ "structures": parameters(&self.structures), "trace": self.traced, "path": self.path.arithmetic() })
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
@@ -320,10 +272,7 @@ impl Stage for Simulate {
             },
             |responded| {
                 for Responded { motion_ids, rows, traces: traced } in responded {
-                    if let Some(id) = motion_ids.iter().find(|id| !seen.insert(id)) {
-                        let file = self.input.display();
-                        bail!("{file}: two motions are called '{id}'; expected distinct motion_id");
-                    }
+                    seen.note(&self.input, &motion_ids)?;
                     traces.extend(traced);
                     writer.append(&rows)?;
                 }

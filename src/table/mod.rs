@@ -16,6 +16,7 @@
 //! intensities  any table with PGA and PGV, as evaluate takes it
 //! hazard       hazard curves and joint hazards, in CSV files
 //! evaluated    probabilities and annual rates: what evaluate answers
+//! ida          the same motions at rising intensity
 //! validation   forecasts beside what happened
 //! text         any table as aligned text, CSV or JSON
 //! ```
@@ -26,6 +27,7 @@ pub mod fingerprint;
 pub mod fits;
 pub mod footer;
 pub mod hazard;
+pub mod ida;
 pub mod intensities;
 mod measures;
 pub mod motions;

@@ -273,8 +273,12 @@ fn motions_of(columns: &Columns, first_row: u64) -> Result<Vec<Motion>, TableErr
     Ok(ids.into_iter().zip(samples).enumerate().map(motion).collect())
 }
 
-/// The schema of a table in which motions go by name.
-pub fn schema_by_name(table: &schema::Table) -> SchemaRef {
+/// The schema of a table in which motions go by name or by number.
+pub fn schema_of(table: &schema::Table, by_name: bool) -> SchemaRef {
+    if by_name { schema_by_name(table) } else { table.schema() }
+}
+
+fn schema_by_name(table: &schema::Table) -> SchemaRef {
     let fields = table
         .schema()
         .fields()

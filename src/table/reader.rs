@@ -159,7 +159,15 @@ impl Iterator for Batches {
 /// # Errors
 /// As [`Batches::open`], or if a column is missing, of another type, or holds a value that it must not.
 pub fn read_frame(path: &Path, table: &Table) -> Result<DataFrame, TableError> {
-    let batches = Batches::open(path, &[table.stage], table.columns, NARROW_BATCH)?;
+    read_frame_of(path, table, &[table.stage])
+}
+
+/// A narrow table whole, as [`read_frame`], where other stages may have made it too.
+///
+/// # Errors
+/// As there.
+pub fn read_frame_of(path: &Path, table: &Table, stages: &[&str]) -> Result<DataFrame, TableError> {
+    let batches = Batches::open(path, stages, table.columns, NARROW_BATCH)?;
     let mut whole = DataFrame::empty();
     for batch in batches {
         let Batch { rows, first_row } = batch?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, Int32Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 
-use super::motions::{MotionId, id_column, schema_by_name};
+use super::motions::{MotionId, id_column, schema_of};
 use super::schema::RESPONSES;
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -49,7 +49,6 @@ pub fn batch(rows: &[ResponseRow], by_name: bool) -> Result<RecordBatch, ArrowEr
     let optional = |value: fn(&ResponseRow) -> Option<f64>| -> ArrayRef {
         Arc::new(Float64Array::from_iter(rows.iter().map(value)))
     };
-    let schema = if by_name { schema_by_name(&RESPONSES) } else { RESPONSES.schema() };
     let columns: Vec<ArrayRef> = vec![
         id_column(rows.iter().map(|row| row.motion_id), by_name),
         Arc::new(rows.iter().map(|row| row.suite).collect::<StringArray>()),
@@ -73,5 +72,5 @@ pub fn batch(rows: &[ResponseRow], by_name: bool) -> Result<RecordBatch, ArrowEr
         number(|row| row.measures.im5),
         optional(|row| row.measures.im6),
     ];
-    RecordBatch::try_new(schema, columns)
+    RecordBatch::try_new(schema_of(&RESPONSES, by_name), columns)
 }

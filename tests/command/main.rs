@@ -4,6 +4,7 @@ mod bad_input;
 mod common;
 mod evaluate;
 mod export;
+mod ida;
 mod import;
 mod kill;
 mod pipeline;

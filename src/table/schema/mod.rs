@@ -3,12 +3,13 @@
 //! ```text
 //! column       name, type, unit, words
 //! table        columns in order, and the stage that writes them
-//! scenario, motion, response, pex, pro, evaluated, validation, paper
+//! scenario, motion, response, pex, pro, evaluated, validation, ida, paper
 //!              the columns of a subject and the tables that have them
 //! ```
 
 mod column;
 mod evaluated;
+mod ida;
 mod motion;
 mod paper;
 mod pex;
@@ -20,6 +21,7 @@ mod validation;
 
 pub use column::{Column, Kind};
 pub use evaluated::*;
+pub use ida::*;
 pub use motion::*;
 pub use paper::*;
 pub use pex::*;
