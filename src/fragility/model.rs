@@ -21,7 +21,7 @@ pub struct DemandLaw {
 impl DemandLaw {
     /// The index of P_ex (Eq. 14), with the uncertainty of the median and, by the large-sample variance beta^2/(2 degrees),
     /// of the dispersion; none where a measure is missing.
-    fn exceeding(&self, measures: &IntensityMeasures, limit: f64) -> Option<ProbitIndex> {
+    pub(super) fn exceeding(&self, measures: &IntensityMeasures, limit: f64) -> Option<ProbitIndex> {
         let ln_median = self.ln_median.at(measures)?;
         let value = exceeding_index(ln_median.value, limit, self.beta);
         let variance = ln_median.variance / (self.beta * self.beta) + value * value / (2.0 * self.degrees);
@@ -61,6 +61,12 @@ impl DemandModel {
             DemandModel::Biplanar { high, .. } => high,
         }
     }
+}
+
+/// Whether a measure outside of the range lies where there are no data. IM4 has no lower end: whatever rocks is at or above
+/// uplift, and so are the data.
+pub(super) fn has_no_data(out: &OutOfRange) -> bool {
+    out.measure != Measure::Im4 || out.value > out.range[1]
 }
 
 /// All that is fitted to one structure and suite.
@@ -140,12 +146,12 @@ impl FragilityModel {
     }
 
     /// The measures that lie outside of the range of the data, of P_ex and of P_ro; none without rocking, which needs no
-    /// data. IM4 has no lower end: whatever rocks is at or above uplift, and so are the data.
+    /// data.
     pub fn out_of_range(&self, measures: &IntensityMeasures) -> impl Iterator<Item = OutOfRange> {
         let rocks = p_no_rocking(measures.im4) == 0.0;
         let demand = self.demand.law(measures).ln_median.out_of_range(measures);
         let out = demand.chain(self.overturning.out_of_range(measures));
-        out.filter(move |out| rocks && (out.measure != Measure::Im4 || out.value > out.range[1]))
+        out.filter(move |out| rocks && has_no_data(out))
     }
 
     /// Where P_ex jumps from one law to the other.

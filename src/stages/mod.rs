@@ -31,4 +31,5 @@ pub mod structure_options;
 pub mod structures;
 pub mod synthesize_motions;
 pub mod uncertainty;
+pub mod universality;
 pub mod validate;

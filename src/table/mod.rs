@@ -17,6 +17,7 @@
 //! hazard       hazard curves and joint hazards, in CSV files
 //! evaluated    probabilities and annual rates: what evaluate answers
 //! validation   forecasts beside what happened
+//! universality the curve of one structure on others, and curves of all
 //! text         any table as aligned text, CSV or JSON
 //! ```
 
@@ -43,6 +44,7 @@ pub mod schema;
 mod shared_file;
 pub mod text;
 pub mod trace;
+pub mod universality;
 pub mod validation;
 pub mod writer;
 
