@@ -15,6 +15,7 @@
 //! model            the fits joined: all probabilities at an intensity
 //! slice            the same along one peak, PGA or PGV, at a fixed p PGV / PGA
 //! bent_curve       curves with a spline or an interaction more
+//! resampled        their limits from the fits of resampled cases
 //! skill            how well probabilities tell the outcomes apart
 //! forecast         what the curves foretell of cases that were not fitted
 //! validation       such forecasts against what happened
@@ -73,6 +74,7 @@ mod pooled;
 mod predictor;
 mod profile;
 mod regression;
+mod resampled;
 mod separation;
 mod skill;
 mod slice;
@@ -103,11 +105,12 @@ pub use index::{Probability, ProbitIndex};
 pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
 pub use link::{Information, Link, Score};
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
-pub use overturning::{CurveModel, OverturningFit, fit_overturning};
+pub use overturning::{CurveModel, OverturningFit, fit_overturning, has_few_events};
 pub use poisson_binomial::PoissonBinomial;
 pub use pooled::{PooledFit, PooledPart, PooledStructure, PooledTerm, PooledTerms, fit_pooled};
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
+pub use resampled::{ReplicateLimits, ResampledModel};
 pub use separation::is_separated;
 pub use skill::{auc, brier_score, expected_log_score, log_score};
 pub use slice::{Lognormal, Peak, Slice};

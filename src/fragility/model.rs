@@ -1,11 +1,12 @@
 //! The fragility of a structure: P_nr, P_ex and P_ro joined in the tree of Eq. 12.
 
 use super::case::Measure;
-use super::curve::{exceeding_index, p_no_rocking};
+use super::curve::{exceeding_index, p_exceeding, p_failure_given_rocking, p_no_rocking};
 use super::index::{Probability, ProbitIndex};
 use super::predictor::{OutOfRange, Predictor};
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
+use crate::normal;
 
 /// The demand in safe rocking: ln EDP on the measures, and its dispersion (Eqs. 15 and 17).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,6 +133,14 @@ impl FragilityModel {
     pub fn probabilities(&self, measures: &IntensityMeasures) -> Probabilities {
         let p_nr = p_no_rocking(measures.im4);
         Probabilities { p_nr, given_rocking: if p_nr == 0.0 { self.given_rocking(measures) } else { None } }
+    }
+
+    /// P_ex, P_ro and the probability of failure (Eq. 12) given rocking, without limits; none where a measure is missing.
+    pub(super) fn given(&self, measures: &IntensityMeasures) -> Option<[f64; 3]> {
+        let law = self.demand.law(measures);
+        let p_ex = p_exceeding(law.ln_median.at(measures)?.value, self.limit, law.beta);
+        let p_ro = normal::cdf(self.overturning.at(measures)?.value);
+        Some([p_ex, p_ro, p_failure_given_rocking(p_ro, p_ex)])
     }
 
     fn given_rocking(&self, measures: &IntensityMeasures) -> Option<GivenRocking> {
