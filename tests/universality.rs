@@ -98,7 +98,7 @@ fn a_structure_that_fails_earlier_is_underestimated_by_the_shift() {
     let (cases, cells) = cases_and_cells();
     let weaker = |case: &Case| {
         let mut case = *case;
-        case.measures.im4 /= 1.5;
+        case.measures.im4 /= 3.0;
         case
     };
     let others: Vec<Case> = cases.iter().map(weaker).collect();
@@ -106,7 +106,7 @@ fn a_structure_that_fails_earlier_is_underestimated_by_the_shift() {
     let transfer = Transfer::new(&subject, &cases, &others, &cells).unwrap().unwrap();
     let own = transfer.own.as_ref().unwrap();
     let Ok(Curve::Overturning(curve)) = subject.fit(&cases) else { panic!("no curve") };
-    let shift = curve.coefficients[1] * 1.5f64.ln();
+    let shift = curve.coefficients[1] * 3f64.ln();
     let error = |case: &Case| {
         let index = curve.at(&case.measures).unwrap().value;
         normal::cdf(index) - normal::cdf(index - shift)

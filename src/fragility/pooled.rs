@@ -78,6 +78,9 @@ pub struct PooledFit {
     pub log_scores: Vec<Option<f64>>,
 }
 
+/// What a structure brings besides its measures, and its name.
+type Covariate = (&'static str, fn(&PooledStructure) -> f64);
+
 impl PooledTerms {
     fn names(self, measures: &[Measure]) -> Vec<String> {
         let ln = |measure: &Measure| format!("ln {}", measure.as_str());
@@ -91,7 +94,7 @@ impl PooledTerms {
         names
     }
 
-    fn covariates(self) -> &'static [(&'static str, fn(&PooledStructure) -> f64)] {
+    fn covariates(self) -> &'static [Covariate] {
         match self {
             PooledTerms::Line | PooledTerms::Curved => &[],
             PooledTerms::Restitution => &[("eta", |of| of.eta)],

@@ -69,6 +69,14 @@ struct SuiteOfGroups<'a> {
     reference: usize,
 }
 
+/// One event under one suite.
+struct Judgement {
+    rows: Vec<UniversalityRow>,
+    coefficients: Vec<PooledRow>,
+    /// Why there is no pooled curve, and which.
+    missing: Vec<(String, String)>,
+}
+
 impl Universality {
     /// Of the responses in `input`, into the file `out`.
     ///
@@ -130,12 +138,8 @@ impl Universality {
         names.into_iter().map(of).collect()
     }
 
-    /// One event under one suite.
-    fn judge(
-        &self,
-        suite: &SuiteOfGroups,
-        branch: Branch,
-    ) -> anyhow::Result<(Vec<UniversalityRow>, Vec<PooledRow>, Vec<(String, String)>)> {
+    /// Holds all structures against the reference.
+    fn judge(&self, suite: &SuiteOfGroups, branch: Branch) -> anyhow::Result<Judgement> {
         let (subject, reference) = (self.subject(branch), suite.groups[suite.reference]);
         let cells = cells(reference);
         let pooled = pooled(&subject, suite);
@@ -181,7 +185,7 @@ impl Universality {
                 )),
             }
         }
-        Ok((rows.into_iter().flatten().collect(), coefficients, missing))
+        Ok(Judgement { rows: rows.into_iter().flatten().collect(), coefficients, missing })
     }
 }
 
@@ -235,7 +239,7 @@ impl Stage for Universality {
         for suite in &suites {
             structures = structures.max(suite.groups.len());
             for &branch in Branch::ALL {
-                let (rows, coefficients, missing) = self.judge(suite, branch)?;
+                let Judgement { rows, coefficients, missing } = self.judge(suite, branch)?;
                 console.warn_each(missing.into_iter());
                 writer.append(&universality::batch(&rows)?)?;
                 pooled_writer.append(&universality::pooled_batch(&coefficients)?)?;
