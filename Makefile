@@ -2,6 +2,7 @@
 #     make                 the comparison with the paper
 #     make out/pex.parquet one file and what it needs
 #     make spread          the spread over seeds that is shipped in data/
+#     make universality    how the curves of one structure do on others, shipped in data/ too
 # `rockfrag run` does the same from pipeline.yaml alone. A stage that finds its file up to date leaves it as it is;
 # touching it tells make so.
 
@@ -9,7 +10,7 @@ ROCKFRAG ?= target/release/rockfrag
 CALL := $(ROCKFRAG) --config pipeline.yaml
 OUT := out
 
-.PHONY: all spread picture check-exports test clean
+.PHONY: all spread universality picture check-exports test clean
 
 all: $(OUT)/paper.parquet
 
@@ -37,6 +38,10 @@ $(OUT)/paper.parquet: $(OUT)/pex.parquet $(OUT)/pro.parquet $(OUT)/responses.par
 
 spread: | $(ROCKFRAG)
 	$(ROCKFRAG) seed-spread pipeline.yaml --seeds 20 --out data/seed_spread.csv
+
+universality: | $(ROCKFRAG)
+	$(ROCKFRAG) run data/universality.yaml --out $(OUT)/universality
+	python3 scripts/universality_summary.py $(OUT)/universality/universality.parquet data/universality.csv
 
 picture: $(OUT)/pro.parquet
 	python3 scripts/readme_picture.py $(OUT) docs/fragility.png

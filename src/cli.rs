@@ -24,6 +24,7 @@ use crate::stages::sample_scenarios::{SampleScenarios, SampleScenariosOptions};
 use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
 use crate::stages::simulate::{Simulate, SimulateOptions};
 use crate::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
+use crate::stages::universality::{self, Universality, UniversalityOptions};
 use crate::stages::validate::{Validate, ValidateOptions};
 use crate::table::{ida, paper, validation};
 
@@ -158,6 +159,17 @@ enum Command {
     Evaluate(Box<EvaluateOptions>),
     /// Hold fits against responses they were not made from, such as those to records: counts seen and expected, scores
     Validate(Box<ValidateOptions>),
+    /// How universal the curves of one structure are: held against the responses of all others to the same motions
+    Universality {
+        /// Responses of all structures to read
+        #[arg(long = "in", value_name = "FILE", default_value = "responses.parquet")]
+        input: PathBuf,
+        /// File to write [default: universality.parquet beside the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: UniversalityOptions,
+    },
     /// Write the fragility of a structure for OpenQuake or pelicun
     Export(Box<ExportOptions>),
     /// Run all stages of a pipeline file, skipping what is up to date
@@ -281,6 +293,12 @@ impl Call<'_> {
                 self.stage(&Validate::new(&options, out.clone())?)?;
                 print(&validation::show(&out)?)
             }
+            Command::Universality { input, out, .. } => {
+                let options = resolve(self.flags, self.config.universality.as_ref())?;
+                let out = out.unwrap_or_else(|| beside(&input, "universality.parquet"));
+                self.stage(&Universality::new(&options, input, out.clone())?)?;
+                print(&universality::show(&out)?)
+            }
             Command::Export(options) => export(&options, &self.console),
             Command::Run { pipeline, out, seed, dry_run } => self.run(&pipeline, out, seed, dry_run),
             Command::SeedSpread { pipeline, options } => {
@@ -308,7 +326,10 @@ impl Call<'_> {
             return print(&dry_run(&stages, self.force)?);
         }
         run(&stages, self.force, &self.console)?;
-        if config.compare_paper.is_some() { print(&paper::show(&files.paper)?) } else { Ok(()) }
+        if config.compare_paper.is_some() {
+            print(&paper::show(&files.paper)?)?;
+        }
+        if config.universality.is_some() { print(&universality::show(&files.universality)?) } else { Ok(()) }
     }
 
     fn stage(&self, stage: &dyn Stage) -> anyhow::Result<()> {

@@ -9,6 +9,7 @@
 //!                                                                                   |-> fit-pro -> pro --|-> compare-paper
 //!                                                                                                         |-> evaluate
 //!                                                                                                         |-> export
+//!                            responses of many structures, to hold the curves of one against --|-> universality
 //!                                                  responses of other motions, to hold the fits against --|-> validate
 //! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from
 //! ```

@@ -16,10 +16,15 @@
 //! slice            the same along one peak, PGA or PGV, at a fixed p PGV / PGA
 //! capacity         the lognormal distribution of capacities of an incremental dynamic analysis
 //! bent_curve       curves with a spline or an interaction more
+//! resampled        their limits from the fits of resampled cases
 //! skill            how well probabilities tell the outcomes apart
 //! forecast         what the curves foretell of cases that were not fitted
 //! validation       such forecasts against what happened
 //! poisson_binomial the number of events of unequal probability
+//! folds            cases left out by cells, and what one forecast gains over another
+//! transfer         the curve of a structure alone, to be asked about another
+//! universality     how it fares there
+//! pooled           one curve for all structures, with what they differ in
 //!
 //! regression       least squares with standard errors and limits
 //! binary           maximum likelihood of binary outcomes
@@ -58,6 +63,7 @@ mod design_matrix;
 mod distribution;
 mod event_sample;
 mod firth;
+mod folds;
 mod forecast;
 mod goodness;
 mod index;
@@ -68,15 +74,19 @@ mod model;
 mod newton;
 mod overturning;
 mod poisson_binomial;
+mod pooled;
 mod predictor;
 mod profile;
 mod regression;
+mod resampled;
 mod separation;
 mod skill;
 mod slice;
 mod smooth;
 mod spline;
+mod transfer;
 mod transition;
+mod universality;
 mod validation;
 
 pub use bent_curve::{fit_with_interaction, fit_with_spline};
@@ -94,23 +104,28 @@ pub use derivatives::Score;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
 pub use event_sample::EventSample;
 pub use firth::Estimator;
+pub use folds::{Gain, folds, gain, kept, leave_out};
 pub use forecast::{Forecast, Forecasts, Foretold};
 pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use index::{Probability, ProbitIndex};
 pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
 pub use link::{Information, Link};
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
-pub use overturning::{CurveModel, OverturningFit, fit_overturning};
+pub use overturning::{CurveModel, OverturningFit, fit_overturning, has_few_events};
 pub use poisson_binomial::PoissonBinomial;
+pub use pooled::{PooledFit, PooledPart, PooledStructure, PooledTerm, PooledTerms, fit_pooled};
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
+pub use resampled::{ReplicateLimits, ResampledModel};
 pub use separation::is_separated;
 pub use skill::{auc, brier_score, expected_log_score, log_score};
 pub use slice::{Lognormal, Peak, Slice};
 pub use smooth::{SmoothFit, fit_smooth};
 pub use spline::natural_spline;
+pub use transfer::{Branch, Curve, CurveForm, CurveSubject};
 pub use transition::{ScanPoint, Transition, TransitionSearch, find_transition, transition_limits};
-pub use validation::{Validation, calibration_in_the_large, wilson_limits};
+pub use universality::{BesideOwn, Transfer, Verdict};
+pub use validation::{Validation, calibration_in_the_large, calibration_slope, wilson_limits};
 
 use crate::keyword::keywords;
 

@@ -1,10 +1,16 @@
 //! How forecasts fare on cases that were not fitted.
 
+use super::binary::binary_regression;
+use super::dependence::is_constant;
+use super::firth::Estimator;
 use super::forecast::Forecast;
 use super::index::Z_95;
 use super::limits::Limits;
+use super::link::Link;
 use super::poisson_binomial::PoissonBinomial;
+use super::separation::is_separated;
 use super::skill::{auc, brier_score, expected_log_score, log_score};
+use crate::normal;
 
 /// Forecasts held against what happened.
 #[derive(Debug, Clone, PartialEq)]
@@ -103,6 +109,17 @@ pub fn calibration_in_the_large(probabilities: &[f64], seen: usize) -> Option<f6
         if expected(middle) < seen { low = middle } else { high = middle }
     }
     Some(0.5 * (low + high))
+}
+
+/// Calibration slope: by how much the log odds of probabilities Phi(index) must be stretched, besides a shift, to be those of what
+/// happened: below 1 where they are too sure (Cox 1958, likewise). None where the events can be told apart without error, or are all
+/// the same.
+pub fn calibration_slope(indices: &[f64], happened: &[bool]) -> Option<f64> {
+    // Of the index, since probabilities themselves may round to 1.
+    let log_odds: Vec<f64> = indices.iter().map(|&x| normal::ln_cdf(x) - normal::ln_cdf(-x)).collect();
+    let can_be_told = is_constant(&log_odds) || is_separated(&[&log_odds], happened);
+    let fit = (!can_be_told).then(|| binary_regression(&[&log_odds], happened, Link::Logit, Estimator::Ml));
+    Some(fit?.ok()?.coefficients[1])
 }
 
 /// Odds beyond e^±30 are certainties.

@@ -12,6 +12,7 @@ use super::import_motions::ImportMotionsOptions;
 use super::sample_scenarios::SampleScenariosOptions;
 use super::simulate::SimulateOptions;
 use super::synthesize_motions::SynthesizeMotionsOptions;
+use super::universality::UniversalityOptions;
 use crate::pipeline::UsageError;
 use crate::pipeline::yaml::explain;
 
@@ -37,6 +38,8 @@ pub struct Config {
     pub fit_pex: Option<FitPexOptions>,
     /// Options of fit-pro.
     pub fit_pro: Option<FitProOptions>,
+    /// Options of universality.
+    pub universality: Option<UniversalityOptions>,
     /// Options of compare-paper.
     pub compare_paper: Option<ComparePaperOptions>,
 }

@@ -19,6 +19,10 @@ pub struct Group {
     pub suite: Option<String>,
     /// The structure.
     pub structure: String,
+    /// Its frequency parameter, rad/s.
+    pub p_rad_s: f64,
+    /// Its slenderness, rad.
+    pub alpha_rad: f64,
     /// Its coefficient of restitution.
     pub eta: f64,
     /// Its responses, in the order of the file.
@@ -44,6 +48,9 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
     let finite = |column| -> anyhow::Result<Vec<f64>> {
         Ok(number(column)?.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
     };
+    let first_number = |column: schema::Column| -> anyhow::Result<f64> {
+        Ok(frame.column(column.name)?.f64()?.get(0).unwrap_or(f64::NAN))
+    };
     let outcomes = frame.column(schema::OUTCOME.name)?.str()?;
     let edp = finite(schema::EDP)?;
     let (im1, im2, im3) = (number(schema::IM1)?, number(schema::IM2)?, number(schema::IM3)?);
@@ -63,7 +70,9 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
     Ok(Group {
         suite: first_text(frame.column(schema::SUITE.name)?)?,
         structure: first_text(frame.column(schema::STRUCTURE.name)?)?.unwrap_or_default(),
-        eta: frame.column(schema::ETA.name)?.f64()?.get(0).unwrap_or(f64::NAN),
+        p_rad_s: first_number(schema::P_RAD_S)?,
+        alpha_rad: first_number(schema::ALPHA_RAD)?,
+        eta: first_number(schema::ETA)?,
         cases: outcomes.iter().enumerate().map(case).collect::<anyhow::Result<_>>()?,
         cells: cells(&number(schema::MW)?, &number(schema::RE_KM)?),
     })

@@ -8,6 +8,7 @@
 //! groups             the responses of a suite and structure; pex_group and pro_group their fits
 //! uncertainty        the limits that both are asked for
 //! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
+//! resampled_fits     the same in each resample
 //! ```
 
 pub mod chosen_fits;
@@ -26,6 +27,7 @@ pub mod measures;
 pub mod motions;
 pub mod pex_group;
 pub mod pro_group;
+pub mod resampled_fits;
 pub mod run;
 pub mod sample_scenarios;
 pub mod seed_spread;
@@ -34,4 +36,5 @@ pub mod structure_options;
 pub mod structures;
 pub mod synthesize_motions;
 pub mod uncertainty;
+pub mod universality;
 pub mod validate;

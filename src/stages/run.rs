@@ -12,6 +12,7 @@ use super::import_motions::ImportMotions;
 use super::sample_scenarios::SampleScenarios;
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
+use super::universality::Universality;
 use crate::pipeline::UsageError;
 use crate::pipeline::cache::{self, Freshness, freshness};
 use crate::pipeline::console::Console;
@@ -32,6 +33,8 @@ pub struct Files {
     pub pex: PathBuf,
     /// Of fit-pro.
     pub pro: PathBuf,
+    /// Of universality.
+    pub universality: PathBuf,
     /// Of compare-paper.
     pub paper: PathBuf,
 }
@@ -47,6 +50,7 @@ impl Files {
             ida: file("ida.parquet"),
             pex: file("pex.parquet"),
             pro: file("pro.parquet"),
+            universality: file("universality.parquet"),
             paper: file("paper.parquet"),
         }
     }
@@ -84,6 +88,10 @@ pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stag
     }
     if let Some(options) = &config.fit_pro {
         stages.push(Box::new(FitPro::new(options, files.responses.clone(), files.pro.clone())?));
+    }
+    if let Some(options) = &config.universality {
+        let (input, out) = (files.responses.clone(), files.universality.clone());
+        stages.push(Box::new(Universality::new(options, input, out)?));
     }
     if let Some(options) = &config.compare_paper {
         let inputs = [files.pex.clone(), files.pro.clone(), files.responses.clone()];

@@ -1,4 +1,4 @@
-//! The rows of pex and pro files, as evaluate and export take them.
+//! The rows of files of fits, as evaluate and export take them, and other readers.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use crate::keyword::{self, Keyword};
 /// Rows that are decoded at once.
 const BATCH: usize = 8192;
 
-/// A row of a pex or pro file.
+/// A row of a file of fits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitRow {
     path: PathBuf,
@@ -38,7 +38,11 @@ pub fn curves(path: &Path) -> Result<Vec<FitRow>, TableError> {
     rows(path, &PRO)
 }
 
-fn rows(path: &Path, table: &Table) -> Result<Vec<FitRow>, TableError> {
+/// The rows of a file of fits.
+///
+/// # Errors
+/// If it is not the output of the stage of this table.
+pub fn rows(path: &Path, table: &Table) -> Result<Vec<FitRow>, TableError> {
     let mut rows: Vec<FitRow> = Vec::new();
     for batch in Batches::open(path, &[table.stage], table.columns, BATCH)? {
         let Batch { rows: batch, first_row } = batch?;

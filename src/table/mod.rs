@@ -18,6 +18,7 @@
 //! evaluated    probabilities and annual rates: what evaluate answers
 //! ida          the same motions at rising intensity
 //! validation   forecasts beside what happened
+//! universality the curve of one structure on others, and curves of all
 //! text         any table as aligned text, CSV or JSON
 //! ```
 
@@ -45,6 +46,7 @@ pub mod schema;
 mod shared_file;
 pub mod text;
 pub mod trace;
+pub mod universality;
 pub mod validation;
 pub mod writer;
 

@@ -14,7 +14,7 @@ use super::reader::read_frame;
 use super::schema::{self, Column, PRO};
 use crate::fragility::{
     BootstrapLimits, CurveModel, CurveParameter, Estimate, FitStatus, Limits, Link, Measure, OverturningFit,
-    Test,
+    Test, has_few_events,
 };
 use crate::keyword::{self, Keyword};
 
@@ -70,6 +70,21 @@ impl ProRow {
 
     fn inference_of(&self, parameter: CurveParameter) -> Option<&ParameterInference> {
         self.inference.iter().find(|inference| inference.parameter == parameter)
+    }
+
+    /// Whether there is a curve, from so few events that some of its limits are too narrow.
+    pub fn has_few_events(&self) -> bool {
+        let measures = 1 + usize::from(self.im_y.is_some());
+        self.fit.is_ok() && has_few_events(self.events, self.n, measures)
+    }
+
+    /// Which limits to take where events are few, for a message.
+    pub fn few_events(&self) -> String {
+        let suite = self.suite.as_deref().unwrap_or("the motions");
+        format!(
+            "few events for {suite}, {} ({} of {} cases), so that limits by standard errors are too narrow; take the profile limits",
+            self.structure, self.events, self.n
+        )
     }
 
     /// What is wrong with the curve, for a message.

@@ -8,4 +8,5 @@ mod ida;
 mod import;
 mod kill;
 mod pipeline;
+mod universality;
 mod validate;

@@ -47,9 +47,8 @@ impl Answer {
     }
 
     fn provenance(&self, options: &EvaluateOptions) -> anyhow::Result<Provenance> {
-        let fits = [("pex", options.fits.pex.clone()), ("pro", options.fits.pro.clone())];
         let mut inputs = std::collections::BTreeMap::new();
-        for (role, path) in fits.into_iter().chain(self.input.clone()) {
+        for (role, path) in options.fit_files().into_iter().chain(self.input.clone()) {
             let content = match role {
                 "hazard" => blake3::hash(&std::fs::read(&path)?).to_hex().to_string(),
                 _ => content_of(&path)?,

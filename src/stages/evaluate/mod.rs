@@ -9,8 +9,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::chosen_fits::ChosenFits;
 use super::fits::FitsOptions;
+use super::resampled_fits;
 use super::structure_options::StructureOptions;
+use crate::fragility::{ReplicateLimits, ResampledModel};
 use crate::keyword::keywords;
 use crate::pipeline::cache;
 use crate::pipeline::console::Console;
@@ -30,6 +33,9 @@ pub struct EvaluateOptions {
     table: TableOptions,
     #[command(flatten, next_help_heading = "Hazard of a site")]
     hazard: HazardOptions,
+    /// delta (of the standard errors), or from the resamples of fit-pex and fit-pro --bootstrap: percentile, or bc (bias-corrected)
+    #[arg(long, default_value = "delta", help_heading = "Fits")]
+    limits: Word<LimitsBy>,
     /// File to write [default: stdout; of a table: evaluated.parquet beside it]
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: Option<PathBuf>,
@@ -74,6 +80,19 @@ struct HazardOptions {
     years: f64,
 }
 
+/// Where limits come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LimitsBy {
+    /// The standard errors of the fits.
+    Delta,
+    /// The fits of resampled cases.
+    Percentile,
+    /// The same, corrected for their bias.
+    BiasCorrected,
+}
+
+keywords!(LimitsBy { Delta = "delta", Percentile = "percentile", BiasCorrected = "bc" });
+
 /// How an answer is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
@@ -89,12 +108,37 @@ pub enum Format {
 
 keywords!(Format { Table = "table", Csv = "csv", Json = "json", Parquet = "parquet" });
 
+impl EvaluateOptions {
+    /// The fits, with their resamples where limits need them.
+    fn choose(&self) -> anyhow::Result<ChosenFits> {
+        let chosen = self.fits.choose()?;
+        let limits = match self.limits.0 {
+            LimitsBy::Delta => return Ok(chosen),
+            LimitsBy::Percentile => ReplicateLimits::Percentile,
+            LimitsBy::BiasCorrected => ReplicateLimits::BiasCorrected,
+        };
+        let replicates = resampled_fits::read(&self.fits, &chosen)?;
+        Ok(ChosenFits { resampled: Some(ResampledModel { replicates, limits }), ..chosen })
+    }
+
+    /// The files that the fits come from, by the role each plays.
+    fn fit_files(&self) -> Vec<(&'static str, PathBuf)> {
+        let mut files = vec![("pex", self.fits.pex.clone()), ("pro", self.fits.pro.clone())];
+        if self.limits.0 != LimitsBy::Delta {
+            let [pex, pro] = resampled_fits::files(&self.fits);
+            files.extend([("pex bootstrap", pex), ("pro bootstrap", pro)]);
+        }
+        files
+    }
+}
+
 /// Answers what the options ask: into a file, or as text that is to be printed.
 ///
 /// # Errors
 /// If an input cannot be used, an option is out of range, or the output cannot be written.
 pub fn evaluate(options: &EvaluateOptions, force: bool, console: &Console) -> anyhow::Result<String> {
-    let fits = options.fits.choose()?;
+    let fits = options.choose()?;
+    fits.warn_of_few_events(console);
     if let Some(input) = &options.table.input {
         let out = options.out.clone().unwrap_or_else(|| beside(input, "evaluated.parquet"));
         let stage = table::EvaluateTable::new(options, fits, input.clone(), out)?;

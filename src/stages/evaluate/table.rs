@@ -21,8 +21,7 @@ const BATCH: usize = 16_384;
 /// Probabilities at each intensity of a table, ready to run.
 pub struct EvaluateTable {
     fits: ChosenFits,
-    pex: PathBuf,
-    pro: PathBuf,
+    fit_files: Vec<(&'static str, PathBuf)>,
     /// Of all rows; without it each row has its own.
     structure: Option<Structure>,
     input: PathBuf,
@@ -42,13 +41,12 @@ impl EvaluateTable {
     ) -> anyhow::Result<EvaluateTable> {
         let given = options.structure.is_given();
         let structure = given.then(|| options.structure.structure(fits.model.eta)).transpose()?;
-        let (pex, pro) = (options.fits.pex.clone(), options.fits.pro.clone());
-        Ok(EvaluateTable { fits, pex, pro, structure, input, out })
+        Ok(EvaluateTable { fits, fit_files: options.fit_files(), structure, input, out })
     }
 
     fn row(&self, intensity: &Intensity) -> EvaluatedRow {
         let (model, measures) = (&self.fits.model, &intensity.measures);
-        let probabilities = model.probabilities(measures);
+        let probabilities = self.fits.probabilities(measures);
         EvaluatedRow {
             p_rad_s: intensity.structure.p_rad_s,
             alpha_rad: intensity.structure.alpha_rad,
@@ -106,7 +104,7 @@ impl Stage for EvaluateTable {
     }
 
     fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), ("intensities", self.input.clone())]
+        self.fit_files.iter().cloned().chain([("intensities", self.input.clone())]).collect()
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
@@ -116,7 +114,7 @@ impl Stage for EvaluateTable {
     fn parameters(&self) -> Value {
         let structure = self.structure.as_ref();
         let structure = structure.map(|s| json!({ "p": s.p_rad_s, "alpha": s.alpha_rad, "eta": s.eta }));
-        json!({ "fits": self.fits.words(), "structure": structure })
+        json!({ "fits": self.fits.words(), "limits": self.fits.words_of_limits(), "structure": structure })
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

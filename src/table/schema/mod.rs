@@ -3,7 +3,7 @@
 //! ```text
 //! column       name, type, unit, words
 //! table        columns in order, and the stage that writes them
-//! scenario, motion, response, pex, pro, evaluated, validation, ida, paper
+//! scenario, motion, response, pex, pro, evaluated, validation, universality, ida, paper
 //!              the columns of a subject and the tables that have them
 //! ```
 
@@ -17,6 +17,7 @@ mod pro;
 mod response;
 mod scenario;
 mod table;
+mod universality;
 mod validation;
 
 pub use column::{Column, Kind};
@@ -29,4 +30,5 @@ pub use pro::*;
 pub use response::*;
 pub use scenario::*;
 pub use table::{Table, spectral_acceleration_name};
+pub use universality::*;
 pub use validation::*;
