@@ -9,6 +9,9 @@ use super::vector::{Mask, Vector};
 /// Halley's step is this small, relative to the root, when the next one would be below rounding.
 const CONVERGED: f64 = 1e-5;
 
+/// More iterations than any root takes: bisection alone would have narrowed the bracket to rounding.
+const MOST_ITERATIONS: usize = 64;
+
 /// What the signs of the Bernstein coefficients tell.
 pub struct Roots<S: Simd> {
     /// Lanes with one simple root in (0, 1).
@@ -48,8 +51,10 @@ pub fn falling_root<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Vect
     let inside = zero.lt(guess) & guess.lt(one);
     let mut bracket = Bracket { low: zero, high: one, x: inside.select(guess, one * 0.5) };
     let mut active = bracket.refine(c, wanted);
-    while active.any() {
+    let mut iterations = 1;
+    while active.any() && iterations < MOST_ITERATIONS {
         active = bracket.refine(c, active);
+        iterations += 1;
     }
     bracket.x
 }
