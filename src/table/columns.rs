@@ -10,6 +10,9 @@ use arrow_schema::DataType;
 use super::TableError;
 use super::schema::Column;
 
+/// The longest name of anything, bytes: that of a path.
+const LONGEST_TEXT: usize = 4096;
+
 /// A batch of rows of a file.
 pub struct Columns<'a> {
     path: &'a Path,
@@ -198,11 +201,17 @@ impl<'a> Columns<'a> {
     }
 
     fn text_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<String>>, TableError> {
-        let owned = |value: Option<&str>| value.map(str::to_string);
+        let owned = |(row, value): (usize, Option<&str>)| match value {
+            Some(text) if text.len() > LONGEST_TEXT => {
+                let problem = format!("text of {} bytes; expected {LONGEST_TEXT} at most", text.len());
+                Err(self.value_error(row, column, &problem))
+            }
+            value => Ok(value.map(str::to_string)),
+        };
         match array.data_type() {
-            DataType::Utf8 => Ok(array.as_string::<i32>().iter().map(owned).collect()),
-            DataType::LargeUtf8 => Ok(array.as_string::<i64>().iter().map(owned).collect()),
-            DataType::Utf8View => Ok(array.as_string_view().iter().map(owned).collect()),
+            DataType::Utf8 => array.as_string::<i32>().iter().enumerate().map(owned).collect(),
+            DataType::LargeUtf8 => array.as_string::<i64>().iter().enumerate().map(owned).collect(),
+            DataType::Utf8View => array.as_string_view().iter().enumerate().map(owned).collect(),
             DataType::Null => Ok(vec![None; array.len()]),
             _ => Err(self.wrong_type(array, column)),
         }
