@@ -167,6 +167,7 @@ def bombs():
     yield "sound", motions([plain], 4, has_dictionary=False)
     yield "quiet", motions([ZERO, quiet(1000)], 1000)
     yield "largest", motions([ZERO, quiet(2**28)], 2**28)
+    yield "long-motion", motions([ZERO, quiet(2**24 + 1)], 2**24 + 1)
     yield "list", motions([ZERO, quiet(MOST)], MOST)
     yield "list-in-pages", motions([ZERO, quiet(2**26)] + [quiet(2**26, 1)] * 200, 201 * 2**26)
     yield "values-in-chunk", motions([plain], 2**62, has_dictionary=False)

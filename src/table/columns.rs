@@ -13,6 +13,9 @@ use super::schema::Column;
 /// The longest name of anything, bytes: that of a path.
 const LONGEST_TEXT: usize = 4096;
 
+/// The most samples of a motion: what is made of them (spectra, velocities) takes many times their room.
+const LONGEST_MOTION: usize = 1 << 24;
+
 /// A batch of rows of a file.
 pub struct Columns<'a> {
     path: &'a Path,
@@ -142,7 +145,7 @@ impl<'a> Columns<'a> {
     /// The samples of each row.
     ///
     /// # Errors
-    /// If the column is missing or no list of f32 or f64, or a list or one of its samples is null.
+    /// If the column is missing or no list of f32 or f64, a list or one of its samples is null, or a list too long.
     pub fn samples(&self, column: &Column) -> Result<Vec<Samples>, TableError> {
         let array = self.required(column)?;
         let list: Box<dyn Fn(usize) -> ArrayRef> = match array.data_type() {
@@ -156,6 +159,10 @@ impl<'a> Columns<'a> {
                 return Err(self.value_error(row, column, "null; expected a list of samples"));
             }
             let samples = list(row);
+            if samples.len() > LONGEST_MOTION {
+                let problem = format!("{} samples; expected {LONGEST_MOTION} at most", samples.len());
+                return Err(self.value_error(row, column, &problem));
+            }
             if let Some(at) = samples.nulls().and_then(|nulls| nulls.iter().position(|valid| !valid)) {
                 let problem = format!("sample {at} is null; expected a number");
                 return Err(self.value_error(row, column, &problem));
