@@ -10,7 +10,7 @@ ROCKFRAG ?= target/release/rockfrag
 CALL := $(ROCKFRAG) --config pipeline.yaml
 OUT := out
 
-.PHONY: all spread universality picture check-exports test clean
+.PHONY: all spread universality picture check-exports sbom unsafe attack test clean
 
 all: $(OUT)/paper.parquet
 
@@ -49,6 +49,18 @@ picture: $(OUT)/pro.parquet
 # OpenQuake and pelicun from PyPI read what export writes: 1.5 GB for the time of the check.
 check-exports: $(OUT)/pex.parquet $(OUT)/pro.parquet
 	scripts/check_exports.sh $(ROCKFRAG) $(OUT)
+
+# What a release is made of (CycloneDX), and how much unsafe code is in it.
+sbom: Cargo.lock
+	python3 scripts/dependencies.py sbom > rockfrag.cdx.json
+
+unsafe: Cargo.lock
+	python3 scripts/dependencies.py unsafe
+
+# Faults of the machine, 200 times each (as root), and inputs by chance; fuzz/ has longer ones.
+attack: | $(ROCKFRAG)
+	python3 scripts/attack/faults.py $(ROCKFRAG) 200
+	PROPTEST_CASES=100000 cargo test --locked --test robust
 
 test:
 	cargo test --locked

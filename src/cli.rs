@@ -333,7 +333,7 @@ impl Call<'_> {
     }
 
     fn stage(&self, stage: &dyn Stage) -> anyhow::Result<()> {
-        cache::run(stage, self.force, &self.console)
+        cache::run_alone(stage, self.force, &self.console)
     }
 
     fn one_structure_is_given(&self) -> bool {

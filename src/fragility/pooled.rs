@@ -176,7 +176,7 @@ fn overturning(
         let b = inference.coefficients(counts).ok_or(FitStatus::NotConverged)?;
         let cases = design.rows().zip(&sample.happened).zip(&owners).zip(counts);
         for (((row, &event), &owner), _) in cases.filter(|(_, count)| **count == 0.0) {
-            add(scores, owner, dot(row, b.as_slice()), event);
+            add(scores, owner, row.dot(&b), event);
         }
         Ok(())
     })?;
@@ -209,7 +209,8 @@ fn demand(
         let refit = inference.replicate(counts, 0.0..f64::INFINITY).ok_or(FitStatus::TooFewCases)?;
         let cases = design.rows().zip(&sample.ln_edp).zip(&owners).zip(counts);
         for (((row, &ln_edp), &owner), _) in cases.filter(|(_, count)| **count == 0.0) {
-            let index = exceeding_index(dot(row, &refit.coefficients), subject.limit, refit.residual_sd);
+            let index =
+                exceeding_index(dot(row.as_slice(), &refit.coefficients), subject.limit, refit.residual_sd);
             add(scores, owner, index, ln_edp > subject.limit.ln());
         }
         Ok(())

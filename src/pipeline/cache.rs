@@ -4,8 +4,9 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use super::claim::{Claim, Claimed, claim};
 use super::console::Console;
-use super::stage::Stage;
+use super::stage::{Stage, folder_of};
 use crate::table::TableError;
 use crate::table::provenance::{Provenance, stamp};
 
@@ -34,6 +35,26 @@ pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
     Freshness::UpToDate
 }
 
+/// Runs a stage by itself unless it is up to date, and says which. It waits for a run of a whole pipeline in its folder.
+///
+/// # Errors
+/// Those of the stage.
+pub fn run_alone(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<()> {
+    let _claimed = claim_folder(stage, Claim::Shared, console)?;
+    run(stage, force, console)
+}
+
+/// Claims the folder of the files of a stage, which is made if need be.
+///
+/// # Errors
+/// If it cannot be made.
+pub fn claim_folder(stage: &dyn Stage, kind: Claim, console: &Console) -> anyhow::Result<Option<Claimed>> {
+    let outputs = stage.outputs();
+    let Some(folder) = outputs.last().map(|path| folder_of(path)) else { return Ok(None) };
+    std::fs::create_dir_all(folder).map_err(|source| TableError::io(folder, source))?;
+    Ok(Some(claim(folder, kind, console)))
+}
+
 /// Runs a stage unless it is up to date, and says which.
 ///
 /// # Errors
@@ -46,9 +67,8 @@ pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<
         return Ok(());
     }
     for path in stage.outputs() {
-        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-            std::fs::create_dir_all(folder).map_err(|source| TableError::io(folder, source))?;
-        }
+        let folder = folder_of(&path);
+        std::fs::create_dir_all(folder).map_err(|source| TableError::io(folder, source))?;
     }
     let start = std::time::Instant::now();
     let summary = stage.execute(&planned, console)?;

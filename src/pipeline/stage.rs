@@ -37,8 +37,14 @@ pub trait Stage {
         let content = |(role, path): (&str, PathBuf)| Ok((role.to_string(), content_of(&path)?));
         let inputs =
             self.inputs().into_iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
-        Ok(Provenance::new(self.subcommand(), self.parameters(), inputs))
+        let sources = self.inputs().into_iter().map(|(role, path)| (role.to_string(), path)).collect();
+        Ok(Provenance::new(self.subcommand(), self.parameters(), inputs).of_sources(sources))
     }
+}
+
+/// The folder of a file.
+pub fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// `name` in the folder of `path`.

@@ -9,6 +9,9 @@ use super::vector::{Mask, Vector};
 /// Halley's step is this small, relative to the root, when the next one would be below rounding.
 const CONVERGED: f64 = 4e-6;
 
+/// More iterations than any root takes: bisection alone would have narrowed the bracket to rounding.
+const MOST_ITERATIONS: usize = 64;
+
 /// The root of each lane of `wanted`, which falls through zero once in (0, 1), and may start at zero: Halley's iterations,
 /// kept inside the shrinking bracket by bisection. A lane's iterations do not depend on the other lanes.
 #[inline(always)]
@@ -16,8 +19,10 @@ pub fn falling_root<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Vect
     let (zero, one) = (c[0].like(0.0), c[0].like(1.0));
     let mut bracket = Bracket { low: zero, high: one, x: first_guess(c) };
     let mut active = bracket.refine(c, wanted);
-    while active.any() {
+    let mut iterations = 1;
+    while active.any() && iterations < MOST_ITERATIONS {
         active = bracket.refine(c, active);
+        iterations += 1;
     }
     bracket.x
 }

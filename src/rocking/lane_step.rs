@@ -121,6 +121,7 @@ impl<S: Simd> Lanes<'_, S> {
             self.side = lanes.select(-self.side, self.side);
             self.impacts = self.impacts + lanes.select(one, zero);
             events.rested = (lanes & after.lt(Vector::splat(self.simd, REST_VELOCITY))).bits();
+            events.rested |= self.count_impacts(lanes.bits());
         }
         events.ended = self.pass_samples(arrived) & self.busy & !(events.overturned | events.rested);
         events

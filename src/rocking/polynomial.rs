@@ -13,6 +13,9 @@ pub type Polynomial<T = f64> = [T; ORDER + 1];
 /// A bracket this narrow that still shows several sign changes holds a multiple root.
 const NARROWEST_BRACKET: f64 = 1e-12;
 
+/// Newton's iterations before bisection alone, which ends in any case.
+const MOST_NEWTON_STEPS: usize = 64;
+
 /// Value at `x` (Horner).
 #[inline(always)]
 pub fn value<T: Real>(c: &Polynomial<T>, x: T) -> T {
@@ -137,6 +140,7 @@ fn root_in_bracket(c: &Polynomial, low: f64, high: f64, falling: bool) -> f64 {
     let slope = derivative(c);
     let (mut low, mut high) = (low, high);
     let mut x = 0.5 * (low + high);
+    let mut newton_steps = 0..MOST_NEWTON_STEPS;
     loop {
         let y = value(c, x);
         if y == 0.0 {
@@ -149,7 +153,7 @@ fn root_in_bracket(c: &Polynomial, low: f64, high: f64, falling: bool) -> f64 {
         }
         let newton = x - y / value(&slope, x);
         let inside = newton > low && newton < high;
-        let next = if inside { newton } else { 0.5 * (low + high) };
+        let next = if inside && newton_steps.next().is_some() { newton } else { 0.5 * (low + high) };
         if (next - x).abs() <= f64::EPSILON * next.abs() || next == low || next == high {
             return next;
         }

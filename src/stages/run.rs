@@ -15,6 +15,7 @@ use super::synthesize_motions::SynthesizeMotions;
 use super::universality::Universality;
 use crate::pipeline::UsageError;
 use crate::pipeline::cache::{self, Freshness, freshness};
+use crate::pipeline::claim::Claim;
 use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 
@@ -100,11 +101,15 @@ pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stag
     Ok(stages)
 }
 
-/// Runs the stages in order.
+/// Runs the stages in order, after other runs in the same folder.
 ///
 /// # Errors
 /// That of the first stage that fails.
 pub fn run(stages: &[Box<dyn Stage>], force: bool, console: &Console) -> anyhow::Result<()> {
+    let _claimed = match stages.first() {
+        Some(stage) => cache::claim_folder(stage.as_ref(), Claim::Alone, console)?,
+        None => None,
+    };
     stages.iter().try_for_each(|stage| cache::run(stage.as_ref(), force, console))
 }
 

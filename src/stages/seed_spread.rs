@@ -1,6 +1,6 @@
 //! seed-spread: the whole pipeline with one seed after the other, to see how far its numbers move by chance.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
@@ -8,6 +8,7 @@ use clap::Args;
 use super::config::Config;
 use super::run::{Files, run, stages};
 use crate::pipeline::console::Console;
+use crate::pipeline::stage::folder_of;
 use crate::table::paper::{self, SpreadRow};
 
 /// How many seeds, and where to.
@@ -43,8 +44,4 @@ pub fn seed_spread(config: &Config, options: &SeedSpreadOptions, console: &Conso
     }
     partial.persist(&options.out).with_context(|| options.out.display().to_string())?;
     Ok(())
-}
-
-fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

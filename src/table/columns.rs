@@ -10,6 +10,12 @@ use arrow_schema::DataType;
 use super::TableError;
 use super::schema::Column;
 
+/// The longest name of anything, bytes: that of a path.
+const LONGEST_TEXT: usize = 4096;
+
+/// The most samples of a motion: what is made of them (spectra, velocities) takes many times their room.
+const LONGEST_MOTION: usize = 1 << 24;
+
 /// A batch of rows of a file.
 pub struct Columns<'a> {
     path: &'a Path,
@@ -139,7 +145,7 @@ impl<'a> Columns<'a> {
     /// The samples of each row.
     ///
     /// # Errors
-    /// If the column is missing or no list of f32 or f64, or a list or one of its samples is null.
+    /// If the column is missing or no list of f32 or f64, a list or one of its samples is null, or a list too long.
     pub fn samples(&self, column: &Column) -> Result<Vec<Samples>, TableError> {
         let array = self.required(column)?;
         let list: Box<dyn Fn(usize) -> ArrayRef> = match array.data_type() {
@@ -153,6 +159,10 @@ impl<'a> Columns<'a> {
                 return Err(self.value_error(row, column, "null; expected a list of samples"));
             }
             let samples = list(row);
+            if samples.len() > LONGEST_MOTION {
+                let problem = format!("{} samples; expected {LONGEST_MOTION} at most", samples.len());
+                return Err(self.value_error(row, column, &problem));
+            }
             if let Some(at) = samples.nulls().and_then(|nulls| nulls.iter().position(|valid| !valid)) {
                 let problem = format!("sample {at} is null; expected a number");
                 return Err(self.value_error(row, column, &problem));
@@ -198,11 +208,17 @@ impl<'a> Columns<'a> {
     }
 
     fn text_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<String>>, TableError> {
-        let owned = |value: Option<&str>| value.map(str::to_string);
+        let owned = |(row, value): (usize, Option<&str>)| match value {
+            Some(text) if text.len() > LONGEST_TEXT => {
+                let problem = format!("text of {} bytes; expected {LONGEST_TEXT} at most", text.len());
+                Err(self.value_error(row, column, &problem))
+            }
+            value => Ok(value.map(str::to_string)),
+        };
         match array.data_type() {
-            DataType::Utf8 => Ok(array.as_string::<i32>().iter().map(owned).collect()),
-            DataType::LargeUtf8 => Ok(array.as_string::<i64>().iter().map(owned).collect()),
-            DataType::Utf8View => Ok(array.as_string_view().iter().map(owned).collect()),
+            DataType::Utf8 => array.as_string::<i32>().iter().enumerate().map(owned).collect(),
+            DataType::LargeUtf8 => array.as_string::<i64>().iter().enumerate().map(owned).collect(),
+            DataType::Utf8View => array.as_string_view().iter().enumerate().map(owned).collect(),
             DataType::Null => Ok(vec![None; array.len()]),
             _ => Err(self.wrong_type(array, column)),
         }

@@ -10,9 +10,6 @@ use super::schema::{self, Column, Kind, PEX, PRO, Table};
 use crate::fragility::{DemandLaw, FitStatus, Link, Measure, Predictor};
 use crate::keyword::{self, Keyword};
 
-/// Rows that are decoded at once.
-const BATCH: usize = 8192;
-
 /// A row of a file of fits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitRow {
@@ -44,7 +41,7 @@ pub fn curves(path: &Path) -> Result<Vec<FitRow>, TableError> {
 /// If it is not the output of the stage of this table.
 pub fn rows(path: &Path, table: &Table) -> Result<Vec<FitRow>, TableError> {
     let mut rows: Vec<FitRow> = Vec::new();
-    for batch in Batches::open(path, &[table.stage], table.columns, BATCH)? {
+    for batch in Batches::open_whole(path, table, &[table.stage])? {
         let Batch { rows: batch, first_row } = batch?;
         let columns = Columns::new(path, &batch, first_row);
         let row = |row| FitRow {

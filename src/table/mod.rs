@@ -4,6 +4,9 @@
 //! schema       every column once: name, type, unit, words; every table as a list of columns (one file a subject)
 //! columns      the columns of one batch, by name, checked
 //! footer       the end of a file, which says what is in it
+//! limits       what a file may ask of memory
+//! compact      the protocol in which files describe themselves
+//! guarded      damage that stops the decoder
 //! reader       batches from a file; narrow tables whole, as polars frames
 //! shared_file  a file that several threads read at once
 //! writer       batches to a file, written beside its name and renamed when whole
@@ -23,13 +26,16 @@
 //! ```
 
 pub mod columns;
+mod compact;
 pub mod evaluated;
 pub mod fingerprint;
 pub mod fits;
 pub mod footer;
+pub mod guarded;
 pub mod hazard;
 pub mod ida;
 pub mod intensities;
+mod limits;
 mod measures;
 pub mod motions;
 pub mod paper;
@@ -104,6 +110,34 @@ pub enum TableError {
         found: String,
         /// The stage whose output it should be.
         expected: String,
+    },
+    /// A later version of rockfrag has written the file in a way that is not yet known here.
+    #[error("{}: written by rockfrag {version} in format {format}; this is rockfrag {}, which reads formats up to {known}: update it, or make the file again", path.display(), env!("CARGO_PKG_VERSION"))]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// The version that wrote it.
+        version: String,
+        /// Its format.
+        format: String,
+        /// The last format that is known here.
+        known: u32,
+    },
+    /// The file became another one while it was read.
+    #[error("{}: changed or removed while it was read; run again", path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file says that it has more rows than it can hold.
+    #[error("{}: {rows} rows in a file of {bytes} bytes; expected a table with a byte a row at least", path.display())]
+    TooManyRows {
+        /// The file.
+        path: PathBuf,
+        /// How many rows it announces.
+        rows: u64,
+        /// Its size.
+        bytes: u64,
     },
     /// A column is missing.
     #[error("{}: no column '{column}'; expected {expected}", path.display())]

@@ -179,9 +179,9 @@ impl MotionFile {
     /// As [`MotionBatches::open`].
     pub fn open(path: &Path) -> Result<MotionFile, TableError> {
         let file = TableFile::open(path, &STAGES, &READ)?;
-        let batches = file.batches(LARGEST_PART)?;
-        expect_columns(path, batches.schema(), &REQUIRED)?;
-        let by_name = ids_are_names(batches.schema());
+        let schema = file.schema()?;
+        expect_columns(path, &schema, &REQUIRED)?;
+        let by_name = ids_are_names(&schema);
         Ok(MotionFile { path: path.to_path_buf(), file, by_name })
     }
 

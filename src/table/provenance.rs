@@ -1,14 +1,19 @@
 //! What made a file: stage, version, parameters, inputs, fingerprints. It stands in the key-value metadata.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use parquet::file::metadata::{KeyValue, ParquetMetaData};
 use serde_json::Value;
 
 use super::TableError;
-use super::footer::{metadata, open_file};
+use super::footer;
 
+/// How tables and metadata are laid out. It rises when a reader of the old layout would misread the new one; a column more
+/// is no reason. Files without it are of the first format.
+pub const FORMAT_VERSION: u32 = 1;
+
+const FORMAT: &str = "rockfrag.format";
 const STAGE: &str = "rockfrag.stage";
 const VERSION: &str = "rockfrag.version";
 const PARAMETERS: &str = "rockfrag.parameters";
@@ -27,13 +32,35 @@ pub struct Provenance {
     pub parameters: Value,
     /// The fingerprint of what each input holds, by the role it plays.
     pub inputs: BTreeMap<String, String>,
+    /// Where the inputs are, by their roles, as far as they can be looked at again; the file does not say.
+    pub sources: BTreeMap<String, PathBuf>,
 }
 
 impl Provenance {
     /// Of a file that this version of rockfrag makes.
     pub fn new(stage: &str, parameters: Value, inputs: BTreeMap<String, String>) -> Provenance {
         let version = env!("CARGO_PKG_VERSION").to_string();
-        Provenance { stage: stage.to_string(), version, parameters, inputs }
+        Provenance { stage: stage.to_string(), version, parameters, inputs, sources: BTreeMap::new() }
+    }
+
+    /// With the places of its inputs.
+    pub fn of_sources(self, sources: BTreeMap<String, PathBuf>) -> Provenance {
+        Provenance { sources, ..self }
+    }
+
+    /// That the inputs still hold what they held before they were read: rows of one file must not say that they come from
+    /// another.
+    ///
+    /// # Errors
+    /// If an input has changed or gone.
+    pub(super) fn expect_unchanged(&self) -> Result<(), TableError> {
+        let changed = |(role, path): &(&String, &PathBuf)| {
+            content_of(path).ok().as_ref() != self.inputs.get(role.as_str())
+        };
+        match self.sources.iter().find(changed) {
+            Some((_, path)) => Err(TableError::Changed { path: path.clone() }),
+            None => Ok(()),
+        }
     }
 
     /// The fingerprint of what is to be done: equal plans give equal rows.
@@ -44,6 +71,7 @@ impl Provenance {
 
     pub(super) fn key_values(&self, content: &str) -> Vec<KeyValue> {
         [
+            (FORMAT, FORMAT_VERSION.to_string()),
             (STAGE, self.stage.clone()),
             (VERSION, self.version.clone()),
             (PARAMETERS, self.parameters.to_string()),
@@ -70,32 +98,42 @@ pub struct Stamp {
 /// The stamp of a Parquet file, or `None` where another program wrote it.
 ///
 /// # Errors
-/// If the file is missing or not readable as Parquet.
+/// If the file is missing, not readable as Parquet, or of a later format than is known here.
 pub fn stamp(path: &Path) -> Result<Option<Stamp>, TableError> {
-    Ok(stamp_in(&metadata(path, &open_file(path)?)?))
+    stamp_in(path, footer::open(path)?.metadata.metadata())
 }
 
-/// The stamp in a footer.
-pub(super) fn stamp_in(metadata: &ParquetMetaData) -> Option<Stamp> {
+/// The stamp in the footer of a file.
+pub(super) fn stamp_in(path: &Path, metadata: &ParquetMetaData) -> Result<Option<Stamp>, TableError> {
     let pairs = metadata.file_metadata().key_value_metadata().map_or(&[][..], Vec::as_slice);
     let get = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone());
-    Some(Stamp {
-        provenance: Provenance {
-            stage: get(STAGE)?,
-            version: get(VERSION)?,
-            parameters: serde_json::from_str(&get(PARAMETERS)?).ok()?,
-            inputs: serde_json::from_str(&get(INPUTS)?).ok()?,
-        },
-        plan: get(PLAN)?,
-        content: get(CONTENT)?,
-    })
+    if let Some(format) = get(FORMAT)
+        && format.parse::<u32>().is_ok_and(|format| format > FORMAT_VERSION)
+    {
+        let version = get(VERSION).unwrap_or_default();
+        return Err(TableError::Newer { path: path.to_path_buf(), version, format, known: FORMAT_VERSION });
+    }
+    let stamp = || {
+        Some(Stamp {
+            provenance: Provenance {
+                stage: get(STAGE)?,
+                version: get(VERSION)?,
+                parameters: serde_json::from_str(&get(PARAMETERS)?).ok()?,
+                inputs: serde_json::from_str(&get(INPUTS)?).ok()?,
+                sources: BTreeMap::new(),
+            },
+            plan: get(PLAN)?,
+            content: get(CONTENT)?,
+        })
+    };
+    Ok(stamp())
 }
 
 /// The fingerprint of what an input holds: as recorded by rockfrag, or the hash of its bytes if another program wrote
 /// it.
 ///
 /// # Errors
-/// If the file is missing or unreadable.
+/// As [`stamp`], or if the file is unreadable.
 pub fn content_of(path: &Path) -> Result<String, TableError> {
     if let Some(stamp) = stamp(path)? {
         return Ok(stamp.content);

@@ -1,22 +1,24 @@
 //! Reads a table batch by batch, or a narrow one whole.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use arrow_array::RecordBatch;
 use arrow_schema::SchemaRef;
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::{
-    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder,
+    ArrowReaderMetadata, ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder,
 };
-use parquet::errors::ParquetError;
+use parquet::errors::{ParquetError, Result as ParquetResult};
 use parquet::file::metadata::ParquetMetaData;
+use parquet::file::reader::Length;
 use parquet::schema::types::TypePtr;
 use polars::prelude::{DataFrame, IntoColumn, NamedFrom, Series};
 
 use super::TableError;
 use super::columns::{Columns, missing};
-use super::footer::{metadata, not_parquet, open_file};
+use super::footer::{self, Opened, not_parquet};
+use super::guarded::guarded;
+use super::limits::check_pages;
 use super::provenance::stamp_in;
 use super::schema::{Column, Kind, Table};
 use super::shared_file::SharedFile;
@@ -56,11 +58,8 @@ impl TableFile {
     /// If the file is missing, unreadable, empty, or the output of a stage other than `stages`. A file that another
     /// program wrote has no stage and is taken by its columns.
     pub fn open(path: &Path, stages: &[&str], columns: &[Column]) -> Result<TableFile, TableError> {
-        let file = SharedFile::new(open_file(path)?).map_err(|source| TableError::io(path, source))?;
-        let metadata = Arc::new(metadata(path, &file)?);
-        expect_stage(path, &metadata, stages)?;
-        let metadata = ArrowReaderMetadata::try_new(metadata, ArrowReaderOptions::default())
-            .map_err(|source| not_parquet(path, source))?;
+        let Opened { file, metadata } = footer::open(path)?;
+        expect_stage(path, metadata.metadata(), stages)?;
         if metadata.metadata().file_metadata().num_rows() <= 0 {
             return Err(TableError::Empty { path: path.to_path_buf() });
         }
@@ -69,6 +68,15 @@ impl TableFile {
         let wanted: Vec<usize> = (0..roots.len()).filter(|&root| wanted(&roots[root])).collect();
         let columns = ProjectionMask::roots(metadata.parquet_schema(), wanted);
         Ok(TableFile { path: path.to_path_buf(), file, metadata, columns })
+    }
+
+    /// The columns that will be read.
+    ///
+    /// # Errors
+    /// If the file is damaged.
+    pub fn schema(&self) -> Result<SchemaRef, TableError> {
+        let reader = guarded(|| self.builder(1).build()).map_err(|source| not_parquet(&self.path, source))?;
+        Ok(arrow_array::RecordBatchReader::schema(&reader))
     }
 
     /// How many rows each of its row groups has.
@@ -84,7 +92,7 @@ impl TableFile {
     pub fn row_group(&self, group: usize, batch_size: usize) -> Result<Batches, TableError> {
         let rows = self.rows_of_groups();
         let first_row = rows[..group].iter().sum();
-        self.read(batch_size, rows[group], first_row, |builder| builder.with_row_groups(vec![group]))
+        self.read(batch_size, rows[group], first_row, vec![group])
     }
 
     /// All rows, `batch_size` at a time.
@@ -92,8 +100,9 @@ impl TableFile {
     /// # Errors
     /// If the file is damaged.
     pub fn batches(&self, batch_size: usize) -> Result<Batches, TableError> {
-        let rows = self.metadata.metadata().file_metadata().num_rows();
-        self.read(batch_size, rows.unsigned_abs(), 0, |builder| builder)
+        let metadata = self.metadata.metadata();
+        let rows = metadata.file_metadata().num_rows();
+        self.read(batch_size, rows.unsigned_abs(), 0, (0..metadata.num_row_groups()).collect())
     }
 
     fn read(
@@ -101,17 +110,30 @@ impl TableFile {
         batch_size: usize,
         rows: u64,
         next_row: u64,
-        choose: impl FnOnce(Builder) -> Builder,
+        groups: Vec<usize>,
     ) -> Result<Batches, TableError> {
-        let builder = Builder::new_with_metadata(self.file.clone(), self.metadata.clone());
-        let builder = choose(builder).with_batch_size(batch_size).with_projection(self.columns.clone());
-        let reader = builder.build().map_err(|source| not_parquet(&self.path, source))?;
+        let build = || {
+            groups.iter().try_for_each(|&group| self.check(group))?;
+            self.builder(batch_size).with_row_groups(groups).build()
+        };
+        let reader = guarded(build).map_err(|source| not_parquet(&self.path, source))?;
         let schema = arrow_array::RecordBatchReader::schema(&reader);
         Ok(Batches { path: self.path.clone(), reader, schema, rows, next_row })
     }
-}
 
-type Builder = ParquetRecordBatchReaderBuilder<SharedFile>;
+    fn builder(&self, batch_size: usize) -> ParquetRecordBatchReaderBuilder<SharedFile> {
+        ParquetRecordBatchReaderBuilder::new_with_metadata(self.file.clone(), self.metadata.clone())
+            .with_batch_size(batch_size)
+            .with_projection(self.columns.clone())
+    }
+
+    /// That what will be read of a row group fits into memory.
+    fn check(&self, group: usize) -> ParquetResult<()> {
+        let group = self.metadata.metadata().row_group(group);
+        let wanted = group.columns().iter().enumerate().filter(|(leaf, _)| self.columns.leaf_included(*leaf));
+        wanted.into_iter().try_for_each(|(_, column)| check_pages(&self.file, column, group.num_rows()))
+    }
+}
 
 impl Batches {
     /// Opens the file of a table: those of `columns` that it has, `batch_size` rows at a time.
@@ -125,6 +147,19 @@ impl Batches {
         batch_size: usize,
     ) -> Result<Batches, TableError> {
         TableFile::open(path, stages, columns)?.batches(batch_size)
+    }
+
+    /// Opens the file of a table that is then held as a whole.
+    ///
+    /// # Errors
+    /// As [`TableFile::open`], or if the file announces more rows than it has bytes: rows that differ take more.
+    pub fn open_whole(path: &Path, table: &Table, stages: &[&str]) -> Result<Batches, TableError> {
+        let file = TableFile::open(path, stages, table.columns)?;
+        let (rows, bytes) = (file.rows_of_groups().iter().sum(), file.file.len());
+        if rows > bytes {
+            return Err(TableError::TooManyRows { path: path.to_path_buf(), rows, bytes });
+        }
+        file.batches(NARROW_BATCH)
     }
 
     /// How many rows the file has.
@@ -142,11 +177,13 @@ impl Iterator for Batches {
     type Item = Result<Batch, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let rows = match self.reader.next()? {
-            Ok(rows) => rows,
-            Err(source) => {
-                return Some(Err(not_parquet(&self.path, ParquetError::ArrowError(source.to_string()))));
-            }
+        let decoded = guarded(|| {
+            let decoded = self.reader.next().transpose();
+            decoded.map_err(|source| ParquetError::ArrowError(source.to_string()))
+        });
+        let rows = match decoded {
+            Ok(rows) => rows?,
+            Err(source) => return Some(Err(not_parquet(&self.path, source))),
         };
         let first_row = self.next_row;
         self.next_row += rows.num_rows() as u64;
@@ -167,7 +204,7 @@ pub fn read_frame(path: &Path, table: &Table) -> Result<DataFrame, TableError> {
 /// # Errors
 /// As there.
 pub fn read_frame_of(path: &Path, table: &Table, stages: &[&str]) -> Result<DataFrame, TableError> {
-    let batches = Batches::open(path, stages, table.columns, NARROW_BATCH)?;
+    let batches = Batches::open_whole(path, table, stages)?;
     let mut whole = DataFrame::empty();
     for batch in batches {
         let Batch { rows, first_row } = batch?;
@@ -202,7 +239,7 @@ fn series(columns: &Columns, column: &Column) -> Result<Series, TableError> {
 
 /// That a file which says by which stage it was made was made by one of these.
 fn expect_stage(path: &Path, metadata: &ParquetMetaData, stages: &[&str]) -> Result<(), TableError> {
-    match stamp_in(metadata) {
+    match stamp_in(path, metadata)? {
         Some(stamp) if !stages.contains(&stamp.provenance.stage.as_str()) => Err(TableError::OtherStage {
             path: path.to_path_buf(),
             found: stamp.provenance.stage,

@@ -58,7 +58,9 @@ pub fn batch(rows: &[ResponseRow], by_name: bool) -> Result<RecordBatch, ArrowEr
         number(|row| row.structure.eta),
         Arc::new(StringArray::from_iter_values(rows.iter().map(|row| row.response.outcome.as_str()))),
         number(|row| row.response.edp),
-        Arc::new(Int32Array::from_iter_values(rows.iter().map(|row| row.response.impacts as i32))),
+        Arc::new(Int32Array::from_iter_values(
+            rows.iter().map(|row| i32::try_from(row.response.impacts).unwrap_or(i32::MAX)),
+        )),
         optional(|row| row.mw),
         optional(|row| row.re_km),
         number(|row| row.pga_m_s2),

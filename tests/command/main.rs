@@ -8,5 +8,6 @@ mod ida;
 mod import;
 mod kill;
 mod pipeline;
+mod together;
 mod universality;
 mod validate;

@@ -142,7 +142,7 @@ pub fn evaluate(options: &EvaluateOptions, force: bool, console: &Console) -> an
     if let Some(input) = &options.table.input {
         let out = options.out.clone().unwrap_or_else(|| beside(input, "evaluated.parquet"));
         let stage = table::EvaluateTable::new(options, fits, input.clone(), out)?;
-        return cache::run(&stage, force, console).map(|()| String::new());
+        return cache::run_alone(&stage, force, console).map(|()| String::new());
     }
     let structure = options.structure.structure(fits.model.eta)?;
     fits.warn_of_eta(&structure, console);

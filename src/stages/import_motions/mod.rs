@@ -84,6 +84,16 @@ impl ImportMotions {
     }
 }
 
+impl ImportMotions {
+    /// That the files still hold what they held before they were read.
+    fn expect_unchanged(&self, planned: &Provenance) -> anyhow::Result<()> {
+        if self.provenance()?.inputs != planned.inputs {
+            bail!("the files changed while they were read; run again");
+        }
+        Ok(())
+    }
+}
+
 impl Stage for ImportMotions {
     fn subcommand(&self) -> &'static str {
         RECORDS.stage
@@ -155,6 +165,7 @@ impl Stage for ImportMotions {
         if seen.is_empty() {
             bail!("no motion is imported; {}", summary(&refused, self.files.len()));
         }
+        self.expect_unchanged(provenance)?;
         if refused.is_empty() || self.keep_going {
             writer.finish()?;
             if !refused.is_empty() {
