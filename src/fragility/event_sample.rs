@@ -29,6 +29,12 @@ impl EventSample {
         sample
     }
 
+    /// Of the logarithms of each measure, all there, and whether the event happened.
+    pub fn of_columns(ln_im: Vec<Vec<f64>>, happened: Vec<bool>) -> EventSample {
+        let rows = (0..happened.len()).collect();
+        EventSample { ln_im, happened, rows }
+    }
+
     /// In how many cases the event happened.
     pub fn events(&self) -> usize {
         self.happened.iter().filter(|&&happened| happened).count()

@@ -19,12 +19,17 @@
 //! forecast         what the curves foretell of cases that were not fitted
 //! validation       such forecasts against what happened
 //! poisson_binomial the number of events of unequal probability
+//! candidate        sets of measures, ranking_sample the cases in which they are ranked
+//! rating           how well a set predicts: rate_demand that of P_ex, rate_overturning that of P_ro
+//! folds            which clusters are left out together, and gains paired over clusters
+//! ranking          all sets, the best first, and forward selection
 //!
 //! regression       least squares with standard errors and limits
 //! binary           maximum likelihood of binary outcomes
 //! link             how its index becomes a probability
 //! newton           the method that finds the maximum
 //! separation       whether there is a maximum at all
+//! overlap          the proof that there is one, for many predictors
 //! design_matrix    the rows of a regression
 //! dependence       whether the predictors can be told apart
 //! spline           columns that bend a line
@@ -42,6 +47,7 @@
 mod bent_curve;
 mod binary;
 mod bootstrap;
+mod candidate;
 mod case;
 mod curve;
 mod curve_inference;
@@ -54,6 +60,7 @@ mod design_matrix;
 mod distribution;
 mod event_sample;
 mod firth;
+mod folds;
 mod forecast;
 mod goodness;
 mod index;
@@ -62,10 +69,16 @@ mod limits;
 mod link;
 mod model;
 mod newton;
+mod overlap;
 mod overturning;
 mod poisson_binomial;
 mod predictor;
 mod profile;
+mod ranking;
+mod ranking_sample;
+mod rate_demand;
+mod rate_overturning;
+mod rating;
 mod regression;
 mod separation;
 mod skill;
@@ -78,6 +91,7 @@ mod validation;
 pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use binary::{BinaryError, BinaryFit, binary_regression};
 pub use bootstrap::{Strata, bootstrap};
+pub use candidate::{Candidate, Form};
 pub use case::{Case, Measure};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use curve_inference::CurveInference;
@@ -88,6 +102,7 @@ pub use demand_sample::DemandSample;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
 pub use event_sample::EventSample;
 pub use firth::Estimator;
+pub use folds::{Folds, Gain, gain};
 pub use forecast::{Forecast, Forecasts, Foretold};
 pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use index::{Probability, ProbitIndex};
@@ -97,6 +112,9 @@ pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState
 pub use overturning::{CurveModel, OverturningFit, fit_overturning};
 pub use poisson_binomial::PoissonBinomial;
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
+pub use ranking::{Ranked, RankingRules, rank};
+pub use ranking_sample::{FurtherMeasure, RankingSample, Target};
+pub use rating::{Rating, ReliabilityGroup, Skill, Unseen};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
 pub use separation::is_separated;
 pub use skill::{auc, brier_score, expected_log_score, log_score};

@@ -6,6 +6,7 @@ use std::path::Path;
 use anyhow::Context;
 use polars::prelude::{Column, DataFrame};
 
+use super::clusters::Clusters;
 use crate::fragility::Case;
 use crate::keyword;
 use crate::motion::IntensityMeasures;
@@ -23,8 +24,13 @@ pub struct Group {
     pub eta: f64,
     /// Its responses, in the order of the file.
     pub cases: Vec<Case>,
-    /// The number of the cell of magnitude and distance of each; one cell for all that have neither.
+    /// What the motion of each is called.
+    pub motion_ids: Vec<String>,
+    /// The number of the cell of magnitude and distance of each, within which a bootstrap resamples; one cell for all that
+    /// have neither.
     pub cells: Vec<usize>,
+    /// Which of them may depend on each other.
+    pub clusters: Clusters,
 }
 
 /// The groups of a responses file, in the order in which they first appear.
@@ -60,12 +66,17 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
         };
         Ok(Case { outcome, edp: edp[row], measures })
     };
+    let motion_ids = names(frame.column(schema::MOTION_ID.name)?)?;
+    let events: Vec<Option<&str>> = frame.column(schema::EARTHQUAKE.name)?.str()?.iter().collect();
+    let (mw, re_km) = (number(schema::MW)?, number(schema::RE_KM)?);
     Ok(Group {
         suite: first_text(frame.column(schema::SUITE.name)?)?,
         structure: first_text(frame.column(schema::STRUCTURE.name)?)?.unwrap_or_default(),
         eta: frame.column(schema::ETA.name)?.f64()?.get(0).unwrap_or(f64::NAN),
         cases: outcomes.iter().enumerate().map(case).collect::<anyhow::Result<_>>()?,
-        cells: cells(&number(schema::MW)?, &number(schema::RE_KM)?),
+        cells: cells(&mw, &re_km),
+        clusters: Clusters::new(&motion_ids, &events, &mw, &re_km),
+        motion_ids,
     })
 }
 
@@ -80,6 +91,15 @@ fn cells(mw: &[Option<f64>], re_km: &[Option<f64>]) -> Vec<usize> {
             *numbers.entry((bits(mw), bits(re_km))).or_insert(next)
         })
         .collect()
+}
+
+/// Names, or numbers as such.
+fn names(column: &Column) -> anyhow::Result<Vec<String>> {
+    if let Ok(names) = column.str() {
+        return Ok(names.iter().map(|name| name.unwrap_or_default().to_string()).collect());
+    }
+    let numbers = column.i64()?.iter();
+    Ok(numbers.map(|number| number.map_or(String::new(), |number| number.to_string())).collect())
 }
 
 fn first_text(column: &Column) -> anyhow::Result<Option<String>> {

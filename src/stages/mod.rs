@@ -4,12 +4,14 @@
 //! config             pipeline.yaml, the options of all
 //! structures         structures as a user names them; structure_options one of them on the command line
 //! measures           which intensity measures are taken
-//! groups             the responses of a suite and structure; pex_group and pro_group their fits
+//! groups             the responses of a suite and structure, clusters which of them resemble each other; pex_group and
+//!                    pro_group their fits
 //! uncertainty        the limits that both are asked for
 //! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
 //! ```
 
 pub mod chosen_fits;
+pub mod clusters;
 pub mod compare_paper;
 pub mod config;
 pub mod evaluate;

@@ -136,6 +136,24 @@ impl<'a> Columns<'a> {
         }
     }
 
+    /// Text or whole numbers as text, or `None` where the column or the value is missing.
+    ///
+    /// # Errors
+    /// If the column has another type.
+    pub fn optional_labels(&self, column: &Column) -> Result<Vec<Option<String>>, TableError> {
+        let words = |value: Option<i64>| value.map(|number| number.to_string());
+        match self.batch.column_by_name(column.name) {
+            Some(array) if array.data_type() == &DataType::Int64 => {
+                Ok(array.as_primitive::<Int64Type>().iter().map(words).collect())
+            }
+            Some(array) if array.data_type() == &DataType::Int32 => {
+                let values = array.as_primitive::<Int32Type>().iter();
+                Ok(values.map(|value| words(value.map(i64::from))).collect())
+            }
+            _ => self.optional_text(column),
+        }
+    }
+
     /// The samples of each row.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! The command as a user calls it.
 
 mod bad_input;
+mod clusters;
 mod common;
 mod evaluate;
 mod export;
