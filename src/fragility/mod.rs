@@ -112,7 +112,7 @@ pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState
 pub use overturning::{CurveModel, OverturningFit, fit_overturning};
 pub use poisson_binomial::PoissonBinomial;
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
-pub use ranking::{Ranked, RankingRules, rank};
+pub use ranking::{OfPaper, Ranked, RankingRules, rank};
 pub use ranking_sample::{FurtherMeasure, RankingSample, Target};
 pub use rating::{Rating, ReliabilityGroup, Skill, Unseen};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};

@@ -24,6 +24,15 @@ pub struct RankingRules {
     pub transition: Option<f64>,
 }
 
+/// What a candidate is to the paper.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OfPaper {
+    /// The model that it settles on.
+    Model,
+    /// The best of its six measures alone, as one power law.
+    Scalar,
+}
+
 /// A candidate and how it does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
@@ -41,8 +50,8 @@ pub struct Ranked {
     pub over_best: Option<Gain>,
     /// Over the model that the paper settles on.
     pub over_paper: Option<Gain>,
-    /// Whether it is that model.
-    pub is_paper: bool,
+    /// What it is to the paper.
+    pub of_paper: Option<OfPaper>,
     /// The step of forward selection that arrives here, from 0 for no measure at all.
     pub step: Option<usize>,
     /// Over the step before.
@@ -99,7 +108,7 @@ impl Standings<'_> {
     fn ranked(&self) -> Vec<Ranked> {
         let paper = Candidate::of_paper(self.sample);
         let paper = paper.and_then(|paper| self.candidates.iter().position(|of| *of == paper));
-        let steps = self.forward();
+        let (scalar, steps) = (self.scalar_of_paper(), self.forward());
         let ranks = self.ranks();
         let ranked = |&k: &usize| {
             let Candidate { measures, form } = &self.candidates[k];
@@ -113,7 +122,11 @@ impl Standings<'_> {
                 rank: ranks[k],
                 over_best: self.order.iter().find(best).and_then(|&best| self.gain(k, best)),
                 over_paper: paper.and_then(|paper| self.gain(k, paper)),
-                is_paper: paper == Some(k),
+                of_paper: match k {
+                    k if paper == Some(k) => Some(OfPaper::Model),
+                    k if scalar == Some(k) => Some(OfPaper::Scalar),
+                    _ => None,
+                },
                 step,
                 over_step: step.and_then(|step| self.gain(k, steps[step.checked_sub(1)?])),
             }
@@ -132,6 +145,17 @@ impl Standings<'_> {
 
     fn has_score(&self, k: usize) -> bool {
         self.ratings[k].as_ref().is_ok_and(|rating| rating.unseen.is_some())
+    }
+
+    /// The best of the paper's measures alone.
+    fn scalar_of_paper(&self) -> Option<usize> {
+        let measures = self.sample.target.measures_of_paper();
+        let places: Vec<usize> =
+            measures.iter().filter_map(|&measure| self.sample.place(measure)).collect();
+        self.order.iter().copied().filter(|&k| self.has_score(k)).find(|&k| {
+            let Candidate { measures, form } = &self.candidates[k];
+            *form == Form::Single && matches!(measures[..], [place] if places.contains(&place))
+        })
     }
 
     /// The place of each model among those of as many measures.

@@ -8,6 +8,7 @@ use super::compare_paper::ComparePaperOptions;
 use super::fit_pex::FitPexOptions;
 use super::fit_pro::FitProOptions;
 use super::import_motions::ImportMotionsOptions;
+use super::rank_ims::RankImsOptions;
 use super::sample_scenarios::SampleScenariosOptions;
 use super::simulate::SimulateOptions;
 use super::synthesize_motions::SynthesizeMotionsOptions;
@@ -34,6 +35,8 @@ pub struct Config {
     pub fit_pex: Option<FitPexOptions>,
     /// Options of fit-pro.
     pub fit_pro: Option<FitProOptions>,
+    /// Options of rank-ims.
+    pub rank_ims: Option<RankImsOptions>,
     /// Options of compare-paper.
     pub compare_paper: Option<ComparePaperOptions>,
 }

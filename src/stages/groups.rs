@@ -10,6 +10,7 @@ use super::clusters::Clusters;
 use crate::fragility::Case;
 use crate::keyword;
 use crate::motion::IntensityMeasures;
+use crate::rocking::Structure;
 use crate::table::reader::read_frame;
 use crate::table::schema::{self, RESPONSES};
 
@@ -20,17 +21,31 @@ pub struct Group {
     pub suite: Option<String>,
     /// The structure.
     pub structure: String,
+    /// Its frequency parameter, rad/s.
+    pub p_rad_s: f64,
+    /// Its slenderness, rad.
+    pub alpha_rad: f64,
     /// Its coefficient of restitution.
     pub eta: f64,
     /// Its responses, in the order of the file.
     pub cases: Vec<Case>,
     /// What the motion of each is called.
     pub motion_ids: Vec<String>,
+    /// Peak ground acceleration of each, m/s2.
+    pub pga_m_s2: Vec<f64>,
     /// The number of the cell of magnitude and distance of each, within which a bootstrap resamples; one cell for all that
     /// have neither.
     pub cells: Vec<usize>,
     /// Which of them may depend on each other.
     pub clusters: Clusters,
+}
+
+impl Group {
+    /// The structure that responds.
+    pub fn as_structure(&self) -> Structure {
+        let Group { p_rad_s, alpha_rad, eta, .. } = *self;
+        Structure { name: self.structure.clone(), p_rad_s, alpha_rad, eta }
+    }
 }
 
 /// The groups of a responses file, in the order in which they first appear.
@@ -49,6 +64,9 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
     };
     let finite = |column| -> anyhow::Result<Vec<f64>> {
         Ok(number(column)?.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
+    };
+    let first = |column: schema::Column| -> anyhow::Result<f64> {
+        Ok(frame.column(column.name)?.f64()?.get(0).unwrap_or(f64::NAN))
     };
     let outcomes = frame.column(schema::OUTCOME.name)?.str()?;
     let edp = finite(schema::EDP)?;
@@ -72,11 +90,14 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
     Ok(Group {
         suite: first_text(frame.column(schema::SUITE.name)?)?,
         structure: first_text(frame.column(schema::STRUCTURE.name)?)?.unwrap_or_default(),
-        eta: frame.column(schema::ETA.name)?.f64()?.get(0).unwrap_or(f64::NAN),
+        p_rad_s: first(schema::P_RAD_S)?,
+        alpha_rad: first(schema::ALPHA_RAD)?,
+        eta: first(schema::ETA)?,
         cases: outcomes.iter().enumerate().map(case).collect::<anyhow::Result<_>>()?,
         cells: cells(&mw, &re_km),
         clusters: Clusters::new(&motion_ids, &events, &mw, &re_km),
         motion_ids,
+        pga_m_s2: finite(schema::PGA_M_S2)?,
     })
 }
 

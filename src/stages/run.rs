@@ -8,6 +8,7 @@ use super::config::Config;
 use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
 use super::import_motions::ImportMotions;
+use super::rank_ims::RankIms;
 use super::sample_scenarios::SampleScenarios;
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
@@ -29,6 +30,8 @@ pub struct Files {
     pub pex: PathBuf,
     /// Of fit-pro.
     pub pro: PathBuf,
+    /// Of rank-ims.
+    pub ranking: PathBuf,
     /// Of compare-paper.
     pub paper: PathBuf,
 }
@@ -43,6 +46,7 @@ impl Files {
             responses: file("responses.parquet"),
             pex: file("pex.parquet"),
             pro: file("pro.parquet"),
+            ranking: file("ranking.parquet"),
             paper: file("paper.parquet"),
         }
     }
@@ -77,6 +81,10 @@ pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stag
     }
     if let Some(options) = &config.fit_pro {
         stages.push(Box::new(FitPro::new(options, files.responses.clone(), files.pro.clone())?));
+    }
+    if let Some(options) = &config.rank_ims {
+        let (responses, motions) = (files.responses.clone(), Some(files.motions.clone()));
+        stages.push(Box::new(RankIms::new(options, responses, motions, files.ranking.clone())?));
     }
     if let Some(options) = &config.compare_paper {
         let inputs = [files.pex.clone(), files.pro.clone(), files.responses.clone()];

@@ -8,7 +8,7 @@ use arrow_array::{Array, ArrayRef, Float32Array, Float64Array, RecordBatch};
 use arrow_schema::DataType;
 
 use super::TableError;
-use super::schema::Column;
+use super::schema::{Column, SPECTRAL_ACCELERATION, is_spectral_acceleration};
 
 /// A batch of rows of a file.
 pub struct Columns<'a> {
@@ -95,6 +95,22 @@ impl<'a> Columns<'a> {
         values.into_iter().enumerate().map(check).collect()
     }
 
+    /// The names of the columns of spectral accelerations, and their numbers as [`Columns::optional_numbers`] gives them.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn spectral_accelerations(&self) -> Result<Vec<(String, Vec<Option<f64>>)>, TableError> {
+        let schema = self.batch.schema();
+        let names = schema.fields().iter().map(|field| field.name());
+        let spectral = names.zip(self.batch.columns()).filter(|(name, _)| is_spectral_acceleration(name));
+        let numbers = |(name, array): (&String, &ArrayRef)| {
+            let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
+            let values = self.numbers_of(array, &SPECTRAL_ACCELERATION)?;
+            Ok((name.clone(), values.into_iter().map(finite).collect()))
+        };
+        spectral.map(numbers).collect()
+    }
+
     /// Whole numbers, one in each row.
     ///
     /// # Errors
@@ -134,6 +150,18 @@ impl<'a> Columns<'a> {
             Some(array) => self.text_of(array, column),
             None => Ok(vec![None; self.rows()]),
         }
+    }
+
+    /// Text or whole numbers as text, one in each row.
+    ///
+    /// # Errors
+    /// If the column is missing or of another type, or a value is null.
+    pub fn labels(&self, column: &Column) -> Result<Vec<String>, TableError> {
+        self.required(column)?;
+        let each = |(row, value): (usize, Option<String>)| {
+            value.ok_or_else(|| self.value_error(row, column, "null; expected a name or a whole number"))
+        };
+        self.optional_labels(column)?.into_iter().enumerate().map(each).collect()
     }
 
     /// Text or whole numbers as text, or `None` where the column or the value is missing.

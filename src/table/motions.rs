@@ -17,7 +17,7 @@ use crate::keyword::Keyword;
 use crate::motion::{Measured, Scenario, Suite};
 
 /// The stages whose output can stand as a motions file.
-const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
+pub(super) const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
 
 /// The most motions that a thread reads at once.
 const LARGEST_PART: usize = 128;
