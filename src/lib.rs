@@ -7,7 +7,7 @@
 //! sample-scenarios -> scenarios -> synthesize-motions -> motions -> simulate -> responses
 //!                                  records -> import-motions ----^                  |-> fit-pex -> pex --|
 //!                                                                                   |-> fit-pro -> pro --|-> compare-paper
-//!                                                                                                         |-> evaluate
+//!                                                                                   |-> rank-ims         |-> evaluate
 //!                                                                                                         |-> export
 //!                                                  responses of other motions, to hold the fits against --|-> validate
 //! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from

@@ -22,7 +22,7 @@
 //! candidate        sets of measures, ranking_sample the cases in which they are ranked
 //! rating           how well a set predicts: rate_demand that of P_ex, rate_overturning that of P_ro
 //! folds            which clusters are left out together, and gains paired over clusters
-//! ranking          all sets, the best first, and forward selection
+//! contest          all sets that compete, ranking their order and forward selection
 //!
 //! regression       least squares with standard errors and limits
 //! binary           maximum likelihood of binary outcomes
@@ -49,6 +49,7 @@ mod binary;
 mod bootstrap;
 mod candidate;
 mod case;
+mod contest;
 mod curve;
 mod curve_inference;
 mod curve_parameter;
@@ -93,6 +94,7 @@ pub use binary::{BinaryError, BinaryFit, binary_regression};
 pub use bootstrap::{Strata, bootstrap};
 pub use candidate::{Candidate, Form};
 pub use case::{Case, Measure};
+pub use contest::{Contest, RankingRules};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use curve_inference::CurveInference;
 pub use curve_parameter::CurveParameter;
@@ -112,7 +114,7 @@ pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState
 pub use overturning::{CurveModel, OverturningFit, fit_overturning};
 pub use poisson_binomial::PoissonBinomial;
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
-pub use ranking::{OfPaper, Ranked, RankingRules, rank};
+pub use ranking::{OfPaper, Ranked};
 pub use ranking_sample::{FurtherMeasure, RankingSample, Target};
 pub use rating::{Rating, ReliabilityGroup, Skill, Unseen};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};

@@ -1,28 +1,13 @@
 //! Which measures predict best: alone, in pairs and in triples, and by forward selection.
 
-use rayon::prelude::*;
-
 use super::FitStatus;
 use super::candidate::{Candidate, Form};
-use super::folds::{Folds, Gain, gain};
-use super::ranking_sample::{RankingSample, Target};
-use super::rate_demand::{Breaks, rate_demand};
-use super::rate_overturning::rate_overturning;
+use super::folds::{Gain, gain};
+use super::ranking_sample::RankingSample;
 use super::rating::Rating;
 
 /// Log-likelihoods that differ by less than this share are those of one model in other measures.
 const SAME: f64 = 1e-9;
-
-/// How measures are ranked.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RankingRules {
-    /// The most folds of cross-validation.
-    pub folds: usize,
-    /// The most measures of a candidate.
-    pub terms: usize,
-    /// The IM4 at which the demand breaks, if not where the pooled residual of two planes is least.
-    pub transition: Option<f64>,
-}
 
 /// What a candidate is to the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,24 +43,10 @@ pub struct Ranked {
     pub over_step: Option<Gain>,
 }
 
-/// Rates all sets of measures and orders them by their number, then by cross-validated log score, the best first. Those without
-/// a score come after them, those without a fit last.
-pub fn rank(sample: &RankingSample, rules: &RankingRules) -> Vec<Ranked> {
-    let folds = Folds::new(&sample.clusters, rules.folds);
-    let breaks = Breaks::new(sample, folds.as_ref(), rules.transition);
-    let candidates = Candidate::all(sample, rules.terms);
-    let rate = |candidate: &Candidate| match sample.target {
-        Target::Demand => rate_demand(sample, candidate, folds.as_ref(), &breaks),
-        Target::Overturning => rate_overturning(sample, candidate, folds.as_ref()),
-    };
-    let ratings = candidates.par_iter().map(rate).collect();
-    Standings::new(sample, candidates, ratings).ranked()
-}
-
 /// All candidates with their ratings.
-struct Standings<'a> {
+pub struct Standings<'a> {
     sample: &'a RankingSample,
-    candidates: Vec<Candidate>,
+    candidates: &'a [Candidate],
     ratings: Vec<Result<Rating, FitStatus>>,
     /// The first candidate that is the same model.
     models: Vec<usize>,
@@ -83,13 +54,14 @@ struct Standings<'a> {
     order: Vec<usize>,
 }
 
-impl Standings<'_> {
-    fn new(
-        sample: &RankingSample,
-        candidates: Vec<Candidate>,
+impl<'a> Standings<'a> {
+    /// Of candidates that compete in these cases.
+    pub fn new(
+        sample: &'a RankingSample,
+        candidates: &'a [Candidate],
         ratings: Vec<Result<Rating, FitStatus>>,
-    ) -> Standings<'_> {
-        let models = models(&candidates, &ratings);
+    ) -> Standings<'a> {
+        let models = models(candidates, &ratings);
         let key = |k: usize| match &ratings[models[k]] {
             Ok(Rating { unseen: Some(unseen), .. }) => (0, -unseen.log_score()),
             Ok(rating) => (1, rating.aic),
@@ -105,7 +77,8 @@ impl Standings<'_> {
         Standings { sample, candidates, ratings, models, order }
     }
 
-    fn ranked(&self) -> Vec<Ranked> {
+    /// All of them, as [`Contest::rank`](super::Contest::rank) orders them.
+    pub fn ranked(&self) -> Vec<Ranked> {
         let paper = Candidate::of_paper(self.sample);
         let paper = paper.and_then(|paper| self.candidates.iter().position(|of| *of == paper));
         let (scalar, steps) = (self.scalar_of_paper(), self.forward());
@@ -140,7 +113,8 @@ impl Standings<'_> {
 
     fn gain(&self, k: usize, over: usize) -> Option<Gain> {
         let log_scores = |k: usize| Some(&self.ratings[k].as_ref().ok()?.unseen.as_ref()?.log_scores);
-        Some(gain(log_scores(k)?, log_scores(over)?, &self.sample.clusters))
+        // Of the models, so that no rounding tells those apart that are the same.
+        Some(gain(log_scores(self.models[k])?, log_scores(self.models[over])?, &self.sample.clusters))
     }
 
     fn has_score(&self, k: usize) -> bool {
@@ -150,8 +124,7 @@ impl Standings<'_> {
     /// The best of the paper's measures alone.
     fn scalar_of_paper(&self) -> Option<usize> {
         let measures = self.sample.target.measures_of_paper();
-        let places: Vec<usize> =
-            measures.iter().filter_map(|&measure| self.sample.place(measure)).collect();
+        let places: Vec<usize> = measures.iter().filter_map(|&measure| self.sample.place(measure)).collect();
         self.order.iter().copied().filter(|&k| self.has_score(k)).find(|&k| {
             let Candidate { measures, form } = &self.candidates[k];
             *form == Form::Single && matches!(measures[..], [place] if places.contains(&place))

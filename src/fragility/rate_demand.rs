@@ -34,9 +34,8 @@ impl Breaks {
         let find = |weights: &[f64]| Some(search.find(|case| weights[case])?.im4.ln());
         Breaks {
             all: find(&vec![1.0; sample.len()]),
-            without: folds.map_or(Vec::new(), |folds| {
-                (0..count).map(|fold| find(&folds.without(fold))).collect()
-            }),
+            without: folds
+                .map_or(Vec::new(), |folds| (0..count).map(|fold| find(&folds.without(fold))).collect()),
         }
     }
 }

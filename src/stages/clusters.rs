@@ -22,7 +22,10 @@ keywords!(SharedBy { Earthquake = "earthquake", Cell = "cell", Nothing = "nothin
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Origin {
     Earthquake(String),
-    Cell { mw_bits: u64, re_km_bits: u64 },
+    Cell {
+        mw_bits: u64,
+        re_km_bits: u64,
+    },
     /// The hash of its name: an order that means nothing.
     Motion([u8; 32]),
 }

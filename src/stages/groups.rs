@@ -21,14 +21,14 @@ pub struct Group {
     pub suite: Option<String>,
     /// The structure.
     pub structure: String,
-    /// Its frequency parameter, rad/s.
-    pub p_rad_s: f64,
-    /// Its slenderness, rad.
-    pub alpha_rad: f64,
     /// Its coefficient of restitution.
     pub eta: f64,
     /// Its responses, in the order of the file.
     pub cases: Vec<Case>,
+    /// The frequency parameter, rad/s, in each.
+    pub p_rad_s: Vec<f64>,
+    /// The slenderness, rad, in each.
+    pub alpha_rad: Vec<f64>,
     /// What the motion of each is called.
     pub motion_ids: Vec<String>,
     /// Peak ground acceleration of each, m/s2.
@@ -41,10 +41,10 @@ pub struct Group {
 }
 
 impl Group {
-    /// The structure that responds.
-    pub fn as_structure(&self) -> Structure {
-        let Group { p_rad_s, alpha_rad, eta, .. } = *self;
-        Structure { name: self.structure.clone(), p_rad_s, alpha_rad, eta }
+    /// The structure of a response.
+    pub fn structure_of(&self, row: usize) -> Structure {
+        let (p_rad_s, alpha_rad) = (self.p_rad_s[row], self.alpha_rad[row]);
+        Structure { name: self.structure.clone(), p_rad_s, alpha_rad, eta: self.eta }
     }
 }
 
@@ -64,9 +64,6 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
     };
     let finite = |column| -> anyhow::Result<Vec<f64>> {
         Ok(number(column)?.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
-    };
-    let first = |column: schema::Column| -> anyhow::Result<f64> {
-        Ok(frame.column(column.name)?.f64()?.get(0).unwrap_or(f64::NAN))
     };
     let outcomes = frame.column(schema::OUTCOME.name)?.str()?;
     let edp = finite(schema::EDP)?;
@@ -90,12 +87,12 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
     Ok(Group {
         suite: first_text(frame.column(schema::SUITE.name)?)?,
         structure: first_text(frame.column(schema::STRUCTURE.name)?)?.unwrap_or_default(),
-        p_rad_s: first(schema::P_RAD_S)?,
-        alpha_rad: first(schema::ALPHA_RAD)?,
-        eta: first(schema::ETA)?,
+        eta: frame.column(schema::ETA.name)?.f64()?.get(0).unwrap_or(f64::NAN),
         cases: outcomes.iter().enumerate().map(case).collect::<anyhow::Result<_>>()?,
         cells: cells(&mw, &re_km),
         clusters: Clusters::new(&motion_ids, &events, &mw, &re_km),
+        p_rad_s: finite(schema::P_RAD_S)?,
+        alpha_rad: finite(schema::ALPHA_RAD)?,
         motion_ids,
         pga_m_s2: finite(schema::PGA_M_S2)?,
     })

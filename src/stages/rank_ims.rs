@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::fit_pex::TransitionAt;
 use super::groups::{self, Group};
-use crate::fragility::{FurtherMeasure, RankingRules, RankingSample, Target, rank};
+use crate::fragility::{Contest, FurtherMeasure, RankingRules, RankingSample, Target};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, defaults};
@@ -88,13 +88,33 @@ fn further(group: &Group, motions: &MotionMeasures) -> anyhow::Result<Vec<Furthe
         name: measure.name.clone(),
         ln: rows
             .iter()
-            .map(|&row| {
-                let value = measure.quantity.dimensionless(measure.values[row]?, &group.as_structure());
+            .enumerate()
+            .map(|(response, &row)| {
+                let structure = group.structure_of(response);
+                let value = measure.quantity.dimensionless(measure.values[row]?, &structure);
                 Some(value).filter(|value| *value > 0.0).map(f64::ln)
             })
             .collect(),
     });
     Ok(measures.collect())
+}
+
+/// All candidates for one target in a group.
+fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<RankingRow> {
+    let (target, n) = (sample.target, sample.len());
+    let events = sample.happened.iter().filter(|&&happened| happened).count();
+    let contest = Contest::new(sample, rules);
+    let ratings = contest.candidates.par_iter().map(|candidate| contest.rate(candidate)).collect();
+    let row = |ranked| RankingRow {
+        suite: group.suite.clone(),
+        structure: group.structure.clone(),
+        target,
+        n,
+        events,
+        clustered_by: group.clusters.shared.as_str(),
+        ranked,
+    };
+    contest.rank(ratings).into_iter().map(row).collect()
 }
 
 impl Stage for RankIms {
@@ -118,7 +138,7 @@ impl Stage for RankIms {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
         let motions = self.motions.as_deref().map(MotionMeasures::read).transpose()?;
-        let mut contests: Vec<(&Group, RankingSample)> = Vec::new();
+        let mut samples: Vec<(&Group, RankingSample)> = Vec::new();
         for group in &groups {
             let further = motions.as_ref().map_or(Ok(Vec::new()), |motions| further(group, motions));
             let further = further.with_context(|| format!("responses of '{}'", group.structure))?;
@@ -127,24 +147,12 @@ impl Stage for RankIms {
                 let limit_state = self.options.limit_state;
                 (group, RankingSample::new(target, &group.cases, clusters, &further, limit_state))
             };
-            contests.extend(Target::ALL.iter().map(sample));
+            samples.extend(Target::ALL.iter().map(sample));
         }
-        warn(&contests, console);
-        let rows: Vec<Vec<RankingRow>> = contests
-            .par_iter()
-            .map(|(group, sample)| {
-                let row = |ranked| RankingRow {
-                    suite: group.suite.clone(),
-                    structure: group.structure.clone(),
-                    target: sample.target,
-                    n: sample.len(),
-                    events: sample.happened.iter().filter(|&&happened| happened).count(),
-                    clustered_by: group.clusters.shared.as_str(),
-                    ranked,
-                };
-                rank(sample, &self.rules).into_iter().map(row).collect()
-            })
-            .collect();
+        warn(&samples, console);
+        let targets = samples.len();
+        let rows: Vec<Vec<RankingRow>> =
+            samples.into_par_iter().map(|(group, sample)| rows(group, sample, &self.rules)).collect();
         let rows = rows.concat();
         let mut writer =
             TableWriter::create(&self.reliability_path(), &RANKING_RELIABILITY, provenance.clone())?;
@@ -153,13 +161,13 @@ impl Stage for RankIms {
         let mut writer = TableWriter::create(&self.out, &RANKING, provenance.clone())?;
         writer.append(&ranking::batch(&rows)?)?;
         writer.finish()?;
-        Ok(format!("{} models for {} targets", rows.len(), contests.len()))
+        Ok(format!("{} models for {} targets", rows.len(), targets))
     }
 }
 
 /// Says which measures do not compete, since likelihoods are comparable on the same cases only.
-fn warn(contests: &[(&Group, RankingSample)], console: &Console) {
-    console.warn_each(contests.iter().flat_map(|(group, sample)| {
+fn warn(samples: &[(&Group, RankingSample)], console: &Console) {
+    console.warn_each(samples.iter().flat_map(|(group, sample)| {
         sample.incomplete.iter().map(move |(name, missing)| {
             let suite = group.suite.as_deref().unwrap_or_default();
             let of = format!("{suite} {} {} ({missing})", group.structure, sample.target.as_str());

@@ -6,9 +6,7 @@ use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 
 use super::schema::{RANKING, RANKING_RELIABILITY};
-use crate::fragility::{
-    FitStatus, OfPaper, Ranked, Rating, ReliabilityGroup, Target, Unseen, wilson_limits,
-};
+use crate::fragility::{FitStatus, OfPaper, Ranked, Rating, ReliabilityGroup, Target, Unseen, wilson_limits};
 use crate::keyword::Keyword;
 
 /// One candidate.
@@ -37,6 +35,11 @@ impl RankingRow {
 
     fn unseen(&self) -> Option<&Unseen> {
         self.rating()?.unseen.as_ref()
+    }
+
+    /// Of forecasts that are not one constant, which differs from fold to fold by what is left out alone.
+    fn told_apart(&self) -> Option<&Unseen> {
+        self.unseen().filter(|_| !self.ranked.measures.is_empty())
     }
 
     fn status(&self) -> FitStatus {
@@ -96,16 +99,16 @@ pub fn batch(rows: &[RankingRow]) -> Result<RecordBatch, ArrowError> {
         number(&|row| Some(row.ranked.over_step?.value)),
         number(&|row| Some(row.ranked.over_step?.standard_error)),
         number(&|row| Some(row.unseen()?.event_log_score)),
-        number(&|row| Some(row.unseen()?.skill.auc)),
+        number(&|row| Some(row.told_apart()?.skill.auc)),
         number(&|row| Some(row.unseen()?.skill.brier)),
-        number(&|row| Some(row.unseen()?.calibration?[0])),
-        number(&|row| Some(row.unseen()?.calibration?[1])),
+        number(&|row| Some(row.told_apart()?.calibration?[0])),
+        number(&|row| Some(row.told_apart()?.calibration?[1])),
         number(&|row| Some(row.rating()?.log_likelihood)),
         number(&|row| Some(row.rating()?.aic)),
         number(&|row| Some(row.rating()?.bic)),
         number(&|row| Some(row.rating()?.fitted.auc)),
         number(&|row| Some(row.rating()?.fitted.brier)),
-        number(&|row| Some(row.rating()?.beta)),
+        number(&|row| Some(row.rating()?.beta).filter(|beta| *beta > 0.0)),
         number(&|row| row.rating()?.zeta),
         coefficient(0),
         coefficient(1),

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, StringArray};
+use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 
 use super::TableError;
 use super::columns::Columns;
@@ -35,6 +35,8 @@ struct Chosen {
     measures: String,
     form: String,
     terms: usize,
+    /// Events and cases.
+    counts: [i64; 2],
     beta: Option<f64>,
     over_best: [Option<f64>; 2],
     shown: Vec<Option<f64>>,
@@ -65,6 +67,7 @@ fn chosen(path: &Path) -> Result<Vec<Chosen>, TableError> {
                 .map(|column| columns.text(&column));
         let (structures, targets, measures, forms) = (structures?, targets?, measures?, forms?);
         let (choices, terms) = (columns.optional_text(&schema::CHOICE)?, columns.integers(&schema::TERMS)?);
+        let counts = [columns.integers(&schema::N_EVENTS)?, columns.integers(&schema::N)?];
         let number = |column: &Column| columns.optional_numbers(column);
         let (beta, over_best) = (number(&schema::BETA)?, number(&schema::OVER_BEST)?);
         let se_over_best = number(&schema::SE_OVER_BEST)?;
@@ -76,6 +79,7 @@ fn chosen(path: &Path) -> Result<Vec<Chosen>, TableError> {
                 measures: measures[row].clone(),
                 form: forms[row].clone(),
                 terms: terms[row].unsigned_abs() as usize,
+                counts: [counts[0][row], counts[1][row]],
                 beta: beta[row],
                 over_best: [over_best[row], se_over_best[row]],
                 shown: shown.iter().map(|column| column[row]).collect(),
@@ -103,9 +107,7 @@ fn table(chosen: &[Chosen]) -> anyhow::Result<RecordBatch> {
     ];
     columns.extend(SHOWN.iter().enumerate().map(|(k, column)| (*column, number(&move |row| row.shown[k]))));
     columns.push((schema::BETA, number(&|row| row.beta)));
-    // A column without any value, as of a file with one suite that has no name, still stands.
-    let columns = columns.into_iter().filter(|(_, array)| !array.is_empty());
-    Ok(RecordBatch::try_from_iter(columns.map(|(column, array)| (column.name, array)))?)
+    Ok(RecordBatch::try_from_iter(columns.into_iter().map(|(column, array)| (column.name, array)))?)
 }
 
 /// One structure under one suite, in words.
@@ -116,7 +118,8 @@ fn verdict(group: &[Chosen]) -> Result<String, std::fmt::Error> {
     };
     let [suite, structure, target] = &group[0].of;
     let mut line = [target, suite, structure].map(String::as_str).join(" ").replace("  ", " ");
-    line += ":";
+    let [events, cases] = group[0].counts;
+    write!(line, " ({events} events in {cases} cases):")?;
     let Some(paper) = find("paper", None) else {
         return Ok(line + " no forecasts by the model of the paper to hold others against\n");
     };
@@ -126,7 +129,12 @@ fn verdict(group: &[Chosen]) -> Result<String, std::fmt::Error> {
         write!(line, "; the best scalar, {} ({}), is {}", best.measures, best.form, against(best))?;
         if let Some(scalar) = find("scalar of paper", None).filter(|row| !has(row, "best")) {
             let [value, error] = scalar.over_best;
-            write!(line, ", {} alone is {} than that", scalar.measures, comparison(value, error))?;
+            let against = comparison(value, error);
+            write!(
+                line,
+                "; the best of the six of Eq. 13 as one power law, {}, is {against} beside it",
+                scalar.measures
+            )?;
         }
     }
     for (terms, name) in [(2, "pair"), (3, "triple")] {

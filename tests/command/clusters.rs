@@ -3,9 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use arrow_array::builder::{Float64Builder, ListBuilder};
 use arrow_array::cast::AsArray;
 use arrow_array::types::Float64Type;
-use arrow_array::{ArrayRef, Float64Array, Int32Array, RecordBatch, StringArray};
+use arrow_array::{ArrayRef, Float64Array, Int32Array, Int64Array, RecordBatch, StringArray};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
 use crate::common::{succeed, write};
@@ -22,7 +23,7 @@ fn reference<T: serde::de::DeserializeOwned>(name: &str) -> Vec<T> {
 }
 
 /// Safe responses with the measures and demands of the reference, 20 to an earthquake.
-fn responses(path: &Path, with_earthquakes: bool) {
+pub fn responses(path: &Path, with_earthquakes: bool) {
     let cases: Vec<(f64, f64, f64, u8)> = reference("cases.csv");
     let number = |value: fn(&(f64, f64, f64, u8)) -> f64| -> ArrayRef {
         Arc::new(Float64Array::from_iter_values(cases.iter().map(value)))
@@ -64,5 +65,30 @@ fn clustered_errors_by_earthquake_equal_those_of_statsmodels() {
         let error = fits["se_b1_clustered"].as_primitive::<Float64Type>().value(row);
         let expected = answers[answer];
         assert!((error - expected).abs() < 1e-9 * expected, "{answer}: {error}, expected {expected}");
+    }
+}
+
+#[test]
+fn simulate_carries_the_earthquake_by_name_or_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let names: ArrayRef = Arc::new(StringArray::from(vec![Some("Kobe"), None]));
+    let numbers: ArrayRef = Arc::new(Int64Array::from(vec![Some(17), None]));
+    for (events, expected) in [(names, "Kobe"), (numbers, "17")] {
+        let mut list = ListBuilder::new(Float64Builder::new());
+        for _ in 0..2 {
+            list.values().append_slice(&[0.0, 3.0, -2.0, 1.0, 0.0]);
+            list.append(true);
+        }
+        let columns: Vec<(&str, ArrayRef)> = vec![
+            ("motion_id", Arc::new(StringArray::from(vec!["a", "b"]))),
+            ("event", events),
+            ("dt_s", Arc::new(Float64Array::from(vec![0.1, 0.1]))),
+            ("acceleration_m_s2", Arc::new(list.finish())),
+        ];
+        write(&folder.path().join("motions.parquet"), columns);
+        succeed(folder.path(), "simulate --force");
+        let responses = rows(&folder.path().join("responses.parquet"));
+        let events: Vec<Option<&str>> = responses["event"].as_string::<i32>().iter().collect();
+        assert_eq!(events, [Some(expected), None]);
     }
 }

@@ -8,4 +8,5 @@ mod export;
 mod import;
 mod kill;
 mod pipeline;
+mod rank_ims;
 mod validate;

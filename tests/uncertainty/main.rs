@@ -5,4 +5,5 @@ mod data;
 mod firth;
 mod goodness;
 mod links;
+mod ranking;
 mod robust;

@@ -16,7 +16,7 @@ columns! {
     CHOICE = "choice", Text, "1", "why to look at it: paper (the model of the paper), scalar of paper (the best of its six alone), best (of as many measures), step N (of forward selection)";
     RANK = "rank", Int64, "1", "place among the models of as many measures by log_score, from 1";
     SAME_AS = "same_as", Text, "1", "measures before it that make the same model: products of powers of one another";
-    RANK_LOG_SCORE = "log_score", Float64, "1", "mean ln probability (of p_ex: density of ln EDP) of what happened in clusters left out of the fit";
+    RANK_LOG_SCORE = "log_score", Float64, "1", "mean ln probability (of p_ex: density of ln EDP) of what happened in clusters left out of the fit; null where a fit without some of them does not exist";
     OVER_PAPER = "over_paper", Float64, "1", "log_score over that of the model of the paper";
     SE_OVER_PAPER = "se_over_paper", Float64, "1", "standard error of over_paper, paired over clusters";
     OVER_BEST = "over_best", Float64, "1", "log_score over that of the best of as many measures, not above 0";
@@ -25,7 +25,7 @@ columns! {
     OVER_STEP = "over_step", Float64, "1", "log_score over that of the step before";
     SE_OVER_STEP = "se_over_step", Float64, "1", "standard error of over_step, paired over clusters";
     EVENT_LOG_SCORE = "event_log_score", Float64, "1", "mean ln probability of whether the event (overturning, or a demand above the limit state) happened, in clusters left out of the fit";
-    AUC_UNSEEN = "auc_unseen", Float64, "1", "area under the receiver operating characteristic of the event, in clusters left out of the fit";
+    AUC_UNSEEN = "auc_unseen", Float64, "1", "area under the receiver operating characteristic of the event, in clusters left out of the fit; null without a measure";
     BRIER_UNSEEN = "brier_unseen", Float64, "1", "Brier score of the event, in clusters left out of the fit";
     CALIBRATION_INTERCEPT = "calibration_intercept", Float64, "1", "intercept of the events regressed by a probit on the index foretold for clusters left out; 0 is best";
     CALIBRATION_SLOPE = "calibration_slope", Float64, "1", "slope of it; 1 is best, less: the forecasts are too sure";
