@@ -27,7 +27,7 @@ const SHOWN: [Column; 8] = [
     schema::CALIBRATION_SLOPE,
 ];
 
-/// A row that was chosen.
+/// A row that was chosen, or that without measures, which every structure has.
 struct Chosen {
     /// Suite, structure, target.
     of: [String; 3],
@@ -75,7 +75,7 @@ fn chosen(path: &Path) -> Result<Vec<Chosen>, TableError> {
         let row = |row: usize| {
             Some(Chosen {
                 of: [suites[row].clone().unwrap_or_default(), structures[row].clone(), targets[row].clone()],
-                choice: choices[row].clone()?,
+                choice: choices[row].clone().or((terms[row] == 0).then(String::new))?,
                 measures: measures[row].clone(),
                 form: forms[row].clone(),
                 terms: terms[row].unsigned_abs() as usize,

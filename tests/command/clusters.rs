@@ -11,10 +11,11 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
 use crate::common::{succeed, write};
 
-/// The only batch of a file.
+/// All rows of a file.
 pub fn rows(path: &Path) -> RecordBatch {
     let file = std::fs::File::open(path).unwrap();
-    ParquetRecordBatchReaderBuilder::try_new(file).unwrap().build().unwrap().next().unwrap().unwrap()
+    let all = ParquetRecordBatchReaderBuilder::try_new(file).unwrap().with_batch_size(usize::from(u16::MAX));
+    all.build().unwrap().next().unwrap().unwrap()
 }
 
 fn reference<T: serde::de::DeserializeOwned>(name: &str) -> Vec<T> {

@@ -1,13 +1,14 @@
 //! rank-ims as a user calls it.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{Array, RecordBatch};
+use arrow_array::{Array, ArrayRef, Int64Array, RecordBatch};
 
 use crate::clusters::{responses, rows};
-use crate::common::{SMALL_PIPELINE, fail, rockfrag, succeed};
+use crate::common::{SMALL_PIPELINE, fail, rockfrag, succeed, write};
 use crate::evaluate::run_folder;
 
 fn text(rows: &RecordBatch, name: &str, row: usize) -> String {
@@ -133,19 +134,12 @@ fn bad_calls_and_other_motions_are_refused() {
     );
     let scenarios = format!("{run_files} --motions {}/scenarios.parquet", run.display());
     fail(here, &format!("rank-ims {scenarios}"), 1, &["made by sample-scenarios"]);
-    let motions = |seed: usize, samples: usize| {
-        let scenarios =
-            format!("sample-scenarios --mw 6,7 --re 5,10 --samples {samples} --seed {seed} --force");
-        succeed(here, &scenarios);
-        succeed(here, "synthesize-motions --dt 0.01 --force");
-        format!("rank-ims {run_files} --motions motions.parquet")
-    };
-    fail(
-        here,
-        &motions(42, 2),
-        1,
-        &["motions.parquet: no motion", "expected the motions that the responses are to"],
-    );
-    fail(here, &motions(43, 60), 1, &["column 'pga_m_s2'", "expected the motions that the responses are to"]);
+    let motions = format!("rank-ims {run_files} --motions motions.parquet");
+    let one: ArrayRef = Arc::new(Int64Array::from(vec![123_456]));
+    write(&here.join("motions.parquet"), vec![("motion_id", one)]);
+    fail(here, &motions, 1, &["motions.parquet: no motion '0'", "the motions that the responses are to"]);
+    succeed(here, "sample-scenarios --mw 6,7 --re 5,10 --samples 60 --seed 43");
+    succeed(here, "synthesize-motions --dt 0.01 --force");
+    fail(here, &motions, 1, &["column 'pga_m_s2'", "the motions that the responses are to"]);
     assert!(!Path::new(&here.join("ranking.parquet")).exists());
 }

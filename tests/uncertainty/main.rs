@@ -1,4 +1,5 @@
-//! The uncertainty of the fits against statsmodels, pyFragility, firthmodels and scipy (scripts/reference/uncertainty.py).
+//! The uncertainty of the fits against statsmodels, pyFragility, firthmodels and scipy (scripts/reference/uncertainty.py), and the
+//! ranking of what they are fitted to (scripts/reference/ranking.py).
 
 mod bootstrap;
 mod data;
