@@ -27,6 +27,15 @@ pub enum Samples {
     Float64(Float64Array),
 }
 
+/// A column of spectral accelerations, m/s2.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectralAcceleration {
+    /// Its name, which tells the period.
+    pub name: String,
+    /// The number in each row, where there is one.
+    pub values: Vec<Option<f64>>,
+}
+
 impl Samples {
     /// All of them.
     pub fn to_vec(&self) -> Vec<f64> {
@@ -95,18 +104,18 @@ impl<'a> Columns<'a> {
         values.into_iter().enumerate().map(check).collect()
     }
 
-    /// The names of the columns of spectral accelerations, and their numbers as [`Columns::optional_numbers`] gives them.
+    /// The columns of spectral accelerations.
     ///
     /// # Errors
-    /// As there.
-    pub fn spectral_accelerations(&self) -> Result<Vec<(String, Vec<Option<f64>>)>, TableError> {
+    /// If one has another type.
+    pub fn spectral_accelerations(&self) -> Result<Vec<SpectralAcceleration>, TableError> {
         let schema = self.batch.schema();
         let names = schema.fields().iter().map(|field| field.name());
         let spectral = names.zip(self.batch.columns()).filter(|(name, _)| is_spectral_acceleration(name));
         let numbers = |(name, array): (&String, &ArrayRef)| {
             let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
             let values = self.numbers_of(array, &SPECTRAL_ACCELERATION)?;
-            Ok((name.clone(), values.into_iter().map(finite).collect()))
+            Ok(SpectralAcceleration { name: name.clone(), values: values.into_iter().map(finite).collect() })
         };
         spectral.map(numbers).collect()
     }

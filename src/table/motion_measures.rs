@@ -82,7 +82,7 @@ impl MotionMeasures {
             measures.push((column.name.to_string(), *quantity, columns.optional_numbers(column)?));
         }
         let spectral = columns.spectral_accelerations()?.into_iter();
-        measures.extend(spectral.map(|(name, values)| (name, Quantity::Acceleration, values)));
+        measures.extend(spectral.map(|column| (column.name, Quantity::Acceleration, column.values)));
         let is_first = self.further.is_empty();
         for (place, (column, quantity, values)) in measures.into_iter().enumerate() {
             if is_first {

@@ -126,13 +126,13 @@ fn verdict(group: &[Chosen]) -> Result<String, std::fmt::Error> {
     let against = |row: &Chosen| comparison(row.shown[1], row.shown[2]);
     write!(line, " the paper takes {} ({})", paper.measures, paper.form)?;
     if let Some(best) = find("best", Some(1)) {
-        write!(line, "; the best scalar, {} ({}), is {}", best.measures, best.form, against(best))?;
+        write!(line, "\n    the best scalar, {} ({}), is {}", best.measures, best.form, against(best))?;
         if let Some(scalar) = find("scalar of paper", None).filter(|row| !has(row, "best")) {
             let [value, error] = scalar.over_best;
             let against = comparison(value, error);
             write!(
                 line,
-                "; the best of the six of Eq. 13 as one power law, {}, is {against} beside it",
+                "\n    the best of the six of Eq. 13 as one power law, {}, is {against} beside it",
                 scalar.measures
             )?;
         }
@@ -140,9 +140,15 @@ fn verdict(group: &[Chosen]) -> Result<String, std::fmt::Error> {
     for (terms, name) in [(2, "pair"), (3, "triple")] {
         if let Some(best) = find("best", Some(terms)) {
             if has(best, "paper") {
-                write!(line, "; no {name} is better than the paper's")?;
+                write!(line, "\n    no {name} is better than the paper's")?;
             } else {
-                write!(line, "; the best {name}, {} ({}), is {}", best.measures, best.form, against(best))?;
+                write!(
+                    line,
+                    "\n    the best {name}, {} ({}), is {}",
+                    best.measures,
+                    best.form,
+                    against(best)
+                )?;
             }
         }
     }

@@ -108,9 +108,9 @@ fn no_case_is_foretold_with_the_help_of_its_own_cluster() {
     let mut data = data();
     let before = ranking(&data, Target::Overturning, &[]);
     // Other outcomes in the cells of the first fold change all forecasts but their own.
-    let first_fold = |k: usize| data.cells[k] % 10 == 0;
+    let first_fold = |k: usize| data.cells[k].is_multiple_of(10);
     let changed: Vec<bool> =
-        (0..data.x.len()).map(|k| data.event[k] != (first_fold(k) && k % 2 == 0)).collect();
+        (0..data.x.len()).map(|k| data.event[k] != (first_fold(k) && k.is_multiple_of(2))).collect();
     data.event = changed;
     let after = ranking(&data, Target::Overturning, &[]);
     let probability = |ranking: &[Ranked], k: usize, happened: bool| {
@@ -121,7 +121,7 @@ fn no_case_is_foretold_with_the_help_of_its_own_cluster() {
     let original = crate::data::data();
     for k in 0..data.x.len() {
         let (p, q) = (probability(&before, k, original.event[k]), probability(&after, k, data.event[k]));
-        assert_eq!((p - q).abs() < 1e-9, data.cells[k] % 10 == 0, "{k}: {p}, {q}");
+        assert_eq!((p - q).abs() < 1e-9, data.cells[k].is_multiple_of(10), "{k}: {p}, {q}");
     }
 }
 
