@@ -19,6 +19,7 @@ use crate::stages::fit_pro::{FitPro, FitProOptions};
 use crate::stages::ida::{Ida, IdaOptions};
 use crate::stages::import_motions::{ImportMotions, ImportMotionsOptions};
 use crate::stages::inspect::inspect;
+use crate::stages::rank_ims::{RankIms, RankImsOptions};
 use crate::stages::run::{Files, dry_run, run, stages};
 use crate::stages::sample_scenarios::{SampleScenarios, SampleScenariosOptions};
 use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
@@ -26,7 +27,7 @@ use crate::stages::simulate::{Simulate, SimulateOptions};
 use crate::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 use crate::stages::universality::{self, Universality, UniversalityOptions};
 use crate::stages::validate::{Validate, ValidateOptions};
-use crate::table::{ida, paper, validation};
+use crate::table::{ida, paper, ranking_verdict, validation};
 
 /// Dimensionless fragility curves for rocking structures in near-fault earthquakes
 #[derive(Debug, Parser)]
@@ -137,6 +138,25 @@ enum Command {
         out: Option<PathBuf>,
         #[command(flatten)]
         options: FitProOptions,
+    },
+    /// Rank intensity measures, alone, in pairs and triples, by how well they predict unseen cells or earthquakes
+    ///
+    /// Besides im1 to im6 of the paper, the measures of --motions, made dimensionless with p and g tan alpha: p D of the
+    /// significant durations (d5_75, d5_95); p^2 PGD / (g tan alpha) (pgd), the same of the Housner intensity (housner);
+    /// p CAV / (g tan alpha) (cav); p times the integral of a^2 / (g tan alpha)^2 (arias); Sa / (g tan alpha) (sa_0p50 is that at
+    /// 0.5 s). Measures enter as a product, each to a power that the fit finds. PGA, PGV, Tm and Tp are those of im1 to im6.
+    RankIms {
+        /// Responses to read
+        #[arg(long = "in", value_name = "FILE", default_value = "responses.parquet")]
+        input: PathBuf,
+        /// Motions that the responses are to, for their further measures
+        #[arg(long, value_name = "FILE")]
+        motions: Option<PathBuf>,
+        /// Ranking to write [default: ranking.parquet beside the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: RankImsOptions,
     },
     /// Hold our numbers against the published ones
     ComparePaper {
@@ -279,6 +299,12 @@ impl Call<'_> {
                 options.seed = options.seed.or(self.config.seed);
                 let out = out.unwrap_or_else(|| beside(&input, "pro.parquet"));
                 self.stage(&FitPro::new(&options, input, out)?)
+            }
+            Command::RankIms { input, motions, out, .. } => {
+                let options = resolve(self.flags, self.config.rank_ims.as_ref())?;
+                let out = out.unwrap_or_else(|| beside(&input, "ranking.parquet"));
+                self.stage(&RankIms::new(&options, input, motions, out.clone())?)?;
+                print(&ranking_verdict::show(&out)?)
             }
             Command::ComparePaper { pex, pro, responses, out, .. } => {
                 let options = resolve(self.flags, self.config.compare_paper.as_ref())?;

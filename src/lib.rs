@@ -7,7 +7,7 @@
 //! sample-scenarios -> scenarios -> synthesize-motions -> motions -> simulate -> responses
 //!                                  records -> import-motions ----^                  |-> fit-pex -> pex --|
 //!                                                                                   |-> fit-pro -> pro --|-> compare-paper
-//!                                                                                                         |-> evaluate
+//!                                                                                   |-> rank-ims         |-> evaluate
 //!                                                                                                         |-> export
 //!                            responses of many structures, to hold the curves of one against --|-> universality
 //!                                                  responses of other motions, to hold the fits against --|-> validate

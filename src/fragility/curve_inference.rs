@@ -38,10 +38,11 @@ impl<'a> CurveInference<'a> {
         CurveInference { sample, fit, design, once_each: vec![1.0; sample.happened.len()], influence }
     }
 
-    /// The covariance of the coefficients where cases of one cell may depend on each other; `cells` are those of all cases.
-    pub fn clustered_covariance(&self, cells: &[usize]) -> DMatrix<f64> {
-        let cells: Vec<usize> = self.sample.rows.iter().map(|&row| cells[row]).collect();
-        self.influence.clustered_covariance(&self.design, &self.fit.covariance, &cells)
+    /// The covariance of the coefficients where cases of one cluster may depend on each other; `clusters` are those of all
+    /// cases.
+    pub fn clustered_covariance(&self, clusters: &[usize]) -> DMatrix<f64> {
+        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
+        self.influence.clustered_covariance(&self.design, &self.fit.covariance, &clusters)
     }
 
     /// The standard error of a parameter that follows from a covariance of the coefficients.

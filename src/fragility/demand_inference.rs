@@ -54,10 +54,10 @@ impl<'a> DemandInference<'a> {
         DemandInference { sample, coefficients, residual_sd, bread, rss, n, design, residuals, influence }
     }
 
-    /// Standard errors of the coefficients where cases of one cell may depend on each other; `cells` are those of all
-    /// cases. Of the sample of the fit.
-    pub fn clustered_errors(&self, cells: &[usize]) -> Vec<f64> {
-        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| cells[row]).collect();
+    /// Standard errors of the coefficients where cases of one cluster may depend on each other; `clusters` are those of
+    /// all cases. Of the sample of the fit.
+    pub fn clustered_errors(&self, clusters: &[usize]) -> Vec<f64> {
+        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
         let covariance = self.influence.clustered_covariance(&self.design, &self.bread, &clusters);
         covariance.diagonal().iter().map(|variance| variance.sqrt()).collect()
     }
@@ -71,12 +71,16 @@ impl<'a> DemandInference<'a> {
     /// The regression over the cases whose first measure lies in `range`, where each of all cases counts so often; none
     /// if they do not determine it.
     pub fn replicate(&self, counts: &[f64], range: Range<f64>) -> Option<DemandReplicate> {
-        let weights = self.weights(counts, range);
-        let change = self.influence.step(&self.design, &weights)?;
+        self.refit(&self.weights(counts, range))
+    }
+
+    /// The regression where each case of the sample counts so often; none if they do not determine it.
+    pub fn refit(&self, weights: &[f64]) -> Option<DemandReplicate> {
+        let change = self.influence.step(&self.design, weights)?;
         let degrees = weights.iter().sum::<f64>() - change.len() as f64;
         let shifts = self.design.indices(change.as_slice());
         let square = |((residual, shift), weight): ((&f64, f64), &f64)| weight * (residual - shift).powi(2);
-        let rss: f64 = self.residuals.iter().zip(shifts).zip(&weights).map(square).sum();
+        let rss: f64 = self.residuals.iter().zip(shifts).zip(weights).map(square).sum();
         (degrees > 0.0).then(|| DemandReplicate {
             coefficients: (&self.coefficients + change).as_slice().to_vec(),
             residual_sd: (rss / degrees).sqrt(),

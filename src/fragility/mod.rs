@@ -21,10 +21,13 @@
 //! forecast         what the curves foretell of cases that were not fitted
 //! validation       such forecasts against what happened
 //! poisson_binomial the number of events of unequal probability
-//! folds            cases left out by cells, and what one forecast gains over another
 //! transfer         the curve of a structure alone, to be asked about another
 //! universality     how it fares there
 //! pooled           one curve for all structures, with what they differ in
+//! candidate        sets of measures, ranking_sample the cases in which they are ranked
+//! rating           how well a set predicts: rate_demand that of P_ex, rate_overturning that of P_ro
+//! folds            which clusters are left out together, and gains paired over clusters
+//! contest          all sets that compete, ranking their order and forward selection
 //!
 //! regression       least squares with standard errors and limits
 //! binary           maximum likelihood of binary outcomes
@@ -33,6 +36,7 @@
 //! separation       whether there is a maximum at all
 //! design_matrix    the columns of a regression
 //! derivatives      sums over its cases, in wide registers
+//! overlap          the proof that there is one, for many predictors
 //! dependence       whether the predictors can be told apart
 //! spline           columns that bend a line
 //! goodness         whether a model fits
@@ -49,8 +53,10 @@
 mod bent_curve;
 mod binary;
 mod bootstrap;
+mod candidate;
 mod capacity;
 mod case;
+mod contest;
 mod curve;
 mod curve_inference;
 mod curve_parameter;
@@ -72,11 +78,17 @@ mod limits;
 mod link;
 mod model;
 mod newton;
+mod overlap;
 mod overturning;
 mod poisson_binomial;
 mod pooled;
 mod predictor;
 mod profile;
+mod ranking;
+mod ranking_sample;
+mod rate_demand;
+mod rate_overturning;
+mod rating;
 mod regression;
 mod resampled;
 mod separation;
@@ -92,8 +104,10 @@ mod validation;
 pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use binary::{BinaryError, BinaryFit, binary_regression};
 pub use bootstrap::{Strata, bootstrap};
+pub use candidate::{Candidate, Form};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Measure};
+pub use contest::{Contest, RankingRules};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use curve_inference::CurveInference;
 pub use curve_parameter::CurveParameter;
@@ -104,7 +118,7 @@ pub use derivatives::Score;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
 pub use event_sample::EventSample;
 pub use firth::Estimator;
-pub use folds::{Gain, folds, gain, kept, leave_out};
+pub use folds::{Folds, Gain, gain};
 pub use forecast::{Forecast, Forecasts, Foretold};
 pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use index::{Probability, ProbitIndex};
@@ -115,6 +129,9 @@ pub use overturning::{CurveModel, OverturningFit, fit_overturning, has_few_event
 pub use poisson_binomial::PoissonBinomial;
 pub use pooled::{PooledFit, PooledPart, PooledStructure, PooledTerm, PooledTerms, fit_pooled};
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
+pub use ranking::{OfPaper, Ranked};
+pub use ranking_sample::{FurtherMeasure, RankingSample, Target};
+pub use rating::{Rating, ReliabilityGroup, Skill, Unseen};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
 pub use resampled::{ReplicateLimits, ResampledModel};
 pub use separation::is_separated;

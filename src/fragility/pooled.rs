@@ -11,7 +11,7 @@ use super::dependence::{Dependence, dependence};
 use super::design_matrix::dot;
 use super::event_sample::EventSample;
 use super::firth::Estimator;
-use super::folds::folds;
+use super::folds::{Folds, MOST_FOLDS};
 use super::link::Link;
 use super::transfer::{Branch, CurveSubject};
 use crate::keyword::{Keyword, keywords};
@@ -225,10 +225,9 @@ fn leave_structures_out(
     owners: &[usize],
     mut refit: impl FnMut(&[f64]) -> Result<(), FitStatus>,
 ) -> Result<(), FitStatus> {
-    let folds = folds(owners).ok_or(FitStatus::TooFewCases)?;
-    for fold in 0..=folds.iter().copied().max().unwrap_or(0) {
-        let counts: Vec<f64> = folds.iter().map(|&of| f64::from(u8::from(of != fold))).collect();
-        refit(&counts)?;
+    let folds = Folds::new(owners, MOST_FOLDS).ok_or(FitStatus::TooFewCases)?;
+    for fold in 0..folds.count {
+        refit(&folds.without(fold))?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::FitStatus;
 use super::case::Case;
-use super::folds::{Gain, gain, kept, leave_out};
+use super::folds::{Folds, Gain, MOST_FOLDS, gain};
 use super::forecast::Forecast;
 use super::skill::expected_log_score;
 use super::transfer::{Curve, CurveSubject};
@@ -141,13 +141,16 @@ fn beside_own(
 ) -> Result<BesideOwn, FitStatus> {
     let index =
         |curve: &Curve, case: &Case| curve.index(&case.measures).map_or(f64::NAN, |index| index.value);
-    let (of_own, of_transferred) = leave_out(cells, |keep, left_out| {
-        let curve = |cases: &[Case]| subject.fit(&kept(cases, keep)).ok();
-        let (own, transferred) = (curve(cases)?, curve(reference)?);
-        let indices = |curve: &Curve| kept(cases, left_out).iter().map(|case| index(curve, case)).collect();
-        Some((indices(&own), indices(&transferred)))
-    })
-    .ok_or(FitStatus::TooFewEvents)?;
+    let folds = Folds::new(cells, MOST_FOLDS).ok_or(FitStatus::TooFewEvents)?;
+    let of_both = folds.leave_out(|_, weights| {
+        let kept = |cases: &[Case]| -> Vec<Case> {
+            cases.iter().zip(weights).filter(|(_, weight)| **weight > 0.0).map(|(case, _)| *case).collect()
+        };
+        let (own, transferred) = (subject.fit(&kept(cases)).ok()?, subject.fit(&kept(reference)).ok()?);
+        Some(move |case: usize| (index(&own, &cases[case]), index(&transferred, &cases[case])))
+    });
+    let (of_own, of_transferred): (Vec<f64>, Vec<f64>) =
+        of_both.ok_or(FitStatus::TooFewEvents)?.into_iter().unzip();
     let scores = |indices: &[f64]| -> Vec<f64> {
         let pairs = counted.iter().zip(indices);
         pairs.filter_map(|(counted, index)| Some(counted.as_ref()?.log_score(*index))).collect()

@@ -9,6 +9,7 @@ use super::fit_pex::FitPexOptions;
 use super::fit_pro::FitProOptions;
 use super::ida::IdaOptions;
 use super::import_motions::ImportMotionsOptions;
+use super::rank_ims::RankImsOptions;
 use super::sample_scenarios::SampleScenariosOptions;
 use super::simulate::SimulateOptions;
 use super::synthesize_motions::SynthesizeMotionsOptions;
@@ -40,6 +41,8 @@ pub struct Config {
     pub fit_pro: Option<FitProOptions>,
     /// Options of universality.
     pub universality: Option<UniversalityOptions>,
+    /// Options of rank-ims.
+    pub rank_ims: Option<RankImsOptions>,
     /// Options of compare-paper.
     pub compare_paper: Option<ComparePaperOptions>,
 }

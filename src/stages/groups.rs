@@ -6,9 +6,11 @@ use std::path::Path;
 use anyhow::Context;
 use polars::prelude::{Column, DataFrame};
 
+use super::clusters::Clusters;
 use crate::fragility::Case;
 use crate::keyword;
 use crate::motion::IntensityMeasures;
+use crate::rocking::Structure;
 use crate::table::reader::read_frame_of;
 use crate::table::schema::{self, IDA_STRIPES, RESPONSES};
 
@@ -19,16 +21,31 @@ pub struct Group {
     pub suite: Option<String>,
     /// The structure.
     pub structure: String,
-    /// Its frequency parameter, rad/s.
-    pub p_rad_s: f64,
-    /// Its slenderness, rad.
-    pub alpha_rad: f64,
     /// Its coefficient of restitution.
     pub eta: f64,
     /// Its responses, in the order of the file.
     pub cases: Vec<Case>,
-    /// The number of the cell of magnitude and distance of each; one cell for all that have neither.
+    /// The frequency parameter, rad/s, in each.
+    pub p_rad_s: Vec<f64>,
+    /// The slenderness, rad, in each.
+    pub alpha_rad: Vec<f64>,
+    /// What the motion of each is called.
+    pub motion_ids: Vec<String>,
+    /// Peak ground acceleration of each, m/s2.
+    pub pga_m_s2: Vec<f64>,
+    /// The number of the cell of magnitude and distance of each, within which a bootstrap resamples; one cell for all that
+    /// have neither.
     pub cells: Vec<usize>,
+    /// Which of them may depend on each other.
+    pub clusters: Clusters,
+}
+
+impl Group {
+    /// The structure of a response.
+    pub fn structure_of(&self, row: usize) -> Structure {
+        let (p_rad_s, alpha_rad) = (self.p_rad_s[row], self.alpha_rad[row]);
+        Structure { name: self.structure.clone(), p_rad_s, alpha_rad, eta: self.eta }
+    }
 }
 
 /// The groups of a responses file, or of the stripes of ida, in the order in which they first appear.
@@ -67,14 +84,20 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
         };
         Ok(Case { outcome, edp: edp[row], measures })
     };
+    let motion_ids = names(frame.column(schema::MOTION_ID.name)?)?;
+    let events: Vec<Option<&str>> = frame.column(schema::EARTHQUAKE.name)?.str()?.iter().collect();
+    let (mw, re_km) = (number(schema::MW)?, number(schema::RE_KM)?);
     Ok(Group {
         suite: first_text(frame.column(schema::SUITE.name)?)?,
         structure: first_text(frame.column(schema::STRUCTURE.name)?)?.unwrap_or_default(),
-        p_rad_s: first_number(schema::P_RAD_S)?,
-        alpha_rad: first_number(schema::ALPHA_RAD)?,
         eta: first_number(schema::ETA)?,
         cases: outcomes.iter().enumerate().map(case).collect::<anyhow::Result<_>>()?,
-        cells: cells(&number(schema::MW)?, &number(schema::RE_KM)?),
+        cells: cells(&mw, &re_km),
+        clusters: Clusters::new(&motion_ids, &events, &mw, &re_km),
+        p_rad_s: finite(schema::P_RAD_S)?,
+        alpha_rad: finite(schema::ALPHA_RAD)?,
+        motion_ids,
+        pga_m_s2: finite(schema::PGA_M_S2)?,
     })
 }
 
@@ -89,6 +112,15 @@ fn cells(mw: &[Option<f64>], re_km: &[Option<f64>]) -> Vec<usize> {
             *numbers.entry((bits(mw), bits(re_km))).or_insert(next)
         })
         .collect()
+}
+
+/// Names, or numbers as such.
+fn names(column: &Column) -> anyhow::Result<Vec<String>> {
+    if let Ok(names) = column.str() {
+        return Ok(names.iter().map(|name| name.unwrap_or_default().to_string()).collect());
+    }
+    let numbers = column.i64()?.iter();
+    Ok(numbers.map(|number| number.map_or(String::new(), |number| number.to_string())).collect())
 }
 
 fn first_text(column: &Column) -> anyhow::Result<Option<String>> {

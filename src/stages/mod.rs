@@ -5,13 +5,15 @@
 //! structures         structures as a user names them; structure_options one of them on the command line
 //! motions            records and peaks of motions, under distinct names
 //! measures           which intensity measures are taken
-//! groups             the responses of a suite and structure; pex_group and pro_group their fits
+//! groups             the responses of a suite and structure, clusters which of them resemble each other; pex_group and
+//!                    pro_group their fits
 //! uncertainty        the limits that both are asked for
 //! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
 //! resampled_fits     the same in each resample
 //! ```
 
 pub mod chosen_fits;
+pub mod clusters;
 pub mod compare_paper;
 pub mod config;
 pub mod evaluate;
@@ -27,6 +29,7 @@ pub mod measures;
 pub mod motions;
 pub mod pex_group;
 pub mod pro_group;
+pub mod rank_ims;
 pub mod resampled_fits;
 pub mod run;
 pub mod sample_scenarios;

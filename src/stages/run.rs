@@ -9,6 +9,7 @@ use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
 use super::ida::Ida;
 use super::import_motions::ImportMotions;
+use super::rank_ims::RankIms;
 use super::sample_scenarios::SampleScenarios;
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
@@ -36,6 +37,8 @@ pub struct Files {
     pub pro: PathBuf,
     /// Of universality.
     pub universality: PathBuf,
+    /// Of rank-ims.
+    pub ranking: PathBuf,
     /// Of compare-paper.
     pub paper: PathBuf,
 }
@@ -52,6 +55,7 @@ impl Files {
             pex: file("pex.parquet"),
             pro: file("pro.parquet"),
             universality: file("universality.parquet"),
+            ranking: file("ranking.parquet"),
             paper: file("paper.parquet"),
         }
     }
@@ -93,6 +97,10 @@ pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stag
     if let Some(options) = &config.universality {
         let (input, out) = (files.responses.clone(), files.universality.clone());
         stages.push(Box::new(Universality::new(options, input, out)?));
+    }
+    if let Some(options) = &config.rank_ims {
+        let (responses, motions) = (files.responses.clone(), Some(files.motions.clone()));
+        stages.push(Box::new(RankIms::new(options, responses, motions, files.ranking.clone())?));
     }
     if let Some(options) = &config.compare_paper {
         let inputs = [files.pex.clone(), files.pro.clone(), files.responses.clone()];

@@ -134,6 +134,7 @@ impl Simulate {
                 response,
                 mw: motion.mw,
                 re_km: motion.re_km,
+                event: motion.event.as_deref(),
                 pga_m_s2,
                 pgv_m_s,
                 tp_s: motion.tp_s,

@@ -14,6 +14,8 @@
 //! provenance   what made a file, in its metadata
 //! scenarios, motions, records, responses, trace, pex, pex_scan, pro, replicates, paper
 //!              one file a table: its rows as Rust structs
+//! ranking      sets of intensity measures by how well they predict; ranking_verdict the same in words
+//! motion_measures  the measures of a motions file, without its samples
 //! measures     the columns of intensity measures, which motions and records share
 //! fits         the rows of pex and pro files as the fits they hold
 //! intensities  any table with PGA and PGV, as evaluate takes it
@@ -37,12 +39,15 @@ pub mod ida;
 pub mod intensities;
 mod limits;
 mod measures;
+pub mod motion_measures;
 pub mod motions;
 pub mod paper;
 pub mod pex;
 pub mod pex_scan;
 pub mod pro;
 pub mod provenance;
+pub mod ranking;
+pub mod ranking_verdict;
 pub mod reader;
 pub mod records;
 pub mod replicates;

@@ -17,7 +17,7 @@ use crate::keyword::Keyword;
 use crate::motion::{Measured, Scenario, Suite};
 
 /// The stages whose output can stand as a motions file.
-const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
+pub(super) const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
 
 /// The most motions that a thread reads at once.
 const LARGEST_PART: usize = 128;
@@ -26,11 +26,12 @@ const LARGEST_PART: usize = 128;
 const REQUIRED: [Column; 3] = [schema::MOTION_ID, schema::DT_S, schema::ACCELERATION_M_S2];
 
 /// What it reads where it is there.
-const READ: [Column; 10] = [
+const READ: [Column; 11] = [
     schema::MOTION_ID,
     schema::SUITE,
     schema::MW,
     schema::RE_KM,
+    schema::EARTHQUAKE,
     schema::DT_S,
     schema::PGA_M_S2,
     schema::PGV_M_S,
@@ -113,6 +114,8 @@ pub struct Motion {
     pub mw: Option<f64>,
     /// Distance, km, if known.
     pub re_km: Option<f64>,
+    /// The earthquake, if known.
+    pub event: Option<String>,
     /// Time between samples, s.
     pub dt_s: f64,
     /// Samples, m/s2.
@@ -251,6 +254,7 @@ fn motions_of(columns: &Columns, first_row: u64) -> Result<Vec<Motion>, TableErr
         columns.integers(&schema::MOTION_ID)?.into_iter().map(MotionId::Number).collect()
     };
     let suite = columns.optional_text(&schema::SUITE)?;
+    let event = columns.optional_labels(&schema::EARTHQUAKE)?;
     let dt_s = columns.numbers(&schema::DT_S)?;
     let measure = |column| columns.optional_numbers(column);
     let (mw, re_km) = (measure(&schema::MW)?, measure(&schema::RE_KM)?);
@@ -262,6 +266,7 @@ fn motions_of(columns: &Columns, first_row: u64) -> Result<Vec<Motion>, TableErr
         suite: suite[row].clone(),
         mw: mw[row],
         re_km: re_km[row],
+        event: event[row].clone(),
         dt_s: dt_s[row],
         acceleration_m_s2,
         pga_m_s2: pga[row],

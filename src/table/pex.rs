@@ -73,7 +73,7 @@ pub struct PexRow {
     pub fit: Result<LinearFit, FitStatus>,
     /// Probability with which limits hold the truth.
     pub confidence: f64,
-    /// Standard errors of the coefficients where cases of one cell may depend on each other.
+    /// Standard errors of the coefficients where cases of one cell or earthquake may depend on each other.
     pub clustered_errors: Vec<f64>,
     /// Bootstrap limits of the coefficients and of the dispersion; empty without replicates.
     pub limits: Vec<Option<BootstrapLimits>>,

@@ -114,7 +114,7 @@ impl ProRow {
 pub struct ParameterInference {
     /// Which.
     pub parameter: CurveParameter,
-    /// Standard error where cases of one cell may depend on each other.
+    /// Standard error where cases of one cell or earthquake may depend on each other.
     pub clustered_error: f64,
     /// By the profile likelihood.
     pub profile: Limits,

@@ -58,13 +58,25 @@ impl TableFile {
     /// If the file is missing, unreadable, empty, or the output of a stage other than `stages`. A file that another
     /// program wrote has no stage and is taken by its columns.
     pub fn open(path: &Path, stages: &[&str], columns: &[Column]) -> Result<TableFile, TableError> {
+        TableFile::open_at(path, stages, |name| columns.iter().any(|column| column.name == name))
+    }
+
+    /// The same at the columns whose names are wanted.
+    ///
+    /// # Errors
+    /// As [`TableFile::open`].
+    pub fn open_at(
+        path: &Path,
+        stages: &[&str],
+        is_wanted: impl Fn(&str) -> bool,
+    ) -> Result<TableFile, TableError> {
         let Opened { file, metadata } = footer::open(path)?;
         expect_stage(path, metadata.metadata(), stages)?;
         if metadata.metadata().file_metadata().num_rows() <= 0 {
             return Err(TableError::Empty { path: path.to_path_buf() });
         }
         let roots = metadata.parquet_schema().root_schema().get_fields();
-        let wanted = |field: &TypePtr| columns.iter().any(|column| column.name == field.name());
+        let wanted = |field: &TypePtr| is_wanted(field.name());
         let wanted: Vec<usize> = (0..roots.len()).filter(|&root| wanted(&roots[root])).collect();
         let columns = ProjectionMask::roots(metadata.parquet_schema(), wanted);
         Ok(TableFile { path: path.to_path_buf(), file, metadata, columns })

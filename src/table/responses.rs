@@ -26,6 +26,8 @@ pub struct ResponseRow<'a> {
     pub mw: Option<f64>,
     /// Distance, km, if known.
     pub re_km: Option<f64>,
+    /// The earthquake, if known.
+    pub event: Option<&'a str>,
     /// Peak ground acceleration, m/s2.
     pub pga_m_s2: f64,
     /// Peak ground velocity, m/s.
@@ -63,6 +65,7 @@ pub fn batch(rows: &[ResponseRow], by_name: bool) -> Result<RecordBatch, ArrowEr
         )),
         optional(|row| row.mw),
         optional(|row| row.re_km),
+        Arc::new(rows.iter().map(|row| row.event).collect::<StringArray>()),
         number(|row| row.pga_m_s2),
         number(|row| row.pgv_m_s),
         optional(|row| row.tp_s),

@@ -1,6 +1,7 @@
 //! The command as a user calls it.
 
 mod bad_input;
+mod clusters;
 mod common;
 mod evaluate;
 mod export;
@@ -8,6 +9,7 @@ mod ida;
 mod import;
 mod kill;
 mod pipeline;
+mod rank_ims;
 mod together;
 mod universality;
 mod validate;

@@ -22,7 +22,6 @@ use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Word, check, defaults};
 use crate::pipeline::stage::{Stage, with_part};
-use crate::rocking::Structure;
 use crate::table::provenance::Provenance;
 use crate::table::schema::{POOLED, UNIVERSALITY};
 use crate::table::universality::{self, PooledRow, UniversalityRow};
@@ -157,7 +156,7 @@ impl Universality {
             let log_score = |fit: &Result<PooledFit, FitStatus>| fit.as_ref().ok()?.log_scores[k];
             Ok(transfer.map(|transfer| UniversalityRow {
                 suite: group.suite.clone(),
-                structure: structure(group),
+                structure: group.structure_of(0),
                 reference: reference.structure.clone(),
                 event: branch,
                 limit_state: subject.limit,
@@ -189,11 +188,6 @@ impl Universality {
     }
 }
 
-fn structure(group: &Group) -> Structure {
-    let Group { p_rad_s, alpha_rad, eta, .. } = *group;
-    Structure { name: group.structure.clone(), p_rad_s, alpha_rad, eta }
-}
-
 /// The cell of each motion; where all share one, each is its own.
 fn cells(group: &Group) -> Vec<usize> {
     let one_cell = group.cells.iter().all(|&cell| cell == group.cells[0]);
@@ -205,8 +199,8 @@ fn pooled<'a>(subject: &CurveSubject, suite: &SuiteOfGroups<'a>) -> Vec<Result<P
     let reference = suite.groups[suite.reference];
     let beside_reference = |group: &&'a Group| PooledStructure {
         cases: &group.cases,
-        ln_p: (group.p_rad_s / reference.p_rad_s).ln(),
-        ln_alpha: (group.alpha_rad / reference.alpha_rad).ln(),
+        ln_p: (group.p_rad_s[0] / reference.p_rad_s[0]).ln(),
+        ln_alpha: (group.alpha_rad[0] / reference.alpha_rad[0]).ln(),
         eta: group.eta - reference.eta,
     };
     let structures: Vec<PooledStructure> = suite.groups.iter().map(beside_reference).collect();

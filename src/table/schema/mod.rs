@@ -3,7 +3,7 @@
 //! ```text
 //! column       name, type, unit, words
 //! table        columns in order, and the stage that writes them
-//! scenario, motion, response, pex, pro, evaluated, validation, universality, ida, paper
+//! scenario, motion, response, pex, pro, ranking, evaluated, validation, universality, ida, paper
 //!              the columns of a subject and the tables that have them
 //! ```
 
@@ -14,6 +14,7 @@ mod motion;
 mod paper;
 mod pex;
 mod pro;
+mod ranking;
 mod response;
 mod scenario;
 mod table;
@@ -27,8 +28,9 @@ pub use motion::*;
 pub use paper::*;
 pub use pex::*;
 pub use pro::*;
+pub use ranking::*;
 pub use response::*;
 pub use scenario::*;
-pub use table::{Table, spectral_acceleration_name};
+pub use table::{Table, is_spectral_acceleration, spectral_acceleration_name};
 pub use universality::*;
 pub use validation::*;

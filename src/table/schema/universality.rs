@@ -11,7 +11,7 @@ use super::validation::{
 
 columns! {
     REFERENCE = "reference", Text, "1", "structure whose curve is transferred";
-    CALIBRATION_SLOPE = "calibration_slope", Float64, "1", "slope of the recalibration in log odds: below 1 where the transferred curve is too sure";
+    TRANSFERRED_SLOPE = "calibration_slope", Float64, "1", "slope of the recalibration in log odds: below 1 where the transferred curve is too sure";
     LOG_SCORE_OWN = "log_score_own", Float64, "1", "mean logarithm of the probability of what happened by the structure's own curve, in cells that it was not fitted to";
     LOG_SCORE_TRANSFERRED = "log_score_transferred", Float64, "1", "the same by the transferred curve, fitted without those cells";
     LOSS = "loss", Float64, "1", "log_score_own less log_score_transferred";
@@ -53,7 +53,7 @@ pub const UNIVERSALITY: Table = Table {
         CHANCE_HIGH,
         CHANCE_P,
         CALIBRATION.or_null(),
-        CALIBRATION_SLOPE.or_null(),
+        TRANSFERRED_SLOPE.or_null(),
         LOG_SCORE_OWN.or_null(),
         LOG_SCORE_TRANSFERRED.or_null(),
         LOSS.or_null(),
