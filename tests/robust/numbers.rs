@@ -1,5 +1,7 @@
 //! Records and structures at the edge of what is possible.
 
+use std::f64::consts::FRAC_PI_2;
+
 use proptest::prelude::*;
 use rockfrag::keyword::Keyword;
 use rockfrag::rocking::{Outcome, Path, Problem, Record, Response, Structure, simulate, simulate_all, trace};
@@ -37,7 +39,7 @@ fn samples(shape: &[(f64, usize)], structure: &Structure, largest: f64) -> Vec<f
 
 fn structures() -> impl Strategy<Value = Structure> {
     let p = prop_oneof![Just(1e-3), Just(100.0), Just(50.0), 0.05..10.0f64];
-    let alpha = prop_oneof![Just(1e-6), Just(1e-3), Just(1.5), Just(1.5707963), 0.01..1.2f64];
+    let alpha = prop_oneof![Just(1e-6), Just(1e-3), Just(1.5), Just(FRAC_PI_2 * (1.0 - 1e-8)), 0.01..1.2f64];
     let eta = prop_oneof![Just(1e-300), Just(0.999), Just(0.999999), Just(1.0), 0.05..1.0f64];
     (p, alpha, eta).prop_map(|(p, alpha, eta)| Structure::new("s", p, alpha, eta).unwrap())
 }
@@ -92,7 +94,8 @@ proptest! {
         for (path, response) in &answers[1..] {
             prop_assert_eq!(response.outcome, answers[0].1.outcome, "{:?}", path);
             let (a, b) = (response.edp, answers[0].1.edp);
-            prop_assert!((a - b).abs() <= 1e-6 * b, "{path:?}: {a} for {b}");
+            // At the threshold itself, what lifts the structure is a rounding, and the demand next to nothing.
+            prop_assert!((a - b).abs() <= 1e-6 * b + 1e-20, "{path:?}: {a} for {b}");
         }
     }
 
