@@ -18,6 +18,7 @@ use crate::stages::fit_pex::{FitPex, FitPexOptions};
 use crate::stages::fit_pro::{FitPro, FitProOptions};
 use crate::stages::import_motions::{ImportMotions, ImportMotionsOptions};
 use crate::stages::inspect::inspect;
+use crate::stages::report::{Report, ReportOptions};
 use crate::stages::run::{Files, dry_run, run, stages};
 use crate::stages::sample_scenarios::{SampleScenarios, SampleScenariosOptions};
 use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
@@ -146,6 +147,17 @@ enum Command {
     Validate(Box<ValidateOptions>),
     /// Write the fragility of a structure for OpenQuake or pelicun
     Export(Box<ExportOptions>),
+    /// Draw all that a folder of files holds: one page to open in a browser, and each figure as SVG and PNG
+    Report {
+        /// Folder of the files: responses.parquet, and what else there is of them
+        #[arg(long = "in", value_name = "DIR", default_value = "out")]
+        input: PathBuf,
+        /// Page to write; its figures go into a folder of the same name [default: report.html in the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: ReportOptions,
+    },
     /// Run all stages of a pipeline file, skipping what is up to date
     Run {
         /// The pipeline file
@@ -257,6 +269,11 @@ impl Call<'_> {
                 let out = out.unwrap_or_else(|| beside(&options.input, "validation.parquet"));
                 self.stage(&Validate::new(&options, out.clone())?)?;
                 print(&validation::show(&out)?)
+            }
+            Command::Report { input, out, .. } => {
+                let options = resolve(self.flags, self.config.report.as_ref())?;
+                let out = out.unwrap_or_else(|| input.join("report.html"));
+                self.stage(&Report::new(&options, input, out)?)
             }
             Command::Export(options) => export(&options, &self.console),
             Command::Run { pipeline, out, seed, dry_run } => self.run(&pipeline, out, seed, dry_run),

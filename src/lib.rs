@@ -10,6 +10,7 @@
 //!                                                                                                         |-> evaluate
 //!                                                                                                         |-> export
 //!                                                  responses of other motions, to hold the fits against --|-> validate
+//!                                  all of these: figures and a page to look at  --|-> report
 //! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from
 //! ```
 //!
@@ -20,7 +21,7 @@
 //! | sections 2.3 and 3, Eqs. 12 and 14 to 24: fragility | [`fragility`] |
 //! | beyond it: annual rates at a site | [`hazard`] |
 //!
-//! These four know no files, threads or command line, nor does [`export`], which words fragility for other programs. [`table`] reads and writes the files, [`pipeline`] decides what
+//! These four know no files, threads or command line, nor does [`export`], which words fragility for other programs, nor [`report`], which draws. [`table`] reads and writes the files, [`pipeline`] decides what
 //! must run, [`stages`] joins them: one file a subcommand.
 
 pub mod cli;
@@ -32,6 +33,7 @@ pub mod motion;
 pub mod normal;
 pub mod pipeline;
 pub mod random;
+pub mod report;
 pub mod rocking;
 pub mod stages;
 pub mod table;

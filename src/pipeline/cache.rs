@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::console::Console;
 use super::stage::Stage;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, stamp};
+use crate::table::provenance::Provenance;
 
 /// Whether a stage must run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub enum Freshness {
 /// Compares the files of a stage with what it would write.
 pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
     for path in stage.outputs() {
-        match stamp(&path) {
+        match stage.recorded(&path) {
             Ok(Some(stamp)) if stamp.plan == planned.plan() => {}
             Ok(Some(stamp)) => return Freshness::Stale(difference(&stamp.provenance, planned)),
             Ok(None) => return Freshness::Stale(format!("{} was not made by rockfrag", path.display())),

@@ -8,6 +8,7 @@ use super::compare_paper::ComparePaperOptions;
 use super::fit_pex::FitPexOptions;
 use super::fit_pro::FitProOptions;
 use super::import_motions::ImportMotionsOptions;
+use super::report::ReportOptions;
 use super::sample_scenarios::SampleScenariosOptions;
 use super::simulate::SimulateOptions;
 use super::synthesize_motions::SynthesizeMotionsOptions;
@@ -36,6 +37,8 @@ pub struct Config {
     pub fit_pro: Option<FitProOptions>,
     /// Options of compare-paper.
     pub compare_paper: Option<ComparePaperOptions>,
+    /// Options of report.
+    pub report: Option<ReportOptions>,
 }
 
 impl Config {

@@ -23,6 +23,7 @@ pub mod inspect;
 pub mod measures;
 pub mod pex_group;
 pub mod pro_group;
+pub mod report;
 pub mod run;
 pub mod sample_scenarios;
 pub mod seed_spread;

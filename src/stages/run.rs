@@ -8,6 +8,7 @@ use super::config::Config;
 use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
 use super::import_motions::ImportMotions;
+use super::report::Report;
 use super::sample_scenarios::SampleScenarios;
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
@@ -31,6 +32,10 @@ pub struct Files {
     pub pro: PathBuf,
     /// Of compare-paper.
     pub paper: PathBuf,
+    /// The folder itself.
+    pub folder: PathBuf,
+    /// Of report.
+    pub report: PathBuf,
 }
 
 impl Files {
@@ -44,6 +49,8 @@ impl Files {
             pex: file("pex.parquet"),
             pro: file("pro.parquet"),
             paper: file("paper.parquet"),
+            folder: folder.to_path_buf(),
+            report: file("report.html"),
         }
     }
 }
@@ -81,6 +88,9 @@ pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stag
     if let Some(options) = &config.compare_paper {
         let inputs = [files.pex.clone(), files.pro.clone(), files.responses.clone()];
         stages.push(Box::new(ComparePaper::new(options, inputs, files.paper.clone())?));
+    }
+    if let Some(options) = &config.report {
+        stages.push(Box::new(Report::new(options, files.folder.clone(), files.report.clone())?));
     }
     Ok(stages)
 }

@@ -151,6 +151,21 @@ impl Iterator for Batches {
     }
 }
 
+/// The batches of any narrow table with all its columns, whoever wrote it.
+///
+/// # Errors
+/// If the file is missing or unreadable.
+pub fn read_any(path: &Path) -> Result<Vec<RecordBatch>, TableError> {
+    let file = open_file(path)?;
+    let damaged = |source: ParquetError| not_parquet(path, source);
+    let reader = ParquetRecordBatchReaderBuilder::try_new(file).map_err(damaged)?;
+    let reader = reader.with_batch_size(NARROW_BATCH).build().map_err(damaged)?;
+    let whole = |batch: Result<RecordBatch, arrow_schema::ArrowError>| {
+        batch.map_err(|source| damaged(ParquetError::ArrowError(source.to_string())))
+    };
+    reader.map(whole).collect()
+}
+
 /// A narrow table whole. Columns that may be null and are missing in the file become nulls.
 ///
 /// # Errors
