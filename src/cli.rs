@@ -9,6 +9,7 @@ use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand,
 use crate::pipeline::console::Console;
 use crate::pipeline::options::resolve;
 use crate::pipeline::stage::{Stage, beside};
+use crate::pipeline::terminal::Terminal;
 use crate::pipeline::{UsageError, cache};
 use crate::stages::compare_paper::{ComparePaper, ComparePaperOptions};
 use crate::stages::config::Config;
@@ -261,14 +262,14 @@ impl Call<'_> {
                 let options = resolve(self.flags, self.config.compare_paper.as_ref())?;
                 let out = out.unwrap_or_else(|| beside(&pex, "paper.parquet"));
                 self.stage(&ComparePaper::new(&options, [pex, pro, responses], out.clone())?)?;
-                print(&paper::show(&out)?)
+                print(&Terminal::stdout().table(&paper::show(&out)?))
             }
             Command::Evaluate(options) => print(&evaluate(&options, self.force, &self.console)?),
             Command::Validate(options) => {
                 let out = options.out.clone();
                 let out = out.unwrap_or_else(|| beside(&options.input, "validation.parquet"));
                 self.stage(&Validate::new(&options, out.clone())?)?;
-                print(&validation::show(&out)?)
+                print(&Terminal::stdout().table(&validation::show(&out)?))
             }
             Command::Report { input, out, .. } => {
                 let options = resolve(self.flags, self.config.report.as_ref())?;
@@ -281,7 +282,7 @@ impl Call<'_> {
                 let console = Console { progress: false, ..self.console };
                 seed_spread(&Config::read(&pipeline)?, &options, &console)
             }
-            Command::Inspect { file } => print(&inspect(&file)?),
+            Command::Inspect { file } => print(&inspect(&file, &Terminal::stdout())?),
         }
     }
 
@@ -302,7 +303,7 @@ impl Call<'_> {
             return print(&dry_run(&stages, self.force)?);
         }
         run(&stages, self.force, &self.console)?;
-        if config.compare_paper.is_some() { print(&paper::show(&files.paper)?) } else { Ok(()) }
+        if config.compare_paper.is_some() { print(&Terminal::stdout().table(&paper::show(&files.paper)?)) } else { Ok(()) }
     }
 
     fn stage(&self, stage: &dyn Stage) -> anyhow::Result<()> {

@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::console::Console;
 use super::stage::Stage;
+use super::terminal::Weight;
 use crate::table::TableError;
 use crate::table::provenance::Provenance;
 
@@ -42,7 +43,7 @@ pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<
     let planned = stage.provenance()?;
     let name = stage.subcommand();
     if !force && freshness(stage, &planned) == Freshness::UpToDate {
-        console.note(&format!("{name:20} up to date"));
+        console.stage(name, "up to date", Weight::Faint);
         return Ok(());
     }
     for path in stage.outputs() {
@@ -52,7 +53,8 @@ pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<
     }
     let start = std::time::Instant::now();
     let summary = stage.execute(&planned, console)?;
-    console.note(&format!("{name:20} {summary} in {:.2} s", start.elapsed().as_secs_f64()));
+    let took_s = start.elapsed().as_secs_f64();
+    console.stage(name, &format!("{summary} in {took_s:.2} s"), Weight::Plain);
     Ok(())
 }
 

@@ -8,6 +8,7 @@
 //! files    files and folders that a user names
 //! stream   read, work and write at the same time, in order
 //! console  progress, notes and warnings on stderr
+//! terminal where results are read: its width, its colours
 //! ```
 
 pub mod cache;
@@ -16,6 +17,7 @@ pub mod files;
 pub mod options;
 pub mod stage;
 pub mod stream;
+pub mod terminal;
 pub mod yaml;
 
 /// A mistake in how rockfrag was called or configured: exit code 2.

@@ -1,7 +1,6 @@
 //! A figure and what stands under it.
 
-use super::drawing::Drawing;
-use super::drawing::{ONE_COLUMN, TWO_COLUMNS};
+use super::drawing::{Drawing, ONE_COLUMN, TWO_COLUMNS};
 
 /// A figure.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,5 @@
 //! Words of figures and pages: italics, subscripts and superscripts.
 
-use std::fmt::Write;
-
 use super::font::Face;
 
 /// A text of runs in one style each.
@@ -97,37 +95,14 @@ impl Label {
         self
     }
 
+    /// Whether it says nothing.
+    pub fn is_empty(&self) -> bool {
+        self.runs.iter().all(|run| run.words.is_empty())
+    }
+
     /// Width in this size.
     pub fn width(&self, size: f64) -> f64 {
         self.runs.iter().map(|run| run.face.width(&run.words, size * run.level.scale())).sum()
-    }
-
-    /// As HTML.
-    pub fn html(&self) -> String {
-        let mut html = String::new();
-        for Run { words, face, level } in &self.runs {
-            let words = escape(words);
-            let words = match face {
-                Face::Regular => words,
-                Face::Italic => format!("<i>{words}</i>"),
-                Face::SemiBold => format!("<b>{words}</b>"),
-            };
-            match level {
-                Level::Line => html.push_str(&words),
-                Level::Sub => {
-                    let _ = write!(html, "<sub>{words}</sub>");
-                }
-                Level::Super => {
-                    let _ = write!(html, "<sup>{words}</sup>");
-                }
-            }
-        }
-        html
-    }
-
-    /// The words alone.
-    pub fn words(&self) -> String {
-        self.runs.iter().map(|run| run.words.as_str()).collect()
     }
 }
 

@@ -43,8 +43,3 @@ pub fn legend(drawing: &mut Drawing, at: Point, entries: &[(Mark, Label)]) {
         x += label.width(LETTERS) + BETWEEN;
     }
 }
-
-/// The width that a legend takes.
-pub fn width(entries: &[(Mark, Label)]) -> f64 {
-    entries.iter().map(|(_, label)| MARK_WIDTH + 3.0 + label.width(LETTERS) + BETWEEN).sum::<f64>() - BETWEEN
-}

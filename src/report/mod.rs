@@ -5,6 +5,7 @@
 //! figures   one file a figure: material -> drawing and caption
 //! figure    a figure and what stands under it; the places of its panels
 //! panel     axes, and data within them; axis, legend
+//! bins      values gathered; envelope: long series cut down to what can be seen
 //! label     words with italics and subscripts; number: numbers in words
 //! drawing   paths, dots and text
 //! svg, png  a drawing as a picture; font: the letters
@@ -12,7 +13,9 @@
 //! ```
 
 mod axis;
+mod bins;
 mod drawing;
+mod envelope;
 mod figure;
 mod figures;
 mod font;

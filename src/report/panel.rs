@@ -53,7 +53,7 @@ impl Panel {
         self.corner[1] + self.height
     }
 
-    /// Axes with ticks, labels and a title above.
+    /// Axes with ticks, labels and a title above; a horizontal axis without a label is that of the panel below.
     pub fn frame(&self, drawing: &mut Drawing, title: Label) {
         let [left, top] = self.corner;
         let (right, bottom) = (self.right(), self.bottom());
@@ -62,7 +62,7 @@ impl Panel {
             let [x, _] = self.at([tick.value, self.y.low]);
             let length = if tick.label.is_some() { TICK } else { 0.5 * TICK };
             steps.extend([Step::Move([x, bottom]), Step::Line([x, bottom + length])]);
-            if let Some(label) = tick.label {
+            if let Some(label) = tick.label.filter(|_| !self.x.label.is_empty()) {
                 drawing.text([x, bottom + TICK + 7.5], Anchor::Middle, TICK_LETTERS, Ink::Text, label);
             }
         }
@@ -167,13 +167,6 @@ impl Panel {
             let ends = [low, high].map(|end| self.at([x, end.clamp(self.y.low, self.y.high)]));
             drawing.line(&ends, ink.line(0.8));
             drawing.dots(vec![self.at([x, y])], 1.8, ink.full());
-        }
-    }
-
-    /// A line from bottom to top.
-    pub fn vertical(&self, drawing: &mut Drawing, x: f64, stroke: Stroke) {
-        if self.x.holds(x) {
-            drawing.line(&[self.at([x, self.y.low]), self.at([x, self.y.high])], stroke);
         }
     }
 

@@ -6,14 +6,15 @@ use super::base64::base64;
 use crate::fragility::{DemandLaw, DemandModel, Measure, Predictor};
 use crate::keyword::Keyword;
 use crate::motion::intensity::velocity;
+use crate::report::envelope::{Envelope, envelope};
 use crate::report::material::{Group, Material, Model, Motion, Planes, Trace};
-use crate::rocking::Event;
+use crate::rocking::{Event, Structure};
 use crate::units::G_M_S2;
 
 /// The largest whole number of sixteen bits.
 const LARGEST: f64 = 32767.0;
-/// The most pairs of least and largest value that a series is drawn with.
-const MOST_BUCKETS: usize = 1500;
+/// The most values that a series is drawn with.
+const MOST_VALUES: usize = 3000;
 /// The most points of a cloud in space.
 const MOST_IN_SPACE: usize = 2500;
 
@@ -21,11 +22,17 @@ const MOST_IN_SPACE: usize = 2500;
 pub fn json(material: &Material) -> String {
     let data = json!({
         "g": G_M_S2,
+        "structures": material.groups.iter().map(structure).collect::<Vec<_>>(),
         "models": material.models.iter().map(model).collect::<Vec<_>>(),
         "planes": material.groups.iter().filter_map(in_space).collect::<Vec<_>>(),
         "motions": material.motions.iter().map(motion).collect::<Vec<_>>(),
     });
     data.to_string().replace('<', "\\u003c")
+}
+
+fn structure(Group { structure, .. }: &Group) -> Value {
+    let Structure { name, p_rad_s, alpha_rad, eta } = structure;
+    json!({ "name": name, "p": p_rad_s, "alpha": alpha_rad, "eta": eta })
 }
 
 fn model(Model { suite, structure, form, fits }: &Model) -> Value {
@@ -80,24 +87,11 @@ fn trace(Trace { structure, alpha_rad, outcome, points }: &Trace, dt_s: f64) -> 
         "theta": series(&samples, dt_s), "impacts": impacts })
 }
 
-/// A series in sixteen bits a value; the least and the largest value of each bucket where it is long.
+/// A series in sixteen bits a value, cut down where it is long.
 fn series(values: &[f64], dt_s: f64) -> Value {
-    let each = values.len().div_ceil(2 * MOST_BUCKETS).max(1);
-    let (drawn, step) = if each == 1 {
-        (values.to_vec(), dt_s)
-    } else {
-        let buckets = values.chunks(2 * each);
-        let ends = buckets.flat_map(|bucket| {
-            let place = |better: fn(f64, f64) -> bool| {
-                (1..bucket.len()).fold(0, |best, at| if better(bucket[at], bucket[best]) { at } else { best })
-            };
-            let (least, largest) = (place(|a, b| a < b), place(|a, b| a > b));
-            [bucket[least.min(largest)], bucket[least.max(largest)]]
-        });
-        (ends.collect(), each as f64 * dt_s)
-    };
-    let peak = drawn.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));
+    let Envelope { each, values } = envelope(values, MOST_VALUES);
+    let peak = values.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));
     let unit = if peak > 0.0 { peak / LARGEST } else { 1.0 };
-    let bytes: Vec<u8> = drawn.iter().flat_map(|value| ((value / unit).round() as i16).to_le_bytes()).collect();
-    json!({ "step": step, "unit": unit, "values": base64(&bytes) })
+    let bytes: Vec<u8> = values.iter().flat_map(|value| ((value / unit).round() as i16).to_le_bytes()).collect();
+    json!({ "step": each as f64 * dt_s, "unit": unit, "values": base64(&bytes) })
 }
