@@ -122,7 +122,7 @@ def check_calculator():
 
 
 def check_keyboard():
-    browser.execute_script("scrollTo(0, 0); document.activeElement.blur()")
+    browser.execute_script("document.querySelector(`[name=by]`)?.click(); scrollTo(0, 0); document.activeElement.blur()")
     body = browser.find_element(By.TAG_NAME, "body")
     wanted = ["fit", "p", "alpha", "eta", "pga", "pgv", "space", "cloud", "motion", "next"]
     missing = {name for name in wanted if browser.find_elements(By.ID, name)}

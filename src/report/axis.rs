@@ -132,8 +132,10 @@ fn log_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
         at(&[1.0], 3),
         at(&[1.0], 5),
     ];
+    // Powers of ten alone, where numbers would be long.
+    let as_powers = low < 0.0099 || high > 10_010.0;
+    let choices = &choices[if as_powers { 4 } else { 0 }..];
     let labelled = choices.iter().find(|values| values.len() <= most).cloned().unwrap_or_default();
-    let as_powers = labelled.iter().any(|value| !(0.0099..=1001.0).contains(value));
     let label = |value: f64| match as_powers {
         true => Label::marked(&number::power(value)),
         false => Label::plain(number::plain(value)),

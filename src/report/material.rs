@@ -179,13 +179,48 @@ pub struct File {
     pub rows: usize,
 }
 
+/// Letters of a name that fit above a panel.
+const LONGEST_NAME: usize = 44;
+
+/// Options that a caption names where a file has them.
+const NAMED: [&str; 12] = [
+    "seed", "design", "samples", "mw", "re", "suite", "dt", "difference", "limit-state", "transition", "link", "estimator",
+];
+
+impl Material {
+    /// What was run, in a sentence: version, seed and options.
+    pub fn made(&self) -> String {
+        let mut versions: Vec<&str> = self.files.iter().map(|file| file.version.as_str()).collect();
+        versions.retain(|version| !version.is_empty());
+        versions.sort_unstable();
+        versions.dedup();
+        let mut options: Vec<String> = Vec::new();
+        for name in NAMED {
+            for value in self.files.iter().filter_map(|file| file.parameters.get(name)).filter(|value| !value.is_null()) {
+                let words = format!("{name} {}", value.to_string().replace(['"', '[', ']'], "").replace(',', ", "));
+                if !options.contains(&words) {
+                    options.push(words);
+                }
+            }
+        }
+        match versions[..] {
+            [] => "The files were not made by rockfrag.".to_string(),
+            _ => format!("Made by rockfrag {}: {}.", versions.join(", "), options.join("; ")),
+        }
+    }
+}
+
 impl Group {
-    /// Its name in titles.
+    /// Its name in titles, cut where it is too long for them.
     pub fn name(&self) -> String {
-        match &self.suite {
+        let name = match &self.suite {
             Some(suite) => format!("{}, {suite}", self.structure.name),
             None => self.structure.name.clone(),
+        };
+        if name.chars().count() <= LONGEST_NAME {
+            return name;
         }
+        name.chars().take(LONGEST_NAME - 1).chain(['\u{2026}']).collect()
     }
 
     /// Responses that rocked, and whether they overturned.

@@ -17,12 +17,9 @@ pub fn plain(value: f64) -> String {
     minus(text.trim_end_matches('0').trim_end_matches('.').to_string())
 }
 
-/// As a power of ten, marked for a label.
+/// A power of ten, marked for a label.
 pub fn power(value: f64) -> String {
-    let exponent = value.log10().floor();
-    let factor = value / 10_f64.powf(exponent);
-    let power = format!("10^{{{}}}", fixed(exponent, 0));
-    if (factor - 1.0).abs() < 1e-6 { power } else { format!("{}·{power}", plain(factor)) }
+    format!("10^{{{}}}", fixed(value.log10().round(), 0))
 }
 
 /// With three significant digits.

@@ -66,7 +66,7 @@ impl Panel {
                 drawing.text([x, bottom + TICK + 7.5], Anchor::Middle, TICK_LETTERS, Ink::Text, label);
             }
         }
-        for tick in self.y.ticks((self.height / 16.0) as usize) {
+        for tick in self.y.ticks(((self.height / 16.0) as usize).max(4)) {
             let [_, y] = self.at([self.x.low, tick.value]);
             let length = if tick.label.is_some() { TICK } else { 0.5 * TICK };
             steps.extend([Step::Move([left, y]), Step::Line([left - length, y])]);

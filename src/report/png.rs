@@ -2,7 +2,8 @@
 
 use tiny_skia::{FillRule, LineCap, LineJoin, Paint as SkiaPaint, PathBuilder, Pixmap, StrokeDash, Transform};
 
-use super::drawing::{Drawing, Item, Paint, Point, Step, Stroke};
+use super::drawing::{Item, Paint, Point, Step, Stroke};
+use super::figure::Figure;
 use super::font::Pen;
 use super::svg::outlines;
 
@@ -11,11 +12,12 @@ const POINTS_PER_INCH: f64 = 72.0;
 /// Inches in a metre.
 const INCHES_PER_METRE: f64 = 39.370_078_74;
 
-/// The PNG of a drawing at so many dots per inch.
+/// The PNG of a figure at so many dots per inch.
 ///
 /// # Errors
 /// If the picture is too large to hold.
-pub fn png(drawing: &Drawing, dpi: f64) -> anyhow::Result<Vec<u8>> {
+pub fn png(figure: &Figure, dpi: f64) -> anyhow::Result<Vec<u8>> {
+    let Figure { title, caption, drawing, .. } = figure;
     let scale = dpi / POINTS_PER_INCH;
     let pixels = |length: f64| (length * scale).ceil() as u32;
     let (width, height) = (pixels(drawing.width), pixels(drawing.height));
@@ -25,16 +27,18 @@ pub fn png(drawing: &Drawing, dpi: f64) -> anyhow::Result<Vec<u8>> {
     for item in &drawing.items {
         canvas.item(item);
     }
-    encode(&canvas.picture, dpi)
+    encode(&canvas.picture, [title, caption], dpi)
 }
 
-fn encode(picture: &Pixmap, dpi: f64) -> anyhow::Result<Vec<u8>> {
+fn encode(picture: &Pixmap, [title, caption]: [&str; 2], dpi: f64) -> anyhow::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_compression(png::Compression::Fast);
     let per_metre = (dpi * INCHES_PER_METRE).round() as u32;
     encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit: png::Unit::Meter }));
+    encoder.add_itxt_chunk("Title".to_string(), title.to_string())?;
+    encoder.add_itxt_chunk("Description".to_string(), caption.to_string())?;
     // All is opaque on white paper.
     let rgb: Vec<u8> = picture.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
     let mut writer = encoder.write_header()?;

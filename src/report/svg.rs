@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::drawing::{Anchor, Drawing, Ink, Item, Paint, Point, Step, Stroke, Text};
+use super::figure::Figure;
 use super::font::{Face, Pen};
 use super::label::{Level, escape};
 
@@ -15,18 +16,19 @@ pub enum Place {
     File,
 }
 
-/// The SVG of a drawing under this title.
-pub fn svg(drawing: &Drawing, title: &str, place: Place) -> String {
-    let Drawing { width, height, items } = drawing;
+/// The SVG of a figure.
+pub fn svg(figure: &Figure, place: Place) -> String {
+    let Figure { title, caption, drawing: Drawing { width, height, items }, .. } = figure;
     let mut text = String::new();
     let name = escape(title);
     let _ = match place {
         Place::Page => write!(text, "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{name}\">", r(*width), r(*height)),
         Place::File => write!(
             text,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}pt\" height=\"{1}pt\" viewBox=\"0 0 {0} {1}\">\n<title>{name}</title>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}pt\" height=\"{1}pt\" viewBox=\"0 0 {0} {1}\">\n<title>{name}</title>\n<desc>{2}</desc>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>",
             r(*width),
-            r(*height)
+            r(*height),
+            escape(caption)
         ),
     };
     text.push('\n');

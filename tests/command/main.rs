@@ -7,4 +7,5 @@ mod export;
 mod import;
 mod kill;
 mod pipeline;
+mod report;
 mod validate;

@@ -74,8 +74,19 @@
     context.fillStyle = colour("--ink");
     context.font = "14px 'Fira Sans', sans-serif";
     context.textAlign = "center";
-    const ends = [[0, -1.25, -1.05], [1.25, 0, -1.05], [-1.15, -1.15, 0]];
-    ends.forEach((end, axis) => context.fillText(AXES[axis], ...at(end)));
+    // Each axis is named at an edge of the box that has nothing before it: below, below and on the left.
+    const best = (edges, better) => edges.map((edge) => [edge, at(edge)]).reduce((a, b) => (better(b[1], a[1]) ? b : a))[0];
+    const lower = (a, b) => a[1] > b[1];
+    const edges = [
+      best([[0, -1, -1], [0, 1, -1], [0, -1, 1], [0, 1, 1]], lower),
+      best([[-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, 0, 1]], lower),
+      best([[-1, -1, 0], [-1, 1, 0], [1, -1, 0], [1, 1, 0]], (a, b) => a[0] < b[0]),
+    ];
+    edges.forEach((edge, axis) => {
+      const [left, top] = at(edge);
+      const [right, down] = axis < 2 ? [0, 18] : [-34, 0];
+      context.fillText(AXES[axis], left + right, top + down);
+    });
   };
   let colours = [];
   const recolour = () => {

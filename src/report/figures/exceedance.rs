@@ -12,7 +12,7 @@ use crate::report::material::{Group, Material, Planes, measure_label};
 use crate::report::number;
 use crate::report::panel::Panel;
 
-/// Points of a curve.
+/// Points of a curve from end to end.
 const STEPS: usize = 160;
 /// Shares of the cases below the IM3 of the curves.
 const SHARES: [f64; 3] = [0.1, 0.5, 0.9];
@@ -59,18 +59,22 @@ pub fn figures(material: &Material) -> Vec<Figure> {
             low: planes.sides[0].law,
             high: planes.sides[1].law,
         };
-        let curve = |ratio: f64, model: &DemandModel| -> Vec<(f64, Probability)> {
+        let curve = |ratio: f64, model: &DemandModel, from: f64, to: f64| -> Vec<(f64, Probability)> {
             let at = |im4: f64| {
                 let measures = IntensityMeasures { im3: Some(ratio), im4, ..super::NOTHING };
                 Some((im4, model.law(&measures).exceeding(&measures, limit)?.probability()))
             };
-            panel.x.steps(STEPS).filter_map(at).collect()
+            let inside = panel.x.steps(STEPS).filter(|im4| (from..=to).contains(im4));
+            std::iter::once(from).chain(inside).chain([to]).filter_map(at).collect()
         };
-        let only = curve(1.0, &DemandModel::Everywhere(*alone));
+        let only = curve(1.0, &DemandModel::Everywhere(*alone), 1.0, largest);
         super::draw_curve(&mut drawing, &panel, &only, Ink::Muted.line(1.2));
+        let below = planes.transition * (1.0 - f64::EPSILON);
         for (index, share) in SHARES.iter().enumerate() {
-            let values = curve(quantile(&im3, *share), &model);
-            super::draw_curve(&mut drawing, &panel, &values, stroke(index));
+            for (from, to) in [(1.0, below), (planes.transition, largest)] {
+                let values = curve(quantile(&im3, *share), &model, from, to);
+                super::draw_curve(&mut drawing, &panel, &values, stroke(index));
+            }
         }
         panel.frame(&mut drawing, Label::plain(group.name()).bold());
     }

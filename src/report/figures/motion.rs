@@ -34,7 +34,7 @@ fn figure(parts: &Parts) -> Figure {
     let Parts { words, dt_s, pulse_m_s2, whole_m_s2 } = parts;
     let whole = |values| Series { values, stroke: Ink::Data(0).line(LINE) };
     let coherent = |values| Series { values, stroke: Ink::Data(1).line(1.1) };
-    let unit = "m/s^{2}";
+    let unit = "*a* (m/s^{2})";
     let mut rows: Vec<(&str, &str, Vec<Series>)> = Vec::new();
     let mut velocities = vec![whole(velocity(whole_m_s2, *dt_s))];
     if let Some(pulse) = pulse_m_s2 {
@@ -44,7 +44,7 @@ fn figure(parts: &Parts) -> Figure {
         velocities.push(coherent(velocity(pulse, *dt_s)));
     }
     rows.push(("whole motion", unit, vec![whole(whole_m_s2.clone())]));
-    rows.push(("velocity", "m/s", velocities));
+    rows.push(("velocity", "*v* (m/s)", velocities));
     let mut drawing = Drawing::new(ONE_COLUMN, PITCH * rows.len() as f64 + 22.0);
     if pulse_m_s2.is_some() {
         let entries = [(Mark::Line(Ink::Data(0).line(1.0)), Label::plain("whole")), (Mark::Line(Ink::Data(1).line(1.1)), Label::plain("pulse"))];

@@ -53,10 +53,9 @@ fn figure(groups: &[&Group], im_x: Measure, im_y: Option<Measure>) -> Figure {
                 Some(format!("{}: λ = {}", group.name(), number::short(b1 / b2)))
             });
             let exponents = exponents.collect::<Vec<_>>().join("; ");
+            let (x, y) = (im_x.as_str(), im_y.as_str());
             let words = format!(
-                "the hybrid measure {x}^(λ/(1+λ)) {y}^(1/(1+λ)) ({exponents}; {y} is p PGV/PGA where it is im3_inv), limits at its median {y}",
-                x = im_x.as_str(),
-                y = im_y.as_str()
+                "the hybrid measure {x}^(λ/(1+λ)) {y}^(1/(1+λ)) of Eq. 22 ({exponents}), with limits at the median {y} of the data"
             );
             ("overturning-hybrid", "Overturning over the hybrid measure", words, 12)
         }

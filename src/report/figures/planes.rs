@@ -118,10 +118,10 @@ fn unit(vector: Vector) -> Vector {
     if length > 1e-12 { vector.map(|part| part / length) } else { [0.0, 1.0, 0.0] }
 }
 
-/// A direction as a sum: `0.85 ln IM4 - 0.52 ln IM3`.
+/// A direction as a sum without what hardly counts: `0.85 ln IM4 - 0.52 ln IM3`.
 fn words_of(direction: &Vector) -> Label {
     let names = ["ln IM4", "ln IM3", "ln EDP"];
-    let parts = direction.iter().zip(names).filter(|(part, _)| part.abs() >= 0.005);
+    let parts = direction.iter().zip(names).filter(|(part, _)| part.abs() >= 0.03);
     let mut text = String::new();
     for (part, name) in parts {
         let sign = match (text.is_empty(), *part < 0.0) {

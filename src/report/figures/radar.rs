@@ -34,10 +34,11 @@ pub fn figures(material: &Material) -> Vec<Figure> {
         (regression.rises && zeta > 0.0).then_some(zeta)
     };
     let all = || groups.iter().flat_map(|group| &group.univariate);
+    let largest_r2 = all().map(|regression| regression.r2).fold(0.01, f64::max);
     let largest_beta = all().map(|regression| regression.law.beta).fold(0.0, f64::max);
     let least_zeta = all().filter_map(zeta).fold(f64::INFINITY, f64::min);
     let qualities = [
-        Quality { title: "*R*^{2}: more is better", of: |regression| Some(regression.r2), rim: 1.0 },
+        Quality { title: "*R*^{2}: more is better", of: |regression| Some(regression.r2), rim: nice(largest_r2).min(1.0) },
         Quality { title: "*β*: less is better", of: |regression| Some(regression.law.beta), rim: nice(largest_beta) },
         Quality { title: "*ζ* = *β* / *b*: less is better", of: zeta, rim: nice(RIM_OF_ZETA * least_zeta.min(1e6)) },
     ];

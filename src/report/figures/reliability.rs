@@ -46,7 +46,7 @@ pub fn figures(material: &Material) -> Vec<Figure> {
     vec![Figure {
         name: "reliability".to_string(),
         title: "Reliability of the curves".to_string(),
-        caption: "Cases gathered by the probability that the fits give them, in tenths: the mean of these against the share in which it happened, with 95 % limits (Wilson). P_ro by the hybrid curve (or over p PGV/(g tan α) where there is none), P_ex by the two planes. These are the cases that the curves were fitted to; `validate` takes others.".to_string(),
+        caption: "Cases gathered by the probability that the fits give them, in tenths: the mean of these against the share in which it happened, with 95 % limits (Wilson). Overturning by the hybrid curve (or over p PGV/(g tan α) where there is none), exceeding the limit state by the two planes. These are the cases that the curves were fitted to; the stage validate takes others.".to_string(),
         drawing,
     }]
 }

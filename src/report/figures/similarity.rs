@@ -13,7 +13,7 @@ use crate::report::panel::Panel;
 /// Bins of the medians.
 const BINS: usize = 14;
 /// Cases that a median needs.
-const LEAST: usize = 8;
+const LEAST: usize = 12;
 /// The share of the cases at either end that the axis of demand leaves out.
 const TAIL: f64 = 0.03;
 const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
@@ -21,11 +21,17 @@ const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
 /// The structures of the first suite that moves two or more.
 pub fn figures(material: &Material) -> Vec<Figure> {
     let of_suite = |suite: &Option<String>| {
-        let groups = material.groups.iter().filter(|group| group.suite == *suite && group.safe().count() >= LEAST);
+        let groups = material.groups.iter().filter(|group| group.suite == *suite && strong(group).count() >= LEAST);
         groups.collect::<Vec<&Group>>()
     };
     let suites = material.groups.iter().map(|group| of_suite(&group.suite));
     suites.filter(|groups| groups.len() >= 2).take(1).map(|groups| figure(&groups)).collect()
+}
+
+/// The cases in safe rocking above the transition: those just above uplift hardly rotate.
+fn strong(group: &Group) -> impl Iterator<Item = &Seen> {
+    let transition = group.planes.map_or(1.0, |planes| planes.transition);
+    group.safe().filter(move |seen| seen.case.measures.im4 >= transition)
 }
 
 /// A way of looking at the same responses.
@@ -63,7 +69,7 @@ fn figure(groups: &[&Group]) -> Figure {
     for (index, View { title, x, y, of }) in views.into_iter().enumerate() {
         let (corner, width) = grid.place(index);
         let clouds: Vec<Vec<[f64; 2]>> =
-            groups.iter().map(|group| group.safe().map(|seen| of(group, seen)).collect()).collect();
+            groups.iter().map(|group| strong(group).map(|seen| of(group, seen)).collect()).collect();
         let ends = |axis: usize| {
             let values = sorted(clouds.iter().flatten().map(|value| value[axis]));
             [quantile(&values, TAIL), values.last().copied().unwrap_or(1.0) * 1.1]
@@ -87,7 +93,7 @@ fn figure(groups: &[&Group]) -> Figure {
         name: "similarity".to_string(),
         title: "Similarity: one curve for all structures".to_string(),
         caption: format!(
-            "Demand in safe rocking{suite}, with medians of bins of PGV. Left in units that each structure has its own curve in, right in dimensionless ones, in which the curves come together. {}. As Figure 5 of the paper.",
+            "Demand in safe rocking{suite} above the transition of the planes, with medians of bins of PGV. Left in units that each structure has its own curve in, right in dimensionless ones, in which the curves come together. {}. As Figure 5 of the paper.",
             structures.collect::<Vec<_>>().join("; ")
         ),
         drawing,

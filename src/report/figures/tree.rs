@@ -8,7 +8,7 @@ use crate::report::number;
 use crate::rocking::Outcome;
 
 const HEIGHT: f64 = 112.0;
-const BOX: Point = [56.0, 25.0];
+const BOX: Point = [50.0, 24.0];
 
 /// One tree a group.
 pub fn figures(material: &Material) -> Vec<Figure> {
@@ -18,7 +18,7 @@ pub fn figures(material: &Material) -> Vec<Figure> {
         let ([left, top], width) = grid.place(index);
         tree(&mut drawing, group, material.limit, [left - 30.0, top], width + 30.0);
     }
-    let caption = "Motions, and the share of those of the box before. P(f|r) is the share of those that rock that either overturn or exceed the limit state (Eq. 12). As Figure 6 of the paper.";
+    let caption = "Motions, and the share of those of the box before. The share of failure is of those that rock: they overturn or exceed the limit state (Eq. 12). As Figure 6 of the paper.";
     vec![Figure {
         name: "tree".to_string(),
         title: "The tree of outcomes".to_string(),
@@ -57,7 +57,7 @@ fn tree(drawing: &mut Drawing, group: &Group, limit: Option<f64>, [left, top]: P
         nodes.push(node([3.0, 0.5], &format!("above {limit} *α*"), above, Some(4), Ink::Data(1)));
         if overturned + safe > 0 {
             let share = (overturned + above) as f64 / (overturned + safe) as f64;
-            let label = Label::marked(&format!("*P*_{{f|r}} {}", number::short(share)));
+            let label = Label::marked(&format!("failure {}", number::short(share)));
             drawing.text([left + width - 0.5 * BOX[0], top + 0.92 * HEIGHT - 16.0], Anchor::Middle, 8.0, Ink::Text, label);
         }
     }
@@ -73,11 +73,11 @@ fn tree(drawing: &mut Drawing, group: &Group, limit: Option<f64>, [left, top]: P
         let [x, y] = place(*at);
         drawing.path(rectangle([x, y], BOX[0], BOX[1]).to_vec(), Some(Ink::Paper.full()), Some(ink.line(1.0)));
         let middle = x + 0.5 * BOX[0];
-        drawing.text([middle, y + 10.0], Anchor::Middle, 7.5, Ink::Text, words.clone());
+        drawing.text([middle, y + 10.0], Anchor::Middle, 7.2, Ink::Text, words.clone());
         let share = parent.map(|parent| nodes[parent].count).filter(|count| *count > 0).map(|of| 100.0 * *count as f64 / of as f64);
         let share = share.map_or(String::new(), |share| format!(" ({} %)", number::fixed(share, if share < 10.0 { 1 } else { 0 })));
         let label = Label::plain(format!("{}{share}", number::count(*count)));
-        drawing.text([middle, y + 20.0], Anchor::Middle, 7.0, Ink::Text, label);
+        drawing.text([middle, y + 20.0], Anchor::Middle, 6.6, Ink::Text, label);
     }
     drawing.text([left, top - 7.0], Anchor::Start, 8.0, Ink::Text, Label::plain(group.name()).bold());
 }

@@ -122,11 +122,11 @@ fn section_of_figures(html: &mut String, figures: &[Figure], folder: &str) {
         let Figure { name, title, caption, drawing } = figure;
         let _ = write!(
             html,
-            "<figure id=\"{name}\"><h3>{}. {}</h3>\n<div class=\"picture\" tabindex=\"0\" role=\"group\" aria-label=\"{1}\"><div style=\"--width:{2}\">\n{3}</div></div>\n<figcaption>{4} <span class=\"files\"><a href=\"{folder}/{name}.svg\">SVG</a> <a href=\"{folder}/{name}.png\">PNG</a></span></figcaption></figure>\n",
+            "<figure id=\"figure-{name}\"><h3>{}. {}</h3>\n<div class=\"picture\" tabindex=\"0\" role=\"group\" aria-label=\"{1}\"><div style=\"--width:{2}\">\n{3}</div></div>\n<figcaption>{4} <span class=\"files\"><a href=\"{folder}/{name}.svg\">SVG</a> <a href=\"{folder}/{name}.png\">PNG</a></span></figcaption></figure>\n",
             index + 1,
             escape(title),
             drawing.width,
-            svg(drawing, title, Place::Page),
+            svg(figure, Place::Page),
             escape(caption),
         );
     }

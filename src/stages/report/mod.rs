@@ -6,6 +6,7 @@ mod responses;
 mod stamp;
 mod tables;
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -69,6 +70,8 @@ impl Report {
     pub fn new(options: &ReportOptions, folder: PathBuf, out: PathBuf) -> anyhow::Result<Report> {
         check(options.groups >= 1, "groups", options.groups, "1 or more")?;
         check(options.motions <= 200, "motions", options.motions, "200 or fewer, so that the page stays small")?;
+        let ending = out.extension().unwrap_or_default().to_string_lossy();
+        check(ending == "html", "out", out.display(), "the name of a page that ends in .html")?;
         check((36.0..=1200.0).contains(&options.dpi), "dpi", options.dpi, "36 to 1200 dots per inch")?;
         Ok(Report { options: options.clone(), files: Files::in_folder(&folder), out })
     }
@@ -120,6 +123,17 @@ impl Report {
     }
 }
 
+/// Gives each figure a name of its own, whatever structures are called, and says in its caption what was run.
+fn finish(figures: &mut [Figure], made: &str) {
+    let mut names = HashSet::new();
+    for (index, figure) in figures.iter_mut().enumerate() {
+        if !names.insert(figure.name.clone()) {
+            figure.name = format!("{}-{}", figure.name, index + 1);
+        }
+        figure.caption = format!("{} {made}", figure.caption);
+    }
+}
+
 /// What is known of a file.
 fn file(path: &Path) -> Result<File, TableError> {
     let footer = footer(path)?;
@@ -167,18 +181,20 @@ impl Stage for Report {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let material = self.material(console)?;
-        let figures: Vec<Figure> = ALL.par_iter().flat_map_iter(|draw: &Draw| draw(&material)).collect();
+        let mut figures: Vec<Figure> = ALL.par_iter().flat_map_iter(|draw: &Draw| draw(&material)).collect();
+        finish(&mut figures, &material.made());
         let folder = self.figures();
         std::fs::create_dir_all(&folder).map_err(|source| TableError::io(&folder, source))?;
         figures.par_iter().try_for_each(|figure| -> anyhow::Result<()> {
             let path = |extension: &str| folder.join(format!("{}.{extension}", figure.name));
-            text::write(&path("svg"), svg(&figure.drawing, &figure.title, Place::File))?;
-            Ok(text::write(&path("png"), &png(&figure.drawing, self.options.dpi)?)?)
+            text::write(&path("svg"), svg(figure, Place::File))?;
+            Ok(text::write(&path("png"), &png(figure, self.options.dpi)?)?)
         })?;
         let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let stamp = stamp::words(provenance);
         let html = page(&material, Page { figures: &figures, folder: &name, stamp: &stamp });
         text::write(&self.out, &html)?;
-        Ok(format!("{} figures, a page of {:.1} MB", figures.len(), html.len() as f64 / 1e6))
+        let (count, megabytes) = (figures.len(), html.len() as f64 / 1e6);
+        Ok(format!("{count} figures, and a page of {megabytes:.1} MB to open: {}", self.out.display()))
     }
 }
