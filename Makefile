@@ -1,5 +1,5 @@
 # The stages one by one, each made again only when what it reads has changed:
-#     make                 the comparison with the paper
+#     make                 the comparison with the paper, and the report
 #     make out/pex.parquet one file and what it needs
 #     make spread          the spread over seeds that is shipped in data/
 # `rockfrag run` does the same from pipeline.yaml alone. A stage that finds its file up to date leaves it as it is;
@@ -9,9 +9,9 @@ ROCKFRAG ?= target/release/rockfrag
 CALL := $(ROCKFRAG) --config pipeline.yaml
 OUT := out
 
-.PHONY: all spread picture check-exports test clean
+.PHONY: all spread picture check-exports check-report test clean
 
-all: $(OUT)/paper.parquet
+all: $(OUT)/paper.parquet $(OUT)/report.html
 
 $(ROCKFRAG): Cargo.toml Cargo.lock $(shell find src data -type f)
 	cargo build --release --locked
@@ -35,6 +35,9 @@ $(OUT)/paper.parquet: $(OUT)/pex.parquet $(OUT)/pro.parquet $(OUT)/responses.par
 	$(CALL) compare-paper --pex $(OUT)/pex.parquet --pro $(OUT)/pro.parquet --responses $(OUT)/responses.parquet --out $@
 	touch $@
 
+$(OUT)/report.html: $(OUT)/pex.parquet $(OUT)/pro.parquet $(OUT)/paper.parquet
+	$(CALL) report --in $(OUT) --out $@ && touch $@
+
 spread: | $(ROCKFRAG)
 	$(ROCKFRAG) seed-spread pipeline.yaml --seeds 20 --out data/seed_spread.csv
 
@@ -44,6 +47,10 @@ picture: $(OUT)/pro.parquet
 # OpenQuake and pelicun from PyPI read what export writes: 1.5 GB for the time of the check.
 check-exports: $(OUT)/pex.parquet $(OUT)/pro.parquet
 	scripts/check_exports.sh $(ROCKFRAG) $(OUT)
+
+# A headless Chromium looks at the report.
+check-report: $(OUT)/report.html
+	scripts/check_report.sh $(ROCKFRAG) $(OUT)
 
 test:
 	cargo test --locked

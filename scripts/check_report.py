@@ -4,6 +4,7 @@ No error in the console and nothing fetched, every figure there, the calculator'
 the keyboard enough, nothing wider than a window of 400 pixels, and no serious finding of axe-core, light and dark.
 """
 
+import base64
 import json
 import math
 import pathlib
@@ -42,8 +43,6 @@ def view(width, height, scheme, media=""):
 def screenshot(name):
     if screenshots is None:
         return
-    import base64
-
     screenshots.mkdir(parents=True, exist_ok=True)
     picture = browser.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": True})
     (screenshots / f"{name}.png").write_bytes(base64.b64decode(picture["data"]))

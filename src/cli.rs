@@ -303,7 +303,11 @@ impl Call<'_> {
             return print(&dry_run(&stages, self.force)?);
         }
         run(&stages, self.force, &self.console)?;
-        if config.compare_paper.is_some() { print(&Terminal::stdout().table(&paper::show(&files.paper)?)) } else { Ok(()) }
+        if config.compare_paper.is_some() {
+            print(&Terminal::stdout().table(&paper::show(&files.paper)?))
+        } else {
+            Ok(())
+        }
     }
 
     fn stage(&self, stage: &dyn Stage) -> anyhow::Result<()> {

@@ -119,7 +119,8 @@ fn log_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
     let inside = |value: &f64| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(value);
     let at = |factors: &'static [f64], every: i32| {
         let decades = decades.clone().filter(move |decade| decade.rem_euclid(every) == 0);
-        let values = decades.flat_map(move |decade| factors.iter().map(move |factor| factor * 10_f64.powi(decade)));
+        let values =
+            decades.flat_map(move |decade| factors.iter().map(move |factor| factor * 10_f64.powi(decade)));
         values.filter(inside).collect::<Vec<f64>>()
     };
     let choices = [
@@ -140,7 +141,8 @@ fn log_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
         true => Label::marked(&number::power(value)),
         false => Label::plain(number::plain(value)),
     };
-    let minor = if high / low < 1e6 { at(&[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0], 1) } else { at(&[1.0], 1) };
+    let minor =
+        if high / low < 1e6 { at(&[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0], 1) } else { at(&[1.0], 1) };
     let minor = minor.into_iter().filter(|value| !labelled.contains(value));
     let minor: Vec<Tick> = minor.map(|value| Tick { value, label: None }).collect();
     labelled.iter().map(|&value| Tick { value, label: Some(label(value)) }).chain(minor).collect()

@@ -25,7 +25,9 @@ pub fn by_ratio(values: &[[f64; 2]], [low, high]: [f64; 2], count: usize) -> Vec
     let mut bins: Vec<(f64, Vec<f64>)> = (0..count).map(|bin| (middle(bin), Vec::new())).collect();
     for &[x, y] in values {
         let bin = ((x / low).ln() / ratio.ln()).floor();
-        if bin >= 0.0 && let Some((_, inside)) = bins.get_mut(bin as usize) {
+        if bin >= 0.0
+            && let Some((_, inside)) = bins.get_mut(bin as usize)
+        {
             inside.push(y);
         }
     }

@@ -184,7 +184,18 @@ const LONGEST_NAME: usize = 44;
 
 /// Options that a caption names where a file has them.
 const NAMED: [&str; 12] = [
-    "seed", "design", "samples", "mw", "re", "suite", "dt", "difference", "limit-state", "transition", "link", "estimator",
+    "seed",
+    "design",
+    "samples",
+    "mw",
+    "re",
+    "suite",
+    "dt",
+    "difference",
+    "limit-state",
+    "transition",
+    "link",
+    "estimator",
 ];
 
 impl Material {
@@ -196,8 +207,14 @@ impl Material {
         versions.dedup();
         let mut options: Vec<String> = Vec::new();
         for name in NAMED {
-            for value in self.files.iter().filter_map(|file| file.parameters.get(name)).filter(|value| !value.is_null()) {
-                let words = format!("{name} {}", value.to_string().replace(['"', '[', ']'], "").replace(',', ", "));
+            for value in self
+                .files
+                .iter()
+                .filter_map(|file| file.parameters.get(name))
+                .filter(|value| !value.is_null())
+            {
+                let words =
+                    format!("{name} {}", value.to_string().replace(['"', '[', ']'], "").replace(',', ", "));
                 if !options.contains(&words) {
                     options.push(words);
                 }

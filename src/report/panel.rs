@@ -57,7 +57,8 @@ impl Panel {
     pub fn frame(&self, drawing: &mut Drawing, title: Label) {
         let [left, top] = self.corner;
         let (right, bottom) = (self.right(), self.bottom());
-        let mut steps = vec![Step::Move([left, top]), Step::Line([left, bottom]), Step::Line([right, bottom])];
+        let mut steps =
+            vec![Step::Move([left, top]), Step::Line([left, bottom]), Step::Line([right, bottom])];
         for tick in self.x.ticks((self.width / 26.0) as usize) {
             let [x, _] = self.at([tick.value, self.y.low]);
             let length = if tick.label.is_some() { TICK } else { 0.5 * TICK };
@@ -108,7 +109,8 @@ impl Panel {
     /// The area between two curves over the same x: `[x, low, high]`.
     pub fn band(&self, drawing: &mut Drawing, values: &[[f64; 3]], paint: Paint) {
         let inside = |value: f64| self.y.share(value).clamp(0.0, 1.0);
-        let values = values.iter().filter(|[x, low, high]| self.x.holds(*x) && low.is_finite() && high.is_finite());
+        let values =
+            values.iter().filter(|[x, low, high]| self.x.holds(*x) && low.is_finite() && high.is_finite());
         let values: Vec<&[f64; 3]> = values.collect();
         let upper = values.iter().map(|[x, _, high]| self.place([self.x.share(*x), inside(*high)]));
         let lower = values.iter().rev().map(|[x, low, _]| self.place([self.x.share(*x), inside(*low)]));
@@ -146,7 +148,8 @@ impl Panel {
         for level in 0..SHADES {
             let full = (0..counts.len()).filter(|&square| shade(counts[square]) == Some(level));
             let squares = full.flat_map(|square| {
-                let corner = [left + (square % columns) as f64 * SQUARE, top + (square / columns) as f64 * SQUARE];
+                let corner =
+                    [left + (square % columns) as f64 * SQUARE, top + (square / columns) as f64 * SQUARE];
                 rectangle(corner, SQUARE, SQUARE)
             });
             let opacity = 0.15 + 0.85 * (level + 1) as f64 / SHADES as f64;

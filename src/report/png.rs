@@ -1,6 +1,8 @@
 //! A drawing as PNG, on white.
 
-use tiny_skia::{FillRule, LineCap, LineJoin, Paint as SkiaPaint, PathBuilder, Pixmap, StrokeDash, Transform};
+use tiny_skia::{
+    FillRule, LineCap, LineJoin, Paint as SkiaPaint, PathBuilder, Pixmap, StrokeDash, Transform,
+};
 
 use super::drawing::{Item, Paint, Point, Step, Stroke};
 use super::figure::Figure;
@@ -21,7 +23,8 @@ pub fn png(figure: &Figure, dpi: f64) -> anyhow::Result<Vec<u8>> {
     let scale = dpi / POINTS_PER_INCH;
     let pixels = |length: f64| (length * scale).ceil() as u32;
     let (width, height) = (pixels(drawing.width), pixels(drawing.height));
-    let mut picture = Pixmap::new(width, height).ok_or_else(|| anyhow::anyhow!("a picture of {width} x {height} pixels"))?;
+    let mut picture = Pixmap::new(width, height)
+        .ok_or_else(|| anyhow::anyhow!("a picture of {width} x {height} pixels"))?;
     picture.fill(tiny_skia::Color::WHITE);
     let mut canvas = Canvas { picture, transform: Transform::from_scale(scale as f32, scale as f32) };
     for item in &drawing.items {
@@ -36,11 +39,16 @@ fn encode(picture: &Pixmap, [title, caption]: [&str; 2], dpi: f64) -> anyhow::Re
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_compression(png::Compression::Fast);
     let per_metre = (dpi * INCHES_PER_METRE).round() as u32;
-    encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit: png::Unit::Meter }));
+    encoder.set_pixel_dims(Some(png::PixelDimensions {
+        xppu: per_metre,
+        yppu: per_metre,
+        unit: png::Unit::Meter,
+    }));
     encoder.add_itxt_chunk("Title".to_string(), title.to_string())?;
     encoder.add_itxt_chunk("Description".to_string(), caption.to_string())?;
     // All is opaque on white paper.
-    let rgb: Vec<u8> = picture.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    let rgb: Vec<u8> =
+        picture.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&rgb)?;
     writer.finish()?;
@@ -78,7 +86,8 @@ impl Canvas {
                 outlines(text, &mut pen);
                 let Some(path) = pen.0.finish() else { return };
                 let [x, y] = text.at.map(|place| place as f32);
-                let turned = if text.upwards { Transform::from_rotate_at(-90.0, x, y) } else { Transform::identity() };
+                let turned =
+                    if text.upwards { Transform::from_rotate_at(-90.0, x, y) } else { Transform::identity() };
                 self.fill(&path, text.ink.full(), self.transform.pre_concat(turned));
             }
         }

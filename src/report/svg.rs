@@ -22,7 +22,12 @@ pub fn svg(figure: &Figure, place: Place) -> String {
     let mut text = String::new();
     let name = escape(title);
     let _ = match place {
-        Place::Page => write!(text, "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{name}\">", r(*width), r(*height)),
+        Place::Page => write!(
+            text,
+            "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{name}\">",
+            r(*width),
+            r(*height)
+        ),
         Place::File => write!(
             text,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}pt\" height=\"{1}pt\" viewBox=\"0 0 {0} {1}\">\n<title>{name}</title>\n<desc>{2}</desc>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>",
@@ -73,7 +78,11 @@ impl Writer {
                 self.text.push_str("<path d=\"");
                 let _ = at.iter().try_for_each(|&[x, y]| write!(self.text, "M{} {}h0", r(x), r(y)));
                 let colour = self.colour(paint.ink);
-                let _ = write!(self.text, "\" fill=\"none\" stroke=\"{colour}\" stroke-linecap=\"round\" stroke-width=\"{}\"", r(2.0 * radius));
+                let _ = write!(
+                    self.text,
+                    "\" fill=\"none\" stroke=\"{colour}\" stroke-linecap=\"round\" stroke-width=\"{}\"",
+                    r(2.0 * radius)
+                );
                 self.opacity("stroke", paint.opacity);
                 self.text.push_str("/>");
             }
@@ -92,7 +101,12 @@ impl Writer {
     }
 
     fn stroke(&mut self, Stroke { paint, width, dash }: &Stroke) {
-        let _ = write!(self.text, " stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"", self.colour(paint.ink), r(*width));
+        let _ = write!(
+            self.text,
+            " stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"",
+            self.colour(paint.ink),
+            r(*width)
+        );
         self.opacity("stroke", paint.opacity);
         if !dash.lengths().is_empty() {
             let lengths = dash.lengths().iter().map(|&length| r(length).to_string()).collect::<Vec<_>>();
@@ -108,7 +122,11 @@ impl Writer {
 
     fn words(&mut self, text: &Text) {
         let [x, y] = text.at;
-        let turn = if text.upwards { format!(" transform=\"rotate(-90 {} {})\"", r(x), r(y)) } else { String::new() };
+        let turn = if text.upwards {
+            format!(" transform=\"rotate(-90 {} {})\"", r(x), r(y))
+        } else {
+            String::new()
+        };
         let colour = self.colour(text.ink);
         if self.place == Place::File {
             let mut outline = OutlineWriter(String::new());
@@ -121,7 +139,13 @@ impl Writer {
             Anchor::Middle => " text-anchor=\"middle\"",
             Anchor::End => " text-anchor=\"end\"",
         };
-        let _ = write!(self.text, "<text x=\"{}\" y=\"{}\" font-size=\"{}\" fill=\"{colour}\"{anchor}{turn}>", r(x), r(y), r(text.size));
+        let _ = write!(
+            self.text,
+            "<text x=\"{}\" y=\"{}\" font-size=\"{}\" fill=\"{colour}\"{anchor}{turn}>",
+            r(x),
+            r(y),
+            r(text.size)
+        );
         let mut drop = 0.0;
         for run in &text.label.runs {
             let mut style = String::new();
@@ -190,7 +214,12 @@ fn write_step(text: &mut String, step: &Step) -> std::fmt::Result {
         Step::Close => write!(text, "Z"),
         Step::Circle([x, y], radius) => {
             let (radius, across) = (r(radius), r(2.0 * radius));
-            write!(text, "M{} {}a{radius} {radius} 0 1 0 {across} 0a{radius} {radius} 0 1 0 -{across} 0Z", r(x - radius), r(y))
+            write!(
+                text,
+                "M{} {}a{radius} {radius} 0 1 0 {across} 0a{radius} {radius} 0 1 0 -{across} 0Z",
+                r(x - radius),
+                r(y)
+            )
         }
     }
 }

@@ -25,9 +25,8 @@ pub fn inspect(path: &Path, terminal: &Terminal) -> anyhow::Result<String> {
     }
     text.push('\n');
     let rows = std::iter::once(NAMES.map(str::to_string)).chain(rows(&footer)).collect::<Vec<_>>();
-    let widths: [usize; NAMES.len()] = std::array::from_fn(|column| {
-        rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)
-    });
+    let widths: [usize; NAMES.len()] =
+        std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
     let [name_width, type_width, nulls_width, least_width, largest_width, _] = widths;
     for (index, [name, kind, nulls, least, largest, description]) in rows.iter().enumerate() {
         let line = format!(

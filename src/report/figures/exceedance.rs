@@ -88,7 +88,12 @@ pub fn figures(material: &Material) -> Vec<Figure> {
         number::plain(limit),
         quantiles.collect::<Vec<_>>().join("; ")
     );
-    vec![Figure { name: "exceedance".to_string(), title: "Exceeding the limit state: two measures and one".to_string(), caption, drawing }]
+    vec![Figure {
+        name: "exceedance".to_string(),
+        title: "Exceeding the limit state: two measures and one".to_string(),
+        caption,
+        drawing,
+    }]
 }
 
 fn stroke(index: usize) -> Stroke {

@@ -74,7 +74,8 @@ fn structure_words(structure: &Structure) -> String {
 
 /// A name that a file may have.
 fn file_words(name: &str) -> String {
-    let letter = |letter: char| if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '-' };
+    let letter =
+        |letter: char| if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '-' };
     name.chars().map(letter).collect()
 }
 

@@ -40,33 +40,52 @@ fn figure(parts: &Parts) -> Figure {
     if let Some(pulse) = pulse_m_s2 {
         let kept = whole_m_s2.iter().zip(pulse).map(|(whole, pulse)| whole - pulse).collect();
         rows.push(("coherent pulse", unit, vec![coherent(pulse.clone())]));
-        rows.push(("high frequencies as they are combined", unit, vec![Series { values: kept, stroke: Ink::Muted.line(LINE) }]));
+        rows.push((
+            "high frequencies as they are combined",
+            unit,
+            vec![Series { values: kept, stroke: Ink::Muted.line(LINE) }],
+        ));
         velocities.push(coherent(velocity(pulse, *dt_s)));
     }
     rows.push(("whole motion", unit, vec![whole(whole_m_s2.clone())]));
     rows.push(("velocity", "*v* (m/s)", velocities));
     let mut drawing = Drawing::new(ONE_COLUMN, PITCH * rows.len() as f64 + 22.0);
     if pulse_m_s2.is_some() {
-        let entries = [(Mark::Line(Ink::Data(0).line(1.0)), Label::plain("whole")), (Mark::Line(Ink::Data(1).line(1.1)), Label::plain("pulse"))];
+        let entries = [
+            (Mark::Line(Ink::Data(0).line(1.0)), Label::plain("whole")),
+            (Mark::Line(Ink::Data(1).line(1.1)), Label::plain("pulse")),
+        ];
         legend(&mut drawing, [150.0, 3.0 * PITCH + 12.0], &entries);
     }
     let duration_s = whole_m_s2.len() as f64 * dt_s;
     let last = rows.len() - 1;
     for (index, (title, unit, series)) in rows.iter().enumerate() {
-        let peak = series.iter().flat_map(|series| range(series.values.iter().copied())).fold(0.0_f64, |peak, end| peak.max(end.abs()));
+        let peak = series
+            .iter()
+            .flat_map(|series| range(series.values.iter().copied()))
+            .fold(0.0_f64, |peak, end| peak.max(end.abs()));
         let x = Axis::linear([0.0, duration_s], Label::plain(if index == last { "time (s)" } else { "" }));
         let y = Axis::linear([-1.08 * peak, 1.08 * peak], Label::marked(unit));
-        let panel = Panel { corner: [40.0, PITCH * index as f64 + 17.0], width: ONE_COLUMN - 49.0, height: HEIGHT, x, y };
+        let panel = Panel {
+            corner: [40.0, PITCH * index as f64 + 17.0],
+            width: ONE_COLUMN - 49.0,
+            height: HEIGHT,
+            x,
+            y,
+        };
         for Series { values, stroke } in series {
             let drawn = envelope(values, MOST_VALUES);
             let step_s = drawn.each as f64 * dt_s;
-            let line: Vec<[f64; 2]> = drawn.values.iter().enumerate().map(|(k, value)| [k as f64 * step_s, *value]).collect();
+            let line: Vec<[f64; 2]> =
+                drawn.values.iter().enumerate().map(|(k, value)| [k as f64 * step_s, *value]).collect();
             panel.line(&mut drawing, &line, *stroke);
         }
         panel.frame(&mut drawing, Label::plain(*title).bold());
     }
     let made = match pulse_m_s2 {
-        Some(_) => "The high frequencies are what the combination keeps of them: the whole motion less the pulse.",
+        Some(_) => {
+            "The high frequencies are what the combination keeps of them: the whole motion less the pulse."
+        }
         None => "The file holds no pulse of this motion.",
     };
     Figure {

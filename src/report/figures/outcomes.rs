@@ -27,7 +27,8 @@ pub fn figures(material: &Material) -> Vec<Figure> {
         }
     }
     let of = |name: &&str| {
-        let groups = material.groups.iter().filter(|group| group.structure.name == **name).collect::<Vec<_>>();
+        let groups =
+            material.groups.iter().filter(|group| group.structure.name == **name).collect::<Vec<_>>();
         figure(&groups)
     };
     names.iter().map(of).collect()

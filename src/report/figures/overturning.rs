@@ -22,11 +22,15 @@ const LARGEST: f64 = 8.0;
 
 /// The figure over one measure, and that over two if there is a curve of two.
 pub fn figures(material: &Material) -> Vec<Figure> {
-    let groups: Vec<&Group> = material.groups.iter().filter(|group| group.rocked().next().is_some()).collect();
+    let groups: Vec<&Group> =
+        material.groups.iter().filter(|group| group.rocked().next().is_some()).collect();
     if groups.is_empty() {
         return Vec::new();
     }
-    let of_two = groups.iter().flat_map(|group| &group.curves).find_map(|curve| Some((curve.index.im_x, curve.index.im_y?)));
+    let of_two = groups
+        .iter()
+        .flat_map(|group| &group.curves)
+        .find_map(|curve| Some((curve.index.im_x, curve.index.im_y?)));
     let over_one = figure(&groups, Measure::Im5, None);
     std::iter::once(over_one).chain(of_two.map(|(x, y)| figure(&groups, x, Some(y)))).collect()
 }
@@ -70,15 +74,24 @@ fn figure(groups: &[&Group], im_x: Measure, im_y: Option<Measure>) -> Figure {
     }
 }
 
-fn draw(drawing: &mut Drawing, group: &Group, (im_x, im_y): (Measure, Option<Measure>), corner: [f64; 2], width: f64, height: f64) {
+fn draw(
+    drawing: &mut Drawing,
+    group: &Group,
+    (im_x, im_y): (Measure, Option<Measure>),
+    corner: [f64; 2],
+    width: f64,
+    height: f64,
+) {
     let index = group.curve(im_x, im_y).map(|curve| curve.index);
     let over = |seen: &Seen| match (index, im_y) {
         (Some(index), Some(_)) => index.hybrid_measure(&seen.case.measures),
         (None, Some(_)) => None,
         _ => im_x.of(&seen.case),
     };
-    let values: Vec<[f64; 2]> =
-        group.rocked().filter_map(|(seen, over_turned)| Some([over(seen)?, f64::from(u8::from(over_turned))])).collect();
+    let values: Vec<[f64; 2]> = group
+        .rocked()
+        .filter_map(|(seen, over_turned)| Some([over(seen)?, f64::from(u8::from(over_turned))]))
+        .collect();
     let label = if im_y.is_some() { Label::plain("hybrid measure") } else { measure_label(im_x) };
     let x = Axis::log_over(values.iter().map(|[x, _]| *x), label);
     let y = Axis::linear([-0.04, 1.04], Label::marked("*P*_{ro}"));
@@ -88,11 +101,19 @@ fn draw(drawing: &mut Drawing, group: &Group, (im_x, im_y): (Measure, Option<Mea
             let values = sorted(group.rocked().filter_map(|(seen, _)| im_y.of(&seen.case)));
             (im_y, quantile(&values, 0.5))
         });
-        let curve: Vec<(f64, Probability)> =
-            panel.x.steps(STEPS).filter_map(|value| Some((value, probability(&index, value, second)?))).collect();
+        let curve: Vec<(f64, Probability)> = panel
+            .x
+            .steps(STEPS)
+            .filter_map(|value| Some((value, probability(&index, value, second)?)))
+            .collect();
         super::draw_curve(drawing, &panel, &curve, Ink::Data(1).line(1.3));
     } else {
-        panel.note(drawing, [0.04, 0.12], Anchor::Start, Label::plain("no curve: see the status in the table"));
+        panel.note(
+            drawing,
+            [0.04, 0.12],
+            Anchor::Start,
+            Label::plain("no curve: see the status in the table"),
+        );
     }
     let bins = by_ratio(&values, [panel.x.low, panel.x.high], BINS);
     let most = bins.iter().map(|(_, inside)| inside.len()).max().unwrap_or(1).max(1) as f64;

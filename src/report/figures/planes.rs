@@ -31,7 +31,8 @@ pub fn figures(material: &Material) -> Vec<Figure> {
         let (corner, width) = grid.place(index);
         let view = View::edge_on(planes);
         let points = [true, false].map(|below| points(group, planes, below));
-        let places: [Vec<[f64; 2]>; 2] = points.clone().map(|points| points.iter().map(|point| view.of(point)).collect());
+        let places: [Vec<[f64; 2]>; 2] =
+            points.clone().map(|points| points.iter().map(|point| view.of(point)).collect());
         let ends = |axis: usize| {
             let [low, high] = range(places.iter().flatten().map(|place| place[axis]));
             let margin = 0.04 * (high - low);

@@ -38,13 +38,25 @@ pub fn figures(material: &Material) -> Vec<Figure> {
     let largest_beta = all().map(|regression| regression.law.beta).fold(0.0, f64::max);
     let least_zeta = all().filter_map(zeta).fold(f64::INFINITY, f64::min);
     let qualities = [
-        Quality { title: "*R*^{2}: more is better", of: |regression| Some(regression.r2), rim: nice(largest_r2).min(1.0) },
-        Quality { title: "*β*: less is better", of: |regression| Some(regression.law.beta), rim: nice(largest_beta) },
-        Quality { title: "*ζ* = *β* / *b*: less is better", of: zeta, rim: nice(RIM_OF_ZETA * least_zeta.min(1e6)) },
+        Quality {
+            title: "*R*^{2}: more is better",
+            of: |regression| Some(regression.r2),
+            rim: nice(largest_r2).min(1.0),
+        },
+        Quality {
+            title: "*β*: less is better",
+            of: |regression| Some(regression.law.beta),
+            rim: nice(largest_beta),
+        },
+        Quality {
+            title: "*ζ* = *β* / *b*: less is better",
+            of: zeta,
+            rim: nice(RIM_OF_ZETA * least_zeta.min(1e6)),
+        },
     ];
     let rows = groups.len().div_ceil(2) as f64;
     let top = 12.0 * rows + 26.0;
-    let mut drawing = Drawing::new(TWO_COLUMNS, top + 2.0 * RADIUS + 28.0);
+    let mut drawing = Drawing::new(TWO_COLUMNS, top + 2.0 * RADIUS + 33.0);
     for (index, group) in groups.iter().enumerate() {
         let at = [30.0 + 240.0 * (index % 2) as f64, 10.0 + 12.0 * (index / 2) as f64];
         legend(&mut drawing, at, &[(Mark::Line(stroke(index)), Label::plain(group.name()))]);

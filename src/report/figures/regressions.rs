@@ -18,8 +18,11 @@ fn figure(group: &Group) -> Figure {
     let values = |measure: Measure| -> Vec<[f64; 2]> {
         group.safe().filter_map(|seen| Some([measure.of(&seen.case)?, seen.case.edp])).collect()
     };
-    let with_values: Vec<(Measure, Vec<[f64; 2]>)> =
-        Measure::SCALAR.map(|measure| (measure, values(measure))).into_iter().filter(|(_, values)| !values.is_empty()).collect();
+    let with_values: Vec<(Measure, Vec<[f64; 2]>)> = Measure::SCALAR
+        .map(|measure| (measure, values(measure)))
+        .into_iter()
+        .filter(|(_, values)| !values.is_empty())
+        .collect();
     let grid = Grid { columns: 3, width: TWO_COLUMNS, ..Grid::of(with_values.len(), 105.0) };
     let mut drawing = grid.drawing();
     for (index, (measure, values)) in with_values.iter().enumerate() {

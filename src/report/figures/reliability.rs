@@ -36,7 +36,13 @@ pub fn figures(material: &Material) -> Vec<Figure> {
     for (index, (group, forecasts)) in panels.iter().enumerate() {
         let (corner, width) = grid.place(index);
         let axis = |words: &str| Axis::linear([0.0, 1.0], Label::plain(words));
-        let panel = Panel { corner, width, height: grid.panel_height, x: axis("foretold probability"), y: axis("share seen") };
+        let panel = Panel {
+            corner,
+            width,
+            height: grid.panel_height,
+            x: axis("foretold probability"),
+            y: axis("share seen"),
+        };
         panel.line(&mut drawing, &[[0.0, 0.0], [1.0, 1.0]], Ink::Muted.dashed(0.7, Dash::Short));
         for (forecasts, ink) in forecasts.iter().zip(inks) {
             panel.bars(&mut drawing, &shares(forecasts), ink);

@@ -1,5 +1,6 @@
 //! Figure 5: structures that differ in their own units, and hardly in dimensionless ones.
 
+use crate::fragility::Measure;
 use crate::report::axis::Axis;
 use crate::report::bins::{by_ratio, quantile, sorted};
 use crate::report::drawing::{Dash, Ink};
@@ -7,7 +8,6 @@ use crate::report::figure::{Figure, Grid};
 use crate::report::label::Label;
 use crate::report::legend::{Mark, legend};
 use crate::report::material::{Group, Material, Seen, demand_label, measure_label};
-use crate::fragility::Measure;
 use crate::report::panel::Panel;
 
 /// Bins of the medians.
@@ -21,7 +21,8 @@ const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
 /// The structures of the first suite that moves two or more.
 pub fn figures(material: &Material) -> Vec<Figure> {
     let of_suite = |suite: &Option<String>| {
-        let groups = material.groups.iter().filter(|group| group.suite == *suite && strong(group).count() >= LEAST);
+        let groups =
+            material.groups.iter().filter(|group| group.suite == *suite && strong(group).count() >= LEAST);
         groups.collect::<Vec<&Group>>()
     };
     let suites = material.groups.iter().map(|group| of_suite(&group.suite));
@@ -74,7 +75,13 @@ fn figure(groups: &[&Group]) -> Figure {
             let values = sorted(clouds.iter().flatten().map(|value| value[axis]));
             [quantile(&values, TAIL), values.last().copied().unwrap_or(1.0) * 1.1]
         };
-        let panel = Panel { corner, width, height: grid.panel_height, x: Axis::log(ends(0), x), y: Axis::log(ends(1), y) };
+        let panel = Panel {
+            corner,
+            width,
+            height: grid.panel_height,
+            x: Axis::log(ends(0), x),
+            y: Axis::log(ends(1), y),
+        };
         for (index, cloud) in clouds.iter().enumerate() {
             panel.scatter(&mut drawing, cloud, 0.6, Ink::Data(index).thin(0.3));
         }
@@ -88,7 +95,9 @@ fn figure(groups: &[&Group]) -> Figure {
         panel.frame(&mut drawing, Label::plain(title).bold());
     }
     let suite = groups[0].suite.as_deref().map_or(String::new(), |suite| format!(" to the suite {suite}"));
-    let structures = groups.iter().map(|group| format!("{}: {}", group.structure.name, super::structure_words(&group.structure)));
+    let structures = groups
+        .iter()
+        .map(|group| format!("{}: {}", group.structure.name, super::structure_words(&group.structure)));
     Figure {
         name: "similarity".to_string(),
         title: "Similarity: one curve for all structures".to_string(),

@@ -42,7 +42,8 @@ fn tree(drawing: &mut Drawing, group: &Group, limit: Option<f64>, [left, top]: P
     let all = group.responses.len();
     let overturned = group.count(Outcome::Overturning);
     let safe = group.count(Outcome::SafeRocking);
-    let node = |at, words: &str, count, parent, ink| Node { at, words: Label::marked(words), count, parent, ink };
+    let node =
+        |at, words: &str, count, parent, ink| Node { at, words: Label::marked(words), count, parent, ink };
     let mut nodes = vec![
         node([0.0, 0.5], "motions", all, None, Ink::Text),
         node([1.0, 0.12], "no rocking", group.count(Outcome::NoRocking), Some(0), Ink::Muted),
@@ -58,10 +59,18 @@ fn tree(drawing: &mut Drawing, group: &Group, limit: Option<f64>, [left, top]: P
         if overturned + safe > 0 {
             let share = (overturned + above) as f64 / (overturned + safe) as f64;
             let label = Label::marked(&format!("failure {}", number::short(share)));
-            drawing.text([left + width - 0.5 * BOX[0], top + 0.92 * HEIGHT - 16.0], Anchor::Middle, 8.0, Ink::Text, label);
+            drawing.text(
+                [left + width - 0.5 * BOX[0], top + 0.92 * HEIGHT - 16.0],
+                Anchor::Middle,
+                8.0,
+                Ink::Text,
+                label,
+            );
         }
     }
-    let place = |[column, height]: Point| [left + column / 3.0 * (width - BOX[0]), top + height * (HEIGHT - 30.0) - 0.5 * BOX[1] + 8.0];
+    let place = |[column, height]: Point| {
+        [left + column / 3.0 * (width - BOX[0]), top + height * (HEIGHT - 30.0) - 0.5 * BOX[1] + 8.0]
+    };
     for node in &nodes {
         if let Some(parent) = node.parent {
             let ([from_x, from_y], [to_x, to_y]) = (place(nodes[parent].at), place(node.at));
@@ -71,11 +80,20 @@ fn tree(drawing: &mut Drawing, group: &Group, limit: Option<f64>, [left, top]: P
     }
     for Node { at, words, count, parent, ink } in &nodes {
         let [x, y] = place(*at);
-        drawing.path(rectangle([x, y], BOX[0], BOX[1]).to_vec(), Some(Ink::Paper.full()), Some(ink.line(1.0)));
+        drawing.path(
+            rectangle([x, y], BOX[0], BOX[1]).to_vec(),
+            Some(Ink::Paper.full()),
+            Some(ink.line(1.0)),
+        );
         let middle = x + 0.5 * BOX[0];
         drawing.text([middle, y + 10.0], Anchor::Middle, 7.2, Ink::Text, words.clone());
-        let share = parent.map(|parent| nodes[parent].count).filter(|count| *count > 0).map(|of| 100.0 * *count as f64 / of as f64);
-        let share = share.map_or(String::new(), |share| format!(" ({} %)", number::fixed(share, if share < 10.0 { 1 } else { 0 })));
+        let share = parent
+            .map(|parent| nodes[parent].count)
+            .filter(|count| *count > 0)
+            .map(|of| 100.0 * *count as f64 / of as f64);
+        let share = share.map_or(String::new(), |share| {
+            format!(" ({} %)", number::fixed(share, if share < 10.0 { 1 } else { 0 }))
+        });
         let label = Label::plain(format!("{}{share}", number::count(*count)));
         drawing.text([middle, y + 20.0], Anchor::Middle, 6.6, Ink::Text, label);
     }

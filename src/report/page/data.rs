@@ -79,8 +79,11 @@ fn motion(motion: &Motion) -> Value {
 }
 
 fn trace(Trace { structure, alpha_rad, outcome, points }: &Trace, dt_s: f64) -> Value {
-    let samples: Vec<f64> =
-        points.iter().filter(|point| point.event.is_none()).map(|point| point.theta_rad / alpha_rad).collect();
+    let samples: Vec<f64> = points
+        .iter()
+        .filter(|point| point.event.is_none())
+        .map(|point| point.theta_rad / alpha_rad)
+        .collect();
     let impacts = points.iter().filter(|point| point.event == Some(Event::Impact));
     let impacts: Vec<f64> = impacts.map(|point| (point.time_s * 1000.0).round() / 1000.0).collect();
     json!({ "structure": structure, "outcome": outcome.as_str().replace('_', " "),
@@ -92,6 +95,7 @@ fn series(values: &[f64], dt_s: f64) -> Value {
     let Envelope { each, values } = envelope(values, MOST_VALUES);
     let peak = values.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));
     let unit = if peak > 0.0 { peak / LARGEST } else { 1.0 };
-    let bytes: Vec<u8> = values.iter().flat_map(|value| ((value / unit).round() as i16).to_le_bytes()).collect();
+    let bytes: Vec<u8> =
+        values.iter().flat_map(|value| ((value / unit).round() as i16).to_le_bytes()).collect();
     json!({ "step": each as f64 * dt_s, "unit": unit, "values": base64(&bytes) })
 }

@@ -43,7 +43,9 @@ pub fn page(material: &Material, Page { figures, folder, stamp }: Page) -> Strin
     // Read back by the stage: it must stay near the start.
     let _ = writeln!(html, "<meta name=\"rockfrag\" content=\"{}\">", escape(stamp));
     html.push_str("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-    html.push_str("<meta name=\"color-scheme\" content=\"light dark\">\n<title>Rocking fragility report</title>\n");
+    html.push_str(
+        "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Rocking fragility report</title>\n",
+    );
     html.push_str("<link rel=\"icon\" href=\"data:,\">\n<style>\n");
     for (face, style) in Face::ALL.into_iter().zip(["400", "400;font-style:italic", "600"]) {
         let _ = writeln!(
@@ -79,14 +81,18 @@ pub fn page(material: &Material, Page { figures, folder, stamp }: Page) -> Strin
 }
 
 fn header(html: &mut String, material: &Material) {
-    html.push_str("<a class=\"skip\" href=\"#figures\">Skip to the figures</a>\n<header>\n<h1>Rocking fragility</h1>\n");
+    html.push_str(
+        "<a class=\"skip\" href=\"#figures\">Skip to the figures</a>\n<header>\n<h1>Rocking fragility</h1>\n",
+    );
     let responses: usize = material.groups.iter().map(|group| group.responses.len()).sum();
     let mut suites: Vec<&str> = material.groups.iter().filter_map(|group| group.suite.as_deref()).collect();
     suites.sort_unstable();
     suites.dedup();
-    let mut structures: Vec<&str> = material.groups.iter().map(|group| group.structure.name.as_str()).collect();
+    let mut structures: Vec<&str> =
+        material.groups.iter().map(|group| group.structure.name.as_str()).collect();
     structures.dedup();
-    let of_suites = if suites.is_empty() { String::new() } else { format!(" to motions of {}", suites.join(", ")) };
+    let of_suites =
+        if suites.is_empty() { String::new() } else { format!(" to motions of {}", suites.join(", ")) };
     let _ = writeln!(
         html,
         "<p class=\"lead\">{} responses of {}{}</p>",
@@ -150,7 +156,12 @@ fn section_of_files(html: &mut String, files: &[File]) {
         let _ = write!(html, "<dt>content</dt><dd><code>{}</code></dd>", escape(content));
         if let serde_json::Value::Object(parameters) = parameters {
             for (name, value) in parameters {
-                let _ = write!(html, "<dt>{}</dt><dd><code>{}</code></dd>", escape(name), escape(&value.to_string()));
+                let _ = write!(
+                    html,
+                    "<dt>{}</dt><dd><code>{}</code></dd>",
+                    escape(name),
+                    escape(&value.to_string())
+                );
             }
         }
         html.push_str("</dl></details>\n");

@@ -18,11 +18,15 @@ pub fn section(html: &mut String, tables: &[Table]) {
 
 fn write_table(html: &mut String, Table { title, columns, rows, left_out }: &Table) {
     let title = escape(title);
-    let _ = write!(html, "<h3>{title}</h3>\n<div class=\"table\" tabindex=\"0\" role=\"group\" aria-label=\"{title}\"><table><thead><tr>");
+    let _ = write!(
+        html,
+        "<h3>{title}</h3>\n<div class=\"table\" tabindex=\"0\" role=\"group\" aria-label=\"{title}\"><table><thead><tr>"
+    );
     let class = |numeric: bool| if numeric { " class=\"number\"" } else { "" };
     for column in columns {
         let (name, description) = (escape(&column.name), escape(&column.description));
-        let _ = write!(html, "<th scope=\"col\" title=\"{description}\"{}>{name}</th>", class(column.numeric));
+        let _ =
+            write!(html, "<th scope=\"col\" title=\"{description}\"{}>{name}</th>", class(column.numeric));
     }
     html.push_str("</tr></thead><tbody>\n");
     for row in rows {

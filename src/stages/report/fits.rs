@@ -48,7 +48,8 @@ fn regression(row: &FitRow) -> Option<Regression> {
 /// Gives each group its curves of overturning.
 pub fn add_curves(path: &Path, groups: &mut [Group], console: &Console) -> anyhow::Result<()> {
     let rows = fits::curves(path)?;
-    let overturning = |row: &&FitRow| row.text(&schema::FITTED_EVENT) == Some(FittedEvent::Overturning.as_str());
+    let overturning =
+        |row: &&FitRow| row.text(&schema::FITTED_EVENT) == Some(FittedEvent::Overturning.as_str());
     let rows: Vec<&FitRow> = rows.iter().filter(overturning).filter(|row| row.is_ok()).collect();
     if let Some(Err(why)) = rows.first().map(|row| row.probit()) {
         console.note(&format!("warning: no curves of overturning in the figures: {why}"));

@@ -69,7 +69,12 @@ impl Report {
     /// If an option is out of range.
     pub fn new(options: &ReportOptions, folder: PathBuf, out: PathBuf) -> anyhow::Result<Report> {
         check(options.groups >= 1, "groups", options.groups, "1 or more")?;
-        check(options.motions <= 200, "motions", options.motions, "200 or fewer, so that the page stays small")?;
+        check(
+            options.motions <= 200,
+            "motions",
+            options.motions,
+            "200 or fewer, so that the page stays small",
+        )?;
         let ending = out.extension().unwrap_or_default().to_string_lossy();
         check(ending == "html", "out", out.display(), "the name of a page that ends in .html")?;
         check((36.0..=1200.0).contains(&options.dpi), "dpi", options.dpi, "36 to 1200 dots per inch")?;
@@ -95,7 +100,8 @@ impl Report {
 
     fn material(&self, console: &Console) -> anyhow::Result<Material> {
         let inputs = self.inputs();
-        let there = |role: &str| inputs.iter().find(|(other, _)| *other == role).map(|(_, path)| path.as_path());
+        let there =
+            |role: &str| inputs.iter().find(|(other, _)| *other == role).map(|(_, path)| path.as_path());
         let (mut groups, left_out) = responses::read(&self.files.responses, &self.options)?;
         let mut material = Material { left_out, ..Material::default() };
         if let Some(pex) = there("pex") {
@@ -149,9 +155,14 @@ fn file(path: &Path) -> Result<File, TableError> {
             content,
             rows,
         },
-        None => {
-            File { name, stage: None, version: String::new(), parameters: Value::Null, content: provenance::content_of(path)?, rows }
-        }
+        None => File {
+            name,
+            stage: None,
+            version: String::new(),
+            parameters: Value::Null,
+            content: provenance::content_of(path)?,
+            rows,
+        },
     })
 }
 

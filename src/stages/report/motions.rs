@@ -31,7 +31,8 @@ pub fn read(
     let count = rows.min(count as u64);
     let wanted: Vec<u64> = (0..count).map(|k| ((2 * k + 1) * rows) / (2 * count)).collect();
     let groups = file.groups_of(&wanted);
-    let picked = groups.par_iter().map(|(group, rows)| file.pick(*group, |motion| rows.contains(&motion.row)));
+    let picked =
+        groups.par_iter().map(|(group, rows)| file.pick(*group, |motion| rows.contains(&motion.row)));
     let picked = picked.collect::<Result<Vec<Vec<motions::Motion>>, TableError>>()?;
     let shown = picked.into_par_iter().flatten().map(|motion| shown(&motion, structures)).collect();
     Ok((shown, parts(&file, rows / 2)?))

@@ -23,7 +23,8 @@ pub fn read(path: &Path, options: &ReportOptions) -> anyhow::Result<(Vec<Group>,
     }
     let Sorted { mut groups, names } = sorted;
     if groups.is_empty() {
-        let known = names.iter().map(|(suite, structure)| format!("{} {structure}", suite.as_deref().unwrap_or("-")));
+        let known =
+            names.iter().map(|(suite, structure)| format!("{} {structure}", suite.as_deref().unwrap_or("-")));
         return Err(UsageError::because(format!(
             "{}: nothing of the suite and structure asked for; expected one of {}",
             path.display(),
@@ -60,12 +61,8 @@ impl Sorted {
         let (im4, im5, im6) = (number(&schema::IM4)?, number(&schema::IM5)?, optional(&schema::IM6)?);
         let names = suites.into_iter().zip(structures);
         for (row, (name, outcome)) in names.zip(outcomes).enumerate() {
-            let structure = || Structure {
-                name: name.1.clone(),
-                p_rad_s: p[row],
-                alpha_rad: alpha[row],
-                eta: eta[row],
-            };
+            let structure =
+                || Structure { name: name.1.clone(), p_rad_s: p[row], alpha_rad: alpha[row], eta: eta[row] };
             let Some(group) = self.group(&name, structure, options) else { continue };
             let outcome = keyword::parse(&outcome)
                 .map_err(|unknown| columns.value_error(row, &schema::OUTCOME, &unknown.to_string()))?;
@@ -84,7 +81,12 @@ impl Sorted {
     }
 
     /// The group of this name, if it is to be shown.
-    fn group(&mut self, name: &Name, structure: impl Fn() -> Structure, options: &ReportOptions) -> Option<&mut Group> {
+    fn group(
+        &mut self,
+        name: &Name,
+        structure: impl Fn() -> Structure,
+        options: &ReportOptions,
+    ) -> Option<&mut Group> {
         let known = self.names.iter().position(|known| known == name);
         if let Some(index) = known {
             return self.groups.get_mut(index);

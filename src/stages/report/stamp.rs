@@ -36,7 +36,13 @@ pub fn read(path: &Path) -> Result<Option<Stamp>, TableError> {
     for line in BufReader::new(file).lines().take(LINES) {
         let line = line.map_err(|source| TableError::io(path, source))?;
         if let Some(words) = line.strip_prefix(BEFORE).and_then(|rest| rest.strip_suffix(AFTER)) {
-            return Ok(parse(&words.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")));
+            return Ok(parse(
+                &words
+                    .replace("&quot;", "\"")
+                    .replace("&lt;", "<")
+                    .replace("&gt;", ">")
+                    .replace("&amp;", "&"),
+            ));
         }
     }
     Ok(None)
@@ -46,8 +52,12 @@ fn parse(words: &str) -> Option<Stamp> {
     let value: Value = serde_json::from_str(words).ok()?;
     let text = |key: &str| value[key].as_str().map(str::to_string);
     let inputs: BTreeMap<String, String> = serde_json::from_value(value["inputs"].clone()).ok()?;
-    let provenance =
-        Provenance { stage: text("stage")?, version: text("version")?, parameters: value["parameters"].clone(), inputs };
+    let provenance = Provenance {
+        stage: text("stage")?,
+        version: text("version")?,
+        parameters: value["parameters"].clone(),
+        inputs,
+    };
     let plan = provenance.plan();
     Some(Stamp { provenance, plan, content: String::new() })
 }

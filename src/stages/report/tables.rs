@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
-use arrow_array::{Array, RecordBatch};
 use arrow_array::cast::AsArray;
+use arrow_array::{Array, RecordBatch};
 use arrow_schema::DataType;
 
 use crate::keyword::Keyword;
@@ -31,8 +31,17 @@ const SHOWN: [Shown; 7] = [
         title: "Regressions of the demand on one measure (Table I)",
         models: &[Model::Univariate],
         columns: &[
-            schema::SUITE, schema::STRUCTURE, schema::IM_X, schema::LN_A, schema::B1, schema::R2,
-            schema::BETA, schema::ZETA, schema::SE_B1, schema::N, schema::STATUS,
+            schema::SUITE,
+            schema::STRUCTURE,
+            schema::IM_X,
+            schema::LN_A,
+            schema::B1,
+            schema::R2,
+            schema::BETA,
+            schema::ZETA,
+            schema::SE_B1,
+            schema::N,
+            schema::STATUS,
         ],
     },
     Shown {
@@ -40,8 +49,19 @@ const SHOWN: [Shown; 7] = [
         title: "Regressions of the demand on two measures (Table II)",
         models: &[Model::Plane, Model::Biplanar, Model::Smooth],
         columns: &[
-            schema::SUITE, schema::STRUCTURE, schema::MODEL, schema::RANGE_LOW, schema::RANGE_HIGH,
-            schema::LN_A, schema::B1, schema::B2, schema::R2, schema::R2_POOLED, schema::BETA, schema::N, schema::STATUS,
+            schema::SUITE,
+            schema::STRUCTURE,
+            schema::MODEL,
+            schema::RANGE_LOW,
+            schema::RANGE_HIGH,
+            schema::LN_A,
+            schema::B1,
+            schema::B2,
+            schema::R2,
+            schema::R2_POOLED,
+            schema::BETA,
+            schema::N,
+            schema::STATUS,
         ],
     },
     Shown {
@@ -49,14 +69,32 @@ const SHOWN: [Shown; 7] = [
         title: "Curves of overturning",
         models: &[],
         columns: &[
-            schema::SUITE, schema::STRUCTURE, schema::FITTED_EVENT, schema::IM_X, schema::IM_Y, schema::LAMBDA,
-            schema::THETA, schema::THETA_LOW, schema::THETA_HIGH, schema::BETA, schema::AIC, schema::AUC, schema::BRIER,
-            schema::N, schema::N_OVERTURNED, schema::STATUS,
+            schema::SUITE,
+            schema::STRUCTURE,
+            schema::FITTED_EVENT,
+            schema::IM_X,
+            schema::IM_Y,
+            schema::LAMBDA,
+            schema::THETA,
+            schema::THETA_LOW,
+            schema::THETA_HIGH,
+            schema::BETA,
+            schema::AIC,
+            schema::AUC,
+            schema::BRIER,
+            schema::N,
+            schema::N_OVERTURNED,
+            schema::STATUS,
         ],
     },
     Shown { role: "paper", title: "Published numbers beside ours", models: &[], columns: &[] },
     Shown { role: "ranking", title: "Ranking of the measures", models: &[], columns: &[] },
-    Shown { role: "universality", title: "Universality: fits of one structure for another", models: &[], columns: &[] },
+    Shown {
+        role: "universality",
+        title: "Universality: fits of one structure for another",
+        models: &[],
+        columns: &[],
+    },
     Shown { role: "validation", title: "Counts seen, and expected by the fits", models: &[], columns: &[] },
 ];
 
