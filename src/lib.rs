@@ -10,7 +10,7 @@
 //!                                                                                                         |-> evaluate
 //!                                                                                                         |-> export
 //!                                                  responses of other motions, to hold the fits against --|-> validate
-//!                                  all of these: figures and a page to look at  --|-> report
+//!                                                      all of these files, in figures and a page to look at --|-> report
 //! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from
 //! ```
 //!
@@ -21,8 +21,9 @@
 //! | sections 2.3 and 3, Eqs. 12 and 14 to 24: fragility | [`fragility`] |
 //! | beyond it: annual rates at a site | [`hazard`] |
 //!
-//! These four know no files, threads or command line, nor does [`export`], which words fragility for other programs, nor [`report`], which draws. [`table`] reads and writes the files, [`pipeline`] decides what
-//! must run, [`stages`] joins them: one file a subcommand.
+//! These four know no files, threads or command line, nor do [`export`], which words fragility for other programs, and
+//! [`report`], which draws it. [`table`] reads and writes the files, [`pipeline`] decides what must run, [`stages`] joins
+//! them: one file a subcommand.
 
 pub mod cli;
 pub mod export;

@@ -1,6 +1,6 @@
 //! What the marks of a figure mean.
 
-use super::drawing::{Anchor, Drawing, Ink, Paint, Point, Step, Stroke};
+use super::drawing::{Anchor, Drawing, Ink, Paint, Point, Step, Stroke, rectangle};
 use super::label::Label;
 use super::panel::LETTERS;
 
@@ -30,7 +30,7 @@ pub fn legend(drawing: &mut Drawing, at: Point, entries: &[(Mark, Label)]) {
             Mark::Line(stroke) => drawing.line(&[[left, middle[1]], [left + MARK_WIDTH, middle[1]]], stroke),
             Mark::Area(paint) => {
                 let corner = [left, middle[1] - 3.0];
-                let steps = super::drawing::rectangle(corner, MARK_WIDTH, 6.0);
+                let steps = rectangle(corner, MARK_WIDTH, 6.0);
                 drawing.path(steps.to_vec(), Some(paint), None);
             }
             Mark::Circle(ink) => {

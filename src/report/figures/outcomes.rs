@@ -8,7 +8,7 @@ use crate::report::label::Label;
 use crate::report::legend::{Mark, legend};
 use crate::report::material::{Group, Material, Seen};
 use crate::report::number;
-use crate::report::panel::Panel;
+use crate::report::panel::{MOST_POINTS, Panel};
 use crate::rocking::Outcome;
 
 /// Each outcome, its words, colour and size of dots.
@@ -52,7 +52,7 @@ fn figure(groups: &[&Group]) -> Figure {
     for (index, group) in groups.iter().enumerate() {
         let (corner, width) = grid.place(index);
         let panel = Panel { corner, width, height: grid.panel_height, x: x.clone(), y: y.clone() };
-        let crowded = group.responses.len() > crate::report::panel::MOST_POINTS;
+        let crowded = group.responses.len() > MOST_POINTS;
         for (outcome, _, paint, radius) in CLASSES {
             let of_class = group.responses.iter().filter(|seen| seen.case.outcome == outcome).map(place);
             let mut points: Vec<[f64; 2]> = of_class.collect();
@@ -79,7 +79,7 @@ fn figure(groups: &[&Group]) -> Figure {
         title: format!("How {} comes through each motion", structure.name),
         caption: format!(
             "Each dot is a motion; squares stand for many of them where there are more than {} in a panel. {}. {counts}. As Figures 3 and 4 of the paper.",
-            crate::report::panel::MOST_POINTS,
+            MOST_POINTS,
             super::structure_words(structure),
         ),
         drawing,

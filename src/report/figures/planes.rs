@@ -6,7 +6,7 @@ use crate::report::drawing::Ink;
 use crate::report::figure::{Figure, Grid};
 use crate::report::label::Label;
 use crate::report::legend::{Mark, legend};
-use crate::report::material::{Group, Material, Planes};
+use crate::report::material::{Group, Material, Planes, Seen};
 use crate::report::number;
 use crate::report::panel::Panel;
 
@@ -73,7 +73,7 @@ pub fn figures(material: &Material) -> Vec<Figure> {
 /// ln IM4, ln IM3 and ln EDP of the cases on one side of the transition.
 fn points(group: &Group, planes: &Planes, below: bool) -> Vec<Vector> {
     let on_side = group.safe().filter(|seen| (seen.case.measures.im4 < planes.transition) == below);
-    let point = |seen: &crate::report::material::Seen| {
+    let point = |seen: &Seen| {
         Some([Measure::Im4.of(&seen.case)?.ln(), Measure::Im3.of(&seen.case)?.ln(), seen.case.edp.ln()])
     };
     on_side.filter_map(point).collect()

@@ -7,15 +7,18 @@ use crate::report::drawing::{Dash, Ink};
 use crate::report::figure::{Figure, Grid};
 use crate::report::label::Label;
 use crate::report::legend::{Mark, legend};
-use crate::report::material::{Group, Material};
+use crate::report::material::{Group, Material, Seen};
 use crate::report::panel::Panel;
+
+/// The probability of an event in each case, and whether it happened.
+type Forecasts = Vec<(f64, bool)>;
 
 /// Classes of probability.
 const CLASSES: usize = 10;
 
 /// One figure, one panel a group that has fits.
 pub fn figures(material: &Material) -> Vec<Figure> {
-    let panels: Vec<(&Group, [Vec<(f64, bool)>; 2])> = material
+    let panels: Vec<(&Group, [Forecasts; 2])> = material
         .groups
         .iter()
         .map(|group| (group, [overturning(group), exceeding(group, material.limit)]))
@@ -58,21 +61,21 @@ pub fn figures(material: &Material) -> Vec<Figure> {
 }
 
 /// Probability of overturning of each case that rocked, and whether it did.
-fn overturning(group: &Group) -> Vec<(f64, bool)> {
+fn overturning(group: &Group) -> Forecasts {
     let curve = group.curve(Measure::Im4, Some(Measure::Im3Inverse)).or(group.curve(Measure::Im5, None));
     let Some(curve) = curve else { return Vec::new() };
-    let forecast = |(seen, overturned): (&crate::report::material::Seen, bool)| {
+    let forecast = |(seen, overturned): (&Seen, bool)| {
         Some((normal::cdf(curve.index.at(&seen.case.measures)?.value), overturned))
     };
     group.rocked().filter_map(forecast).collect()
 }
 
 /// Probability of exceeding the limit state of each case in safe rocking, and whether it did.
-fn exceeding(group: &Group, limit: Option<f64>) -> Vec<(f64, bool)> {
+fn exceeding(group: &Group, limit: Option<f64>) -> Forecasts {
     let (Some(limit), Some(planes)) = (limit, group.planes) else { return Vec::new() };
     let [low, high] = planes.sides.map(|side| side.law);
     let model = DemandModel::Biplanar { transition: planes.transition, low, high };
-    let forecast = |seen: &crate::report::material::Seen| {
+    let forecast = |seen: &Seen| {
         let measures = &seen.case.measures;
         Some((normal::cdf(model.law(measures).exceeding(measures, limit)?.value), seen.case.edp > limit))
     };
