@@ -32,7 +32,11 @@ pub fn figures(material: &Material) -> Vec<Figure> {
         .flat_map(|group| &group.curves)
         .find_map(|curve| Some((curve.index.im_x, curve.index.im_y?)));
     let over_one = figure(&groups, Measure::Im5, None);
-    std::iter::once(over_one).chain(of_two.map(|(x, y)| figure(&groups, x, Some(y)))).collect()
+    let over_two = of_two.map(|(x, y)| {
+        let with_curve = |group: &&Group| group.curve(x, Some(y)).is_some();
+        figure(&groups.iter().copied().filter(with_curve).collect::<Vec<_>>(), x, Some(y))
+    });
+    std::iter::once(over_one).chain(over_two).collect()
 }
 
 fn figure(groups: &[&Group], im_x: Measure, im_y: Option<Measure>) -> Figure {

@@ -16,6 +16,7 @@ use base64::base64;
 
 const STYLE: &str = include_str!("../assets/page.css");
 const PLOT_STYLE: &str = include_str!("../assets/uPlot.min.css");
+const PLOT_LICENSE: &str = include_str!("../assets/uPlot.LICENSE");
 const SCRIPTS: [&str; 6] = [
     include_str!("../assets/uPlot.iife.min.js"),
     include_str!("../assets/normal.js"),
@@ -73,6 +74,7 @@ pub fn page(material: &Material, Page { figures, folder, stamp }: Page) -> Strin
     section_of_files(&mut html, &material.files);
     html.push_str("</main>\n");
     let _ = writeln!(html, "<script type=\"application/json\" id=\"data\">{}</script>", data::json(material));
+    let _ = writeln!(html, "<!-- uPlot:\n{PLOT_LICENSE}-->");
     for script in SCRIPTS {
         let _ = writeln!(html, "<script>\n{script}</script>");
     }
