@@ -51,7 +51,8 @@ fn rows(footer: &Footer) -> impl Iterator<Item = Row> {
             "" | "1" => String::new(),
             unit => format!(" [{unit}]"),
         };
-        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.5}"));
+        // Adding 0 turns -0 into 0.
+        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{:.5}", value + 0.0));
         [
             field.name().clone(),
             type_words(field.data_type()),
