@@ -14,6 +14,8 @@ const TICK: f64 = 3.0;
 const AXIS_WIDTH: f64 = 0.6;
 /// More points than this are drawn as a density.
 pub const MOST_POINTS: usize = 5000;
+/// Fewer points than this are drawn larger.
+const FEW_POINTS: usize = 400;
 /// Side of a square of a density, points.
 const SQUARE: f64 = 2.4;
 /// Shades of a density.
@@ -178,6 +180,11 @@ impl Panel {
         let [left, top] = self.corner;
         drawing.text([left + x * self.width, top + y * self.height], anchor, TICK_LETTERS, Ink::Muted, label);
     }
+}
+
+/// By how much dots are larger where there are few of them.
+pub fn dot_scale(count: usize) -> f64 {
+    if count < FEW_POINTS { 1.8 } else { 1.0 }
 }
 
 /// The part of a line between shares that lies within 0 and 1, if any does (Liang & Barsky).

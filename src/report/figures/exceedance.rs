@@ -84,7 +84,7 @@ pub fn figures(material: &Material) -> Vec<Figure> {
         format!("{}: {values}", group.name())
     });
     let caption = format!(
-        "Probability of a demand above {} in safe rocking: by the two planes over IM4 and IM3 = PGA/(p PGV), at three values of IM3, and by the regression on IM4 alone. Bands are 95 % limits. The curves jump where the planes part. IM3 of {}. As Figure 10 of the paper.",
+        "Probability of a demand above {} in safe rocking: by the two planes over IM4 and IM3 = PGA/(p PGV), at the three values of IM3 below which 10, 50 and 90 % of the cases lie, and by the regression on IM4 alone. Bands are 95 % limits. The curves jump where the planes part. IM3 of {}. As Figure 10 of the paper.",
         number::plain(limit),
         quantiles.collect::<Vec<_>>().join("; ")
     );

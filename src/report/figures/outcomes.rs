@@ -8,7 +8,7 @@ use crate::report::label::Label;
 use crate::report::legend::{Mark, legend};
 use crate::report::material::{Group, Material, Seen};
 use crate::report::number;
-use crate::report::panel::{MOST_POINTS, Panel};
+use crate::report::panel::{MOST_POINTS, Panel, dot_scale};
 use crate::rocking::Outcome;
 
 /// Each outcome, its words, colour and size of dots.
@@ -61,7 +61,7 @@ fn figure(groups: &[&Group]) -> Figure {
                 panel.density(&mut drawing, &points, paint.ink);
                 points.clear();
             }
-            panel.scatter(&mut drawing, &points, radius, paint);
+            panel.scatter(&mut drawing, &points, radius * dot_scale(group.responses.len()), paint);
         }
         let suite = group.suite.clone().unwrap_or_else(|| "all motions".to_string());
         panel.frame(&mut drawing, Label::plain(suite).bold());

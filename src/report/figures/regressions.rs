@@ -7,7 +7,7 @@ use crate::report::figure::{Figure, Grid};
 use crate::report::label::Label;
 use crate::report::material::{Group, Material, demand_label, measure_label};
 use crate::report::number;
-use crate::report::panel::Panel;
+use crate::report::panel::{Panel, dot_scale};
 
 /// One figure a group, one panel a measure.
 pub fn figures(material: &Material) -> Vec<Figure> {
@@ -30,7 +30,7 @@ fn figure(group: &Group) -> Figure {
         let x = Axis::log_over(values.iter().map(|[x, _]| *x), measure_label(*measure));
         let y = Axis::log_over(values.iter().map(|[_, y]| *y), demand_label());
         let panel = Panel { corner, width, height: grid.panel_height, x, y };
-        panel.scatter(&mut drawing, values, 0.7, Ink::Data(0).thin(0.5));
+        panel.scatter(&mut drawing, values, 0.7 * dot_scale(values.len()), Ink::Data(0).thin(0.5));
         let name = Label::plain(format!("IM{}   ", index_of(*measure))).bold();
         let mut title = name.clone();
         if let Some(regression) = group.on(*measure) {
