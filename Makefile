@@ -1,5 +1,5 @@
 # The stages one by one, each made again only when what it reads has changed:
-#     make                 the comparison with the paper
+#     make                 the comparison with the paper, and the report
 #     make out/pex.parquet one file and what it needs
 #     make spread          the spread over seeds that is shipped in data/
 #     make universality    how the curves of one structure do on others, shipped in data/ too
@@ -10,9 +10,9 @@ ROCKFRAG ?= target/release/rockfrag
 CALL := $(ROCKFRAG) --config pipeline.yaml
 OUT := out
 
-.PHONY: all spread universality picture check-exports sbom unsafe attack test clean
+.PHONY: all spread universality picture check-exports check-report sbom unsafe attack test clean
 
-all: $(OUT)/paper.parquet
+all: $(OUT)/paper.parquet $(OUT)/report.html
 
 $(ROCKFRAG): Cargo.toml Cargo.lock $(shell find src data -type f)
 	cargo build --release --locked
@@ -35,6 +35,9 @@ $(OUT)/pro.parquet: $(OUT)/responses.parquet
 $(OUT)/paper.parquet: $(OUT)/pex.parquet $(OUT)/pro.parquet $(OUT)/responses.parquet
 	$(CALL) compare-paper --pex $(OUT)/pex.parquet --pro $(OUT)/pro.parquet --responses $(OUT)/responses.parquet --out $@
 	touch $@
+
+$(OUT)/report.html: $(OUT)/pex.parquet $(OUT)/pro.parquet $(OUT)/paper.parquet
+	$(CALL) report --in $(OUT) --out $@ && touch $@
 
 spread: | $(ROCKFRAG)
 	$(ROCKFRAG) seed-spread pipeline.yaml --seeds 20 --out data/seed_spread.csv
@@ -61,6 +64,10 @@ unsafe: Cargo.lock
 attack: | $(ROCKFRAG)
 	python3 scripts/attack/faults.py $(ROCKFRAG) 200
 	PROPTEST_CASES=100000 cargo test --locked --test robust
+
+# A headless Chromium looks at the report.
+check-report: $(OUT)/report.html
+	scripts/check_report.sh $(ROCKFRAG) $(OUT)
 
 test:
 	cargo test --locked

@@ -9,6 +9,7 @@ use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand,
 use crate::pipeline::console::Console;
 use crate::pipeline::options::resolve;
 use crate::pipeline::stage::{Stage, beside};
+use crate::pipeline::terminal::Terminal;
 use crate::pipeline::{UsageError, cache};
 use crate::stages::compare_paper::{ComparePaper, ComparePaperOptions};
 use crate::stages::config::Config;
@@ -20,6 +21,7 @@ use crate::stages::ida::{Ida, IdaOptions};
 use crate::stages::import_motions::{ImportMotions, ImportMotionsOptions};
 use crate::stages::inspect::inspect;
 use crate::stages::rank_ims::{RankIms, RankImsOptions};
+use crate::stages::report::{Report, ReportOptions};
 use crate::stages::run::{Files, dry_run, run, stages};
 use crate::stages::sample_scenarios::{SampleScenarios, SampleScenariosOptions};
 use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
@@ -192,6 +194,17 @@ enum Command {
     },
     /// Write the fragility of a structure for OpenQuake or pelicun
     Export(Box<ExportOptions>),
+    /// Draw all that a folder of files holds: one page to open in a browser, and each figure as SVG and PNG
+    Report {
+        /// Folder of the files: responses.parquet, and what else there is of them
+        #[arg(long = "in", value_name = "DIR", default_value = "out")]
+        input: PathBuf,
+        /// Page to write; its figures go into a folder of the same name [default: report.html in the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: ReportOptions,
+    },
     /// Run all stages of a pipeline file, skipping what is up to date
     Run {
         /// The pipeline file
@@ -310,14 +323,19 @@ impl Call<'_> {
                 let options = resolve(self.flags, self.config.compare_paper.as_ref())?;
                 let out = out.unwrap_or_else(|| beside(&pex, "paper.parquet"));
                 self.stage(&ComparePaper::new(&options, [pex, pro, responses], out.clone())?)?;
-                print(&paper::show(&out)?)
+                print(&Terminal::stdout().table(&paper::show(&out)?))
             }
             Command::Evaluate(options) => print(&evaluate(&options, self.force, &self.console)?),
             Command::Validate(options) => {
                 let out = options.out.clone();
                 let out = out.unwrap_or_else(|| beside(&options.input, "validation.parquet"));
                 self.stage(&Validate::new(&options, out.clone())?)?;
-                print(&validation::show(&out)?)
+                print(&Terminal::stdout().table(&validation::show(&out)?))
+            }
+            Command::Report { input, out, .. } => {
+                let options = resolve(self.flags, self.config.report.as_ref())?;
+                let out = out.unwrap_or_else(|| input.join("report.html"));
+                self.stage(&Report::new(&options, input, out)?)
             }
             Command::Universality { input, out, .. } => {
                 let options = resolve(self.flags, self.config.universality.as_ref())?;
@@ -331,7 +349,7 @@ impl Call<'_> {
                 let console = Console { progress: false, ..self.console };
                 seed_spread(&Config::read(&pipeline)?, &options, &console)
             }
-            Command::Inspect { file } => print(&inspect(&file)?),
+            Command::Inspect { file } => print(&inspect(&file, &Terminal::stdout())?),
         }
     }
 
@@ -353,7 +371,7 @@ impl Call<'_> {
         }
         run(&stages, self.force, &self.console)?;
         if config.compare_paper.is_some() {
-            print(&paper::show(&files.paper)?)?;
+            print(&Terminal::stdout().table(&paper::show(&files.paper)?))?;
         }
         if config.universality.is_some() { print(&universality::show(&files.universality)?) } else { Ok(()) }
     }

@@ -22,7 +22,7 @@ pub struct DemandLaw {
 impl DemandLaw {
     /// The index of P_ex (Eq. 14), with the uncertainty of the median and, by the large-sample variance beta^2/(2 degrees),
     /// of the dispersion; none where a measure is missing.
-    pub(super) fn exceeding(&self, measures: &IntensityMeasures, limit: f64) -> Option<ProbitIndex> {
+    pub fn exceeding(&self, measures: &IntensityMeasures, limit: f64) -> Option<ProbitIndex> {
         let ln_median = self.ln_median.at(measures)?;
         let value = exceeding_index(ln_median.value, limit, self.beta);
         let variance = ln_median.variance / (self.beta * self.beta) + value * value / (2.0 * self.degrees);

@@ -7,8 +7,9 @@ use serde_json::Value;
 use super::claim::{Claim, Claimed, claim};
 use super::console::Console;
 use super::stage::{Stage, folder_of};
+use super::terminal::Weight;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, stamp};
+use crate::table::provenance::Provenance;
 
 /// Whether a stage must run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,7 +23,7 @@ pub enum Freshness {
 /// Compares the files of a stage with what it would write.
 pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
     for path in stage.outputs() {
-        match stamp(&path) {
+        match stage.recorded(&path) {
             Ok(Some(stamp)) if stamp.plan == planned.plan() => {}
             Ok(Some(stamp)) => return Freshness::Stale(difference(&stamp.provenance, planned)),
             Ok(None) => return Freshness::Stale(format!("{} was not made by rockfrag", path.display())),
@@ -63,7 +64,7 @@ pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<
     let planned = stage.provenance()?;
     let name = stage.subcommand();
     if !force && freshness(stage, &planned) == Freshness::UpToDate {
-        console.note(&format!("{name:20} up to date"));
+        console.stage(name, "up to date", Weight::Faint);
         return Ok(());
     }
     for path in stage.outputs() {
@@ -72,7 +73,8 @@ pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<
     }
     let start = std::time::Instant::now();
     let summary = stage.execute(&planned, console)?;
-    console.note(&format!("{name:20} {summary} in {:.2} s", start.elapsed().as_secs_f64()));
+    let took_s = start.elapsed().as_secs_f64();
+    console.stage(name, &format!("{summary} in {took_s:.2} s"), Weight::Plain);
     Ok(())
 }
 

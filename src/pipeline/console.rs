@@ -5,6 +5,8 @@ use std::io::IsTerminal;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::terminal::{Terminal, Weight};
+
 /// How much is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Console {
@@ -20,6 +22,13 @@ impl Console {
         if !self.quiet {
             eprintln!("{line}");
         }
+    }
+
+    /// A line that tells what a stage did.
+    pub fn stage(&self, name: &str, summary: &str, weight: Weight) {
+        let terminal = Terminal::stderr();
+        let name = format!("{name:20}");
+        self.note(&format!("{} {}", terminal.set(&name, Weight::Strong), terminal.set(summary, weight)));
     }
 
     /// A line for each reason, with all that it holds for.

@@ -9,6 +9,7 @@
 //! files    files and folders that a user names
 //! stream   read, work and write at the same time, in order
 //! console  progress, notes and warnings on stderr
+//! terminal where results are read: its width, its colours
 //! ```
 
 pub mod cache;
@@ -18,6 +19,7 @@ pub mod files;
 pub mod options;
 pub mod stage;
 pub mod stream;
+pub mod terminal;
 pub mod yaml;
 
 /// A mistake in how rockfrag was called or configured: exit code 2.

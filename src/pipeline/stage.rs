@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::console::Console;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, content_of};
+use crate::table::provenance::{Provenance, Stamp, content_of, stamp};
 
 /// A stage about to run: files in, parameters, files out.
 pub trait Stage {
@@ -28,6 +28,14 @@ pub trait Stage {
     /// # Errors
     /// If an input cannot be used or an output not be written.
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String>;
+
+    /// What an output that is there says of how it was made; `None` where another program wrote it.
+    ///
+    /// # Errors
+    /// If it is missing or unreadable.
+    fn recorded(&self, output: &Path) -> Result<Option<Stamp>, TableError> {
+        stamp(output)
+    }
 
     /// What its files will say of how they were made.
     ///

@@ -10,6 +10,7 @@ use super::fit_pro::FitProOptions;
 use super::ida::IdaOptions;
 use super::import_motions::ImportMotionsOptions;
 use super::rank_ims::RankImsOptions;
+use super::report::ReportOptions;
 use super::sample_scenarios::SampleScenariosOptions;
 use super::simulate::SimulateOptions;
 use super::synthesize_motions::SynthesizeMotionsOptions;
@@ -45,6 +46,8 @@ pub struct Config {
     pub rank_ims: Option<RankImsOptions>,
     /// Options of compare-paper.
     pub compare_paper: Option<ComparePaperOptions>,
+    /// Options of report.
+    pub report: Option<ReportOptions>,
 }
 
 impl Config {

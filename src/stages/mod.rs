@@ -30,6 +30,7 @@ pub mod motions;
 pub mod pex_group;
 pub mod pro_group;
 pub mod rank_ims;
+pub mod report;
 pub mod resampled_fits;
 pub mod run;
 pub mod sample_scenarios;

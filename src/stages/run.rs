@@ -10,6 +10,7 @@ use super::fit_pro::FitPro;
 use super::ida::Ida;
 use super::import_motions::ImportMotions;
 use super::rank_ims::RankIms;
+use super::report::Report;
 use super::sample_scenarios::SampleScenarios;
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
@@ -41,6 +42,10 @@ pub struct Files {
     pub ranking: PathBuf,
     /// Of compare-paper.
     pub paper: PathBuf,
+    /// The folder itself.
+    pub folder: PathBuf,
+    /// Of report.
+    pub report: PathBuf,
 }
 
 impl Files {
@@ -57,6 +62,8 @@ impl Files {
             universality: file("universality.parquet"),
             ranking: file("ranking.parquet"),
             paper: file("paper.parquet"),
+            folder: folder.to_path_buf(),
+            report: file("report.html"),
         }
     }
 }
@@ -105,6 +112,9 @@ pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stag
     if let Some(options) = &config.compare_paper {
         let inputs = [files.pex.clone(), files.pro.clone(), files.responses.clone()];
         stages.push(Box::new(ComparePaper::new(options, inputs, files.paper.clone())?));
+    }
+    if let Some(options) = &config.report {
+        stages.push(Box::new(Report::new(options, files.folder.clone(), files.report.clone())?));
     }
     Ok(stages)
 }

@@ -33,7 +33,8 @@ pub fn seed_spread(config: &Config, options: &SeedSpreadOptions, console: &Conso
         console.note(&format!("seed {seed} of {}", options.seeds));
         let scratch = tempfile::Builder::new().prefix(".seed-spread.").tempdir_in(folder)?;
         let files = Files::in_folder(scratch.path());
-        run(&stages(&config.with_seed(seed), &files)?, true, console)?;
+        let numbers_only = Config { report: None, ..config.with_seed(seed) };
+        run(&stages(&numbers_only, &files)?, true, console)?;
         rows.extend(paper::ours(&files.paper, seed)?);
     }
     let mut partial = tempfile::NamedTempFile::new_in(folder)?;

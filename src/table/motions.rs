@@ -212,6 +212,31 @@ impl MotionFile {
         })
     }
 
+    /// The row groups in which these rows lie, each with the rows of it, all ascending.
+    pub fn groups_of(&self, rows: &[u64]) -> Vec<(usize, Vec<u64>)> {
+        let mut first = 0;
+        let groups = self.file.rows_of_groups().into_iter().enumerate().map(|(group, count)| {
+            let inside = first..first + count;
+            first += count;
+            (group, rows.iter().copied().filter(|row| inside.contains(row)).collect::<Vec<u64>>())
+        });
+        groups.filter(|(_, rows)| !rows.is_empty()).collect()
+    }
+
+    /// The motions of a row group that `wanted` picks.
+    ///
+    /// # Errors
+    /// If the file is damaged or a value cannot be used.
+    pub fn pick(&self, group: usize, wanted: impl Fn(&Motion) -> bool) -> Result<Vec<Motion>, TableError> {
+        let mut picked = Vec::new();
+        for batch in self.file.row_group(group, LARGEST_PART)? {
+            let Batch { rows, first_row } = batch?;
+            let motions = motions_of(&Columns::new(&self.path, &rows, first_row), first_row)?;
+            picked.extend(motions.into_iter().filter(&wanted));
+        }
+        Ok(picked)
+    }
+
     /// The motions of a part.
     ///
     /// # Errors

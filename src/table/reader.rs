@@ -117,6 +117,15 @@ impl TableFile {
         self.read(batch_size, rows.unsigned_abs(), 0, (0..metadata.num_row_groups()).collect())
     }
 
+    /// All rows, to be held as a whole.
+    fn whole(&self) -> Result<Batches, TableError> {
+        let (rows, bytes) = (self.rows_of_groups().iter().sum(), self.file.len());
+        if rows > bytes {
+            return Err(TableError::TooManyRows { path: self.path.clone(), rows, bytes });
+        }
+        self.batches(NARROW_BATCH)
+    }
+
     fn read(
         &self,
         batch_size: usize,
@@ -166,12 +175,7 @@ impl Batches {
     /// # Errors
     /// As [`TableFile::open`], or if the file announces more rows than it has bytes: rows that differ take more.
     pub fn open_whole(path: &Path, table: &Table, stages: &[&str]) -> Result<Batches, TableError> {
-        let file = TableFile::open(path, stages, table.columns)?;
-        let (rows, bytes) = (file.rows_of_groups().iter().sum(), file.file.len());
-        if rows > bytes {
-            return Err(TableError::TooManyRows { path: path.to_path_buf(), rows, bytes });
-        }
-        file.batches(NARROW_BATCH)
+        TableFile::open(path, stages, table.columns)?.whole()
     }
 
     /// How many rows the file has.
@@ -201,6 +205,16 @@ impl Iterator for Batches {
         self.next_row += rows.num_rows() as u64;
         Some(Ok(Batch { rows, first_row }))
     }
+}
+
+/// The batches of any narrow table with all its columns, whoever wrote it.
+///
+/// # Errors
+/// If the file is missing or unreadable.
+pub fn read_any(path: &Path) -> Result<Vec<RecordBatch>, TableError> {
+    let Opened { file, metadata } = footer::open(path)?;
+    let file = TableFile { path: path.to_path_buf(), file, metadata, columns: ProjectionMask::all() };
+    file.whole()?.map(|batch| Ok(batch?.rows)).collect()
 }
 
 /// A narrow table whole. Columns that may be null and are missing in the file become nulls.

@@ -10,6 +10,7 @@ mod import;
 mod kill;
 mod pipeline;
 mod rank_ims;
+mod report;
 mod together;
 mod universality;
 mod validate;
