@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use rockfrag::pipeline::terminal::Terminal;
 use rockfrag::rocking::Record;
 use rockfrag::stages::{groups, inspect::inspect};
 use rockfrag::table::intensities::IntensityBatches;
@@ -13,7 +14,7 @@ pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)
     vec![
         ("stamp", words(provenance::stamp(path))),
         ("content", words(provenance::content_of(path))),
-        ("inspect", words(inspect(path))),
+        ("inspect", words(inspect(path, &Terminal::PLAIN))),
         ("scenarios", words(scenarios::read(path))),
         ("motions", words(motions(path))),
         ("motions in parts", words(motions_in_parts(path))),
