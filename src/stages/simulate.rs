@@ -12,19 +12,18 @@ use serde_json::{Value, json};
 
 use super::motions::{Peaks, SeenIds, record};
 use super::structures::{StructureSpec, Structures, parameters};
-use crate::motion::{IntensityMeasures, IntensityScratch};
+use crate::motion::IntensityScratch;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Several, Word, check, defaults};
 use crate::pipeline::stage::{Stage, with_part};
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Path as SolverPath, Problem, Record, Structure, simulate_all, trace};
 use crate::table::TableError;
-use crate::table::motions::{Motion, MotionFile, MotionId, Part, schema_of};
+use crate::table::motions::{self, Motion, MotionFile, MotionId, Part};
 use crate::table::provenance::Provenance;
-use crate::table::responses::{self, ResponseRow};
-use crate::table::schema::{RESPONSES, TRACE, Table};
+use crate::table::responses;
+use crate::table::schema::{RESPONSES, TRACE};
 use crate::table::trace::{self as trace_table, TraceRow};
-use crate::table::writer::TableWriter;
 
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;
@@ -125,22 +124,9 @@ impl Simulate {
         let mut responses = simulate_all(&problems, self.path).into_iter();
         let mut rows = Vec::with_capacity(problems.len());
         for (motion, record) in motions.iter().zip(&records) {
-            let Peaks { pga_m_s2, pgv_m_s, tm_s } = Peaks::of(motion, record, intensity);
+            let peaks = Peaks::of(motion, record, intensity);
             let each = self.structures.iter().zip(&mut responses);
-            rows.extend(each.map(|(structure, response)| ResponseRow {
-                motion_id: &motion.motion_id,
-                suite: motion.suite.as_deref(),
-                structure,
-                response,
-                mw: motion.mw,
-                re_km: motion.re_km,
-                event: motion.event.as_deref(),
-                pga_m_s2,
-                pgv_m_s,
-                tp_s: motion.tp_s,
-                tm_s,
-                measures: IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, motion.tp_s, tm_s),
-            }));
+            rows.extend(each.map(|(structure, response)| peaks.response_row(motion, structure, response)));
         }
         let traced = motions.iter().zip(&records);
         let traced = traced.filter(|(motion, _)| self.traced.contains(&motion.motion_id.to_string()));
@@ -193,16 +179,6 @@ impl Simulate {
         with_part(&self.out, "trace")
     }
 
-    fn writer(
-        &self,
-        path: &Path,
-        table: &Table,
-        by_name: bool,
-        provenance: &Provenance,
-    ) -> Result<TableWriter, TableError> {
-        TableWriter::with_schema(path, table, schema_of(table, by_name), provenance.clone())
-    }
-
     fn expect_traced(&self, traces: &[TraceRow]) -> anyhow::Result<()> {
         let seen: HashSet<String> = traces.iter().map(|row| row.motion_id.to_string()).collect();
         match self.traced.iter().find(|id| !seen.contains(*id)) {
@@ -252,7 +228,7 @@ impl Stage for Simulate {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let motions = MotionFile::open(&self.input)?;
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
-        let mut writer = self.writer(&self.out, &RESPONSES, by_name, provenance)?;
+        let mut writer = motions::writer(&self.out, &RESPONSES, by_name, provenance)?;
         let mut seen = SeenIds::default();
         let mut traces: Vec<TraceRow> = Vec::new();
         let pool = Pool::new(Scratch::default);
@@ -282,7 +258,7 @@ impl Stage for Simulate {
         )?;
         if !self.traced.is_empty() {
             self.expect_traced(&traces)?;
-            let mut trace_writer = self.writer(&self.trace_path(), &TRACE, by_name, provenance)?;
+            let mut trace_writer = motions::writer(&self.trace_path(), &TRACE, by_name, provenance)?;
             trace_writer.append(&trace_table::batch(&traces, by_name)?)?;
             trace_writer.finish()?;
         }

@@ -10,9 +10,11 @@ use arrow_schema::{ArrowError, DataType, Field, SchemaRef};
 use super::TableError;
 use super::columns::{Columns, Samples};
 use super::measures;
+use super::provenance::Provenance;
 use super::reader::{Batch, Batches, TableFile, expect_columns};
 use super::scenarios;
 use super::schema::{self, Column};
+use super::writer::TableWriter;
 use crate::keyword::Keyword;
 use crate::motion::{Measured, Scenario, Suite};
 
@@ -301,6 +303,19 @@ fn motions_of(columns: &Columns, first_row: u64) -> Result<Vec<Motion>, TableErr
         row: first_row + row as u64,
     };
     Ok(ids.into_iter().zip(samples).enumerate().map(motion).collect())
+}
+
+/// Starts a file of a table in which motions go by number or by name.
+///
+/// # Errors
+/// As [`TableWriter::create`].
+pub fn writer(
+    path: &Path,
+    table: &schema::Table,
+    by_name: bool,
+    provenance: &Provenance,
+) -> Result<TableWriter, TableError> {
+    TableWriter::with_schema(path, table, schema_of(table, by_name), provenance.clone())
 }
 
 /// The schema of a table in which motions go by name or by number.
