@@ -83,8 +83,8 @@ impl Report {
 
     /// All files that a report can show, in the order of the pipeline, by the role each plays.
     fn known(&self) -> Vec<(&'static str, PathBuf)> {
-        let Files { scenarios, motions, responses, pex, pro, paper, folder, .. } = self.files.clone();
-        let beside = |name: &str| folder.join(name);
+        let Files { scenarios, motions, responses, pex, pro, paper, ranking, universality, folder, .. } =
+            self.files.clone();
         vec![
             ("scenarios", scenarios),
             ("motions", motions),
@@ -92,9 +92,9 @@ impl Report {
             ("pex", pex),
             ("pro", pro),
             ("paper", paper),
-            ("validation", beside("validation.parquet")),
-            ("ranking", beside("ranking.parquet")),
-            ("universality", beside("universality.parquet")),
+            ("validation", folder.join("validation.parquet")),
+            ("ranking", ranking),
+            ("universality", universality),
         ]
     }
 
