@@ -8,17 +8,18 @@ use serde_json::Value;
 use super::console::Console;
 use crate::table::TableError;
 use crate::table::provenance::{Provenance, content_of};
+use crate::table::source::{Source, Target};
 
 /// A stage about to run: files in, parameters, files out.
 pub trait Stage {
     /// The subcommand.
     fn subcommand(&self) -> &'static str;
 
-    /// The files it reads, by the role each plays.
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)>;
+    /// The tables it reads, by the role each plays.
+    fn inputs(&self) -> Vec<(&'static str, Source)>;
 
-    /// The files it writes; the last one is complete only when all are.
-    fn outputs(&self) -> Vec<PathBuf>;
+    /// What it writes; the last one is complete only when all are.
+    fn targets(&self) -> Vec<Target>;
 
     /// All that its rows depend on besides the inputs.
     fn parameters(&self) -> Value;
@@ -29,12 +30,17 @@ pub trait Stage {
     /// If an input cannot be used or an output not be written.
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String>;
 
+    /// The files it writes.
+    fn outputs(&self) -> Vec<PathBuf> {
+        self.targets().iter().filter_map(|target| target.path().map(Path::to_path_buf)).collect()
+    }
+
     /// What its files will say of how they were made.
     ///
     /// # Errors
     /// If an input is missing or unreadable.
     fn provenance(&self) -> Result<Provenance, TableError> {
-        let content = |(role, path): (&str, PathBuf)| Ok((role.to_string(), content_of(&path)?));
+        let content = |(role, source): (&str, Source)| Ok((role.to_string(), content_of(&source)?));
         let inputs =
             self.inputs().into_iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
         Ok(Provenance::new(self.subcommand(), self.parameters(), inputs))
@@ -44,10 +50,4 @@ pub trait Stage {
 /// `name` in the folder of `path`.
 pub fn beside(path: &Path, name: &str) -> PathBuf {
     path.with_file_name(name)
-}
-
-/// `pex.parquet` becomes `pex.scan.parquet`: a further output of the same stage.
-pub fn with_part(path: &Path, part: &str) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}.{part}.parquet"))
 }

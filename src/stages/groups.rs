@@ -1,7 +1,6 @@
 //! The responses of each suite and structure, as the fits take them.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use anyhow::Context;
 use polars::prelude::{Column, DataFrame};
@@ -11,6 +10,7 @@ use crate::keyword;
 use crate::motion::IntensityMeasures;
 use crate::table::reader::read_frame;
 use crate::table::schema::{self, RESPONSES};
+use crate::table::source::Source;
 
 /// All responses of one structure to one suite.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,10 +31,10 @@ pub struct Group {
 ///
 /// # Errors
 /// If the file is none of responses or holds an unknown outcome.
-pub fn read(path: &Path) -> anyhow::Result<Vec<Group>> {
-    let responses = read_frame(path, &RESPONSES)?;
+pub fn read(source: &Source) -> anyhow::Result<Vec<Group>> {
+    let responses = read_frame(source, &RESPONSES)?;
     let groups = responses.partition_by_stable([schema::SUITE.name, schema::STRUCTURE.name], true)?;
-    groups.iter().map(|group| of(group).with_context(|| path.display().to_string())).collect()
+    groups.iter().map(|group| of(group).with_context(|| source.name().display().to_string())).collect()
 }
 
 fn of(frame: &DataFrame) -> anyhow::Result<Group> {

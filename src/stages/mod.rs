@@ -4,6 +4,7 @@
 //! config             pipeline.yaml, the options of all
 //! structures         structures as a user names them; structure_options one of them on the command line
 //! measures           which intensity measures are taken
+//! partitions         which part of a table a process works on, and what its file is called
 //! groups             the responses of a suite and structure; pex_group and pro_group their fits
 //! uncertainty        the limits that both are asked for
 //! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
@@ -21,6 +22,7 @@ pub mod groups;
 pub mod import_motions;
 pub mod inspect;
 pub mod measures;
+pub mod partitions;
 pub mod pex_group;
 pub mod pro_group;
 pub mod run;

@@ -1,7 +1,7 @@
 //! simulate: every structure through every motion.
 
 use std::collections::HashSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::bail;
 use arrow_array::RecordBatch;
@@ -10,18 +10,24 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use super::partitions::Share;
 use super::structures::{StructureSpec, Structures};
 use crate::motion::{IntensityMeasures, IntensityScratch, intensity};
+use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{Several, Word, check, defaults};
-use crate::pipeline::stage::{Stage, with_part};
+use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
+use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
-use crate::rocking::{Path as SolverPath, Problem, Record, RecordError, Structure, simulate_all, trace};
+use crate::rocking::{
+    Path as SolverPath, Problem, Record, RecordError, Structure, simulate_all, trace, with_tail,
+};
 use crate::table::TableError;
-use crate::table::motions::{Motion, MotionFile, MotionId, Part, schema_by_name};
+use crate::table::motions::{Motion, MotionId, MotionTable, Part, schema_by_name};
+use crate::table::partition::Partition;
 use crate::table::provenance::Provenance;
 use crate::table::responses::{self, ResponseRow};
 use crate::table::schema::{self, RESPONSES, TRACE, Table};
+use crate::table::source::{Source, Target};
 use crate::table::trace::{self as trace_table, TraceRow};
 use crate::table::writer::TableWriter;
 
@@ -56,6 +62,10 @@ pub struct SimulateOptions {
     /// Motions whose response over time is written too, beside the output as NAME.trace.parquet
     #[arg(long, value_name = "ID,...")]
     pub trace: Option<Several<String>>,
+    /// Only partition i of n, i from 0 to n - 1: of a folder its file part-0000i.parquet, of a file an equal share of the motions;
+    /// the output is then a folder, too
+    #[arg(long, value_name = "I/N", conflicts_with = "trace")]
+    pub partition: Option<Parsed<Partition>>,
 }
 
 impl Default for SimulateOptions {
@@ -99,24 +109,45 @@ pub struct Simulate {
     structures: Vec<Structure>,
     path: SolverPath,
     traced: Vec<String>,
-    input: PathBuf,
-    out: PathBuf,
+    share: Share,
+    out: Target,
 }
 
 impl Simulate {
-    /// With the motions in `input`, into the file `out`.
+    /// With the motions in `input`, into `out`.
     ///
     /// # Errors
-    /// If the structures cannot be read or are impossible.
-    pub fn new(options: &SimulateOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<Simulate> {
-        let traced = options.trace.clone().map_or(Vec::new(), |Several(ids)| ids);
-        Ok(Simulate { structures: options.structures()?, path: options.path()?, traced, input, out })
+    /// If the structures cannot be read or are impossible, or there is no such partition.
+    pub fn new(
+        options: &SimulateOptions,
+        input: impl Into<Source>,
+        out: impl Into<Target>,
+    ) -> anyhow::Result<Simulate> {
+        let partition = options.partition.map(|Parsed(partition)| partition);
+        if partition.is_some() && options.trace.is_some() {
+            return Err(UsageError::because(
+                "trace and partition exclude each other; trace motions of one file",
+            ));
+        }
+        Ok(Simulate {
+            structures: options.structures()?,
+            path: options.path()?,
+            traced: options.trace.clone().map_or(Vec::new(), |Several(ids)| ids),
+            share: Share::of(input.into(), partition)?,
+            out: out.into(),
+        })
     }
 
     /// Each motion is read once, and all structures run on it while it is at hand.
-    fn respond(&self, motions: &[Motion], by_name: bool, scratch: &mut Scratch) -> anyhow::Result<Responded> {
+    fn respond(
+        &self,
+        path: &Path,
+        motions: &[Motion],
+        by_name: bool,
+        scratch: &mut Scratch,
+    ) -> anyhow::Result<Responded> {
         let Scratch { samples, intensity } = scratch;
-        let records = self.records(motions, samples)?;
+        let records = records(path, motions, samples)?;
         let problems: Vec<Problem> = records
             .iter()
             .flat_map(|&record| self.structures.iter().map(move |structure| Problem { structure, record }))
@@ -142,46 +173,18 @@ impl Simulate {
         }
         let traced = motions.iter().zip(&records);
         let traced = traced.filter(|(motion, _)| self.traced.contains(&motion.motion_id.to_string()));
+        let traces = traced.map(|(motion, record)| self.trace(&motion.motion_id, record));
+        let traces = traces.collect::<Result<Vec<_>, _>>()?;
         Ok(Responded {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             rows: responses::batch(&rows, by_name)?,
-            traces: traced.flat_map(|(motion, record)| self.trace(&motion.motion_id, record)).collect(),
+            traces: traces.concat(),
         })
     }
 
-    /// The records of some motions, whose samples are laid out in `samples`.
-    fn records<'a>(
-        &self,
-        motions: &[Motion],
-        samples: &'a mut Vec<f64>,
-    ) -> Result<Vec<Record<'a>>, TableError> {
-        samples.clear();
-        let mut ends = Vec::with_capacity(motions.len());
-        for motion in motions {
-            motion.acceleration_m_s2.append_to(samples);
-            ends.push(samples.len());
-        }
-        let starts = std::iter::once(0).chain(ends.iter().copied());
-        let ranges = starts.zip(ends.iter().copied());
-        ranges.zip(motions).map(|((start, end), motion)| self.record(motion, &samples[start..end])).collect()
-    }
-
-    fn record<'a>(&self, motion: &Motion, samples: &'a [f64]) -> Result<Record<'a>, TableError> {
-        Record::new(samples, motion.dt_s).map_err(|problem| TableError::Value {
-            path: self.input.clone(),
-            row: motion.row,
-            column: match problem {
-                RecordError::TimeStep(_) => schema::DT_S.name.to_string(),
-                _ => schema::ACCELERATION_M_S2.name.to_string(),
-            },
-            problem: problem.to_string(),
-        })
-    }
-
-    fn trace(&self, motion_id: &MotionId, record: &Record) -> Vec<TraceRow> {
-        let quiet = (TRACE_TAIL_S / record.dt_s()).ceil() as usize;
-        let ended = [record.acceleration_m_s2(), &vec![0.0; quiet]].concat();
-        let Ok(record) = Record::new(&ended, record.dt_s()) else { return Vec::new() };
+    fn trace(&self, motion_id: &MotionId, record: &Record) -> Result<Vec<TraceRow>, RecordError> {
+        let ended = with_tail(record, TRACE_TAIL_S);
+        let record = Record::new(&ended, record.dt_s())?;
         let rows = |structure: &Structure| {
             let (_, points) = trace(structure, &record);
             let row = |point| TraceRow {
@@ -193,33 +196,65 @@ impl Simulate {
             };
             points.into_iter().map(row).collect::<Vec<_>>()
         };
-        self.structures.iter().flat_map(rows).collect()
+        Ok(self.structures.iter().flat_map(rows).collect())
     }
 
-    fn trace_path(&self) -> PathBuf {
-        with_part(&self.out, "trace")
+    fn trace_target(&self) -> Target {
+        self.out.part("trace")
     }
 
     fn writer(
         &self,
-        path: &Path,
+        target: Target,
         table: &Table,
         by_name: bool,
         provenance: &Provenance,
     ) -> Result<TableWriter, TableError> {
         let schema = if by_name { schema_by_name(table) } else { table.schema() };
-        TableWriter::with_schema(path, table, schema, provenance.clone())
+        TableWriter::with_schema(target, table, schema, provenance.clone())
     }
 
     fn expect_traced(&self, traces: &[TraceRow]) -> anyhow::Result<()> {
         let seen: HashSet<String> = traces.iter().map(|row| row.motion_id.to_string()).collect();
         match self.traced.iter().find(|id| !seen.contains(*id)) {
             Some(id) => {
-                bail!("{}: no motion '{id}' to trace; expected one of its motion_id", self.input.display())
+                bail!(
+                    "{}: no motion '{id}' to trace; expected one of its motion_id",
+                    self.share.input.name().display()
+                )
             }
             None => Ok(()),
         }
     }
+}
+
+/// The records of some motions, whose samples are laid out in `samples`.
+fn records<'a>(
+    path: &Path,
+    motions: &[Motion],
+    samples: &'a mut Vec<f64>,
+) -> Result<Vec<Record<'a>>, TableError> {
+    samples.clear();
+    let mut ends = Vec::with_capacity(motions.len());
+    for motion in motions {
+        motion.acceleration_m_s2.append_to(samples);
+        ends.push(samples.len());
+    }
+    let starts = std::iter::once(0).chain(ends.iter().copied());
+    let ranges = starts.zip(ends.iter().copied());
+    ranges.zip(motions).map(|((start, end), motion)| record(path, motion, &samples[start..end])).collect()
+}
+
+fn record<'a>(path: &Path, motion: &Motion, samples: &'a [f64]) -> Result<Record<'a>, TableError> {
+    Record::new(samples, motion.dt_s).map_err(|problem| TableError::Value {
+        path: path.to_path_buf(),
+        row: motion.row,
+        column: match problem {
+            RecordError::TimeStep(_) => schema::DT_S.name.to_string(),
+            _ => schema::ACCELERATION_M_S2.name.to_string(),
+        },
+        problem: problem.to_string(),
+    })
 }
 
 /// The motions so far; numbers take little room, as there may be millions.
@@ -277,15 +312,15 @@ impl Stage for Simulate {
         RESPONSES.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        vec![("motions", self.input.clone())]
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        vec![("motions", self.share.input.clone())]
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
+    fn targets(&self) -> Vec<Target> {
         if self.traced.is_empty() {
             vec![self.out.clone()]
         } else {
-            vec![self.trace_path(), self.out.clone()]
+            vec![self.trace_target(), self.out.clone()]
         }
     }
 
@@ -293,13 +328,15 @@ impl Stage for Simulate {
         let structure =
             |s: &Structure| json!({ "name": s.name, "p": s.p_rad_s, "alpha": s.alpha_rad, "eta": s.eta });
         let structures: Vec<Value> = self.structures.iter().map(structure).collect();
-        json!({ "structures": structures, "trace": self.traced, "path": self.path.arithmetic() })
+        let parameters =
+            json!({ "structures": structures, "trace": self.traced, "path": self.path.arithmetic() });
+        Partition::add_to(self.share.partition, parameters)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let motions = MotionFile::open(&self.input)?;
+        let motions = MotionTable::open(&self.share.input, self.share.rows)?;
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
-        let mut writer = self.writer(&self.out, &RESPONSES, by_name, provenance)?;
+        let mut writer = self.writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
         let mut seen = SeenIds::default();
         let mut traces: Vec<TraceRow> = Vec::new();
         let pool = Pool::new(Scratch::default);
@@ -308,11 +345,13 @@ impl Stage for Simulate {
             batches(motions.parts(), PARTS_A_THREAD * rayon::current_num_threads()),
             |parts| {
                 let respond = |part: &Part| -> anyhow::Result<Vec<Responded>> {
+                    let path = motions.path_of(part);
                     let motions = motions.motions(part)?;
-                    let respond = |motions| pool.lend(|scratch| self.respond(motions, by_name, scratch));
-                    let responded = motions.chunks(CHUNK).map(respond).collect();
-                    bar.inc(motions.len() as u64);
-                    responded
+                    let respond =
+                        |motions| pool.lend(|scratch| self.respond(&path, motions, by_name, scratch));
+                    let responded = motions.chunks(CHUNK).map(respond).collect::<anyhow::Result<_>>()?;
+                    bar.inc(motions.len() as u64)?;
+                    Ok(responded)
                 };
                 let responded: Vec<Vec<Responded>> =
                     parts.par_iter().map(respond).collect::<anyhow::Result<_>>()?;
@@ -321,7 +360,7 @@ impl Stage for Simulate {
             |responded| {
                 for Responded { motion_ids, rows, traces: traced } in responded {
                     if let Some(id) = motion_ids.iter().find(|id| !seen.insert(id)) {
-                        let file = self.input.display();
+                        let file = self.share.input.name().display();
                         bail!("{file}: two motions are called '{id}'; expected distinct motion_id");
                     }
                     traces.extend(traced);
@@ -332,12 +371,12 @@ impl Stage for Simulate {
         )?;
         if !self.traced.is_empty() {
             self.expect_traced(&traces)?;
-            let mut trace_writer = self.writer(&self.trace_path(), &TRACE, by_name, provenance)?;
+            let mut trace_writer = self.writer(self.trace_target(), &TRACE, by_name, provenance)?;
             trace_writer.append(&trace_table::batch(&traces, by_name)?)?;
             trace_writer.finish()?;
         }
         writer.finish()?;
-        bar.finish_and_clear();
+        bar.finish();
         Ok(format!(
             "{} responses of {} structure(s)",
             total * self.structures.len() as u64,

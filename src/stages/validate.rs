@@ -14,6 +14,7 @@ use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 use crate::table::provenance::Provenance;
 use crate::table::schema::VALIDATION;
+use crate::table::source::{Source, Target};
 use crate::table::validation::{self, ValidationRow};
 use crate::table::writer::TableWriter;
 
@@ -33,8 +34,8 @@ pub struct ValidateOptions {
 /// The stage, ready to run.
 pub struct Validate {
     fits: Vec<anyhow::Result<ChosenFits>>,
-    pex: PathBuf,
-    pro: PathBuf,
+    pex: Source,
+    pro: Source,
     input: PathBuf,
     out: PathBuf,
 }
@@ -93,12 +94,12 @@ impl Stage for Validate {
         VALIDATION.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), ("responses", self.input.clone())]
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), ("responses", (&self.input).into())]
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.clone()]
+    fn targets(&self) -> Vec<Target> {
+        vec![(&self.out).into()]
     }
 
     fn parameters(&self) -> Value {
@@ -106,7 +107,7 @@ impl Stage for Validate {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let groups = groups::read(&self.input)?;
+        let groups = groups::read(&(&self.input).into())?;
         self.warn(&groups, console);
         let of_structure = |fits: &&ChosenFits, structure: &str| fits.structure == structure;
         let rows: Vec<ValidationRow> = groups
@@ -120,7 +121,7 @@ impl Stage for Validate {
             anyhow::bail!(
                 "{}: nothing that the fits of {} foretell; expected rocking responses of the same structures",
                 self.input.display(),
-                self.pex.display()
+                self.pex.name().display()
             );
         }
         let mut writer = TableWriter::create(&self.out, &VALIDATION, provenance.clone())?;

@@ -1,12 +1,13 @@
 //! The rows of pex and pro files, as evaluate and export take them.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::TableError;
 use super::columns::Columns;
-use super::reader::{Batch, Batches};
+use super::reader::Batches;
 use super::schema::{self, Column, Kind, PEX, PRO, Table};
+use super::source::Source;
 use crate::fragility::{DemandLaw, FitStatus, Link, Measure, Predictor};
 use crate::keyword::{self, Keyword};
 
@@ -26,26 +27,26 @@ pub struct FitRow {
 ///
 /// # Errors
 /// If it is none.
-pub fn regressions(path: &Path) -> Result<Vec<FitRow>, TableError> {
-    rows(path, &PEX)
+pub fn regressions(source: &Source) -> Result<Vec<FitRow>, TableError> {
+    rows(source, &PEX)
 }
 
 /// The curves of a pro file.
 ///
 /// # Errors
 /// If it is none.
-pub fn curves(path: &Path) -> Result<Vec<FitRow>, TableError> {
-    rows(path, &PRO)
+pub fn curves(source: &Source) -> Result<Vec<FitRow>, TableError> {
+    rows(source, &PRO)
 }
 
-fn rows(path: &Path, table: &Table) -> Result<Vec<FitRow>, TableError> {
+fn rows(source: &Source, table: &Table) -> Result<Vec<FitRow>, TableError> {
     let mut rows: Vec<FitRow> = Vec::new();
-    for batch in Batches::open(path, &[table.stage], table.columns, BATCH)? {
-        let Batch { rows: batch, first_row } = batch?;
-        let columns = Columns::new(path, &batch, first_row);
+    for batch in Batches::open(source, &[table.stage], table.columns, &[], BATCH)? {
+        let batch = batch?;
+        let columns = batch.columns();
         let row = |row| FitRow {
-            path: path.to_path_buf(),
-            row: first_row + row as u64,
+            path: batch.path.to_path_buf(),
+            row: batch.first_row + row as u64,
             text: HashMap::new(),
             numbers: HashMap::new(),
         };

@@ -3,6 +3,8 @@
 //! ```text
 //! schema       every column once: name, type, unit, words; every table as a list of columns (one file a subject)
 //! columns      the columns of one batch, by name, checked
+//! source       where a table is read from and written to: a path, or memory
+//! folder       a folder of files as one table; partition one of its parts
 //! footer       the end of a file, which says what is in it
 //! reader       batches from a file; narrow tables whole, as polars frames
 //! shared_file  a file that several threads read at once
@@ -24,12 +26,14 @@ pub mod columns;
 pub mod evaluated;
 pub mod fingerprint;
 pub mod fits;
+pub mod folder;
 pub mod footer;
 pub mod hazard;
 pub mod intensities;
 mod measures;
 pub mod motions;
 pub mod paper;
+pub mod partition;
 pub mod pex;
 pub mod pex_scan;
 pub mod pro;
@@ -41,6 +45,7 @@ pub mod responses;
 pub mod scenarios;
 pub mod schema;
 mod shared_file;
+pub mod source;
 pub mod text;
 pub mod trace;
 pub mod validation;
@@ -122,6 +127,20 @@ pub enum TableError {
         found: String,
         /// The type it should have.
         expected: String,
+    },
+    /// A folder does not stand for a whole table.
+    #[error("{}: {problem}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What is wrong with it and what to do.
+        problem: String,
+    },
+    /// A file can only be made from files.
+    #[error("{}: a table in memory; write it to a Parquet file and name that, so that what is made from it can say so", name.display())]
+    InMemory {
+        /// What it is called.
+        name: PathBuf,
     },
     /// The table has no rows.
     #[error("{}: the table is empty; expected at least one row", path.display())]

@@ -229,7 +229,7 @@ impl PexFrame {
     /// # Errors
     /// If it is none of regressions.
     pub fn read(path: &Path) -> Result<PexFrame, TableError> {
-        read_frame(path, &PEX).map(PexFrame)
+        read_frame(&path.into(), &PEX).map(PexFrame)
     }
 
     /// A number of one of the two planes, below the transition or above it.

@@ -199,7 +199,7 @@ impl ProFrame {
     /// # Errors
     /// If it is none of curves.
     pub fn read(path: &Path) -> Result<ProFrame, TableError> {
-        read_frame(path, &PRO).map(ProFrame)
+        read_frame(&path.into(), &PRO).map(ProFrame)
     }
 
     /// A number of the curve of one measure, or of a hybrid of two.

@@ -7,7 +7,10 @@ use parquet::file::metadata::KeyValue;
 use serde_json::Value;
 
 use super::TableError;
+use super::folder;
 use super::footer::open_metadata;
+use super::partition::PARAMETER;
+use super::source::Source;
 
 const STAGE: &str = "rockfrag.stage";
 const VERSION: &str = "rockfrag.version";
@@ -67,11 +70,27 @@ pub struct Stamp {
     pub content: String,
 }
 
-/// The stamp of a Parquet file, or `None` where another program wrote it.
+/// The stamp of a Parquet file, or `None` where another program wrote it. That of a folder is of what its files have in common:
+/// no partition, the inputs of the first one, and the fingerprint of all.
 ///
 /// # Errors
-/// If the file is missing or not readable as Parquet.
+/// If the file is missing or not readable as Parquet, or the folder is incomplete.
 pub fn stamp(path: &Path) -> Result<Option<Stamp>, TableError> {
+    if !path.is_dir() {
+        return stamp_of_file(path);
+    }
+    let stamps =
+        folder::files(path)?.iter().map(|file| stamp_of_file(file)).collect::<Result<Option<Vec<_>>, _>>()?;
+    let Some(stamps) = stamps else { return Ok(None) };
+    let mut provenance = stamps[0].provenance.clone();
+    if let Value::Object(parameters) = &mut provenance.parameters {
+        parameters.remove(PARAMETER);
+    }
+    let content = hash_of_all(stamps.iter().map(|stamp| stamp.content.as_str()));
+    Ok(Some(Stamp { plan: provenance.plan(), provenance, content }))
+}
+
+pub(super) fn stamp_of_file(path: &Path) -> Result<Option<Stamp>, TableError> {
     let metadata = open_metadata(path)?;
     let pairs = metadata.file_metadata().key_value_metadata().map_or(&[][..], Vec::as_slice);
     let get = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone());
@@ -94,9 +113,33 @@ pub fn stamp(path: &Path) -> Result<Option<Stamp>, TableError> {
 /// it.
 ///
 /// # Errors
-/// If the file is missing or unreadable.
-pub fn content_of(path: &Path) -> Result<String, TableError> {
-    if let Some(stamp) = stamp(path)? {
+/// If a file is missing or unreadable, or the folder incomplete; or if the table is in memory, so that no file could say of
+/// itself what it was made from.
+pub fn content_of(source: &Source) -> Result<String, TableError> {
+    match source {
+        Source::Path(path) => {
+            let files = folder::files(path)?;
+            let contents = files.iter().map(|file| content_of_file(file)).collect::<Result<Vec<_>, _>>()?;
+            if path.is_dir() {
+                Ok(hash_of_all(contents.iter().map(String::as_str)))
+            } else {
+                Ok(contents.concat())
+            }
+        }
+        Source::Memory(table) => Err(TableError::InMemory { name: table.name.clone() }),
+    }
+}
+
+fn hash_of_all<'a>(contents: impl Iterator<Item = &'a str>) -> String {
+    let mut whole = blake3::Hasher::new();
+    for content in contents {
+        whole.update(content.as_bytes()).update(b"\n");
+    }
+    format!("folder:{}", whole.finalize().to_hex())
+}
+
+fn content_of_file(path: &Path) -> Result<String, TableError> {
+    if let Some(stamp) = stamp_of_file(path)? {
         return Ok(stamp.content);
     }
     let mut hasher = blake3::Hasher::new();

@@ -101,7 +101,9 @@ const SHOWN: [schema::Column; 16] = [
 /// If it is none.
 pub fn show(path: &Path) -> anyhow::Result<String> {
     let mut table = String::new();
-    for batch in Batches::open(path, &[VALIDATION.stage], VALIDATION.columns, usize::from(u16::MAX))? {
+    for batch in
+        Batches::open(&path.into(), &[VALIDATION.stage], VALIDATION.columns, &[], usize::from(u16::MAX))?
+    {
         let Batch { rows, .. } = batch?;
         let shown = SHOWN.iter().map(|column| rows.schema().index_of(column.name));
         table += &text::aligned(&rows.project(&shown.collect::<Result<Vec<_>, _>>()?)?);

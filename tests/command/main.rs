@@ -6,5 +6,6 @@ mod evaluate;
 mod export;
 mod import;
 mod kill;
+mod partitions;
 mod pipeline;
 mod validate;

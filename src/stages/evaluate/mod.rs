@@ -9,6 +9,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+pub use self::table::EvaluateTable;
+
 use super::fits::FitsOptions;
 use super::structure_options::StructureOptions;
 use crate::keyword::keywords;
@@ -94,12 +96,12 @@ keywords!(Format { Table = "table", Csv = "csv", Json = "json", Parquet = "parqu
 /// # Errors
 /// If an input cannot be used, an option is out of range, or the output cannot be written.
 pub fn evaluate(options: &EvaluateOptions, force: bool, console: &Console) -> anyhow::Result<String> {
-    let fits = options.fits.choose()?;
     if let Some(input) = &options.table.input {
         let out = options.out.clone().unwrap_or_else(|| beside(input, "evaluated.parquet"));
-        let stage = table::EvaluateTable::new(options, fits, input.clone(), out)?;
+        let stage = EvaluateTable::new(&options.fits, &options.structure, input, out)?;
         return cache::run(&stage, force, console).map(|()| String::new());
     }
+    let fits = options.fits.choose()?;
     let structure = options.structure.structure(fits.model.eta)?;
     fits.warn_of_eta(&structure, console);
     let answer = match &options.hazard.hazard {

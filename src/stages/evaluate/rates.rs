@@ -64,7 +64,7 @@ pub fn answer(
         ),
         parameters: json!({ "p": p_rad_s, "alpha": alpha_rad, "eta": eta, "ratio": options.ratio,
             "years": years, "fits": fits.words() }),
-        input: Some(("hazard", path.to_path_buf())),
+        input: Some(("hazard", path.into())),
     })
 }
 
