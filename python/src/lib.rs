@@ -18,6 +18,8 @@ mod table;
 
 #[pymodule]
 mod _rockfrag {
+    use super::*;
+
     #[pymodule_export]
     use crate::response::response;
     #[pymodule_export]
@@ -27,6 +29,9 @@ mod _rockfrag {
     };
     #[pymodule_export]
     use crate::table::PyTable;
-    #[pymodule_export]
-    const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_init]
+    fn init(module: &Bound<PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
 }

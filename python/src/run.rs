@@ -126,7 +126,7 @@ fn tell(py: Python, followed: &Followed) -> PyResult<()> {
             Some(warning) => {
                 let class = py.import("rockfrag.errors")?.getattr("RockfragWarning")?;
                 // The line of whoever called the package's function.
-                py.import("warnings")?.call_method1("warn", (warning, class, 3))?;
+                py.import("warnings")?.call_method1("warn", (warning, class, 2))?;
             }
             None => {
                 let log = py.import("logging")?.call_method1("getLogger", ("rockfrag",))?;

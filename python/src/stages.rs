@@ -18,6 +18,7 @@ use rockfrag::stages::partitions::{each_file, file_of};
 use rockfrag::stages::sample_scenarios::SampleScenarios;
 use rockfrag::stages::simulate::{Simulate, SimulateOptions};
 use rockfrag::stages::structure_options::StructureOptions;
+use rockfrag::stages::structures::StructureSpec;
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 use rockfrag::table::partition::Partition;
 use rockfrag::table::provenance::Provenance;
@@ -83,7 +84,7 @@ pub fn simulate(
     let motions = source("motions", motions)?;
     if let (Source::Path(folder), Some(out)) = (&motions, &out) {
         let each = |console: &Console| {
-            let stages = each_file(&read(options)?, folder, Some(out))?;
+            let stages = each_file(&read_simulate(options)?, folder, Some(out))?;
             let Some(stages) = stages else { return Ok(false) };
             stages.iter().try_for_each(|stage| cache::run(stage, manner.force, console)).map(|()| true)
         };
@@ -93,7 +94,7 @@ pub fn simulate(
     }
     let partition = partition_of::<SimulateOptions>(options, |options| options.partition);
     let out = out.map(|out| file_of(Some(&out), Path::new(""), "responses", partition));
-    one(py, out, &manner, |target| Simulate::new(&read(options)?, motions, target))
+    one(py, out, &manner, |target| Simulate::new(&read_simulate(options)?, motions, target))
 }
 
 /// fit-pex.
@@ -190,6 +191,16 @@ pub fn partition_file(py: Python, partition: &str) -> PyResult<String> {
     let partition: Result<Partition, String> = partition.parse();
     let partition = partition.map_err(|wrong| to_python(py, &UsageError::because(wrong)))?;
     Ok(partition.file_name())
+}
+
+/// Options of simulate; what is wrong with a structure is said of that one.
+fn read_simulate(options: &str) -> anyhow::Result<SimulateOptions> {
+    let options: serde_json::Value = read(options)?;
+    let said = |error: serde_json::Error| UsageError::because(error.to_string());
+    if let Some(structures) = options.get("structures").filter(|structures| structures.is_array()) {
+        Vec::<StructureSpec>::deserialize(structures).map_err(said)?;
+    }
+    serde_json::from_value(options).map_err(said)
 }
 
 /// Options as Python wrote them.

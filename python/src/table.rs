@@ -14,7 +14,7 @@ use pyo3_arrow::input::AnyRecordBatch;
 use rockfrag::table::source::{MemoryTable, Shelf, Source};
 
 /// A table that a stage has made. Any library that speaks the Arrow PyCapsule interface takes it without a copy:
-/// ``polars.DataFrame(table)``, ``pyarrow.table(table)``, ``duckdb.sql("from table")``.
+/// ``polars.DataFrame(table)``, ``pyarrow.table(table)``, ``duckdb.sql("from table_name")``.
 #[pyclass(frozen, module = "rockfrag", name = "Table")]
 pub struct PyTable {
     table: MemoryTable,

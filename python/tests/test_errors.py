@@ -29,13 +29,17 @@ def test_a_file_that_is_none(tmp_path):
         ({"dt_s": ["x"]}, "motions: column 'dt_s' is"),
         ({"dt_s": [-1.0]}, "motions: row 0, column 'dt_s'.*above 0 s"),
         ({"acceleration_m_s2": [[0.0, float("nan")]]}, "row 0, column 'acceleration_m_s2': sample 1"),
-        ({"motion_id": []} | {"dt_s": [], "acceleration_m_s2": []}, "empty"),
     ],
 )
 def test_a_table_that_is_no_table_of_motions(wrong, message):
     with pytest.raises(rockfrag.TableError, match=message) as caught:
         rockfrag.simulate(motions(**wrong))
     assert isinstance(caught.value, ValueError)
+
+
+def test_a_table_without_rows():
+    with pytest.raises(rockfrag.TableError, match="motions: the table is empty"):
+        rockfrag.simulate(motions().clear())
 
 
 @pytest.mark.parametrize(

@@ -37,8 +37,8 @@ def test_a_result_goes_to_each_library(out, expected):
     assert responses.to_polars().equals(expected)
     assert pl.from_arrow(responses.to_pyarrow()).equals(expected)
     assert list(responses.to_pandas()["edp"]) == expected["edp"].to_list()
-    table = responses.to_pyarrow()
-    assert duckdb.sql("select sum(impacts) from table").fetchone()[0] == expected["impacts"].sum()
+    arrow = responses.to_pyarrow()
+    assert duckdb.sql("select sum(impacts) from arrow").fetchall()[0][0] == expected["impacts"].sum()
 
 
 def test_nothing_is_copied_on_the_way_out(out):
