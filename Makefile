@@ -1,7 +1,8 @@
 # The stages one by one, each made again only when what it reads has changed:
-#     make                 the comparison with the paper
+#     make                 the comparison with the paper, and the report
 #     make out/pex.parquet one file and what it needs
 #     make spread          the spread over seeds that is shipped in data/
+#     make universality    how the curves of one structure do on others, shipped in data/ too
 # `rockfrag run` does the same from pipeline.yaml alone. A stage that finds its file up to date leaves it as it is;
 # touching it tells make so.
 
@@ -9,9 +10,9 @@ ROCKFRAG ?= target/release/rockfrag
 CALL := $(ROCKFRAG) --config pipeline.yaml
 OUT := out
 
-.PHONY: all spread picture check-exports test clean
+.PHONY: all spread universality picture check-exports check-report sbom unsafe attack test clean
 
-all: $(OUT)/paper.parquet
+all: $(OUT)/paper.parquet $(OUT)/report.html
 
 $(ROCKFRAG): Cargo.toml Cargo.lock $(shell find src data -type f)
 	cargo build --release --locked
@@ -35,8 +36,15 @@ $(OUT)/paper.parquet: $(OUT)/pex.parquet $(OUT)/pro.parquet $(OUT)/responses.par
 	$(CALL) compare-paper --pex $(OUT)/pex.parquet --pro $(OUT)/pro.parquet --responses $(OUT)/responses.parquet --out $@
 	touch $@
 
+$(OUT)/report.html: $(OUT)/pex.parquet $(OUT)/pro.parquet $(OUT)/paper.parquet
+	$(CALL) report --in $(OUT) --out $@ && touch $@
+
 spread: | $(ROCKFRAG)
 	$(ROCKFRAG) seed-spread pipeline.yaml --seeds 20 --out data/seed_spread.csv
+
+universality: | $(ROCKFRAG)
+	$(ROCKFRAG) run data/universality.yaml --out $(OUT)/universality
+	python3 scripts/universality_summary.py $(OUT)/universality/universality.parquet data/universality.csv
 
 picture: $(OUT)/pro.parquet
 	python3 scripts/readme_picture.py $(OUT) docs/fragility.png
@@ -44,6 +52,22 @@ picture: $(OUT)/pro.parquet
 # OpenQuake and pelicun from PyPI read what export writes: 1.5 GB for the time of the check.
 check-exports: $(OUT)/pex.parquet $(OUT)/pro.parquet
 	scripts/check_exports.sh $(ROCKFRAG) $(OUT)
+
+# What a release is made of (CycloneDX), and how much unsafe code is in it.
+sbom: Cargo.lock
+	python3 scripts/dependencies.py sbom > rockfrag.cdx.json
+
+unsafe: Cargo.lock
+	python3 scripts/dependencies.py unsafe
+
+# Faults of the machine, 200 times each (as root), and inputs by chance; fuzz/ has longer ones.
+attack: | $(ROCKFRAG)
+	python3 scripts/attack/faults.py $(ROCKFRAG) 200
+	PROPTEST_CASES=100000 cargo test --locked --test robust
+
+# A headless Chromium looks at the report.
+check-report: $(OUT)/report.html
+	scripts/check_report.sh $(ROCKFRAG) $(OUT)
 
 test:
 	cargo test --locked

@@ -5,11 +5,9 @@ capacities; the shares of the damage states must equal our probabilities within 
 Needs pelicun (scripts/check_exports.sh makes a place for it).
 """
 
-import csv
 import json
 import math
 import pathlib
-import subprocess
 import sys
 import tempfile
 import warnings
@@ -17,30 +15,19 @@ import warnings
 import pandas as pd
 from pelicun import assessment, file_io
 
+from exports import ALPHA, G, P, reached, run
+
 warnings.simplefilter("ignore")
 
-G = 9.81
-P, ALPHA, RATIO = 2.5, 0.20, 0.4
+RATIO = 0.4
 SAMPLES = 100_000
 UNITS = {"PGA": "g", "PGV": "mps"}
-
-rockfrag, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
-fits = [
-    f"--pex={out / 'pex.parquet'}", f"--pro={out / 'pro.parquet'}", "--suite=csgm", "--structure=electrical-equipment",
-    f"--p={P}", f"--alpha={ALPHA}",
-]  # fmt: skip
-
-
-def run(*arguments):
-    return subprocess.run([rockfrag, *map(str, arguments)], check=True, capture_output=True, text=True).stdout
 
 
 def ours(pga_g, pgv):
     """The share of each damage state, from the probabilities of reaching the limit states."""
-    rows = csv.DictReader(run("evaluate", *fits, f"--pga={pga_g!r}", f"--pgv={pgv!r}", "--format=csv").splitlines())
-    answer = {row["quantity"]: float(row["value"] or 0) for row in rows}
-    reached = [1.0, 1 - answer["p_nr"], answer["p_f"], answer["p_ro"], 0.0]
-    return [here - further for here, further in zip(reached, reached[1:])]
+    states = [1.0, *reached(pga_g, pgv), 0.0]
+    return [here - further for here, further in zip(states, states[1:])]
 
 
 def theirs(table, component, peak, intensity):
@@ -64,7 +51,7 @@ def theirs(table, component, peak, intensity):
 with tempfile.TemporaryDirectory() as folder:
     for im in ["pga", "pgv"]:
         table = pathlib.Path(folder) / f"{im}.csv"
-        run("export", *fits, "--to=pelicun", f"--im={im}", f"--ratio={RATIO}", f"--out={table}")
+        run("export", "--to=pelicun", f"--im={im}", f"--ratio={RATIO}", f"--out={table}")
         component, = (name for name in json.loads(table.with_suffix(".json").read_text()) if not name.startswith("_"))
         worst = 0.0
         for im4 in [0.9, 1.05, 1.2, 1.4, 2.0, 3.0, 4.0, 6.0]:

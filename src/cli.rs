@@ -9,6 +9,7 @@ use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand,
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Parsed, resolve};
 use crate::pipeline::stage::{Stage, beside};
+use crate::pipeline::terminal::Terminal;
 use crate::pipeline::{UsageError, cache};
 use crate::stages::compare_paper::{ComparePaper, ComparePaperOptions};
 use crate::stages::config::Config;
@@ -16,16 +17,20 @@ use crate::stages::evaluate::{EvaluateOptions, evaluate};
 use crate::stages::export::{ExportOptions, export};
 use crate::stages::fit_pex::{FitPex, FitPexOptions};
 use crate::stages::fit_pro::{FitPro, FitProOptions};
+use crate::stages::ida::{Ida, IdaOptions};
 use crate::stages::import_motions::{ImportMotions, ImportMotionsOptions};
 use crate::stages::inspect::inspect;
 use crate::stages::partitions::{each_file, file_of};
+use crate::stages::rank_ims::{RankIms, RankImsOptions};
+use crate::stages::report::{Report, ReportOptions};
 use crate::stages::run::{Files, dry_run, run, stages};
 use crate::stages::sample_scenarios::{SampleScenarios, SampleScenariosOptions};
 use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
 use crate::stages::simulate::{Simulate, SimulateOptions};
 use crate::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
+use crate::stages::universality::{self, Universality, UniversalityOptions};
 use crate::stages::validate::{Validate, ValidateOptions};
-use crate::table::{paper, validation};
+use crate::table::{ida, paper, ranking_verdict, validation};
 
 /// Dimensionless fragility curves for rocking structures in near-fault earthquakes
 #[derive(Debug, Parser)]
@@ -103,6 +108,19 @@ enum Command {
         #[command(flatten)]
         options: SimulateOptions,
     },
+    /// Incremental dynamic analysis: at which intensities of each motion each structure overturns, and which larger ones it
+    /// survives
+    Ida {
+        /// Motions to read, as simulate does
+        #[arg(long = "in", value_name = "FILE", default_value = "motions.parquet")]
+        input: PathBuf,
+        /// File of overturning intensities to write; NAME.stripes, NAME.windows, NAME.shares and NAME.fragility stand beside it
+        /// [default: ida.parquet beside the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: IdaOptions,
+    },
     /// Fit the demand in safe rocking: P_ex
     FitPex {
         /// Responses to read
@@ -125,6 +143,25 @@ enum Command {
         #[command(flatten)]
         options: FitProOptions,
     },
+    /// Rank intensity measures, alone, in pairs and triples, by how well they predict unseen cells or earthquakes
+    ///
+    /// Besides im1 to im6 of the paper, the measures of --motions, made dimensionless with p and g tan alpha: p D of the
+    /// significant durations (d5_75, d5_95); p^2 PGD / (g tan alpha) (pgd), the same of the Housner intensity (housner);
+    /// p CAV / (g tan alpha) (cav); p times the integral of a^2 / (g tan alpha)^2 (arias); Sa / (g tan alpha) (sa_0p50 is that at
+    /// 0.5 s). Measures enter as a product, each to a power that the fit finds. PGA, PGV, Tm and Tp are those of im1 to im6.
+    RankIms {
+        /// Responses to read
+        #[arg(long = "in", value_name = "FILE", default_value = "responses.parquet")]
+        input: PathBuf,
+        /// Motions that the responses are to, for their further measures
+        #[arg(long, value_name = "FILE")]
+        motions: Option<PathBuf>,
+        /// Ranking to write [default: ranking.parquet beside the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: RankImsOptions,
+    },
     /// Hold our numbers against the published ones
     ComparePaper {
         /// Regressions of fit-pex
@@ -146,8 +183,30 @@ enum Command {
     Evaluate(Box<EvaluateOptions>),
     /// Hold fits against responses they were not made from, such as those to records: counts seen and expected, scores
     Validate(Box<ValidateOptions>),
+    /// How universal the curves of one structure are: held against the responses of all others to the same motions
+    Universality {
+        /// Responses of all structures to read
+        #[arg(long = "in", value_name = "FILE", default_value = "responses.parquet")]
+        input: PathBuf,
+        /// File to write [default: universality.parquet beside the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: UniversalityOptions,
+    },
     /// Write the fragility of a structure for OpenQuake or pelicun
     Export(Box<ExportOptions>),
+    /// Draw all that a folder of files holds: one page to open in a browser, and each figure as SVG and PNG
+    Report {
+        /// Folder of the files: responses.parquet, and what else there is of them
+        #[arg(long = "in", value_name = "DIR", default_value = "out")]
+        input: PathBuf,
+        /// Page to write; its figures go into a folder of the same name [default: report.html in the input]
+        #[arg(long)]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        options: ReportOptions,
+    },
     /// Run all stages of a pipeline file, skipping what is up to date
     Run {
         /// The pipeline file
@@ -231,7 +290,7 @@ impl Call<'_> {
             Command::Simulate { input, out, .. } => {
                 let mut options: SimulateOptions = resolve(self.flags, self.config.simulate.as_ref())?;
                 // One structure in flags wins over those of the file.
-                if ["p", "alpha", "eta"].iter().any(|flag| self.given(flag)) {
+                if self.one_structure_is_given() {
                     options.structures = None;
                 }
                 if let Some(stages) = each_file(&options, &input, out.as_deref())? {
@@ -240,6 +299,15 @@ impl Call<'_> {
                 let partition = options.partition.map(|Parsed(partition)| partition);
                 let out = file_of(out.as_deref(), &input, "responses", partition);
                 self.stage(&Simulate::new(&options, input, out)?)
+            }
+            Command::Ida { input, out, .. } => {
+                let mut options: IdaOptions = resolve(self.flags, self.config.ida.as_ref())?;
+                if self.one_structure_is_given() {
+                    options.structures = None;
+                }
+                let out = out.unwrap_or_else(|| beside(&input, "ida.parquet"));
+                self.stage(&Ida::new(&options, input, out.clone())?)?;
+                print(&ida::show(&Ida::fragility_path(&out))?)
             }
             Command::FitPex { input, out, .. } => {
                 let mut options: FitPexOptions = resolve(self.flags, self.config.fit_pex.as_ref())?;
@@ -253,18 +321,35 @@ impl Call<'_> {
                 let out = out.unwrap_or_else(|| beside(&input, "pro.parquet"));
                 self.stage(&FitPro::new(&options, input, out)?)
             }
+            Command::RankIms { input, motions, out, .. } => {
+                let options = resolve(self.flags, self.config.rank_ims.as_ref())?;
+                let out = out.unwrap_or_else(|| beside(&input, "ranking.parquet"));
+                self.stage(&RankIms::new(&options, input, motions, out.clone())?)?;
+                print(&ranking_verdict::show(&out)?)
+            }
             Command::ComparePaper { pex, pro, responses, out, .. } => {
                 let options = resolve(self.flags, self.config.compare_paper.as_ref())?;
                 let out = out.unwrap_or_else(|| beside(&pex, "paper.parquet"));
                 self.stage(&ComparePaper::new(&options, [pex, pro, responses], out.clone())?)?;
-                print(&paper::show(&out)?)
+                print(&Terminal::stdout().table(&paper::show(&out)?))
             }
             Command::Evaluate(options) => print(&evaluate(&options, self.force, &self.console)?),
             Command::Validate(options) => {
                 let out = options.out.clone();
                 let out = out.unwrap_or_else(|| beside(&options.input, "validation.parquet"));
                 self.stage(&Validate::new(&options, out.clone())?)?;
-                print(&validation::show(&out)?)
+                print(&Terminal::stdout().table(&validation::show(&out)?))
+            }
+            Command::Report { input, out, .. } => {
+                let options = resolve(self.flags, self.config.report.as_ref())?;
+                let out = out.unwrap_or_else(|| input.join("report.html"));
+                self.stage(&Report::new(&options, input, out)?)
+            }
+            Command::Universality { input, out, .. } => {
+                let options = resolve(self.flags, self.config.universality.as_ref())?;
+                let out = out.unwrap_or_else(|| beside(&input, "universality.parquet"));
+                self.stage(&Universality::new(&options, input, out.clone())?)?;
+                print(&universality::show(&out)?)
             }
             Command::Export(options) => export(&options, &self.console),
             Command::Run { pipeline, out, seed, dry_run } => self.run(&pipeline, out, seed, dry_run),
@@ -272,7 +357,7 @@ impl Call<'_> {
                 let console = Console { progress: false, ..self.console.clone() };
                 seed_spread(&Config::read(&pipeline)?, &options, &console)
             }
-            Command::Inspect { file } => print(&inspect(&file)?),
+            Command::Inspect { file } => print(&inspect(&file, &Terminal::stdout())?),
         }
     }
 
@@ -293,15 +378,19 @@ impl Call<'_> {
             return print(&dry_run(&stages, self.force)?);
         }
         run(&stages, self.force, &self.console)?;
-        if config.compare_paper.is_some() { print(&paper::show(&files.paper)?) } else { Ok(()) }
+        if config.compare_paper.is_some() {
+            print(&Terminal::stdout().table(&paper::show(&files.paper)?))?;
+        }
+        if config.universality.is_some() { print(&universality::show(&files.universality)?) } else { Ok(()) }
     }
 
     fn stage(&self, stage: &dyn Stage) -> anyhow::Result<()> {
-        cache::run(stage, self.force, &self.console)
+        cache::run_alone(stage, self.force, &self.console)
     }
 
-    fn given(&self, flag: &str) -> bool {
-        self.flags.value_source(flag) == Some(ValueSource::CommandLine)
+    fn one_structure_is_given(&self) -> bool {
+        let given = |flag: &&str| self.flags.value_source(flag) == Some(ValueSource::CommandLine);
+        ["p", "alpha", "eta"].iter().any(given)
     }
 }
 

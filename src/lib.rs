@@ -7,9 +7,11 @@
 //! sample-scenarios -> scenarios -> synthesize-motions -> motions -> simulate -> responses
 //!                                  records -> import-motions ----^                  |-> fit-pex -> pex --|
 //!                                                                                   |-> fit-pro -> pro --|-> compare-paper
-//!                                                                                                         |-> evaluate
+//!                                                                                   |-> rank-ims         |-> evaluate
 //!                                                                                                         |-> export
+//!                            responses of many structures, to hold the curves of one against --|-> universality
 //!                                                  responses of other motions, to hold the fits against --|-> validate
+//!                                                      all of these files, in figures and a page to look at --|-> report
 //! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from
 //! ```
 //!
@@ -20,8 +22,9 @@
 //! | sections 2.3 and 3, Eqs. 12 and 14 to 24: fragility | [`fragility`] |
 //! | beyond it: annual rates at a site | [`hazard`] |
 //!
-//! These four know no files, threads or command line, nor does [`export`], which words fragility for other programs. [`table`] reads and writes the files, [`pipeline`] decides what
-//! must run, [`stages`] joins them: one file a subcommand.
+//! These four know no files, threads or command line, nor do [`export`], which words fragility for other programs, and
+//! [`report`], which draws it. [`table`] reads and writes the files, [`pipeline`] decides what must run, [`stages`] joins
+//! them: one file a subcommand.
 
 pub mod cli;
 pub mod export;
@@ -32,7 +35,9 @@ pub mod motion;
 pub mod normal;
 pub mod pipeline;
 pub mod random;
+pub mod report;
 pub mod rocking;
 pub mod stages;
 pub mod table;
 pub mod units;
+mod wide;

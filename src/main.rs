@@ -3,8 +3,10 @@
 use std::process::ExitCode;
 
 use rockfrag::pipeline::UsageError;
+use rockfrag::table::guarded::quiet_damage;
 
 fn main() -> ExitCode {
+    quiet_damage();
     match rockfrag::cli::main() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

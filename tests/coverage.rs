@@ -77,7 +77,7 @@ fn cases(plan: &Plan, seed: u64) -> (Vec<Case>, Vec<usize>) {
     ((0..n).map(&mut case).collect(), (0..n).map(cell_of).collect())
 }
 
-/// The limits of a curve.
+/// The limits of the parameters of a curve, and of some of its probabilities.
 fn curve(plan: &Plan, seed: u64, replicates: usize) -> Result<Vec<Verdict>, FitStatus> {
     let (cases, cells) = cases(plan, seed);
     let event = |case: &Case| Some(case.outcome == Outcome::Overturning);
@@ -110,7 +110,28 @@ fn curve(plan: &Plan, seed: u64, replicates: usize) -> Result<Vec<Verdict>, FitS
             (name, "bca", limits.and_then(|limits| holds(truth, limits.bca?))),
         ]);
     }
+    for (name, index) in [("p 0.02", -2.0), ("p 0.16", -1.0), ("p 0.5", 0.0)] {
+        let row = row_at(plan, index);
+        let at_row = |b: &[f64]| row.iter().zip(b).map(|(x, b)| x * b).sum::<f64>();
+        let value = at_row(fit.regression.coefficients.as_slice());
+        let products = fit.regression.covariance.column_iter().map(|column| at_row(column.as_slice()));
+        let variance = at_row(&products.collect::<Vec<f64>>());
+        let of_refits: Vec<Option<f64>> =
+            refits.iter().map(|b| b.as_ref().map(|b| at_row(b.as_slice()))).collect();
+        let limits = bootstrap_limits(value, &of_refits, 0.0, 0.95);
+        verdicts.extend([
+            (name, "delta", holds(index, wald(value, variance.sqrt()))),
+            (name, "percentile", limits.and_then(|limits| holds(index, limits.percentile))),
+            (name, "bc", limits.and_then(|limits| holds(index, limits.bca?))),
+        ]);
+    }
     Ok(verdicts)
+}
+
+/// The row of the design at which the true curve has this index.
+fn row_at(plan: &Plan, index: f64) -> Vec<f64> {
+    let ln_im = MU + BETA * index;
+    if plan.measures.len() == 2 { vec![1.0, ln_im * (1.0 + LAMBDA) / LAMBDA, 0.0] } else { vec![1.0, ln_im] }
 }
 
 /// The limits of the slope and the dispersion of a regression of the demand.

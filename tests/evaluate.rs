@@ -5,9 +5,10 @@ mod paper_model;
 use paper_model::{BETA, LAMBDA, MU, equipment, model};
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Link, Measure, Peak, Predictor, Probability, ProbitIndex, Slice, least_squares, p_exceeding,
-    p_failure_given_rocking, p_overturning, ranges,
+    Link, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits, ResampledModel, Slice,
+    least_squares, p_exceeding, p_failure_given_rocking, p_overturning, ranges,
 };
+use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::normal;
 
@@ -104,6 +105,37 @@ fn mean_and_standard_deviation_are_those_of_the_lognormal() {
     let variance = (0..n).map(|k| (quantile(k) - mean).powi(2)).sum::<f64>() / f64::from(n);
     assert!((curve.mean() / mean - 1.0).abs() < 1e-5);
     assert!((curve.standard_deviation() / variance.sqrt() - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn limits_by_resamples_are_the_quantiles_of_the_probabilities_themselves() {
+    let measures = at(5.0, 0.6);
+    // Resamples whose overturning has indices from half below the fit to half above it, in equal steps.
+    let replicate = |k: usize| {
+        let mut model = model();
+        model.overturning.coefficients[0] += (k as f64 - 500.0) / 1000.0;
+        Some(model)
+    };
+    let given = model().probabilities(&measures).given_rocking.unwrap();
+    let index = normal::quantile(given.p_ro.value);
+    for &limits in ReplicateLimits::ALL {
+        let resampled = ResampledModel { replicates: (0..=1000).map(replicate).collect(), limits };
+        let with_limits = resampled.with_limits(&given, &measures);
+        assert_eq!(with_limits.p_ro.value, given.p_ro.value);
+        assert!((with_limits.p_ro.low - normal::cdf(index - 0.475)).abs() < 1e-9, "{limits:?}");
+        assert!((with_limits.p_ro.high - normal::cdf(index + 0.475)).abs() < 1e-9, "{limits:?}");
+        let [low, high] = [-0.475, 0.475]
+            .map(|shift| p_failure_given_rocking(normal::cdf(index + shift), given.p_ex.value));
+        // The middle resample and the fit may differ by rounding, which moves the bias by half a rank.
+        let tolerance = if limits == ReplicateLimits::Percentile { 1e-9 } else { 1e-3 };
+        let failure = with_limits.p_failure;
+        assert!(
+            (failure.low - low).abs() < tolerance && (failure.high - high).abs() < tolerance,
+            "{limits:?}"
+        );
+    }
+    let few = ResampledModel { replicates: vec![None, replicate(0)], limits: ReplicateLimits::Percentile };
+    assert!(few.with_limits(&given, &measures).p_ro.low.is_nan(), "half of the resamples have no fit");
 }
 
 proptest! {

@@ -6,7 +6,8 @@ use rockfrag::motion::intensity::{
     arias_intensity, cumulative_absolute_velocity, housner_intensity, mean_period, significant_duration,
     spectral_acceleration,
 };
-use rockfrag::motion::{IntensityScratch, measures};
+use rockfrag::motion::{IntensityMeasures, IntensityScratch, Quantity, measures};
+use rockfrag::rocking::Structure;
 
 fn sine(amplitude: f64, f: f64, duration: f64, dt: f64) -> Vec<f64> {
     (0..=(duration / dt).round() as usize).map(|k| amplitude * (2.0 * PI * f * k as f64 * dt).sin()).collect()
@@ -76,4 +77,33 @@ fn the_housner_intensity_of_a_short_pulse_is_its_impulse() {
     let root = (1.0 - z * z).sqrt();
     let expected = 2.4 * impulse * (-z / root * (root / z).atan()).exp();
     close(housner_intensity(&samples, dt), expected, 2e-3, "Housner");
+}
+
+#[test]
+fn dimensionless_measures_do_not_depend_on_the_units() {
+    // Times s-fold and lengths l-fold, of the motion and of the structure.
+    let (s, l) = (1.7, 0.6);
+    let structure = Structure::new("one", 2.0, 0.2, 0.9).unwrap();
+    let steepness = 0.2_f64.tan() * l / (s * s);
+    let other = Structure::new("other", 2.0 / s, steepness.atan(), 0.9).unwrap();
+    for (quantity, factor) in [
+        (Quantity::Duration, s),
+        (Quantity::Length, l),
+        (Quantity::Velocity, l / s),
+        (Quantity::Acceleration, l / (s * s)),
+        (Quantity::AriasIntensity, l * l / s.powi(3)),
+    ] {
+        let (here, there) =
+            (quantity.dimensionless(3.0, &structure), quantity.dimensionless(3.0 * factor, &other));
+        assert!((here - there).abs() < 1e-12 * here, "{quantity:?}: {here}, {there}");
+    }
+    // PGA is an acceleration and PGV a velocity, as in IM4 and IM5; two seconds of constant acceleration a have p 2 a^2.
+    let (pga, pgv) = (3.0, 0.5);
+    let measures = IntensityMeasures::new(&structure, pga, pgv, None, None);
+    assert_eq!(Quantity::Acceleration.dimensionless(pga, &structure), measures.im4);
+    assert!((Quantity::Velocity.dimensionless(pgv, &structure) - measures.im5).abs() < 1e-15);
+    let arias = arias_intensity(&[pga; 201], 0.01);
+    let expected = 2.0 * 2.0 * measures.im4.powi(2);
+    let found = Quantity::AriasIntensity.dimensionless(arias, &structure);
+    assert!((found - expected).abs() < 1e-12 * expected, "{found}, {expected}");
 }

@@ -121,4 +121,12 @@ fn a_validation_holds_all_of_these() {
     assert_eq!(validation.auc, Some(auc(&[0.1, 0.35, 0.5, 0.9], &[false, true, false, true])));
     assert!(validation.calibration.is_some_and(|shift| shift > 0.0));
     assert_eq!(Validation::of(&[]), None);
+    assert_eq!((validation.impossible, validation.log_score.is_some()), (0, true));
+    // What cannot happen and does, in either way.
+    for (certain, happened) in [(0.0, true), (1.0, false)] {
+        let with_impossible = [forecasts[0], forecast(certain, happened), forecast(certain, !happened)];
+        let validation = Validation::of(&with_impossible).unwrap();
+        assert_eq!((validation.impossible, validation.log_score), (1, None));
+        assert!(validation.log_score_expected.is_finite());
+    }
 }

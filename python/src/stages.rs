@@ -9,7 +9,7 @@ use rockfrag::pipeline::console::Console;
 use rockfrag::pipeline::options::{Parsed, Word};
 use rockfrag::pipeline::stage::Stage;
 use rockfrag::pipeline::{UsageError, cache};
-use rockfrag::stages::evaluate::EvaluateTable;
+use rockfrag::stages::evaluate::{EvaluateTable, LimitsBy};
 use rockfrag::stages::fit_pex::FitPex;
 use rockfrag::stages::fit_pro::FitPro;
 use rockfrag::stages::fits::FitsOptions;
@@ -86,7 +86,7 @@ pub fn simulate(
         let each = |console: &Console| {
             let stages = each_file(&read_simulate(options)?, folder, Some(out))?;
             let Some(stages) = stages else { return Ok(false) };
-            stages.iter().try_for_each(|stage| cache::run(stage, manner.force, console)).map(|()| true)
+            stages.iter().try_for_each(|stage| cache::run_alone(stage, manner.force, console)).map(|()| true)
         };
         if folder.is_dir() && run(py, &manner, each)? {
             return Ok(out.into_pyobject(py)?.unbind());
@@ -147,7 +147,7 @@ pub fn evaluate(
             measure: measure.as_deref().map(word).transpose()?,
         };
         let structure = StructureOptions { p, alpha, eta, ..StructureOptions::default() };
-        EvaluateTable::new(&fits, &structure, intensities, target)
+        EvaluateTable::new(&fits, LimitsBy::Delta, &structure, intensities, target)
     })
 }
 
@@ -171,7 +171,7 @@ fn one<S: Stage>(
     stage: impl FnOnce(Target) -> anyhow::Result<S> + Send,
 ) -> PyResult<Py<PyAny>> {
     if let Some(out) = out {
-        run(py, manner, |console| cache::run(&stage((&out).into())?, manner.force, console))?;
+        run(py, manner, |console| cache::run_alone(&stage((&out).into())?, manner.force, console))?;
         return Ok(out.into_pyobject(py)?.unbind());
     }
     let shelf = Shelf::default();

@@ -14,9 +14,9 @@ use super::newton::{Along, Maximum, maximise};
 use super::profile::profile_limits;
 use super::separation::is_separated;
 
-/// What the last step may gain in log-likelihood. It then moves the coefficients by some 1e-4 of their standard errors, and
+/// What the last step may gain in log-likelihood. It then moves the coefficients by some 1e-3 of their standard errors, and
 /// Newton's convergence squares that.
-const TOLERANCE: f64 = 1e-8;
+const TOLERANCE: f64 = 1e-6;
 /// Plain Newton steps from where one step leads from the fit are fewer than this; more raise the suspicion that there is no
 /// maximum.
 const SUSPICIOUS_STEPS: usize = 6;
@@ -38,10 +38,11 @@ impl<'a> CurveInference<'a> {
         CurveInference { sample, fit, design, once_each: vec![1.0; sample.happened.len()], influence }
     }
 
-    /// The covariance of the coefficients where cases of one cell may depend on each other; `cells` are those of all cases.
-    pub fn clustered_covariance(&self, cells: &[usize]) -> DMatrix<f64> {
-        let cells: Vec<usize> = self.sample.rows.iter().map(|&row| cells[row]).collect();
-        self.influence.clustered_covariance(&self.design, &self.fit.covariance, &cells)
+    /// The covariance of the coefficients where cases of one cluster may depend on each other; `clusters` are those of all
+    /// cases.
+    pub fn clustered_covariance(&self, clusters: &[usize]) -> DMatrix<f64> {
+        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
+        self.influence.clustered_covariance(&self.design, &self.fit.covariance, &clusters)
     }
 
     /// The standard error of a parameter that follows from a covariance of the coefficients.

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bootstrap::Strata;
 use super::demand_sample::DemandSample;
-use super::design_matrix::{DesignMatrix, dot};
+use super::design_matrix::DesignMatrix;
 use super::influence::Influence;
 use super::limits::acceleration;
 use super::regression::LinearFit;
@@ -46,18 +46,18 @@ impl<'a> DemandInference<'a> {
     /// one sample to another.
     pub fn new(sample: &'a DemandSample, fit: &LinearFit) -> DemandInference<'a> {
         let (design, coefficients) = (sample.design(), fit.values());
-        let residual = |(row, y): (&[f64], &f64)| y - dot(row, coefficients.as_slice());
-        let residuals: Vec<f64> = design.rows().zip(&sample.ln_edp).map(residual).collect();
+        let fitted = design.indices(coefficients.as_slice());
+        let residuals: Vec<f64> = sample.ln_edp.iter().zip(fitted).map(|(y, fitted)| y - fitted).collect();
         let influence = Influence::of_residuals(residuals.clone());
         let bread = &fit.covariance / fit.residual_sd.powi(2);
         let LinearFit { residual_sd, rss, n, .. } = *fit;
         DemandInference { sample, coefficients, residual_sd, bread, rss, n, design, residuals, influence }
     }
 
-    /// Standard errors of the coefficients where cases of one cell may depend on each other; `cells` are those of all
-    /// cases. Of the sample of the fit.
-    pub fn clustered_errors(&self, cells: &[usize]) -> Vec<f64> {
-        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| cells[row]).collect();
+    /// Standard errors of the coefficients where cases of one cluster may depend on each other; `clusters` are those of
+    /// all cases. Of the sample of the fit.
+    pub fn clustered_errors(&self, clusters: &[usize]) -> Vec<f64> {
+        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
         let covariance = self.influence.clustered_covariance(&self.design, &self.bread, &clusters);
         covariance.diagonal().iter().map(|variance| variance.sqrt()).collect()
     }
@@ -71,13 +71,16 @@ impl<'a> DemandInference<'a> {
     /// The regression over the cases whose first measure lies in `range`, where each of all cases counts so often; none
     /// if they do not determine it.
     pub fn replicate(&self, counts: &[f64], range: Range<f64>) -> Option<DemandReplicate> {
-        let weights = self.weights(counts, range);
-        let change = self.influence.step(&self.design, &weights)?;
+        self.refit(&self.weights(counts, range))
+    }
+
+    /// The regression where each case of the sample counts so often; none if they do not determine it.
+    pub fn refit(&self, weights: &[f64]) -> Option<DemandReplicate> {
+        let change = self.influence.step(&self.design, weights)?;
         let degrees = weights.iter().sum::<f64>() - change.len() as f64;
-        let square = |((residual, x), weight): ((&f64, &[f64]), &f64)| {
-            weight * (residual - dot(x, change.as_slice())).powi(2)
-        };
-        let rss: f64 = self.residuals.iter().zip(self.design.rows()).zip(&weights).map(square).sum();
+        let shifts = self.design.indices(change.as_slice());
+        let square = |((residual, shift), weight): ((&f64, f64), &f64)| weight * (residual - shift).powi(2);
+        let rss: f64 = self.residuals.iter().zip(shifts).zip(weights).map(square).sum();
         (degrees > 0.0).then(|| DemandReplicate {
             coefficients: (&self.coefficients + change).as_slice().to_vec(),
             residual_sd: (rss / degrees).sqrt(),
@@ -92,7 +95,7 @@ impl<'a> DemandInference<'a> {
         let changes = self.influence.without_each(&self.design, &self.bread);
         let cases = self.sample.rows.iter().zip(&self.residuals).zip(self.design.rows());
         for (((&row, residual), x), change) in cases.zip(changes) {
-            let rss = self.rss - residual * (residual - dot(x, change.as_slice()));
+            let rss = self.rss - residual * (residual - x.dot(&change));
             without_each[row].residual_sd = (rss / degrees).sqrt();
             without_each[row].coefficients.iter_mut().zip(&change).for_each(|(b, change)| *b += change);
         }

@@ -29,6 +29,11 @@ impl EventSample {
         sample
     }
 
+    /// Of these predictors, whatever they are, each as long as `happened`.
+    pub fn of_columns(columns: Vec<Vec<f64>>, happened: Vec<bool>) -> EventSample {
+        EventSample { ln_im: columns, rows: (0..happened.len()).collect(), happened }
+    }
+
     /// In how many cases the event happened.
     pub fn events(&self) -> usize {
         self.happened.iter().filter(|&&happened| happened).count()

@@ -1,10 +1,12 @@
 //! Firth's penalised likelihood, which has a maximum even where a measure tells the outcomes apart, and less bias where
 //! events are few.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
-use super::binary::{BinaryLikelihood, Derivatives};
-use super::design_matrix::dot;
+use super::binary::BinaryLikelihood;
+use super::derivatives::{Scores, derivatives};
 
 use crate::keyword::keywords;
 
@@ -34,17 +36,21 @@ pub struct Penalty {
 /// Firth's penalty at these coefficients; none where the information is singular.
 pub fn penalty(likelihood: &BinaryLikelihood, coefficients: &DVector<f64>) -> Option<Penalty> {
     let BinaryLikelihood { design, weights, link, .. } = likelihood;
-    let of_cases: Vec<_> =
-        design.rows().map(|row| link.information(dot(row, coefficients.as_slice()))).collect();
-    let cases = || design.rows().zip(&of_cases).zip(*weights).filter(|(_, weight)| **weight > 0.0);
-    let mut sums = Derivatives::new(coefficients.len());
-    cases().for_each(|((row, of_case), weight)| sums.add(row, 0.0, weight * of_case.weight));
-    let information = sums.objective().information;
+    let indices = design.indices(coefficients.as_slice());
+    let of_cases: Vec<_> = indices.iter().map(|&index| link.information(index)).collect();
+    let expected = |cases: Range<usize>, scores: Scores| {
+        let counted = of_cases[cases.clone()].iter().zip(&weights[cases]);
+        for (curvature, (of_case, &weight)) in scores.curvature.iter_mut().zip(counted) {
+            *curvature = if weight > 0.0 { weight * of_case.weight } else { 0.0 };
+        }
+        scores.slope.fill(0.0);
+    };
+    let information = derivatives(design, &[], expected).information;
     let factor = information.clone().cholesky()?;
     let inverse = factor.inverse();
     let mut gradient = DVector::zeros(coefficients.len());
-    for ((row, of_case), weight) in cases() {
-        let row = DVector::from_column_slice(row);
+    let cases = design.rows().zip(&of_cases).zip(*weights).filter(|(_, weight)| **weight > 0.0);
+    for ((row, of_case), weight) in cases {
         let leverage = weight * of_case.weight * (&inverse * &row).dot(&row);
         gradient += row * (0.5 * leverage * of_case.ln_weight_slope);
     }

@@ -2,6 +2,7 @@ use super::case::Case;
 use super::index::Probability;
 use super::model::{FragilityModel, GivenRocking};
 use crate::keyword::keywords;
+use crate::motion::IntensityMeasures;
 use crate::rocking::Outcome;
 
 /// What the curves foretell of a structure that rocks.
@@ -24,8 +25,15 @@ pub struct Forecast {
     pub probability: Probability,
     /// Whether it happened.
     pub happened: bool,
-    /// Whether a measure lies outside of the range of the data of the fits.
+    /// Whether a measure lies outside of the range of the data of the fit (of [`Foretold::Failure`], of either).
     pub is_extrapolated: bool,
+}
+
+impl Forecast {
+    /// Whether what happened has a probability of exactly 0.
+    pub fn is_impossible(&self) -> bool {
+        self.probability.value == if self.happened { 0.0 } else { 1.0 }
+    }
 }
 
 /// What the curves foretell of an event in cases that were not fitted.
@@ -56,7 +64,7 @@ impl Forecasts {
                 Some(given) => forecasts.push(Forecast {
                     probability: event.among(&given),
                     happened,
-                    is_extrapolated: model.out_of_range(&case.measures).next().is_some(),
+                    is_extrapolated: event.is_out_of_range(model, &case.measures),
                 }),
                 None => without_measure += 1,
             }
@@ -66,6 +74,16 @@ impl Forecasts {
 }
 
 impl Foretold {
+    fn is_out_of_range(self, model: &FragilityModel, measures: &IntensityMeasures) -> bool {
+        let of_demand = || model.demand_out_of_range(measures).next().is_some();
+        let of_overturning = || model.overturning_out_of_range(measures).next().is_some();
+        match self {
+            Foretold::Overturning => of_overturning(),
+            Foretold::Exceeding => of_demand(),
+            Foretold::Failure => of_overturning() || of_demand(),
+        }
+    }
+
     fn among(self, given: &GivenRocking) -> Probability {
         match self {
             Foretold::Overturning => given.p_ro,

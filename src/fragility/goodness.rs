@@ -16,6 +16,15 @@ pub struct Test {
     pub p: f64,
 }
 
+/// The rows in so many groups of rising values and of equal size, but for the first ones, which take what does not divide.
+pub fn rising_groups(values: &[f64], groups: usize) -> Vec<Vec<usize>> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let (size, larger) = (values.len() / groups, values.len() % groups);
+    let (first, rest) = order.split_at(larger * (size + 1));
+    first.chunks(size + 1).chain(rest.chunks(size.max(1))).map(<[usize]>::to_vec).collect()
+}
+
 /// Hosmer and Lemeshow's test of fitted probabilities: in ten groups of rising probability, as many events as expected?
 /// (Hosmer & Lemeshow 1980, Communications in Statistics A9, 1043-1069). None with fewer than two cases a group, or if a
 /// group is certain of its outcome.
@@ -24,17 +33,12 @@ pub fn hosmer_lemeshow(probabilities: &[f64], events: &[bool]) -> Option<Test> {
     if n < 2 * GROUPS {
         return None;
     }
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| probabilities[a].total_cmp(&probabilities[b]));
-    // The first groups take what does not divide by their number.
-    let (size, larger) = (n / GROUPS, n % GROUPS);
-    let (first, rest) = order.split_at(larger * (size + 1));
-    let of_group = |rows: &[usize]| {
+    let of_group = |rows: &Vec<usize>| {
         let expected: f64 = rows.iter().map(|&row| probabilities[row]).sum();
         let observed = rows.iter().filter(|&&row| events[row]).count() as f64;
         (observed - expected).powi(2) / (expected * (1.0 - expected / rows.len() as f64))
     };
-    let statistic: f64 = first.chunks(size + 1).chain(rest.chunks(size)).map(of_group).sum();
+    let statistic: f64 = rising_groups(probabilities, GROUPS).iter().map(of_group).sum();
     let test = Test { statistic, p: chi_squared_upper_tail(statistic, GROUPS - 2) };
     statistic.is_finite().then_some(test)
 }

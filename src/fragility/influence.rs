@@ -1,10 +1,12 @@
 //! What each case adds to a fit: from this follow the jackknife, robust errors and the first step of a refit.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::binary::{BinaryFit, Derivatives};
+use super::binary::BinaryFit;
+use super::derivatives::{Scores, derivatives};
 use super::design_matrix::DesignMatrix;
 use super::newton::{Along, newton_step};
 
@@ -35,15 +37,14 @@ impl Influence {
     /// The change of the coefficients in one Newton step where each case counts `weights` times: exact for least
     /// squares. None if the weighted cases do not determine them.
     pub fn step(&self, design: &DesignMatrix, weights: &[f64]) -> Option<DVector<f64>> {
-        let mut sums = Derivatives::new(design.columns());
-        for (((row, score), curvature), &weight) in
-            design.rows().zip(&self.score).zip(&self.curvature).zip(weights)
-        {
-            if weight > 0.0 {
-                sums.add(row, weight * score, weight * curvature);
+        let weighted = |cases: Range<usize>, mut scores: Scores| {
+            let of_cases = self.score[cases.clone()].iter().zip(&self.curvature[cases.clone()]);
+            let weighted = of_cases.zip(&weights[cases]);
+            for ((slope, curvature), ((of_score, of_curvature), weight)) in scores.iter_mut().zip(weighted) {
+                (*slope, *curvature) = (weight * of_score, weight * of_curvature);
             }
-        }
-        newton_step(&sums.objective(), Along::All)
+        };
+        newton_step(&derivatives(design, &[], weighted), Along::All)
     }
 
     /// The covariance of the coefficients where cases of one cluster may depend on each other and none need have the
@@ -56,13 +57,12 @@ impl Influence {
         bread: &DMatrix<f64>,
         clusters: &[usize],
     ) -> DMatrix<f64> {
-        let (n, k) = (clusters.len() as f64, design.columns());
+        let (n, k) = (clusters.len() as f64, design.columns().len());
         let one_cluster = clusters.iter().all(|cluster| *cluster == clusters[0]);
         let mut totals: BTreeMap<usize, DVector<f64>> = BTreeMap::new();
         for (case, (row, score)) in design.rows().zip(&self.score).enumerate() {
             let cluster = if one_cluster { case } else { clusters[case] };
-            *totals.entry(cluster).or_insert_with(|| DVector::zeros(k)) +=
-                DVector::from_column_slice(row) * *score;
+            *totals.entry(cluster).or_insert_with(|| DVector::zeros(k)) += row * *score;
         }
         let g = totals.len() as f64;
         let meat = totals.values().fold(DMatrix::zeros(k, k), |sum, total| sum + total * total.transpose());
@@ -73,8 +73,7 @@ impl Influence {
     /// least squares, one Newton step for a likelihood (Pregibon 1981, Logistic regression diagnostics, Ann. Stat. 9).
     pub fn without_each(&self, design: &DesignMatrix, bread: &DMatrix<f64>) -> Vec<DVector<f64>> {
         let cases = design.rows().zip(&self.score).zip(&self.curvature);
-        let change = |((row, score), curvature): ((&[f64], &f64), &f64)| {
-            let row = DVector::from_column_slice(row);
+        let change = |((row, score), curvature): ((DVector<f64>, &f64), &f64)| {
             let direction = bread * &row;
             let leverage = curvature * row.dot(&direction);
             direction * (-score / (1.0 - leverage))

@@ -1,5 +1,6 @@
 //! How the index of a binary regression becomes a probability.
 
+use super::derivatives::Score;
 use crate::keyword::keywords;
 use crate::normal;
 
@@ -16,15 +17,6 @@ pub enum Link {
 }
 
 keywords!(Link { Probit = "probit", Logit = "logit", Cloglog = "cloglog" });
-
-/// Derivatives of the logarithm of the probability of what happened in a case with respect to its index.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Score {
-    /// The first.
-    pub slope: f64,
-    /// The negative of the second, at least zero: all three links have log-concave likelihoods.
-    pub curvature: f64,
-}
 
 /// The expected information of a case about its index.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,29 +57,13 @@ impl Link {
         }
     }
 
-    /// The derivatives of [`Link::ln_probability`].
+    /// The derivatives of [`Link::ln_probability`], the negative of the second at least zero: all three links have
+    /// log-concave likelihoods.
     pub fn score(self, index: f64, event: bool) -> Score {
-        let sign = if event { 1.0 } else { -1.0 };
         match self {
-            Link::Probit => {
-                let z = sign * index;
-                let mills = normal::inverse_mills(z);
-                Score { slope: sign * mills, curvature: mills * (mills + z) }
-            }
-            Link::Logit => {
-                let z = sign * index;
-                let (p, q) = (1.0 / (1.0 + (-z).exp()), 1.0 / (1.0 + z.exp()));
-                Score { slope: sign * q, curvature: p * q }
-            }
-            Link::Cloglog => {
-                let hazard = index.exp();
-                if event {
-                    let ratio = hazard_ratio(hazard);
-                    Score { slope: ratio, curvature: (ratio * (ratio + hazard - 1.0)).max(0.0) }
-                } else {
-                    Score { slope: -hazard, curvature: hazard }
-                }
-            }
+            Link::Probit => probit_score(index, event),
+            Link::Logit => logit_score(index, event),
+            Link::Cloglog => cloglog_score(index, event),
         }
     }
 
@@ -111,6 +87,36 @@ impl Link {
                 Information { weight: hazard * ratio, ln_weight_slope: 2.0 - hazard - ratio }
             }
         }
+    }
+}
+
+/// [`Link::score`] of the probit.
+#[inline(always)]
+pub(super) fn probit_score(index: f64, event: bool) -> Score {
+    let sign = if event { 1.0 } else { -1.0 };
+    let z = sign * index;
+    let mills = normal::inverse_mills(z);
+    Score { slope: sign * mills, curvature: mills * (mills + z) }
+}
+
+/// [`Link::score`] of the logit.
+#[inline(always)]
+pub(super) fn logit_score(index: f64, event: bool) -> Score {
+    let sign = if event { 1.0 } else { -1.0 };
+    let z = sign * index;
+    let (p, q) = (1.0 / (1.0 + (-z).exp()), 1.0 / (1.0 + z.exp()));
+    Score { slope: sign * q, curvature: p * q }
+}
+
+/// [`Link::score`] of the complementary log-log.
+#[inline(always)]
+pub(super) fn cloglog_score(index: f64, event: bool) -> Score {
+    let hazard = index.exp();
+    if event {
+        let ratio = hazard_ratio(hazard);
+        Score { slope: ratio, curvature: (ratio * (ratio + hazard - 1.0)).max(0.0) }
+    } else {
+        Score { slope: -hazard, curvature: hazard }
     }
 }
 

@@ -14,18 +14,29 @@
 //! predictor        a fit as a linear function of ln IM, with the range of its data
 //! model            the fits joined: all probabilities at an intensity
 //! slice            the same along one peak, PGA or PGV, at a fixed p PGV / PGA
+//! capacity         the lognormal distribution of capacities of an incremental dynamic analysis
 //! bent_curve       curves with a spline or an interaction more
+//! resampled        their limits from the fits of resampled cases
 //! skill            how well probabilities tell the outcomes apart
 //! forecast         what the curves foretell of cases that were not fitted
 //! validation       such forecasts against what happened
 //! poisson_binomial the number of events of unequal probability
+//! transfer         the curve of a structure alone, to be asked about another
+//! universality     how it fares there
+//! pooled           one curve for all structures, with what they differ in
+//! candidate        sets of measures, ranking_sample the cases in which they are ranked
+//! rating           how well a set predicts: rate_demand that of P_ex, rate_overturning that of P_ro
+//! folds            which clusters are left out together, and gains paired over clusters
+//! contest          all sets that compete, ranking their order and forward selection
 //!
 //! regression       least squares with standard errors and limits
 //! binary           maximum likelihood of binary outcomes
 //! link             how its index becomes a probability
 //! newton           the method that finds the maximum
 //! separation       whether there is a maximum at all
-//! design_matrix    the rows of a regression
+//! design_matrix    the columns of a regression
+//! derivatives      sums over its cases, in wide registers
+//! overlap          the proof that there is one, for many predictors
 //! dependence       whether the predictors can be told apart
 //! spline           columns that bend a line
 //! goodness         whether a model fits
@@ -42,7 +53,10 @@
 mod bent_curve;
 mod binary;
 mod bootstrap;
+mod candidate;
+mod capacity;
 mod case;
+mod contest;
 mod curve;
 mod curve_inference;
 mod curve_parameter;
@@ -50,10 +64,12 @@ mod demand;
 mod demand_inference;
 mod demand_sample;
 mod dependence;
+mod derivatives;
 mod design_matrix;
 mod distribution;
 mod event_sample;
 mod firth;
+mod folds;
 mod forecast;
 mod goodness;
 mod index;
@@ -62,49 +78,71 @@ mod limits;
 mod link;
 mod model;
 mod newton;
+mod overlap;
 mod overturning;
 mod poisson_binomial;
+mod pooled;
 mod predictor;
 mod profile;
+mod ranking;
+mod ranking_sample;
+mod rate_demand;
+mod rate_overturning;
+mod rating;
 mod regression;
+mod resampled;
 mod separation;
 mod skill;
 mod slice;
 mod smooth;
 mod spline;
+mod transfer;
 mod transition;
+mod universality;
 mod validation;
 
 pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use binary::{BinaryError, BinaryFit, binary_regression};
 pub use bootstrap::{Strata, bootstrap};
+pub use candidate::{Candidate, Form};
+pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Measure};
+pub use contest::{Contest, RankingRules};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use curve_inference::CurveInference;
 pub use curve_parameter::CurveParameter;
 pub use demand::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
 pub use demand_inference::{DemandInference, DemandReplicate};
 pub use demand_sample::DemandSample;
+pub use derivatives::Score;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
 pub use event_sample::EventSample;
 pub use firth::Estimator;
+pub use folds::{Folds, Gain, gain};
 pub use forecast::{Forecast, Forecasts, Foretold};
 pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use index::{Probability, ProbitIndex};
 pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
-pub use link::{Information, Link, Score};
+pub use link::{Information, Link};
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
-pub use overturning::{CurveModel, OverturningFit, fit_overturning};
+pub use overturning::{CurveModel, OverturningFit, fit_overturning, has_few_events};
 pub use poisson_binomial::PoissonBinomial;
+pub use pooled::{PooledFit, PooledPart, PooledStructure, PooledTerm, PooledTerms, fit_pooled};
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
+pub use ranking::{OfPaper, Ranked};
+pub use ranking_sample::{FurtherMeasure, RankingSample, Target};
+pub use rating::{Rating, ReliabilityGroup, Skill, Unseen};
 pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
+pub use resampled::{ReplicateLimits, ResampledModel};
 pub use separation::is_separated;
 pub use skill::{auc, brier_score, expected_log_score, log_score};
 pub use slice::{Lognormal, Peak, Slice};
 pub use smooth::{SmoothFit, fit_smooth};
 pub use spline::natural_spline;
+pub use transfer::{Branch, Curve, CurveForm, CurveSubject};
 pub use transition::{ScanPoint, Transition, TransitionSearch, find_transition, transition_limits};
-pub use validation::{Validation, calibration_in_the_large, wilson_limits};
+pub use universality::{BesideOwn, Transfer, Verdict};
+pub use validation::{Validation, calibration_in_the_large, calibration_slope, wilson_limits};
 
 use crate::keyword::keywords;
 

@@ -1,11 +1,12 @@
 //! The fragility of a structure: P_nr, P_ex and P_ro joined in the tree of Eq. 12.
 
 use super::case::Measure;
-use super::curve::{exceeding_index, p_no_rocking};
+use super::curve::{exceeding_index, p_exceeding, p_failure_given_rocking, p_no_rocking};
 use super::index::{Probability, ProbitIndex};
 use super::predictor::{OutOfRange, Predictor};
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
+use crate::normal;
 
 /// The demand in safe rocking: ln EDP on the measures, and its dispersion (Eqs. 15 and 17).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +22,7 @@ pub struct DemandLaw {
 impl DemandLaw {
     /// The index of P_ex (Eq. 14), with the uncertainty of the median and, by the large-sample variance beta^2/(2 degrees),
     /// of the dispersion; none where a measure is missing.
-    fn exceeding(&self, measures: &IntensityMeasures, limit: f64) -> Option<ProbitIndex> {
+    pub fn exceeding(&self, measures: &IntensityMeasures, limit: f64) -> Option<ProbitIndex> {
         let ln_median = self.ln_median.at(measures)?;
         let value = exceeding_index(ln_median.value, limit, self.beta);
         let variance = ln_median.variance / (self.beta * self.beta) + value * value / (2.0 * self.degrees);
@@ -61,6 +62,12 @@ impl DemandModel {
             DemandModel::Biplanar { high, .. } => high,
         }
     }
+}
+
+/// Whether a measure outside of the range lies where there are no data. IM4 has no lower end: whatever rocks is at or above
+/// uplift, and so are the data.
+pub(super) fn has_no_data(out: &OutOfRange) -> bool {
+    out.measure != Measure::Im4 || out.value > out.range[1]
 }
 
 /// All that is fitted to one structure and suite.
@@ -128,6 +135,14 @@ impl FragilityModel {
         Probabilities { p_nr, given_rocking: if p_nr == 0.0 { self.given_rocking(measures) } else { None } }
     }
 
+    /// P_ex, P_ro and the probability of failure (Eq. 12) given rocking, without limits; none where a measure is missing.
+    pub(super) fn given(&self, measures: &IntensityMeasures) -> Option<[f64; 3]> {
+        let law = self.demand.law(measures);
+        let p_ex = p_exceeding(law.ln_median.at(measures)?.value, self.limit, law.beta);
+        let p_ro = normal::cdf(self.overturning.at(measures)?.value);
+        Some([p_ex, p_ro, p_failure_given_rocking(p_ro, p_ex)])
+    }
+
     fn given_rocking(&self, measures: &IntensityMeasures) -> Option<GivenRocking> {
         let exceeding = self.demand.law(measures).exceeding(measures, self.limit)?;
         let index = self.overturning.at(measures)?;
@@ -140,12 +155,25 @@ impl FragilityModel {
     }
 
     /// The measures that lie outside of the range of the data, of P_ex and of P_ro; none without rocking, which needs no
-    /// data. IM4 has no lower end: whatever rocks is at or above uplift, and so are the data.
+    /// data.
     pub fn out_of_range(&self, measures: &IntensityMeasures) -> impl Iterator<Item = OutOfRange> {
-        let rocks = p_no_rocking(measures.im4) == 0.0;
-        let demand = self.demand.law(measures).ln_median.out_of_range(measures);
-        let out = demand.chain(self.overturning.out_of_range(measures));
-        out.filter(move |out| rocks && (out.measure != Measure::Im4 || out.value > out.range[1]))
+        self.demand_out_of_range(measures).chain(self.overturning_out_of_range(measures))
+    }
+
+    /// Those of P_ex.
+    pub(super) fn demand_out_of_range(
+        &self,
+        measures: &IntensityMeasures,
+    ) -> impl Iterator<Item = OutOfRange> {
+        out_of_range(&self.demand.law(measures).ln_median, measures)
+    }
+
+    /// Those of P_ro.
+    pub(super) fn overturning_out_of_range(
+        &self,
+        measures: &IntensityMeasures,
+    ) -> impl Iterator<Item = OutOfRange> {
+        out_of_range(&self.overturning, measures)
     }
 
     /// Where P_ex jumps from one law to the other.
@@ -155,4 +183,10 @@ impl FragilityModel {
             DemandModel::Biplanar { transition, .. } => Some(transition),
         }
     }
+}
+
+fn out_of_range(fit: &Predictor, measures: &IntensityMeasures) -> impl Iterator<Item = OutOfRange> {
+    let rocks = p_no_rocking(measures.im4) == 0.0;
+    let out = fit.out_of_range(measures);
+    out.filter(move |out| rocks && has_no_data(out))
 }

@@ -1,5 +1,7 @@
 //! What both fits are at heart: b0 + b1 ln IMx + b2 ln IMy.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::case::Measure;
 use crate::motion::IntensityMeasures;
 
@@ -49,6 +51,26 @@ pub fn ranges(ln_im: &[&[f64]]) -> Vec<[f64; 2]> {
 }
 
 impl Predictor {
+    /// Of one measure or two, the coefficients of a regression on their logarithms `ln_im` (intercept first), and the covariance
+    /// of these.
+    pub fn new(
+        measures: &[Measure],
+        coefficients: &DVector<f64>,
+        covariance: &DMatrix<f64>,
+        ln_im: &[&[f64]],
+    ) -> Predictor {
+        let at = |k: usize| coefficients.get(k).copied().unwrap_or(0.0);
+        let of_both = |i: usize, j: usize| covariance.get((i, j)).copied().unwrap_or(0.0);
+        let ranges = ranges(ln_im);
+        Predictor {
+            im_x: measures[0],
+            im_y: measures.get(1).copied(),
+            coefficients: [0, 1, 2].map(at),
+            covariance: [0, 1, 2].map(|i| [0, 1, 2].map(|j| of_both(i, j))),
+            ranges: [0, 1].map(|k| ranges.get(k).copied().unwrap_or([0.0; 2])),
+        }
+    }
+
     /// Its value and variance; none where a measure is missing.
     pub fn at(&self, measures: &IntensityMeasures) -> Option<Predicted> {
         let ln_y = match self.im_y {

@@ -1,16 +1,19 @@
 //! Whether a line through the measures tells the outcomes apart: then the likelihood grows without end.
 
+use super::overlap::overlaps;
+
 /// In a plane, classes that overlap by less than this share of the scores count as touching: a smaller overlap is the
 /// rounding of the scores themselves.
 const ROUNDING: f64 = 1e-12;
 
-/// Whether some direction in the space of one or two `predictors` puts every event at or beyond every non-event
-/// (complete or quasi-complete separation). Exact for one; for two, up to the rounding of the scores.
+/// Whether some direction in the space of the `predictors` puts every event at or beyond every non-event (complete or
+/// quasi-complete separation). Exact for one; for two, up to the rounding of the scores; for more, whether their overlap
+/// cannot be proven.
 pub fn is_separated(predictors: &[&[f64]], events: &[bool]) -> bool {
     match predictors {
         [x] => separates(events, |row| x[row]) || separates(events, |row| -x[row]),
         [x, y] => planar(x, y, events),
-        _ => false,
+        more => !overlaps(more, events),
     }
 }
 

@@ -6,6 +6,7 @@ use super::model::FragilityModel;
 use super::predictor::Predictor;
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
+use crate::normal;
 use crate::rocking::Structure;
 use crate::units::G_M_S2;
 
@@ -51,6 +52,11 @@ pub struct Lognormal {
 }
 
 impl Lognormal {
+    /// The probability that the capacity is up to an intensity.
+    pub fn p_up_to(&self, intensity: f64) -> f64 {
+        normal::cdf((intensity / self.theta).ln() / self.beta)
+    }
+
     /// Arithmetic mean: theta exp(beta^2 / 2).
     pub fn mean(&self) -> f64 {
         self.theta * (0.5 * self.beta * self.beta).exp()

@@ -1,13 +1,14 @@
 //! A smooth transition between two planes in place of the break.
 
 use std::f64::consts::LN_2;
+use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector, SMatrix};
 
 use super::FitStatus;
-use super::binary::Derivatives;
 use super::demand_sample::DemandSample;
-use super::design_matrix::dot;
+use super::derivatives::{Scores, derivatives};
+use super::design_matrix::{DesignMatrix, dot};
 use super::goodness::{Test, added_powers};
 use super::newton::{Along, newton_step};
 use super::regression::{Estimate, LinearFit};
@@ -89,16 +90,20 @@ pub fn fit_smooth(sample: &DemandSample, confidence: f64) -> Result<SmoothFit, F
 
 /// The best planes for one width; none if the cases do not determine both.
 fn planes(sample: &DemandSample, ln_width: f64) -> Option<Planes> {
-    let mut sums = Derivatives::new(6);
-    for ((&x, &y), &ln_edp) in sample.ln_im[0].iter().zip(&sample.ln_im[1]).zip(&sample.ln_edp) {
-        sums.add(&row(x, y, share(x, ln_width.exp())), ln_edp, 1.0);
+    let (n, width) = (sample.ln_edp.len(), ln_width.exp());
+    let mut columns: [Vec<f64>; 5] = std::array::from_fn(|_| Vec::with_capacity(n));
+    for (&x, &y) in sample.ln_im[0].iter().zip(&sample.ln_im[1]) {
+        let [_, predictors @ ..] = row(x, y, share(x, width));
+        columns.iter_mut().zip(predictors).for_each(|(column, predictor)| column.push(predictor));
     }
-    let coefficients = newton_step(&sums.objective(), Along::All)?;
-    let square = |((&x, &y), ln_edp): ((&f64, &f64), &f64)| {
-        let row = row(x, y, share(x, ln_width.exp()));
-        (ln_edp - dot(&row, coefficients.as_slice())).powi(2)
+    let design = DesignMatrix::new(&columns.each_ref().map(Vec::as_slice), n);
+    let ln_edp = |cases: Range<usize>, scores: Scores| {
+        scores.slope.copy_from_slice(&sample.ln_edp[cases]);
+        scores.curvature.fill(1.0);
     };
-    let rss = sample.ln_im[0].iter().zip(&sample.ln_im[1]).zip(&sample.ln_edp).map(square).sum();
+    let coefficients = newton_step(&derivatives(&design, &[], ln_edp), Along::All)?;
+    let fitted = design.indices(coefficients.as_slice());
+    let rss = sample.ln_edp.iter().zip(fitted).map(|(y, fitted)| (y - fitted).powi(2)).sum();
     Some(Planes { ln_width, coefficients, rss })
 }
 

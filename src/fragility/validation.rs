@@ -1,17 +1,23 @@
 //! How forecasts fare on cases that were not fitted.
 
+use super::binary::binary_regression;
+use super::dependence::is_constant;
+use super::firth::Estimator;
 use super::forecast::Forecast;
 use super::index::Z_95;
 use super::limits::Limits;
+use super::link::Link;
 use super::poisson_binomial::PoissonBinomial;
+use super::separation::is_separated;
 use super::skill::{auc, brier_score, expected_log_score, log_score};
+use crate::normal;
 
 /// Forecasts held against what happened.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Validation {
     /// How many.
     pub n: usize,
-    /// Those in which a measure lies outside of the range of the data of the fits.
+    /// Those in which a measure lies outside of the range of the data of the fit.
     pub extrapolated: usize,
     /// Events seen.
     pub seen: usize,
@@ -27,8 +33,10 @@ pub struct Validation {
     pub share: f64,
     /// Its limits (Wilson).
     pub share_limits: Limits,
-    /// Mean logarithm of the probability of what happened.
-    pub log_score: f64,
+    /// Those in which happened what has a probability of exactly 0 in double precision.
+    pub impossible: usize,
+    /// Mean logarithm of the probability of what happened; none, that is minus infinity, if there are impossible cases.
+    pub log_score: Option<f64>,
     /// What this would be in the mean if the probabilities are right.
     pub log_score_expected: f64,
     /// Brier score.
@@ -64,7 +72,8 @@ impl Validation {
             chance_p: count.two_sided_p(seen),
             share: seen as f64 / n as f64,
             share_limits: wilson_limits(seen, n),
-            log_score: log_score(&probabilities, &happened),
+            impossible: forecasts.iter().filter(|forecast| forecast.is_impossible()).count(),
+            log_score: Some(log_score(&probabilities, &happened)).filter(|score| score.is_finite()),
             log_score_expected: expected_log_score(&probabilities),
             brier: brier_score(&probabilities, &happened),
             auc: is_mixed.then(|| auc(&probabilities, &happened)),
@@ -100,6 +109,17 @@ pub fn calibration_in_the_large(probabilities: &[f64], seen: usize) -> Option<f6
         if expected(middle) < seen { low = middle } else { high = middle }
     }
     Some(0.5 * (low + high))
+}
+
+/// Calibration slope: by how much the log odds of probabilities Phi(index) must be stretched, besides a shift, to be those of what
+/// happened: below 1 where they are too sure (Cox 1958, likewise). None where the events can be told apart without error, or are all
+/// the same.
+pub fn calibration_slope(indices: &[f64], happened: &[bool]) -> Option<f64> {
+    // Of the index, since probabilities themselves may round to 1.
+    let log_odds: Vec<f64> = indices.iter().map(|&x| normal::ln_cdf(x) - normal::ln_cdf(-x)).collect();
+    let can_be_told = is_constant(&log_odds) || is_separated(&[&log_odds], happened);
+    let fit = (!can_be_told).then(|| binary_regression(&[&log_odds], happened, Link::Logit, Estimator::Ml));
+    Some(fit?.ok()?.coefficients[1])
 }
 
 /// Odds beyond e^±30 are certainties.

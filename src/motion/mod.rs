@@ -14,6 +14,7 @@
 //! processing  what is done to recorded motions before they are used
 //! wavelet, pulse_indicator, pulse_fit  whether a record holds a pulse, and which
 //! dimensionless  the six measures of Eq. 13
+//! quantity       how all other measures become dimensionless
 //! ```
 
 mod circle;
@@ -26,6 +27,7 @@ pub mod processing;
 pub mod pulse;
 pub mod pulse_fit;
 pub mod pulse_indicator;
+mod quantity;
 pub mod records;
 pub mod scenario;
 mod sobol;
@@ -39,6 +41,7 @@ pub use design::{Design, Grid};
 pub use dimensionless::IntensityMeasures;
 pub use intensity::{IntensityScratch, MeasurePlan, Measured, Measures, measures};
 pub use pulse::Pulse;
+pub use quantity::Quantity;
 pub use scenario::Scenario;
 pub use sobol::SobolSequence;
 pub use stochastic::StochasticModel;

@@ -2,7 +2,7 @@
 //! near-fault ground motions using wavelet analysis", BSSA 97(5).
 
 use super::intensity::peak;
-use super::wavelet::{Transformable, Wavelet, WaveletScratch};
+use super::wavelet::{SampledWavelet, Transformable, Wavelet, WaveletScratch};
 use crate::keyword::keywords;
 
 /// Periods of pulses that are looked for, s.
@@ -159,14 +159,15 @@ fn extract(velocity: &[f64], dt_s: f64, first: Wavelet) -> Vec<f64> {
     let mut rest = velocities.into_iter().next().unwrap_or_default();
     let mut pulse = vec![0.0; velocity.len()];
     let reach = (REACH * first.period_s / step_s).ceil() as i64;
+    let sampled = SampledWavelet::new(first.period_s, step_s);
+    let centre = (first.centre_s / step_s).round() as i64;
     for _ in 0..WAVELETS {
-        let at = |k: i64| Wavelet { centre_s: first.centre_s + k as f64 * step_s, ..first };
-        let candidates =
-            (-reach..=reach).map(at).map(|wavelet| (wavelet.coefficient(&rest, step_s), wavelet));
-        let Some((coefficient, wavelet)) = candidates.max_by(|(a, _), (b, _)| a.abs().total_cmp(&b.abs()))
-        else {
+        let at = |k: i64| (sampled.coefficient(&rest, centre + k), k);
+        let candidates = (-reach..=reach).map(at);
+        let Some((coefficient, k)) = candidates.max_by(|(a, _), (b, _)| a.abs().total_cmp(&b.abs())) else {
             break;
         };
+        let wavelet = Wavelet { centre_s: first.centre_s + k as f64 * step_s, ..first };
         subtract(&mut rest, step_s, coefficient, &wavelet);
         subtract(&mut pulse, dt_s, -coefficient, &wavelet);
     }

@@ -1,5 +1,6 @@
 //! The Daubechies wavelet of order 4 and the continuous wavelet transform with it, as the pulse indicator uses them.
 
+use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use realfft::num_complex::Complex64;
@@ -59,6 +60,33 @@ impl Wavelet {
     }
 }
 
+/// A wavelet at the samples of a series, for coefficients at many of them.
+pub struct SampledWavelet {
+    dt_s: f64,
+    /// From `reach` samples before its centre to as many after it.
+    values: Vec<f64>,
+    reach: usize,
+}
+
+impl SampledWavelet {
+    /// Of a period, at steps of `dt_s`.
+    pub fn new(period_s: f64, dt_s: f64) -> SampledWavelet {
+        let wavelet = Wavelet { period_s, centre_s: 0.0 };
+        let reach = (wavelet.support_s().1 / dt_s).floor() as usize;
+        let at = |k: usize| wavelet.value((k as f64 - reach as f64) * dt_s);
+        SampledWavelet { dt_s, values: (0..=2 * reach).map(at).collect(), reach }
+    }
+
+    /// The coefficient of a series where the wavelet is centred at a sample, which may lie outside: as
+    /// [`Wavelet::coefficient`].
+    pub fn coefficient(&self, series: &[f64], centre: i64) -> f64 {
+        let first = centre - self.reach as i64;
+        let inside = series.iter().skip(first.max(0) as usize);
+        let values = self.values.iter().skip((-first).max(0) as usize);
+        self.dt_s * inside.zip(values).map(|(sample, value)| sample * value).sum::<f64>()
+    }
+}
+
 /// The wavelet on its support of 0 to 7, linear between tabulated values.
 fn mother(x: f64) -> f64 {
     let place = x * f64::from(1 << LEVELS);
@@ -108,8 +136,35 @@ fn combine(scaling: &[f64], i: usize, per_unit: usize, coefficient: impl Fn(isiz
 pub struct WaveletScratch {
     transforms: ByLength<Transform>,
     kernel: Vec<f64>,
-    kernel_spectrum: Vec<Complex64>,
+    kernel_spectra: KernelSpectra,
+    product: Vec<Complex64>,
     scratch: Vec<Complex64>,
+}
+
+/// The Fourier coefficients of wavelets, which many series of one length and time step share.
+#[derive(Default)]
+struct KernelSpectra {
+    /// By the number of samples, and the bits of time step and period.
+    spectra: HashMap<(usize, u64, u64), Vec<Complex64>>,
+    /// Coefficients of all of them.
+    held: usize,
+}
+
+/// Coefficients of wavelets that are held at once: 16 MB.
+const MOST_HELD: usize = 1 << 20;
+
+impl KernelSpectra {
+    fn get(&mut self, key: (usize, u64, u64), make: impl FnOnce() -> Vec<Complex64>) -> &[Complex64] {
+        if !self.spectra.contains_key(&key) && self.held > MOST_HELD {
+            self.spectra.clear();
+            self.held = 0;
+        }
+        self.spectra.entry(key).or_insert_with(|| {
+            let spectrum = make();
+            self.held += spectrum.len();
+            spectrum
+        })
+    }
 }
 
 /// The Fourier coefficients of a series, ready to be transformed at any period up to `longest_s`.
@@ -135,25 +190,35 @@ impl Transformable {
 
     /// The coefficients of wavelets of one period centred at each sample.
     pub fn coefficients(&self, period_s: f64, scratch: &mut WaveletScratch) -> Vec<f64> {
-        let transform = scratch.transforms.get(self.length, || Transform::new(self.length));
-        let wavelet = Wavelet { period_s, centre_s: 0.0 };
-        let reach = (wavelet.support_s().1 / self.dt_s).floor() as usize;
-        scratch.kernel.clear();
-        scratch.kernel.resize(self.length, 0.0);
-        for k in 0..=reach.min(self.length / 2) {
-            let time_s = k as f64 * self.dt_s;
-            scratch.kernel[k] = self.dt_s * wavelet.value(time_s);
-            if k > 0 {
-                scratch.kernel[self.length - k] = self.dt_s * wavelet.value(-time_s);
-            }
-        }
-        transform.forward(&mut scratch.kernel, &mut scratch.kernel_spectrum, &mut scratch.scratch);
-        for (kernel, series) in scratch.kernel_spectrum.iter_mut().zip(&self.spectrum) {
-            *kernel = kernel.conj() * series;
-        }
+        let WaveletScratch { transforms, kernel, kernel_spectra, product, scratch } = scratch;
+        let transform = transforms.get(self.length, || Transform::new(self.length));
+        let key = (self.length, self.dt_s.to_bits(), period_s.to_bits());
+        let spectrum = kernel_spectra.get(key, || {
+            self.sample_wavelet(period_s, kernel);
+            let mut spectrum = Vec::new();
+            transform.forward(kernel, &mut spectrum, scratch);
+            spectrum
+        });
+        product.clear();
+        product.extend(spectrum.iter().zip(&self.spectrum).map(|(kernel, series)| kernel.conj() * series));
         let mut coefficients = vec![0.0; self.length];
-        transform.inverse(&mut scratch.kernel_spectrum, &mut coefficients, &mut scratch.scratch);
+        transform.inverse(product, &mut coefficients, scratch);
         coefficients.truncate(self.samples);
         coefficients
+    }
+
+    /// The wavelet of a period centred at the first sample, that before it at the end.
+    fn sample_wavelet(&self, period_s: f64, kernel: &mut Vec<f64>) {
+        let wavelet = Wavelet { period_s, centre_s: 0.0 };
+        let reach = (wavelet.support_s().1 / self.dt_s).floor() as usize;
+        kernel.clear();
+        kernel.resize(self.length, 0.0);
+        for k in 0..=reach.min(self.length / 2) {
+            let time_s = k as f64 * self.dt_s;
+            kernel[k] = self.dt_s * wavelet.value(time_s);
+            if k > 0 {
+                kernel[self.length - k] = self.dt_s * wavelet.value(-time_s);
+            }
+        }
     }
 }

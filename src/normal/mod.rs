@@ -1,5 +1,7 @@
 //! The standard normal distribution.
 
+mod exponential;
+mod polynomial;
 mod quantile;
 mod tail;
 

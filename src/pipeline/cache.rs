@@ -4,10 +4,12 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use super::claim::{Claim, Claimed, claim};
 use super::console::Console;
-use super::stage::Stage;
+use super::stage::{Stage, folder_of};
+use super::terminal::Weight;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, stamp};
+use crate::table::provenance::Provenance;
 
 /// Whether a stage must run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,7 +23,7 @@ pub enum Freshness {
 /// Compares the files of a stage with what it would write.
 pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
     for path in stage.outputs() {
-        match stamp(&path) {
+        match stage.recorded(&path) {
             Ok(Some(stamp)) if stamp.plan == planned.plan() => {}
             Ok(Some(stamp)) => return Freshness::Stale(difference(&stamp.provenance, planned)),
             Ok(None) => return Freshness::Stale(format!("{} was not made by rockfrag", path.display())),
@@ -34,6 +36,26 @@ pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
     Freshness::UpToDate
 }
 
+/// Runs a stage by itself unless it is up to date, and says which. It waits for a run of a whole pipeline in its folder.
+///
+/// # Errors
+/// Those of the stage.
+pub fn run_alone(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<()> {
+    let _claimed = claim_folder(stage, Claim::Shared, console)?;
+    run(stage, force, console)
+}
+
+/// Claims the folder of the files of a stage, which is made if need be.
+///
+/// # Errors
+/// If it cannot be made.
+pub fn claim_folder(stage: &dyn Stage, kind: Claim, console: &Console) -> anyhow::Result<Option<Claimed>> {
+    let outputs = stage.outputs();
+    let Some(folder) = outputs.last().map(|path| folder_of(path)) else { return Ok(None) };
+    std::fs::create_dir_all(folder).map_err(|source| TableError::io(folder, source))?;
+    Ok(Some(claim(folder, kind, console)))
+}
+
 /// Runs a stage unless it is up to date, and says which.
 ///
 /// # Errors
@@ -42,17 +64,17 @@ pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<
     let planned = stage.provenance()?;
     let name = stage.subcommand();
     if !force && freshness(stage, &planned) == Freshness::UpToDate {
-        console.note(&format!("{name:20} up to date"));
+        console.stage(name, "up to date", Weight::Faint);
         return Ok(());
     }
     for path in stage.outputs() {
-        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-            std::fs::create_dir_all(folder).map_err(|source| TableError::io(folder, source))?;
-        }
+        let folder = folder_of(&path);
+        std::fs::create_dir_all(folder).map_err(|source| TableError::io(folder, source))?;
     }
     let start = std::time::Instant::now();
     let summary = stage.execute(&planned, console)?;
-    console.note(&format!("{name:20} {summary} in {:.2} s", start.elapsed().as_secs_f64()));
+    let took_s = start.elapsed().as_secs_f64();
+    console.stage(name, &format!("{summary} in {took_s:.2} s"), Weight::Plain);
     Ok(())
 }
 

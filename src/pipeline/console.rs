@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::terminal::{Terminal, Weight};
+
 /// A program that calls a stage and wants to know how it goes, in place of a terminal.
 pub trait Follower: Send + Sync {
     /// Takes a line that tells what was done, or a warning.
@@ -62,6 +64,13 @@ impl Console {
             None if self.quiet => {}
             None => eprintln!("{line}"),
         }
+    }
+
+    /// A line that tells what a stage did.
+    pub fn stage(&self, name: &str, summary: &str, weight: Weight) {
+        let terminal = if self.follower.is_some() { Terminal::PLAIN } else { Terminal::stderr() };
+        let name = format!("{name:20}");
+        self.note(&format!("{} {}", terminal.set(&name, Weight::Strong), terminal.set(summary, weight)));
     }
 
     /// A line for each reason, with all that it holds for.

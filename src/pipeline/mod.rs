@@ -5,17 +5,21 @@
 //! yaml     what is wrong with a YAML file
 //! stage    what every stage has: inputs, parameters, outputs, work
 //! cache    whether a stage is up to date, and if not, why
+//! claim    two runs in one folder
 //! files    files and folders that a user names
 //! stream   read, work and write at the same time, in order
 //! console  progress, notes and warnings on stderr
+//! terminal where results are read: its width, its colours
 //! ```
 
 pub mod cache;
+pub mod claim;
 pub mod console;
 pub mod files;
 pub mod options;
 pub mod stage;
 pub mod stream;
+pub mod terminal;
 pub mod yaml;
 
 /// A mistake in how rockfrag was called or configured: exit code 2.

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::console::Console;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, content_of};
+use crate::table::provenance::{Provenance, Stamp, content_of, stamp};
 use crate::table::source::{Source, Target};
 
 /// A stage about to run: files in, parameters, files out.
@@ -35,16 +35,31 @@ pub trait Stage {
         self.targets().iter().filter_map(|target| target.path().map(Path::to_path_buf)).collect()
     }
 
+    /// What an output that is there says of how it was made; `None` where another program wrote it.
+    ///
+    /// # Errors
+    /// If it is missing or unreadable.
+    fn recorded(&self, output: &Path) -> Result<Option<Stamp>, TableError> {
+        stamp(output)
+    }
+
     /// What its files will say of how they were made.
     ///
     /// # Errors
     /// If an input is missing or unreadable.
     fn provenance(&self) -> Result<Provenance, TableError> {
-        let content = |(role, source): (&str, Source)| Ok((role.to_string(), content_of(&source)?));
-        let inputs =
-            self.inputs().into_iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
-        Ok(Provenance::new(self.subcommand(), self.parameters(), inputs))
+        let content = |(role, source): &(&str, Source)| Ok((role.to_string(), content_of(source)?));
+        let sources = self.inputs();
+        let inputs = sources.iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
+        let sources =
+            sources.into_iter().map(|(role, source)| (role.to_string(), source.name().into())).collect();
+        Ok(Provenance::new(self.subcommand(), self.parameters(), inputs).of_sources(sources))
     }
+}
+
+/// The folder of a file.
+pub fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// `name` in the folder of `path`.

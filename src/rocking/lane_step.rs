@@ -1,12 +1,12 @@
 //! A step of all lanes at once: what [`super::march`] does for one structure. The Taylor polynomial to the next sample, its
-//! first root if it strikes before, the peak. What is rare (several roots, a new peak within a step, overturning) is left to
-//! the scalar code for the lane that needs it.
+//! first root if it strikes before, the peak. Where the curvature keeps its sign over the step, which is nearly always, the
+//! ends tell all; what is rare is left to the scalar code for the lane that needs it.
 
 use std::f64::consts::FRAC_PI_2;
 
 use pulp::Simd;
 
-use super::lane_roots::{count, deflated, falling_root};
+use super::lane_roots::{falling_root, top};
 use super::lanes::{Lanes, each};
 use super::march::{REST_VELOCITY, first_impact, first_overturning, largest};
 use super::polynomial::{self, Polynomial};
@@ -38,10 +38,15 @@ pub struct Step<S: Simd> {
     /// The inverse of its length in p t, and its share of the time to the next sample.
     per_h: Vector<S>,
     share: Vector<S>,
+    /// Where it leads if nothing is struck: the rotation of the polynomial, and the state of the structure.
+    last: Vector<S>,
     end: State<Vector<S>>,
     /// Bounds of the rotation.
     low: Vector<S>,
     high: Vector<S>,
+    /// The lanes whose curvature is negative, or nowhere negative, over the whole step.
+    concave: Mask<S>,
+    convex: Mask<S>,
 }
 
 impl<S: Simd> Lanes<'_, S> {
@@ -66,15 +71,23 @@ impl<S: Simd> Lanes<'_, S> {
         for coefficient in &r[2..] {
             rise = rise + coefficient.max(zero);
         }
-        let rotation = polynomial::value(&r, one);
+        // By how much half the curvature changes at most.
+        let mut change = zero;
+        for (k, coefficient) in r.iter().enumerate().skip(3) {
+            change = change + coefficient.abs() * (k * (k - 1) / 2) as f64;
+        }
+        let last = polynomial::value(&r, one);
         let velocity = polynomial::slope(&r, one) * per_h;
         Step {
             rotation: r,
             per_h,
             share,
-            end: State { rotation: rotation.max(zero), velocity },
-            low: rotation - rise,
+            last,
+            end: State { rotation: last.max(zero), velocity },
+            low: last - rise,
             high: r[0] + rise,
+            concave: (r[2] + change).lt(zero),
+            convex: change.le(r[2]),
         }
     }
 
@@ -108,6 +121,7 @@ impl<S: Simd> Lanes<'_, S> {
             self.side = lanes.select(-self.side, self.side);
             self.impacts = self.impacts + lanes.select(one, zero);
             events.rested = (lanes & after.lt(Vector::splat(self.simd, REST_VELOCITY))).bits();
+            events.rested |= self.count_impacts(lanes.bits());
         }
         events.ended = self.pass_samples(arrived) & self.busy & !(events.overturned | events.rested);
         events
@@ -117,20 +131,24 @@ impl<S: Simd> Lanes<'_, S> {
     #[inline(always)]
     fn impact(&self, step: &Step<S>, doubtful: Mask<S>) -> Option<Struck<S>> {
         let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
-        let c = deflated(&step.rotation, step.rotation[0].equals(zero));
-        let roots = count(&c);
-        let mut lanes = roots.one & doubtful;
+        let c = &step.rotation;
+        let below = step.last.lt(zero);
+        let starts_above = zero.lt(c[0]) | zero.lt(c[1]);
+        let monotone = step.end.velocity.le(zero) | zero.le(c[1]);
+        let strikes = below & starts_above & (step.concave | step.convex);
+        let passes = !below & (step.concave | (step.convex & monotone));
+        let mut lanes = strikes & doubtful;
         let mut until = one;
         if lanes.any() {
-            until = lanes.select(falling_root(&c, lanes), one);
+            until = lanes.select(falling_root(c, lanes), one);
         }
-        for lane in each((roots.unclear & doubtful).bits()) {
-            if let Some(x) = first_impact(&of_lane(&step.rotation, lane)) {
+        for lane in each((doubtful & !strikes & !passes).bits()) {
+            if let Some(x) = first_impact(&of_lane(c, lane)) {
                 until.set(lane, x);
                 lanes = lanes | Mask::of_lane(self.simd, lane);
             }
         }
-        let velocity = polynomial::slope(&step.rotation, until) * step.per_h;
+        let velocity = polynomial::slope(c, until) * step.per_h;
         lanes.any().then_some(Struck { lanes, until, velocity })
     }
 
@@ -148,16 +166,15 @@ impl<S: Simd> Lanes<'_, S> {
     fn raise_peak(&mut self, step: &Step<S>, until: Vector<S>) {
         let zero = Vector::splat(self.simd, 0.0);
         let r = &step.rotation;
-        let (mut least, mut most) = (r[1], r[1]);
-        for (k, &coefficient) in r.iter().enumerate().skip(2) {
-            let rate = coefficient * k as f64;
-            least = least + rate.min(zero);
-            most = most + rate.max(zero);
-        }
-        let (rising, falling) = (zero.le(least), most.le(zero));
         let higher = self.peak.lt(step.high);
-        self.peak = (higher & rising).select(self.peak.max(step.end.rotation), self.peak);
-        for lane in each((higher & !rising & !falling).bits()) {
+        let turns = higher & step.concave & zero.lt(r[1]) & step.end.velocity.lt(zero);
+        let ends = higher & (step.concave | step.convex) & !turns;
+        self.peak = ends.select(self.peak.max(step.end.rotation), self.peak);
+        if turns.any() {
+            let highest = polynomial::value(r, top(r).max(zero).min(until));
+            self.peak = turns.select(self.peak.max(highest), self.peak);
+        }
+        for lane in each((higher & !turns & !ends).bits()) {
             let top = largest(&of_lane(r, lane), until.lane(lane));
             self.peak.set(lane, self.peak.lane(lane).max(top));
         }

@@ -4,7 +4,7 @@
 
 use pulp::Simd;
 
-use super::march::longest_step;
+use super::march::{MOST_IMPACTS, longest_step};
 use super::observer::Side;
 use super::record::Record;
 use super::structure::Structure;
@@ -42,6 +42,8 @@ pub struct Lanes<'a, S: Simd> {
     /// The largest |theta| so far, rad.
     pub(super) peak: Vector<S>,
     pub(super) impacts: Vector<S>,
+    /// The sample before the last impact, and the impacts since.
+    impacts_after: [(usize, u32); MOST_LANES],
 }
 
 impl<'a, S: Simd> Lanes<'a, S> {
@@ -65,6 +67,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
             per_left: zero,
             peak: zero,
             impacts: zero,
+            impacts_after: [(0, 0); MOST_LANES],
         };
         (0..S::F64_LANES).for_each(|lane| lanes.vacate(lane));
         lanes
@@ -114,6 +117,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
         self.peak.set(lane, 0.0);
         self.impacts.set(lane, 0.0);
         self.problem[lane] = problem;
+        self.impacts_after[lane] = (0, 0);
         self.samples[lane] = record.acceleration_m_s2();
         self.busy |= 1 << lane;
         self.rise(lane, next_uplift(record.acceleration_m_s2(), 0, slenderness.tan))
@@ -127,6 +131,10 @@ impl<'a, S: Simd> Lanes<'a, S> {
         if index + 1 >= samples.len() {
             return false;
         }
+        if self.impacts_after[lane].1 >= MOST_IMPACTS {
+            self.impacts_after[lane] = (index, 0);
+            return self.rise(lane, next_uplift(samples, index + 1, tan));
+        }
         let (now, next) = (self.now.lane(lane), self.next.lane(lane) * PER_G);
         match Uplift::between(now, next, tan) {
             Some(uplift) => {
@@ -137,6 +145,17 @@ impl<'a, S: Simd> Lanes<'a, S> {
             }
             None => self.rise(lane, next_uplift(samples, index + 1, tan)),
         }
+    }
+
+    /// Counts an impact in some lanes; those that have had too many since the last sample.
+    #[inline(always)]
+    pub(super) fn count_impacts(&mut self, struck: u32) -> u32 {
+        each(struck).fold(0, |tired, lane| {
+            let (after, count) = self.impacts_after[lane];
+            let count = if after == self.index[lane] { count + 1 } else { 1 };
+            self.impacts_after[lane] = (self.index[lane], count);
+            tired | u32::from(count >= MOST_IMPACTS) << lane
+        })
     }
 
     /// At rest at the moment of an uplift after a sample, if there is one.
@@ -152,7 +171,10 @@ impl<'a, S: Simd> Lanes<'a, S> {
         true
     }
 
+    /// A little is always left, since an uplift so near to the next sample that nothing is left in floating-point numbers has
+    /// yet to come to it.
     fn set_left(&mut self, lane: usize, left: f64) {
+        let left = left.max(self.p_dt.lane(lane) * f64::EPSILON);
         self.left.set(lane, left);
         self.per_left.set(lane, 1.0 / left);
     }

@@ -17,6 +17,10 @@ use crate::units::{G_M_S2, PER_G};
 /// once if the ground demands it.
 pub const REST_VELOCITY: f64 = 1e-6;
 
+/// After this many impacts between two samples the structure rests until the next one. It takes a coefficient of restitution
+/// near 1 to come to this, and a velocity of some 1e-6 p.
+pub const MOST_IMPACTS: u32 = 10_000;
+
 /// The longest Taylor step, as p dt sqrt(1 + PGA/g). What order 8 leaves out of steps this long moves the peak of a
 /// structure in white noise of 0.6 g by some 1e-12 of itself.
 const LONGEST_STEP: f64 = 0.03;
@@ -118,7 +122,12 @@ impl<O: Observer> March<'_, O> {
 
     /// To the next sample, through all that happens before it.
     fn between_samples(&mut self, mut phase: Phase, mut remainder: Remainder) -> Phase {
+        let most = self.impacts.saturating_add(MOST_IMPACTS);
         while remainder.elapsed < 1.0 {
+            if self.impacts >= most {
+                self.observer.rest(self.time_s(&remainder));
+                return Phase::Rest;
+            }
             (phase, remainder) = match phase {
                 Phase::Rest => self.rest(remainder),
                 Phase::Rocking(side, state) => self.rock(side, state, remainder),

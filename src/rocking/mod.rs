@@ -13,10 +13,12 @@
 //! batch      many structures and records at once, one in each lane of a vector register
 //! lanes      where each lane stands; lane_step what march does, for all of them; real, vector and lane_roots their numbers
 //!            and roots
+//! incremental  one motion at rising intensity: where a structure overturns, and which stronger motions it survives
 //! trace      the same march, observed: rotation, velocity and events over time
 //! ```
 
 mod batch;
+mod incremental;
 mod lane_roots;
 mod lane_step;
 mod lanes;
@@ -34,6 +36,7 @@ mod uplift;
 mod vector;
 
 pub use batch::{Path, Problem, simulate_all};
+pub use incremental::{Capacity, CapacityStatus, Look, SafeWindow, Scan, ScanResponse};
 pub use march::simulate;
 pub use record::{Record, RecordError};
 pub use response::{Outcome, Response};

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::real::{Real, unrolled};
+use super::real::Real;
 
 /// The order of the Taylor series of a step.
 pub const ORDER: usize = 8;
@@ -12,6 +12,9 @@ pub type Polynomial<T = f64> = [T; ORDER + 1];
 
 /// A bracket this narrow that still shows several sign changes holds a multiple root.
 const NARROWEST_BRACKET: f64 = 1e-12;
+
+/// Newton's iterations before bisection alone, which ends in any case.
+const MOST_NEWTON_STEPS: usize = 64;
 
 /// Value at `x` (Horner).
 #[inline(always)]
@@ -93,18 +96,18 @@ fn visit_between(
 
 /// `b[j] = sum over i <= j of binomial(j, i) / binomial(ORDER, i) c[i]`, in place by repeated sums.
 #[inline(always)]
-pub fn bernstein<T: Real>(c: &Polynomial<T>) -> Polynomial<T> {
+pub fn bernstein(c: &Polynomial) -> Polynomial {
     const INVERSE_BINOMIAL: Polynomial =
         [1.0, 1.0 / 8.0, 1.0 / 28.0, 1.0 / 56.0, 1.0 / 70.0, 1.0 / 56.0, 1.0 / 28.0, 1.0 / 8.0, 1.0];
     let mut b = *c;
     for (b, inverse) in b.iter_mut().zip(INVERSE_BINOMIAL) {
-        *b = *b * inverse;
+        *b *= inverse;
     }
-    unrolled!(pass in [1 2 3 4 5 6 7 8] {
-        for j in (pass..ORDER + 1).rev() {
-            b[j] = b[j] + b[j - 1];
+    for pass in 1..=ORDER {
+        for j in (pass..=ORDER).rev() {
+            b[j] += b[j - 1];
         }
-    });
+    }
     b
 }
 
@@ -137,6 +140,7 @@ fn root_in_bracket(c: &Polynomial, low: f64, high: f64, falling: bool) -> f64 {
     let slope = derivative(c);
     let (mut low, mut high) = (low, high);
     let mut x = 0.5 * (low + high);
+    let mut newton_steps = 0..MOST_NEWTON_STEPS;
     loop {
         let y = value(c, x);
         if y == 0.0 {
@@ -149,7 +153,7 @@ fn root_in_bracket(c: &Polynomial, low: f64, high: f64, falling: bool) -> f64 {
         }
         let newton = x - y / value(&slope, x);
         let inside = newton > low && newton < high;
-        let next = if inside { newton } else { 0.5 * (low + high) };
+        let next = if inside && newton_steps.next().is_some() { newton } else { 0.5 * (low + high) };
         if (next - x).abs() <= f64::EPSILON * next.abs() || next == low || next == high {
             return next;
         }

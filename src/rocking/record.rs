@@ -1,3 +1,10 @@
+use std::ops::RangeInclusive;
+
+/// Time steps that are simulated, s.
+const TIME_STEPS_S: RangeInclusive<f64> = 1e-6..=10.0;
+/// The largest acceleration that is simulated, m/s2: a thousand times that of gravity.
+const LARGEST_M_S2: f64 = 1e4;
+
 /// A ground acceleration sampled at a constant step: linear between its samples and zero after its last one.
 #[derive(Debug, Clone, Copy)]
 pub struct Record<'a> {
@@ -9,8 +16,8 @@ pub struct Record<'a> {
 /// Why a series of samples is no record. `sample` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RecordError {
-    /// The time step is not a positive, finite number.
-    #[error("dt_s is {0}; expected a time step above 0 s")]
+    /// The time step is none of a record of shaking.
+    #[error("dt_s is {0}; expected a time step above 0 s, from 1e-6 to 10")]
     TimeStep(f64),
     /// Fewer than two samples span no time.
     #[error("{0} sample(s) of acceleration; expected 2 or more")]
@@ -23,26 +30,43 @@ pub enum RecordError {
         /// What stands there.
         value: f64,
     },
+    /// A sample is larger than any that shakes a structure.
+    #[error(
+        "sample {sample} of the acceleration is {value} m/s2; expected 10000 at most: is the unit right?"
+    )]
+    TooLarge {
+        /// Where it stands.
+        sample: usize,
+        /// What stands there.
+        value: f64,
+    },
 }
 
 impl<'a> Record<'a> {
     /// The record of these samples (m/s2), `dt_s` seconds apart.
     ///
     /// # Errors
-    /// If the time step or a sample is not finite, the step not positive, or there are fewer than two samples.
+    /// If the time step is not in [1e-6, 10] s, a sample not finite or larger than 1e4 m/s2, or there are fewer than two
+    /// samples.
     pub fn new(acceleration_m_s2: &'a [f64], dt_s: f64) -> Result<Record<'a>, RecordError> {
-        if !(dt_s > 0.0 && dt_s.is_finite()) {
+        if !TIME_STEPS_S.contains(&dt_s) {
             return Err(RecordError::TimeStep(dt_s));
         }
         if acceleration_m_s2.len() < 2 {
             return Err(RecordError::TooShort(acceleration_m_s2.len()));
         }
         let finite = acceleration_m_s2.iter().fold(true, |finite, value| finite & value.is_finite());
-        if finite {
-            return Ok(Record { acceleration_m_s2, dt_s, peak_m_s2: largest(acceleration_m_s2) });
+        if !finite {
+            let sample = acceleration_m_s2.iter().position(|value| !value.is_finite()).unwrap_or_default();
+            return Err(RecordError::NotFinite { sample, value: acceleration_m_s2[sample] });
         }
-        let sample = acceleration_m_s2.iter().position(|value| !value.is_finite()).unwrap_or_default();
-        Err(RecordError::NotFinite { sample, value: acceleration_m_s2[sample] })
+        let peak_m_s2 = largest(acceleration_m_s2);
+        if peak_m_s2 > LARGEST_M_S2 {
+            let too_large = |value: &f64| value.abs() > LARGEST_M_S2;
+            let sample = acceleration_m_s2.iter().position(too_large).unwrap_or_default();
+            return Err(RecordError::TooLarge { sample, value: acceleration_m_s2[sample] });
+        }
+        Ok(Record { acceleration_m_s2, dt_s, peak_m_s2 })
     }
 
     /// The largest absolute value of the samples, m/s2.

@@ -1,4 +1,5 @@
 use std::f64::consts::FRAC_PI_2;
+use std::ops::RangeInclusive;
 
 use crate::units::G_M_S2;
 
@@ -15,6 +16,12 @@ pub struct Structure {
     pub eta: f64,
 }
 
+/// Frequency parameters that are simulated, rad/s: of blocks from 0.7 mm to 7000 km. With the bounds of a record they bound the
+/// steps between two of its samples to some million.
+const FREQUENCIES_RAD_S: RangeInclusive<f64> = 1e-3..=100.0;
+/// The least slenderness, rad.
+const LEAST_SLENDERNESS_RAD: f64 = 1e-6;
+
 /// A parameter outside the range in which a rocking structure exists.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("structure '{structure}': {parameter} is {value}; expected {expected}")]
@@ -30,7 +37,7 @@ impl Structure {
     /// restitution `eta`.
     ///
     /// # Errors
-    /// If `p` is not positive, `alpha` not in (0, pi/2) or `eta` not in (0, 1].
+    /// If `p` is not in [0.001, 100] rad/s, `alpha` not in [1e-6, pi/2) rad or `eta` not in (0, 1].
     pub fn new(name: &str, p_rad_s: f64, alpha_rad: f64, eta: f64) -> Result<Structure, StructureError> {
         let check = |ok: bool, parameter, value, expected| {
             if ok {
@@ -38,10 +45,10 @@ impl Structure {
             }
             Err(StructureError { structure: name.to_string(), parameter, value, expected })
         };
-        let finite_p = p_rad_s > 0.0 && p_rad_s.is_finite();
-        check(finite_p, "p", p_rad_s, "a frequency parameter above 0 rad/s")?;
-        let leaning = alpha_rad > 0.0 && alpha_rad < FRAC_PI_2;
-        check(leaning, "alpha", alpha_rad, "a slenderness between 0 and pi/2 rad")?;
+        let possible_p = FREQUENCIES_RAD_S.contains(&p_rad_s);
+        check(possible_p, "p", p_rad_s, "a frequency parameter above 0 rad/s, from 0.001 to 100")?;
+        let leaning = (LEAST_SLENDERNESS_RAD..FRAC_PI_2).contains(&alpha_rad);
+        check(leaning, "alpha", alpha_rad, "a slenderness between 0 and pi/2 rad, of 1e-6 or more")?;
         let dissipative = eta > 0.0 && eta <= 1.0;
         check(dissipative, "eta", eta, "a coefficient of restitution above 0 and up to 1")?;
         Ok(Structure { name: name.to_string(), p_rad_s, alpha_rad, eta })

@@ -1,6 +1,9 @@
 //! The fits as chosen: in words, and where they do not hold.
 
-use crate::fragility::{DemandModel, FragilityModel, LimitState, Measure, OutOfRange, Slice};
+use crate::fragility::{
+    DemandModel, FragilityModel, LimitState, Measure, OutOfRange, Probabilities, ReplicateLimits,
+    ResampledModel, Slice,
+};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::console::Console;
@@ -15,12 +18,44 @@ pub struct ChosenFits {
     pub structure: String,
     /// The fits joined.
     pub model: FragilityModel,
+    /// The same fits to resampled cases, where limits come from them.
+    pub resampled: Option<ResampledModel>,
+    /// Whether P_ro comes from so few events that some limits are too narrow.
+    pub few_events: bool,
 }
 
 /// A difference in eta that the response hardly feels.
 const SAME_ETA: f64 = 0.005;
 
 impl ChosenFits {
+    /// The probabilities at an intensity, with limits by the replicates if there are any.
+    pub fn probabilities(&self, measures: &IntensityMeasures) -> Probabilities {
+        let probabilities = self.model.probabilities(measures);
+        let Some(resampled) = &self.resampled else { return probabilities };
+        let given_rocking = probabilities.given_rocking.map(|given| resampled.with_limits(&given, measures));
+        Probabilities { given_rocking, ..probabilities }
+    }
+
+    /// How the limits come about, in words.
+    pub fn words_of_limits(&self) -> String {
+        match &self.resampled {
+            None => "by the delta method".to_string(),
+            Some(ResampledModel { replicates, limits: ReplicateLimits::Percentile }) => {
+                format!("percentiles of {} resamples", replicates.len())
+            }
+            Some(ResampledModel { replicates, limits: ReplicateLimits::BiasCorrected }) => {
+                format!("bias-corrected percentiles of {} resamples", replicates.len())
+            }
+        }
+    }
+
+    /// That the limits come from resamples of too few events.
+    pub fn warn_of_few_events(&self, console: &Console) {
+        if self.resampled.is_some() && self.few_events {
+            console.note("warning: P_ro comes from fewer than 10 events, or non-events, for each coefficient: where it is small, limits by resamples are too narrow, those of --limits delta are not");
+        }
+    }
+
     /// In words: of what, over which measures.
     pub fn words(&self) -> String {
         let model = &self.model;

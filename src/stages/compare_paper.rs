@@ -174,7 +174,7 @@ impl Stage for ComparePaper {
 
     fn execute(&self, provenance: &Provenance, _console: &Console) -> anyhow::Result<String> {
         let ours = Ours {
-            groups: groups::read(&(&self.responses).into())?,
+            groups: groups::read(&self.responses)?,
             pex: PexFrame::read(&self.pex)?,
             pro: ProFrame::read(&self.pro)?,
             published: self.published.clone(),

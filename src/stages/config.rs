@@ -7,10 +7,14 @@ use serde::Deserialize;
 use super::compare_paper::ComparePaperOptions;
 use super::fit_pex::FitPexOptions;
 use super::fit_pro::FitProOptions;
+use super::ida::IdaOptions;
 use super::import_motions::ImportMotionsOptions;
+use super::rank_ims::RankImsOptions;
+use super::report::ReportOptions;
 use super::sample_scenarios::SampleScenariosOptions;
 use super::simulate::SimulateOptions;
 use super::synthesize_motions::SynthesizeMotionsOptions;
+use super::universality::UniversalityOptions;
 use crate::pipeline::UsageError;
 use crate::pipeline::yaml::explain;
 
@@ -30,12 +34,20 @@ pub struct Config {
     pub import_motions: Option<ImportMotionsOptions>,
     /// Options of simulate.
     pub simulate: Option<SimulateOptions>,
+    /// Options of ida.
+    pub ida: Option<IdaOptions>,
     /// Options of fit-pex.
     pub fit_pex: Option<FitPexOptions>,
     /// Options of fit-pro.
     pub fit_pro: Option<FitProOptions>,
+    /// Options of universality.
+    pub universality: Option<UniversalityOptions>,
+    /// Options of rank-ims.
+    pub rank_ims: Option<RankImsOptions>,
     /// Options of compare-paper.
     pub compare_paper: Option<ComparePaperOptions>,
+    /// Options of report.
+    pub report: Option<ReportOptions>,
 }
 
 impl Config {
@@ -57,6 +69,9 @@ impl Config {
         }
         if let Some(simulate) = &mut config.simulate {
             simulate.resolve_paths(folder);
+        }
+        if let Some(ida) = &mut config.ida {
+            ida.resolve_paths(folder);
         }
         Ok(config)
     }

@@ -57,6 +57,16 @@ pub enum TransitionAt {
     Fixed(f64),
 }
 
+impl TransitionAt {
+    /// The IM4 that is fixed, if one is.
+    pub fn im4(self) -> Option<f64> {
+        match self {
+            TransitionAt::Found => None,
+            TransitionAt::Fixed(im4) => Some(im4),
+        }
+    }
+}
+
 impl FromStr for TransitionAt {
     type Err = String;
 
@@ -104,10 +114,7 @@ impl FitPex {
     ) -> anyhow::Result<FitPex> {
         let limit = options.limit_state;
         check(limit > 0.0 && limit.is_finite(), "limit-state", limit, "a demand |theta|max / alpha above 0")?;
-        let transition = match options.transition {
-            TransitionAt::Found => None,
-            TransitionAt::Fixed(im4) => Some(im4),
-        };
+        let transition = options.transition.im4();
         let uncertainty = Uncertainty::new(options.bootstrap, options.confidence, options.seed)?;
         let options = FitPexOptions { seed: Some(uncertainty.seed), ..options.clone() };
         let model = PexModel { limit_state: limit, transition, uncertainty };

@@ -176,6 +176,8 @@ impl Stage for FitPro {
         let rows = rows.concat();
         let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (row.reason(), row.measures())));
+        let few = rows.iter().filter(|row| row.has_few_events());
+        console.warn_each(few.map(|row| (row.few_events(), row.measures())));
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PRO_BOOTSTRAP, provenance.clone())?;
             rows.iter().try_for_each(|row| anyhow::Ok(writer.append(&replicates::pro_batch(row)?)?))?;

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::chosen_fits::ChosenFits;
 use super::fit_pro::FittedEvent;
-use crate::fragility::{DemandModel, FragilityModel, Measure};
+use crate::fragility::{DemandModel, FragilityModel, Measure, has_few_events};
 use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::Word;
@@ -120,7 +120,9 @@ impl FitsOptions {
         let model =
             FragilityModel { demand, limit, overturning: curve.probit()?, eta: curve.number(&schema::ETA)? };
         let (suite, structure) = group.clone();
-        Ok(ChosenFits { suite, structure, model })
+        let (n, events) = (curve.number(&schema::N)?, curve.number(&schema::N_OVERTURNED)?);
+        let few_events = has_few_events(events as usize, n as usize, model.overturning.measures().count());
+        Ok(ChosenFits { suite, structure, model, resampled: None, few_events })
     }
 
     fn biplanar(&self, rows: &[&FitRow]) -> anyhow::Result<DemandModel> {

@@ -1,73 +1,79 @@
 //! inspect: what a file holds and where it came from.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use arrow_schema::DataType;
 
-use crate::table::footer::footer;
+use crate::pipeline::terminal::{Terminal, Weight};
+use crate::table::footer::{Footer, footer};
 use crate::table::provenance::{Stamp, stamp};
 
-/// A description of a Parquet file, ours or another's.
+/// A description of a Parquet file, ours or another's, as wide as the terminal.
 ///
 /// # Errors
 /// If it is missing or no Parquet file.
-pub fn inspect(path: &Path) -> anyhow::Result<String> {
+pub fn inspect(path: &Path, terminal: &Terminal) -> anyhow::Result<String> {
     let stamp = stamp(path)?;
     let footer = footer(path)?;
-    let mut text = String::new();
-    writeln!(text, "{}", path.display())?;
-    writeln!(
-        text,
-        "  {} rows in {} row groups, {:.1} MB",
-        footer.rows,
-        footer.row_groups,
-        footer.bytes as f64 / 1e6
-    )?;
+    let mut text = terminal.line(&path.display().to_string(), Weight::Strong);
+    let megabytes = footer.bytes as f64 / 1e6;
+    let size = format!("  {} rows in {} row groups, {megabytes:.1} MB", footer.rows, footer.row_groups);
+    text += &terminal.line(&size, Weight::Plain);
     match &stamp {
-        Some(stamp) => write_stamp(&mut text, stamp)?,
-        None => writeln!(text, "  not written by rockfrag")?,
+        Some(stamp) => text += &made(stamp, terminal),
+        None => text += &terminal.line("  not written by rockfrag", Weight::Plain),
     }
-    writeln!(
-        text,
-        "\n  {:18} {:14} {:>8} {:>12} {:>12}  description",
-        "column", "type", "nulls", "least", "largest"
-    )?;
-    for field in footer.schema.fields() {
+    text.push('\n');
+    let rows = std::iter::once(NAMES.map(str::to_string)).chain(rows(&footer)).collect::<Vec<_>>();
+    let widths: [usize; NAMES.len()] =
+        std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
+    let [name_width, type_width, nulls_width, least_width, largest_width, _] = widths;
+    for (index, [name, kind, nulls, least, largest, description]) in rows.iter().enumerate() {
+        let line = format!(
+            "  {name:name_width$}  {kind:type_width$}  {nulls:>nulls_width$}  {least:>least_width$}  {largest:>largest_width$}  {description}"
+        );
+        text += &terminal.line(line.trim_end(), if index == 0 { Weight::Strong } else { Weight::Plain });
+    }
+    Ok(text)
+}
+
+/// The cells of a line about a column.
+type Row = [String; 6];
+
+/// Their names.
+const NAMES: [&str; 6] = ["column", "type", "nulls", "least", "largest", "description"];
+
+fn rows(footer: &Footer) -> impl Iterator<Item = Row> {
+    footer.schema.fields().iter().map(|field| {
         let range = footer.ranges.get(field.name()).cloned().unwrap_or_default();
         let metadata = |key: &str| field.metadata().get(key).cloned().unwrap_or_default();
         let unit = match metadata("unit").as_str() {
             "" | "1" => String::new(),
             unit => format!(" [{unit}]"),
         };
-        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.5}"));
-        writeln!(
-            text,
-            "  {:18} {:14} {:>8} {:>12} {:>12}  {}{unit}",
-            field.name(),
+        // Adding 0 turns -0 into 0.
+        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{:.5}", value + 0.0));
+        [
+            field.name().clone(),
             type_words(field.data_type()),
-            range.nulls,
+            range.nulls.to_string(),
             number(range.least),
             number(range.largest),
-            metadata("description"),
-        )?;
-    }
-    Ok(text)
+            format!("{}{unit}", metadata("description")),
+        ]
+    })
 }
 
-fn write_stamp(text: &mut String, stamp: &Stamp) -> std::fmt::Result {
-    let Stamp { provenance, content, .. } = stamp;
-    writeln!(text, "  made by {}, rockfrag {}", provenance.stage, provenance.version)?;
-    writeln!(text, "  content {content}")?;
-    for (role, content) in &provenance.inputs {
-        writeln!(text, "  from {role} {content}")?;
-    }
+/// What made a file.
+fn made(Stamp { provenance, content, .. }: &Stamp, terminal: &Terminal) -> String {
+    let mut pairs = vec![("content".to_string(), content.clone())];
+    pairs.extend(provenance.inputs.iter().map(|(role, content)| (format!("from {role}"), content.clone())));
     if let serde_json::Value::Object(parameters) = &provenance.parameters {
-        for (name, value) in parameters {
-            writeln!(text, "  {name}: {value}")?;
-        }
+        pairs.extend(parameters.iter().map(|(name, value)| (format!("{name}:"), value.to_string())));
     }
-    Ok(())
+    let by = format!("  made by {}, rockfrag {}", provenance.stage, provenance.version);
+    let lines = pairs.iter().map(|(name, value)| terminal.line(&format!("  {name} {value}"), Weight::Faint));
+    std::iter::once(terminal.line(&by, Weight::Plain)).chain(lines).collect()
 }
 
 fn type_words(data_type: &DataType) -> String {

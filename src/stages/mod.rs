@@ -3,14 +3,18 @@
 //! ```text
 //! config             pipeline.yaml, the options of all
 //! structures         structures as a user names them; structure_options one of them on the command line
+//! motions            records and peaks of motions, under distinct names
 //! measures           which intensity measures are taken
 //! partitions         which part of a table a process works on, and what its file is called
-//! groups             the responses of a suite and structure; pex_group and pro_group their fits
+//! groups             the responses of a suite and structure, clusters which of them resemble each other; pex_group and
+//!                    pro_group their fits
 //! uncertainty        the limits that both are asked for
 //! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
+//! resampled_fits     the same in each resample
 //! ```
 
 pub mod chosen_fits;
+pub mod clusters;
 pub mod compare_paper;
 pub mod config;
 pub mod evaluate;
@@ -19,12 +23,17 @@ pub mod fit_pex;
 pub mod fit_pro;
 pub mod fits;
 pub mod groups;
+pub mod ida;
 pub mod import_motions;
 pub mod inspect;
 pub mod measures;
+pub mod motions;
 pub mod partitions;
 pub mod pex_group;
 pub mod pro_group;
+pub mod rank_ims;
+pub mod report;
+pub mod resampled_fits;
 pub mod run;
 pub mod sample_scenarios;
 pub mod seed_spread;
@@ -33,4 +42,5 @@ pub mod structure_options;
 pub mod structures;
 pub mod synthesize_motions;
 pub mod uncertainty;
+pub mod universality;
 pub mod validate;

@@ -171,7 +171,7 @@ impl PexModel {
         let sample = sample(group, row, row.range());
         let inference = DemandInference::new(&sample, fit);
         row.reset = reset(&sample.predictors(), &sample.ln_edp, fit);
-        row.clustered_errors = inference.clustered_errors(&group.cells);
+        row.clustered_errors = inference.clustered_errors(&group.clusters.numbers);
         if row.replicates.is_empty() {
             return;
         }

@@ -85,7 +85,8 @@ impl ProModel {
         let Ok(fit) = &row.fit else { return };
         let (inference, confidence) =
             (CurveInference::new(sample, &fit.regression), self.uncertainty.confidence);
-        let (strata, clustered) = (Strata::new(&group.cells), inference.clustered_covariance(&group.cells));
+        let (strata, clustered) =
+            (Strata::new(&group.cells), inference.clustered_covariance(&group.clusters.numbers));
         let of = |parameter: &CurveParameter| {
             let replicates = inference.parameters(*parameter, &row.replicates);
             let acceleration = inference.acceleration(*parameter, &strata);

@@ -7,12 +7,17 @@ use super::compare_paper::ComparePaper;
 use super::config::Config;
 use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
+use super::ida::Ida;
 use super::import_motions::ImportMotions;
+use super::rank_ims::RankIms;
+use super::report::Report;
 use super::sample_scenarios::SampleScenarios;
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
+use super::universality::Universality;
 use crate::pipeline::UsageError;
 use crate::pipeline::cache::{self, Freshness, freshness};
+use crate::pipeline::claim::Claim;
 use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 
@@ -25,12 +30,22 @@ pub struct Files {
     pub motions: PathBuf,
     /// Of simulate.
     pub responses: PathBuf,
+    /// Of ida.
+    pub ida: PathBuf,
     /// Of fit-pex.
     pub pex: PathBuf,
     /// Of fit-pro.
     pub pro: PathBuf,
+    /// Of universality.
+    pub universality: PathBuf,
+    /// Of rank-ims.
+    pub ranking: PathBuf,
     /// Of compare-paper.
     pub paper: PathBuf,
+    /// The folder itself.
+    pub folder: PathBuf,
+    /// Of report.
+    pub report: PathBuf,
 }
 
 impl Files {
@@ -41,9 +56,14 @@ impl Files {
             scenarios: file("scenarios.parquet"),
             motions: file("motions.parquet"),
             responses: file("responses.parquet"),
+            ida: file("ida.parquet"),
             pex: file("pex.parquet"),
             pro: file("pro.parquet"),
+            universality: file("universality.parquet"),
+            ranking: file("ranking.parquet"),
             paper: file("paper.parquet"),
+            folder: folder.to_path_buf(),
+            report: file("report.html"),
         }
     }
 }
@@ -72,24 +92,42 @@ pub fn stages(config: &Config, files: &Files) -> anyhow::Result<Vec<Box<dyn Stag
     if let Some(options) = &config.simulate {
         stages.push(Box::new(Simulate::new(options, files.motions.clone(), files.responses.clone())?));
     }
+    if let Some(options) = &config.ida {
+        stages.push(Box::new(Ida::new(options, files.motions.clone(), files.ida.clone())?));
+    }
     if let Some(options) = &config.fit_pex {
         stages.push(Box::new(FitPex::new(options, files.responses.clone(), files.pex.clone())?));
     }
     if let Some(options) = &config.fit_pro {
         stages.push(Box::new(FitPro::new(options, files.responses.clone(), files.pro.clone())?));
     }
+    if let Some(options) = &config.universality {
+        let (input, out) = (files.responses.clone(), files.universality.clone());
+        stages.push(Box::new(Universality::new(options, input, out)?));
+    }
+    if let Some(options) = &config.rank_ims {
+        let (responses, motions) = (files.responses.clone(), Some(files.motions.clone()));
+        stages.push(Box::new(RankIms::new(options, responses, motions, files.ranking.clone())?));
+    }
     if let Some(options) = &config.compare_paper {
         let inputs = [files.pex.clone(), files.pro.clone(), files.responses.clone()];
         stages.push(Box::new(ComparePaper::new(options, inputs, files.paper.clone())?));
     }
+    if let Some(options) = &config.report {
+        stages.push(Box::new(Report::new(options, files.folder.clone(), files.report.clone())?));
+    }
     Ok(stages)
 }
 
-/// Runs the stages in order.
+/// Runs the stages in order, after other runs in the same folder.
 ///
 /// # Errors
 /// That of the first stage that fails.
 pub fn run(stages: &[Box<dyn Stage>], force: bool, console: &Console) -> anyhow::Result<()> {
+    let _claimed = match stages.first() {
+        Some(stage) => cache::claim_folder(stage.as_ref(), Claim::Alone, console)?,
+        None => None,
+    };
     stages.iter().try_for_each(|stage| cache::run(stage.as_ref(), force, console))
 }
 

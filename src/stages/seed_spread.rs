@@ -1,6 +1,6 @@
 //! seed-spread: the whole pipeline with one seed after the other, to see how far its numbers move by chance.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
@@ -8,6 +8,7 @@ use clap::Args;
 use super::config::Config;
 use super::run::{Files, run, stages};
 use crate::pipeline::console::Console;
+use crate::pipeline::stage::folder_of;
 use crate::table::paper::{self, SpreadRow};
 
 /// How many seeds, and where to.
@@ -32,7 +33,8 @@ pub fn seed_spread(config: &Config, options: &SeedSpreadOptions, console: &Conso
         console.note(&format!("seed {seed} of {}", options.seeds));
         let scratch = tempfile::Builder::new().prefix(".seed-spread.").tempdir_in(folder)?;
         let files = Files::in_folder(scratch.path());
-        run(&stages(&config.with_seed(seed), &files)?, true, console)?;
+        let numbers_only = Config { report: None, ..config.with_seed(seed) };
+        run(&stages(&numbers_only, &files)?, true, console)?;
         rows.extend(paper::ours(&files.paper, seed)?);
     }
     let mut partial = tempfile::NamedTempFile::new_in(folder)?;
@@ -43,8 +45,4 @@ pub fn seed_spread(config: &Config, options: &SeedSpreadOptions, console: &Conso
     }
     partial.persist(&options.out).with_context(|| options.out.display().to_string())?;
     Ok(())
-}
-
-fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

@@ -10,9 +10,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use super::motions::{Peaks, SeenIds, record};
 use super::partitions::Share;
-use super::structures::{StructureSpec, Structures};
-use crate::motion::{IntensityMeasures, IntensityScratch, intensity};
+use super::structures::{StructureSpec, Structures, parameters};
+use crate::motion::{IntensityMeasures, IntensityScratch};
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
@@ -22,11 +23,11 @@ use crate::rocking::{
     Path as SolverPath, Problem, Record, RecordError, Structure, simulate_all, trace, with_tail,
 };
 use crate::table::TableError;
-use crate::table::motions::{Motion, MotionId, MotionTable, Part, schema_by_name};
+use crate::table::motions::{Motion, MotionId, MotionTable, Part, schema_of};
 use crate::table::partition::Partition;
 use crate::table::provenance::Provenance;
 use crate::table::responses::{self, ResponseRow};
-use crate::table::schema::{self, RESPONSES, TRACE, Table};
+use crate::table::schema::{RESPONSES, TRACE, Table};
 use crate::table::source::{Source, Target};
 use crate::table::trace::{self as trace_table, TraceRow};
 use crate::table::writer::TableWriter;
@@ -77,18 +78,18 @@ impl Default for SimulateOptions {
 impl SimulateOptions {
     /// Makes the path of a structures file relative to `folder`, that of the pipeline file.
     pub fn resolve_paths(&mut self, folder: &Path) {
-        if let Some(Structures::File(path)) = &mut self.structures {
-            *path = folder.join(&*path);
+        if let Some(structures) = &mut self.structures {
+            structures.resolve_path(folder);
         }
     }
 
-    fn path(&self) -> anyhow::Result<SolverPath> {
+    pub(super) fn path(&self) -> anyhow::Result<SolverPath> {
         let Some(Word(path)) = self.path else { return Ok(SolverPath::fastest()) };
         check(path.is_available(), "path", Word(path), "one that this processor has")?;
         Ok(path)
     }
 
-    fn structures(&self) -> anyhow::Result<Vec<Structure>> {
+    pub(super) fn structures(&self) -> anyhow::Result<Vec<Structure>> {
         match &self.structures {
             Some(structures) => structures.resolve(),
             None => {
@@ -164,6 +165,7 @@ impl Simulate {
                 response,
                 mw: motion.mw,
                 re_km: motion.re_km,
+                event: motion.event.as_deref(),
                 pga_m_s2,
                 pgv_m_s,
                 tp_s: motion.tp_s,
@@ -210,8 +212,7 @@ impl Simulate {
         by_name: bool,
         provenance: &Provenance,
     ) -> Result<TableWriter, TableError> {
-        let schema = if by_name { schema_by_name(table) } else { table.schema() };
-        TableWriter::with_schema(target, table, schema, provenance.clone())
+        TableWriter::with_schema(target, table, schema_of(table, by_name), provenance.clone())
     }
 
     fn expect_traced(&self, traces: &[TraceRow]) -> anyhow::Result<()> {
@@ -245,35 +246,6 @@ fn records<'a>(
     ranges.zip(motions).map(|((start, end), motion)| record(path, motion, &samples[start..end])).collect()
 }
 
-fn record<'a>(path: &Path, motion: &Motion, samples: &'a [f64]) -> Result<Record<'a>, TableError> {
-    Record::new(samples, motion.dt_s).map_err(|problem| TableError::Value {
-        path: path.to_path_buf(),
-        row: motion.row,
-        column: match problem {
-            RecordError::TimeStep(_) => schema::DT_S.name.to_string(),
-            _ => schema::ACCELERATION_M_S2.name.to_string(),
-        },
-        problem: problem.to_string(),
-    })
-}
-
-/// The motions so far; numbers take little room, as there may be millions.
-#[derive(Default)]
-struct SeenIds {
-    numbers: HashSet<i64>,
-    names: HashSet<String>,
-}
-
-impl SeenIds {
-    /// Whether this one is new.
-    fn insert(&mut self, id: &MotionId) -> bool {
-        match id {
-            MotionId::Number(number) => self.numbers.insert(*number),
-            MotionId::Name(name) => self.names.insert(name.clone()),
-        }
-    }
-}
-
 /// What came of some motions.
 struct Responded {
     motion_ids: Vec<MotionId>,
@@ -286,25 +258,6 @@ struct Responded {
 struct Scratch {
     samples: Vec<f64>,
     intensity: IntensityScratch,
-}
-
-/// Measures of the file, or of the record where the file has none.
-struct Peaks {
-    pga_m_s2: f64,
-    pgv_m_s: f64,
-    tm_s: Option<f64>,
-}
-
-impl Peaks {
-    fn of(motion: &Motion, record: &Record, scratch: &mut IntensityScratch) -> Peaks {
-        let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
-        let pgv = || intensity::peak(&intensity::velocity(samples, dt_s));
-        Peaks {
-            pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
-            pgv_m_s: motion.pgv_m_s.unwrap_or_else(pgv),
-            tm_s: motion.tm_s.or_else(|| intensity::mean_period(samples, dt_s, scratch)),
-        }
-    }
 }
 
 impl Stage for Simulate {
@@ -325,11 +278,9 @@ impl Stage for Simulate {
     }
 
     fn parameters(&self) -> Value {
-        let structure =
-            |s: &Structure| json!({ "name": s.name, "p": s.p_rad_s, "alpha": s.alpha_rad, "eta": s.eta });
-        let structures: Vec<Value> = self.structures.iter().map(structure).collect();
-        let parameters =
-            json!({ "structures": structures, "trace": self.traced, "path": self.path.arithmetic() });
+        let parameters = json!({
+            "structures": parameters(&self.structures), "trace": self.traced, "path": self.path.arithmetic()
+        });
         Partition::add_to(self.share.partition, parameters)
     }
 
@@ -359,10 +310,7 @@ impl Stage for Simulate {
             },
             |responded| {
                 for Responded { motion_ids, rows, traces: traced } in responded {
-                    if let Some(id) = motion_ids.iter().find(|id| !seen.insert(id)) {
-                        let file = self.share.input.name().display();
-                        bail!("{file}: two motions are called '{id}'; expected distinct motion_id");
-                    }
+                    seen.note(self.share.input.name(), &motion_ids)?;
                     traces.extend(traced);
                     writer.append(&rows)?;
                 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use crate::pipeline::UsageError;
 use crate::pipeline::yaml::explain;
@@ -75,6 +76,12 @@ pub fn words(structure: &Structure) -> String {
     format!("p {p} rad/s, alpha {alpha} rad, eta {eta}")
 }
 
+/// The parameters of structures, as a file records them.
+pub fn parameters(structures: &[Structure]) -> Value {
+    let of = |s: &Structure| json!({ "name": s.name, "p": s.p_rad_s, "alpha": s.alpha_rad, "eta": s.eta });
+    structures.iter().map(of).collect()
+}
+
 /// Where structures come from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -94,6 +101,13 @@ impl FromStr for Structures {
 }
 
 impl Structures {
+    /// Makes the path of a file relative to `folder`, that of the pipeline file.
+    pub fn resolve_path(&mut self, folder: &Path) {
+        if let Structures::File(path) = self {
+            *path = folder.join(&*path);
+        }
+    }
+
     /// All structures, checked.
     ///
     /// # Errors

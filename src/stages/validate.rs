@@ -12,7 +12,7 @@ use crate::fragility::{Forecasts, Foretold, Validation};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
-use crate::table::provenance::Provenance;
+use crate::table::provenance::{Provenance, stamp};
 use crate::table::schema::VALIDATION;
 use crate::table::source::{Source, Target};
 use crate::table::validation::{self, ValidationRow};
@@ -30,6 +30,9 @@ pub struct ValidateOptions {
     #[command(flatten, next_help_heading = "Fits")]
     fits: FitsOptions,
 }
+
+/// The role that responses play here as in the fits.
+const RESPONSES_ROLE: &str = "responses";
 
 /// The stage, ready to run.
 pub struct Validate {
@@ -53,6 +56,39 @@ impl Validate {
 
     fn usable(&self) -> impl Iterator<Item = &ChosenFits> {
         self.fits.iter().filter_map(|fits| fits.as_ref().ok())
+    }
+
+    /// That the curves were fitted to the responses they are held against.
+    fn warn_of_own_responses(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<()> {
+        let responses = provenance.inputs.get(RESPONSES_ROLE);
+        for fits in [&self.pex, &self.pro] {
+            let fitted_to =
+                stamp(fits.name())?.and_then(|stamp| stamp.provenance.inputs.get(RESPONSES_ROLE).cloned());
+            if fitted_to.as_ref() == responses {
+                console.note(&format!(
+                    "warning: {} was fitted to the very responses of {}: that they agree proves nothing",
+                    fits.name().display(),
+                    self.input.display()
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// That something happened which the curves hold impossible.
+    fn warn_of_impossible(&self, rows: &[ValidationRow], console: &Console) {
+        for ValidationRow { structure, fits_suite, event, validation, .. } in rows {
+            if validation.impossible > 0 {
+                console.note(&format!(
+                    "warning: {structure}: what happened in {} of {} cases has a probability of 0 by the curves of {} \
+                     for {}: the log score is minus infinity (null)",
+                    validation.impossible,
+                    validation.n,
+                    fits_suite.as_deref().unwrap_or("no suite"),
+                    event.as_str()
+                ));
+            }
+        }
     }
 
     fn warn(&self, groups: &[Group], console: &Console) {
@@ -95,7 +131,7 @@ impl Stage for Validate {
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), ("responses", (&self.input).into())]
+        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), (RESPONSES_ROLE, (&self.input).into())]
     }
 
     fn targets(&self) -> Vec<Target> {
@@ -107,8 +143,9 @@ impl Stage for Validate {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let groups = groups::read(&(&self.input).into())?;
+        let groups = groups::read(&self.input)?;
         self.warn(&groups, console);
+        self.warn_of_own_responses(provenance, console)?;
         let of_structure = |fits: &&ChosenFits, structure: &str| fits.structure == structure;
         let rows: Vec<ValidationRow> = groups
             .iter()
@@ -124,6 +161,7 @@ impl Stage for Validate {
                 self.pex.name().display()
             );
         }
+        self.warn_of_impossible(&rows, console);
         let mut writer = TableWriter::create(&self.out, &VALIDATION, provenance.clone())?;
         writer.append(&validation::batch(&rows)?)?;
         writer.finish()?;

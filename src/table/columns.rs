@@ -8,7 +8,13 @@ use arrow_array::{Array, ArrayRef, Float32Array, Float64Array, RecordBatch};
 use arrow_schema::DataType;
 
 use super::TableError;
-use super::schema::Column;
+use super::schema::{Column, SPECTRAL_ACCELERATION, is_spectral_acceleration};
+
+/// The longest name of anything, bytes: that of a path.
+const LONGEST_TEXT: usize = 4096;
+
+/// The most samples of a motion: what is made of them (spectra, velocities) takes many times their room.
+const LONGEST_MOTION: usize = 1 << 24;
 
 /// A batch of rows of a file.
 pub struct Columns<'a> {
@@ -25,6 +31,15 @@ pub enum Samples {
     Float32(Float32Array),
     /// In double precision.
     Float64(Float64Array),
+}
+
+/// A column of spectral accelerations, m/s2.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectralAcceleration {
+    /// Its name, which tells the period.
+    pub name: String,
+    /// The number in each row, where there is one.
+    pub values: Vec<Option<f64>>,
 }
 
 impl Samples {
@@ -95,6 +110,22 @@ impl<'a> Columns<'a> {
         values.into_iter().enumerate().map(check).collect()
     }
 
+    /// The columns of spectral accelerations.
+    ///
+    /// # Errors
+    /// If one has another type.
+    pub fn spectral_accelerations(&self) -> Result<Vec<SpectralAcceleration>, TableError> {
+        let schema = self.batch.schema();
+        let names = schema.fields().iter().map(|field| field.name());
+        let spectral = names.zip(self.batch.columns()).filter(|(name, _)| is_spectral_acceleration(name));
+        let numbers = |(name, array): (&String, &ArrayRef)| {
+            let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
+            let values = self.numbers_of(array, &SPECTRAL_ACCELERATION)?;
+            Ok(SpectralAcceleration { name: name.clone(), values: values.into_iter().map(finite).collect() })
+        };
+        spectral.map(numbers).collect()
+    }
+
     /// Whole numbers, one in each row.
     ///
     /// # Errors
@@ -136,10 +167,40 @@ impl<'a> Columns<'a> {
         }
     }
 
+    /// Text or whole numbers as text, one in each row.
+    ///
+    /// # Errors
+    /// If the column is missing or of another type, or a value is null.
+    pub fn labels(&self, column: &Column) -> Result<Vec<String>, TableError> {
+        self.required(column)?;
+        let each = |(row, value): (usize, Option<String>)| {
+            value.ok_or_else(|| self.value_error(row, column, "null; expected a name or a whole number"))
+        };
+        self.optional_labels(column)?.into_iter().enumerate().map(each).collect()
+    }
+
+    /// Text or whole numbers as text, or `None` where the column or the value is missing.
+    ///
+    /// # Errors
+    /// If the column has another type.
+    pub fn optional_labels(&self, column: &Column) -> Result<Vec<Option<String>>, TableError> {
+        let words = |value: Option<i64>| value.map(|number| number.to_string());
+        match self.batch.column_by_name(column.name) {
+            Some(array) if array.data_type() == &DataType::Int64 => {
+                Ok(array.as_primitive::<Int64Type>().iter().map(words).collect())
+            }
+            Some(array) if array.data_type() == &DataType::Int32 => {
+                let values = array.as_primitive::<Int32Type>().iter();
+                Ok(values.map(|value| words(value.map(i64::from))).collect())
+            }
+            _ => self.optional_text(column),
+        }
+    }
+
     /// The samples of each row.
     ///
     /// # Errors
-    /// If the column is missing or no list of f32 or f64, or a list or one of its samples is null.
+    /// If the column is missing or no list of f32 or f64, a list or one of its samples is null, or a list too long.
     pub fn samples(&self, column: &Column) -> Result<Vec<Samples>, TableError> {
         let array = self.required(column)?;
         let list: Box<dyn Fn(usize) -> ArrayRef> = match array.data_type() {
@@ -153,6 +214,10 @@ impl<'a> Columns<'a> {
                 return Err(self.value_error(row, column, "null; expected a list of samples"));
             }
             let samples = list(row);
+            if samples.len() > LONGEST_MOTION {
+                let problem = format!("{} samples; expected {LONGEST_MOTION} at most", samples.len());
+                return Err(self.value_error(row, column, &problem));
+            }
             if let Some(at) = samples.nulls().and_then(|nulls| nulls.iter().position(|valid| !valid)) {
                 let problem = format!("sample {at} is null; expected a number");
                 return Err(self.value_error(row, column, &problem));
@@ -198,11 +263,17 @@ impl<'a> Columns<'a> {
     }
 
     fn text_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<String>>, TableError> {
-        let owned = |value: Option<&str>| value.map(str::to_string);
+        let owned = |(row, value): (usize, Option<&str>)| match value {
+            Some(text) if text.len() > LONGEST_TEXT => {
+                let problem = format!("text of {} bytes; expected {LONGEST_TEXT} at most", text.len());
+                Err(self.value_error(row, column, &problem))
+            }
+            value => Ok(value.map(str::to_string)),
+        };
         match array.data_type() {
-            DataType::Utf8 => Ok(array.as_string::<i32>().iter().map(owned).collect()),
-            DataType::LargeUtf8 => Ok(array.as_string::<i64>().iter().map(owned).collect()),
-            DataType::Utf8View => Ok(array.as_string_view().iter().map(owned).collect()),
+            DataType::Utf8 => array.as_string::<i32>().iter().enumerate().map(owned).collect(),
+            DataType::LargeUtf8 => array.as_string::<i64>().iter().enumerate().map(owned).collect(),
+            DataType::Utf8View => array.as_string_view().iter().enumerate().map(owned).collect(),
             DataType::Null => Ok(vec![None; array.len()]),
             _ => Err(self.wrong_type(array, column)),
         }

@@ -35,7 +35,9 @@ pub fn batch(rows: &[EvaluatedRow]) -> Result<RecordBatch, ArrowError> {
         Arc::new(Float64Array::from_iter_values(rows.iter().map(value)))
     };
     let given = |which: fn(&GivenRocking) -> Probability, part: fn(Probability) -> f64| -> ArrayRef {
-        let value = |row: &EvaluatedRow| Some(part(which(row.probabilities.given_rocking.as_ref()?)));
+        let value = |row: &EvaluatedRow| {
+            Some(part(which(row.probabilities.given_rocking.as_ref()?))).filter(|value| !value.is_nan())
+        };
         Arc::new(Float64Array::from_iter(rows.iter().map(value)))
     };
     let failure = |row: &EvaluatedRow| row.probabilities.limit_states().map(|[_, failure, _]| failure.value);

@@ -1,4 +1,4 @@
-//! The rows of pex and pro files, as evaluate and export take them.
+//! The rows of files of fits, as evaluate and export take them, and other readers.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -11,10 +11,7 @@ use super::source::Source;
 use crate::fragility::{DemandLaw, FitStatus, Link, Measure, Predictor};
 use crate::keyword::{self, Keyword};
 
-/// Rows that are decoded at once.
-const BATCH: usize = 8192;
-
-/// A row of a pex or pro file.
+/// A row of a file of fits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitRow {
     path: PathBuf,
@@ -27,7 +24,7 @@ pub struct FitRow {
 ///
 /// # Errors
 /// If it is none.
-pub fn regressions(source: &Source) -> Result<Vec<FitRow>, TableError> {
+pub fn regressions(source: impl Into<Source>) -> Result<Vec<FitRow>, TableError> {
     rows(source, &PEX)
 }
 
@@ -35,13 +32,17 @@ pub fn regressions(source: &Source) -> Result<Vec<FitRow>, TableError> {
 ///
 /// # Errors
 /// If it is none.
-pub fn curves(source: &Source) -> Result<Vec<FitRow>, TableError> {
+pub fn curves(source: impl Into<Source>) -> Result<Vec<FitRow>, TableError> {
     rows(source, &PRO)
 }
 
-fn rows(source: &Source, table: &Table) -> Result<Vec<FitRow>, TableError> {
+/// The rows of a file of fits.
+///
+/// # Errors
+/// If it is not the output of the stage of this table.
+pub fn rows(source: impl Into<Source>, table: &Table) -> Result<Vec<FitRow>, TableError> {
     let mut rows: Vec<FitRow> = Vec::new();
-    for batch in Batches::open(source, &[table.stage], table.columns, &[], BATCH)? {
+    for batch in Batches::open_whole(source, table, &[table.stage])? {
         let batch = batch?;
         let columns = batch.columns();
         let row = |row| FitRow {

@@ -5,13 +5,23 @@ use std::fs::File;
 use std::path::Path;
 
 use arrow_schema::SchemaRef;
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use parquet::errors::ParquetError;
-use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
+use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
+use parquet::errors::{ParquetError, Result as ParquetResult};
+use parquet::file::metadata::{
+    ParquetMetaData, ParquetMetaDataOptions, ParquetMetaDataReader, ParquetStatisticsPolicy,
+};
+use parquet::file::reader::{ChunkReader, Length};
 use parquet::file::statistics::Statistics;
 
 use super::TableError;
 use super::folder;
+use super::guarded::guarded;
+use super::limits::{MOST_FOOTER_BYTES, check_footer, check_rows};
+use super::shared_file::SharedFile;
+
+/// The length of the footer and the magic number, with which a file ends.
+const END_BYTES: u64 = 8;
+const MAGIC: &[u8] = b"PAR1";
 
 /// What the end of a Parquet file says of the whole.
 pub struct Footer {
@@ -82,16 +92,14 @@ pub fn footer(path: &Path) -> Result<Footer, TableError> {
 }
 
 fn of_file(path: &Path) -> Result<Footer, TableError> {
-    let file = open_file(path)?;
-    let bytes = file.metadata().map_err(|source| TableError::io(path, source))?.len();
-    let builder =
-        ParquetRecordBatchReaderBuilder::try_new(file).map_err(|source| not_parquet(path, source))?;
-    let metadata = builder.metadata();
+    let Opened { file, metadata } = open_keeping(path, ParquetStatisticsPolicy::KeepAll)?;
+    let schema = metadata.schema().clone();
+    let metadata = metadata.metadata();
     Ok(Footer {
         rows: metadata.file_metadata().num_rows(),
         row_groups: metadata.num_row_groups(),
-        bytes,
-        schema: builder.schema().clone(),
+        bytes: file.len(),
+        schema,
         ranges: ranges(metadata),
     })
 }
@@ -106,13 +114,47 @@ fn ranges(metadata: &ParquetMetaData) -> HashMap<String, Range> {
     ranges
 }
 
-/// The footer of a Parquet file as the library gives it.
-pub(super) fn open_metadata(path: &Path) -> Result<ParquetMetaData, TableError> {
-    let file = open_file(path)?;
-    ParquetMetaDataReader::new().parse_and_finish(&file).map_err(|source| not_parquet(path, source))
+/// A file and what its footer says.
+pub(super) struct Opened {
+    pub file: SharedFile,
+    pub metadata: ArrowReaderMetadata,
 }
 
-pub(super) fn open_file(path: &Path) -> Result<File, TableError> {
+/// Opens a Parquet file and reads its footer, without statistics: they take more room than all else, for each column of
+/// each row group.
+pub(super) fn open(path: &Path) -> Result<Opened, TableError> {
+    open_keeping(path, ParquetStatisticsPolicy::SkipAll)
+}
+
+fn open_keeping(path: &Path, statistics: ParquetStatisticsPolicy) -> Result<Opened, TableError> {
+    let options = ParquetMetaDataOptions::new()
+        .with_column_stats_policy(statistics.clone())
+        .with_encoding_stats_policy(statistics.clone())
+        .with_size_stats_policy(statistics);
+    let file = SharedFile::new(open_file(path)?).map_err(|source| TableError::io(path, source))?;
+    let metadata = guarded(|| metadata(&file, &options)).map_err(|source| not_parquet(path, source))?;
+    Ok(Opened { file, metadata })
+}
+
+fn metadata(file: &SharedFile, options: &ParquetMetaDataOptions) -> ParquetResult<ArrowReaderMetadata> {
+    let cut_off = || ParquetError::EOF("the file is cut off, or no Parquet file".to_string());
+    let footer_end = file.len().checked_sub(END_BYTES).ok_or_else(cut_off)?;
+    let end = file.get_bytes(footer_end, END_BYTES as usize)?;
+    let (length, magic) = end.split_at(end.len() - MAGIC.len());
+    let length = length.iter().rev().fold(0, |length, &byte| length << 8 | u64::from(byte));
+    if magic != MAGIC || length > MOST_FOOTER_BYTES {
+        return Err(cut_off());
+    }
+    let start = footer_end.checked_sub(length).ok_or_else(cut_off)?;
+    let footer = file.get_bytes(start, length as usize)?;
+    check_footer(&footer)?;
+    let metadata = ParquetMetaDataReader::decode_metadata_with_options(&footer, Some(options))?;
+    let metadata = ArrowReaderMetadata::try_new(metadata.into(), ArrowReaderOptions::default())?;
+    check_rows(&metadata)?;
+    Ok(metadata)
+}
+
+fn open_file(path: &Path) -> Result<File, TableError> {
     match File::open(path) {
         Ok(file) if file.metadata().is_ok_and(|metadata| metadata.is_dir()) => {
             Err(TableError::io(path, std::io::Error::other("a folder; expected a Parquet file")))

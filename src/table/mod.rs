@@ -6,38 +6,56 @@
 //! source       where a table is read from and written to: a path, or memory
 //! folder       a folder of files as one table; partition one of its parts
 //! footer       the end of a file, which says what is in it
-//! reader       batches from a file; narrow tables whole, as polars frames
+//! limits       what a file may ask of memory
+//! compact      the protocol in which files describe themselves
+//! guarded      damage that stops the decoder
+//! table_file   one file, open at some columns; piece that or a table in memory
+//! reader       batches from a table
+//! frame        narrow tables whole, as polars frames
 //! shared_file  a file that several threads read at once
 //! writer       batches to a file, written beside its name and renamed when whole
 //! fingerprint  the hash of what a file holds
 //! provenance   what made a file, in its metadata
 //! scenarios, motions, records, responses, trace, pex, pex_scan, pro, replicates, paper
 //!              one file a table: its rows as Rust structs
+//! ranking      sets of intensity measures by how well they predict; ranking_verdict the same in words
+//! motion_measures  the measures of a motions file, without its samples
 //! measures     the columns of intensity measures, which motions and records share
 //! fits         the rows of pex and pro files as the fits they hold
 //! intensities  any table with PGA and PGV, as evaluate takes it
 //! hazard       hazard curves and joint hazards, in CSV files
 //! evaluated    probabilities and annual rates: what evaluate answers
+//! ida          the same motions at rising intensity
 //! validation   forecasts beside what happened
+//! universality the curve of one structure on others, and curves of all
 //! text         any table as aligned text, CSV or JSON
 //! ```
 
 pub mod columns;
+mod compact;
 pub mod evaluated;
 pub mod fingerprint;
 pub mod fits;
 pub mod folder;
 pub mod footer;
+pub mod frame;
+pub mod guarded;
 pub mod hazard;
+pub mod ida;
 pub mod intensities;
+mod limits;
 mod measures;
+pub mod motion_measures;
 pub mod motions;
 pub mod paper;
 pub mod partition;
 pub mod pex;
 pub mod pex_scan;
+mod piece;
 pub mod pro;
 pub mod provenance;
+pub mod ranking;
+pub mod ranking_verdict;
 pub mod reader;
 pub mod records;
 pub mod replicates;
@@ -46,8 +64,10 @@ pub mod scenarios;
 pub mod schema;
 mod shared_file;
 pub mod source;
+mod table_file;
 pub mod text;
 pub mod trace;
+pub mod universality;
 pub mod validation;
 pub mod writer;
 
@@ -105,6 +125,34 @@ pub enum TableError {
         found: String,
         /// The stage whose output it should be.
         expected: String,
+    },
+    /// A later version of rockfrag has written the file in a way that is not yet known here.
+    #[error("{}: written by rockfrag {version} in format {format}; this is rockfrag {}, which reads formats up to {known}: update it, or make the file again", path.display(), env!("CARGO_PKG_VERSION"))]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// The version that wrote it.
+        version: String,
+        /// Its format.
+        format: String,
+        /// The last format that is known here.
+        known: u32,
+    },
+    /// The file became another one while it was read.
+    #[error("{}: changed or removed while it was read; run again", path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file says that it has more rows than it can hold.
+    #[error("{}: {rows} rows in a file of {bytes} bytes; expected a table with a byte a row at least", path.display())]
+    TooManyRows {
+        /// The file.
+        path: PathBuf,
+        /// How many rows it announces.
+        rows: u64,
+        /// Its size.
+        bytes: u64,
     },
     /// A column is missing.
     #[error("{}: no column '{column}'; expected {expected}", path.display())]

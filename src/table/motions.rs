@@ -20,7 +20,7 @@ use crate::keyword::Keyword;
 use crate::motion::{Measured, Scenario, Suite};
 
 /// The stages whose output can stand as a motions file.
-const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
+pub(super) const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
 
 /// The most motions that a thread reads at once.
 const LARGEST_PART: usize = 128;
@@ -29,11 +29,12 @@ const LARGEST_PART: usize = 128;
 const REQUIRED: [Column; 3] = [schema::MOTION_ID, schema::DT_S, schema::ACCELERATION_M_S2];
 
 /// What it reads where it is there.
-const READ: [Column; 10] = [
+const READ: [Column; 11] = [
     schema::MOTION_ID,
     schema::SUITE,
     schema::MW,
     schema::RE_KM,
+    schema::EARTHQUAKE,
     schema::DT_S,
     schema::PGA_M_S2,
     schema::PGV_M_S,
@@ -116,6 +117,8 @@ pub struct Motion {
     pub mw: Option<f64>,
     /// Distance, km, if known.
     pub re_km: Option<f64>,
+    /// The earthquake, if known.
+    pub event: Option<String>,
     /// Time between samples, s.
     pub dt_s: f64,
     /// Samples, m/s2.
@@ -143,7 +146,7 @@ impl MotionBatches {
     /// # Errors
     /// If it is missing, unreadable, empty, of another stage, or lacks a column.
     pub fn open(source: impl Into<Source>, batch_size: usize) -> Result<MotionBatches, TableError> {
-        Ok(MotionBatches { batches: Batches::open(&source.into(), &STAGES, &READ, &REQUIRED, batch_size)? })
+        Ok(MotionBatches { batches: Batches::open(source, &STAGES, &READ, &REQUIRED, batch_size)? })
     }
 
     /// How many motions there are.
@@ -180,7 +183,7 @@ impl MotionTable {
     ///
     /// # Errors
     /// As [`MotionBatches::open`], or if motions go by name in one file and by number in another.
-    pub fn open(source: &Source, partition: Option<Partition>) -> Result<MotionTable, TableError> {
+    pub fn open(source: impl Into<Source>, partition: Option<Partition>) -> Result<MotionTable, TableError> {
         let table = OpenTable::open(source, &STAGES, &READ)?;
         let schemas = table.schemas()?;
         schemas.iter().try_for_each(|(path, schema)| expect_columns(path, schema, &REQUIRED))?;
@@ -235,6 +238,30 @@ impl MotionTable {
         }
     }
 
+    /// The row groups in which these rows of the table lie, each with the rows of its file, all ascending.
+    pub fn runs_of(&self, rows: &[u64]) -> Vec<(Run, Vec<u64>)> {
+        let mut before = 0;
+        let runs = self.table.runs(self.rows.clone()).into_iter().map(|run| {
+            let inside = before..before + run.rows;
+            before += run.rows;
+            let rows = rows.iter().filter(|row| inside.contains(row));
+            (run, rows.map(|row| run.first_row + (row - inside.start)).collect::<Vec<u64>>())
+        });
+        runs.filter(|(_, rows)| !rows.is_empty()).collect()
+    }
+
+    /// The motions of a run that `wanted` picks.
+    ///
+    /// # Errors
+    /// If the file is damaged or a value cannot be used.
+    pub fn pick(&self, run: Run, wanted: impl Fn(&Motion) -> bool) -> Result<Vec<Motion>, TableError> {
+        let mut picked = Vec::new();
+        for batch in self.table.batches_of(run, LARGEST_PART)? {
+            picked.extend(motions_of(&batch?)?.into_iter().filter(&wanted));
+        }
+        Ok(picked)
+    }
+
     /// The motions of a part.
     ///
     /// # Errors
@@ -265,6 +292,7 @@ fn motions_of(batch: &Batch) -> Result<Vec<Motion>, TableError> {
         columns.integers(&schema::MOTION_ID)?.into_iter().map(MotionId::Number).collect()
     };
     let suite = columns.optional_text(&schema::SUITE)?;
+    let event = columns.optional_labels(&schema::EARTHQUAKE)?;
     let dt_s = columns.numbers(&schema::DT_S)?;
     let measure = |column| columns.optional_numbers(column);
     let (mw, re_km) = (measure(&schema::MW)?, measure(&schema::RE_KM)?);
@@ -276,6 +304,7 @@ fn motions_of(batch: &Batch) -> Result<Vec<Motion>, TableError> {
         suite: suite[row].clone(),
         mw: mw[row],
         re_km: re_km[row],
+        event: event[row].clone(),
         dt_s: dt_s[row],
         acceleration_m_s2,
         pga_m_s2: pga[row],
@@ -287,8 +316,12 @@ fn motions_of(batch: &Batch) -> Result<Vec<Motion>, TableError> {
     Ok(ids.into_iter().zip(samples).enumerate().map(motion).collect())
 }
 
-/// The schema of a table in which motions go by name.
-pub fn schema_by_name(table: &schema::Table) -> SchemaRef {
+/// The schema of a table in which motions go by name or by number.
+pub fn schema_of(table: &schema::Table, by_name: bool) -> SchemaRef {
+    if by_name { schema_by_name(table) } else { table.schema() }
+}
+
+fn schema_by_name(table: &schema::Table) -> SchemaRef {
     let fields = table
         .schema()
         .fields()

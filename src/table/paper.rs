@@ -10,7 +10,7 @@ use arrow_schema::ArrowError;
 use polars::prelude::DataFrame;
 use serde::{Deserialize, Serialize};
 
-use super::reader::read_frame;
+use super::frame::read_frame;
 use super::schema::{self, Column, PAPER};
 
 /// The published transition between the two planes.
@@ -148,7 +148,7 @@ pub fn batch(rows: &[PaperRow]) -> Result<RecordBatch, ArrowError> {
 /// # Errors
 /// If the file is no comparison with the paper.
 pub fn ours(path: &Path, seed: u64) -> anyhow::Result<Vec<SpreadRow>> {
-    let frame = read_frame(&path.into(), &PAPER)?;
+    let frame = read_frame(path, &PAPER)?;
     let cells = Cells { frame: &frame };
     let row = |row| {
         Some(SpreadRow {
@@ -167,7 +167,7 @@ pub fn ours(path: &Path, seed: u64) -> anyhow::Result<Vec<SpreadRow>> {
 /// # Errors
 /// If the file is no comparison with the paper.
 pub fn show(path: &Path) -> anyhow::Result<String> {
-    let frame = read_frame(&path.into(), &PAPER)?;
+    let frame = read_frame(path, &PAPER)?;
     let cells = Cells { frame: &frame };
     let mut table = format!(
         "{:20} {:6} {:21} {:>10} {:>10} {:>10} {:>9} {:>7}  {}\n",

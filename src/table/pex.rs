@@ -10,7 +10,7 @@ use arrow_schema::ArrowError;
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
-use super::reader::read_frame;
+use super::frame::read_frame;
 use super::schema::{self, Column, PEX};
 use crate::fragility::{
     BootstrapLimits, DemandReplicate, Estimate, FitStatus, Limits, LinearFit, Measure, Test,
@@ -73,7 +73,7 @@ pub struct PexRow {
     pub fit: Result<LinearFit, FitStatus>,
     /// Probability with which limits hold the truth.
     pub confidence: f64,
-    /// Standard errors of the coefficients where cases of one cell may depend on each other.
+    /// Standard errors of the coefficients where cases of one cell or earthquake may depend on each other.
     pub clustered_errors: Vec<f64>,
     /// Bootstrap limits of the coefficients and of the dispersion; empty without replicates.
     pub limits: Vec<Option<BootstrapLimits>>,
@@ -229,7 +229,7 @@ impl PexFrame {
     /// # Errors
     /// If it is none of regressions.
     pub fn read(path: &Path) -> Result<PexFrame, TableError> {
-        read_frame(&path.into(), &PEX).map(PexFrame)
+        read_frame(path, &PEX).map(PexFrame)
     }
 
     /// A number of one of the two planes, below the transition or above it.

@@ -10,11 +10,11 @@ use nalgebra::DVector;
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
-use super::reader::read_frame;
+use super::frame::read_frame;
 use super::schema::{self, Column, PRO};
 use crate::fragility::{
     BootstrapLimits, CurveModel, CurveParameter, Estimate, FitStatus, Limits, Link, Measure, OverturningFit,
-    Test,
+    Test, has_few_events,
 };
 use crate::keyword::{self, Keyword};
 
@@ -72,6 +72,21 @@ impl ProRow {
         self.inference.iter().find(|inference| inference.parameter == parameter)
     }
 
+    /// Whether there is a curve, from so few events that some of its limits are too narrow.
+    pub fn has_few_events(&self) -> bool {
+        let measures = 1 + usize::from(self.im_y.is_some());
+        self.fit.is_ok() && has_few_events(self.events, self.n, measures)
+    }
+
+    /// Which limits to take where events are few, for a message.
+    pub fn few_events(&self) -> String {
+        let suite = self.suite.as_deref().unwrap_or("the motions");
+        format!(
+            "few events for {suite}, {} ({} of {} cases), so that limits by standard errors are too narrow; take the profile limits",
+            self.structure, self.events, self.n
+        )
+    }
+
     /// What is wrong with the curve, for a message.
     pub fn reason(&self) -> String {
         let suite = self.suite.as_deref().unwrap_or("the motions");
@@ -99,7 +114,7 @@ impl ProRow {
 pub struct ParameterInference {
     /// Which.
     pub parameter: CurveParameter,
-    /// Standard error where cases of one cell may depend on each other.
+    /// Standard error where cases of one cell or earthquake may depend on each other.
     pub clustered_error: f64,
     /// By the profile likelihood.
     pub profile: Limits,
@@ -199,7 +214,7 @@ impl ProFrame {
     /// # Errors
     /// If it is none of curves.
     pub fn read(path: &Path) -> Result<ProFrame, TableError> {
-        read_frame(&path.into(), &PRO).map(ProFrame)
+        read_frame(path, &PRO).map(ProFrame)
     }
 
     /// A number of the curve of one measure, or of a hybrid of two.

@@ -1,17 +1,22 @@
 //! What made a file: stage, version, parameters, inputs, fingerprints. It stands in the key-value metadata.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use parquet::file::metadata::KeyValue;
+use parquet::file::metadata::{KeyValue, ParquetMetaData};
 use serde_json::Value;
 
 use super::TableError;
 use super::folder;
-use super::footer::open_metadata;
+use super::footer;
 use super::partition::PARAMETER;
 use super::source::Source;
 
+/// How tables and metadata are laid out. It rises when a reader of the old layout would misread the new one; a column more
+/// is no reason. Files without it are of the first format.
+pub const FORMAT_VERSION: u32 = 1;
+
+const FORMAT: &str = "rockfrag.format";
 const STAGE: &str = "rockfrag.stage";
 const VERSION: &str = "rockfrag.version";
 const PARAMETERS: &str = "rockfrag.parameters";
@@ -30,13 +35,35 @@ pub struct Provenance {
     pub parameters: Value,
     /// The fingerprint of what each input holds, by the role it plays.
     pub inputs: BTreeMap<String, String>,
+    /// Where the inputs are, by their roles, as far as they can be looked at again; the file does not say.
+    pub sources: BTreeMap<String, PathBuf>,
 }
 
 impl Provenance {
     /// Of a file that this version of rockfrag makes.
     pub fn new(stage: &str, parameters: Value, inputs: BTreeMap<String, String>) -> Provenance {
         let version = env!("CARGO_PKG_VERSION").to_string();
-        Provenance { stage: stage.to_string(), version, parameters, inputs }
+        Provenance { stage: stage.to_string(), version, parameters, inputs, sources: BTreeMap::new() }
+    }
+
+    /// With the places of its inputs.
+    pub fn of_sources(self, sources: BTreeMap<String, PathBuf>) -> Provenance {
+        Provenance { sources, ..self }
+    }
+
+    /// That the inputs still hold what they held before they were read: rows of one file must not say that they come from
+    /// another.
+    ///
+    /// # Errors
+    /// If an input has changed or gone.
+    pub(super) fn expect_unchanged(&self) -> Result<(), TableError> {
+        let changed = |(role, path): &(&String, &PathBuf)| {
+            content_of(path).ok().as_ref() != self.inputs.get(role.as_str())
+        };
+        match self.sources.iter().find(changed) {
+            Some((_, path)) => Err(TableError::Changed { path: path.clone() }),
+            None => Ok(()),
+        }
     }
 
     /// The fingerprint of what is to be done: equal plans give equal rows.
@@ -47,6 +74,7 @@ impl Provenance {
 
     pub(super) fn key_values(&self, content: &str) -> Vec<KeyValue> {
         [
+            (FORMAT, FORMAT_VERSION.to_string()),
             (STAGE, self.stage.clone()),
             (VERSION, self.version.clone()),
             (PARAMETERS, self.parameters.to_string()),
@@ -74,7 +102,7 @@ pub struct Stamp {
 /// no partition, the inputs of the first one, and the fingerprint of all.
 ///
 /// # Errors
-/// If the file is missing or not readable as Parquet, or the folder is incomplete.
+/// If the file is missing, not readable as Parquet, or of a later format than is known here, or the folder is incomplete.
 pub fn stamp(path: &Path) -> Result<Option<Stamp>, TableError> {
     if !path.is_dir() {
         return stamp_of_file(path);
@@ -91,9 +119,19 @@ pub fn stamp(path: &Path) -> Result<Option<Stamp>, TableError> {
 }
 
 pub(super) fn stamp_of_file(path: &Path) -> Result<Option<Stamp>, TableError> {
-    let metadata = open_metadata(path)?;
+    stamp_in(path, footer::open(path)?.metadata.metadata())
+}
+
+/// The stamp in the footer of a file.
+pub(super) fn stamp_in(path: &Path, metadata: &ParquetMetaData) -> Result<Option<Stamp>, TableError> {
     let pairs = metadata.file_metadata().key_value_metadata().map_or(&[][..], Vec::as_slice);
     let get = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone());
+    if let Some(format) = get(FORMAT)
+        && format.parse::<u32>().is_ok_and(|format| format > FORMAT_VERSION)
+    {
+        let version = get(VERSION).unwrap_or_default();
+        return Err(TableError::Newer { path: path.to_path_buf(), version, format, known: FORMAT_VERSION });
+    }
     let stamp = || {
         Some(Stamp {
             provenance: Provenance {
@@ -101,6 +139,7 @@ pub(super) fn stamp_of_file(path: &Path) -> Result<Option<Stamp>, TableError> {
                 version: get(VERSION)?,
                 parameters: serde_json::from_str(&get(PARAMETERS)?).ok()?,
                 inputs: serde_json::from_str(&get(INPUTS)?).ok()?,
+                sources: BTreeMap::new(),
             },
             plan: get(PLAN)?,
             content: get(CONTENT)?,
@@ -113,12 +152,12 @@ pub(super) fn stamp_of_file(path: &Path) -> Result<Option<Stamp>, TableError> {
 /// it.
 ///
 /// # Errors
-/// If a file is missing or unreadable, or the folder incomplete; or if the table is in memory, so that no file could say of
+/// As [`stamp`], or if a file is unreadable; or if the table is in memory, so that no file could say of
 /// itself what it was made from.
-pub fn content_of(source: &Source) -> Result<String, TableError> {
-    match source {
+pub fn content_of(source: impl Into<Source>) -> Result<String, TableError> {
+    match source.into() {
         Source::Path(path) => {
-            let files = folder::files(path)?;
+            let files = folder::files(&path)?;
             let contents = files.iter().map(|file| content_of_file(file)).collect::<Result<Vec<_>, _>>()?;
             if path.is_dir() {
                 Ok(hash_of_all(contents.iter().map(String::as_str)))

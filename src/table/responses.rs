@@ -5,7 +5,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, Int32Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 
-use super::motions::{MotionId, id_column, schema_by_name};
+use super::motions::{MotionId, id_column, schema_of};
 use super::schema::RESPONSES;
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -26,6 +26,8 @@ pub struct ResponseRow<'a> {
     pub mw: Option<f64>,
     /// Distance, km, if known.
     pub re_km: Option<f64>,
+    /// The earthquake, if known.
+    pub event: Option<&'a str>,
     /// Peak ground acceleration, m/s2.
     pub pga_m_s2: f64,
     /// Peak ground velocity, m/s.
@@ -49,7 +51,6 @@ pub fn batch(rows: &[ResponseRow], by_name: bool) -> Result<RecordBatch, ArrowEr
     let optional = |value: fn(&ResponseRow) -> Option<f64>| -> ArrayRef {
         Arc::new(Float64Array::from_iter(rows.iter().map(value)))
     };
-    let schema = if by_name { schema_by_name(&RESPONSES) } else { RESPONSES.schema() };
     let columns: Vec<ArrayRef> = vec![
         id_column(rows.iter().map(|row| row.motion_id), by_name),
         Arc::new(rows.iter().map(|row| row.suite).collect::<StringArray>()),
@@ -59,9 +60,12 @@ pub fn batch(rows: &[ResponseRow], by_name: bool) -> Result<RecordBatch, ArrowEr
         number(|row| row.structure.eta),
         Arc::new(StringArray::from_iter_values(rows.iter().map(|row| row.response.outcome.as_str()))),
         number(|row| row.response.edp),
-        Arc::new(Int32Array::from_iter_values(rows.iter().map(|row| row.response.impacts as i32))),
+        Arc::new(Int32Array::from_iter_values(
+            rows.iter().map(|row| i32::try_from(row.response.impacts).unwrap_or(i32::MAX)),
+        )),
         optional(|row| row.mw),
         optional(|row| row.re_km),
+        Arc::new(rows.iter().map(|row| row.event).collect::<StringArray>()),
         number(|row| row.pga_m_s2),
         number(|row| row.pgv_m_s),
         optional(|row| row.tp_s),
@@ -73,5 +77,5 @@ pub fn batch(rows: &[ResponseRow], by_name: bool) -> Result<RecordBatch, ArrowEr
         number(|row| row.measures.im5),
         optional(|row| row.measures.im6),
     ];
-    RecordBatch::try_new(schema, columns)
+    RecordBatch::try_new(schema_of(&RESPONSES, by_name), columns)
 }

@@ -12,6 +12,12 @@ use super::schema::{self, SCENARIOS};
 use super::source::Source;
 use crate::motion::Scenario;
 
+/// Half-way round the globe, km.
+const FARTHEST_KM: f64 = 20_000.0;
+const FASTEST_M_S: f64 = 100.0;
+/// What a synthetic motion is long, s, at most: it is held in memory.
+const LONGEST_PULSE_S: f64 = 3600.0;
+
 /// The rows of the scenarios file.
 ///
 /// # Errors
@@ -47,7 +53,7 @@ pub(super) fn columns(scenarios: &[Scenario]) -> Vec<ArrayRef> {
 /// If the file is not one of scenarios or a value is out of range.
 pub fn read(source: &Source) -> Result<Vec<Scenario>, TableError> {
     let mut scenarios = Vec::new();
-    for batch in Batches::open(source, &[SCENARIOS.stage], SCENARIOS.columns, &[], 8192)? {
+    for batch in Batches::open_whole(source, &SCENARIOS, &[SCENARIOS.stage])? {
         scenarios.extend(rows_of(&batch?.columns())?);
     }
     Ok(scenarios)
@@ -71,6 +77,28 @@ fn rows_of(columns: &Columns) -> Result<Vec<Scenario>, TableError> {
         let positive = [(&schema::VP_M_S, vp_m_s[row]), (&schema::PULSE_TP_S, tp_s[row])];
         if let Some((column, value)) = positive.into_iter().find(|(_, value)| *value <= 0.0) {
             return Err(columns.value_error(row, column, &format!("{value}; expected a number above 0")));
+        }
+        let duration_s = gamma[row] * tp_s[row];
+        let most = [
+            (&schema::RE_KM, re_km[row], re_km[row], FARTHEST_KM, "a distance on the globe, km"),
+            (
+                &schema::VP_M_S,
+                vp_m_s[row],
+                vp_m_s[row],
+                FASTEST_M_S,
+                "a velocity of the ground up to 100 m/s",
+            ),
+            (
+                &schema::GAMMA,
+                gamma[row],
+                duration_s,
+                LONGEST_PULSE_S,
+                "a pulse (gamma tp_s) of an hour at most",
+            ),
+        ];
+        if let Some((column, value, _, _, expected)) = most.into_iter().find(|(_, _, is, most, _)| is > most)
+        {
+            return Err(columns.value_error(row, column, &format!("{value}; expected {expected}")));
         }
         if !(3.0..=10.0).contains(&mw[row]) {
             let problem = format!("{}; expected a moment magnitude from 3 to 10", mw[row]);

@@ -44,6 +44,12 @@ impl Source {
     }
 }
 
+impl From<&Source> for Source {
+    fn from(source: &Source) -> Source {
+        source.clone()
+    }
+}
+
 impl<P: AsRef<Path>> From<P> for Source {
     fn from(path: P) -> Source {
         Source::Path(path.as_ref().to_path_buf())
@@ -71,13 +77,16 @@ impl Target {
     /// A further output of the same stage: `pex.parquet` becomes `pex.scan.parquet`, memory the place `scan`.
     pub fn part(&self, part: &str) -> Target {
         match self {
-            Target::Path(path) => {
-                let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-                Target::Path(path.with_file_name(format!("{stem}.{part}.parquet")))
-            }
+            Target::Path(path) => Target::Path(with_part(path, part)),
             Target::Memory(shelf, _) => Target::Memory(shelf.clone(), part.to_string()),
         }
     }
+}
+
+/// `pex.parquet` becomes `pex.scan.parquet`: a further output of the same stage.
+pub fn with_part(path: &Path, part: &str) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}.{part}.parquet"))
 }
 
 impl<P: AsRef<Path>> From<P> for Target {

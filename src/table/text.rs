@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
+use arrow_array::types::{Float64Type, Int32Type, Int64Type};
 use arrow_array::{Array, ArrayRef, RecordBatch};
 use arrow_schema::DataType;
 use serde_json::Value;
@@ -12,13 +12,13 @@ use serde_json::Value;
 use super::TableError;
 use super::writer::temporary_beside;
 
-/// Writes a text beside its name and renames it when it is whole.
+/// Writes a text, or bytes, beside its name and renames it when it is whole.
 ///
 /// # Errors
 /// If the folder is not there or cannot be written.
-pub fn write(path: &Path, text: &str) -> Result<(), TableError> {
+pub fn write(path: &Path, text: impl AsRef<[u8]>) -> Result<(), TableError> {
     let mut partial = temporary_beside(path)?;
-    partial.write_all(text.as_bytes()).map_err(|source| TableError::io(path, source))?;
+    partial.write_all(text.as_ref()).map_err(|source| TableError::io(path, source))?;
     partial.persist(path).map_err(|refused| TableError::io(path, refused.error))?;
     Ok(())
 }
@@ -27,13 +27,7 @@ pub fn write(path: &Path, text: &str) -> Result<(), TableError> {
 pub fn aligned(batch: &RecordBatch) -> String {
     let schema = batch.schema();
     let columns = schema.fields().iter().zip(batch.columns()).map(|(field, array)| {
-        let cells = (0..array.len()).map(|row| match cell(array, row) {
-            Cell::Nothing => "-".to_string(),
-            Cell::Text(text) => text.to_string(),
-            Cell::Number(number) => short(number),
-            Cell::Count(count) => count.to_string(),
-        });
-        let cells: Vec<String> = std::iter::once(field.name().clone()).chain(cells).collect();
+        let cells: Vec<String> = std::iter::once(field.name().clone()).chain(cells(array)).collect();
         let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0);
         let to_the_right = field.data_type() != &DataType::Utf8;
         let pad =
@@ -46,6 +40,16 @@ pub fn aligned(batch: &RecordBatch) -> String {
         format!("{}\n", cells.join("  ").trim_end())
     };
     (0..=batch.num_rows()).map(line).collect()
+}
+
+/// The cells of a column as [`aligned`] shows them.
+pub fn cells(array: &ArrayRef) -> impl Iterator<Item = String> {
+    (0..array.len()).map(|row| match cell(array, row) {
+        Cell::Nothing => "-".to_string(),
+        Cell::Text(text) => text.to_string(),
+        Cell::Number(number) => short(number),
+        Cell::Count(count) => count.to_string(),
+    })
 }
 
 /// Comma-separated values, names in the first line, numbers in full, nothing where there is none.
@@ -92,7 +96,7 @@ enum Cell<'a> {
     Count(i64),
 }
 
-/// A cell of a column of text or of 64-bit numbers; all other types are no part of narrow tables for reading.
+/// A cell of a column of text, of 64-bit numbers or of counts; all other types are no part of narrow tables for reading.
 fn cell(array: &ArrayRef, row: usize) -> Cell<'_> {
     if array.is_null(row) {
         return Cell::Nothing;
@@ -103,6 +107,8 @@ fn cell(array: &ArrayRef, row: usize) -> Cell<'_> {
         Cell::Number(numbers.value(row))
     } else if let Some(counts) = array.as_primitive_opt::<Int64Type>() {
         Cell::Count(counts.value(row))
+    } else if let Some(counts) = array.as_primitive_opt::<Int32Type>() {
+        Cell::Count(i64::from(counts.value(row)))
     } else {
         Cell::Nothing
     }

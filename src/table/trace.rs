@@ -5,7 +5,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 
-use super::motions::{MotionId, id_column, schema_by_name};
+use super::motions::{MotionId, id_column, schema_of};
 use super::schema::TRACE;
 use crate::keyword::Keyword;
 use crate::rocking::TracePoint;
@@ -33,7 +33,6 @@ pub fn batch(rows: &[TraceRow], by_name: bool) -> Result<RecordBatch, ArrowError
     let number = |value: fn(&TraceRow) -> f64| -> ArrayRef {
         Arc::new(Float64Array::from_iter_values(rows.iter().map(value)))
     };
-    let schema = if by_name { schema_by_name(&TRACE) } else { TRACE.schema() };
     let columns: Vec<ArrayRef> = vec![
         id_column(rows.iter().map(|row| &row.motion_id), by_name),
         Arc::new(StringArray::from_iter_values(rows.iter().map(|row| &row.structure))),
@@ -44,5 +43,5 @@ pub fn batch(rows: &[TraceRow], by_name: bool) -> Result<RecordBatch, ArrowError
         number(|row| row.ground_m_s2),
         Arc::new(rows.iter().map(|row| row.point.event.map(Keyword::as_str)).collect::<StringArray>()),
     ];
-    RecordBatch::try_new(schema, columns)
+    RecordBatch::try_new(schema_of(&TRACE, by_name), columns)
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 
-use super::reader::{Batch, Batches};
+use super::reader::{Batch, Batches, expect_columns};
 use super::schema::{self, VALIDATION};
 use super::text;
 use crate::fragility::{Foretold, Validation};
@@ -64,12 +64,13 @@ pub fn batch(rows: &[ValidationRow]) -> Result<RecordBatch, ArrowError> {
             number(|validation| Some(validation.share)),
             number(|validation| Some(validation.share_limits.low)),
             number(|validation| Some(validation.share_limits.high)),
-            number(|validation| Some(validation.log_score)),
+            number(|validation| validation.log_score),
             number(|validation| Some(validation.log_score_expected)),
             number(|validation| Some(validation.brier)),
             number(|validation| validation.auc),
             number(|validation| validation.calibration),
             count(|row| row.validation.extrapolated),
+            count(|row| row.validation.impossible),
             count(|row| row.without_measure),
         ],
     )
@@ -101,12 +102,12 @@ const SHOWN: [schema::Column; 16] = [
 /// If it is none.
 pub fn show(path: &Path) -> anyhow::Result<String> {
     let mut table = String::new();
-    for batch in
-        Batches::open(&path.into(), &[VALIDATION.stage], VALIDATION.columns, &[], usize::from(u16::MAX))?
-    {
+    for batch in Batches::open_whole(path, &VALIDATION, &[VALIDATION.stage])? {
         let Batch { rows, .. } = batch?;
-        let shown = SHOWN.iter().map(|column| rows.schema().index_of(column.name));
-        table += &text::aligned(&rows.project(&shown.collect::<Result<Vec<_>, _>>()?)?);
+        let schema = rows.schema();
+        expect_columns(path, &schema, &SHOWN)?;
+        let shown: Vec<usize> = SHOWN.iter().filter_map(|column| schema.index_of(column.name).ok()).collect();
+        table += &text::aligned(&rows.project(&shown)?);
     }
     Ok(table)
 }

@@ -112,7 +112,7 @@ impl TableWriter {
     /// Completes the file and puts it at its name.
     ///
     /// # Errors
-    /// If the disk is full or the name cannot be taken.
+    /// If the disk is full, the name cannot be taken, or an input is no longer what it was.
     pub fn finish(self) -> Result<(), TableError> {
         match self.0 {
             Destination::File(file) => file.finish(),
@@ -155,6 +155,7 @@ impl FileWriter {
     }
 
     fn finish(mut self) -> Result<(), TableError> {
+        self.provenance.expect_unchanged()?;
         for pair in self.provenance.key_values(&self.fingerprint.finish()) {
             self.writer.append_key_value_metadata(pair);
         }

@@ -190,6 +190,74 @@ fn a_hazard_gives_annual_rates() {
 }
 
 #[test]
+fn limits_come_from_resamples_if_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let responses = run_folder().join("responses.parquet");
+    std::fs::copy(responses, folder.path().join("responses.parquet")).unwrap();
+    let fit = |rest: &str| {
+        succeed(folder.path(), &format!("fit-pex --transition 1.3 {rest}"));
+        succeed(folder.path(), "fit-pro --bootstrap 200");
+    };
+    let call = "evaluate --suite csgm --structure electrical-equipment --p 2.5 --alpha 0.2";
+    let point = format!("{call} --pga 0.5 --pgv 0.6 --format json");
+    fit("");
+    fail(
+        folder.path(),
+        &format!("{point} --limits percentile"),
+        2,
+        &["pex.bootstrap.parquet", "--bootstrap 2000"],
+    );
+    fit("--bootstrap 200 --seed 7");
+    fail(folder.path(), &format!("{point} --limits percentile"), 2, &["other seeds"]);
+    fit("--bootstrap 200");
+    let ask = |limits: &str| -> serde_json::Value {
+        serde_json::from_str(&stdout(folder.path(), &format!("{point} --limits {limits}"))).unwrap()
+    };
+    let delta = ask("delta");
+    for limits in ["percentile", "bc"] {
+        let answer = ask(limits);
+        for row in [1, 2, 3, 4] {
+            let of = |answer: &serde_json::Value, name: &str| answer[row][name].as_f64().unwrap();
+            assert_eq!(of(&answer, "value"), of(&delta, "value"));
+            let width = |answer| of(answer, "high") - of(answer, "low");
+            assert!(of(&answer, "low") < of(&answer, "value") && of(&answer, "value") < of(&answer, "high"));
+            let ratio = width(&answer) / width(&delta);
+            assert!((0.6..1.7).contains(&ratio), "{limits} limits of row {row} are {ratio} times as wide");
+        }
+    }
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/data");
+    let hazard = format!("{call} --hazard {data}/hazard.csv --ratio 0.25 --limits bc --format json");
+    let rates: serde_json::Value = serde_json::from_str(&stdout(folder.path(), &hazard)).unwrap();
+    let rate = |state: usize, name: &str| rates[state][name].as_f64().unwrap();
+    assert_eq!(rate(0, "annual_rate"), rate(0, "annual_rate_low"), "uplift is certain");
+    assert!(
+        rate(2, "annual_rate_low") < rate(2, "annual_rate")
+            && rate(2, "annual_rate") < rate(2, "annual_rate_high")
+    );
+    let table = format!("{call} --in {}/motions.parquet --out t.parquet", run_folder().display());
+    succeed(folder.path(), &table);
+    let told = succeed(folder.path(), &format!("{table} --limits bc"));
+    assert!(told.contains("480 rows") && !told.contains("up to date"), "{told}");
+    std::fs::remove_file(folder.path().join("pro.parquet")).unwrap();
+    succeed(folder.path(), "fit-pro");
+    fail(folder.path(), &format!("{point} --limits bc"), 2, &["not made together with pro.parquet"]);
+}
+
+#[test]
+fn few_events_are_told_with_what_to_take() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy(run_folder().join("responses.parquet"), folder.path().join("responses.parquet")).unwrap();
+    succeed(folder.path(), "fit-pex --transition 1.3 --bootstrap 50");
+    let told = succeed(folder.path(), "fit-pro --bootstrap 50");
+    assert!(told.contains("few events for pulse, electrical-equipment (10 of 92 cases)"), "{told}");
+    let call =
+        "evaluate --suite pulse --structure electrical-equipment --p 2.5 --alpha 0.2 --pga 0.5 --pgv 0.6";
+    assert_eq!(succeed(folder.path(), call), "");
+    let told = succeed(folder.path(), &format!("{call} --limits percentile"));
+    assert!(told.contains("those of --limits delta are not"), "{told}");
+}
+
+#[test]
 fn questions_without_an_answer_are_explained() {
     let (folder, fits) = fitted();
     let ask = |rest: &str, code, expected: &[&str]| {

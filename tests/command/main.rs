@@ -1,11 +1,17 @@
 //! The command as a user calls it.
 
 mod bad_input;
+mod clusters;
 mod common;
 mod evaluate;
 mod export;
+mod ida;
 mod import;
 mod kill;
 mod partitions;
 mod pipeline;
+mod rank_ims;
+mod report;
+mod together;
+mod universality;
 mod validate;

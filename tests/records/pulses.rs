@@ -6,7 +6,7 @@ use rockfrag::motion::Pulse;
 use rockfrag::motion::intensity::peak;
 use rockfrag::motion::pulse_fit::FittedPulse;
 use rockfrag::motion::pulse_indicator::{PulseIndicator, Verdict, indicator, strongest_direction};
-use rockfrag::motion::wavelet::{Transformable, Wavelet, WaveletScratch};
+use rockfrag::motion::wavelet::{SampledWavelet, Transformable, Wavelet, WaveletScratch};
 
 const DT: f64 = 0.01;
 const PULSE: Pulse = Pulse { amplitude_m_s: 0.8, tp_s: 3.0, gamma: 1.9, nu_rad: 0.7 };
@@ -46,10 +46,15 @@ fn the_transform_is_the_coefficient_at_every_sample() {
     let transformable = Transformable::new(&series, DT, 5.0, &mut scratch);
     for period_s in [0.3, 1.7, 5.0] {
         let all = transformable.coefficients(period_s, &mut scratch);
+        let sampled = SampledWavelet::new(period_s, DT);
         for index in [0, 17, 800, 3999] {
             let direct = Wavelet { period_s, centre_s: index as f64 * DT }.coefficient(&series, DT);
             assert!((all[index] - direct).abs() < 1e-9, "{period_s} {index}: {} {direct}", all[index]);
+            let sampled = sampled.coefficient(&series, index as i64);
+            assert!((sampled - direct).abs() < 1e-12, "{period_s} {index}: {sampled} {direct}");
         }
+        assert_eq!(sampled.coefficient(&series, -9000), 0.0);
+        assert_eq!(all, transformable.coefficients(period_s, &mut scratch), "the second time as the first");
     }
 }
 

@@ -79,6 +79,50 @@ fn latin_1_is_text() {
     assert_eq!(motions, parse(&text).unwrap());
 }
 
+/// A file of each format, by name, with a word of its header that may be any other.
+fn each_format() -> [(&'static str, String, &'static str); 7] {
+    let samples = motion(103);
+    [
+        ("at2", nga_at2(&samples), "CHY101"),
+        ("cosmos", cosmos(&samples, 90), "Bremner"),
+        ("csmip v2", csmip_v2(&samples, " 90 Deg"), "Concord"),
+        ("csmip v1", csmip_v1(&samples), "Willow"),
+        ("esm", esm(&samples), "MIRANDOLA"),
+        ("knet", knet(&samples[..100]), "MYG004"),
+        ("smc", smc(&samples), "Valle"),
+    ]
+}
+
+#[test]
+fn each_format_is_read_in_latin_1() {
+    for (format, text, word) in each_format() {
+        let accented = text.replacen(word, "Cura\u{e7}\u{e1}", 1);
+        let latin: Vec<u8> = accented.chars().map(|c| c as u8).collect();
+        let motions = read(&latin, None, &Given::default()).unwrap_or_else(|why| panic!("{format}: {why}"));
+        assert_eq!(motions, parse(&accented).unwrap(), "{format}");
+        let words = [&motions[0].event, &motions[0].station].map(|text| text.clone().unwrap_or_default());
+        assert!(words.concat().contains("Curaçá"), "{format}: {words:?}");
+    }
+}
+
+#[test]
+fn each_format_refuses_what_is_cut_off_empty_or_junk() {
+    for (format, text, _) in each_format() {
+        let lines: Vec<&str> = text.lines().collect();
+        // One line, part of the header, and the header with part of the samples.
+        for kept in [1, lines.len() / 3, lines.len() * 7 / 10] {
+            let cut = lines[..kept].join("\n");
+            let refused = parse(&cut);
+            assert!(refused.is_err(), "{format}: {kept} of {} lines are read", lines.len());
+        }
+        let mut bytes = text.clone().into_bytes();
+        let end = bytes.len();
+        bytes[end / 2..end * 3 / 4].fill(0);
+        assert!(read(&bytes, None, &Given::default()).is_err(), "{format} with zeros is read");
+        assert!(parse(&text.replace(|c: char| c.is_ascii_digit(), "*")).is_err(), "{format} without digits");
+    }
+}
+
 #[test]
 fn velocity_and_displacement_are_refused_with_the_reason() {
     let text = nga_at2(&motion(103));

@@ -53,7 +53,7 @@ impl Data {
     }
 
     /// As cases of the fits: every second meaning of `outcome` serves one of them.
-    fn cases(&self, outcome: impl Fn(usize) -> Outcome) -> Vec<Case> {
+    pub fn cases(&self, outcome: impl Fn(usize) -> Outcome) -> Vec<Case> {
         let measures = |k: usize| IntensityMeasures {
             im1: None,
             im2: None,
@@ -85,9 +85,21 @@ pub fn answers() -> Answers {
     Answers(read("uncertainty_answers.csv").into_iter().collect())
 }
 
+/// Those for the ranking of measures (scripts/reference/ranking.py).
+pub fn ranking_answers() -> Answers {
+    Answers(read("ranking_answers.csv").into_iter().collect())
+}
+
 impl Answers {
     pub fn get(&self, name: &str) -> f64 {
         *self.0.get(name).unwrap_or_else(|| panic!("no answer '{name}'"))
+    }
+
+    /// That a value equals the answer to an absolute tolerance.
+    #[track_caller]
+    pub fn check_absolute(&self, name: &str, value: f64, tolerance: f64) {
+        let expected = self.get(name);
+        assert!((value - expected).abs() <= tolerance, "{name}: {value:e}, expected {expected:e}");
     }
 
     /// That a value equals the answer to a relative tolerance.

@@ -1,8 +1,10 @@
-//! The uncertainty of the fits against statsmodels, pyFragility, firthmodels and scipy (scripts/reference/uncertainty.py).
+//! The uncertainty of the fits against statsmodels, pyFragility, firthmodels and scipy (scripts/reference/uncertainty.py), and the
+//! ranking of what they are fitted to (scripts/reference/ranking.py).
 
 mod bootstrap;
 mod data;
 mod firth;
 mod goodness;
 mod links;
+mod ranking;
 mod robust;

@@ -46,9 +46,9 @@ impl Answer {
     }
 
     fn provenance(&self, options: &EvaluateOptions) -> anyhow::Result<Provenance> {
-        let fits = [("pex", options.fits.pex.clone()), ("pro", options.fits.pro.clone())];
         let mut inputs = std::collections::BTreeMap::new();
-        for (role, source) in fits.into_iter().chain(self.input.clone()) {
+        for (role, source) in options.limits.0.fit_files(&options.fits)?.into_iter().chain(self.input.clone())
+        {
             let content = match role {
                 "hazard" => blake3::hash(&std::fs::read(source.name())?).to_hex().to_string(),
                 _ => content_of(&source)?,

@@ -11,13 +11,17 @@ use clap::Args;
 
 pub use self::table::EvaluateTable;
 
+use super::chosen_fits::ChosenFits;
 use super::fits::FitsOptions;
+use super::resampled_fits;
 use super::structure_options::StructureOptions;
+use crate::fragility::{ReplicateLimits, ResampledModel};
 use crate::keyword::keywords;
 use crate::pipeline::cache;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
 use crate::pipeline::stage::beside;
+use crate::table::source::Source;
 
 /// What is asked, of which fits and structure.
 #[derive(Debug, Clone, Args)]
@@ -32,6 +36,9 @@ pub struct EvaluateOptions {
     table: TableOptions,
     #[command(flatten, next_help_heading = "Hazard of a site")]
     hazard: HazardOptions,
+    /// delta (of the standard errors), or from the resamples of fit-pex and fit-pro --bootstrap: percentile, or bc (bias-corrected)
+    #[arg(long, default_value = "delta", help_heading = "Fits")]
+    limits: Word<LimitsBy>,
     /// File to write [default: stdout; of a table: evaluated.parquet beside it]
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     out: Option<PathBuf>,
@@ -76,6 +83,19 @@ struct HazardOptions {
     years: f64,
 }
 
+/// Where limits come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LimitsBy {
+    /// The standard errors of the fits.
+    Delta,
+    /// The fits of resampled cases.
+    Percentile,
+    /// The same, corrected for their bias.
+    BiasCorrected,
+}
+
+keywords!(LimitsBy { Delta = "delta", Percentile = "percentile", BiasCorrected = "bc" });
+
 /// How an answer is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
@@ -91,6 +111,30 @@ pub enum Format {
 
 keywords!(Format { Table = "table", Csv = "csv", Json = "json", Parquet = "parquet" });
 
+impl LimitsBy {
+    /// The fits, with their resamples where limits need them.
+    fn choose(self, options: &FitsOptions) -> anyhow::Result<ChosenFits> {
+        let chosen = options.choose()?;
+        let limits = match self {
+            LimitsBy::Delta => return Ok(chosen),
+            LimitsBy::Percentile => ReplicateLimits::Percentile,
+            LimitsBy::BiasCorrected => ReplicateLimits::BiasCorrected,
+        };
+        let replicates = resampled_fits::read(options, &chosen)?;
+        Ok(ChosenFits { resampled: Some(ResampledModel { replicates, limits }), ..chosen })
+    }
+
+    /// The files that the fits come from, by the role each plays.
+    fn fit_files(self, options: &FitsOptions) -> anyhow::Result<Vec<(&'static str, Source)>> {
+        let mut files = vec![("pex", options.pex.clone()), ("pro", options.pro.clone())];
+        if self != LimitsBy::Delta {
+            let [pex, pro] = resampled_fits::files(options)?;
+            files.extend([("pex bootstrap", pex.into()), ("pro bootstrap", pro.into())]);
+        }
+        Ok(files)
+    }
+}
+
 /// Answers what the options ask: into a file, or as text that is to be printed.
 ///
 /// # Errors
@@ -98,10 +142,11 @@ keywords!(Format { Table = "table", Csv = "csv", Json = "json", Parquet = "parqu
 pub fn evaluate(options: &EvaluateOptions, force: bool, console: &Console) -> anyhow::Result<String> {
     if let Some(input) = &options.table.input {
         let out = options.out.clone().unwrap_or_else(|| beside(input, "evaluated.parquet"));
-        let stage = EvaluateTable::new(&options.fits, &options.structure, input, out)?;
-        return cache::run(&stage, force, console).map(|()| String::new());
+        let stage = EvaluateTable::new(&options.fits, options.limits.0, &options.structure, input, out)?;
+        return cache::run_alone(&stage, force, console).map(|()| String::new());
     }
-    let fits = options.fits.choose()?;
+    let fits = options.limits.0.choose(&options.fits)?;
+    fits.warn_of_few_events(console);
     let structure = options.structure.structure(fits.model.eta)?;
     fits.warn_of_eta(&structure, console);
     let answer = match &options.hazard.hazard {

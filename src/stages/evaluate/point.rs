@@ -31,7 +31,7 @@ pub fn answer(
     check(pga_g >= 0.0 && pga_g.is_finite(), "pga", pga_g, "0 g or more")?;
     check(pgv_m_s >= 0.0 && pgv_m_s.is_finite(), "pgv", pgv_m_s, "0 m/s or more")?;
     let measures = IntensityMeasures::new(structure, pga_g * G_M_S2, pgv_m_s, options.tp, options.tm);
-    let probabilities = fits.model.probabilities(&measures);
+    let probabilities = fits.probabilities(&measures);
     let failure = probabilities.limit_states().map(|[_, failure, _]| failure);
     if failure.is_none() {
         console.note("warning: the fits need a measure that is missing: give --pgv above 0, --tp or --tm");
@@ -40,7 +40,7 @@ pub fn answer(
     let row = |column: Column, value: Option<f64>, p: Option<Probability>| AnswerRow {
         quantity: column.name,
         value: value.or(p.map(|p| p.value)),
-        limits: p.map(|p| (p.low, p.high)),
+        limits: p.filter(|p| !p.low.is_nan()).map(|p| (p.low, p.high)),
         meaning: column.description.to_string(),
     };
     let given = probabilities.given_rocking;
@@ -69,13 +69,14 @@ pub fn answer(
         table: ANSWER,
         rows: evaluated::answer(&rows)?,
         heading: format!(
-            "fits of {}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % limits of confidence\n",
+            "fits of {}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % limits of confidence, {}\n",
             fits.words(),
             words(structure),
             fits.model.limit,
+            fits.words_of_limits(),
         ),
         parameters: json!({ "p": p_rad_s, "alpha": alpha_rad, "eta": eta, "pga": pga_g, "pgv": pgv_m_s,
-            "tp": options.tp, "tm": options.tm, "fits": fits.words() }),
+            "tp": options.tp, "tm": options.tm, "fits": fits.words(), "limits": fits.words_of_limits() }),
         input: None,
     })
 }

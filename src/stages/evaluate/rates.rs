@@ -1,10 +1,11 @@
 use std::path::Path;
 
+use rayon::prelude::*;
 use serde_json::json;
 
 use super::HazardOptions;
 use super::answer::Answer;
-use crate::fragility::{LimitState, Probability, Slice};
+use crate::fragility::{FragilityModel, LimitState, Probability, Slice};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -21,8 +22,8 @@ use crate::table::schema::RATES;
 /// Value, lower and upper limit of each limit state in turn.
 type Rates = [f64; 9];
 
-/// The annual rate of each limit state over the hazard of a site. The limits are those of the probabilities at every
-/// intensity at once, as if all were too high or too low together.
+/// The annual rate of each limit state over the hazard of a site. By the delta method the limits are those of the probabilities at
+/// every intensity at once, as if all were too high or too low together; by resamples, those of the rate itself.
 pub fn answer(
     options: &HazardOptions,
     path: &Path,
@@ -42,9 +43,13 @@ pub fn answer(
             };
             check(ratio > 0.0 && ratio.is_finite(), "ratio", ratio, "a p PGV / PGA above 0")?;
             let slice = Slice { structure: structure.clone(), peak, ratio };
-            along_slice(&slice, &curve, fits, console)?
+            let rates = along_slice(&slice, &curve, fits, console)?;
+            with_limits(rates, fits, |model| over_curve(&slice, &curve, model))
         }
-        Hazard::Joint(joint) => over_pairs(structure, &joint, fits, console)?,
+        Hazard::Joint(joint) => {
+            let rates = over_pairs(structure, &joint, fits, console)?;
+            with_limits(rates, fits, |model| over_bins(structure, &joint, model))
+        }
     };
     let row = |(index, &state): (usize, &LimitState)| {
         let annual_rate = [0, 1, 2].map(|part| rates[3 * index + part]);
@@ -63,7 +68,7 @@ pub fn answer(
             path.display()
         ),
         parameters: json!({ "p": p_rad_s, "alpha": alpha_rad, "eta": eta, "ratio": options.ratio,
-            "years": years, "fits": fits.words() }),
+            "years": years, "fits": fits.words(), "limits": fits.words_of_limits() }),
         input: Some(("hazard", path.into())),
     })
 }
@@ -76,8 +81,7 @@ fn along_slice(
 ) -> anyhow::Result<Rates> {
     let (model, [(first, _), (last, rate_beyond)]) = (&fits.model, curve.ends());
     let Some(at_last) = slice.limit_states(model, last) else { return Err(periods_needed()) };
-    let probabilities = |intensity: f64| flat(slice.limit_states(model, intensity));
-    let rates = curve.mean_annual_rates(&slice.jumps(model), probabilities);
+    let rates = over_curve(slice, curve, model);
     fits.warn_of_slice(slice, last, "the hazard: ", console);
     let (uplift, (unit, size)) = (slice.intensity_at_im4(1.0), slice.peak.usual_unit());
     if first > uplift {
@@ -105,8 +109,7 @@ fn over_pairs(
     console: &Console,
 ) -> anyhow::Result<Rates> {
     let model = &fits.model;
-    let measures =
-        |bin: &PairOfPeaks| IntensityMeasures::new(structure, bin.pga_m_s2, bin.pgv_m_s, None, None);
+    let measures = |bin: &PairOfPeaks| measures_of(structure, bin);
     let states = |bin: &PairOfPeaks| model.probabilities(&measures(bin)).limit_states();
     if joint.bins.iter().any(|bin| states(bin).is_none()) {
         return Err(periods_needed());
@@ -117,7 +120,34 @@ fn over_pairs(
         let all = joint.bins.len();
         console.note(&format!("warning: {outside} of {all} bins lie outside of the data: extrapolated"));
     }
-    Ok(joint.mean_annual_rates(|bin| flat(states(bin))))
+    Ok(over_bins(structure, joint, model))
+}
+
+fn over_curve(slice: &Slice, curve: &HazardCurve, model: &FragilityModel) -> Rates {
+    curve.mean_annual_rates(&slice.jumps(model), |intensity| flat(slice.limit_states(model, intensity)))
+}
+
+fn over_bins(structure: &Structure, joint: &JointHazard, model: &FragilityModel) -> Rates {
+    joint.mean_annual_rates(|bin| flat(model.probabilities(&measures_of(structure, bin)).limit_states()))
+}
+
+/// The rates with limits from those of each resample, if there are any.
+fn with_limits(rates: Rates, fits: &ChosenFits, rates_of: impl Fn(&FragilityModel) -> Rates + Sync) -> Rates {
+    let Some(resampled) = &fits.resampled else { return rates };
+    let replicates: Vec<Option<Rates>> =
+        resampled.replicates.par_iter().map(|model| model.as_ref().map(&rates_of)).collect();
+    let mut limited = rates;
+    // Of rocking, which is certain from uplift on, the limits are the rate itself.
+    for (k, state) in limited.chunks_exact_mut(3).enumerate().skip(1) {
+        let values: Vec<Option<f64>> = replicates.iter().map(|rates| Some(rates.as_ref()?[3 * k])).collect();
+        let Probability { low, high, .. } = resampled.about(state[0], &values);
+        (state[1], state[2]) = (low, high);
+    }
+    limited
+}
+
+fn measures_of(structure: &Structure, bin: &PairOfPeaks) -> IntensityMeasures {
+    IntensityMeasures::new(structure, bin.pga_m_s2, bin.pgv_m_s, None, None)
 }
 
 fn flat(states: Option<[Probability; 3]>) -> Rates {

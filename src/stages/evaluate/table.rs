@@ -1,6 +1,7 @@
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
+use super::LimitsBy;
 use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::pipelined;
@@ -21,8 +22,7 @@ const BATCH: usize = 16_384;
 /// Probabilities at each intensity of a table, ready to run.
 pub struct EvaluateTable {
     fits: ChosenFits,
-    pex: Source,
-    pro: Source,
+    fit_files: Vec<(&'static str, Source)>,
     /// Of all rows; without it each row has its own.
     structure: Option<Structure>,
     input: Source,
@@ -36,19 +36,20 @@ impl EvaluateTable {
     /// If the fits cannot be read or chosen, or the structure in the options is impossible.
     pub fn new(
         fits: &FitsOptions,
+        limits: LimitsBy,
         structure: &StructureOptions,
         input: impl Into<Source>,
         out: impl Into<Target>,
     ) -> anyhow::Result<EvaluateTable> {
-        let (pex, pro) = (fits.pex.clone(), fits.pro.clone());
-        let fits = fits.choose()?;
+        let fit_files = limits.fit_files(fits)?;
+        let fits = limits.choose(fits)?;
         let structure = structure.is_given().then(|| structure.structure(fits.model.eta)).transpose()?;
-        Ok(EvaluateTable { fits, pex, pro, structure, input: input.into(), out: out.into() })
+        Ok(EvaluateTable { fits, fit_files, structure, input: input.into(), out: out.into() })
     }
 
     fn row(&self, intensity: &Intensity) -> EvaluatedRow {
         let (model, measures) = (&self.fits.model, &intensity.measures);
-        let probabilities = model.probabilities(measures);
+        let probabilities = self.fits.probabilities(measures);
         EvaluatedRow {
             p_rad_s: intensity.structure.p_rad_s,
             alpha_rad: intensity.structure.alpha_rad,
@@ -106,7 +107,7 @@ impl Stage for EvaluateTable {
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), ("intensities", self.input.clone())]
+        self.fit_files.iter().cloned().chain([("intensities", self.input.clone())]).collect()
     }
 
     fn targets(&self) -> Vec<Target> {
@@ -116,13 +117,14 @@ impl Stage for EvaluateTable {
     fn parameters(&self) -> Value {
         let structure = self.structure.as_ref();
         let structure = structure.map(|s| json!({ "p": s.p_rad_s, "alpha": s.alpha_rad, "eta": s.eta }));
-        json!({ "fits": self.fits.words(), "structure": structure })
+        json!({ "fits": self.fits.words(), "limits": self.fits.words_of_limits(), "structure": structure })
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let nameless = self.structure.clone().map(|structure| Structure { name: String::new(), ..structure });
         let intensities = IntensityBatches::open(&self.input, nameless, self.fits.model.eta, BATCH)?;
         let total = intensities.rows();
+        self.fits.warn_of_few_events(console);
         let mut writer = TableWriter::create(self.out.clone(), &EVALUATED, provenance.clone())?;
         let mut doubtful = Doubtful::default();
         let bar = console.bar(self.subcommand(), total);

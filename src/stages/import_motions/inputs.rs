@@ -151,6 +151,7 @@ fn text_file(file: &Path, names: &Names, reading: &Reading) -> Result<Vec<Found>
         if let Some(pga) = motion.header_pga {
             pga.check(&motion.acceleration_m_s2, reading.pga_tolerance).map_err(|error| error.to_string())?;
         }
+        Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| problem.to_string())?;
         let motion_id = if several { format!("{name}:{}", index + 1) } else { name.clone() };
         Ok(Found { motion_id, source: source.clone(), motion })
     };

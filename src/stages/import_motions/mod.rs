@@ -86,6 +86,17 @@ impl ImportMotions {
     }
 }
 
+impl ImportMotions {
+    /// That the files still hold what they held before they were read.
+    fn expect_unchanged(&self, planned: &Provenance) -> anyhow::Result<()> {
+        let now = self.provenance()?.inputs;
+        if planned.inputs.iter().any(|(role, content)| now.get(role) != Some(content)) {
+            bail!("the files changed while they were read; run again");
+        }
+        Ok(())
+    }
+}
+
 impl Stage for ImportMotions {
     fn subcommand(&self) -> &'static str {
         RECORDS.stage
@@ -158,6 +169,7 @@ impl Stage for ImportMotions {
         if seen.is_empty() {
             bail!("no motion is imported; {}", summary(&refused, self.files.len()));
         }
+        self.expect_unchanged(provenance)?;
         if refused.is_empty() || self.keep_going {
             writer.finish()?;
             if !refused.is_empty() {

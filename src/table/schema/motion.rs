@@ -20,6 +20,8 @@ columns! {
     D5_95_S = "d5_95_s", Float64, "s", "significant duration, 5 to 95 % of the Arias intensity";
     HOUSNER_M = "housner_m", Float64, "m", "Housner intensity, 0.1 to 2.5 s at 5 % damping";
 
+    SPECTRAL_ACCELERATION = "sa_*_m_s2", Float64, "m/s2", "pseudo-spectral acceleration at 5 % damping";
+
     MOTION_NAME = "motion_id", Text, "1", "ground motion, unique in the file: the name of its file";
     NAME = "name", Text, "1", "earthquake, station and component in the words of the file";
     EARTHQUAKE = "event", Text, "1", "earthquake in the words of the file";

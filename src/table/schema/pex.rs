@@ -38,9 +38,9 @@ columns! {
     IM_X_HIGH = "im_x_high", Float64, "1", "largest im_x of the cases";
     IM_Y_LOW = "im_y_low", Float64, "1", "least im_y of the cases";
     IM_Y_HIGH = "im_y_high", Float64, "1", "largest im_y of the cases";
-    SE_LN_A_CLUSTERED = "se_ln_a_clustered", Float64, "1", "standard error of ln_a, robust to dependence within a cell";
-    SE_B1_CLUSTERED = "se_b1_clustered", Float64, "1", "standard error of b1, robust to dependence within a cell";
-    SE_B2_CLUSTERED = "se_b2_clustered", Float64, "1", "standard error of b2, robust to dependence within a cell";
+    SE_LN_A_CLUSTERED = "se_ln_a_clustered", Float64, "1", "standard error of ln_a, robust to dependence within a cell or earthquake";
+    SE_B1_CLUSTERED = "se_b1_clustered", Float64, "1", "standard error of b1, robust to dependence within a cell or earthquake";
+    SE_B2_CLUSTERED = "se_b2_clustered", Float64, "1", "standard error of b2, robust to dependence within a cell or earthquake";
     CONFIDENCE = "confidence", Float64, "1", "probability with which the limits hold the truth";
     REPLICATES = "replicates", Int64, "1", "bootstrap replicates that have a fit";
     LN_A_PERCENTILE_LOW = "ln_a_percentile_low", Float64, "1", "lower percentile limit of ln_a";

@@ -33,9 +33,9 @@ columns! {
     THETA_LOW = "theta_low", Float64, "1", "lower limit of theta";
     THETA_HIGH = "theta_high", Float64, "1", "upper limit of theta";
     ESTIMATOR = "estimator", Text, "1", "ml (maximum likelihood), or firth (penalised)";
-    SE_LAMBDA_CLUSTERED = "se_lambda_clustered", Float64, "1", "standard error of lambda, robust to dependence within a cell";
-    SE_MU_CLUSTERED = "se_mu_clustered", Float64, "1", "standard error of mu, robust to dependence within a cell";
-    SE_BETA_CLUSTERED = "se_beta_clustered", Float64, "1", "standard error of beta, robust to dependence within a cell";
+    SE_LAMBDA_CLUSTERED = "se_lambda_clustered", Float64, "1", "standard error of lambda, robust to dependence within a cell or earthquake";
+    SE_MU_CLUSTERED = "se_mu_clustered", Float64, "1", "standard error of mu, robust to dependence within a cell or earthquake";
+    SE_BETA_CLUSTERED = "se_beta_clustered", Float64, "1", "standard error of beta, robust to dependence within a cell or earthquake";
     LAMBDA_PROFILE_LOW = "lambda_profile_low", Float64, "1", "lower profile-likelihood limit of lambda; null: none";
     LAMBDA_PROFILE_HIGH = "lambda_profile_high", Float64, "1", "upper profile-likelihood limit of lambda; null: none";
     MU_PROFILE_LOW = "mu_profile_low", Float64, "1", "lower profile-likelihood limit of mu; null: none";

@@ -1,7 +1,7 @@
 //! Responses of structures.
 
 use super::column::{Column, Kind, columns};
-use super::motion::{MOTION_ID, PGA_M_S2, PGV_M_S, SUITE, TM_S, TP_S};
+use super::motion::{EARTHQUAKE, MOTION_ID, PGA_M_S2, PGV_M_S, SUITE, TM_S, TP_S};
 use super::scenario::{MW, RE_KM};
 use super::table::Table;
 
@@ -44,6 +44,7 @@ pub const RESPONSES: Table = Table {
         IMPACTS,
         MW.or_null(),
         RE_KM.or_null(),
+        EARTHQUAKE.or_null(),
         PGA_M_S2,
         PGV_M_S,
         TP_S.or_null(),

@@ -38,6 +38,11 @@ pub fn spectral_acceleration_name(period_s: f64) -> String {
     format!("sa_{}_m_s2", short.replace('.', "p"))
 }
 
+/// Whether a column holds spectral accelerations.
+pub fn is_spectral_acceleration(name: &str) -> bool {
+    name.starts_with("sa_") && name.ends_with("_m_s2")
+}
+
 fn spectral_acceleration_field(period_s: f64) -> Field {
     let description = format!("pseudo-spectral acceleration at {period_s} s and 5 % damping");
     let metadata = [("unit", "m/s2".to_string()), ("description", description)];

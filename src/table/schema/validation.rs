@@ -21,10 +21,11 @@ columns! {
     SHARE = "share", Float64, "1", "seen over n";
     SHARE_LOW = "share_low", Float64, "1", "lower 95 % limit of share (Wilson)";
     SHARE_HIGH = "share_high", Float64, "1", "upper 95 % limit of share (Wilson)";
-    LOG_SCORE = "log_score", Float64, "1", "mean logarithm of the probability of what happened";
+    LOG_SCORE = "log_score", Float64, "1", "mean logarithm of the probability of what happened; null (minus infinity) if there are impossible cases";
+    N_IMPOSSIBLE = "impossible", Int64, "1", "cases in which happened what has a probability of exactly 0 in double precision";
     LOG_SCORE_EXPECTED = "log_score_expected", Float64, "1", "what log_score would be in the mean if the probabilities are right";
     CALIBRATION = "calibration", Float64, "1", "calibration in the large: by how much all log odds must rise for the expected count to be the seen one; null where no event, or nothing else, was seen";
-    N_EXTRAPOLATED = "extrapolated", Int64, "1", "cases with a measure outside of the range of the data of the fits";
+    N_EXTRAPOLATED = "extrapolated", Int64, "1", "cases with a measure outside of the range of the data of the fit (of failure, of either)";
     N_WITHOUT_MEASURE = "without_measure", Int64, "1", "cases without a forecast, for want of a measure";
 }
 
@@ -49,12 +50,13 @@ pub const VALIDATION: Table = Table {
         SHARE,
         SHARE_LOW,
         SHARE_HIGH,
-        LOG_SCORE,
+        LOG_SCORE.or_null(),
         LOG_SCORE_EXPECTED,
         BRIER,
         AUC.or_null(),
         CALIBRATION.or_null(),
         N_EXTRAPOLATED,
+        N_IMPOSSIBLE,
         N_WITHOUT_MEASURE,
     ],
 };

@@ -1,0 +1,33 @@
+//! Bytes as pipeline.yaml, as structures (YAML or CSV) or as a hazard, by the first byte.
+#![no_main]
+
+use std::path::Path;
+
+use libfuzzer_sys::fuzz_target;
+use rockfrag::stages::config::Config;
+use rockfrag::stages::run::{Files, stages};
+use rockfrag::stages::structures::Structures;
+use rockfrag::table::hazard;
+
+fuzz_target!(|bytes: &[u8]| {
+    let Some((&first, text)) = bytes.split_first() else { return };
+    let folder = Path::new("/dev/shm").join(format!("rockfrag-fuzz-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = |name: &str| {
+        let path = folder.join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    match first % 4 {
+        0 => {
+            if let Ok(mut config) = Config::read(&file("pipeline.yaml")) {
+                // Its files would be searched for all over the machine.
+                config.import_motions = None;
+                let _ = stages(&config, &Files::in_folder(&folder));
+            }
+        }
+        1 => drop(Structures::File(file("structures.yaml")).resolve()),
+        2 => drop(Structures::File(file("structures.csv")).resolve()),
+        _ => drop(hazard::read(&file("hazard.csv"))),
+    }
+});

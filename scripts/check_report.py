@@ -1,0 +1,187 @@
+"""Looks at a report in a headless Chromium: python check_report.py ROCKFRAG RUN REPORT AXE [SCREENSHOTS]
+
+No error in the console and nothing fetched, every figure there, the calculator's answers equal to those of `evaluate`,
+the keyboard enough, nothing wider than a window of 400 pixels, and no serious finding of axe-core, light and dark.
+"""
+
+import base64
+import json
+import pathlib
+import random
+import subprocess
+import sys
+
+from selenium import webdriver
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
+
+rockfrag, run, report, axe = sys.argv[1:5]
+screenshots = pathlib.Path(sys.argv[5]) if len(sys.argv) > 5 else None
+ANSWERS = ["p_nr", "p_ex", "p_ro", "p_f_r", "p_f"]
+QUESTIONS = 20
+
+
+def open_browser():
+    options = webdriver.ChromeOptions()
+    options.binary_location = "/usr/bin/chromium"
+    for argument in ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--allow-file-access-from-files"]:
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    return webdriver.Chrome(options=options, service=webdriver.ChromeService("/usr/bin/chromedriver"))
+
+
+def view(width, height, scheme, media=""):
+    metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    features = [{"name": "prefers-color-scheme", "value": scheme}]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})
+    browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
+
+
+def screenshot(name):
+    if screenshots is None:
+        return
+    screenshots.mkdir(parents=True, exist_ok=True)
+    picture = browser.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": True})
+    (screenshots / f"{name}.png").write_bytes(base64.b64decode(picture["data"]))
+
+
+def check_network():
+    messages = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
+    asked = [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+    foreign = [url[:100] for url in asked if not url.startswith(("data:", "blob:", pathlib.Path(report).resolve().as_uri()))]
+    assert not foreign, f"the page asks for {foreign}"
+
+
+def check_figures():
+    figures = browser.find_elements(By.CSS_SELECTOR, "figure")
+    assert len(figures) >= 3, f"only {len(figures)} figures"
+    for figure in figures:
+        name = figure.get_attribute("id")
+        size = figure.find_element(By.TAG_NAME, "svg").size
+        assert size["width"] > 100 and size["height"] > 50, f"{name} is {size}"
+        assert figure.find_element(By.TAG_NAME, "figcaption").text, f"{name} has no caption"
+        for link in figure.find_elements(By.CSS_SELECTOR, ".files a"):
+            file = pathlib.Path(report).parent / link.get_dom_attribute("href")
+            assert file.stat().st_size > 500, f"{file} is empty"
+    for canvas in browser.find_elements(By.TAG_NAME, "canvas"):
+        drawn = "const c = arguments[0]; return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some(Boolean)"
+        assert browser.execute_script(drawn, canvas), "an empty canvas"
+    return len(figures)
+
+
+def fill(name, value):
+    script = "const f = document.getElementById(arguments[0]); f.value = arguments[1]; f.dispatchEvent(new Event('input', {bubbles: true}))"
+    browser.execute_script(script, name, repr(value))
+
+
+def evaluate(fit, form, block, asked):
+    structure, _, suite = fit.rpartition(", ") if ", " in fit else (fit, "", "")
+    call = [rockfrag, "evaluate", "--quiet", "--format", "json", "--pex", f"{run}/pex.parquet", "--pro", f"{run}/pro.parquet"]
+    call += ["--structure", structure] + (["--suite", suite] if suite else [])
+    call += ["--model", "bivariate"] if form == "bivariate" else ["--model", "univariate", "--measure", form]
+    names = ["width", "height"] if block else ["p", "alpha"]
+    call += [word for name in names + ["eta", "pga", "pgv", "tp", "tm"] for word in (f"--{name}", repr(asked[name]))]
+    rows = json.loads(subprocess.run(call, check=True, capture_output=True, text=True).stdout)
+    return {row["quantity"]: row for row in rows}
+
+
+def check_calculator():
+    draw = random.Random(1)
+    fits = [option.text for option in Select(browser.find_element(By.ID, "fit")).options]
+    worst = 0.0
+    for question in range(QUESTIONS):
+        fit = fits[question % len(fits)]
+        Select(browser.find_element(By.ID, "fit")).select_by_visible_text(fit)
+        forms = [option.get_attribute("value") for option in Select(browser.find_element(By.ID, "form")).options]
+        form = forms[draw.randrange(len(forms))] if question % 2 else forms[0]
+        Select(browser.find_element(By.ID, "form")).select_by_value(form)
+        block = question % 5 == 4
+        browser.execute_script("document.querySelector(`[name=by][value=${arguments[0]}]`).click()", "block" if block else "parameters")
+        asked = {"p": draw.uniform(0.5, 4.0), "alpha": draw.uniform(0.08, 0.35), "width": draw.uniform(0.2, 2.0), "height": draw.uniform(2.5, 8.0)}
+        asked |= {"eta": draw.uniform(0.85, 0.95), "pga": draw.uniform(0.05, 1.5), "pgv": draw.uniform(0.05, 2.0)}
+        asked |= {"tp": draw.uniform(0.5, 6.0), "tm": draw.uniform(0.2, 1.5)}
+        for name, value in asked.items():
+            fill(name, value)
+        expected = evaluate(fit, form, block, asked)
+        for name in ANSWERS:
+            row = browser.find_element(By.ID, f"answer-{name}")
+            for here, there in [("value", "value"), ("low", "low"), ("high", "high")]:
+                found, right = row.get_attribute(f"data-{here}"), expected[name][there]
+                if right is None:
+                    # A probability without doubt has no limits there and equal ones here.
+                    assert there != "value" or found is None, f"{name}: {found}, expected none for {fit}, {form}, {asked}"
+                    continue
+                difference = abs(float(found) - right)
+                assert difference < 1e-9, f"{name} {there}: {found}, expected {right} for {fit}, {form}, {asked}"
+                worst = max(worst, difference)
+    return worst
+
+
+def check_keyboard():
+    browser.execute_script("document.querySelector(`[name=by]`)?.click(); scrollTo(0, 0); document.activeElement.blur()")
+    body = browser.find_element(By.TAG_NAME, "body")
+    wanted = ["fit", "p", "alpha", "eta", "pga", "pgv", "space", "cloud", "motion", "next"]
+    missing = {name for name in wanted if browser.find_elements(By.ID, name)}
+    for _ in range(200):
+        body = browser.switch_to.active_element
+        body.send_keys(Keys.TAB)
+        missing.discard(browser.switch_to.active_element.get_attribute("id"))
+        if not missing:
+            break
+    assert not missing, f"the keyboard does not reach {missing}"
+    picture = "return document.getElementById('space').toDataURL()"
+    if browser.find_elements(By.ID, "space"):
+        before = browser.execute_script(picture)
+        browser.find_element(By.ID, "space").send_keys(Keys.ARROW_LEFT)
+        assert browser.execute_script(picture) != before, "the arrow keys do not turn the planes"
+    if browser.find_elements(By.ID, "next"):
+        before = browser.find_element(By.ID, "motion-words").text
+        browser.find_element(By.ID, "next").send_keys(Keys.ENTER)
+        assert browser.find_element(By.ID, "motion-words").text != before, "the next motion is the same"
+
+
+def check_width():
+    wide = browser.execute_script("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
+    assert wide <= 0, f"the page is {wide} pixels wider than its window"
+
+
+def check_axe(scheme):
+    browser.execute_script(pathlib.Path(axe).read_text())
+    found = browser.execute_async_script("axe.run().then(arguments[0])")["violations"]
+    grave = [f"{v['id']} ({v['help']}): {v['nodes'][0]['html'][:160]}" for v in found if v["impact"] in ("serious", "critical")]
+    assert not grave, f"{scheme}: axe-core: {grave}"
+    return [violation["id"] for violation in found]
+
+
+browser = open_browser()
+browser.set_script_timeout(120)
+try:
+    view(1280, 900, "light")
+    browser.get(pathlib.Path(report).resolve().as_uri())
+    browser.execute_async_script("document.fonts.ready.then(() => setTimeout(arguments[0], 300))")
+    check_network()
+    count = check_figures()
+    screenshot("light")
+    minor = check_axe("light")
+    answers = "no calculator"
+    if browser.find_elements(By.ID, "calculator"):
+        answers = f"{QUESTIONS} answers of the calculator within {check_calculator():.0e} of evaluate"
+    check_keyboard()
+    view(1280, 900, "dark")
+    screenshot("dark")
+    minor += check_axe("dark")
+    view(400, 800, "light")
+    check_width()
+    check_axe("narrow")
+    screenshot("narrow")
+    view(794, 1123, "light", "print")
+    screenshot("print")
+    errors = [entry["message"] for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
+    assert not errors, f"the console says {errors}"
+finally:
+    browser.quit()
+size = pathlib.Path(report).stat().st_size / 1e6
+assert size < 10, f"the page is {size:.1f} MB"
+print(f"report: {count} figures, {size:.1f} MB; {answers}; axe-core: {sorted(set(minor)) or 'nothing'}")

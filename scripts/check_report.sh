@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Opens a report in a headless Chromium and looks at it: check_report.sh ROCKFRAG DIR [SCREENSHOTS], where DIR holds the
+# files of a run. Needs Debian's chromium and chromium-driver (installed when they are missing and it may), Python with
+# venv, and npm for axe-core. Where none of this can be had it says so and leaves the page unchecked.
+set -euo pipefail
+rockfrag=$(realpath "$1") run=$(realpath "$2") screenshots=${3:-}
+cd "$(dirname "$0")"
+
+skip() {
+    echo "check_report: the page is NOT checked: $1" >&2
+    exit 0
+}
+
+if ! command -v chromium > /dev/null || ! command -v chromedriver > /dev/null; then
+    [ "$(id -u)" = 0 ] || skip "no chromium and chromium-driver, and only root may install them"
+    { apt-get update && apt-get install -y --no-install-recommends chromium chromium-driver; } > /dev/null 2>&1 ||
+        skip "apt-get cannot install chromium and chromium-driver"
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+python3 -m venv "$work/venv"
+"$work/venv/bin/pip" install --quiet selenium || skip "pip cannot install selenium"
+npm install --silent --no-fund --no-audit --prefix "$work" axe-core > /dev/null 2>&1 || skip "npm cannot install axe-core"
+"$rockfrag" report --quiet --progress never --force --in "$run" --out "$work/report.html"
+"$work/venv/bin/python" check_report.py "$rockfrag" "$run" "$work/report.html" \
+    "$work/node_modules/axe-core/axe.min.js" ${screenshots:+"$screenshots"}

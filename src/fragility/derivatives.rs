@@ -1,0 +1,107 @@
+//! Derivatives of a sum over cases with respect to the coefficients, from those with respect to the index of each case.
+
+use std::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
+use pulp::NullaryFnOnce;
+
+use super::design_matrix::DesignMatrix;
+use super::newton::Objective;
+use crate::wide::widest;
+
+/// Cases that are worked on together, so that they stay in the nearest cache.
+const BLOCK: usize = 256;
+/// Partial sums, as many as the widest register has numbers: the same on any processor, and so the sums.
+const PARTS: usize = 8;
+
+/// The scores of some cases.
+pub struct Scores<'a> {
+    /// First derivatives.
+    pub slope: &'a mut [f64],
+    /// The negative of the second ones.
+    pub curvature: &'a mut [f64],
+}
+
+impl Scores<'_> {
+    /// Each slope and curvature.
+    #[inline(always)]
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = (&mut f64, &mut f64)> {
+        self.slope.iter_mut().zip(self.curvature.iter_mut())
+    }
+}
+
+/// First derivatives and the negative second ones of a case with respect to its index.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Score {
+    /// The first.
+    pub slope: f64,
+    /// The negative of the second.
+    pub curvature: f64,
+}
+
+/// The derivatives with respect to the coefficients, without the value. `score` is given some neighbouring cases and
+/// [`Scores`] with their indices b0 + b1 x1 + ... for slopes, to be replaced; what it calls must be inlined to be fast.
+pub fn derivatives(
+    design: &DesignMatrix,
+    coefficients: &[f64],
+    score: impl Fn(Range<usize>, Scores),
+) -> Objective {
+    widest(Pass { design, coefficients, score })
+}
+
+/// A pass over all cases.
+struct Pass<'a, F> {
+    design: &'a DesignMatrix,
+    coefficients: &'a [f64],
+    score: F,
+}
+
+impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
+    type Output = Objective;
+
+    #[inline(always)]
+    fn call(self) -> Objective {
+        let columns = self.design.columns();
+        let k = columns.len();
+        let place = |i: usize, j: usize| i.max(j) * (i.max(j) + 1) / 2 + i.min(j);
+        let (mut gradient, mut information) = (vec![[0.0; PARTS]; k], vec![[0.0; PARTS]; k * (k + 1) / 2]);
+        let (mut slope, mut curvature) = ([0.0; BLOCK], [0.0; BLOCK]);
+        for from in (0..self.design.cases()).step_by(BLOCK) {
+            let to = self.design.cases().min(from + BLOCK);
+            let (slope, curvature) = (&mut slope[..to - from], &mut curvature[..to - from]);
+            slope.fill(0.0);
+            for (column, &b) in columns.iter().zip(self.coefficients) {
+                slope.iter_mut().zip(&column[from..to]).for_each(|(index, x)| *index += b * x);
+            }
+            (self.score)(from..to, Scores { slope, curvature });
+            for i in 0..k {
+                let x = &columns[i][from..to];
+                add_products(&mut gradient[i], slope, x, &columns[0][from..to]);
+                for j in 0..=i {
+                    add_products(&mut information[place(i, j)], curvature, x, &columns[j][from..to]);
+                }
+            }
+        }
+        let total = |sums: &[f64; PARTS]| sums.iter().sum::<f64>();
+        Objective {
+            value: 0.0,
+            gradient: DVector::from_iterator(k, gradient.iter().map(total)),
+            information: DMatrix::from_fn(k, k, |i, j| total(&information[place(i, j)])),
+        }
+    }
+}
+
+/// Adds a b c of number 0, 8, 16 ... to the first sum, of 1, 9, 17 ... to the second and so on.
+#[inline(always)]
+fn add_products(sums: &mut [f64; PARTS], a: &[f64], b: &[f64], c: &[f64]) {
+    let ((a, rest_a), (b, rest_b)) = (a.as_chunks::<PARTS>(), b.as_chunks::<PARTS>());
+    let (c, rest_c) = c.as_chunks::<PARTS>();
+    for ((a, b), c) in a.iter().zip(b).zip(c) {
+        for part in 0..PARTS {
+            sums[part] += a[part] * b[part] * c[part];
+        }
+    }
+    for (part, sum) in sums.iter_mut().enumerate().take(rest_a.len()) {
+        *sum += rest_a[part] * rest_b[part] * rest_c[part];
+    }
+}

@@ -1,0 +1,96 @@
+//! Reliability: what was foretold against what was seen.
+
+use crate::fragility::{DemandModel, Measure, wilson_limits};
+use crate::normal;
+use crate::report::axis::Axis;
+use crate::report::drawing::{Dash, Ink};
+use crate::report::figure::{Figure, Grid};
+use crate::report::label::Label;
+use crate::report::legend::{Mark, legend};
+use crate::report::material::{Group, Material, Seen};
+use crate::report::panel::Panel;
+
+/// The probability of an event in each case, and whether it happened.
+type Forecasts = Vec<(f64, bool)>;
+
+/// Classes of probability.
+const CLASSES: usize = 10;
+
+/// One figure, one panel a group that has fits.
+pub fn figures(material: &Material) -> Vec<Figure> {
+    let panels: Vec<(&Group, [Forecasts; 2])> = material
+        .groups
+        .iter()
+        .map(|group| (group, [overturning(group), exceeding(group, material.limit)]))
+        .filter(|(_, forecasts)| forecasts.iter().any(|forecasts| !forecasts.is_empty()))
+        .collect();
+    if panels.is_empty() {
+        return Vec::new();
+    }
+    let grid = Grid::of(panels.len(), 140.0).with_legend();
+    let mut drawing = grid.drawing();
+    let inks = [Ink::Data(1), Ink::Data(0)];
+    let entries = [
+        (Mark::Dot(inks[0].full()), Label::marked("*P*_{ro}")),
+        (Mark::Dot(inks[1].full()), Label::marked("*P*_{ex}")),
+        (Mark::Line(Ink::Muted.dashed(0.7, Dash::Short)), Label::plain("foretold = seen")),
+    ];
+    legend(&mut drawing, grid.legend_at(), &entries);
+    for (index, (group, forecasts)) in panels.iter().enumerate() {
+        let (corner, width) = grid.place(index);
+        let axis = |words: &str| Axis::linear([0.0, 1.0], Label::plain(words));
+        let panel = Panel {
+            corner,
+            width,
+            height: grid.panel_height,
+            x: axis("foretold probability"),
+            y: axis("share seen"),
+        };
+        panel.line(&mut drawing, &[[0.0, 0.0], [1.0, 1.0]], Ink::Muted.dashed(0.7, Dash::Short));
+        for (forecasts, ink) in forecasts.iter().zip(inks) {
+            panel.bars(&mut drawing, &shares(forecasts), ink);
+        }
+        panel.frame(&mut drawing, Label::plain(group.name()).bold());
+    }
+    vec![Figure {
+        name: "reliability".to_string(),
+        title: "Reliability of the curves".to_string(),
+        caption: "Cases gathered by the probability that the fits give them, in tenths: the mean of these against the share in which it happened, with 95 % limits (Wilson). Overturning by the hybrid curve (or over p PGV/(g tan α) where there is none), exceeding the limit state by the two planes. These are the cases that the curves were fitted to; the stage validate takes others.".to_string(),
+        drawing,
+    }]
+}
+
+/// Probability of overturning of each case that rocked, and whether it did.
+fn overturning(group: &Group) -> Forecasts {
+    let curve = group.curve(Measure::Im4, Some(Measure::Im3Inverse)).or(group.curve(Measure::Im5, None));
+    let Some(curve) = curve else { return Vec::new() };
+    let forecast = |(seen, overturned): (&Seen, bool)| {
+        Some((normal::cdf(curve.index.at(&seen.case.measures)?.value), overturned))
+    };
+    group.rocked().filter_map(forecast).collect()
+}
+
+/// Probability of exceeding the limit state of each case in safe rocking, and whether it did.
+fn exceeding(group: &Group, limit: Option<f64>) -> Forecasts {
+    let (Some(limit), Some(planes)) = (limit, group.planes) else { return Vec::new() };
+    let [low, high] = planes.sides.map(|side| side.law);
+    let model = DemandModel::Biplanar { transition: planes.transition, low, high };
+    let forecast = |seen: &Seen| {
+        let measures = &seen.case.measures;
+        Some((normal::cdf(model.law(measures).exceeding(measures, limit)?.value), seen.case.edp > limit))
+    };
+    group.safe().filter_map(forecast).collect()
+}
+
+/// Of each class: mean forecast and share seen, with the limits of the share.
+fn shares(forecasts: &[(f64, bool)]) -> Vec<([f64; 2], f64, f64)> {
+    let class = |probability: f64| ((probability * CLASSES as f64) as usize).min(CLASSES - 1);
+    let of = |wanted: usize| {
+        let inside: Vec<&(f64, bool)> = forecasts.iter().filter(|(p, _)| class(*p) == wanted).collect();
+        let (count, seen) = (inside.len(), inside.iter().filter(|(_, event)| *event).count());
+        let mean = inside.iter().map(|(p, _)| p).sum::<f64>() / count as f64;
+        let limits = wilson_limits(seen, count);
+        (count > 0).then(|| ([mean, seen as f64 / count as f64], limits.low, limits.high))
+    };
+    (0..CLASSES).filter_map(of).collect()
+}

@@ -1,0 +1,110 @@
+//! Figure 5: structures that differ in their own units, and hardly in dimensionless ones.
+
+use crate::fragility::Measure;
+use crate::report::axis::Axis;
+use crate::report::bins::{by_ratio, quantile, sorted};
+use crate::report::drawing::{Dash, Ink};
+use crate::report::figure::{Figure, Grid};
+use crate::report::label::Label;
+use crate::report::legend::{Mark, legend};
+use crate::report::material::{Group, Material, Seen, demand_label, measure_label};
+use crate::report::panel::Panel;
+
+/// Bins of the medians.
+const BINS: usize = 14;
+/// Cases that a median needs.
+const LEAST: usize = 12;
+/// The share of the cases at either end that the axis of demand leaves out.
+const TAIL: f64 = 0.03;
+const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
+
+/// The structures of the first suite that moves two or more.
+pub fn figures(material: &Material) -> Vec<Figure> {
+    let of_suite = |suite: &Option<String>| {
+        let groups =
+            material.groups.iter().filter(|group| group.suite == *suite && strong(group).count() >= LEAST);
+        groups.collect::<Vec<&Group>>()
+    };
+    let suites = material.groups.iter().map(|group| of_suite(&group.suite));
+    suites.filter(|groups| groups.len() >= 2).take(1).map(|groups| figure(&groups)).collect()
+}
+
+/// The cases in safe rocking above the transition: those just above uplift hardly rotate.
+fn strong(group: &Group) -> impl Iterator<Item = &Seen> {
+    let transition = group.planes.map_or(1.0, |planes| planes.transition);
+    group.safe().filter(move |seen| seen.case.measures.im4 >= transition)
+}
+
+/// A way of looking at the same responses.
+struct View {
+    title: &'static str,
+    x: Label,
+    y: Label,
+    of: fn(&Group, &Seen) -> [f64; 2],
+}
+
+fn figure(groups: &[&Group]) -> Figure {
+    let views = [
+        View {
+            title: "in their own units",
+            x: Label::plain("PGV (m/s)"),
+            y: Label::marked("|*θ*|_{max} (rad)"),
+            of: |group, seen| [seen.pgv_m_s, seen.case.edp * group.structure.alpha_rad],
+        },
+        View {
+            title: "dimensionless",
+            x: measure_label(Measure::Im5),
+            y: demand_label(),
+            of: |_, seen| [seen.case.measures.im5, seen.case.edp],
+        },
+    ];
+    let grid = Grid::of(views.len(), 130.0).with_legend();
+    let mut drawing = grid.drawing();
+    let stroke = |index: usize| Ink::Data(index).dashed(1.6, DASHES[index % DASHES.len()]);
+    let entries: Vec<(Mark, Label)> = groups
+        .iter()
+        .enumerate()
+        .map(|(index, group)| (Mark::Line(stroke(index)), Label::plain(&group.structure.name)))
+        .collect();
+    legend(&mut drawing, grid.legend_at(), &entries);
+    for (index, View { title, x, y, of }) in views.into_iter().enumerate() {
+        let (corner, width) = grid.place(index);
+        let clouds: Vec<Vec<[f64; 2]>> =
+            groups.iter().map(|group| strong(group).map(|seen| of(group, seen)).collect()).collect();
+        let ends = |axis: usize| {
+            let values = sorted(clouds.iter().flatten().map(|value| value[axis]));
+            [quantile(&values, TAIL), values.last().copied().unwrap_or(1.0) * 1.1]
+        };
+        let panel = Panel {
+            corner,
+            width,
+            height: grid.panel_height,
+            x: Axis::log(ends(0), x),
+            y: Axis::log(ends(1), y),
+        };
+        for (index, cloud) in clouds.iter().enumerate() {
+            panel.scatter(&mut drawing, cloud, 0.6, Ink::Data(index).thin(0.3));
+        }
+        for (index, cloud) in clouds.iter().enumerate() {
+            let bins = by_ratio(cloud, [panel.x.low, panel.x.high], BINS);
+            let medians = bins.into_iter().filter(|(_, inside)| inside.len() >= LEAST);
+            let medians: Vec<[f64; 2]> =
+                medians.map(|(x, inside)| [x, quantile(&sorted(inside.into_iter()), 0.5)]).collect();
+            panel.line(&mut drawing, &medians, stroke(index));
+        }
+        panel.frame(&mut drawing, Label::plain(title).bold());
+    }
+    let suite = groups[0].suite.as_deref().map_or(String::new(), |suite| format!(" to the suite {suite}"));
+    let structures = groups
+        .iter()
+        .map(|group| format!("{}: {}", group.structure.name, super::structure_words(&group.structure)));
+    Figure {
+        name: "similarity".to_string(),
+        title: "Similarity: one curve for all structures".to_string(),
+        caption: format!(
+            "Demand in safe rocking{suite} above the transition of the planes, with medians of bins of PGV. Left in units that each structure has its own curve in, right in dimensionless ones, in which the curves come together. {}. As Figure 5 of the paper.",
+            structures.collect::<Vec<_>>().join("; ")
+        ),
+        drawing,
+    }
+}

@@ -1,0 +1,101 @@
+//! What the scripts of the page work on, as JSON.
+
+use serde_json::{Value, json};
+
+use super::base64::base64;
+use crate::fragility::{DemandLaw, DemandModel, Measure, Predictor};
+use crate::keyword::Keyword;
+use crate::motion::intensity::velocity;
+use crate::report::envelope::{Envelope, envelope};
+use crate::report::material::{Group, Material, Model, Motion, Planes, Trace};
+use crate::rocking::{Event, Structure};
+use crate::units::G_M_S2;
+
+/// The largest whole number of sixteen bits.
+const LARGEST: f64 = 32767.0;
+/// The most values that a series is drawn with.
+const MOST_VALUES: usize = 3000;
+/// The most points of a cloud in space.
+const MOST_IN_SPACE: usize = 2500;
+
+/// All of it. `<` is escaped, so that no name can end the script.
+pub fn json(material: &Material) -> String {
+    let data = json!({
+        "g": G_M_S2,
+        "structures": material.groups.iter().map(structure).collect::<Vec<_>>(),
+        "models": material.models.iter().map(model).collect::<Vec<_>>(),
+        "planes": material.groups.iter().filter_map(in_space).collect::<Vec<_>>(),
+        "motions": material.motions.iter().map(motion).collect::<Vec<_>>(),
+    });
+    data.to_string().replace('<', "\\u003c")
+}
+
+fn structure(Group { structure, .. }: &Group) -> Value {
+    let Structure { name, p_rad_s, alpha_rad, eta } = structure;
+    json!({ "name": name, "p": p_rad_s, "alpha": alpha_rad, "eta": eta })
+}
+
+fn model(Model { suite, structure, form, fits }: &Model) -> Value {
+    let demand = match &fits.demand {
+        DemandModel::Everywhere(all) => json!({ "all": law(all) }),
+        DemandModel::Biplanar { transition, low, high } => {
+            json!({ "transition": transition, "low": law(low), "high": law(high) })
+        }
+    };
+    json!({ "suite": suite, "structure": structure, "form": form, "limit": fits.limit, "eta": fits.eta,
+        "demand": demand, "overturning": predictor(&fits.overturning) })
+}
+
+fn law(law: &DemandLaw) -> Value {
+    json!({ "median": predictor(&law.ln_median), "beta": law.beta, "degrees": law.degrees })
+}
+
+fn predictor(of: &Predictor) -> Value {
+    json!({ "x": of.im_x.as_str(), "y": of.im_y.map(Keyword::as_str), "b": of.coefficients,
+        "covariance": of.covariance, "ranges": of.ranges })
+}
+
+/// The cloud of a group in ln IM4, ln IM3 and ln EDP, and its two planes.
+fn in_space(group: &Group) -> Option<Value> {
+    let Planes { transition, sides } = group.planes?;
+    let [im_x, im_y] = [Measure::Im4, Measure::Im3];
+    let points: Vec<[f64; 3]> = group
+        .safe()
+        .filter_map(|seen| Some([im_x.of(&seen.case)?.ln(), im_y.of(&seen.case)?.ln(), seen.case.edp.ln()]))
+        .collect();
+    let every = points.len().div_ceil(MOST_IN_SPACE).max(1);
+    let rounded = |number: f64| (number * 1000.0).round() / 1000.0;
+    let shown: Vec<[f64; 3]> = points.iter().step_by(every).map(|point| point.map(rounded)).collect();
+    Some(json!({ "name": group.name(), "transition": transition.ln(), "points": shown, "every": every,
+        "sides": sides.map(|side| side.law.ln_median.coefficients) }))
+}
+
+fn motion(motion: &Motion) -> Value {
+    let velocity = velocity(&motion.acceleration_m_s2, motion.dt_s);
+    json!({ "name": motion.name, "words": motion.words,
+        "acceleration": series(&motion.acceleration_m_s2, motion.dt_s),
+        "velocity": series(&velocity, motion.dt_s),
+        "traces": motion.traces.iter().map(|of| trace(of, motion.dt_s)).collect::<Vec<_>>() })
+}
+
+fn trace(Trace { structure, alpha_rad, outcome, points }: &Trace, dt_s: f64) -> Value {
+    let samples: Vec<f64> = points
+        .iter()
+        .filter(|point| point.event.is_none())
+        .map(|point| point.theta_rad / alpha_rad)
+        .collect();
+    let impacts = points.iter().filter(|point| point.event == Some(Event::Impact));
+    let impacts: Vec<f64> = impacts.map(|point| (point.time_s * 1000.0).round() / 1000.0).collect();
+    json!({ "structure": structure, "outcome": outcome.as_str().replace('_', " "),
+        "theta": series(&samples, dt_s), "impacts": impacts })
+}
+
+/// A series in sixteen bits a value, cut down where it is long.
+fn series(values: &[f64], dt_s: f64) -> Value {
+    let Envelope { each, values } = envelope(values, MOST_VALUES);
+    let peak = values.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));
+    let unit = if peak > 0.0 { peak / LARGEST } else { 1.0 };
+    let bytes: Vec<u8> =
+        values.iter().flat_map(|value| ((value / unit).round() as i16).to_le_bytes()).collect();
+    json!({ "step": each as f64 * dt_s, "unit": unit, "values": base64(&bytes) })
+}

@@ -1,0 +1,214 @@
+//! A panel of a figure: axes, and data within them.
+
+use super::axis::Axis;
+use super::drawing::{Anchor, Drawing, Ink, Paint, Point, Step, Stroke, rectangle};
+use super::label::Label;
+
+/// Height of the letters of axes and legends, points.
+pub const LETTERS: f64 = 8.0;
+/// Height of the letters at ticks.
+const TICK_LETTERS: f64 = 7.0;
+/// Length of a labelled tick; the others have half of it.
+const TICK: f64 = 3.0;
+/// Width of axes.
+const AXIS_WIDTH: f64 = 0.6;
+/// More points than this are drawn as a density.
+pub const MOST_POINTS: usize = 5000;
+/// Fewer points than this are drawn larger.
+const FEW_POINTS: usize = 400;
+/// Side of a square of a density, points.
+const SQUARE: f64 = 2.4;
+/// Shades of a density.
+const SHADES: usize = 6;
+
+/// A panel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// Upper left corner of the area of the data.
+    pub corner: Point,
+    /// Its width, points.
+    pub width: f64,
+    /// Its height, points.
+    pub height: f64,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+}
+
+impl Panel {
+    /// Where a pair of values stands.
+    pub fn at(&self, [x, y]: [f64; 2]) -> Point {
+        let [left, top] = self.corner;
+        [left + self.width * self.x.share(x), top + self.height * (1.0 - self.y.share(y))]
+    }
+
+    fn holds(&self, [x, y]: [f64; 2]) -> bool {
+        self.x.holds(x) && self.y.holds(y)
+    }
+
+    fn right(&self) -> f64 {
+        self.corner[0] + self.width
+    }
+
+    fn bottom(&self) -> f64 {
+        self.corner[1] + self.height
+    }
+
+    /// Axes with ticks, labels and a title above; a horizontal axis without a label is that of the panel below.
+    pub fn frame(&self, drawing: &mut Drawing, title: Label) {
+        let [left, top] = self.corner;
+        let (right, bottom) = (self.right(), self.bottom());
+        let mut steps =
+            vec![Step::Move([left, top]), Step::Line([left, bottom]), Step::Line([right, bottom])];
+        for tick in self.x.ticks((self.width / 26.0) as usize) {
+            let [x, _] = self.at([tick.value, self.y.low]);
+            let length = if tick.label.is_some() { TICK } else { 0.5 * TICK };
+            steps.extend([Step::Move([x, bottom]), Step::Line([x, bottom + length])]);
+            if let Some(label) = tick.label.filter(|_| !self.x.label.is_empty()) {
+                drawing.text([x, bottom + TICK + 7.5], Anchor::Middle, TICK_LETTERS, Ink::Text, label);
+            }
+        }
+        for tick in self.y.ticks(((self.height / 16.0) as usize).max(4)) {
+            let [_, y] = self.at([self.x.low, tick.value]);
+            let length = if tick.label.is_some() { TICK } else { 0.5 * TICK };
+            steps.extend([Step::Move([left, y]), Step::Line([left - length, y])]);
+            if let Some(label) = tick.label {
+                drawing.text([left - TICK - 2.0, y + 2.4], Anchor::End, TICK_LETTERS, Ink::Text, label);
+            }
+        }
+        drawing.path(steps, None, Some(Ink::Text.line(AXIS_WIDTH)));
+        let middle = [0.5 * (left + right), bottom + 21.5];
+        drawing.text(middle, Anchor::Middle, LETTERS, Ink::Text, self.x.label.clone());
+        drawing.text_upwards([left - 27.0, 0.5 * (top + bottom)], LETTERS, self.y.label.clone());
+        drawing.text([left, top - 5.0], Anchor::Start, LETTERS, Ink::Text, title);
+    }
+
+    /// A curve, as far as it lies within.
+    pub fn line(&self, drawing: &mut Drawing, values: &[[f64; 2]], stroke: Stroke) {
+        let mut piece: Vec<Point> = Vec::new();
+        for pair in values.windows(2) {
+            let shares = [self.shares(pair[0]), self.shares(pair[1])];
+            let Some([from, to]) = clipped(shares) else { continue };
+            let (from, to) = (self.place(from), self.place(to));
+            if piece.last() != Some(&from) {
+                drawing.line(&piece, stroke);
+                piece = vec![from];
+            }
+            piece.push(to);
+        }
+        drawing.line(&piece, stroke);
+    }
+
+    fn shares(&self, [x, y]: [f64; 2]) -> Point {
+        [self.x.share(x), self.y.share(y)]
+    }
+
+    fn place(&self, [x, y]: Point) -> Point {
+        [self.corner[0] + self.width * x, self.corner[1] + self.height * (1.0 - y)]
+    }
+
+    /// The area between two curves over the same x: `[x, low, high]`.
+    pub fn band(&self, drawing: &mut Drawing, values: &[[f64; 3]], paint: Paint) {
+        let inside = |value: f64| self.y.share(value).clamp(0.0, 1.0);
+        let values =
+            values.iter().filter(|[x, low, high]| self.x.holds(*x) && low.is_finite() && high.is_finite());
+        let values: Vec<&[f64; 3]> = values.collect();
+        let upper = values.iter().map(|[x, _, high]| self.place([self.x.share(*x), inside(*high)]));
+        let lower = values.iter().rev().map(|[x, low, _]| self.place([self.x.share(*x), inside(*low)]));
+        drawing.area(&upper.chain(lower).collect::<Vec<_>>(), paint);
+    }
+
+    /// Points; squares as dark as they are full where there are too many of them.
+    pub fn scatter(&self, drawing: &mut Drawing, values: &[[f64; 2]], radius: f64, paint: Paint) {
+        if values.len() > MOST_POINTS {
+            return self.density(drawing, values, paint.ink);
+        }
+        let inside = values.iter().filter(|&&value| self.holds(value));
+        drawing.dots(inside.map(|&value| self.at(value)).collect(), radius, paint);
+    }
+
+    /// Squares as dark as they are full of points.
+    pub fn density(&self, drawing: &mut Drawing, values: &[[f64; 2]], ink: Ink) {
+        let points = values.iter().filter(|&&value| self.holds(value)).map(|&value| self.at(value));
+        let [left, top] = self.corner;
+        let (columns, rows) = ((self.width / SQUARE) as usize + 1, (self.height / SQUARE) as usize + 1);
+        let mut counts = vec![0_u32; columns * rows];
+        for [x, y] in points {
+            let (column, row) = (((x - left) / SQUARE) as usize, ((y - top) / SQUARE) as usize);
+            counts[row.min(rows - 1) * columns + column.min(columns - 1)] += 1;
+        }
+        let most = counts.iter().copied().max().unwrap_or(0);
+        let shade = |count: u32| match count {
+            0 => None,
+            count if most <= 1 => Some(count as usize * SHADES - 1),
+            count => {
+                let share = f64::from(count).ln() / f64::from(most).ln();
+                Some(((share * SHADES as f64) as usize).min(SHADES - 1))
+            }
+        };
+        for level in 0..SHADES {
+            let full = (0..counts.len()).filter(|&square| shade(counts[square]) == Some(level));
+            let squares = full.flat_map(|square| {
+                let corner =
+                    [left + (square % columns) as f64 * SQUARE, top + (square / columns) as f64 * SQUARE];
+                rectangle(corner, SQUARE, SQUARE)
+            });
+            let opacity = 0.15 + 0.85 * (level + 1) as f64 / SHADES as f64;
+            drawing.path(squares.collect(), Some(ink.thin(opacity)), None);
+        }
+    }
+
+    /// Discs with an outline: `(value, radius)`.
+    pub fn circles(&self, drawing: &mut Drawing, circles: &[([f64; 2], f64)], ink: Ink) {
+        let steps = circles.iter().filter(|(value, _)| self.holds(*value));
+        let steps = steps.map(|&(value, radius)| Step::Circle(self.at(value), radius)).collect();
+        drawing.path(steps, Some(ink.thin(0.25)), Some(ink.line(0.6)));
+    }
+
+    /// Vertical bars with a point in the middle: `(value, low, high)`.
+    pub fn bars(&self, drawing: &mut Drawing, bars: &[([f64; 2], f64, f64)], ink: Ink) {
+        for &([x, y], low, high) in bars.iter().filter(|(value, ..)| self.holds(*value)) {
+            let ends = [low, high].map(|end| self.at([x, end.clamp(self.y.low, self.y.high)]));
+            drawing.line(&ends, ink.line(0.8));
+            drawing.dots(vec![self.at([x, y])], 1.8, ink.full());
+        }
+    }
+
+    /// Words in a corner: at shares of width and height.
+    pub fn note(&self, drawing: &mut Drawing, [x, y]: [f64; 2], anchor: Anchor, label: Label) {
+        let [left, top] = self.corner;
+        drawing.text([left + x * self.width, top + y * self.height], anchor, TICK_LETTERS, Ink::Muted, label);
+    }
+}
+
+/// By how much dots are larger where there are few of them.
+pub fn dot_scale(count: usize) -> f64 {
+    if count < FEW_POINTS { 1.8 } else { 1.0 }
+}
+
+/// The part of a line between shares that lies within 0 and 1, if any does (Liang & Barsky).
+fn clipped([from, to]: [Point; 2]) -> Option<[Point; 2]> {
+    if ![from, to].iter().flatten().all(|share| share.is_finite()) {
+        return None;
+    }
+    let run = [to[0] - from[0], to[1] - from[1]];
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for axis in [0, 1] {
+        if run[axis] == 0.0 {
+            if !(0.0..=1.0).contains(&from[axis]) {
+                return None;
+            }
+            continue;
+        }
+        let ends = [-from[axis] / run[axis], (1.0 - from[axis]) / run[axis]];
+        enters = enters.max(ends[0].min(ends[1]));
+        leaves = leaves.min(ends[0].max(ends[1]));
+    }
+    let along = |share: f64| match share {
+        0.0 => from,
+        1.0 => to,
+        _ => [from[0] + share * run[0], from[1] + share * run[1]],
+    };
+    (enters <= leaves).then(|| [along(enters), along(leaves)])
+}

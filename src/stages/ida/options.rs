@@ -1,0 +1,86 @@
+//! The options of ida.
+
+use std::path::Path;
+
+use clap::Args;
+use serde::{Deserialize, Serialize};
+
+use super::measure::ScaledMeasure;
+use crate::pipeline::options::{Word, check, defaults};
+use crate::rocking::{Path as SolverPath, Scan, Structure};
+use crate::stages::simulate::SimulateOptions;
+use crate::stages::structures::Structures;
+
+/// Which structures, and at which intensities they are looked at.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct IdaOptions {
+    /// What is scaled: scale (the motion as it is), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, of each structure)
+    #[arg(long, default_value = "scale")]
+    pub measure: Word<ScaledMeasure>,
+    /// Least intensity
+    #[arg(long, default_value = "0.1")]
+    pub from: f64,
+    /// Largest intensity
+    #[arg(long, default_value = "10")]
+    pub to: f64,
+    /// Equal ratios between them, whose ends are the stripes
+    #[arg(long, default_value = "60")]
+    pub steps: usize,
+    /// How often a step is halved in search of safe windows, near overturning and where its ends overturn in different ways
+    #[arg(long, default_value = "4")]
+    pub halvings: u32,
+    /// Relative error of the intensities at which the outcome changes
+    #[arg(long, default_value = "0.001")]
+    pub tolerance: f64,
+    /// Frequency parameter of the structure, rad/s
+    #[arg(long, default_value = "2.5")]
+    pub p: f64,
+    /// Slenderness of the structure, rad
+    #[arg(long, default_value = "0.20")]
+    pub alpha: f64,
+    /// Coefficient of restitution
+    #[arg(long, default_value = "0.92")]
+    pub eta: f64,
+    /// Structures from a YAML or CSV file, as simulate takes them
+    #[arg(long, conflicts_with_all = ["p", "alpha", "eta"])]
+    pub structures: Option<Structures>,
+    /// How the solver works: scalar, avx2 or avx512, as in simulate [default: the fastest of this processor]
+    #[arg(long)]
+    pub path: Option<Word<SolverPath>>,
+}
+
+/// More looks than any scan needs.
+const MOST_STEPS: usize = 10_000;
+const MOST_HALVINGS: u32 = 12;
+
+impl Default for IdaOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+impl IdaOptions {
+    /// Makes the path of a structures file relative to `folder`, that of the pipeline file.
+    pub fn resolve_paths(&mut self, folder: &Path) {
+        if let Some(structures) = &mut self.structures {
+            structures.resolve_path(folder);
+        }
+    }
+
+    pub(super) fn scan(&self) -> anyhow::Result<Scan> {
+        let IdaOptions { from, to, steps, halvings, tolerance, .. } = *self;
+        check(from > 0.0 && from.is_finite(), "from", from, "an intensity above 0")?;
+        check(to > from && to.is_finite(), "to", to, &format!("an intensity above {from}"))?;
+        check((1..=MOST_STEPS).contains(&steps), "steps", steps, &format!("1 to {MOST_STEPS}"))?;
+        check(halvings <= MOST_HALVINGS, "halvings", halvings, &format!("0 to {MOST_HALVINGS}"))?;
+        check((1e-9..=0.5).contains(&tolerance), "tolerance", tolerance, "a share from 1e-9 to 0.5")?;
+        Ok(Scan::new(from, to, steps, halvings, tolerance))
+    }
+
+    pub(super) fn structures(&self) -> anyhow::Result<(Vec<Structure>, SolverPath)> {
+        let IdaOptions { p, alpha, eta, structures, path, .. } = self.clone();
+        let simulate = SimulateOptions { p, alpha, eta, structures, path, trace: None, partition: None };
+        Ok((simulate.structures()?, simulate.path()?))
+    }
+}

@@ -1,0 +1,166 @@
+//! All structures under some motions, from the foot of the scan to its top.
+
+use std::path::Path;
+
+use super::Ida;
+use crate::motion::{IntensityMeasures, IntensityScratch};
+use crate::rocking::{Capacity, Look, Problem, Response, ScanResponse, Structure, simulate_all};
+use crate::stages::motions::{Peaks, record};
+use crate::table::TableError;
+use crate::table::ida::{CapacityRow, StripeRow};
+use crate::table::motions::Motion;
+use crate::table::responses::ResponseRow;
+use crate::table::schema;
+
+/// Scaled samples that are held at once, or those of one motion.
+const MOST_SAMPLES: usize = 1 << 20;
+
+/// Beyond any ground; the solver's steps shorten with the root of the peak.
+const LARGEST_PEAK_M_S2: f64 = 1e6;
+
+/// A structure under a motion.
+struct Case<'m, 's> {
+    /// The file of the motion.
+    path: &'m Path,
+    motion: &'m Motion,
+    samples: &'s [f64],
+    peaks: Peaks,
+    structure: &'m Structure,
+    /// The measure of the motion as it is.
+    unscaled: f64,
+}
+
+impl Ida {
+    /// The stripes and the capacity of each structure under each of some motions, in order.
+    pub(super) fn looks<'a>(
+        &'a self,
+        path: &'a Path,
+        motions: &'a [Motion],
+        scratch: &mut IntensityScratch,
+    ) -> anyhow::Result<(Vec<StripeRow<'a>>, Vec<CapacityRow<'a>>)> {
+        let samples: Vec<Vec<f64>> = motions.iter().map(|motion| motion.acceleration_m_s2.to_vec()).collect();
+        let mut cases = Vec::new();
+        for (motion, samples) in motions.iter().zip(&samples) {
+            let peaks = Peaks::of(motion, &record(path, motion, samples)?, scratch);
+            for structure in &self.structures {
+                let unscaled = self.unscaled(path, motion, &peaks, structure)?;
+                cases.push(Case { path, motion, samples, peaks, structure, unscaled });
+            }
+        }
+        let scans = self.scan.run(cases.len(), |looks| self.respond(&cases, looks))?;
+        let (mut stripes, mut capacities) = (Vec::new(), Vec::new());
+        for (case, responses) in cases.iter().zip(&scans) {
+            let is_level = |response: &&ScanResponse| {
+                let levels = self.scan.levels();
+                levels.binary_search_by(|level| level.total_cmp(&response.intensity)).is_ok()
+            };
+            stripes.extend(responses.iter().filter(is_level).map(|response| self.stripe(case, response)));
+            capacities.push(CapacityRow {
+                motion_id: &case.motion.motion_id,
+                suite: case.motion.suite.as_deref(),
+                structure: case.structure,
+                measure: self.measure(),
+                unscaled: case.unscaled,
+                capacity: Capacity::of(responses),
+            });
+        }
+        Ok((stripes, capacities))
+    }
+
+    fn unscaled(
+        &self,
+        path: &Path,
+        motion: &Motion,
+        peaks: &Peaks,
+        structure: &Structure,
+    ) -> Result<f64, TableError> {
+        let measures =
+            IntensityMeasures::new(structure, peaks.pga_m_s2, peaks.pgv_m_s, motion.tp_s, peaks.tm_s);
+        self.options.measure.0.unscaled(peaks, &measures).ok_or_else(|| {
+            let (id, measure) = (&motion.motion_id, self.measure());
+            let problem = format!(
+                "motion '{id}' has no {measure} above 0 that could be scaled; leave it out, or take --measure scale"
+            );
+            value_error(path, motion, problem)
+        })
+    }
+
+    /// The responses to scaled copies of the samples, as many at once as fit.
+    fn respond(&self, cases: &[Case], looks: &[Look]) -> Result<Vec<Response>, TableError> {
+        let mut responses = Vec::with_capacity(looks.len());
+        let mut rest = looks;
+        while !rest.is_empty() {
+            let (block, later) = rest.split_at(block(rest.iter().map(|look| cases[look.case].samples.len())));
+            let scaled: Vec<Vec<f64>> = block.iter().map(|look| cases[look.case].scaled(look)).collect();
+            let problems = block.iter().zip(&scaled).map(|(look, samples)| {
+                let Case { path, structure, motion, .. } = &cases[look.case];
+                let record = record(path, motion, samples)?;
+                expect_ground(path, motion, record.peak_m_s2())?;
+                Ok(Problem { structure, record })
+            });
+            let problems = problems.collect::<Result<Vec<Problem>, TableError>>()?;
+            responses.extend(simulate_all(&problems, self.path));
+            rest = later;
+        }
+        Ok(responses)
+    }
+
+    fn stripe<'m>(&self, case: &Case<'m, '_>, at: &ScanResponse) -> StripeRow<'m> {
+        let Case { motion, structure, .. } = case;
+        let scale = at.intensity / case.unscaled;
+        let Peaks { pga_m_s2, pgv_m_s, tm_s } = case.peaks.scaled(scale);
+        StripeRow {
+            response: ResponseRow {
+                motion_id: &motion.motion_id,
+                suite: motion.suite.as_deref(),
+                structure,
+                response: at.response,
+                mw: motion.mw,
+                re_km: motion.re_km,
+                event: motion.event.as_deref(),
+                pga_m_s2,
+                pgv_m_s,
+                tp_s: motion.tp_s,
+                tm_s,
+                measures: IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, motion.tp_s, tm_s),
+            },
+            measure: self.measure(),
+            intensity: at.intensity,
+            scale,
+        }
+    }
+}
+
+impl Case<'_, '_> {
+    fn scaled(&self, look: &Look) -> Vec<f64> {
+        let factor = look.intensity / self.unscaled;
+        self.samples.iter().map(|sample| factor * sample).collect()
+    }
+}
+
+/// How many of the records of these lengths are held at once.
+fn block(lengths: impl Iterator<Item = usize>) -> usize {
+    let mut samples = 0;
+    let fits = lengths.take_while(|length| {
+        samples += length;
+        samples <= MOST_SAMPLES
+    });
+    fits.count().max(1)
+}
+
+/// That a scaled motion is one that the solver can go through.
+fn expect_ground(path: &Path, motion: &Motion, peak_m_s2: f64) -> Result<(), TableError> {
+    if peak_m_s2 <= LARGEST_PEAK_M_S2 {
+        return Ok(());
+    }
+    let problem = format!(
+        "motion '{}' is scaled to a peak of {peak_m_s2:e} m/s2; expected up to {LARGEST_PEAK_M_S2:e}, by a lower --to",
+        motion.motion_id
+    );
+    Err(value_error(path, motion, problem))
+}
+
+fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
+    let column = schema::ACCELERATION_M_S2.name.to_string();
+    TableError::Value { path: path.to_path_buf(), row: motion.row, column, problem }
+}

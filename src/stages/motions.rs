@@ -1,0 +1,85 @@
+//! Motions as simulate and ida take them: as records, with their peaks, under distinct names.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use crate::motion::{IntensityScratch, intensity};
+use crate::rocking::{Record, RecordError};
+use crate::table::TableError;
+use crate::table::motions::{Motion, MotionId};
+use crate::table::schema;
+
+/// The record of a motion of the file at `path`, whose samples are these (m/s2).
+///
+/// # Errors
+/// If they are none of a record.
+pub fn record<'a>(path: &Path, motion: &Motion, samples: &'a [f64]) -> Result<Record<'a>, TableError> {
+    Record::new(samples, motion.dt_s).map_err(|problem| TableError::Value {
+        path: path.to_path_buf(),
+        row: motion.row,
+        column: match problem {
+            RecordError::TimeStep(_) => schema::DT_S.name.to_string(),
+            _ => schema::ACCELERATION_M_S2.name.to_string(),
+        },
+        problem: problem.to_string(),
+    })
+}
+
+/// Measures of the file, or of the record where the file has none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peaks {
+    /// Peak ground acceleration, m/s2.
+    pub pga_m_s2: f64,
+    /// Peak ground velocity, m/s.
+    pub pgv_m_s: f64,
+    /// Mean period, s.
+    pub tm_s: Option<f64>,
+}
+
+impl Peaks {
+    /// Of a motion.
+    pub fn of(motion: &Motion, record: &Record, scratch: &mut IntensityScratch) -> Peaks {
+        let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
+        let pgv = || intensity::peak(&intensity::velocity(samples, dt_s));
+        Peaks {
+            pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
+            pgv_m_s: motion.pgv_m_s.unwrap_or_else(pgv),
+            tm_s: motion.tm_s.or_else(|| intensity::mean_period(samples, dt_s, scratch)),
+        }
+    }
+
+    /// Of the motion scaled by a factor.
+    pub fn scaled(&self, factor: f64) -> Peaks {
+        Peaks { pga_m_s2: factor * self.pga_m_s2, pgv_m_s: factor * self.pgv_m_s, ..*self }
+    }
+}
+
+/// The motions so far; numbers take little room, as there may be millions.
+#[derive(Default)]
+pub struct SeenIds {
+    numbers: HashSet<i64>,
+    names: HashSet<String>,
+}
+
+impl SeenIds {
+    /// Takes note of those of the file at `path`.
+    ///
+    /// # Errors
+    /// If one is there already.
+    pub fn note(&mut self, path: &Path, ids: &[MotionId]) -> anyhow::Result<()> {
+        match ids.iter().find(|id| !self.insert(id)) {
+            Some(id) => anyhow::bail!(
+                "{}: two motions are called '{id}'; expected distinct motion_id",
+                path.display()
+            ),
+            None => Ok(()),
+        }
+    }
+
+    fn insert(&mut self, id: &MotionId) -> bool {
+        match id {
+            MotionId::Number(number) => self.numbers.insert(*number),
+            MotionId::Name(name) => self.names.insert(name.clone()),
+        }
+    }
+}

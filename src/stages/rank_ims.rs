@@ -1,0 +1,178 @@
+//! rank-ims: which intensity measures, alone and together, predict best.
+
+use std::path::PathBuf;
+
+use anyhow::Context;
+use clap::Args;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use super::fit_pex::TransitionAt;
+use super::groups::{self, Group};
+use crate::fragility::{Contest, FurtherMeasure, RankingRules, RankingSample, Target};
+use crate::keyword::Keyword;
+use crate::pipeline::console::Console;
+use crate::pipeline::options::{check, defaults};
+use crate::pipeline::stage::Stage;
+use crate::table::motion_measures::MotionMeasures;
+use crate::table::provenance::Provenance;
+use crate::table::ranking::{self, RankingRow};
+use crate::table::schema::{RANKING, RANKING_RELIABILITY};
+use crate::table::source::{self, Source, with_part};
+use crate::table::writer::TableWriter;
+
+/// How measures are ranked.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct RankImsOptions {
+    /// Demand |theta|max / alpha whose exceedance P_ex is about
+    #[arg(long, default_value = "0.10")]
+    pub limit_state: f64,
+    /// IM4 at which the demand breaks: found (least pooled residual of the paper's two planes in the cases at hand), or a
+    /// number
+    #[arg(long, default_value = "found")]
+    pub transition: TransitionAt,
+    /// The most measures of a model: 1 to 3
+    #[arg(long, default_value = "3")]
+    pub terms: usize,
+    /// The most folds of cross-validation; each leaves out whole cells of magnitude and distance, or earthquakes
+    #[arg(long, default_value = "10")]
+    pub folds: usize,
+}
+
+impl Default for RankImsOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+/// The stage, ready to run.
+pub struct RankIms {
+    options: RankImsOptions,
+    rules: RankingRules,
+    input: PathBuf,
+    motions: Option<PathBuf>,
+    out: PathBuf,
+}
+
+impl RankIms {
+    /// Of the responses in `input`, with the further measures of their `motions` if there are any, into the file `out`.
+    ///
+    /// # Errors
+    /// If an option is out of range.
+    pub fn new(
+        options: &RankImsOptions,
+        input: PathBuf,
+        motions: Option<PathBuf>,
+        out: PathBuf,
+    ) -> anyhow::Result<RankIms> {
+        let RankImsOptions { limit_state, transition, terms, folds } = options.clone();
+        let possible = limit_state > 0.0 && limit_state.is_finite();
+        check(possible, "limit-state", limit_state, "a demand |theta|max / alpha above 0")?;
+        check((1..=3).contains(&terms), "terms", terms, "1, 2 or 3 measures")?;
+        check((2..=1000).contains(&folds), "folds", folds, "2 to 1000 folds")?;
+        let rules = RankingRules { folds, terms, transition: transition.im4() };
+        Ok(RankIms { options: options.clone(), rules, input, motions, out })
+    }
+
+    fn reliability_path(&self) -> PathBuf {
+        with_part(&self.out, "reliability")
+    }
+}
+
+/// The measures of a group that its motions have besides those of Eq. 13.
+fn further(group: &Group, motions: &MotionMeasures) -> anyhow::Result<Vec<FurtherMeasure>> {
+    let ids = group.motion_ids.iter().zip(&group.pga_m_s2);
+    let rows = ids.map(|(id, &pga)| motions.row(id, pga)).collect::<anyhow::Result<Vec<usize>>>()?;
+    let measures = motions.further.iter().map(|measure| FurtherMeasure {
+        name: measure.name.clone(),
+        ln: rows
+            .iter()
+            .enumerate()
+            .map(|(response, &row)| {
+                let structure = group.structure_of(response);
+                let value = measure.quantity.dimensionless(measure.values[row]?, &structure);
+                Some(value).filter(|value| *value > 0.0).map(f64::ln)
+            })
+            .collect(),
+    });
+    Ok(measures.collect())
+}
+
+/// All candidates for one target in a group.
+fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<RankingRow> {
+    let (target, n) = (sample.target, sample.len());
+    let events = sample.happened.iter().filter(|&&happened| happened).count();
+    let contest = Contest::new(sample, rules);
+    let ratings = contest.candidates.par_iter().map(|candidate| contest.rate(candidate)).collect();
+    let row = |ranked| RankingRow {
+        suite: group.suite.clone(),
+        structure: group.structure.clone(),
+        target,
+        n,
+        events,
+        clustered_by: group.clusters.shared.as_str(),
+        ranked,
+    };
+    contest.rank(ratings).into_iter().map(row).collect()
+}
+
+impl Stage for RankIms {
+    fn subcommand(&self) -> &'static str {
+        RANKING.stage
+    }
+
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        let motions = self.motions.iter().map(|path| ("motions", path.into()));
+        [("responses", (&self.input).into())].into_iter().chain(motions).collect()
+    }
+
+    fn targets(&self) -> Vec<source::Target> {
+        vec![self.reliability_path().into(), (&self.out).into()]
+    }
+
+    fn parameters(&self) -> Value {
+        json!(self.options)
+    }
+
+    fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        let groups = groups::read(&self.input)?;
+        let motions = self.motions.as_deref().map(MotionMeasures::read).transpose()?;
+        let mut samples: Vec<(&Group, RankingSample)> = Vec::new();
+        for group in &groups {
+            let further = motions.as_ref().map_or(Ok(Vec::new()), |motions| further(group, motions));
+            let further = further.with_context(|| format!("responses of '{}'", group.structure))?;
+            let sample = |&target: &Target| {
+                let clusters = &group.clusters.numbers;
+                let limit_state = self.options.limit_state;
+                (group, RankingSample::new(target, &group.cases, clusters, &further, limit_state))
+            };
+            samples.extend(Target::ALL.iter().map(sample));
+        }
+        warn(&samples, console);
+        let targets = samples.len();
+        let rows: Vec<Vec<RankingRow>> =
+            samples.into_par_iter().map(|(group, sample)| rows(group, sample, &self.rules)).collect();
+        let rows = rows.concat();
+        let mut writer =
+            TableWriter::create(&self.reliability_path(), &RANKING_RELIABILITY, provenance.clone())?;
+        writer.append(&ranking::reliability_batch(&rows)?)?;
+        writer.finish()?;
+        let mut writer = TableWriter::create(&self.out, &RANKING, provenance.clone())?;
+        writer.append(&ranking::batch(&rows)?)?;
+        writer.finish()?;
+        Ok(format!("{} models for {} targets", rows.len(), targets))
+    }
+}
+
+/// Says which measures do not compete, since likelihoods are comparable on the same cases only.
+fn warn(samples: &[(&Group, RankingSample)], console: &Console) {
+    console.warn_each(samples.iter().flat_map(|(group, sample)| {
+        sample.incomplete.iter().map(move |(name, missing)| {
+            let suite = group.suite.as_deref().unwrap_or_default();
+            let of = format!("{suite} {} {} ({missing})", group.structure, sample.target.as_str());
+            (format!("{name} is left out, as cases are without it"), of.trim().to_string())
+        })
+    }));
+}

@@ -1,0 +1,89 @@
+use std::path::Path;
+
+use crate::fragility::Measure;
+use crate::keyword::Keyword;
+use crate::pipeline::console::Console;
+use crate::pipeline::options::Word;
+use crate::report::material::{Curve, Group, Model, Planes, Regression};
+use crate::stages::fit_pro::FittedEvent;
+use crate::stages::fits::{FitsOptions, ModelForm};
+use crate::table::fits::{self, FitRow};
+use crate::table::pex;
+use crate::table::schema;
+
+/// The row, if it is of this group.
+fn is_of(row: &FitRow, group: &Group) -> bool {
+    row.text(&schema::SUITE) == group.suite.as_deref()
+        && row.text(&schema::STRUCTURE) == Some(group.structure.name.as_str())
+}
+
+/// Gives each group its regressions; the demand that P_ex is about.
+pub fn add_regressions(path: &Path, groups: &mut [Group]) -> anyhow::Result<Option<f64>> {
+    let rows = fits::regressions(path)?;
+    for group in groups {
+        let of_group = |model: pex::Model| {
+            let rows = rows.iter().filter(|row| is_of(row, group));
+            rows.filter(move |row| row.text(&schema::MODEL) == Some(model.as_str())).collect::<Vec<_>>()
+        };
+        let univariate = of_group(pex::Model::Univariate);
+        let planes = of_group(pex::Model::Biplanar);
+        group.planes = match &planes[..] {
+            [low, high] => regression(low).zip(regression(high)).and_then(|(below, above)| {
+                let transition = high.optional_number(&schema::RANGE_LOW)?;
+                Some(Planes { transition, sides: [below, above] })
+            }),
+            _ => None,
+        };
+        group.univariate = univariate.into_iter().filter_map(regression).collect();
+    }
+    Ok(rows.iter().find_map(|row| row.optional_number(&schema::LIMIT_STATE)))
+}
+
+/// A row that holds a regression, whether it rises or falls.
+fn regression(row: &FitRow) -> Option<Regression> {
+    let r2 = row.optional_number(&schema::R2)?;
+    row.demand().ok().map(|law| Regression { law, r2, rises: row.is_ok() })
+}
+
+/// Gives each group its curves of overturning.
+pub fn add_curves(path: &Path, groups: &mut [Group], console: &Console) -> anyhow::Result<()> {
+    let rows = fits::curves(path)?;
+    let overturning =
+        |row: &&FitRow| row.text(&schema::FITTED_EVENT) == Some(FittedEvent::Overturning.as_str());
+    let rows: Vec<&FitRow> = rows.iter().filter(overturning).filter(|row| row.is_ok()).collect();
+    if let Some(Err(why)) = rows.first().map(|row| row.probit()) {
+        console.note(&format!("warning: no curves of overturning in the figures: {why}"));
+    }
+    for group in groups {
+        let of_group = rows.iter().filter(|row| is_of(row, group));
+        group.curves = of_group.filter_map(|row| row.probit().ok()).map(|index| Curve { index }).collect();
+    }
+    Ok(())
+}
+
+/// The fits of each group joined: bivariate, and over each measure that has both fits.
+pub fn models(pex: &Path, pro: &Path, groups: &[Group]) -> Vec<Model> {
+    let shown = |model: &Model| {
+        groups.iter().any(|group| group.suite == model.suite && group.structure.name == model.structure)
+    };
+    let forms = std::iter::once(None).chain(Measure::SCALAR.map(Some));
+    let models = forms.flat_map(|measure| {
+        let options = FitsOptions {
+            pex: pex.into(),
+            pro: pro.into(),
+            suite: None,
+            structure: None,
+            model: Word(if measure.is_some() { ModelForm::Univariate } else { ModelForm::Bivariate }),
+            measure: measure.map(Word),
+        };
+        let form = measure.map_or(ModelForm::Bivariate.as_str(), Keyword::as_str).to_string();
+        let chosen = options.choose_each().unwrap_or_default().into_iter().flatten();
+        chosen.map(move |fits| Model {
+            suite: fits.suite,
+            structure: fits.structure,
+            form: form.clone(),
+            fits: fits.model,
+        })
+    });
+    models.filter(shown).collect()
+}

@@ -1,0 +1,213 @@
+//! report: figures and one page of all that a folder of files holds.
+
+mod fits;
+mod motions;
+mod responses;
+mod stamp;
+mod tables;
+
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use super::run::Files;
+use crate::pipeline::console::Console;
+use crate::pipeline::options::{check, defaults};
+use crate::pipeline::stage::Stage;
+use crate::report::material::{File, Material};
+use crate::report::{ALL, Draw, Figure, Page, Place, page, png, svg};
+use crate::table::TableError;
+use crate::table::footer::footer;
+use crate::table::provenance::{self, Provenance, Stamp};
+use crate::table::source::{Source, Target};
+use crate::table::text;
+
+/// The stage's name.
+const NAME: &str = "report";
+
+/// What the report shows.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct ReportOptions {
+    /// Suite to show [default: all]
+    #[arg(long)]
+    pub suite: Option<String>,
+    /// Structure to show [default: all]
+    #[arg(long)]
+    pub structure: Option<String>,
+    /// Pairs of suite and structure to show at most, in the order of the file
+    #[arg(long, default_value = "4")]
+    pub groups: usize,
+    /// Motions in the browser of motions
+    #[arg(long, default_value = "40")]
+    pub motions: usize,
+    /// Dots per inch of the PNG files
+    #[arg(long, default_value = "300")]
+    pub dpi: f64,
+}
+
+impl Default for ReportOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+/// The stage, ready to run.
+pub struct Report {
+    options: ReportOptions,
+    files: Files,
+    out: PathBuf,
+}
+
+impl Report {
+    /// Of the files in a folder, into the page `out`; its figures go into a folder of the same name.
+    ///
+    /// # Errors
+    /// If an option is out of range.
+    pub fn new(options: &ReportOptions, folder: PathBuf, out: PathBuf) -> anyhow::Result<Report> {
+        check(options.groups >= 1, "groups", options.groups, "1 or more")?;
+        check(
+            options.motions <= 200,
+            "motions",
+            options.motions,
+            "200 or fewer, so that the page stays small",
+        )?;
+        let ending = out.extension().unwrap_or_default().to_string_lossy();
+        check(ending == "html", "out", out.display(), "the name of a page that ends in .html")?;
+        check((36.0..=1200.0).contains(&options.dpi), "dpi", options.dpi, "36 to 1200 dots per inch")?;
+        Ok(Report { options: options.clone(), files: Files::in_folder(&folder), out })
+    }
+
+    /// The responses, and of the other files that a report can show those that are there, in the order of the pipeline, by the
+    /// role each plays.
+    fn there(&self) -> Vec<(&'static str, PathBuf)> {
+        let Files { scenarios, motions, responses, pex, pro, paper, folder, .. } = self.files.clone();
+        let beside = |name: &str| folder.join(name);
+        let mut known = vec![
+            ("scenarios", scenarios),
+            ("motions", motions),
+            ("responses", responses),
+            ("pex", pex),
+            ("pro", pro),
+            ("paper", paper),
+            ("validation", beside("validation.parquet")),
+            ("ranking", beside("ranking.parquet")),
+            ("universality", beside("universality.parquet")),
+        ];
+        known.retain(|(role, path)| *role == "responses" || path.is_file());
+        known
+    }
+
+    fn material(&self, console: &Console) -> anyhow::Result<Material> {
+        let inputs = self.there();
+        let there =
+            |role: &str| inputs.iter().find(|(other, _)| *other == role).map(|(_, path)| path.as_path());
+        let (mut groups, left_out) = responses::read(&self.files.responses, &self.options)?;
+        let mut material = Material { left_out, ..Material::default() };
+        if let Some(pex) = there("pex") {
+            material.limit = fits::add_regressions(pex, &mut groups)?;
+        }
+        if let Some(pro) = there("pro") {
+            fits::add_curves(pro, &mut groups, console)?;
+        }
+        if let (Some(pex), Some(pro)) = (there("pex"), there("pro")) {
+            material.models = fits::models(pex, pro, &groups);
+        }
+        if let Some(path) = there("motions") {
+            let structures = motions::structures(&groups);
+            (material.motions, material.parts) = motions::read(path, &structures, self.options.motions)?;
+        }
+        material.tables = tables::read(&inputs)?;
+        material.files = inputs.iter().map(|(_, path)| file(path)).collect::<Result<_, TableError>>()?;
+        material.groups = groups;
+        Ok(material)
+    }
+
+    /// The folder of the figures.
+    fn figures(&self) -> PathBuf {
+        self.out.with_extension("")
+    }
+}
+
+/// Gives each figure a name of its own, whatever structures are called, and says in its caption what was run.
+fn finish(figures: &mut [Figure], made: &str) {
+    let mut names = HashSet::new();
+    for (index, figure) in figures.iter_mut().enumerate() {
+        if !names.insert(figure.name.clone()) {
+            figure.name = format!("{}-{}", figure.name, index + 1);
+        }
+        figure.caption = format!("{} {made}", figure.caption);
+    }
+}
+
+/// What is known of a file.
+fn file(path: &Path) -> Result<File, TableError> {
+    let footer = footer(path)?;
+    let stamp = provenance::stamp(path)?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let rows = usize::try_from(footer.rows).unwrap_or(0);
+    Ok(match stamp {
+        Some(Stamp { provenance, content, .. }) => File {
+            name,
+            stage: Some(provenance.stage),
+            version: provenance.version,
+            parameters: provenance.parameters,
+            content,
+            rows,
+        },
+        None => File {
+            name,
+            stage: None,
+            version: String::new(),
+            parameters: Value::Null,
+            content: provenance::content_of(path)?,
+            rows,
+        },
+    })
+}
+
+impl Stage for Report {
+    fn subcommand(&self) -> &'static str {
+        NAME
+    }
+
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        self.there().into_iter().map(|(role, path)| (role, path.into())).collect()
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        vec![(&self.out).into()]
+    }
+
+    fn parameters(&self) -> Value {
+        let ReportOptions { suite, structure, groups, motions, dpi } = &self.options;
+        json!({ "suite": suite, "structure": structure, "groups": groups, "motions": motions, "dpi": dpi })
+    }
+
+    fn recorded(&self, output: &Path) -> Result<Option<Stamp>, TableError> {
+        stamp::read(output)
+    }
+
+    fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        let material = self.material(console)?;
+        let mut figures: Vec<Figure> = ALL.par_iter().flat_map_iter(|draw: &Draw| draw(&material)).collect();
+        finish(&mut figures, &material.made());
+        let folder = self.figures();
+        std::fs::create_dir_all(&folder).map_err(|source| TableError::io(&folder, source))?;
+        figures.par_iter().try_for_each(|figure| -> anyhow::Result<()> {
+            let path = |extension: &str| folder.join(format!("{}.{extension}", figure.name));
+            text::write(&path("svg"), svg(figure, Place::File))?;
+            Ok(text::write(&path("png"), &png(figure, self.options.dpi)?)?)
+        })?;
+        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let stamp = stamp::words(provenance);
+        let html = page(&material, Page { figures: &figures, folder: &name, stamp: &stamp });
+        text::write(&self.out, &html)?;
+        let (count, megabytes) = (figures.len(), html.len() as f64 / 1e6);
+        Ok(format!("{count} figures, and a page of {megabytes:.1} MB to open: {}", self.out.display()))
+    }
+}

@@ -1,0 +1,64 @@
+//! What made a page, in its head: so that a run knows whether it is up to date.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::table::TableError;
+use crate::table::provenance::{Provenance, Stamp};
+
+/// Lines at the start of a page among which the stamp is.
+const LINES: usize = 8;
+const BEFORE: &str = "<meta name=\"rockfrag\" content=\"";
+const AFTER: &str = "\">";
+
+/// The stamp of a page that is made like this.
+pub fn words(provenance: &Provenance) -> String {
+    let Provenance { stage, version, parameters, inputs, .. } = provenance;
+    json!({ "stage": stage, "version": version, "parameters": parameters, "inputs": inputs }).to_string()
+}
+
+/// The stamp of a page, or `None` where it has none.
+///
+/// # Errors
+/// If the page is missing or unreadable.
+pub fn read(path: &Path) -> Result<Option<Stamp>, TableError> {
+    let file = match File::open(path) {
+        Ok(file) => file,
+        Err(source) if source.kind() == std::io::ErrorKind::NotFound => {
+            return Err(TableError::Missing { path: path.to_path_buf(), hint: "run report".to_string() });
+        }
+        Err(source) => return Err(TableError::io(path, source)),
+    };
+    for line in BufReader::new(file).lines().take(LINES) {
+        let line = line.map_err(|source| TableError::io(path, source))?;
+        if let Some(words) = line.strip_prefix(BEFORE).and_then(|rest| rest.strip_suffix(AFTER)) {
+            return Ok(parse(
+                &words
+                    .replace("&quot;", "\"")
+                    .replace("&lt;", "<")
+                    .replace("&gt;", ">")
+                    .replace("&amp;", "&"),
+            ));
+        }
+    }
+    Ok(None)
+}
+
+fn parse(words: &str) -> Option<Stamp> {
+    let value: Value = serde_json::from_str(words).ok()?;
+    let text = |key: &str| value[key].as_str().map(str::to_string);
+    let inputs: BTreeMap<String, String> = serde_json::from_value(value["inputs"].clone()).ok()?;
+    let provenance = Provenance {
+        stage: text("stage")?,
+        version: text("version")?,
+        parameters: value["parameters"].clone(),
+        inputs,
+        sources: BTreeMap::new(),
+    };
+    let plan = provenance.plan();
+    Some(Stamp { provenance, plan, content: String::new() })
+}

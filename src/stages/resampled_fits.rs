@@ -1,0 +1,150 @@
+//! The fits of resampled cases, from the files that fit-pex and fit-pro write with --bootstrap.
+
+use std::path::{Path, PathBuf};
+
+use super::chosen_fits::ChosenFits;
+use super::fit_pro::FittedEvent;
+use super::fits::FitsOptions;
+use crate::fragility::{DemandLaw, DemandModel, FragilityModel, Predictor};
+use crate::keyword::Keyword;
+use crate::pipeline::UsageError;
+use crate::table::fits::{self, FitRow};
+use crate::table::pex::Model;
+use crate::table::provenance::stamp;
+use crate::table::schema::{self, Column, PEX_BOOTSTRAP, PRO_BOOTSTRAP, Table};
+use crate::table::source::{Source, with_part};
+
+/// The bootstrap files beside those of the fits, of P_ex and of P_ro.
+///
+/// # Errors
+/// If the fits are in memory.
+pub fn files(options: &FitsOptions) -> anyhow::Result<[PathBuf; 2]> {
+    let file = |fits| -> anyhow::Result<PathBuf> { Ok(with_part(path_of(fits)?, "bootstrap")) };
+    Ok([file(&options.pex)?, file(&options.pro)?])
+}
+
+fn path_of(fits: &Source) -> anyhow::Result<&Path> {
+    match fits {
+        Source::Path(path) => Ok(path),
+        Source::Memory(table) => Err(UsageError::because(format!(
+            "{}: a table in memory; limits by resamples need the files that fit-pex and fit-pro write with --bootstrap",
+            table.name.display()
+        ))),
+    }
+}
+
+/// The chosen fits in each resample.
+///
+/// # Errors
+/// If there are no such files, or they are not of the same resamples as the fits and each other.
+pub fn read(options: &FitsOptions, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<FragilityModel>>> {
+    let [pex, pro] = files(options)?;
+    same_plan(path_of(&options.pex)?, &pex)?;
+    same_plan(path_of(&options.pro)?, &pro)?;
+    let seed =
+        |path: &Path| anyhow::Ok(stamp(path)?.map(|stamp| stamp.provenance.parameters["seed"].clone()));
+    if seed(&pex)? != seed(&pro)? {
+        return Err(UsageError::because(format!(
+            "{} and {} have other seeds; expected the same --seed in fit-pex and fit-pro",
+            pex.display(),
+            pro.display()
+        )));
+    }
+    let demands = demands(&rows(&pex, &PEX_BOOTSTRAP, chosen)?, &chosen.model.demand);
+    let curves = curves(&rows(&pro, &PRO_BOOTSTRAP, chosen)?, &chosen.model.overturning);
+    if demands.len() != curves.len() || demands.is_empty() {
+        return Err(UsageError::because(format!(
+            "{} has {} resamples and {} has {}; expected the same --bootstrap in fit-pex and fit-pro",
+            pex.display(),
+            demands.len(),
+            pro.display(),
+            curves.len()
+        )));
+    }
+    let model = |(demand, overturning): (Option<DemandModel>, Option<Predictor>)| {
+        Some(FragilityModel { demand: demand?, overturning: overturning?, ..chosen.model })
+    };
+    Ok(demands.into_iter().zip(curves).map(model).collect())
+}
+
+/// That a bootstrap file was made together with the fits.
+fn same_plan(fits: &Path, bootstrap: &Path) -> anyhow::Result<()> {
+    let plan = |path: &Path| anyhow::Ok(stamp(path)?.map(|stamp| stamp.plan));
+    if !bootstrap.exists() {
+        return Err(UsageError::because(format!(
+            "{}: no such file; limits by replicates need fit-pex and fit-pro with --bootstrap 2000",
+            bootstrap.display()
+        )));
+    }
+    if plan(fits)? != plan(bootstrap)? {
+        return Err(UsageError::because(format!(
+            "{} was not made together with {}; fit again with --bootstrap",
+            bootstrap.display(),
+            fits.display()
+        )));
+    }
+    Ok(())
+}
+
+/// The replicates of the chosen suite and structure.
+fn rows(path: &Path, table: &Table, chosen: &ChosenFits) -> anyhow::Result<Vec<FitRow>> {
+    let mut rows = fits::rows(path, table)?;
+    rows.retain(|row| {
+        row.text(&schema::SUITE) == chosen.suite.as_deref()
+            && row.text(&schema::STRUCTURE) == Some(&chosen.structure)
+    });
+    Ok(rows)
+}
+
+/// Of the fit of the chosen measures, in the order of the replicates.
+fn demands(rows: &[FitRow], chosen: &DemandModel) -> Vec<Option<DemandModel>> {
+    let of = |model: Model, law: &DemandLaw| -> Vec<&FitRow> {
+        let same = |row: &&FitRow| {
+            row.text(&schema::MODEL) == Some(model.as_str()) && has_measures(row, &law.ln_median)
+        };
+        rows.iter().filter(same).collect()
+    };
+    match chosen {
+        DemandModel::Everywhere(law) => of(Model::Univariate, law)
+            .iter()
+            .map(|row| Some(DemandModel::Everywhere(resampled(row, law)?)))
+            .collect(),
+        DemandModel::Biplanar { low, high, .. } => {
+            // All replicates of the lower plane come first.
+            let both = of(Model::Biplanar, high);
+            let (below, above) = both.split_at(both.len() / 2);
+            let planes = |(below, above): (&&FitRow, &&FitRow)| {
+                let transition = above.optional_number(&schema::RANGE_LOW)?;
+                let (low, high) = (resampled(below, low)?, resampled(above, high)?);
+                Some(DemandModel::Biplanar { transition, low, high })
+            };
+            below.iter().zip(above).map(planes).collect()
+        }
+    }
+}
+
+fn resampled(row: &FitRow, law: &DemandLaw) -> Option<DemandLaw> {
+    let ln_median = with_coefficients(row, &law.ln_median, [schema::LN_A, schema::B1, schema::B2])?;
+    Some(DemandLaw { ln_median, beta: row.optional_number(&schema::BETA)?, degrees: law.degrees })
+}
+
+fn curves(rows: &[FitRow], chosen: &Predictor) -> Vec<Option<Predictor>> {
+    let same = |row: &&FitRow| {
+        row.text(&schema::FITTED_EVENT) == Some(FittedEvent::Overturning.as_str())
+            && has_measures(row, chosen)
+    };
+    let columns = [schema::B0, schema::INDEX_B1, schema::INDEX_B2];
+    rows.iter().filter(same).map(|row| with_coefficients(row, chosen, columns)).collect()
+}
+
+fn has_measures(row: &FitRow, fit: &Predictor) -> bool {
+    row.text(&schema::IM_X) == Some(fit.im_x.as_str())
+        && row.text(&schema::IM_Y) == fit.im_y.map(Keyword::as_str)
+}
+
+/// The fit with the coefficients of a replicate.
+fn with_coefficients(row: &FitRow, fit: &Predictor, columns: [Column; 3]) -> Option<Predictor> {
+    let [intercept, first, second] = columns.map(|column| row.optional_number(&column));
+    let second = if fit.im_y.is_some() { second? } else { 0.0 };
+    Some(Predictor { coefficients: [intercept?, first?, second], ..*fit })
+}

@@ -1,0 +1,247 @@
+//! universality: the curves of one structure held against the responses of all others to the same motions.
+
+mod words;
+
+use std::path::PathBuf;
+
+use clap::Args;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+pub use words::show;
+
+use super::fits::ModelForm;
+use super::groups::{self, Group};
+use crate::fragility::{
+    Branch, CurveForm, CurveSubject, FitStatus, Measure, PooledFit, PooledStructure, PooledTerms, Transfer,
+    fit_pooled,
+};
+use crate::keyword::Keyword;
+use crate::pipeline::UsageError;
+use crate::pipeline::console::Console;
+use crate::pipeline::options::{Word, check, defaults};
+use crate::pipeline::stage::Stage;
+use crate::table::provenance::Provenance;
+use crate::table::schema::{POOLED, UNIVERSALITY};
+use crate::table::source::{Source, Target, with_part};
+use crate::table::universality::{self, PooledRow, UniversalityRow};
+use crate::table::writer::TableWriter;
+
+/// Whose curves, and which.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct UniversalityOptions {
+    /// Structure whose curves are transferred to all others
+    #[arg(long, default_value = "electrical-equipment", value_name = "NAME")]
+    pub reference: String,
+    /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate
+    #[arg(long, default_value = "bivariate")]
+    pub model: Word<ModelForm>,
+    /// Measure of the univariate model, im1 to im6 [default: im5]
+    #[arg(long, value_name = "IM")]
+    pub measure: Option<Word<Measure>>,
+    /// IM4 at which the two planes of all structures meet
+    #[arg(long, default_value = "1.3")]
+    pub transition: f64,
+    /// Demand |theta|max / alpha whose exceedance P_ex is about
+    #[arg(long, default_value = "0.10")]
+    pub limit_state: f64,
+}
+
+impl Default for UniversalityOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+/// The stage, ready to run.
+pub struct Universality {
+    options: UniversalityOptions,
+    form: CurveForm,
+    input: PathBuf,
+    out: PathBuf,
+}
+
+/// All structures under one suite, and where the reference stands among them.
+struct SuiteOfGroups<'a> {
+    groups: Vec<&'a Group>,
+    reference: usize,
+}
+
+/// One event under one suite.
+struct Judgement {
+    rows: Vec<UniversalityRow>,
+    coefficients: Vec<PooledRow>,
+    /// Why there is no pooled curve, and which.
+    missing: Vec<(String, String)>,
+}
+
+impl Universality {
+    /// Of the responses in `input`, into the file `out`.
+    ///
+    /// # Errors
+    /// If an option is out of range, or two do not fit together.
+    pub fn new(options: &UniversalityOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<Universality> {
+        let (limit, transition) = (options.limit_state, options.transition);
+        check(limit > 0.0 && limit.is_finite(), "limit-state", limit, "a demand |theta|max / alpha above 0")?;
+        check(transition > 1.0 && transition < 100.0, "transition", transition, "an IM4 above 1")?;
+        let form = match (options.model.0, options.measure) {
+            (ModelForm::Bivariate, Some(measure)) => {
+                return Err(UsageError::because(format!("measure {measure} needs --model univariate")));
+            }
+            (ModelForm::Bivariate, None) => CurveForm::Hybrid { transition },
+            (ModelForm::Univariate, measure) => {
+                CurveForm::Scalar(measure.map_or(Measure::Im5, |word| word.0))
+            }
+        };
+        Ok(Universality { options: options.clone(), form, input, out })
+    }
+
+    fn pooled_path(&self) -> PathBuf {
+        with_part(&self.out, "pooled")
+    }
+
+    fn subject(&self, branch: Branch) -> CurveSubject {
+        CurveSubject { branch, form: self.form, limit: self.options.limit_state }
+    }
+
+    /// The groups of each suite, which must have the reference and the same motions throughout.
+    fn suites<'a>(&self, groups: &'a [Group]) -> anyhow::Result<Vec<SuiteOfGroups<'a>>> {
+        let mut names: Vec<&Option<String>> = Vec::new();
+        for group in groups {
+            if !names.contains(&&group.suite) {
+                names.push(&group.suite);
+            }
+        }
+        let of = |name: &Option<String>| {
+            let groups: Vec<&Group> = groups.iter().filter(|group| group.suite == *name).collect();
+            let place = groups.iter().position(|group| group.structure == self.options.reference);
+            let file = self.input.display();
+            let Some(reference) = place else {
+                let known: Vec<&str> = groups.iter().map(|group| group.structure.as_str()).collect();
+                return Err(UsageError::because(format!(
+                    "{file}: no structure '{}'; expected --reference with one of {}",
+                    self.options.reference,
+                    known.join(", ")
+                )));
+            };
+            if let Some(other) = groups.iter().find(|group| group.cells != groups[reference].cells) {
+                anyhow::bail!(
+                    "{file}: '{}' has responses to other motions than '{}'; expected the output of one simulate",
+                    other.structure,
+                    self.options.reference
+                );
+            }
+            Ok(SuiteOfGroups { groups, reference })
+        };
+        names.into_iter().map(of).collect()
+    }
+
+    /// Holds all structures against the reference.
+    fn judge(&self, suite: &SuiteOfGroups, branch: Branch) -> anyhow::Result<Judgement> {
+        let (subject, reference) = (self.subject(branch), suite.groups[suite.reference]);
+        let cells = cells(reference);
+        let pooled = pooled(&subject, suite);
+        let row = |(k, group): (usize, &&Group)| {
+            let transfer =
+                Transfer::new(&subject, &reference.cases, &group.cases, &cells).map_err(|status| {
+                    anyhow::anyhow!(
+                        "{}: the curve of {} of '{}' is {}; choose another --reference",
+                        self.input.display(),
+                        branch.as_str(),
+                        reference.structure,
+                        status.as_str()
+                    )
+                })?;
+            let log_score = |fit: &Result<PooledFit, FitStatus>| fit.as_ref().ok()?.log_scores[k];
+            Ok(transfer.map(|transfer| UniversalityRow {
+                suite: group.suite.clone(),
+                structure: group.structure_of(0),
+                reference: reference.structure.clone(),
+                event: branch,
+                limit_state: subject.limit,
+                transfer,
+                pooled: [0, 1, 2, 3].map(|terms: usize| log_score(&pooled[terms])),
+            }))
+        };
+        let rows: Vec<Option<UniversalityRow>> =
+            suite.groups.par_iter().enumerate().map(row).collect::<anyhow::Result<_>>()?;
+        let (mut coefficients, mut missing) = (Vec::new(), Vec::new());
+        for (&terms, fit) in PooledTerms::ALL.iter().zip(&pooled) {
+            match fit {
+                Ok(fit) => coefficients.extend(fit.parts.iter().flat_map(|part| {
+                    part.terms.iter().map(|term| PooledRow {
+                        suite: reference.suite.clone(),
+                        event: branch,
+                        terms,
+                        part: part.clone(),
+                        term: term.clone(),
+                    })
+                })),
+                Err(status) => missing.push((
+                    format!("no pooled curve, {}", status.as_str()),
+                    format!("{} of {}", terms.as_str(), branch.as_str()),
+                )),
+            }
+        }
+        Ok(Judgement { rows: rows.into_iter().flatten().collect(), coefficients, missing })
+    }
+}
+
+/// The cell of each motion; where all share one, each is its own.
+fn cells(group: &Group) -> Vec<usize> {
+    let one_cell = group.cells.iter().all(|&cell| cell == group.cells[0]);
+    if one_cell { (0..group.cells.len()).collect() } else { group.cells.clone() }
+}
+
+/// The curves of all structures of a suite, of each of [`PooledTerms::ALL`].
+fn pooled<'a>(subject: &CurveSubject, suite: &SuiteOfGroups<'a>) -> Vec<Result<PooledFit, FitStatus>> {
+    let reference = suite.groups[suite.reference];
+    let beside_reference = |group: &&'a Group| PooledStructure {
+        cases: &group.cases,
+        ln_p: (group.p_rad_s[0] / reference.p_rad_s[0]).ln(),
+        ln_alpha: (group.alpha_rad[0] / reference.alpha_rad[0]).ln(),
+        eta: group.eta - reference.eta,
+    };
+    let structures: Vec<PooledStructure> = suite.groups.iter().map(beside_reference).collect();
+    PooledTerms::ALL.par_iter().map(|&terms| fit_pooled(subject, &structures, terms)).collect()
+}
+
+impl Stage for Universality {
+    fn subcommand(&self) -> &'static str {
+        UNIVERSALITY.stage
+    }
+
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        vec![("responses", (&self.input).into())]
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        vec![self.pooled_path().into(), (&self.out).into()]
+    }
+
+    fn parameters(&self) -> Value {
+        json!(self.options)
+    }
+
+    fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        let groups = groups::read(&self.input)?;
+        let suites = self.suites(&groups)?;
+        let mut structures = 0;
+        let mut writer = TableWriter::create(&self.out, &UNIVERSALITY, provenance.clone())?;
+        let mut pooled_writer = TableWriter::create(&self.pooled_path(), &POOLED, provenance.clone())?;
+        for suite in &suites {
+            structures = structures.max(suite.groups.len());
+            for &branch in Branch::ALL {
+                let Judgement { rows, coefficients, missing } = self.judge(suite, branch)?;
+                console.warn_each(missing.into_iter());
+                writer.append(&universality::batch(&rows)?)?;
+                pooled_writer.append(&universality::pooled_batch(&coefficients)?)?;
+            }
+        }
+        pooled_writer.finish()?;
+        writer.finish()?;
+        Ok(format!("{structures} structures under {} suite(s)", suites.len()))
+    }
+}

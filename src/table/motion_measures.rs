@@ -1,0 +1,121 @@
+//! The measures of a motions file by motion, without its samples.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use super::TableError;
+use super::columns::Columns;
+use super::motions::STAGES;
+use super::reader::OpenTable;
+use super::schema::{self, Column};
+use crate::motion::Quantity;
+
+/// Rows that are decoded at once.
+const BATCH: usize = 8192;
+
+/// The measures besides the peaks and periods of Eq. 13, and what they are.
+const FURTHER: [(Column, Quantity); 6] = [
+    (schema::PGD_M, Quantity::Length),
+    (schema::ARIAS_M_S, Quantity::AriasIntensity),
+    (schema::CAV_M_S, Quantity::Velocity),
+    (schema::D5_75_S, Quantity::Duration),
+    (schema::D5_95_S, Quantity::Duration),
+    (schema::HOUSNER_M, Quantity::Length),
+];
+
+/// The units at the end of the names of their columns, the longer ones first.
+const UNITS: [&str; 4] = ["_m_s2", "_m_s", "_m", "_s"];
+
+/// A measure of all motions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionMeasure {
+    /// Its column without the unit, as `d5_95` or `sa_0p50`: what it is called once it is dimensionless.
+    pub name: String,
+    /// What it is.
+    pub quantity: Quantity,
+    /// Its value in each row of the file, where there is one.
+    pub values: Vec<Option<f64>>,
+}
+
+/// The measures of a motions file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionMeasures {
+    path: PathBuf,
+    rows: HashMap<String, usize>,
+    pga_m_s2: Vec<Option<f64>>,
+    /// The durations, Arias intensity, CAV, PGD, Housner intensity and spectral accelerations that the file has.
+    pub further: Vec<MotionMeasure>,
+}
+
+impl MotionMeasures {
+    /// Reads them; a file that someone else wrote may lack any.
+    ///
+    /// # Errors
+    /// If the file is missing, unreadable, empty, of another stage, lacks motion_id or holds a value that it must not.
+    pub fn read(path: &Path) -> Result<MotionMeasures, TableError> {
+        let narrow = [schema::MOTION_ID, schema::PGA_M_S2];
+        let is_wanted = |name: &str| {
+            let mut known = narrow.iter().chain(FURTHER.iter().map(|(column, _)| column));
+            known.any(|column| column.name == name) || schema::is_spectral_acceleration(name)
+        };
+        let mut all = MotionMeasures {
+            path: path.to_path_buf(),
+            rows: HashMap::new(),
+            pga_m_s2: Vec::new(),
+            further: Vec::new(),
+        };
+        for batch in OpenTable::open_at(path, &STAGES, is_wanted)?.batches(BATCH)? {
+            all.append(&batch?.columns())?;
+        }
+        all.further.retain(|measure| measure.values.iter().any(Option::is_some));
+        Ok(all)
+    }
+
+    fn append(&mut self, columns: &Columns) -> Result<(), TableError> {
+        for (row, id) in columns.labels(&schema::MOTION_ID)?.into_iter().enumerate() {
+            self.rows.insert(id, self.pga_m_s2.len() + row);
+        }
+        self.pga_m_s2.extend(columns.optional_numbers(&schema::PGA_M_S2)?);
+        let mut measures = Vec::new();
+        for (column, quantity) in &FURTHER {
+            measures.push((column.name.to_string(), *quantity, columns.optional_numbers(column)?));
+        }
+        let spectral = columns.spectral_accelerations()?.into_iter();
+        measures.extend(spectral.map(|column| (column.name, Quantity::Acceleration, column.values)));
+        let is_first = self.further.is_empty();
+        for (place, (column, quantity, values)) in measures.into_iter().enumerate() {
+            if is_first {
+                self.further.push(MotionMeasure { name: without_unit(&column), quantity, values });
+            } else {
+                self.further[place].values.extend(values);
+            }
+        }
+        Ok(())
+    }
+
+    /// The row of a motion whose responses were made with this PGA, m/s2.
+    ///
+    /// # Errors
+    /// In words, if the file has no such motion, or one with another PGA.
+    pub fn row(&self, motion_id: &str, pga_m_s2: f64) -> anyhow::Result<usize> {
+        let file = self.path.display();
+        let Some(&row) = self.rows.get(motion_id) else {
+            anyhow::bail!("{file}: no motion '{motion_id}'; expected the motions that the responses are to");
+        };
+        match self.pga_m_s2[row] {
+            Some(pga) if (pga - pga_m_s2).abs() > SAME_PGA * pga_m_s2 => anyhow::bail!(
+                "{file}: row {row}, column '{}': motion '{motion_id}' has {pga}, its responses {pga_m_s2}; expected the \
+                 motions that the responses are to",
+                schema::PGA_M_S2.name
+            ),
+            _ => Ok(row),
+        }
+    }
+}
+
+/// Peaks of one motion differ by less than this share.
+const SAME_PGA: f64 = 1e-6;
+
+fn without_unit(column: &str) -> String {
+    UNITS.iter().find_map(|unit| column.strip_suffix(unit)).unwrap_or(column).to_string()
+}

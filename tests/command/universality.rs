@@ -1,0 +1,57 @@
+//! universality as a user calls it.
+
+use crate::common::{content, fail, rockfrag, succeed};
+use crate::evaluate::run_folder;
+
+#[test]
+fn the_curve_of_one_structure_is_judged_on_the_other() {
+    let (folder, run) = (tempfile::tempdir().unwrap(), run_folder().display());
+    let call = format!("universality --in {run}/responses.parquet --out u.parquet");
+    let output = rockfrag(folder.path()).args(call.split_whitespace()).output().unwrap();
+    let (text, told) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert!(output.status.success(), "{told}");
+    for expected in ["csgm, overturning: the curve of electrical-equipment on 1 other", "one line for all"] {
+        assert!(text.contains(expected), "{text}");
+    }
+    // Both structures have the same eta, so that nothing can be said of it.
+    assert!(told.contains("no pooled curve, constant: restitution of overturning"), "{told}");
+    let again = rockfrag(folder.path()).args(call.split_whitespace()).output().unwrap();
+    assert!(String::from_utf8_lossy(&again.stderr).contains("up to date"));
+    assert_eq!(String::from_utf8_lossy(&again.stdout), text);
+    for (threads, file) in [(1, "one"), (2, "two")] {
+        let call =
+            format!("universality --in {run}/responses.parquet --out {file}.parquet --threads {threads}");
+        succeed(folder.path(), &call);
+    }
+    for part in ["", ".pooled"] {
+        let [one, two] =
+            ["one", "two"].map(|file| content(&folder.path().join(format!("{file}{part}.parquet"))));
+        assert_eq!(one, two);
+    }
+}
+
+#[test]
+fn what_cannot_be_transferred_is_explained() {
+    let (folder, run) = (tempfile::tempdir().unwrap(), run_folder().display());
+    let ask = |rest: &str, code, expected: &[&str]| {
+        let call = format!("universality --in {run}/responses.parquet --out u.parquet {rest}");
+        fail(folder.path(), &call, code, expected);
+    };
+    ask("--reference fram", 2, &["no structure 'fram'", "frame, electrical-equipment"]);
+    ask("--measure im5", 2, &["needs --model univariate"]);
+    ask("--transition 0.5", 2, &["transition is 0.5"]);
+    ask("--limit-state 0", 2, &["limit-state is 0"]);
+}
+
+#[test]
+fn a_run_ends_with_it_if_the_file_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("out")).unwrap();
+    let responses = folder.path().join("out/responses.parquet");
+    std::fs::copy(run_folder().join("responses.parquet"), responses).unwrap();
+    std::fs::write(folder.path().join("pipeline.yaml"), "universality: { limit-state: 0.2 }\n").unwrap();
+    let output = rockfrag(folder.path()).arg("run").output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("the curve of electrical-equipment on 1 other structures"), "{text}");
+    assert!(folder.path().join("out/universality.pooled.parquet").exists());
+}

@@ -1,0 +1,60 @@
+//! Files of a few hundred bytes that announce what no memory holds (scripts/attack/bombs.py made them).
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use crate::readers::read_as_everything;
+
+/// Memory that the command may take, kB: far below what the files announce.
+const MEMORY_KB: u64 = 2_000_000;
+
+/// Files that are odd, but hold what they say; what stands in them is for the stages to judge.
+const SOUND: [&str; 5] = ["sound", "quiet", "values-in-chunk", "step-tiny", "step-huge"];
+
+fn bombs() -> Vec<(String, PathBuf)> {
+    let folder = std::fs::read_dir("tests/reference/bombs").unwrap();
+    let mut bombs: Vec<PathBuf> = folder.map(|entry| entry.unwrap().path()).collect();
+    bombs.sort();
+    bombs.into_iter().map(|path| (path.file_stem().unwrap().to_string_lossy().into_owned(), path)).collect()
+}
+
+#[test]
+fn bombs_are_told_from_sound_files() {
+    assert!(bombs().len() >= 20);
+    for (name, path) in bombs() {
+        let read = read_as_everything(&path);
+        let is_read = |reader: &str| read.iter().any(|(what, result)| *what == reader && result.is_ok());
+        let sound = SOUND.contains(&name.as_str());
+        assert_eq!(is_read("motions"), sound, "{name}: {read:?}");
+        assert_eq!(is_read("motions in parts"), sound, "{name}: {read:?}");
+        assert!(!is_read("scenarios"), "{name}: {read:?}");
+    }
+}
+
+#[test]
+fn bombs_are_refused_in_little_memory_and_few_words() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, path) in bombs() {
+        for stage in ["synthesize-motions", "simulate", "fit-pro", "import-motions"] {
+            let path = path.canonicalize().unwrap();
+            let argument = if stage == "import-motions" { "" } else { "--in " };
+            let Output { status, stderr, .. } = Command::new("sh")
+                .arg("-c")
+                .arg(format!(
+                    "ulimit -v {MEMORY_KB}; exec {} --threads 2 {stage} {argument}{} --out {stage}.parquet",
+                    assert_cmd::cargo::cargo_bin("rockfrag").display(),
+                    path.display()
+                ))
+                .current_dir(folder.path())
+                .output()
+                .unwrap();
+            let words = String::from_utf8(stderr).unwrap();
+            let fine = ["sound", "quiet", "values-in-chunk"].contains(&name.as_str())
+                && ["simulate", "import-motions"].contains(&stage);
+            assert_eq!(status.code(), Some(i32::from(!fine)), "{name} {stage}: {words}");
+            assert!(!words.contains("panicked"), "{name} {stage}: {words}");
+            assert_eq!(folder.path().join(format!("{stage}.parquet")).exists(), fine, "{name} {stage}");
+            let _ = std::fs::remove_file(folder.path().join(format!("{stage}.parquet")));
+        }
+    }
+}

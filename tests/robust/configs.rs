@@ -1,0 +1,79 @@
+//! Pipeline, structures and hazard files with parts changed.
+
+use proptest::prelude::*;
+use rockfrag::stages::config::Config;
+use rockfrag::stages::run::{Files, stages};
+use rockfrag::stages::structures::Structures;
+use rockfrag::table::hazard;
+
+const PIECES: [&str; 28] = [
+    "seed: 1",
+    "out: x",
+    "sample-scenarios: {",
+    "mw: \"5:7:0.5\"",
+    "re: \"1e308:1e309:1e-300\"",
+    "samples: 99999999999",
+    "}",
+    "[",
+    "]",
+    "simulate:",
+    "  structures:",
+    "    - { name: a, p: 1.0, alpha: .nan, eta: 1e400 }",
+    "- { width: 1, height: .inf }",
+    "&a [*a, *a]",
+    "<<: *a",
+    "? x",
+    "!!binary aGk=",
+    "\t",
+    "\"",
+    "'",
+    "# é",
+    "name,p,alpha,eta",
+    "a,1,0.2,0.9",
+    "a,,\"",
+    "pga_g,annual_rate_of_exceedance",
+    "0.1,0.01",
+    "1e-320,1e300",
+    "nan,-1",
+];
+
+proptest! {
+    #[test]
+    fn any_configuration_is_read_or_explained(pieces in prop::collection::vec(prop::sample::select(PIECES.to_vec()), 0..12)) {
+        let text = pieces.join("\n");
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, &text).unwrap();
+            path
+        };
+        let mut outcomes = vec![
+            ("structures.yaml", Structures::File(file("structures.yaml")).resolve().map(drop)),
+            ("structures.csv", Structures::File(file("structures.csv")).resolve().map(drop)),
+            ("hazard.csv", hazard::read(&file("hazard.csv")).map(drop)),
+        ];
+        let config = Config::read(&file("pipeline.yaml"));
+        let checked = config.and_then(|config| stages(&config, &Files::in_folder(folder.path())).map(drop));
+        outcomes.push(("pipeline", checked));
+        for (_, outcome) in outcomes {
+            let words = outcome.err().map(|error| format!("{error:#}"));
+            prop_assert!(words.is_none_or(|words| !words.is_empty()));
+        }
+    }
+}
+
+#[test]
+fn nesting_and_repetition_without_end_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pipeline.yaml");
+    let laughs = (0..30).fold("a0: &a0 [x]\n".to_string(), |text, k| {
+        format!("{text}a{}: &a{} [{}]\n", k + 1, k + 1, [format!("*a{k}"), format!("*a{k}")].join(", "))
+    });
+    for text in ["[".repeat(100_000), "a: ".repeat(50_000), laughs, "- ".repeat(100_000)] {
+        std::fs::write(&path, text).unwrap();
+        assert!(Config::read(&path).is_err());
+        let structures = folder.path().join("structures.yaml");
+        std::fs::copy(&path, &structures).unwrap();
+        assert!(Structures::File(structures).resolve().is_err());
+    }
+}

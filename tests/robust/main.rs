@@ -1,0 +1,9 @@
+//! What is thrown at rockfrag to break it. What draws its cases by chance draws more of them with PROPTEST_CASES=100000.
+
+mod bombs;
+mod configs;
+mod damage;
+mod importers;
+mod numbers;
+mod readers;
+mod versions;

@@ -1,0 +1,171 @@
+//! Records and structures at the edge of what is possible.
+
+use std::f64::consts::FRAC_PI_2;
+
+use proptest::prelude::*;
+use rockfrag::keyword::Keyword;
+use rockfrag::rocking::{Outcome, Path, Problem, Record, Response, Structure, simulate, simulate_all, trace};
+use rockfrag::units::G_M_S2;
+
+/// Records of steps, spikes and plateaus: below, exactly at and just above the threshold of uplift (`1.0`), nothing, numbers
+/// that are hardly there, 10 g and the largest that is simulated.
+fn shapes() -> impl Strategy<Value = Vec<(f64, usize)>> {
+    let level = prop_oneof![
+        Just(0.0),
+        Just(1.0),
+        Just(-1.0),
+        Just(1.0 + f64::EPSILON),
+        Just(-1.0 - 1e-12),
+        Just(1.000001),
+        Just(f64::MIN_POSITIVE * f64::EPSILON),
+        Just(1e-310),
+        -4.0..4.0f64,
+        Just(f64::INFINITY),
+        Just(f64::NEG_INFINITY),
+    ];
+    let length = prop_oneof![Just(1usize), Just(2), 1..12usize];
+    prop::collection::vec((level, length), 1..16)
+}
+
+/// Samples of a shape for a structure; what is infinite becomes `largest`.
+fn samples(shape: &[(f64, usize)], structure: &Structure, largest: f64) -> Vec<f64> {
+    let uplift = structure.uplift_acceleration_m_s2();
+    let level = |level: f64| (level * uplift).clamp(-largest, largest);
+    let mut samples: Vec<f64> =
+        shape.iter().flat_map(|&(at, length)| std::iter::repeat_n(level(at), length)).collect();
+    samples.push(0.0);
+    samples
+}
+
+fn structures() -> impl Strategy<Value = Structure> {
+    let p = prop_oneof![Just(1e-3), Just(100.0), Just(50.0), 0.05..10.0f64];
+    let alpha = prop_oneof![Just(1e-6), Just(1e-3), Just(1.5), Just(FRAC_PI_2 * (1.0 - 1e-8)), 0.01..1.2f64];
+    let eta = prop_oneof![Just(1e-300), Just(0.999), Just(0.999999), Just(1.0), 0.05..1.0f64];
+    (p, alpha, eta).prop_map(|(p, alpha, eta)| Structure::new("s", p, alpha, eta).unwrap())
+}
+
+fn time_steps() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(1e-6), Just(1e-5), Just(0.1), 0.001..0.05f64]
+}
+
+fn on_all_paths(problem: Problem) -> Vec<(Path, Response)> {
+    let paths = Path::ALL.iter().copied().filter(|path| path.is_available());
+    paths.map(|path| (path, simulate_all(&[problem], path)[0])).collect()
+}
+
+proptest! {
+    #[test]
+    fn everything_that_is_simulated_ends_in_finite_numbers(
+        shape in shapes(), structure in structures(), dt_s in time_steps(),
+        largest in prop_oneof![Just(98.1), Just(1e4), 1.0..30.0f64],
+    ) {
+        let samples = samples(&shape, &structure, largest);
+        let record = Record::new(&samples, dt_s).unwrap();
+        let uplift = structure.uplift_acceleration_m_s2();
+        let answers = on_all_paths(Problem { structure: &structure, record });
+        for (path, response) in &answers {
+            prop_assert!(response.edp.is_finite() && response.edp >= 0.0, "{path:?} {response:?}");
+            let rests = response.outcome == Outcome::NoRocking;
+            // At the threshold itself rounding decides.
+            prop_assert!(!rests || record.peak_m_s2() <= uplift * (1.0 + 1e-12), "{path:?} {response:?}");
+            prop_assert!(rests || record.peak_m_s2() >= uplift * (1.0 - 1e-12), "{path:?} {response:?}");
+        }
+        let vector: Vec<Response> =
+            answers.iter().filter(|(path, _)| *path != Path::Scalar).map(|(_, response)| *response).collect();
+        prop_assert!(vector.windows(2).all(|pair| pair[0] == pair[1]), "{:?}", vector);
+
+        let (response, points) = trace(&structure, &record);
+        prop_assert_eq!(response, simulate(&structure, &record));
+        for point in &points {
+            let numbers = [point.time_s, point.theta_rad, point.theta_dot_rad_s];
+            prop_assert!(numbers.iter().all(|number| number.is_finite()), "{:?}", point);
+        }
+        prop_assert!(points.windows(2).all(|pair| pair[0].time_s <= pair[1].time_s * (1.0 + 1e-12)));
+    }
+
+    #[test]
+    fn scalar_and_vector_agree_on_any_shape(
+        shape in shapes(), p in 0.05..10.0f64, alpha in 0.01..1.2f64, eta in 0.05..0.99f64, dt_s in time_steps(),
+    ) {
+        let structure = Structure::new("s", p, alpha, eta).unwrap();
+        let samples = samples(&shape, &structure, 98.1);
+        let record = Record::new(&samples, dt_s).unwrap();
+        let answers = on_all_paths(Problem { structure: &structure, record });
+        for (path, response) in &answers[1..] {
+            prop_assert_eq!(response.outcome, answers[0].1.outcome, "{:?}", path);
+            let (a, b) = (response.edp, answers[0].1.edp);
+            // At the threshold itself, what lifts the structure is a rounding, and the demand next to nothing.
+            prop_assert!((a - b).abs() <= 1e-6 * b + 1e-20, "{path:?}: {a} for {b}");
+        }
+    }
+
+    #[test]
+    fn time_counts_by_p_alone(
+        shape in shapes(), p in 0.05..10.0f64, alpha in 0.01..1.2f64, eta in 0.05..0.99f64,
+    ) {
+        // Eq. 10: with dt p the same, so is all else. A power of two leaves no rounding.
+        let [slow, fast] = [p, 4.0 * p].map(|p| Structure::new("s", p, alpha, eta).unwrap());
+        let samples = samples(&shape, &slow, 98.1);
+        let [of_slow, of_fast] =
+            [(&slow, 0.02), (&fast, 0.005)].map(|(s, dt)| on_all_paths(Problem { structure: s, record: Record::new(&samples, dt).unwrap() }));
+        prop_assert_eq!(of_slow, of_fast);
+    }
+
+    #[test]
+    fn company_and_order_change_nothing(
+        shapes in prop::collection::vec((shapes(), structures()), 1..12), dt_s in time_steps(), size in 1..12usize,
+    ) {
+        let motions: Vec<Vec<f64>> = shapes.iter().map(|(shape, s)| samples(shape, s, 98.1)).collect();
+        let problems: Vec<Problem> = motions
+            .iter()
+            .zip(&shapes)
+            .map(|(samples, (_, structure))| Problem { structure, record: Record::new(samples, dt_s).unwrap() })
+            .collect();
+        for path in Path::ALL.iter().copied().filter(|path| path.is_available()) {
+            let whole = simulate_all(&problems, path);
+            let parts: Vec<Response> = problems.chunks(size).flat_map(|part| simulate_all(part, path)).collect();
+            prop_assert_eq!(&parts, &whole, "{:?}", path);
+        }
+    }
+
+    #[test]
+    fn what_is_no_structure_or_record_is_refused(number in any::<f64>(), other in any::<f64>()) {
+        if let Ok(structure) = Structure::new("s", number, other, 0.9) {
+            prop_assert!(structure.uplift_acceleration_m_s2() > 0.0);
+        }
+        if let Ok(record) = Record::new(&[0.0, other, 0.0], number) {
+            prop_assert!(record.dt_s() > 0.0 && record.peak_m_s2() <= 1100.0 * G_M_S2);
+        }
+    }
+}
+
+#[test]
+fn an_uplift_a_rounding_before_a_sample_is_an_uplift() {
+    // The moment is the sample itself in floating-point numbers, and nothing is left of the time to it.
+    let structure = Structure::new("s", 0.05, 1.1906210325143882, 0.05).unwrap();
+    let uplift = structure.uplift_acceleration_m_s2();
+    for after in [vec![], vec![0.0], vec![0.0; 9]] {
+        let samples = [vec![-uplift, uplift * (1.0 + f64::EPSILON)], after].concat();
+        let record = Record::new(&samples, 1e-6).unwrap();
+        for (path, response) in on_all_paths(Problem { structure: &structure, record }) {
+            assert_eq!(response.outcome, Outcome::SafeRocking, "{path:?}");
+            assert!(response.edp < 1e-12, "{path:?} {response:?}");
+        }
+    }
+}
+
+#[test]
+fn a_perfect_bounce_on_a_plateau_comes_to_its_end() {
+    // Without loss, and pressed down by 10 g all the time after a jolt, the structure would bounce for ever and faster.
+    for (p, eta) in [(2.0, 1.0), (100.0, 1.0), (2.0, 1.0 - f64::EPSILON)] {
+        let structure = Structure::new("s", p, 0.2, eta).unwrap();
+        let mut samples = vec![0.0, 2.1, -98.1];
+        samples.resize(40, -98.1);
+        samples.extend([0.0; 10]);
+        let record = Record::new(&samples, 0.1 / p).unwrap();
+        for (path, response) in on_all_paths(Problem { structure: &structure, record }) {
+            assert!(response.edp.is_finite(), "{path:?} {response:?}");
+            assert!(response.impacts <= 10_000 * samples.len() as u32, "{path:?} {response:?}");
+        }
+    }
+}

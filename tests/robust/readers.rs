@@ -1,0 +1,61 @@
+//! Everything that reads a Parquet file, whatever is in it.
+
+use std::path::Path;
+
+use rockfrag::rocking::Record;
+use rockfrag::stages::{groups, inspect::inspect};
+use rockfrag::table::intensities::IntensityBatches;
+use rockfrag::table::motions::{Motion, MotionBatches, MotionFile};
+use rockfrag::table::{TableError, fits, paper, provenance, scenarios, validation};
+
+/// Reads a file as each stage would, and gives what each made of it.
+pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)> {
+    vec![
+        ("stamp", words(provenance::stamp(path))),
+        ("content", words(provenance::content_of(path))),
+        ("inspect", words(inspect(path))),
+        ("scenarios", words(scenarios::read(path))),
+        ("motions", words(motions(path))),
+        ("motions in parts", words(motions_in_parts(path))),
+        ("responses", words(groups::read(path))),
+        ("regressions", words(regressions(path))),
+        ("curves", words(curves(path))),
+        ("intensities", words(intensities(path))),
+        ("comparison", words(paper::show(path))),
+        ("validation", words(validation::show(path))),
+    ]
+}
+
+fn words<T, E: Into<anyhow::Error>>(result: Result<T, E>) -> Result<(), String> {
+    result.map(drop).map_err(|error| format!("{:#}", error.into()))
+}
+
+fn check(motions: &[Motion]) {
+    for motion in motions {
+        // What cannot be simulated is refused there.
+        let _ = Record::new(&motion.acceleration_m_s2.to_vec(), motion.dt_s);
+    }
+}
+
+fn motions(path: &Path) -> Result<(), TableError> {
+    MotionBatches::open(path, 64)?.try_for_each(|motions| motions.map(|motions| check(&motions)))
+}
+
+fn motions_in_parts(path: &Path) -> Result<(), TableError> {
+    let file = MotionFile::open(path)?;
+    file.parts().try_for_each(|part| file.motions(&part?).map(|motions| check(&motions)))
+}
+
+fn regressions(path: &Path) -> Result<(), TableError> {
+    let ok = fits::regressions(path)?;
+    ok.iter().filter(|row| row.is_ok()).try_for_each(|row| row.demand().map(drop))
+}
+
+fn curves(path: &Path) -> Result<(), TableError> {
+    let ok = fits::curves(path)?;
+    ok.iter().filter(|row| row.is_ok()).try_for_each(|row| row.probit().map(drop))
+}
+
+fn intensities(path: &Path) -> Result<(), TableError> {
+    IntensityBatches::open(path, None, 0.92, 4096)?.try_for_each(|batch| batch.map(drop))
+}

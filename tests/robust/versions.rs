@@ -1,0 +1,98 @@
+//! Files of earlier versions are read, those of later ones refused (scripts/reference/files.sh made the files).
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use parquet::arrow::ArrowWriter;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::file::metadata::KeyValue;
+use rockfrag::table::provenance::{FORMAT_VERSION, stamp};
+
+use crate::readers::read_as_everything;
+
+fn files() -> PathBuf {
+    Path::new("tests/reference/files").canonicalize().unwrap()
+}
+
+fn rockfrag(folder: &Path, arguments: &str) -> Output {
+    Command::new(assert_cmd::cargo::cargo_bin("rockfrag"))
+        .args(arguments.split_whitespace())
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn each_file_is_read_by_the_stages_that_read_it() {
+    let readers = [
+        ("scenarios", vec!["scenarios"]),
+        ("motions", vec!["motions", "motions in parts"]),
+        ("records", vec!["motions", "motions in parts"]),
+        ("responses", vec!["responses", "intensities"]),
+        ("pex", vec!["regressions"]),
+        ("pro", vec!["curves"]),
+        ("paper", vec!["comparison"]),
+        ("validation", vec!["validation"]),
+        ("pex.scan", vec![]),
+        ("pex.bootstrap", vec![]),
+        ("pro.bootstrap", vec![]),
+        ("traced", vec!["responses"]),
+        ("traced.trace", vec![]),
+    ];
+    for (name, expected) in readers {
+        let path = files().join(format!("{name}.parquet"));
+        assert!(stamp(&path).unwrap().is_some(), "{name}");
+        let read = read_as_everything(&path);
+        for reader in expected.into_iter().chain(["stamp", "content", "inspect"]) {
+            let (_, result) = read.iter().find(|(what, _)| *what == reader).unwrap();
+            assert!(result.is_ok(), "{name} as {reader}: {result:?}");
+        }
+    }
+}
+
+#[test]
+fn old_fits_give_the_answers_that_they_gave() {
+    let answer = rockfrag(
+        &files(),
+        "evaluate --pex pex.parquet --pro pro.parquet --structure electrical-equipment --p 2.5 --alpha 0.20 --pga 0.5 --pgv 0.6",
+    );
+    let then = std::fs::read_to_string(files().join("evaluate.txt")).unwrap();
+    assert_eq!(String::from_utf8(answer.stdout).unwrap(), then);
+}
+
+/// A copy of a file that says it is of another format.
+fn in_format(name: &str, format: &str, copy: &Path) {
+    let file = std::fs::File::open(files().join(name)).unwrap();
+    let reader = ParquetRecordBatchReaderBuilder::try_new(file).unwrap();
+    let mut pairs = reader.metadata().file_metadata().key_value_metadata().unwrap().clone();
+    pairs.retain(|pair| pair.key != "ARROW:schema" && pair.key != "rockfrag.format");
+    pairs.push(KeyValue::new("rockfrag.format".to_string(), format.to_string()));
+    let reader = reader.build().unwrap();
+    let schema = arrow_array::RecordBatchReader::schema(&reader);
+    let mut writer = ArrowWriter::try_new(std::fs::File::create(copy).unwrap(), schema, None).unwrap();
+    reader.into_iter().for_each(|batch| writer.write(&batch.unwrap()).unwrap());
+    pairs.into_iter().for_each(|pair| writer.append_key_value_metadata(pair));
+    writer.close().unwrap();
+}
+
+#[test]
+fn a_later_format_is_refused_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let now = FORMAT_VERSION.to_string();
+    let later = (FORMAT_VERSION + 1).to_string();
+    for (name, call) in [
+        ("motions.parquet", "simulate --in motions.parquet --out out.parquet"),
+        ("responses.parquet", "fit-pro --in responses.parquet --out out.parquet"),
+        ("motions.parquet", "inspect motions.parquet"),
+    ] {
+        in_format(name, &now, &folder.path().join(name));
+        assert!(rockfrag(folder.path(), call).status.success(), "{call}");
+        std::fs::remove_file(folder.path().join("out.parquet")).ok();
+        in_format(name, &later, &folder.path().join(name));
+        let refused = rockfrag(folder.path(), call);
+        let words = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(refused.status.code(), Some(1), "{call}: {words}");
+        assert!(words.contains(&format!("format {later}")) && words.contains("update"), "{words}");
+        assert!(!folder.path().join("out.parquet").exists(), "{call}");
+    }
+}
