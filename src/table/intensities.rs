@@ -52,7 +52,7 @@ impl IntensityBatches {
     /// # Errors
     /// If the file is missing, unreadable, empty, of another stage, or lacks a column.
     pub fn open(
-        source: &Source,
+        source: impl Into<Source>,
         structure: Option<Structure>,
         eta: f64,
         batch_size: usize,

@@ -51,7 +51,7 @@ pub(super) fn columns(scenarios: &[Scenario]) -> Vec<ArrayRef> {
 ///
 /// # Errors
 /// If the file is not one of scenarios or a value is out of range.
-pub fn read(source: &Source) -> Result<Vec<Scenario>, TableError> {
+pub fn read(source: impl Into<Source>) -> Result<Vec<Scenario>, TableError> {
     let mut scenarios = Vec::new();
     for batch in Batches::open_whole(source, &SCENARIOS, &[SCENARIOS.stage])? {
         scenarios.extend(rows_of(&batch?.columns())?);
