@@ -1,11 +1,14 @@
 //! The `rockfrag` command.
 
+mod allocator;
+
 use std::process::ExitCode;
 
 use rockfrag::pipeline::UsageError;
 use rockfrag::table::guarded::quiet_damage;
 
 fn main() -> ExitCode {
+    allocator::keep_freed_buffers();
     quiet_damage();
     match rockfrag::cli::main() {
         Ok(()) => ExitCode::SUCCESS,

@@ -9,6 +9,10 @@ use super::vector::{Mask, Vector};
 /// Halley's step is this small, relative to the root, when the next one would be below rounding.
 const CONVERGED: f64 = 4e-6;
 
+/// Newton's step is this small, relative to the place of a top, when the next one would move the value there, which hardly
+/// changes, by less than rounding.
+const TOP_CONVERGED: f64 = 1e-5;
+
 /// More iterations than any root takes: bisection alone would have narrowed the bracket to rounding.
 const MOST_ITERATIONS: usize = 64;
 
@@ -80,18 +84,33 @@ impl<S: Simd> Bracket<S> {
     }
 }
 
-/// Where polynomials that rise, are concave and fall in the end are largest: Newton's iterations from the top of the parabola
-/// that begins as they do. Two bring the place near enough for the value, which hardly changes there, to be exact.
+/// Where polynomials are largest.
+pub struct Tops<S: Simd> {
+    pub x: Vector<S>,
+    /// The lanes of which it was found.
+    pub found: Mask<S>,
+}
+
+/// The tops, in [0, 1], of the lanes of `wanted`, which rise, are concave and fall in the end: Newton's iterations from the top
+/// of the parabola that begins as they do. A lane's iterations do not depend on the other lanes.
 #[inline(always)]
-pub fn top<S: Simd>(c: &Polynomial<Vector<S>>) -> Vector<S> {
-    let mut x = c[1] / (c[2] * -2.0);
-    for _ in 0..2 {
-        let (mut slope, mut curvature) = (c[ORDER] * ORDER as f64, x.like(0.0));
+pub fn tops<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Tops<S> {
+    let (zero, one) = (c[0].like(0.0), c[0].like(1.0));
+    let mut x = (c[1] / (c[2] * -2.0)).min(one);
+    let mut active = wanted;
+    for _ in 0..MOST_ITERATIONS {
+        let (mut slope, mut curvature) = (c[ORDER] * ORDER as f64, zero);
         for k in (1..ORDER).rev() {
             curvature = curvature.mul_add(x, slope);
             slope = slope.mul_add(x, c[k] * k as f64);
         }
-        x = x - slope / curvature;
+        let next = (x - slope / curvature).max(zero).min(one);
+        let close = (next - x).abs().le(next * TOP_CONVERGED);
+        x = active.select(next, x);
+        active = active & !close;
+        if !active.any() {
+            break;
+        }
     }
-    x
+    Tops { x, found: wanted & !active }
 }

@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use pulp::Simd;
 
-use super::lane_roots::{falling_root, top};
+use super::lane_roots::{falling_root, tops};
 use super::lanes::{Lanes, each};
 use super::march::{REST_VELOCITY, first_impact, first_overturning, largest};
 use super::polynomial::{self, Polynomial};
@@ -167,14 +167,17 @@ impl<S: Simd> Lanes<'_, S> {
         let zero = Vector::splat(self.simd, 0.0);
         let r = &step.rotation;
         let higher = self.peak.lt(step.high);
-        let turns = higher & step.concave & zero.lt(r[1]) & step.end.velocity.lt(zero);
+        let turns = step.concave & zero.lt(r[1]) & step.end.velocity.lt(zero);
         let ends = higher & (step.concave | step.convex) & !turns;
         self.peak = ends.select(self.peak.max(step.end.rotation), self.peak);
-        if turns.any() {
-            let highest = polynomial::value(r, top(r).max(zero).min(until));
-            self.peak = turns.select(self.peak.max(highest), self.peak);
+        let mut left = higher & !ends;
+        if (left & turns).any() {
+            let top = tops(r, left & turns);
+            let highest = polynomial::value(r, top.x.min(until));
+            self.peak = top.found.select(self.peak.max(highest), self.peak);
+            left = left & !top.found;
         }
-        for lane in each((higher & !turns & !ends).bits()) {
+        for lane in each(left.bits()) {
             let top = largest(&of_lane(r, lane), until.lane(lane));
             self.peak.set(lane, self.peak.lane(lane).max(top));
         }

@@ -71,11 +71,9 @@ fn a_stripe_is_what_simulate_makes_of_the_scaled_motions() {
     let (scale, intensity) = (numbers(&stripes, "scale"), numbers(&stripes, "intensity"));
     assert_eq!((stripes.num_rows(), &scale), (8 * 6, &intensity));
     let mut outcomes = 0;
-    for level in 0..6 {
-        let scaled: Vec<(f64, Vec<f64>)> = motions
-            .iter()
-            .map(|(dt, samples)| (*dt, samples.iter().map(|a| scale[level] * a).collect()))
-            .collect();
+    for (level, &factor) in scale.iter().take(6).enumerate() {
+        let scaled: Vec<(f64, Vec<f64>)> =
+            motions.iter().map(|(dt, samples)| (*dt, samples.iter().map(|a| factor * a).collect())).collect();
         write_motions(&folder.path().join("scaled.parquet"), &scaled);
         let call = "simulate --in scaled.parquet --p 2.5 --alpha 0.2 --eta 0.9";
         succeed(folder.path(), &format!("{call} --out responses.parquet"));

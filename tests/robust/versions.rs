@@ -57,7 +57,9 @@ fn old_fits_give_the_answers_that_they_gave() {
         "evaluate --pex pex.parquet --pro pro.parquet --structure electrical-equipment --p 2.5 --alpha 0.20 --pga 0.5 --pgv 0.6",
     );
     let then = std::fs::read_to_string(files().join("evaluate.txt")).unwrap();
-    assert_eq!(String::from_utf8(answer.stdout).unwrap(), then);
+    // The words above the table may change, its numbers may not.
+    let table = |text: &str| text.split_once("\n\n").unwrap().1.to_string();
+    assert_eq!(table(&String::from_utf8(answer.stdout).unwrap()), table(&then));
 }
 
 /// A copy of a file that says it is of another format.

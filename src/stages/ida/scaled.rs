@@ -4,7 +4,9 @@ use std::path::Path;
 
 use super::Ida;
 use crate::motion::{IntensityMeasures, IntensityScratch};
-use crate::rocking::{Capacity, Look, Problem, Response, ScanResponse, Structure, simulate_all};
+use crate::rocking::{
+    Capacity, Look, Problem, Record, RecordError, Response, ScanResponse, Structure, simulate_all,
+};
 use crate::stages::motions::{Peaks, record};
 use crate::table::TableError;
 use crate::table::ida::{CapacityRow, StripeRow};
@@ -14,9 +16,6 @@ use crate::table::schema;
 
 /// Scaled samples that are held at once, or those of one motion.
 const MOST_SAMPLES: usize = 1 << 20;
-
-/// Beyond any ground; the solver's steps shorten with the root of the peak.
-const LARGEST_PEAK_M_S2: f64 = 1e6;
 
 /// A structure under a motion.
 struct Case<'m, 's> {
@@ -94,9 +93,13 @@ impl Ida {
             let scaled: Vec<Vec<f64>> = block.iter().map(|look| cases[look.case].scaled(look)).collect();
             let problems = block.iter().zip(&scaled).map(|(look, samples)| {
                 let Case { path, structure, motion, .. } = &cases[look.case];
-                let record = record(path, motion, samples)?;
-                expect_ground(path, motion, record.peak_m_s2())?;
-                Ok(Problem { structure, record })
+                let refused = |problem: RecordError| {
+                    let id = &motion.motion_id;
+                    let problem =
+                        format!("motion '{id}', scaled: {problem}; mend it, or scale less by a lower --to");
+                    value_error(path, motion, problem)
+                };
+                Ok(Problem { structure, record: Record::new(samples, motion.dt_s).map_err(refused)? })
             });
             let problems = problems.collect::<Result<Vec<Problem>, TableError>>()?;
             responses.extend(simulate_all(&problems, self.path));
@@ -146,18 +149,6 @@ fn block(lengths: impl Iterator<Item = usize>) -> usize {
         samples <= MOST_SAMPLES
     });
     fits.count().max(1)
-}
-
-/// That a scaled motion is one that the solver can go through.
-fn expect_ground(path: &Path, motion: &Motion, peak_m_s2: f64) -> Result<(), TableError> {
-    if peak_m_s2 <= LARGEST_PEAK_M_S2 {
-        return Ok(());
-    }
-    let problem = format!(
-        "motion '{}' is scaled to a peak of {peak_m_s2:e} m/s2; expected up to {LARGEST_PEAK_M_S2:e}, by a lower --to",
-        motion.motion_id
-    );
-    Err(value_error(path, motion, problem))
 }
 
 fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
