@@ -9,6 +9,7 @@
 //! ```
 
 use pyo3::prelude::*;
+use rockfrag::table::guarded::quiet_damage;
 
 mod error;
 mod response;
@@ -32,6 +33,7 @@ mod _rockfrag {
 
     #[pymodule_init]
     fn init(module: &Bound<PyModule>) -> PyResult<()> {
+        quiet_damage();
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -9,7 +9,7 @@ use rockfrag::pipeline::console::Console;
 use rockfrag::pipeline::options::{Parsed, Word};
 use rockfrag::pipeline::stage::Stage;
 use rockfrag::pipeline::{UsageError, cache};
-use rockfrag::stages::evaluate::{EvaluateTable, LimitsBy};
+use rockfrag::stages::evaluate::EvaluateTable;
 use rockfrag::stages::fit_pex::FitPex;
 use rockfrag::stages::fit_pro::FitPro;
 use rockfrag::stages::fits::FitsOptions;
@@ -137,7 +137,7 @@ pub fn evaluate(
     let (intensities, pex, pro) =
         (source("intensities", intensities)?, source("pex", pex)?, source("pro", pro)?);
     one(py, out, &manner, |target| {
-        let Evaluation { suite, structure, model, measure, p, alpha, eta } = read(options)?;
+        let Evaluation { suite, structure, model, measure, limits, p, alpha, eta } = read(options)?;
         let fits = FitsOptions {
             pex,
             pro,
@@ -147,7 +147,7 @@ pub fn evaluate(
             measure: measure.as_deref().map(word).transpose()?,
         };
         let structure = StructureOptions { p, alpha, eta, ..StructureOptions::default() };
-        EvaluateTable::new(&fits, LimitsBy::Delta, &structure, intensities, target)
+        EvaluateTable::new(&fits, word(&limits)?.0, &structure, intensities, target)
     })
 }
 
@@ -158,6 +158,7 @@ struct Evaluation {
     structure: Option<String>,
     model: String,
     measure: Option<String>,
+    limits: String,
     p: Option<f64>,
     alpha: Option<f64>,
     eta: Option<f64>,

@@ -63,6 +63,19 @@ def test_evaluation(out, tmp_path):
     same(answers, tmp_path / "e.parquet")
 
 
+def test_limits_from_resamples(out, tmp_path):
+    fits = {"suite": "csgm", "structure": "electrical-equipment", "model": "univariate", "measure": "im5"}
+    options = {"bootstrap": 50, "seed": 7}
+    pex = rockfrag.fit_pex(out / "responses.parquet", out=tmp_path / "pex.parquet", **options)
+    pro = rockfrag.fit_pro(out / "responses.parquet", out=tmp_path / "pro.parquet", **options)
+    call = [f"--{name}={value}" for name, value in (fits | {"limits": "percentile", "p": 2.5, "alpha": 0.2}).items()]
+    command(tmp_path, "evaluate", "--in", out / "motions.parquet", "--out", "e.parquet", *call)
+    answers = rockfrag.evaluate(out / "motions.parquet", pex, pro, **fits, limits="percentile", p=2.5, alpha=0.2)
+    same(answers, tmp_path / "e.parquet")
+    with pytest.raises(rockfrag.OptionError, match="limits by resamples need the files"):
+        rockfrag.evaluate(out / "motions.parquet", pq.read_table(pex), pro, **fits, limits="percentile")
+
+
 def test_imported_records(out, tmp_path):
     record = tmp_path / "record.csv"
     motion = pq.read_table(out / "motions.parquet")["acceleration_m_s2"][0].as_py()

@@ -156,7 +156,7 @@ impl Stage for RankIms {
             samples.into_par_iter().map(|(group, sample)| rows(group, sample, &self.rules)).collect();
         let rows = rows.concat();
         let mut writer =
-            TableWriter::create(&self.reliability_path(), &RANKING_RELIABILITY, provenance.clone())?;
+            TableWriter::create(self.reliability_path(), &RANKING_RELIABILITY, provenance.clone())?;
         writer.append(&ranking::reliability_batch(&rows)?)?;
         writer.finish()?;
         let mut writer = TableWriter::create(&self.out, &RANKING, provenance.clone())?;

@@ -357,6 +357,7 @@ def evaluate(
     structure: str | None = None,
     model: str = "bivariate",
     measure: str | None = None,
+    limits: str = "delta",
     p: float | None = None,
     alpha: float | None = None,
     eta: float | None = None,
@@ -376,6 +377,8 @@ def evaluate(
         structure: Structure of the fits, likewise.
         model: ``bivariate``, or ``univariate``.
         measure: Measure of the univariate model, ``im1`` to ``im6``.
+        limits: How limits come about: ``delta``, or from the resamples of fits in files made with ``bootstrap``: ``percentile``,
+            ``bc`` (corrected for bias).
         p: Frequency parameter of the structure, rad/s, of all rows.
         alpha: Its slenderness, rad.
         eta: Its coefficient of restitution; that of the fits if not given.
@@ -384,7 +387,7 @@ def evaluate(
         One row an intensity: p_nr, p_ex, p_ro, p_f_r and p_f with 95 % limits of confidence.
     """
     options = _options.to_json(
-        suite=suite, structure=structure, model=model, measure=measure, p=p, alpha=alpha, eta=eta
+        suite=suite, structure=structure, model=model, measure=measure, limits=limits, p=p, alpha=alpha, eta=eta
     )
     return _rockfrag.evaluate(
         intensities, pex, pro, options, _options.path(out), _options.manner(threads, progress, force)

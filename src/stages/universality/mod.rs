@@ -230,7 +230,7 @@ impl Stage for Universality {
         let suites = self.suites(&groups)?;
         let mut structures = 0;
         let mut writer = TableWriter::create(&self.out, &UNIVERSALITY, provenance.clone())?;
-        let mut pooled_writer = TableWriter::create(&self.pooled_path(), &POOLED, provenance.clone())?;
+        let mut pooled_writer = TableWriter::create(self.pooled_path(), &POOLED, provenance.clone())?;
         for suite in &suites {
             structures = structures.max(suite.groups.len());
             for &branch in Branch::ALL {

@@ -24,7 +24,7 @@ const PARAMETERS: [(&str, Column); 3] =
 /// If there is no such file, or none of pooled curves beside it.
 pub fn show(path: &Path) -> anyhow::Result<String> {
     let rows = fits::rows(path, &UNIVERSALITY)?;
-    let pooled = fits::rows(&with_part(path, "pooled"), &POOLED)?;
+    let pooled = fits::rows(with_part(path, "pooled"), &POOLED)?;
     let mut text = String::new();
     let mut suites: Vec<Option<&str>> = Vec::new();
     for row in &rows {
