@@ -51,6 +51,10 @@ STAGES = {
 }
 
 
+# Where memory runs out while Rust makes a backtrace, it waits for its own lock for ever: a fault of its runtime, not ours.
+os.environ["RUST_BACKTRACE"] = "0"
+
+
 def call(arguments, **more):
     return subprocess.run([ROCKFRAG, "--quiet", *arguments.split()], capture_output=True, text=True, timeout=600, **more)
 

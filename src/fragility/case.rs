@@ -13,6 +13,13 @@ pub struct Case {
     pub measures: IntensityMeasures,
 }
 
+impl Case {
+    /// Whether P_ex is about it: it rocked and came back, with a demand that has a logarithm.
+    pub fn has_demand(&self) -> bool {
+        self.outcome == Outcome::SafeRocking && self.edp > 0.0
+    }
+}
+
 /// A dimensionless intensity measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Measure {

@@ -3,7 +3,6 @@ use super::case::{Case, Measure};
 use super::design_matrix::DesignMatrix;
 use super::regression::{LinearFit, RegressionError, least_squares};
 use super::transition::TransitionSearch;
-use crate::rocking::Outcome;
 
 /// The demands of the safe-rocking cases and the logarithms of their measures, where all are there.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +20,7 @@ impl DemandSample {
     pub fn new(cases: &[Case], measures: &[Measure], range: std::ops::Range<f64>) -> DemandSample {
         let ln_im = vec![Vec::new(); measures.len()];
         let mut sample = DemandSample { ln_edp: Vec::new(), ln_im, rows: Vec::new() };
-        let safe = |case: &Case| case.outcome == Outcome::SafeRocking && case.edp > 0.0;
-        for (row, case) in cases.iter().enumerate().filter(|(_, case)| safe(case)) {
+        for (row, case) in cases.iter().enumerate().filter(|(_, case)| case.has_demand()) {
             let values = measures.iter().map(|measure| measure.of(case)).collect::<Option<Vec<f64>>>();
             if let Some(values) = values
                 && values.first().is_some_and(|first| range.contains(first))

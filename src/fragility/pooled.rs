@@ -8,7 +8,6 @@ use super::curve_inference::CurveInference;
 use super::demand_inference::DemandInference;
 use super::demand_sample::DemandSample;
 use super::dependence::{Dependence, dependence};
-use super::design_matrix::dot;
 use super::event_sample::EventSample;
 use super::firth::Estimator;
 use super::folds::{Folds, MOST_FOLDS};
@@ -174,9 +173,10 @@ fn overturning(
     let (inference, design) = (CurveInference::new(&sample, &fit), sample.design());
     leave_structures_out(&owners, |counts| {
         let b = inference.coefficients(counts).ok_or(FitStatus::NotConverged)?;
-        let cases = design.rows().zip(&sample.happened).zip(&owners).zip(counts);
-        for (((row, &event), &owner), _) in cases.filter(|(_, count)| **count == 0.0) {
-            add(scores, owner, row.dot(&b), event);
+        let indices = design.indices(b.as_slice());
+        let cases = indices.into_iter().zip(&sample.happened).zip(&owners).zip(counts);
+        for (((index, &event), &owner), _) in cases.filter(|(_, count)| **count == 0.0) {
+            add(scores, owner, index, event);
         }
         Ok(())
     })?;
@@ -207,10 +207,10 @@ fn demand(
     let (inference, design) = (DemandInference::new(&sample, &fit), sample.design());
     leave_structures_out(&owners, |counts| {
         let refit = inference.replicate(counts, 0.0..f64::INFINITY).ok_or(FitStatus::TooFewCases)?;
-        let cases = design.rows().zip(&sample.ln_edp).zip(&owners).zip(counts);
-        for (((row, &ln_edp), &owner), _) in cases.filter(|(_, count)| **count == 0.0) {
-            let index =
-                exceeding_index(dot(row.as_slice(), &refit.coefficients), subject.limit, refit.residual_sd);
+        let means = design.indices(&refit.coefficients);
+        let cases = means.into_iter().zip(&sample.ln_edp).zip(&owners).zip(counts);
+        for (((mean, &ln_edp), &owner), _) in cases.filter(|(_, count)| **count == 0.0) {
+            let index = exceeding_index(mean, subject.limit, refit.residual_sd);
             add(scores, owner, index, ln_edp > subject.limit.ln());
         }
         Ok(())

@@ -19,7 +19,7 @@ impl Target {
     /// Whether a case counts.
     pub fn counts(self, case: &Case) -> bool {
         match self {
-            Target::Demand => case.outcome == Outcome::SafeRocking && case.edp > 0.0,
+            Target::Demand => case.has_demand(),
             Target::Overturning => case.outcome != Outcome::NoRocking,
         }
     }

@@ -1,5 +1,3 @@
-use nalgebra::DVector;
-
 use super::FitStatus;
 use super::candidate::Candidate;
 use super::curve_inference::CurveInference;
@@ -23,13 +21,12 @@ pub fn rate_overturning(
     let fit = fit_overturning(&events, &CurveModel::default())?;
     let inference = CurveInference::new(&events, &fit.regression);
     let design = events.design();
-    let rows: Vec<DVector<f64>> = design.rows().collect();
     let unseen = folds.and_then(|folds| {
         folds.leave_out(|_, weights| {
             let coefficients = inference.coefficients(weights)?;
-            let rows = &rows;
+            let indices = design.indices(coefficients.as_slice());
             Some(move |case: usize| {
-                let index = rows[case].dot(&coefficients);
+                let index = indices[case];
                 let log_score = Link::Probit.ln_probability(index, sample.happened[case]);
                 Foresight { log_score, index }
             })

@@ -248,7 +248,7 @@ impl Group {
 
     /// Responses that rocked and came back, with a demand that has a logarithm.
     pub fn safe(&self) -> impl Iterator<Item = &Seen> {
-        self.responses.iter().filter(|seen| seen.case.outcome == Outcome::SafeRocking && seen.case.edp > 0.0)
+        self.responses.iter().filter(|seen| seen.case.has_demand())
     }
 
     /// How many responses have this outcome.

@@ -1,6 +1,6 @@
 //! Several numbers at once: the lanes of a vector register, with the operators of numbers.
 
-use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use pulp::{Simd, bytemuck};
 
@@ -147,7 +147,6 @@ lanewise! {
     Div div Vector div_f64s,
     BitAnd bitand Mask and_m64s,
     BitOr bitor Mask or_m64s,
-    BitXor bitxor Mask xor_m64s,
 }
 
 impl<S: Simd> Mul<f64> for Vector<S> {

@@ -8,9 +8,9 @@ use polars::prelude::{Column, DataFrame};
 use super::clusters::Clusters;
 use crate::fragility::Case;
 use crate::keyword;
-use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::table::frame::read_frame_of;
+use crate::table::responses::MeasureColumns;
 use crate::table::schema::{self, IDA_STRIPES, RESPONSES};
 use crate::table::source::Source;
 
@@ -71,19 +71,10 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
     };
     let outcomes = frame.column(schema::OUTCOME.name)?.str()?;
     let edp = finite(schema::EDP)?;
-    let (im1, im2, im3) = (number(schema::IM1)?, number(schema::IM2)?, number(schema::IM3)?);
-    let (im4, im5, im6) = (finite(schema::IM4)?, finite(schema::IM5)?, number(schema::IM6)?);
+    let measures = MeasureColumns::read(number, finite)?;
     let case = |(row, outcome): (usize, Option<&str>)| {
         let outcome = keyword::parse(outcome.unwrap_or_default()).context("column 'outcome'")?;
-        let measures = IntensityMeasures {
-            im1: im1[row],
-            im2: im2[row],
-            im3: im3[row],
-            im4: im4[row],
-            im5: im5[row],
-            im6: im6[row],
-        };
-        Ok(Case { outcome, edp: edp[row], measures })
+        Ok(Case { outcome, edp: edp[row], measures: measures.of_row(row) })
     };
     let motion_ids = names(frame.column(schema::MOTION_ID.name)?)?;
     let events: Vec<Option<&str>> = frame.column(schema::EARTHQUAKE.name)?.str()?.iter().collect();

@@ -3,10 +3,11 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use crate::motion::{IntensityScratch, intensity};
-use crate::rocking::{Record, RecordError};
+use crate::motion::{IntensityMeasures, IntensityScratch, intensity};
+use crate::rocking::{Record, RecordError, Response, Structure};
 use crate::table::TableError;
 use crate::table::motions::{Motion, MotionId};
+use crate::table::responses::ResponseRow;
 use crate::table::schema;
 
 /// The record of a motion of the file at `path`, whose samples are these (m/s2).
@@ -45,6 +46,30 @@ impl Peaks {
             pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
             pgv_m_s: motion.pgv_m_s.unwrap_or_else(pgv),
             tm_s: motion.tm_s.or_else(|| intensity::mean_period(samples, dt_s, scratch)),
+        }
+    }
+
+    /// The row of what came of a structure under the motion that has these peaks.
+    pub fn response_row<'a>(
+        &self,
+        motion: &'a Motion,
+        structure: &'a Structure,
+        response: Response,
+    ) -> ResponseRow<'a> {
+        let Peaks { pga_m_s2, pgv_m_s, tm_s } = *self;
+        ResponseRow {
+            motion_id: &motion.motion_id,
+            suite: motion.suite.as_deref(),
+            structure,
+            response,
+            mw: motion.mw,
+            re_km: motion.re_km,
+            event: motion.event.as_deref(),
+            pga_m_s2,
+            pgv_m_s,
+            tp_s: motion.tp_s,
+            tm_s,
+            measures: IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, motion.tp_s, tm_s),
         }
     }
 

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use super::motions::{Peaks, SeenIds, record};
 use super::partitions::Share;
 use super::structures::{StructureSpec, Structures, parameters};
-use crate::motion::{IntensityMeasures, IntensityScratch};
+use crate::motion::IntensityScratch;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
@@ -23,14 +23,13 @@ use crate::rocking::{
     Path as SolverPath, Problem, Record, RecordError, Structure, simulate_all, trace, with_tail,
 };
 use crate::table::TableError;
-use crate::table::motions::{Motion, MotionId, MotionTable, Part, schema_of};
+use crate::table::motions::{self, Motion, MotionId, MotionTable, Part};
 use crate::table::partition::Partition;
 use crate::table::provenance::Provenance;
-use crate::table::responses::{self, ResponseRow};
-use crate::table::schema::{RESPONSES, TRACE, Table};
+use crate::table::responses;
+use crate::table::schema::{RESPONSES, TRACE};
 use crate::table::source::{Source, Target};
 use crate::table::trace::{self as trace_table, TraceRow};
-use crate::table::writer::TableWriter;
 
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;
@@ -156,22 +155,9 @@ impl Simulate {
         let mut responses = simulate_all(&problems, self.path).into_iter();
         let mut rows = Vec::with_capacity(problems.len());
         for (motion, record) in motions.iter().zip(&records) {
-            let Peaks { pga_m_s2, pgv_m_s, tm_s } = Peaks::of(motion, record, intensity);
+            let peaks = Peaks::of(motion, record, intensity);
             let each = self.structures.iter().zip(&mut responses);
-            rows.extend(each.map(|(structure, response)| ResponseRow {
-                motion_id: &motion.motion_id,
-                suite: motion.suite.as_deref(),
-                structure,
-                response,
-                mw: motion.mw,
-                re_km: motion.re_km,
-                event: motion.event.as_deref(),
-                pga_m_s2,
-                pgv_m_s,
-                tp_s: motion.tp_s,
-                tm_s,
-                measures: IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, motion.tp_s, tm_s),
-            }));
+            rows.extend(each.map(|(structure, response)| peaks.response_row(motion, structure, response)));
         }
         let traced = motions.iter().zip(&records);
         let traced = traced.filter(|(motion, _)| self.traced.contains(&motion.motion_id.to_string()));
@@ -203,16 +189,6 @@ impl Simulate {
 
     fn trace_target(&self) -> Target {
         self.out.part("trace")
-    }
-
-    fn writer(
-        &self,
-        target: Target,
-        table: &Table,
-        by_name: bool,
-        provenance: &Provenance,
-    ) -> Result<TableWriter, TableError> {
-        TableWriter::with_schema(target, table, schema_of(table, by_name), provenance.clone())
     }
 
     fn expect_traced(&self, traces: &[TraceRow]) -> anyhow::Result<()> {
@@ -287,7 +263,7 @@ impl Stage for Simulate {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let motions = MotionTable::open(&self.share.input, self.share.rows)?;
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
-        let mut writer = self.writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
+        let mut writer = motions::writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
         let mut seen = SeenIds::default();
         let mut traces: Vec<TraceRow> = Vec::new();
         let pool = Pool::new(Scratch::default);
@@ -319,7 +295,7 @@ impl Stage for Simulate {
         )?;
         if !self.traced.is_empty() {
             self.expect_traced(&traces)?;
-            let mut trace_writer = self.writer(self.trace_target(), &TRACE, by_name, provenance)?;
+            let mut trace_writer = motions::writer(self.trace_target(), &TRACE, by_name, provenance)?;
             trace_writer.append(&trace_table::batch(&traces, by_name)?)?;
             trace_writer.finish()?;
         }

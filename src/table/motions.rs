@@ -12,10 +12,12 @@ use super::TableError;
 use super::columns::Samples;
 use super::measures;
 use super::partition::Partition;
+use super::provenance::Provenance;
 use super::reader::{Batch, Batches, OpenTable, Run, expect_columns};
 use super::scenarios;
 use super::schema::{self, Column};
-use super::source::Source;
+use super::source::{Source, Target};
+use super::writer::TableWriter;
 use crate::keyword::Keyword;
 use crate::motion::{Measured, Scenario, Suite};
 
@@ -314,6 +316,19 @@ fn motions_of(batch: &Batch) -> Result<Vec<Motion>, TableError> {
         row: batch.first_row + row as u64,
     };
     Ok(ids.into_iter().zip(samples).enumerate().map(motion).collect())
+}
+
+/// Starts a table in which motions go by number or by name.
+///
+/// # Errors
+/// As [`TableWriter::create`].
+pub fn writer(
+    target: impl Into<Target>,
+    table: &schema::Table,
+    by_name: bool,
+    provenance: &Provenance,
+) -> Result<TableWriter, TableError> {
+    TableWriter::with_schema(target, table, schema_of(table, by_name), provenance.clone())
 }
 
 /// The schema of a table in which motions go by name or by number.

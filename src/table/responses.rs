@@ -6,7 +6,7 @@ use arrow_array::{ArrayRef, Float64Array, Int32Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 
 use super::motions::{MotionId, id_column, schema_of};
-use super::schema::RESPONSES;
+use super::schema::{self, Column, RESPONSES};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::rocking::{Response, Structure};
@@ -78,4 +78,46 @@ pub fn batch(rows: &[ResponseRow], by_name: bool) -> Result<RecordBatch, ArrowEr
         optional(|row| row.measures.im6),
     ];
     RecordBatch::try_new(schema_of(&RESPONSES, by_name), columns)
+}
+
+/// The columns of Eq. 13 in a file of responses.
+pub struct MeasureColumns {
+    im1: Vec<Option<f64>>,
+    im2: Vec<Option<f64>>,
+    im3: Vec<Option<f64>>,
+    im4: Vec<f64>,
+    im5: Vec<f64>,
+    im6: Vec<Option<f64>>,
+}
+
+impl MeasureColumns {
+    /// Read by `optional` where a measure may be missing, and by `number` where none may.
+    ///
+    /// # Errors
+    /// Those of the two.
+    pub fn read<E>(
+        optional: impl Fn(Column) -> Result<Vec<Option<f64>>, E>,
+        number: impl Fn(Column) -> Result<Vec<f64>, E>,
+    ) -> Result<MeasureColumns, E> {
+        Ok(MeasureColumns {
+            im1: optional(schema::IM1)?,
+            im2: optional(schema::IM2)?,
+            im3: optional(schema::IM3)?,
+            im4: number(schema::IM4)?,
+            im5: number(schema::IM5)?,
+            im6: optional(schema::IM6)?,
+        })
+    }
+
+    /// The measures of a row.
+    pub fn of_row(&self, row: usize) -> IntensityMeasures {
+        IntensityMeasures {
+            im1: self.im1[row],
+            im2: self.im2[row],
+            im3: self.im3[row],
+            im4: self.im4[row],
+            im5: self.im5[row],
+            im6: self.im6[row],
+        }
+    }
 }

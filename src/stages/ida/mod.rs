@@ -28,11 +28,10 @@ use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Path as SolverPath, Scan, Structure};
-use crate::table::TableError;
 use crate::table::ida;
-use crate::table::motions::{Motion, MotionId, MotionTable, Part, schema_of};
+use crate::table::motions::{self, Motion, MotionId, MotionTable, Part};
 use crate::table::provenance::Provenance;
-use crate::table::schema::{IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS, Table};
+use crate::table::schema::{IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
 use crate::table::source::{Source, Target, with_part};
 use crate::table::writer::TableWriter;
 
@@ -94,16 +93,6 @@ impl Ida {
             capacities: ida::capacities(&capacities, self.scan.top(), by_name)?,
         })
     }
-
-    fn writer(
-        &self,
-        path: &Path,
-        table: &Table,
-        by_name: bool,
-        provenance: &Provenance,
-    ) -> Result<TableWriter, TableError> {
-        TableWriter::with_schema(path, table, schema_of(table, by_name), provenance.clone())
-    }
 }
 
 impl Stage for Ida {
@@ -136,9 +125,9 @@ impl Stage for Ida {
         let [stripes_path, windows_path, shares_path, fragility_path, out] = &paths[..] else {
             unreachable!("five files")
         };
-        let mut stripes = self.writer(stripes_path, &IDA_STRIPES, by_name, provenance)?;
-        let mut windows = self.writer(windows_path, &IDA_WINDOWS, by_name, provenance)?;
-        let mut capacities = self.writer(out, &IDA, by_name, provenance)?;
+        let mut stripes = motions::writer(stripes_path, &IDA_STRIPES, by_name, provenance)?;
+        let mut windows = motions::writer(windows_path, &IDA_WINDOWS, by_name, provenance)?;
+        let mut capacities = motions::writer(out, &IDA, by_name, provenance)?;
         let (mut seen, mut tally) = (SeenIds::default(), Tally::default());
         let pool = Pool::new(IntensityScratch::default);
         let bar = console.bar(self.subcommand(), total);

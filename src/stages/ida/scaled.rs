@@ -11,7 +11,6 @@ use crate::stages::motions::{Peaks, record};
 use crate::table::TableError;
 use crate::table::ida::{CapacityRow, StripeRow};
 use crate::table::motions::Motion;
-use crate::table::responses::ResponseRow;
 use crate::table::schema;
 
 /// Scaled samples that are held at once, or those of one motion.
@@ -111,22 +110,8 @@ impl Ida {
     fn stripe<'m>(&self, case: &Case<'m, '_>, at: &ScanResponse) -> StripeRow<'m> {
         let Case { motion, structure, .. } = case;
         let scale = at.intensity / case.unscaled;
-        let Peaks { pga_m_s2, pgv_m_s, tm_s } = case.peaks.scaled(scale);
         StripeRow {
-            response: ResponseRow {
-                motion_id: &motion.motion_id,
-                suite: motion.suite.as_deref(),
-                structure,
-                response: at.response,
-                mw: motion.mw,
-                re_km: motion.re_km,
-                event: motion.event.as_deref(),
-                pga_m_s2,
-                pgv_m_s,
-                tp_s: motion.tp_s,
-                tm_s,
-                measures: IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, motion.tp_s, tm_s),
-            },
+            response: case.peaks.scaled(scale).response_row(motion, structure, at.response),
             measure: self.measure(),
             intensity: at.intensity,
             scale,

@@ -85,8 +85,8 @@ impl Report {
     /// The responses, and of the other files that a report can show those that are there, in the order of the pipeline, by the
     /// role each plays.
     fn there(&self) -> Vec<(&'static str, PathBuf)> {
-        let Files { scenarios, motions, responses, pex, pro, paper, folder, .. } = self.files.clone();
-        let beside = |name: &str| folder.join(name);
+        let Files { scenarios, motions, responses, pex, pro, paper, ranking, universality, folder, .. } =
+            self.files.clone();
         let mut known = vec![
             ("scenarios", scenarios),
             ("motions", motions),
@@ -94,9 +94,9 @@ impl Report {
             ("pex", pex),
             ("pro", pro),
             ("paper", paper),
-            ("validation", beside("validation.parquet")),
-            ("ranking", beside("ranking.parquet")),
-            ("universality", beside("universality.parquet")),
+            ("validation", folder.join("validation.parquet")),
+            ("ranking", ranking),
+            ("universality", universality),
         ];
         known.retain(|(role, path)| *role == "responses" || path.is_file());
         known

@@ -3,12 +3,12 @@ use std::path::Path;
 use super::ReportOptions;
 use crate::fragility::Case;
 use crate::keyword;
-use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
 use crate::report::material::{Group, Seen};
 use crate::rocking::Structure;
 use crate::table::columns::Columns;
 use crate::table::reader::Batches;
+use crate::table::responses::MeasureColumns;
 use crate::table::schema::{self, RESPONSES};
 
 /// Rows that are decoded at once.
@@ -52,12 +52,13 @@ impl Sorted {
             (columns.optional_text(&schema::SUITE)?, columns.text(&schema::STRUCTURE)?);
         let outcomes = columns.text(&schema::OUTCOME)?;
         let number = |column| columns.numbers(column);
-        let optional = |column| columns.optional_numbers(column);
         let (p, alpha, eta) = (number(&schema::P_RAD_S)?, number(&schema::ALPHA_RAD)?, number(&schema::ETA)?);
         let (edp, pga, pgv) = (number(&schema::EDP)?, number(&schema::PGA_M_S2)?, number(&schema::PGV_M_S)?);
-        let tp = optional(&schema::TP_S)?;
-        let (im1, im2, im3) = (optional(&schema::IM1)?, optional(&schema::IM2)?, optional(&schema::IM3)?);
-        let (im4, im5, im6) = (number(&schema::IM4)?, number(&schema::IM5)?, optional(&schema::IM6)?);
+        let tp = columns.optional_numbers(&schema::TP_S)?;
+        let measures = MeasureColumns::read(
+            |column| columns.optional_numbers(&column),
+            |column| columns.numbers(&column),
+        )?;
         let names = suites.into_iter().zip(structures);
         for (row, (name, outcome)) in names.zip(outcomes).enumerate() {
             let structure =
@@ -65,15 +66,7 @@ impl Sorted {
             let Some(group) = self.group(&name, structure, options) else { continue };
             let outcome = keyword::parse(&outcome)
                 .map_err(|unknown| columns.value_error(row, &schema::OUTCOME, &unknown.to_string()))?;
-            let measures = IntensityMeasures {
-                im1: im1[row],
-                im2: im2[row],
-                im3: im3[row],
-                im4: im4[row],
-                im5: im5[row],
-                im6: im6[row],
-            };
-            let case = Case { outcome, edp: edp[row], measures };
+            let case = Case { outcome, edp: edp[row], measures: measures.of_row(row) };
             group.responses.push(Seen { case, pga_m_s2: pga[row], pgv_m_s: pgv[row], tp_s: tp[row] });
         }
         Ok(())
