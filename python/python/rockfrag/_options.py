@@ -6,10 +6,9 @@ import json
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, Union
+from typing import Any
 
-#: Numbers: one, several, or ``"first:last:step"``.
-Steps = Union[float, str, Iterable[float]]
+from ._types import PathLike, Progress, Steps
 
 
 def to_json(**options: Any) -> str:
@@ -31,7 +30,7 @@ def several(values: str | Iterable[Any]) -> list[str]:
     return values.split(",") if isinstance(values, str) else [str(value) for value in values]
 
 
-def structures(given: str | os.PathLike[str] | Mapping[str, Any] | Iterable[Mapping[str, Any]] | None) -> Any:
+def structures(given: PathLike | Mapping[str, Any] | Iterable[Mapping[str, Any]] | None) -> Any:
     """Structures as a file, or as a list of their parameters."""
     if given is None:
         return None
@@ -45,7 +44,7 @@ def structure(given: Mapping[str, Any]) -> dict[str, Any]:
     return {name.replace("_", "-"): value for name, value in given.items() if value is not None}
 
 
-def manner(threads: int | None, progress: Any, force: bool) -> dict[str, Any]:
+def manner(threads: int | None, progress: Progress | None, force: bool) -> dict[str, Any]:
     """How a call is run."""
     if threads is not None and threads < 1:
         from .errors import OptionError
@@ -54,7 +53,7 @@ def manner(threads: int | None, progress: Any, force: bool) -> dict[str, Any]:
     return {"threads": threads, "progress": progress, "force": force}
 
 
-def path(out: str | os.PathLike[str] | None) -> str | None:
+def path(out: PathLike | None) -> str | None:
     """A path as text, with the slash at its end that makes it a folder."""
     return None if out is None else os.fspath(out)
 
