@@ -1,10 +1,24 @@
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 import numpy.typing as npt
 
+__all__ = [
+    "Table",
+    "__version__",
+    "evaluate",
+    "fit_pex",
+    "fit_pro",
+    "import_motions",
+    "partition_file",
+    "response",
+    "sample_scenarios",
+    "simulate",
+    "synthesize_motions",
+]
 __version__: str
 
+@final
 class Table:
     @property
     def num_rows(self) -> int: ...

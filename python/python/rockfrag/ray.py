@@ -112,7 +112,7 @@ def _each_partition(
 def _run(stage: Callable[..., Any], source: str, out: str, filesystem: Any, call: dict[str, Any]) -> str:
     """Runs a stage on a partition, and gives the file that it wrote."""
     if filesystem is None:
-        return os.fspath(stage(source, out=f"{out}/", **call))
+        return str(stage(source, out=f"{out}/", **call))
     remote = _filesystem(filesystem)
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
         name = partition_file(call["partition"])
