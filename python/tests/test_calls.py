@@ -11,7 +11,6 @@ import pytest
 import rockfrag
 
 
-
 def test_progress_rises_to_all(out):
     told = []
     rockfrag.synthesize_motions(out / "scenarios.parquet", progress=lambda done, of: told.append((done, of)))
