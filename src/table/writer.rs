@@ -1,9 +1,10 @@
-//! Writes a table beside its name and renames it when it is whole.
+//! Writes a table beside its name and renames it when it is whole; or leaves it in memory.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
+use arrow_schema::SchemaRef;
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, Encoding, ZstdLevel};
 use parquet::errors::ParquetError;
@@ -15,6 +16,7 @@ use super::TableError;
 use super::fingerprint::Fingerprint;
 use super::provenance::Provenance;
 use super::schema::{Kind, Table};
+use super::source::{MemoryTable, Shelf, Target};
 
 /// The end of the name of a file that is still being written.
 const PARTIAL: &str = ".partial";
@@ -23,7 +25,15 @@ const PARTIAL: &str = ".partial";
 const ROWS_IN_GROUP: usize = 4096;
 
 /// Writes the batches of one table in order.
-pub struct TableWriter {
+pub struct TableWriter(Destination);
+
+enum Destination {
+    File(Box<FileWriter>),
+    Memory(Shelf, String, MemoryTable),
+}
+
+/// A file on its way to its name.
+struct FileWriter {
     path: PathBuf,
     provenance: Provenance,
     writer: ArrowWriter<File>,
@@ -37,9 +47,12 @@ impl TableWriter {
     ///
     /// # Errors
     /// If the folder is not there or cannot be written.
-    pub fn create(path: &Path, table: &Table, provenance: Provenance) -> Result<TableWriter, TableError> {
-        let schema = table.schema();
-        TableWriter::with_schema(path, table, schema, provenance)
+    pub fn create(
+        target: impl Into<Target>,
+        table: &Table,
+        provenance: Provenance,
+    ) -> Result<TableWriter, TableError> {
+        TableWriter::with_schema(target, table, table.schema(), provenance)
     }
 
     /// As [`TableWriter::create`], with a schema that differs from the table's own (the type of motion_id).
@@ -47,24 +60,27 @@ impl TableWriter {
     /// # Errors
     /// As there.
     pub fn with_schema(
-        path: &Path,
+        target: impl Into<Target>,
         table: &Table,
-        schema: arrow_schema::SchemaRef,
+        schema: SchemaRef,
         provenance: Provenance,
     ) -> Result<TableWriter, TableError> {
-        let failed = |message: String| TableError::Write { path: path.to_path_buf(), message };
-        let partial = temporary_beside(path)?;
-        partial.as_file().try_lock().map_err(|source| failed(source.to_string()))?;
-        let file = partial.as_file().try_clone().map_err(|source| failed(source.to_string()))?;
-        let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(table)))
-            .map_err(|source| failed(words(&source)))?;
-        let fingerprint = Fingerprint::new(schema);
-        Ok(TableWriter { path: path.to_path_buf(), provenance, writer, partial, fingerprint })
+        Ok(TableWriter(match target.into() {
+            Target::Path(path) => {
+                Destination::File(Box::new(FileWriter::create(&path, table, schema, provenance)?))
+            }
+            Target::Memory(shelf, name) => {
+                let empty = MemoryTable { name: table.name.into(), schema, batches: Vec::new() };
+                Destination::Memory(shelf, name, empty)
+            }
+        }))
     }
 
     /// Says in the file that it came to be otherwise than planned, so that it does not count as up to date.
     pub fn made_otherwise(&mut self, provenance: Provenance) {
-        self.provenance = provenance;
+        if let Destination::File(file) = &mut self.0 {
+            file.provenance = provenance;
+        }
     }
 
     /// Appends a batch and ends the row group, so that a reader streams what was written together.
@@ -73,7 +89,10 @@ impl TableWriter {
     /// If the disk is full or the batch has other columns.
     pub fn write_row_group(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
         self.append(batch)?;
-        self.writer.flush().map_err(|source| self.failed(&source))
+        match &mut self.0 {
+            Destination::File(file) => file.end_row_group(),
+            Destination::Memory(..) => Ok(()),
+        }
     }
 
     /// Appends a batch.
@@ -81,19 +100,61 @@ impl TableWriter {
     /// # Errors
     /// If the disk is full or the batch has other columns.
     pub fn append(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
-        self.fingerprint.update(batch);
-        self.writer.write(batch).map_err(|source| self.failed(&source))?;
-        if self.writer.in_progress_rows() < ROWS_IN_GROUP {
-            return Ok(());
+        match &mut self.0 {
+            Destination::File(file) => file.append(batch),
+            Destination::Memory(_, _, table) => {
+                table.batches.push(batch.clone());
+                Ok(())
+            }
         }
-        self.writer.flush().map_err(|source| self.failed(&source))
     }
 
     /// Completes the file and puts it at its name.
     ///
     /// # Errors
     /// If the disk is full, the name cannot be taken, or an input is no longer what it was.
-    pub fn finish(mut self) -> Result<(), TableError> {
+    pub fn finish(self) -> Result<(), TableError> {
+        match self.0 {
+            Destination::File(file) => file.finish(),
+            Destination::Memory(shelf, name, table) => {
+                shelf.put(&name, table);
+                Ok(())
+            }
+        }
+    }
+}
+
+impl FileWriter {
+    fn create(
+        path: &Path,
+        table: &Table,
+        schema: SchemaRef,
+        provenance: Provenance,
+    ) -> Result<FileWriter, TableError> {
+        let failed = |message: String| TableError::Write { path: path.to_path_buf(), message };
+        let partial = temporary_beside(path)?;
+        partial.as_file().try_lock().map_err(|source| failed(source.to_string()))?;
+        let file = partial.as_file().try_clone().map_err(|source| failed(source.to_string()))?;
+        let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(table)))
+            .map_err(|source| failed(words(&source)))?;
+        let fingerprint = Fingerprint::new(schema);
+        Ok(FileWriter { path: path.to_path_buf(), provenance, writer, partial, fingerprint })
+    }
+
+    fn end_row_group(&mut self) -> Result<(), TableError> {
+        self.writer.flush().map_err(|source| self.failed(&source))
+    }
+
+    fn append(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
+        self.fingerprint.update(batch);
+        self.writer.write(batch).map_err(|source| self.failed(&source))?;
+        if self.writer.in_progress_rows() < ROWS_IN_GROUP {
+            return Ok(());
+        }
+        self.end_row_group()
+    }
+
+    fn finish(mut self) -> Result<(), TableError> {
         self.provenance.expect_unchanged()?;
         for pair in self.provenance.key_values(&self.fingerprint.finish()) {
             self.writer.append_key_value_metadata(pair);

@@ -6,7 +6,7 @@ use rockfrag::pipeline::terminal::Terminal;
 use rockfrag::rocking::Record;
 use rockfrag::stages::{groups, inspect::inspect};
 use rockfrag::table::intensities::IntensityBatches;
-use rockfrag::table::motions::{Motion, MotionBatches, MotionFile};
+use rockfrag::table::motions::{Motion, MotionBatches, MotionTable};
 use rockfrag::table::{TableError, fits, paper, provenance, scenarios, validation};
 
 /// Reads a file as each stage would, and gives what each made of it.
@@ -43,7 +43,7 @@ fn motions(path: &Path) -> Result<(), TableError> {
 }
 
 fn motions_in_parts(path: &Path) -> Result<(), TableError> {
-    let file = MotionFile::open(path)?;
+    let file = MotionTable::open(path, None)?;
     file.parts().try_for_each(|part| file.motions(&part?).map(|motions| check(&motions)))
 }
 

@@ -7,7 +7,7 @@ use crate::pipeline::UsageError;
 use crate::report::material::{Group, Seen};
 use crate::rocking::Structure;
 use crate::table::columns::Columns;
-use crate::table::reader::{Batch, Batches};
+use crate::table::reader::Batches;
 use crate::table::responses::MeasureColumns;
 use crate::table::schema::{self, RESPONSES};
 
@@ -17,9 +17,8 @@ const BATCH: usize = 65_536;
 /// The responses of the suites and structures that are to be shown, and how many others there are.
 pub fn read(path: &Path, options: &ReportOptions) -> anyhow::Result<(Vec<Group>, usize)> {
     let mut sorted = Sorted::default();
-    for batch in Batches::open(path, &[RESPONSES.stage], RESPONSES.columns, BATCH)? {
-        let Batch { rows, first_row } = batch?;
-        sorted.add(&Columns::new(path, &rows, first_row), options)?;
+    for batch in Batches::open(path, &[RESPONSES.stage], RESPONSES.columns, &[], BATCH)? {
+        sorted.add(&batch?.columns(), options)?;
     }
     let Sorted { mut groups, names } = sorted;
     if groups.is_empty() {
