@@ -118,7 +118,10 @@ impl TableFile {
     }
 
     /// All rows, to be held as a whole.
-    fn whole(&self) -> Result<Batches, TableError> {
+    ///
+    /// # Errors
+    /// If the file is damaged, or announces more rows than it has bytes: rows that differ take more.
+    pub fn whole(&self) -> Result<Batches, TableError> {
         let (rows, bytes) = (self.rows_of_groups().iter().sum(), self.file.len());
         if rows > bytes {
             return Err(TableError::TooManyRows { path: self.path.clone(), rows, bytes });
@@ -173,7 +176,7 @@ impl Batches {
     /// Opens the file of a table that is then held as a whole.
     ///
     /// # Errors
-    /// As [`TableFile::open`], or if the file announces more rows than it has bytes: rows that differ take more.
+    /// As [`TableFile::open`] and [`TableFile::whole`].
     pub fn open_whole(path: &Path, table: &Table, stages: &[&str]) -> Result<Batches, TableError> {
         TableFile::open(path, stages, table.columns)?.whole()
     }
