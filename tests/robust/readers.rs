@@ -9,7 +9,9 @@ use rockfrag::table::intensities::IntensityBatches;
 use rockfrag::table::motion_measures::MotionMeasures;
 use rockfrag::table::motions::{Motion, MotionBatches, MotionFile};
 use rockfrag::table::schema::{POOLED, UNIVERSALITY};
-use rockfrag::table::{TableError, fits, ida, paper, provenance, ranking_verdict, reader, scenarios, validation};
+use rockfrag::table::{
+    TableError, fits, ida, paper, provenance, ranking_verdict, reader, scenarios, validation,
+};
 
 /// Reads a file as each stage would, and gives what each made of it.
 pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)> {
