@@ -162,6 +162,37 @@ fn all_windows_that_are_wide_enough_are_found() {
 }
 
 #[test]
+fn a_scan_looks_closer_only_where_it_must() {
+    let scan = Scan::new(1.0, 16.0, 4, 2, 1e-3);
+    assert_eq!(scan.levels(), [1.0, 2.0, 4.0, 8.0, 16.0]);
+    let looks = |respond: fn(f64) -> (Outcome, f64, u32)| {
+        let response = |look: &Look| {
+            let (outcome, edp, impacts) = respond(look.intensity);
+            Response { outcome, edp, impacts }
+        };
+        let respond =
+            |looks: &[Look]| Ok::<_, std::convert::Infallible>(looks.iter().map(response).collect());
+        let found = scan.run(2, respond).unwrap();
+        assert!(found.iter().all(|case| case.windows(2).all(|pair| pair[0].intensity < pair[1].intensity)));
+        assert_eq!(found[0], found[1]);
+        found[0].len()
+    };
+    // Far from overturning, or overturning all in the same way: the levels alone.
+    assert_eq!(looks(|_| (Outcome::SafeRocking, 0.1, 0)), 5);
+    assert_eq!(looks(|_| (Outcome::Overturning, 7.0, 3)), 5);
+    // Near overturning: each step is halved twice. From level 4 on: two steps of four.
+    assert_eq!(looks(|_| (Outcome::SafeRocking, 0.9, 0)), 4 * 4 + 1);
+    assert_eq!(looks(|at| (Outcome::SafeRocking, if at >= 4.0 { 0.9 } else { 0.1 }, 0)), 5 + 3 + 3 + 2);
+    // Between two ways of overturning, twice a halving of the step in which it changes.
+    assert_eq!(looks(|at| (Outcome::Overturning, 7.0, u32::from(at < 3.0))), 5 + 2);
+    // Where overturning begins, halvings of ln 2 until it is known to a thousandth: ln 2 / 1e-3 < 2^10.
+    assert_eq!(
+        looks(|at| (if at > 3.0 { Outcome::Overturning } else { Outcome::SafeRocking }, 0.1, 0)),
+        5 + 10
+    );
+}
+
+#[test]
 fn the_ends_of_a_scan_are_told_apart() {
     let scan = Scan::new(0.5, 2.0, 6, 2, 1e-3);
     let safe = scan_of(&scan, &[]);

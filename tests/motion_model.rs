@@ -22,6 +22,49 @@ fn cell(mw: f64, re_km: f64, samples: usize, seed: u64) -> Vec<Scenario> {
     Grid { mw: vec![mw], re_km: vec![re_km], samples, design: Design::Lhs, seed }.scenarios_of_cell(0)
 }
 
+/// The points of a cell of a sampling design.
+fn points(design: Design, samples: usize, seed: u64, cell: usize) -> Vec<[f64; 4]> {
+    Grid { mw: vec![6.0, 7.0], re_km: vec![5.0], samples, design, seed }.quantiles_of_cell(cell)
+}
+
+#[test]
+fn a_sobol_design_is_sobols_sequence_under_a_shift_of_digits() {
+    // Against scipy (scripts/reference/sobol.py). The first point of the sequence is 0, so that it becomes the shift itself.
+    let digits = |points: &[[f64; 4]]| -> Vec<[u32; 4]> {
+        points.iter().map(|point| point.map(|u| (u * 2f64.powi(32)).floor() as u32)).collect()
+    };
+    let drawn = digits(&points(Design::Sobol, 4096, 7, 0));
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/sobol.csv");
+    let rows = csv::Reader::from_path(path).unwrap().into_deserialize();
+    let answers: Vec<(usize, [u32; 4])> = rows.map(Result::unwrap).collect();
+    assert_eq!(answers.len(), 60);
+    for (index, expected) in answers {
+        let unshifted: [u32; 4] = std::array::from_fn(|d| drawn[index][d] ^ drawn[0][d]);
+        assert_eq!(unshifted, expected, "point {index}");
+    }
+    let other = |seed, cell| digits(&points(Design::Sobol, 1, seed, cell))[0];
+    assert!(other(8, 0) != drawn[0] && other(7, 1) != drawn[0] && other(7, 0) == drawn[0]);
+}
+
+#[test]
+fn stratified_designs_have_a_sample_in_each_stratum() {
+    for (design, is_stratified) in [(Design::Lhs, true), (Design::Sobol, true), (Design::Random, false)] {
+        let points = points(design, 1024, 42, 1);
+        assert!(points.iter().flatten().all(|u| *u > 0.0 && *u < 1.0));
+        for dimension in 0..4 {
+            let mut hit = vec![false; 1024];
+            points.iter().for_each(|point| hit[(point[dimension] * 1024.0) as usize] = true);
+            let share = hit.iter().filter(|hit| **hit).count() as f64 / 1024.0;
+            // Independent samples miss a stratum with probability 1/e; the share that is hit has a deviation of 0.0097.
+            let expected = if is_stratified { 1.0 } else { 1.0 - (-1.0_f64).exp() };
+            assert!(
+                (share - expected).abs() < if is_stratified { 1e-9 } else { 0.05 },
+                "{design:?}: {share}"
+            );
+        }
+    }
+}
+
 /// Small and large earthquakes: pulses much shorter and much longer than the window.
 fn varied_scenarios() -> Vec<Scenario> {
     let grid =

@@ -8,7 +8,8 @@ use noise::synthetic_motion;
 use proptest::prelude::*;
 use rockfrag::motion::Pulse;
 use rockfrag::rocking::{
-    Event, Outcome, Record, Structure, frame_eta, frame_p, housner_eta, rectangular_p, simulate, trace,
+    Event, Outcome, Record, RecordError, Structure, StructureError, frame_eta, frame_p, housner_eta,
+    rectangular_p, simulate, trace,
 };
 use rockfrag::units::G_M_S2;
 
@@ -184,6 +185,138 @@ fn structures_are_made_of_their_dimensions() {
     assert!((frame.p_rad_s / block.p_rad_s - (5.0_f64 / 7.0).sqrt()).abs() < 1e-12);
     assert_eq!(frame.eta, frame_eta(block.alpha_rad, 2.0));
     assert!((frame_eta(0.3, 0.0) - housner_eta(0.3)).abs() < 1e-15);
+    // By hand, with tan(alpha) = 1/4: 2 R = sqrt(17) m, sin2(alpha) = 1/17, cos(2 alpha) = 15/17; p2 = 3 g / (4 R) and eta of
+    // Housner (1963), and those of Makris & Vassiliou (2014) for a beam of twice the mass of a column.
+    let close =
+        |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-14, "{value} {expected}");
+    close(block.p_rad_s.powi(2), 3.0 * G_M_S2 / (2.0 * 17.0_f64.sqrt()));
+    close(block.eta, 1.0 - 1.5 / 17.0);
+    close(frame.eta, (1.0 - 1.5 / 17.0 + 6.0 * 15.0 / 17.0) / 7.0);
+    close(block.uplift_acceleration_m_s2(), G_M_S2 / 4.0);
+    assert_eq!(Structure::rectangular_block("b", 1.0, 4.0, Some(0.5)).unwrap().eta, 0.5);
+    assert_eq!(Structure::frame("f", 1.0, 4.0, 2.0, Some(0.5)).unwrap().eta, 0.5);
+}
+
+#[test]
+fn impossible_dimensions_are_refused() {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let words =
+            |made: Result<Structure, _>| made.map_err(|error: StructureError| error.to_string()).unwrap_err();
+        assert!(words(Structure::rectangular_block("b", bad, 4.0, None)).contains("width is"));
+        assert!(words(Structure::rectangular_block("b", 1.0, bad, None)).contains("height is"));
+        assert!(words(Structure::frame("f", bad, 4.0, 1.0, None)).contains("width is"));
+        if bad != 0.0 {
+            assert!(words(Structure::frame("f", 1.0, 4.0, bad, None)).contains("beam-mass-ratio is"));
+        }
+    }
+    let column = Structure::rectangular_block("b", 1.0, 4.0, None).unwrap();
+    assert_eq!(Structure::frame("b", 1.0, 4.0, 0.0, None).unwrap(), column);
+}
+
+#[test]
+fn impossible_records_are_refused_where_they_are_wrong() {
+    let refused = |samples: &[f64], dt: f64| Record::new(samples, dt).unwrap_err();
+    assert_eq!(refused(&[0.0, 1.0], 0.0), RecordError::TimeStep(0.0));
+    assert_eq!(refused(&[1.0], 0.01), RecordError::TooShort(1));
+    assert_eq!(
+        refused(&[0.0, 1.0, -f64::INFINITY, f64::NAN], 0.01),
+        RecordError::NotFinite { sample: 2, value: -f64::INFINITY }
+    );
+    assert_eq!(
+        refused(&[0.0, 1e4, 1.0, -1.5e4, 2e4], 0.01),
+        RecordError::TooLarge { sample: 3, value: -1.5e4 }
+    );
+    assert_eq!(Record::new(&[0.0, -1e4], 0.01).unwrap().peak_m_s2(), 1e4);
+}
+
+#[test]
+fn the_ground_acceleration_is_linear_between_samples_and_nothing_after_them() {
+    let record = Record::new(&[1.0, 3.0, 2.0], 0.5).unwrap();
+    for (time_s, expected) in [
+        (0.0, 1.0),
+        (0.125, 1.5),
+        (0.25, 2.0),
+        (0.5, 3.0),
+        (0.875, 2.25),
+        (1.0, 2.0),
+        (1.25, 0.0),
+        (9.0, 0.0),
+    ] {
+        assert_eq!(record.acceleration_at(time_s), expected, "{time_s} s");
+    }
+}
+
+#[test]
+fn a_trace_tells_what_happens_when() {
+    // Eq. 1: under a push to the positive side the structure leaves its base towards the negative one, at the root of
+    // |a| = g tan(alpha), here half way to the first sample.
+    let (p, alpha, eta, dt) = (2.5, 0.2, 0.6, 0.01);
+    let s = structure(p, alpha, eta);
+    let uplift = s.uplift_acceleration_m_s2();
+    let mut samples = vec![0.0];
+    samples.resize(12, 2.0 * uplift);
+    samples.resize(1200, 0.0);
+    let (response, points) = trace(&s, &Record::new(&samples, dt).unwrap());
+    assert_eq!(response.outcome, Outcome::SafeRocking);
+    let of = |event| points.iter().filter(move |point| point.event == Some(event));
+    let [first, ..] = of(Event::Uplift).collect::<Vec<_>>()[..] else { panic!("no uplift") };
+    assert!(
+        (first.time_s - 0.5 * dt).abs() < 1e-12 && first.theta_rad == 0.0 && first.theta_dot_rad_s == 0.0
+    );
+    let sampled: Vec<_> = points.iter().filter(|point| point.event.is_none()).collect();
+    assert_eq!(sampled.len(), samples.len());
+    assert!((0..).zip(&sampled).all(|(k, point)| (point.time_s - f64::from(k) * dt).abs() < 1e-9));
+    assert!(sampled[5].theta_rad < 0.0 && sampled[5].theta_dot_rad_s < 0.0);
+    let largest = points.iter().map(|point| point.theta_rad.abs()).fold(0.0, f64::max);
+    assert!(largest <= response.edp * alpha && largest > 0.999 * response.edp * alpha);
+
+    // The velocity is the slope of the rotation, in rad/s, wherever nothing happens in between.
+    let fastest = points.iter().map(|point| point.theta_dot_rad_s.abs()).fold(0.0, f64::max);
+    let mut compared = 0;
+    for around in points.windows(3).filter(|around| around.iter().all(|point| point.event.is_none())) {
+        let slope = (around[2].theta_rad - around[0].theta_rad) / (2.0 * dt);
+        assert!((slope - around[1].theta_dot_rad_s).abs() < 2e-2 * fastest, "{around:?}");
+        compared += 1;
+    }
+    assert!(compared > 100);
+
+    // An impact takes the share 1 - eta of the velocity and goes on to the other side; the last one is followed by rest.
+    assert_eq!(of(Event::Impact).count(), response.impacts as usize);
+    for around in points.windows(3).filter(|around| around[1].event == Some(Event::Impact)) {
+        let [before, impact, after] = [around[0], around[1], around[2]];
+        if before.event.is_none() && after.event.is_none() && before.theta_rad.abs() > 1e-3 {
+            assert!(before.theta_rad * after.theta_rad < 0.0, "{around:?}");
+            assert!(impact.theta_dot_rad_s * after.theta_rad > 0.0, "{around:?}");
+            assert_eq!(impact.theta_rad, 0.0);
+        }
+    }
+    let rest = of(Event::Rest).next_back().unwrap();
+    let last_impact = of(Event::Impact).next_back().unwrap();
+    assert!(rest.time_s == last_impact.time_s && rest.time_s < samples.len() as f64 * dt);
+    assert!((rest.theta_rad, rest.theta_dot_rad_s) == (0.0, 0.0));
+    let after = sampled.iter().filter(|point| point.time_s > rest.time_s);
+    assert!(
+        after.clone().count() > 10
+            && after.clone().all(|point| point.theta_rad == 0.0 && point.theta_dot_rad_s == 0.0)
+    );
+}
+
+#[test]
+fn a_trace_ends_where_the_structure_lies_flat() {
+    let (p, alpha, dt) = (2.5, 0.2, 0.01);
+    let s = structure(p, alpha, 0.9);
+    let mut samples = vec![-3.0 * s.uplift_acceleration_m_s2(); 60];
+    samples.resize(2000, 0.0);
+    let (response, points) = trace(&s, &Record::new(&samples, dt).unwrap());
+    assert_eq!(response.outcome, Outcome::Overturning);
+    let [.., before, last] = points[..] else { panic!("no points") };
+    assert_eq!((last.event, last.theta_rad), (Some(Event::Overturn), FRAC_PI_2));
+    assert!(last.time_s > before.time_s && last.time_s <= before.time_s + dt && before.time_s > 0.61);
+    // The ground is still by then, and theta'^2 / (2 p^2) + cos(alpha - theta) stays what it is.
+    let energy = |theta: f64, velocity: f64| 0.5 * (velocity / p).powi(2) + (alpha - theta).cos();
+    let (here, there) =
+        (energy(last.theta_rad, last.theta_dot_rad_s), energy(before.theta_rad, before.theta_dot_rad_s));
+    assert!(last.theta_dot_rad_s > 0.0 && (here / there - 1.0).abs() < 1e-10, "{here} {there}");
 }
 
 #[test]

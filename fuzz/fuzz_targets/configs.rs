@@ -1,4 +1,4 @@
-//! Bytes as pipeline.yaml, as structures (YAML or CSV) or as a hazard, by the first byte.
+//! Bytes as pipeline.yaml, as structures (YAML or CSV), a hazard, a site or the spread over seeds, by the first byte.
 #![no_main]
 
 use std::path::Path;
@@ -7,7 +7,8 @@ use libfuzzer_sys::fuzz_target;
 use rockfrag::stages::config::Config;
 use rockfrag::stages::run::{Files, stages};
 use rockfrag::stages::structures::Structures;
-use rockfrag::table::hazard;
+use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
+use rockfrag::table::{hazard, paper};
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&first, text)) = bytes.split_first() else { return };
@@ -18,7 +19,7 @@ fuzz_target!(|bytes: &[u8]| {
         std::fs::write(&path, text).unwrap();
         path
     };
-    match first % 4 {
+    match first % 6 {
         0 => {
             if let Ok(mut config) = Config::read(&file("pipeline.yaml")) {
                 // Its files would be searched for all over the machine.
@@ -28,6 +29,12 @@ fuzz_target!(|bytes: &[u8]| {
         }
         1 => drop(Structures::File(file("structures.yaml")).resolve()),
         2 => drop(Structures::File(file("structures.csv")).resolve()),
-        _ => drop(hazard::read(&file("hazard.csv"))),
+        3 => drop(hazard::read(&file("hazard.csv"))),
+        4 => {
+            let site = file("site.csv").display().to_string();
+            let options = SynthesizeMotionsOptions { site, ..SynthesizeMotionsOptions::default() };
+            drop(SynthesizeMotions::new(&options, folder.clone(), folder));
+        }
+        _ => drop(paper::spread(Some(&file("spread.csv")))),
     }
 });

@@ -146,11 +146,13 @@ def texts(encoding, payload, rows, size=None, first=None, packed=None):
     return file(schema, columns, rows, packed=packed)
 
 
-def narrow(rows):
-    """Scenarios that are all the same."""
-    names = [("scenario_id", INT64, "<q", 1), ("cell", INT64, "<q", 0), ("sample", INT64, "<q", 0)]
-    names += [(name, DOUBLE, "<d", value) for name, value in
+SCENARIOS = [("scenario_id", INT64, "<q", 1), ("cell", INT64, "<q", 0), ("sample", INT64, "<q", 0)]
+SCENARIOS += [(name, DOUBLE, "<d", value) for name, value in
               [("mw", 6.0), ("re_km", 10.0), ("vp_m_s", 1.0), ("tp_s", 1.0), ("gamma", 2.0), ("nu_rad", 0.0)]]
+
+
+def narrow(rows, names=SCENARIOS):
+    """A table, of scenarios or of these columns, whose rows are all the same."""
     in_pages = min(abs(rows), MOST)
     columns = [
         (kind, (name,), [dictionary(1, struct.pack(form, value)), page(in_pages, bytes([1]) + run(in_pages, 0), RLE_DICTIONARY)], rows, True)
@@ -186,6 +188,7 @@ def bombs():
     yield "footer", file([group("schema", 0)], [], 1, footer_length=2**32 - 1)
     yield "rows", narrow(2**40)
     yield "rows-in-page", narrow(MOST)
+    yield "rows-of-motions", narrow(2**27, [("motion_id", INT64, "<q", 1)])
     yield "rows-negative", narrow(-5)
     yield "texts-by-difference", texts(DELTA_LENGTH, b"\x80\x01\x04" + varint(2**60) + b"\0" * 8, 4)
     # A text of a megabyte in 8192 rows: pages compressed one by one.

@@ -29,25 +29,33 @@ simulate:
   structures:
     - { name: frame, p: 1.0, alpha: 0.15, eta: 0.92 }
     - { name: electrical-equipment, p: 2.5, alpha: 0.20, eta: 0.92 }
+ida: { from: 1, to: 2, steps: 4, halvings: 1, tolerance: 0.1 }
 fit-pex: { bootstrap: 200 }
 fit-pro: { bootstrap: 50 }
+universality: {}
+rank-ims: {}
 compare-paper: {}
+report: { groups: 1, motions: 3, dpi: 36 }
 """
+# What a plan calls up to date where nothing is to be done.
+STAGES_OF_RUN = 10
 # Each stage, on the files of an undisturbed run, into the folder {o}.
 FITS = "--pex {i}/pex.parquet --pro {i}/pro.parquet --structure electrical-equipment --suite csgm --p 2.5 --alpha 0.20"
 STAGES = {
-    "sample-scenarios": ("--samples 2000 --out {o}/scenarios.parquet", ["scenarios.parquet"]),
-    "synthesize-motions": ("--in {i}/scenarios.parquet --out {o}/motions.parquet", ["motions.parquet"]),
-    "import-motions": ("{i}/../record.txt --unit g --out {o}/records.parquet", ["records.parquet"]),
-    "simulate": ("--in {i}/motions.parquet --trace 0,1 --out {o}/one.parquet", ["one.parquet", "one.trace.parquet"]),
-    "fit-pex": ("--in {i}/responses.parquet --bootstrap 100 --out {o}/pex.parquet", ["pex.parquet", "pex.bootstrap.parquet"]),
-    "fit-pro": ("--in {i}/responses.parquet --out {o}/pro.parquet", ["pro.parquet"]),
-    "compare-paper": ("--pex {i}/pex.parquet --pro {i}/pro.parquet --responses {i}/responses.parquet --out {o}/paper.parquet",
-                      ["paper.parquet"]),
-    "validate": ("--in {i}/responses.parquet --pex {i}/pex.parquet --pro {i}/pro.parquet --out {o}/validation.parquet",
-                 ["validation.parquet"]),
-    "evaluate": (FITS + " --in {i}/motions.parquet --out {o}/evaluated.parquet", ["evaluated.parquet"]),
-    "export": (FITS + " --to openquake --im pga --ratio 0.3 --tolerance 1e-5 --out {o}/fragility.xml", ["fragility.xml"]),
+    "sample-scenarios": "--samples 2000 --out {o}/scenarios.parquet",
+    "synthesize-motions": "--in {i}/scenarios.parquet --out {o}/motions.parquet",
+    "import-motions": "{i}/../record.txt --unit g --out {o}/records.parquet",
+    "simulate": "--in {i}/motions.parquet --trace 0,1 --out {o}/one.parquet",
+    "fit-pex": "--in {i}/responses.parquet --bootstrap 100 --out {o}/pex.parquet",
+    "fit-pro": "--in {i}/responses.parquet --out {o}/pro.parquet",
+    "ida": "--in {i}/motions.parquet --from 1 --to 2 --steps 4 --halvings 1 --tolerance 0.1 --out {o}/ida.parquet",
+    "universality": "--in {i}/responses.parquet --out {o}/universality.parquet",
+    "rank-ims": "--in {i}/responses.parquet --out {o}/ranking.parquet",
+    "compare-paper": "--pex {i}/pex.parquet --pro {i}/pro.parquet --responses {i}/responses.parquet --out {o}/paper.parquet",
+    "validate": "--in {i}/responses.parquet --pex {i}/pex.parquet --pro {i}/pro.parquet --out {o}/validation.parquet",
+    "evaluate": FITS + " --in {i}/motions.parquet --out {o}/evaluated.parquet",
+    "report": "--in {i} --groups 1 --motions 3 --dpi 36 --out {o}/report.html",
+    "export": FITS + " --to openquake --im pga --ratio 0.3 --tolerance 1e-5 --out {o}/fragility.xml",
 }
 
 
@@ -60,7 +68,7 @@ def call(arguments, **more):
 
 
 def contents(folder):
-    return {path.name: path.read_bytes() for path in Path(folder).iterdir()} if Path(folder).exists() else {}
+    return {str(path.relative_to(folder)): path.read_bytes() for path in Path(folder).rglob("*") if path.is_file()}
 
 
 def whole(folder, right):
@@ -94,7 +102,7 @@ class Attacks:
         return call(f"run {folder}/pipeline.yaml", **more)
 
     def stage(self, stage, out, **more):
-        return call(f"--force {stage} " + STAGES[stage][0].format(i=self.files, o=out), **more)
+        return call(f"--force {stage} " + STAGES[stage].format(i=self.files, o=out), **more)
 
     def count(self, attack, failure):
         tries, failures = self.rows.setdefault(attack, [0, []])
@@ -179,7 +187,7 @@ class Attacks:
             ended = [code == 0 or "error: " in words for code, words in codes]
             plan = call(f"run --seed 8 --dry-run {folder}/pipeline.yaml").stdout
             failure = None if all(ended) else f"{codes}"
-            fits = plan.count("up to date") == 6 or contents(folder / "out") == self.right_files
+            fits = plan.count("up to date") == STAGES_OF_RUN or contents(folder / "out") == self.right_files
             failure = failure or (None if fits else f"files of two runs stand side by side: {plan}")
             again = call(f"run --seed 7 {folder}/pipeline.yaml")
             failure = failure or (None if contents(folder / "out") == self.right_files else f"run again: {again.stderr[-300:]}")
@@ -238,7 +246,7 @@ class Attacks:
             for path in self.files.iterdir():
                 os.utime(path, (time.mktime((year, 1, 2, 0, 0, 0, 0, 0, 0)),) * 2)
             plan = call(f"run --dry-run {self.work}/pipeline.yaml").stdout
-            self.count("clock set back or forward", None if plan.count("up to date") == 6 else plan)
+            self.count("clock set back or forward", None if plan.count("up to date") == STAGES_OF_RUN else plan)
 
     def all(self):
         start = time.monotonic()

@@ -225,7 +225,6 @@ pub fn fragility(rows: &[FragilityRow]) -> Result<RecordBatch, ArrowError> {
 /// # Errors
 /// If it is none.
 pub fn show(path: &Path) -> anyhow::Result<String> {
-    let batches =
-        Batches::open(path, &[IDA_FRAGILITY.stage], IDA_FRAGILITY.columns, &[], usize::from(u16::MAX))?;
+    let batches = Batches::open_whole(path, &IDA_FRAGILITY, &[IDA_FRAGILITY.stage])?;
     batches.map(|batch| Ok(batch.map(|Batch { rows, .. }| text::aligned(&rows))?)).collect()
 }

@@ -10,9 +10,6 @@ use super::reader::OpenTable;
 use super::schema::{self, Column};
 use crate::motion::Quantity;
 
-/// Rows that are decoded at once.
-const BATCH: usize = 8192;
-
 /// The measures besides the peaks and periods of Eq. 13, and what they are.
 const FURTHER: [(Column, Quantity); 6] = [
     (schema::PGD_M, Quantity::Length),
@@ -64,7 +61,7 @@ impl MotionMeasures {
             pga_m_s2: Vec::new(),
             further: Vec::new(),
         };
-        for batch in OpenTable::open_at(path, &STAGES, is_wanted)?.batches(BATCH)? {
+        for batch in OpenTable::open_at(path, &STAGES, is_wanted)?.whole()? {
             all.append(&batch?.columns())?;
         }
         all.further.retain(|measure| measure.values.iter().any(Option::is_some));

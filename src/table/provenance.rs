@@ -56,7 +56,7 @@ impl Provenance {
     ///
     /// # Errors
     /// If an input has changed or gone.
-    pub(super) fn expect_unchanged(&self) -> Result<(), TableError> {
+    pub fn expect_unchanged(&self) -> Result<(), TableError> {
         let changed = |(role, path): &(&String, &PathBuf)| {
             content_of(path).ok().as_ref() != self.inputs.get(role.as_str())
         };

@@ -57,7 +57,7 @@ pub fn show(path: &Path) -> anyhow::Result<String> {
 
 fn chosen(path: &Path) -> Result<Vec<Chosen>, TableError> {
     let mut rows = Vec::new();
-    for batch in Batches::open(path, &[RANKING.stage], RANKING.columns, &[], usize::from(u16::MAX))? {
+    for batch in Batches::open_whole(path, &RANKING, &[RANKING.stage])? {
         let batch = batch?;
         let columns = batch.columns();
         let suites = columns.optional_text(&schema::SUITE)?;

@@ -148,7 +148,10 @@ impl OpenTable {
     }
 
     /// All rows, to be held as a whole.
-    fn whole(self) -> Result<Batches, TableError> {
+    ///
+    /// # Errors
+    /// If a file is damaged, or announces more rows than it has bytes: rows that differ take more.
+    pub fn whole(self) -> Result<Batches, TableError> {
         for piece in &self.pieces {
             if let Piece::File(file) = piece {
                 file.expect_narrow()?;
@@ -188,7 +191,7 @@ impl Batches {
     /// Opens a table that is then held as a whole.
     ///
     /// # Errors
-    /// As [`OpenTable::open`], or if a file announces more rows than it has bytes: rows that differ take more.
+    /// As [`OpenTable::open`] and [`OpenTable::whole`].
     pub fn open_whole(
         source: impl Into<Source>,
         table: &Table,

@@ -24,6 +24,9 @@ const PARTIAL: &str = ".partial";
 /// Rows after which a batch ends a row group, where the stage itself ends none: few, since they are held until then.
 const ROWS_IN_GROUP: usize = 4096;
 
+/// Row groups that a Parquet file has room for.
+const MOST_ROW_GROUPS: usize = 32_767;
+
 /// Writes the batches of one table in order.
 pub struct TableWriter(Destination);
 
@@ -40,6 +43,8 @@ struct FileWriter {
     /// Locked while it is written, so that another run can tell a live file from a stray one.
     partial: NamedTempFile,
     fingerprint: Fingerprint,
+    /// Batches since the last row group ended.
+    waiting: usize,
 }
 
 impl TableWriter {
@@ -83,15 +88,18 @@ impl TableWriter {
         }
     }
 
-    /// Appends a batch and ends the row group, so that a reader streams what was written together.
+    /// Appends a batch and ends the row group, so that a reader streams what was written together; but where most of the row
+    /// groups that a file has room for are there, several batches share one.
     ///
     /// # Errors
     /// If the disk is full or the batch has other columns.
     pub fn write_row_group(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
-        self.append(batch)?;
         match &mut self.0 {
-            Destination::File(file) => file.end_row_group(),
-            Destination::Memory(..) => Ok(()),
+            Destination::File(file) => file.write_row_group(batch),
+            Destination::Memory(_, _, table) => {
+                table.batches.push(batch.clone());
+                Ok(())
+            }
         }
     }
 
@@ -138,20 +146,39 @@ impl FileWriter {
         let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(table)))
             .map_err(|source| failed(words(&source)))?;
         let fingerprint = Fingerprint::new(schema);
-        Ok(FileWriter { path: path.to_path_buf(), provenance, writer, partial, fingerprint })
+        Ok(FileWriter { path: path.to_path_buf(), provenance, writer, partial, fingerprint, waiting: 0 })
     }
 
-    fn end_row_group(&mut self) -> Result<(), TableError> {
-        self.writer.flush().map_err(|source| self.failed(&source))
+    fn write_row_group(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
+        self.write(batch)?;
+        if self.waiting < self.share() { Ok(()) } else { self.end_row_group() }
     }
 
     fn append(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
-        self.fingerprint.update(batch);
-        self.writer.write(batch).map_err(|source| self.failed(&source))?;
-        if self.writer.in_progress_rows() < ROWS_IN_GROUP {
-            return Ok(());
+        self.write(batch)?;
+        if self.writer.in_progress_rows() < ROWS_IN_GROUP * self.share() {
+            Ok(())
+        } else {
+            self.end_row_group()
         }
-        self.end_row_group()
+    }
+
+    fn write(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
+        self.fingerprint.update(batch);
+        self.waiting += 1;
+        self.writer.write(batch).map_err(|source| self.failed(&source))
+    }
+
+    fn end_row_group(&mut self) -> Result<(), TableError> {
+        self.waiting = 0;
+        self.writer.flush().map_err(|source| self.failed(&source))
+    }
+
+    /// How many times larger than the first row groups the next one is: once, until half the room for them is taken, and ever
+    /// more as it goes.
+    fn share(&self) -> usize {
+        let left = MOST_ROW_GROUPS.saturating_sub(self.writer.flushed_row_groups().len());
+        MOST_ROW_GROUPS / left.max(1)
     }
 
     fn finish(mut self) -> Result<(), TableError> {

@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use rockfrag::keyword::Keyword;
-use rockfrag::motion::records::{Format, Given, RecordedMotion, read};
+use rockfrag::motion::records::{AccelerationUnit, Format, Given, RecordedMotion, read};
+use rockfrag::units::G_M_S2;
 
 use crate::writers::*;
 
@@ -235,4 +236,22 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn units_are_what_they_are_called() {
+    for (names, in_m_s2) in [
+        (&["g"][..], G_M_S2),
+        (&["mg", "milli-g"], 1e-3 * G_M_S2),
+        (&["m/s2", "m/s/s", "m/s^2"], 1.0),
+        (&["cm/s2", "gal", "GAL", " cm/s^2 "], 0.01),
+        (&["mm/s2"], 0.001),
+    ] {
+        for name in names {
+            let unit: AccelerationUnit = name.parse().unwrap();
+            assert!((unit.in_m_s2() / in_m_s2 - 1.0).abs() < 1e-15, "{name}");
+            assert_eq!(unit.to_string().parse(), Ok(unit), "{name}");
+        }
+    }
+    assert!("furlong".parse::<AccelerationUnit>().unwrap_err().contains("expected g, mg, m/s2"));
 }

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use rockfrag::table::motion_measures::MotionMeasures;
+
 use crate::readers::read_as_everything;
 
 /// Memory that the command may take, kB: far below what the files announce.
@@ -29,6 +31,13 @@ fn bombs_are_told_from_sound_files() {
         assert_eq!(is_read("motions in parts"), sound, "{name}: {read:?}");
         assert!(!is_read("scenarios"), "{name}: {read:?}");
     }
+}
+
+#[test]
+fn measures_of_motions_that_would_fill_the_memory_are_refused() {
+    let path = PathBuf::from("tests/reference/bombs/rows-of-motions.parquet");
+    let words = MotionMeasures::read(&path).unwrap_err().to_string();
+    assert!(words.contains("134217728 rows in a file of"), "{words}");
 }
 
 #[test]

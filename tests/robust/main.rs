@@ -6,4 +6,6 @@ mod damage;
 mod importers;
 mod numbers;
 mod readers;
+mod replaced;
+mod row_groups;
 mod versions;

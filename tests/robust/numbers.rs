@@ -112,6 +112,52 @@ proptest! {
     }
 
     #[test]
+    fn a_stronger_or_longer_push_to_one_side_moves_it_further(
+        push in prop::collection::vec((1.0..3.0f64, 0.0..1.0f64), 1..40), longer in 0..20usize,
+        p in 0.2..8.0f64, alpha in 0.02..0.6f64, eta in 0.05..0.99f64, dt_s in 0.001..0.05f64,
+    ) {
+        // Under a push that always lifts, and nothing after it, the equation preserves order until the first peak, which
+        // is the largest: theta'' grows with theta and with the push as long as theta < alpha, and beyond it overturns.
+        let structure = Structure::new("s", p, alpha, eta).unwrap();
+        let uplift = structure.uplift_acceleration_m_s2();
+        let samples = |scale: &dyn Fn(&(f64, f64)) -> f64, more: usize| -> Vec<f64> {
+            let pushed = push.iter().map(|level| uplift * scale(level));
+            pushed.chain(std::iter::repeat_n(uplift, more)).chain([0.0]).collect()
+        };
+        let rising = [
+            samples(&|(level, _)| *level, 0),
+            samples(&|(level, more)| level + 0.5 * more, 0),
+            samples(&|(level, more)| level + more, 0),
+            samples(&|(level, more)| level + more, longer),
+        ];
+        let problems = rising.each_ref().map(|samples| Problem { structure: &structure, record: Record::new(samples, dt_s).unwrap() });
+        for path in Path::ALL.iter().copied().filter(|path| path.is_available()) {
+            for pair in simulate_all(&problems, path).windows(2) {
+                let overturn = |response: &Response| response.outcome == Outcome::Overturning;
+                prop_assert!(overturn(&pair[1]) || !overturn(&pair[0]), "{path:?} {pair:?}");
+                prop_assert!(pair[1].edp >= pair[0].edp * (1.0 - 1e-9), "{path:?} {pair:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn samples_put_between_samples_change_nothing(
+        levels in prop::collection::vec(-4.0..4.0f64, 2..60),
+        p in 0.2..8.0f64, alpha in 0.02..0.6f64, eta in 0.05..0.99f64, dt_s in 0.001..0.1f64,
+    ) {
+        // The ground acceleration is linear between samples, so that those in the middle say nothing new.
+        let structure = Structure::new("s", p, alpha, eta).unwrap();
+        let coarse: Vec<f64> = levels.iter().map(|level| level * structure.uplift_acceleration_m_s2()).collect();
+        let middles = coarse.windows(2).flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
+        let fine: Vec<f64> = middles.chain(coarse.last().copied()).collect();
+        let of = |samples, dt_s| on_all_paths(Problem { structure: &structure, record: Record::new(samples, dt_s).unwrap() });
+        for ((path, coarse), (_, fine)) in of(&coarse, dt_s).into_iter().zip(of(&fine, 0.5 * dt_s)) {
+            prop_assert_eq!(coarse.outcome, fine.outcome, "{:?}", path);
+            prop_assert!((coarse.edp - fine.edp).abs() <= 1e-6 * coarse.edp, "{path:?}: {coarse:?} {fine:?}");
+        }
+    }
+
+    #[test]
     fn company_and_order_change_nothing(
         shapes in prop::collection::vec((shapes(), structures()), 1..12), dt_s in time_steps(), size in 1..12usize,
     ) {

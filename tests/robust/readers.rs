@@ -6,8 +6,12 @@ use rockfrag::pipeline::terminal::Terminal;
 use rockfrag::rocking::Record;
 use rockfrag::stages::{groups, inspect::inspect};
 use rockfrag::table::intensities::IntensityBatches;
+use rockfrag::table::motion_measures::MotionMeasures;
 use rockfrag::table::motions::{Motion, MotionBatches, MotionTable};
-use rockfrag::table::{TableError, fits, paper, provenance, scenarios, validation};
+use rockfrag::table::schema::{POOLED, UNIVERSALITY};
+use rockfrag::table::{
+    TableError, fits, ida, paper, provenance, ranking_verdict, reader, scenarios, validation,
+};
 
 /// Reads a file as each stage would, and gives what each made of it.
 pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)> {
@@ -18,12 +22,18 @@ pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)
         ("scenarios", words(scenarios::read(path))),
         ("motions", words(motions(path))),
         ("motions in parts", words(motions_in_parts(path))),
+        ("measures of motions", words(MotionMeasures::read(path))),
         ("responses", words(groups::read(path))),
         ("regressions", words(regressions(path))),
         ("curves", words(curves(path))),
         ("intensities", words(intensities(path))),
         ("comparison", words(paper::show(path))),
         ("validation", words(validation::show(path))),
+        ("capacities", words(ida::show(path))),
+        ("ranking", words(ranking_verdict::show(path))),
+        ("universality", words(fits::rows(path, &UNIVERSALITY))),
+        ("pooled curves", words(fits::rows(path, &POOLED))),
+        ("any table", words(reader::read_any(path))),
     ]
 }
 

@@ -194,6 +194,7 @@ impl Stage for Report {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let material = self.material(console)?;
+        provenance.expect_unchanged()?;
         let mut figures: Vec<Figure> = ALL.par_iter().flat_map_iter(|draw: &Draw| draw(&material)).collect();
         finish(&mut figures, &material.made());
         let folder = self.figures();

@@ -11,13 +11,10 @@ use crate::table::reader::Batches;
 use crate::table::responses::MeasureColumns;
 use crate::table::schema::{self, RESPONSES};
 
-/// Rows that are decoded at once.
-const BATCH: usize = 65_536;
-
 /// The responses of the suites and structures that are to be shown, and how many others there are.
 pub fn read(path: &Path, options: &ReportOptions) -> anyhow::Result<(Vec<Group>, usize)> {
     let mut sorted = Sorted::default();
-    for batch in Batches::open(path, &[RESPONSES.stage], RESPONSES.columns, &[], BATCH)? {
+    for batch in Batches::open_whole(path, &RESPONSES, &[RESPONSES.stage])? {
         sorted.add(&batch?.columns(), options)?;
     }
     let Sorted { mut groups, names } = sorted;
