@@ -290,8 +290,8 @@ fn a_trace_tells_what_happens_when() {
             assert_eq!(impact.theta_rad, 0.0);
         }
     }
-    let rest = of(Event::Rest).last().unwrap();
-    let last_impact = of(Event::Impact).last().unwrap();
+    let rest = of(Event::Rest).next_back().unwrap();
+    let last_impact = of(Event::Impact).next_back().unwrap();
     assert!(rest.time_s == last_impact.time_s && rest.time_s < samples.len() as f64 * dt);
     assert!((rest.theta_rad, rest.theta_dot_rad_s) == (0.0, 0.0));
     let after = sampled.iter().filter(|point| point.time_s > rest.time_s);
