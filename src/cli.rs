@@ -7,7 +7,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 use crate::pipeline::console::Console;
-use crate::pipeline::options::resolve;
+use crate::pipeline::options::{Parsed, resolve};
 use crate::pipeline::stage::{Stage, beside};
 use crate::pipeline::terminal::Terminal;
 use crate::pipeline::{UsageError, cache};
@@ -20,6 +20,7 @@ use crate::stages::fit_pro::{FitPro, FitProOptions};
 use crate::stages::ida::{Ida, IdaOptions};
 use crate::stages::import_motions::{ImportMotions, ImportMotionsOptions};
 use crate::stages::inspect::inspect;
+use crate::stages::partitions::{each_file, file_of};
 use crate::stages::rank_ims::{RankIms, RankImsOptions};
 use crate::stages::report::{Report, ReportOptions};
 use crate::stages::run::{Files, dry_run, run, stages};
@@ -81,7 +82,7 @@ enum Command {
         /// Scenarios to read
         #[arg(long = "in", value_name = "FILE", default_value = "scenarios.parquet")]
         input: PathBuf,
-        /// Motions file to write [default: motions.parquet beside the input]
+        /// Motions file to write, or folder of partitions [default: motions.parquet beside the input, motions of partitions]
         #[arg(long)]
         out: Option<PathBuf>,
         #[command(flatten)]
@@ -97,10 +98,11 @@ enum Command {
     },
     /// Simulate the rocking response of structures to motions
     Simulate {
-        /// Motions to read: ours, or anyone's with motion_id, dt_s and acceleration_m_s2
+        /// Motions to read, a file or a folder: ours, or anyone's with motion_id, dt_s and acceleration_m_s2
         #[arg(long = "in", value_name = "FILE", default_value = "motions.parquet")]
         input: PathBuf,
-        /// Responses file to write [default: responses.parquet beside the input]
+        /// Responses file to write, or folder of partitions [default: responses.parquet beside the input, responses of
+        /// partitions]
         #[arg(long)]
         out: Option<PathBuf>,
         #[command(flatten)]
@@ -242,7 +244,8 @@ enum Command {
 pub fn main() -> anyhow::Result<()> {
     let matches = Cli::command().get_matches();
     let Cli { common, command } = Cli::from_arg_matches(&matches)?;
-    let console = Console { quiet: common.quiet, progress: common.progress == Progress::Auto };
+    let console =
+        Console { quiet: common.quiet, progress: common.progress == Progress::Auto, follower: None };
     if let Some(threads) = common.threads {
         if threads == 0 {
             return Err(UsageError::because("threads is 0; expected 1 or more"));
@@ -276,7 +279,8 @@ impl Call<'_> {
                 let mut options: SynthesizeMotionsOptions =
                     resolve(self.flags, self.config.synthesize_motions.as_ref())?;
                 options.seed = options.seed.or(self.config.seed);
-                let out = out.unwrap_or_else(|| beside(&input, "motions.parquet"));
+                let partition = options.partition.map(|Parsed(partition)| partition);
+                let out = file_of(out.as_deref(), &input, "motions", partition);
                 self.stage(&SynthesizeMotions::new(&options, input, out)?)
             }
             Command::ImportMotions { out, .. } => {
@@ -289,7 +293,11 @@ impl Call<'_> {
                 if self.one_structure_is_given() {
                     options.structures = None;
                 }
-                let out = out.unwrap_or_else(|| beside(&input, "responses.parquet"));
+                if let Some(stages) = each_file(&options, &input, out.as_deref())? {
+                    return stages.iter().try_for_each(|stage| self.stage(stage));
+                }
+                let partition = options.partition.map(|Parsed(partition)| partition);
+                let out = file_of(out.as_deref(), &input, "responses", partition);
                 self.stage(&Simulate::new(&options, input, out)?)
             }
             Command::Ida { input, out, .. } => {
@@ -346,7 +354,7 @@ impl Call<'_> {
             Command::Export(options) => export(&options, &self.console),
             Command::Run { pipeline, out, seed, dry_run } => self.run(&pipeline, out, seed, dry_run),
             Command::SeedSpread { pipeline, options } => {
-                let console = Console { progress: false, ..self.console };
+                let console = Console { progress: false, ..self.console.clone() };
                 seed_spread(&Config::read(&pipeline)?, &options, &console)
             }
             Command::Inspect { file } => print(&inspect(&file, &Terminal::stdout())?),

@@ -9,9 +9,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use rockfrag::fragility::{
-    Case, CurveInference, CurveModel, CurveParameter, DemandInference, DemandSample, Estimate, Estimator,
-    EventSample, FitStatus, Limits, Measure, Strata, bootstrap, bootstrap_limits, fit_overturning,
-    t_quantile,
+    Case, CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits,
+    DemandSample, Estimate, Estimator, EventSample, FitStatus, Limits, Measure, Strata, bootstrap,
+    bootstrap_limits, fit_overturning, t_quantile,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::normal::quantile;
@@ -85,7 +85,8 @@ fn curve(plan: &Plan, seed: u64, replicates: usize) -> Result<Vec<Verdict>, FitS
     let fit = fit_overturning(&sample, &CurveModel { estimator: plan.estimator, ..CurveModel::default() })?;
     let inference = CurveInference::new(&sample, &fit.regression);
     let (strata, clustered) = (Strata::new(&cells), inference.clustered_covariance(&cells));
-    let refits = bootstrap(&strata, replicates, seed, |counts| inference.coefficients(counts));
+    let refits = CurveRefits::new(&sample, &fit.regression);
+    let refits = bootstrap(&strata, replicates, seed, |resamples| refits.coefficients(resamples));
     let mut verdicts = Vec::new();
     for &parameter in inference.curve_parameters() {
         let (name, truth) = match parameter {
@@ -138,13 +139,12 @@ fn row_at(plan: &Plan, index: f64) -> Vec<f64> {
 fn demand(plan: &Plan, seed: u64, replicates: usize) -> Result<Vec<Verdict>, FitStatus> {
     let (mut cases, cells) = cases(plan, seed);
     cases.iter_mut().for_each(|case| case.outcome = Outcome::SafeRocking);
-    let everywhere = 0.0..f64::INFINITY;
-    let sample = DemandSample::new(&cases, plan.measures, everywhere.clone());
+    let sample = DemandSample::new(&cases, plan.measures, 0.0..f64::INFINITY);
     let fit = sample.fit()?;
     let inference = DemandInference::new(&sample, &fit);
     let strata = Strata::new(&cells);
-    let refits =
-        bootstrap(&strata, replicates, seed, |counts| inference.replicate(counts, everywhere.clone()));
+    let refits = DemandRefits::new(&sample);
+    let refits = bootstrap(&strata, replicates, seed, |resamples| refits.replicates(resamples));
     let accelerations = inference.accelerations(&strata);
     let limits = |k: usize| {
         let values: Vec<Option<f64>> = refits.iter().map(|fit| fit.as_ref()?.parameters().nth(k)).collect();

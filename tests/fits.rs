@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Case, CurveModel, Estimator, EventSample, FitStatus, Link, Measure, OverturningFit, auc,
-    binary_regression, brier_score, find_transition, fit_biplanar, fit_overturning, fit_univariate,
+    Case, CurveModel, DemandSample, Estimator, EventSample, FitStatus, Link, Measure, OverturningFit, PLANE,
+    TransitionSearch, auc, binary_regression, brier_score, fit_biplanar, fit_overturning, fit_univariate,
     is_separated, least_squares, p_exceeding, p_failure_given_rocking, p_no_rocking, p_overturning,
     t_quantile,
 };
@@ -209,10 +209,8 @@ fn two_planes_and_their_transition_are_found() {
 #[test]
 fn the_scan_by_sums_equals_fitting_anew_at_each_place() {
     let cases = two_planes(1.4);
-    let column =
-        |measure: Measure| -> Vec<f64> { cases.iter().map(|c| measure.of(c).unwrap().ln()).collect() };
-    let edp: Vec<f64> = cases.iter().map(|case| case.edp.ln()).collect();
-    let scan = find_transition(&column(Measure::Im4), &column(Measure::Im3), &edp).unwrap().scan;
+    let sample = DemandSample::new(&cases, &PLANE, 0.0..f64::INFINITY);
+    let scan = TransitionSearch::new(&sample).find(&vec![1.0; cases.len()]).unwrap().scan;
     assert!(scan.len() > 50);
     for point in scan.iter().step_by(13) {
         let fit = fit_biplanar(&cases, Some(point.im4)).unwrap();

@@ -5,6 +5,9 @@ use rayon::prelude::*;
 
 use crate::random::{Purpose, stream};
 
+/// Resamples that are worked on together: as many as the widest register has numbers.
+pub const TOGETHER: usize = 8;
+
 /// The rows of a sample by the stratum they were drawn in.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Strata {
@@ -33,27 +36,54 @@ impl Strata {
     pub fn members(&self) -> &[Vec<usize>] {
         &self.members
     }
+}
 
-    /// How often each row is drawn when as many are drawn from each stratum as it has, with replacement.
-    pub fn resample(&self, random: &mut impl Rng) -> Vec<f64> {
-        let mut counts = vec![0.0; self.rows];
-        for rows in &self.members {
+/// How often each row is drawn in each of some resamples.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resamples {
+    /// Of each row.
+    pub counts: Vec<[f64; TOGETHER]>,
+}
+
+impl Resamples {
+    /// In which each row counts so often, in all alike.
+    pub fn alike(counts: &[f64]) -> Resamples {
+        Resamples { counts: counts.iter().map(|&count| [count; TOGETHER]).collect() }
+    }
+
+    /// How often each of these rows is drawn in one of the resamples.
+    pub fn of(&self, resample: usize, rows: &[usize]) -> Vec<f64> {
+        rows.iter().map(|&row| self.counts[row][resample]).collect()
+    }
+
+    /// Draws as many rows from each stratum as it has, with replacement.
+    fn draw(&mut self, resample: usize, strata: &Strata, random: &mut impl Rng) {
+        for rows in &strata.members {
+            let size = rows.len() as u32;
             for _ in rows {
-                counts[rows[random.random_range(0..rows.len())]] += 1.0;
+                self.counts[rows[random.random_range(0..size) as usize]][resample] += 1.0;
             }
         }
-        counts
     }
 }
 
-/// Refits in that many resamples. Each has random numbers of its own, so that replicate 17 is the same on any number of
-/// threads, and in all fits of the same rows: they can be taken jointly.
+/// Refits in that many resamples, of which `refit` is given [`TOGETHER`] at once. Each has random numbers of its own, so
+/// that replicate 17 is the same on any number of threads, and in all fits of the same rows: they can be taken jointly.
 pub fn bootstrap<T: Send>(
     strata: &Strata,
     replicates: usize,
     seed: u64,
-    refit: impl Fn(&[f64]) -> T + Sync,
+    refit: impl Fn(&Resamples) -> [T; TOGETHER] + Sync,
 ) -> Vec<T> {
-    let replicate = |row: usize| refit(&strata.resample(&mut stream(seed, Purpose::Bootstrap, row as u64)));
-    (0..replicates).into_par_iter().map(replicate).collect()
+    let together = |batch: usize| {
+        let mut resamples = Resamples { counts: vec![[0.0; TOGETHER]; strata.rows] };
+        for resample in 0..TOGETHER {
+            let number = (batch * TOGETHER + resample) as u64;
+            resamples.draw(resample, strata, &mut stream(seed, Purpose::Bootstrap, number));
+        }
+        refit(&resamples)
+    };
+    let batches: Vec<[T; TOGETHER]> =
+        (0..replicates.div_ceil(TOGETHER)).into_par_iter().map(together).collect();
+    batches.into_iter().flatten().take(replicates).collect()
 }

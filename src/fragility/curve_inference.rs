@@ -16,7 +16,7 @@ use super::separation::is_separated;
 
 /// What the last step may gain in log-likelihood. It then moves the coefficients by some 1e-3 of their standard errors, and
 /// Newton's convergence squares that.
-const TOLERANCE: f64 = 1e-6;
+pub(super) const TOLERANCE: f64 = 1e-6;
 /// Plain Newton steps from where one step leads from the fit are fewer than this; more raise the suspicion that there is no
 /// maximum.
 const SUSPICIOUS_STEPS: usize = 6;
@@ -55,22 +55,26 @@ impl<'a> CurveInference<'a> {
         profile_limits(&self.likelihood(&self.once_each), self.fit, parameter, confidence)
     }
 
-    /// The coefficients where each of all cases counts so often; none without a maximum of the likelihood.
-    pub fn coefficients(&self, counts: &[f64]) -> Option<DVector<f64>> {
-        let weights: Vec<f64> = self.sample.rows.iter().map(|&row| counts[row]).collect();
-        let (likelihood, fitted) = (self.likelihood(&weights), &self.fit.coefficients);
-        if self.fit.estimator == Estimator::Ml {
-            let start = fitted + self.influence.step(&self.design, &weights)?;
-            let derivatives = |b: &DVector<f64>| likelihood.derivatives_at(b);
-            let plain = maximise(derivatives, &start, Along::All, TOLERANCE);
+    /// The coefficients where each case of the sample counts so often; none without a maximum of the likelihood.
+    pub fn coefficients(&self, weights: &[f64]) -> Option<DVector<f64>> {
+        let step = || self.influence.step(&self.design, weights);
+        let likelihood = self.fit.estimator == Estimator::Ml;
+        self.maximum(weights, likelihood.then(step).flatten().map(|step| &self.fit.coefficients + step))
+    }
+
+    /// The same, by plain Newton steps of the likelihood alone if they may start nearby.
+    pub(super) fn maximum(&self, weights: &[f64], nearby: Option<DVector<f64>>) -> Option<DVector<f64>> {
+        let likelihood = self.likelihood(weights);
+        if let Some(start) = nearby {
+            let plain = maximise(|b| likelihood.derivatives_at(b), &start, Along::All, TOLERANCE);
             if let Some(Maximum { at, .. }) = plain.filter(|maximum| maximum.steps < SUSPICIOUS_STEPS) {
                 return Some(at);
             }
-            if self.separated(&weights) {
-                return None;
-            }
         }
-        likelihood.maximise(fitted, Along::All, TOLERANCE).map(|maximum| maximum.at)
+        if self.fit.estimator == Estimator::Ml && self.separated(weights) {
+            return None;
+        }
+        likelihood.maximise(&self.fit.coefficients, Along::All, TOLERANCE).map(|maximum| maximum.at)
     }
 
     /// The parameters of the curve.

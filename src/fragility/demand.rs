@@ -4,7 +4,7 @@ use super::FitStatus;
 use super::case::{Case, Measure};
 use super::demand_sample::DemandSample;
 use super::regression::LinearFit;
-use super::transition::{ScanPoint, Transition};
+use super::transition::{ScanPoint, Transition, TransitionSearch};
 
 /// The measures of a plane.
 pub const PLANE: [Measure; 2] = [Measure::Im4, Measure::Im3];
@@ -70,7 +70,7 @@ pub struct Biplanar {
 /// If no transition can be found for want of cases.
 pub fn fit_biplanar(cases: &[Case], transition: Option<f64>) -> Result<Biplanar, FitStatus> {
     let sample = DemandSample::new(cases, &PLANE, 0.0..f64::INFINITY);
-    let found = sample.transition_search().find(|_| 1.0);
+    let found = TransitionSearch::new(&sample).find(&vec![1.0; cases.len()]);
     let (found, scan) = match found {
         Some(Transition { im4, scan }) => (Some(im4), scan),
         None => (None, Vec::new()),

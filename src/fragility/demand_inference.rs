@@ -1,7 +1,5 @@
 //! How sure a regression of the demand is: clustered errors and refits of resampled cases.
 
-use std::ops::Range;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::bootstrap::Strata;
@@ -68,12 +66,6 @@ impl<'a> DemandInference<'a> {
         DemandReplicate { coefficients, residual_sd: self.residual_sd }
     }
 
-    /// The regression over the cases whose first measure lies in `range`, where each of all cases counts so often; none
-    /// if they do not determine it.
-    pub fn replicate(&self, counts: &[f64], range: Range<f64>) -> Option<DemandReplicate> {
-        self.refit(&self.weights(counts, range))
-    }
-
     /// The regression where each case of the sample counts so often; none if they do not determine it.
     pub fn refit(&self, weights: &[f64]) -> Option<DemandReplicate> {
         let change = self.influence.step(&self.design, weights)?;
@@ -103,12 +95,5 @@ impl<'a> DemandInference<'a> {
             without_each.iter().filter_map(|fit| fit.parameters().nth(k)).collect()
         };
         (0..=fit.coefficients.len()).map(|k| acceleration(&parameter(k), strata)).collect()
-    }
-
-    fn weights(&self, counts: &[f64], range: Range<f64>) -> Vec<f64> {
-        let (low, high) = (range.start.ln(), range.end.ln());
-        let weight =
-            |(&row, ln_im): (&usize, &f64)| if (low..high).contains(ln_im) { counts[row] } else { 0.0 };
-        self.sample.rows.iter().zip(&self.sample.ln_im[0]).map(weight).collect()
     }
 }

@@ -2,7 +2,6 @@ use super::FitStatus;
 use super::case::{Case, Measure};
 use super::design_matrix::DesignMatrix;
 use super::regression::{LinearFit, RegressionError, least_squares};
-use super::transition::TransitionSearch;
 
 /// The demands of the safe-rocking cases and the logarithms of their measures, where all are there.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,10 +54,5 @@ impl DemandSample {
     /// The design matrix of a regression on them.
     pub fn design(&self) -> DesignMatrix {
         DesignMatrix::new(&self.predictors(), self.ln_edp.len())
-    }
-
-    /// The search for the place where two planes meet, in a sample of IM4 and IM3.
-    pub fn transition_search(&self) -> TransitionSearch {
-        TransitionSearch::new(&self.ln_im[0], &self.ln_im[1], &self.ln_edp)
     }
 }

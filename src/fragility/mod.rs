@@ -46,6 +46,9 @@
 //! influence         what each case adds to a fit: jackknife, clustered errors, first step of a refit
 //! profile           limits by the profile likelihood
 //! bootstrap         resampling within the cells of the design
+//! case_terms        sums over cases in many resamples at once
+//! demand_refits     regressions of the demand from them, by normal_equations
+//! curve_refits      curves from them, by an expansion of the likelihood in monomials with the series of link_series
 //! limits            percentile and BCa limits from the replicates
 //! curve_inference   all of these for a curve, demand_inference for a regression of the demand
 //! ```
@@ -56,18 +59,22 @@ mod bootstrap;
 mod candidate;
 mod capacity;
 mod case;
+mod case_terms;
 mod contest;
 mod curve;
 mod curve_inference;
 mod curve_parameter;
+mod curve_refits;
 mod demand;
 mod demand_inference;
+mod demand_refits;
 mod demand_sample;
 mod dependence;
 mod derivatives;
 mod design_matrix;
 mod distribution;
 mod event_sample;
+mod expansion;
 mod firth;
 mod folds;
 mod forecast;
@@ -76,8 +83,11 @@ mod index;
 mod influence;
 mod limits;
 mod link;
+mod link_series;
 mod model;
+mod monomials;
 mod newton;
+mod normal_equations;
 mod overlap;
 mod overturning;
 mod poisson_binomial;
@@ -103,7 +113,7 @@ mod validation;
 
 pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use binary::{BinaryError, BinaryFit, binary_regression};
-pub use bootstrap::{Strata, bootstrap};
+pub use bootstrap::{Resamples, Strata, TOGETHER, bootstrap};
 pub use candidate::{Candidate, Form};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Measure};
@@ -111,8 +121,10 @@ pub use contest::{Contest, RankingRules};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use curve_inference::CurveInference;
 pub use curve_parameter::CurveParameter;
+pub use curve_refits::CurveRefits;
 pub use demand::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
 pub use demand_inference::{DemandInference, DemandReplicate};
+pub use demand_refits::DemandRefits;
 pub use demand_sample::DemandSample;
 pub use derivatives::Score;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
@@ -140,7 +152,7 @@ pub use slice::{Lognormal, Peak, Slice};
 pub use smooth::{SmoothFit, fit_smooth};
 pub use spline::natural_spline;
 pub use transfer::{Branch, Curve, CurveForm, CurveSubject};
-pub use transition::{ScanPoint, Transition, TransitionSearch, find_transition, transition_limits};
+pub use transition::{Break, ScanPoint, Transition, TransitionSearch, transition_limits};
 pub use universality::{BesideOwn, Transfer, Verdict};
 pub use validation::{Validation, calibration_in_the_large, calibration_slope, wilson_limits};
 

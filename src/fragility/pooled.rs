@@ -206,7 +206,7 @@ fn demand(
     let fit = sample.fit()?;
     let (inference, design) = (DemandInference::new(&sample, &fit), sample.design());
     leave_structures_out(&owners, |counts| {
-        let refit = inference.replicate(counts, 0.0..f64::INFINITY).ok_or(FitStatus::TooFewCases)?;
+        let refit = inference.refit(counts).ok_or(FitStatus::TooFewCases)?;
         let means = design.indices(&refit.coefficients);
         let cases = means.into_iter().zip(&sample.ln_edp).zip(&owners).zip(counts);
         for (((mean, &ln_edp), &owner), _) in cases.filter(|(_, count)| **count == 0.0) {

@@ -1,6 +1,7 @@
 //! The cases in which intensity measures are ranked.
 
 use super::case::{Case, Measure};
+use super::demand_sample::DemandSample;
 use crate::keyword::{Keyword, keywords};
 use crate::rocking::Outcome;
 
@@ -130,5 +131,14 @@ impl RankingSample {
     /// The logarithms of some measures.
     pub fn columns(&self, places: &[usize]) -> Vec<Vec<f64>> {
         places.iter().map(|&place| self.ln_im[place].clone()).collect()
+    }
+
+    /// The regression of the demand on some measures.
+    pub fn demands(&self, places: &[usize]) -> DemandSample {
+        DemandSample {
+            ln_edp: self.ln_edp.clone(),
+            ln_im: self.columns(places),
+            rows: (0..self.len()).collect(),
+        }
     }
 }

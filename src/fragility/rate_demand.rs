@@ -5,8 +5,8 @@ use nalgebra::DVector;
 use super::FitStatus;
 use super::candidate::{Candidate, Form};
 use super::case::Measure;
+use super::demand::PLANE;
 use super::demand_inference::{DemandInference, DemandReplicate};
-use super::demand_sample::DemandSample;
 use super::design_matrix::dot;
 use super::folds::Folds;
 use super::ranking_sample::RankingSample;
@@ -28,12 +28,11 @@ impl Breaks {
         if let Some(im4) = transition {
             return Breaks { all: Some(im4.ln()), without: vec![Some(im4.ln()); count] };
         }
-        let places = [Measure::Im4, Measure::Im3].map(|measure| sample.place(measure));
-        let [Some(im4), Some(im3)] = places else {
+        let [Some(im4), Some(im3)] = PLANE.map(|measure| sample.place(measure)) else {
             return Breaks { all: None, without: vec![None; count] };
         };
-        let search = TransitionSearch::new(&sample.ln_im[im4], &sample.ln_im[im3], &sample.ln_edp);
-        let find = |weights: &[f64]| Some(search.find(|case| weights[case])?.im4.ln());
+        let search = TransitionSearch::new(&sample.demands(&[im4, im3]));
+        let find = |weights: &[f64]| Some(search.find(weights)?.im4.ln());
         Breaks {
             all: find(&vec![1.0; sample.len()]),
             without: folds
@@ -108,11 +107,7 @@ pub fn rate_demand(
     breaks: &Breaks,
 ) -> Result<Rating, FitStatus> {
     let n = sample.len();
-    let cases = DemandSample {
-        ln_edp: sample.ln_edp.clone(),
-        ln_im: sample.columns(&candidate.measures),
-        rows: (0..n).collect(),
-    };
+    let cases = sample.demands(&candidate.measures);
     let regression = cases.fit()?;
     let inference = DemandInference::new(&cases, &regression);
     let design = cases.design();

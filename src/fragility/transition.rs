@@ -1,8 +1,11 @@
 //! Where the two planes of Eq. 18 meet.
 
-use nalgebra::{Matrix3, Vector3};
-
+use super::bootstrap::{Resamples, TOGETHER};
+use super::demand_inference::DemandReplicate;
+use super::demand_refits::DemandRefits;
+use super::demand_sample::DemandSample;
 use super::limits::Limits;
+use super::normal_equations::NormalEquations;
 
 /// The IM4 at which the planes may meet: first, last and step of the scan.
 const SCAN: (f64, f64, f64) = (1.05, 2.0, 0.01);
@@ -46,96 +49,112 @@ pub fn transition_limits(scan: &[ScanPoint], confidence: f64) -> Option<Limits> 
     Some(Limits { low, high: places.next_back().unwrap_or(low) })
 }
 
-/// Sums from which the residual of a plane follows. Predictors and response are centred beforehand, so that the sums do not cancel.
-#[derive(Clone)]
-struct Sums {
-    n: f64,
-    xx: Matrix3<f64>,
-    xy: Vector3<f64>,
-    yy: f64,
-}
-
-impl Sums {
-    fn new() -> Sums {
-        Sums { n: 0.0, xx: Matrix3::zeros(), xy: Vector3::zeros(), yy: 0.0 }
-    }
-
-    fn add(&mut self, case: &CentredCase, weight: f64) {
-        let weighted = case.row * weight;
-        self.n += weight;
-        self.xx += weighted * case.row.transpose();
-        self.xy += weighted * case.y;
-        self.yy += weight * case.y * case.y;
-    }
-
-    fn minus(&self, other: &Sums) -> Sums {
-        Sums { n: self.n - other.n, xx: self.xx - other.xx, xy: self.xy - other.xy, yy: self.yy - other.yy }
-    }
-
-    fn rss(&self) -> Option<f64> {
-        let coefficients = self.xx.cholesky()?.solve(&self.xy);
-        Some(self.yy - coefficients.dot(&self.xy))
-    }
-}
-
-/// A case about the means of all.
-struct CentredCase {
-    /// Which it is.
-    index: usize,
-    ln_im4: f64,
-    row: Vector3<f64>,
-    y: f64,
-}
-
-/// The cases in the order of their IM4, ready for searches with different weights.
+/// The cases in the order of their IM4, ready for searches in resamples.
 pub struct TransitionSearch {
-    cases: Vec<CentredCase>,
+    refits: DemandRefits,
+    /// The places that are tried, with the number of cases below.
+    places: Vec<(f64, usize)>,
+}
+
+/// The two planes of one resample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Break {
+    /// The IM4 of the least pooled residual.
+    pub im4: f64,
+    /// The plane below; none if its cases do not determine it.
+    pub low: Option<DemandReplicate>,
+    /// The plane above.
+    pub high: Option<DemandReplicate>,
+}
+
+/// The equations of both planes at one place of the scan.
+struct Sides {
+    im4: f64,
+    low: NormalEquations,
+    high: NormalEquations,
+    /// Infinite where there are too few cases.
+    pooled_rss: [f64; TOGETHER],
 }
 
 impl TransitionSearch {
-    /// Of the logarithms of both measures and of the demand.
-    pub fn new(ln_im4: &[f64], ln_im3: &[f64], ln_edp: &[f64]) -> TransitionSearch {
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-        let (mean4, mean3, mean_y) = (mean(ln_im4), mean(ln_im3), mean(ln_edp));
-        let case = |k: usize| CentredCase {
-            index: k,
-            ln_im4: ln_im4[k],
-            row: Vector3::new(1.0, ln_im4[k] - mean4, ln_im3[k] - mean3),
-            y: ln_edp[k] - mean_y,
+    /// In a sample of IM4 and IM3.
+    pub fn new(sample: &DemandSample) -> TransitionSearch {
+        let ln_im4 = &sample.ln_im[0];
+        let mut order: Vec<usize> = (0..ln_im4.len()).collect();
+        order.sort_by(|&a, &b| ln_im4[a].total_cmp(&ln_im4[b]));
+        let (first, last, step) = SCAN;
+        let place = |index: usize| {
+            let im4 = first + step * index as f64;
+            (im4, order.partition_point(|&case| ln_im4[case] < im4.ln()))
         };
-        let mut cases: Vec<CentredCase> = (0..ln_edp.len()).map(case).collect();
-        cases.sort_by(|a, b| a.ln_im4.total_cmp(&b.ln_im4));
-        TransitionSearch { cases }
+        let places = (0..=((last - first) / step).round() as usize).map(place).collect();
+        TransitionSearch { refits: DemandRefits::in_order(sample, &order), places }
     }
 
-    /// Tries every IM4 of the scan as the place where two planes, ln EDP on ln IM4 and ln IM3, meet, where a case counts
-    /// as often as `weight` says. None without enough cases on both sides of any.
-    pub fn find(&self, weight: impl Fn(usize) -> f64) -> Option<Transition> {
-        let mut all = Sums::new();
-        self.cases.iter().for_each(|case| all.add(case, weight(case.index)));
-        let (mut low, mut cases, mut scan) = (Sums::new(), self.cases.iter().peekable(), Vec::new());
-        let (first, last, step) = SCAN;
-        for index in 0..=((last - first) / step).round() as usize {
-            let im4 = first + step * index as f64;
-            while let Some(case) = cases.next_if(|case| case.ln_im4 < im4.ln()) {
-                low.add(case, weight(case.index));
-            }
-            let high = all.minus(&low);
-            if low.n >= LEAST_CASES
-                && high.n >= LEAST_CASES
-                && let (Some(rss_low), Some(rss_high)) = (low.rss(), high.rss())
-            {
-                let (n_low, n_high) = (low.n as usize, high.n as usize);
-                scan.push(ScanPoint { im4, pooled_rss: rss_low + rss_high, n_low, n_high });
-            }
-        }
+    /// Tries every IM4 of the scan as the place where two planes, ln EDP on ln IM4 and ln IM3, meet, where each of all
+    /// cases counts so often. None without enough cases on both sides of any.
+    pub fn find(&self, counts: &[f64]) -> Option<Transition> {
+        let point = |sides: &Sides| ScanPoint {
+            im4: sides.im4,
+            pooled_rss: sides.pooled_rss[0],
+            n_low: sides.low.products[0][0] as usize,
+            n_high: sides.high.products[0][0] as usize,
+        };
+        let sides = self.sides(&Resamples::alike(counts));
+        let scan: Vec<ScanPoint> = sides.iter().map(point).filter(|p| p.pooled_rss.is_finite()).collect();
         let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?.im4;
         Some(Transition { im4: best, scan })
     }
-}
 
-/// Tries every IM4 of the scan as the place where two planes, ln EDP on ln IM4 and ln IM3, meet. None without enough
-/// cases on both sides of any.
-pub fn find_transition(ln_im4: &[f64], ln_im3: &[f64], ln_edp: &[f64]) -> Option<Transition> {
-    TransitionSearch::new(ln_im4, ln_im3, ln_edp).find(|_| 1.0)
+    /// Where the planes meet in each resample, and which they are.
+    pub fn breaks(&self, resamples: &Resamples) -> [Option<Break>; TOGETHER] {
+        let sides = self.sides(resamples);
+        let best: [Option<&Sides>; TOGETHER] = std::array::from_fn(|resample| {
+            let possible = sides.iter().filter(|sides| sides.pooled_rss[resample].is_finite());
+            possible.min_by(|a, b| a.pooled_rss[resample].total_cmp(&b.pooled_rss[resample]))
+        });
+        let mut low = NormalEquations::empty(self.refits.coefficients());
+        let mut high = low.clone();
+        for (resample, sides) in best.iter().enumerate().filter_map(|(k, sides)| Some((k, (*sides)?))) {
+            low.copy(&sides.low, resample);
+            high.copy(&sides.high, resample);
+        }
+        let (mut low, mut high) = (self.refits.solutions(&low), self.refits.solutions(&high));
+        std::array::from_fn(|resample| {
+            let im4 = best[resample]?.im4;
+            Some(Break { im4, low: low[resample].take(), high: high[resample].take() })
+        })
+    }
+
+    fn sides(&self, resamples: &Resamples) -> Vec<Sides> {
+        let (k, mut from) = (self.refits.coefficients(), 0);
+        let starts = self.places.iter().map(|&(_, to)| std::mem::replace(&mut from, to)).collect::<Vec<_>>();
+        let between = starts.into_iter().zip(&self.places);
+        let parts: Vec<NormalEquations> =
+            between.map(|(from, &(_, to))| self.refits.equations(from..to, resamples)).collect();
+        let mut above = self.refits.equations(from..self.refits.cases(), resamples);
+        // From the top down, so that nothing is subtracted.
+        let highs: Vec<NormalEquations> = parts
+            .iter()
+            .rev()
+            .map(|part| {
+                let high = above.clone();
+                above.add(part);
+                high
+            })
+            .collect();
+        let mut low = NormalEquations::empty(k);
+        let sides = self.places.iter().zip(&parts).zip(highs.into_iter().rev());
+        let at_place = |((&(im4, _), part), high): ((&(f64, usize), &NormalEquations), NormalEquations)| {
+            low.add(part);
+            let (rss_low, rss_high) = (low.rss(k), high.rss(k));
+            let pooled_rss = std::array::from_fn(|resample| {
+                let enough = low.products[0][resample].min(high.products[0][resample]) >= LEAST_CASES;
+                let rss = rss_low[resample] + rss_high[resample];
+                if enough && rss.is_finite() { rss } else { f64::INFINITY }
+            });
+            Sides { im4, low: low.clone(), high, pooled_rss }
+        };
+        sides.map(at_place).collect()
+    }
 }

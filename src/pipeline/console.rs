@@ -1,32 +1,74 @@
-//! What a run says while it works: on stderr, and progress only where someone watches.
+//! What a run says while it works: on stderr, and progress only where someone watches; or to the program that called.
 
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
+use std::sync::Arc;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::terminal::{Terminal, Weight};
 
-/// How much is said.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A program that calls a stage and wants to know how it goes, in place of a terminal.
+pub trait Follower: Send + Sync {
+    /// Takes a line that tells what was done, or a warning.
+    fn note(&self, line: &str);
+
+    /// Takes that a stage begins, of so many steps.
+    fn begin(&self, steps: u64);
+
+    /// Takes that so many further steps are done.
+    ///
+    /// # Errors
+    /// If the stage is to stop.
+    fn advance(&self, steps: u64) -> anyhow::Result<()>;
+}
+
+/// How much is said, and to whom.
+#[derive(Clone, Default)]
 pub struct Console {
     /// Only errors.
     pub quiet: bool,
     /// Progress bars, where stderr is a terminal.
     pub progress: bool,
+    /// Who hears it, if not whoever reads stderr.
+    pub follower: Option<Arc<dyn Follower>>,
+}
+
+/// Progress through the steps of a stage.
+pub struct Progress {
+    bar: ProgressBar,
+    follower: Option<Arc<dyn Follower>>,
+}
+
+impl Progress {
+    /// So many further steps are done.
+    ///
+    /// # Errors
+    /// If whoever follows wants the stage to stop.
+    pub fn inc(&self, steps: u64) -> anyhow::Result<()> {
+        self.bar.inc(steps);
+        self.follower.as_ref().map_or(Ok(()), |follower| follower.advance(steps))
+    }
+
+    /// Removes the bar.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
 }
 
 impl Console {
     /// A line that tells what was done.
     pub fn note(&self, line: &str) {
-        if !self.quiet {
-            eprintln!("{line}");
+        match &self.follower {
+            Some(follower) => follower.note(line),
+            None if self.quiet => {}
+            None => eprintln!("{line}"),
         }
     }
 
     /// A line that tells what a stage did.
     pub fn stage(&self, name: &str, summary: &str, weight: Weight) {
-        let terminal = Terminal::stderr();
+        let terminal = if self.follower.is_some() { Terminal::PLAIN } else { Terminal::stderr() };
         let name = format!("{name:20}");
         self.note(&format!("{} {}", terminal.set(&name, Weight::Strong), terminal.set(summary, weight)));
     }
@@ -42,9 +84,16 @@ impl Console {
         }
     }
 
-    /// A bar over `total` steps.
-    pub fn bar(&self, what: &str, total: u64) -> ProgressBar {
-        if self.quiet || !self.progress || !std::io::stderr().is_terminal() {
+    /// Progress over `total` steps.
+    pub fn bar(&self, what: &str, total: u64) -> Progress {
+        if let Some(follower) = &self.follower {
+            follower.begin(total);
+        }
+        Progress { bar: self.terminal_bar(what, total), follower: self.follower.clone() }
+    }
+
+    fn terminal_bar(&self, what: &str, total: u64) -> ProgressBar {
+        if self.follower.is_some() || self.quiet || !self.progress || !std::io::stderr().is_terminal() {
             return ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
         }
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");

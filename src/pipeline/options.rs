@@ -63,7 +63,7 @@ impl<T: Keyword> fmt::Display for Word<T> {
 }
 
 /// A value that stands as text in options, or as a bare number in the file.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Parsed<T>(pub T);
 
 impl<T: FromStr> FromStr for Parsed<T> {

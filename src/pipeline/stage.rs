@@ -8,17 +8,18 @@ use serde_json::Value;
 use super::console::Console;
 use crate::table::TableError;
 use crate::table::provenance::{Provenance, Stamp, content_of, stamp};
+use crate::table::source::{Source, Target};
 
 /// A stage about to run: files in, parameters, files out.
 pub trait Stage {
     /// The subcommand.
     fn subcommand(&self) -> &'static str;
 
-    /// The files it reads, by the role each plays.
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)>;
+    /// The tables it reads, by the role each plays.
+    fn inputs(&self) -> Vec<(&'static str, Source)>;
 
-    /// The files it writes; the last one is complete only when all are.
-    fn outputs(&self) -> Vec<PathBuf>;
+    /// What it writes; the last one is complete only when all are.
+    fn targets(&self) -> Vec<Target>;
 
     /// All that its rows depend on besides the inputs.
     fn parameters(&self) -> Value;
@@ -28,6 +29,11 @@ pub trait Stage {
     /// # Errors
     /// If an input cannot be used or an output not be written.
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String>;
+
+    /// The files it writes.
+    fn outputs(&self) -> Vec<PathBuf> {
+        self.targets().iter().filter_map(|target| target.path().map(Path::to_path_buf)).collect()
+    }
 
     /// What an output that is there says of how it was made; `None` where another program wrote it.
     ///
@@ -42,10 +48,11 @@ pub trait Stage {
     /// # Errors
     /// If an input is missing or unreadable.
     fn provenance(&self) -> Result<Provenance, TableError> {
-        let content = |(role, path): (&str, PathBuf)| Ok((role.to_string(), content_of(&path)?));
-        let inputs =
-            self.inputs().into_iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
-        let sources = self.inputs().into_iter().map(|(role, path)| (role.to_string(), path)).collect();
+        let content = |(role, source): &(&str, Source)| Ok((role.to_string(), content_of(source)?));
+        let sources = self.inputs();
+        let inputs = sources.iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
+        let sources =
+            sources.into_iter().map(|(role, source)| (role.to_string(), source.name().into())).collect();
         Ok(Provenance::new(self.subcommand(), self.parameters(), inputs).of_sources(sources))
     }
 }
@@ -58,10 +65,4 @@ pub fn folder_of(path: &Path) -> &Path {
 /// `name` in the folder of `path`.
 pub fn beside(path: &Path, name: &str) -> PathBuf {
     path.with_file_name(name)
-}
-
-/// `pex.parquet` becomes `pex.scan.parquet`: a further output of the same stage.
-pub fn with_part(path: &Path, part: &str) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}.{part}.parquet"))
 }

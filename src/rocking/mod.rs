@@ -41,4 +41,4 @@ pub use march::simulate;
 pub use record::{Record, RecordError};
 pub use response::{Outcome, Response};
 pub use structure::{Structure, StructureError, frame_eta, frame_p, housner_eta, rectangular_p};
-pub use trace::{Event, TracePoint, trace};
+pub use trace::{Event, TracePoint, trace, with_tail};

@@ -46,6 +46,12 @@ pub fn trace(structure: &Structure, record: &Record) -> (Response, Vec<TracePoin
     (response, recorder.points)
 }
 
+/// The samples of a record and `tail_s` (s, 0 or more) of quiet after it, in which free rocking shows.
+pub fn with_tail(record: &Record, tail_s: f64) -> Vec<f64> {
+    let quiet = (tail_s / record.dt_s()).ceil() as usize;
+    [record.acceleration_m_s2(), &vec![0.0; quiet]].concat()
+}
+
 struct Recorder {
     dt_s: f64,
     p_rad_s: f64,

@@ -15,6 +15,7 @@ use crate::pipeline::stage::Stage;
 use crate::table::paper::{self, PaperRow, Published, SpreadRow};
 use crate::table::provenance::Provenance;
 use crate::table::schema::PAPER;
+use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 use crate::table::{pex::PexFrame, pro::ProFrame};
 
@@ -154,12 +155,16 @@ impl Stage for ComparePaper {
         PAPER.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), ("responses", self.responses.clone())]
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        vec![
+            ("pex", (&self.pex).into()),
+            ("pro", (&self.pro).into()),
+            ("responses", (&self.responses).into()),
+        ]
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.clone()]
+    fn targets(&self) -> Vec<Target> {
+        vec![(&self.out).into()]
     }
 
     fn parameters(&self) -> Value {

@@ -1,6 +1,5 @@
 //! fit-pex: regressions of the demand in safe rocking.
 
-use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
@@ -15,9 +14,10 @@ use crate::fragility::FitStatus;
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, defaults, from_scalar};
-use crate::pipeline::stage::{Stage, with_part};
+use crate::pipeline::stage::Stage;
 use crate::table::provenance::Provenance;
 use crate::table::schema::{PEX, PEX_BOOTSTRAP, PEX_SCAN};
+use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 use crate::table::{pex, pex_scan, replicates};
 
@@ -98,31 +98,35 @@ impl<'de> Deserialize<'de> for TransitionAt {
 pub struct FitPex {
     options: FitPexOptions,
     model: PexModel,
-    input: PathBuf,
-    out: PathBuf,
+    input: Source,
+    out: Target,
 }
 
 impl FitPex {
-    /// Of the responses in `input`, into the file `out`.
+    /// Of the responses in `input`, into `out`.
     ///
     /// # Errors
     /// If an option is out of range.
-    pub fn new(options: &FitPexOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<FitPex> {
+    pub fn new(
+        options: &FitPexOptions,
+        input: impl Into<Source>,
+        out: impl Into<Target>,
+    ) -> anyhow::Result<FitPex> {
         let limit = options.limit_state;
         check(limit > 0.0 && limit.is_finite(), "limit-state", limit, "a demand |theta|max / alpha above 0")?;
         let transition = options.transition.im4();
         let uncertainty = Uncertainty::new(options.bootstrap, options.confidence, options.seed)?;
         let options = FitPexOptions { seed: Some(uncertainty.seed), ..options.clone() };
         let model = PexModel { limit_state: limit, transition, uncertainty };
-        Ok(FitPex { options, model, input, out })
+        Ok(FitPex { options, model, input: input.into(), out: out.into() })
     }
 
-    fn scan_path(&self) -> PathBuf {
-        with_part(&self.out, "scan")
+    fn scan_target(&self) -> Target {
+        self.out.part("scan")
     }
 
-    fn bootstrap_path(&self) -> Option<PathBuf> {
-        (self.options.bootstrap > 0).then(|| with_part(&self.out, "bootstrap"))
+    fn bootstrap_target(&self) -> Option<Target> {
+        (self.options.bootstrap > 0).then(|| self.out.part("bootstrap"))
     }
 }
 
@@ -131,12 +135,12 @@ impl Stage for FitPex {
         PEX.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
         vec![("responses", self.input.clone())]
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
-        [self.scan_path()].into_iter().chain(self.bootstrap_path()).chain([self.out.clone()]).collect()
+    fn targets(&self) -> Vec<Target> {
+        [self.scan_target()].into_iter().chain(self.bootstrap_target()).chain([self.out.clone()]).collect()
     }
 
     fn parameters(&self) -> Value {
@@ -145,19 +149,26 @@ impl Stage for FitPex {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let (rows, scans): (Vec<_>, Vec<_>) = groups.par_iter().map(|group| self.model.fit(group)).unzip();
+        let bar = console.bar(self.subcommand(), groups.len() as u64);
+        let fit = |group| {
+            let fitted = self.model.fit(group);
+            bar.inc(1).map(|()| fitted)
+        };
+        let fitted = groups.par_iter().map(fit).collect::<anyhow::Result<Vec<_>>>()?;
+        bar.finish();
+        let (rows, scans): (Vec<_>, Vec<_>) = fitted.into_iter().unzip();
         let (rows, scans) = (rows.concat(), scans.concat());
         let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (row.reason(), row.measures())));
-        let mut scan_writer = TableWriter::create(&self.scan_path(), &PEX_SCAN, provenance.clone())?;
+        let mut scan_writer = TableWriter::create(self.scan_target(), &PEX_SCAN, provenance.clone())?;
         scan_writer.append(&pex_scan::batch(&scans)?)?;
         scan_writer.finish()?;
-        if let Some(path) = self.bootstrap_path() {
-            let mut writer = TableWriter::create(&path, &PEX_BOOTSTRAP, provenance.clone())?;
+        if let Some(target) = self.bootstrap_target() {
+            let mut writer = TableWriter::create(target, &PEX_BOOTSTRAP, provenance.clone())?;
             rows.iter().try_for_each(|row| anyhow::Ok(writer.append(&replicates::pex_batch(row)?)?))?;
             writer.finish()?;
         }
-        let mut writer = TableWriter::create(&self.out, &PEX, provenance.clone())?;
+        let mut writer = TableWriter::create(self.out.clone(), &PEX, provenance.clone())?;
         writer.append(&pex::batch(&rows)?)?;
         writer.finish()?;
         let fitted = rows.iter().filter(|row| row.status() == FitStatus::Ok).count();

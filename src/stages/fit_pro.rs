@@ -1,7 +1,6 @@
 //! fit-pro: fragility curves of overturning, or of rocking, by maximum likelihood.
 
 use std::fmt;
-use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
@@ -16,12 +15,13 @@ use crate::fragility::{Case, CurveModel, Estimator, FitStatus, Link, Measure};
 use crate::keyword::{self, Keyword, keywords};
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Several, Word, defaults};
-use crate::pipeline::stage::{Stage, with_part};
+use crate::pipeline::stage::Stage;
 use crate::rocking::Outcome;
 use crate::table::pro::{self, ProRow};
 use crate::table::provenance::Provenance;
 use crate::table::replicates;
 use crate::table::schema::{PRO, PRO_BOOTSTRAP};
+use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 
 /// Which curves.
@@ -117,16 +117,20 @@ impl<'de> Deserialize<'de> for Pair {
 pub struct FitPro {
     options: FitProOptions,
     model: ProModel,
-    input: PathBuf,
-    out: PathBuf,
+    input: Source,
+    out: Target,
 }
 
 impl FitPro {
-    /// Of the responses in `input`, into the file `out`.
+    /// Of the responses in `input`, into `out`.
     ///
     /// # Errors
     /// If an option is out of range.
-    pub fn new(options: &FitProOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<FitPro> {
+    pub fn new(
+        options: &FitProOptions,
+        input: impl Into<Source>,
+        out: impl Into<Target>,
+    ) -> anyhow::Result<FitPro> {
         let uncertainty = Uncertainty::new(options.bootstrap, options.confidence, options.seed)?;
         let curve = CurveModel {
             link: options.link.0,
@@ -135,11 +139,11 @@ impl FitPro {
         };
         let model = ProModel { event: options.event.0, pairs: options.pairs.0.clone(), curve, uncertainty };
         let options = FitProOptions { seed: Some(uncertainty.seed), ..options.clone() };
-        Ok(FitPro { options, model, input, out })
+        Ok(FitPro { options, model, input: input.into(), out: out.into() })
     }
 
-    fn bootstrap_path(&self) -> Option<PathBuf> {
-        (self.options.bootstrap > 0).then(|| with_part(&self.out, "bootstrap"))
+    fn bootstrap_target(&self) -> Option<Target> {
+        (self.options.bootstrap > 0).then(|| self.out.part("bootstrap"))
     }
 }
 
@@ -148,12 +152,12 @@ impl Stage for FitPro {
         PRO.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
         vec![("responses", self.input.clone())]
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
-        self.bootstrap_path().into_iter().chain([self.out.clone()]).collect()
+    fn targets(&self) -> Vec<Target> {
+        self.bootstrap_target().into_iter().chain([self.out.clone()]).collect()
     }
 
     fn parameters(&self) -> Value {
@@ -162,18 +166,24 @@ impl Stage for FitPro {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let rows: Vec<Vec<ProRow>> = groups.par_iter().map(|group| self.model.fit(group)).collect();
+        let bar = console.bar(self.subcommand(), groups.len() as u64);
+        let fit = |group| {
+            let fitted = self.model.fit(group);
+            bar.inc(1).map(|()| fitted)
+        };
+        let rows: Vec<Vec<ProRow>> = groups.par_iter().map(fit).collect::<anyhow::Result<_>>()?;
+        bar.finish();
         let rows = rows.concat();
         let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (row.reason(), row.measures())));
         let few = rows.iter().filter(|row| row.has_few_events());
         console.warn_each(few.map(|row| (row.few_events(), row.measures())));
-        if let Some(path) = self.bootstrap_path() {
-            let mut writer = TableWriter::create(&path, &PRO_BOOTSTRAP, provenance.clone())?;
+        if let Some(target) = self.bootstrap_target() {
+            let mut writer = TableWriter::create(target, &PRO_BOOTSTRAP, provenance.clone())?;
             rows.iter().try_for_each(|row| anyhow::Ok(writer.append(&replicates::pro_batch(row)?)?))?;
             writer.finish()?;
         }
-        let mut writer = TableWriter::create(&self.out, &PRO, provenance.clone())?;
+        let mut writer = TableWriter::create(self.out.clone(), &PRO, provenance.clone())?;
         writer.append(&pro::batch(&rows)?)?;
         writer.finish()?;
         Ok(format!(

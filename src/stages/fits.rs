@@ -1,6 +1,6 @@
 //! The fits that evaluate and export start from: which suite, which structure, which model.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 
@@ -13,16 +13,17 @@ use crate::pipeline::options::Word;
 use crate::table::fits::{self, FitRow};
 use crate::table::pex::Model;
 use crate::table::schema;
+use crate::table::source::Source;
 
 /// Which fits.
 #[derive(Debug, Clone, Args)]
 pub struct FitsOptions {
     /// Regressions of fit-pex
     #[arg(long, value_name = "FILE", default_value = "pex.parquet")]
-    pub pex: PathBuf,
+    pub pex: Source,
     /// Curves of fit-pro
     #[arg(long, value_name = "FILE", default_value = "pro.parquet")]
-    pub pro: PathBuf,
+    pub pro: Source,
     /// Suite of the fits [default: the only one; of validate, all]
     #[arg(long)]
     pub suite: Option<String>,
@@ -93,7 +94,7 @@ impl FitsOptions {
             None => format!("--structure {structure}"),
         });
         let words = words.collect::<Vec<_>>().join(", or ");
-        UsageError::because(format!("{}: expected the choice of one fit: {words}", self.pex.display()))
+        UsageError::because(format!("{}: expected the choice of one fit: {words}", self.pex.name().display()))
     }
 
     /// All fits of a suite and structure, joined.
@@ -129,7 +130,7 @@ impl FitsOptions {
         let plane = |below: bool, side: &str| -> anyhow::Result<&FitRow> {
             let mut on_side =
                 planes().filter(|row| row.optional_number(&schema::RANGE_HIGH).is_some() == below);
-            found(on_side.next().copied(), &self.pex, &format!("plane {side} the transition"))
+            found(on_side.next().copied(), self.pex.name(), &format!("plane {side} the transition"))
         };
         let (low, high) = (plane(true, "below")?, plane(false, "above")?);
         let transition = high.number(&schema::RANGE_LOW)?;
@@ -139,7 +140,8 @@ impl FitsOptions {
     fn univariate(&self, rows: &[&FitRow], measure: Measure) -> anyhow::Result<DemandModel> {
         let mut rows = rows.iter().filter(|row| row.text(&schema::MODEL) == Some(Model::Univariate.as_str()));
         let row = rows.find(|row| row.text(&schema::IM_X) == Some(measure.as_str()));
-        let row = found(row.copied(), &self.pex, &format!("univariate regression on {}", measure.as_str()))?;
+        let row =
+            found(row.copied(), self.pex.name(), &format!("univariate regression on {}", measure.as_str()))?;
         Ok(DemandModel::Everywhere(row.demand()?))
     }
 
@@ -155,7 +157,7 @@ impl FitsOptions {
         };
         let second = y.map_or(String::new(), |y| format!(":{}", y.as_str()));
         let what = format!("curve of overturning on {}{second}", x.as_str());
-        found(rows.iter().find(wanted).copied(), &self.pro, &what)
+        found(rows.iter().find(wanted).copied(), self.pro.name(), &what)
     }
 }
 

@@ -1,7 +1,6 @@
 //! The responses of each suite and structure, as the fits take them.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use anyhow::Context;
 use polars::prelude::{Column, DataFrame};
@@ -10,9 +9,10 @@ use super::clusters::Clusters;
 use crate::fragility::Case;
 use crate::keyword;
 use crate::rocking::Structure;
-use crate::table::reader::read_frame_of;
+use crate::table::frame::read_frame_of;
 use crate::table::responses::MeasureColumns;
 use crate::table::schema::{self, IDA_STRIPES, RESPONSES};
+use crate::table::source::Source;
 
 /// All responses of one structure to one suite.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,10 +52,11 @@ impl Group {
 ///
 /// # Errors
 /// If the file is none of responses or holds an unknown outcome.
-pub fn read(path: &Path) -> anyhow::Result<Vec<Group>> {
-    let responses = read_frame_of(path, &RESPONSES, &[RESPONSES.stage, IDA_STRIPES.stage])?;
+pub fn read(source: impl Into<Source>) -> anyhow::Result<Vec<Group>> {
+    let source = source.into();
+    let responses = read_frame_of(&source, &RESPONSES, &[RESPONSES.stage, IDA_STRIPES.stage])?;
     let groups = responses.partition_by_stable([schema::SUITE.name, schema::STRUCTURE.name], true)?;
-    groups.iter().map(|group| of(group).with_context(|| path.display().to_string())).collect()
+    groups.iter().map(|group| of(group).with_context(|| source.name().display().to_string())).collect()
 }
 
 fn of(frame: &DataFrame) -> anyhow::Result<Group> {

@@ -5,6 +5,7 @@
 //! structures         structures as a user names them; structure_options one of them on the command line
 //! motions            records and peaks of motions, under distinct names
 //! measures           which intensity measures are taken
+//! partitions         which part of a table a process works on, and what its file is called
 //! groups             the responses of a suite and structure, clusters which of them resemble each other; pex_group and
 //!                    pro_group their fits
 //! uncertainty        the limits that both are asked for
@@ -27,6 +28,7 @@ pub mod import_motions;
 pub mod inspect;
 pub mod measures;
 pub mod motions;
+pub mod partitions;
 pub mod pex_group;
 pub mod pro_group;
 pub mod rank_ims;

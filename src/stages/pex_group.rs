@@ -5,9 +5,9 @@ use std::ops::Range;
 use super::groups::Group;
 use super::uncertainty::Uncertainty;
 use crate::fragility::{
-    Biplanar, DemandInference, DemandSample, FitStatus, LinearFit, Measure, PLANE, ScanPoint, SmoothFit,
-    Strata, bootstrap_limits, fit_biplanar, fit_plane, fit_smooth, fit_univariate, ranges, reset,
-    transition_limits,
+    Biplanar, DemandInference, DemandRefits, DemandReplicate, DemandSample, FitStatus, LinearFit, Measure,
+    PLANE, ScanPoint, SmoothFit, Strata, TOGETHER, TransitionSearch, bootstrap_limits, fit_biplanar,
+    fit_plane, fit_smooth, fit_univariate, ranges, reset, transition_limits,
 };
 use crate::table::pex::{Model, PexReplicate, PexRow};
 use crate::table::pex_scan::ScanRow;
@@ -31,6 +31,16 @@ pub struct PexModel {
 struct Resampled {
     found: Option<f64>,
     fits: Vec<Option<PexReplicate>>,
+}
+
+/// How a regression is made anew.
+enum Refit {
+    /// From cases that stay the same.
+    Of(DemandRefits),
+    /// Below the break of the resample.
+    Below,
+    /// Above it.
+    Above,
 }
 
 impl PexModel {
@@ -141,19 +151,25 @@ impl PexModel {
 
     /// Adds the regressions of each resample.
     fn resample(&self, group: &Group, rows: &mut [PexRow]) {
-        let both = DemandSample::new(&group.cases, &PLANE, EVERYWHERE);
-        let search = both.transition_search();
-        let samples: Vec<DemandSample> = rows.iter().map(|row| sample(group, row, EVERYWHERE)).collect();
-        let refit = |(row, sample): (&PexRow, _)| Some(DemandInference::new(sample, row.fit.as_ref().ok()?));
-        let refits: Vec<Option<DemandInference>> = rows.iter().zip(&samples).map(refit).collect();
-        let resampled = self.uncertainty.bootstrap(group, |counts| {
-            let found = search.find(|case| counts[both.rows[case]]).map(|transition| transition.im4);
-            let replicate = |(row, refit): (&PexRow, &Option<DemandInference>)| {
-                let range = row.range_at(self.transition.or(found))?;
-                let fit = refit.as_ref()?.replicate(counts, range.clone())?;
-                Some(PexReplicate { range, fit })
+        let search = TransitionSearch::new(&DemandSample::new(&group.cases, &PLANE, EVERYWHERE));
+        let refits: Vec<Option<Refit>> = rows.iter().map(|row| self.refit(group, row)).collect();
+        let resampled = self.uncertainty.bootstrap(group, |resamples| {
+            let breaks = search.breaks(resamples);
+            let of_all = |refit: &Option<Refit>| match refit {
+                Some(Refit::Of(refits)) => refits.replicates(resamples),
+                Some(Refit::Below) => breaks.each_ref().map(|at| at.as_ref()?.low.clone()),
+                Some(Refit::Above) => breaks.each_ref().map(|at| at.as_ref()?.high.clone()),
+                None => [const { None }; TOGETHER],
             };
-            Resampled { found, fits: rows.iter().zip(&refits).map(replicate).collect() }
+            let mut fits: Vec<_> = refits.iter().map(of_all).collect();
+            std::array::from_fn(|resample| {
+                let found = breaks[resample].as_ref().map(|at| at.im4);
+                let replicate = |(row, fits): (&PexRow, &mut [Option<DemandReplicate>; TOGETHER])| {
+                    let range = row.range_at(self.transition.or(found))?;
+                    Some(PexReplicate { range, fit: fits[resample].take()? })
+                };
+                Resampled { found, fits: rows.iter().zip(&mut fits).map(replicate).collect() }
+            })
         });
         let found: Vec<Option<f64>> = resampled.iter().map(|resample| resample.found).collect();
         for (k, row) in rows.iter_mut().enumerate() {
@@ -163,6 +179,15 @@ impl PexModel {
                 row.transition_percentile = limits.map(|limits| limits.percentile);
             }
         }
+    }
+
+    fn refit(&self, group: &Group, row: &PexRow) -> Option<Refit> {
+        row.fit.as_ref().ok()?;
+        Some(match (row.model, self.transition, row.range_high) {
+            (Model::Biplanar, None, Some(_)) => Refit::Below,
+            (Model::Biplanar, None, None) => Refit::Above,
+            _ => Refit::Of(DemandRefits::new(&sample(group, row, row.range()))),
+        })
     }
 
     /// Adds Ramsey's test, clustered errors, and limits from the replicates if there are any.

@@ -4,9 +4,9 @@ use super::fit_pro::{FittedEvent, Pair};
 use super::groups::Group;
 use super::uncertainty::Uncertainty;
 use crate::fragility::{
-    BinaryFit, CurveInference, CurveModel, CurveParameter, Estimator, EventSample, FitStatus, Measure,
-    Strata, bootstrap_limits, fit_overturning, fit_with_interaction, fit_with_spline, likelihood_ratio,
-    ranges,
+    BinaryFit, CurveInference, CurveModel, CurveParameter, CurveRefits, Estimator, EventSample, FitStatus,
+    Measure, Strata, bootstrap_limits, fit_overturning, fit_with_interaction, fit_with_spline,
+    likelihood_ratio, ranges,
 };
 use crate::keyword::Keyword;
 use crate::table::pro::{ParameterInference, ProRow};
@@ -69,11 +69,15 @@ impl ProModel {
     /// Adds the coefficients in each resample.
     fn resample(&self, group: &Group, rows: &mut [ProRow], samples: &[EventSample]) {
         let pairs = rows.iter().zip(samples);
-        let refits: Vec<Option<CurveInference>> = pairs
-            .map(|(row, sample)| Some(CurveInference::new(sample, &row.fit.as_ref().ok()?.regression)))
+        let refits: Vec<Option<CurveRefits>> = pairs
+            .map(|(row, sample)| Some(CurveRefits::new(sample, &row.fit.as_ref().ok()?.regression)))
             .collect();
-        let resampled = self.uncertainty.bootstrap(group, |counts| -> Vec<_> {
-            refits.iter().map(|refit| refit.as_ref()?.coefficients(counts)).collect()
+        let resampled = self.uncertainty.bootstrap(group, |resamples| {
+            let of_all = |refits: &Option<CurveRefits>| Some(refits.as_ref()?.coefficients(resamples));
+            let mut fits: Vec<_> = refits.iter().map(of_all).collect();
+            std::array::from_fn(|resample| -> Vec<_> {
+                fits.iter_mut().map(|fit| fit.as_mut()?[resample].take()).collect()
+            })
         });
         for (k, row) in rows.iter_mut().enumerate() {
             row.replicates = resampled.iter().map(|fits| fits[k].clone()).collect();

@@ -14,11 +14,12 @@ use crate::fragility::{Contest, FurtherMeasure, RankingRules, RankingSample, Tar
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, defaults};
-use crate::pipeline::stage::{Stage, with_part};
+use crate::pipeline::stage::Stage;
 use crate::table::motion_measures::MotionMeasures;
 use crate::table::provenance::Provenance;
 use crate::table::ranking::{self, RankingRow};
 use crate::table::schema::{RANKING, RANKING_RELIABILITY};
+use crate::table::source::{self, Source, with_part};
 use crate::table::writer::TableWriter;
 
 /// How measures are ranked.
@@ -122,13 +123,13 @@ impl Stage for RankIms {
         RANKING.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        let motions = self.motions.iter().map(|path| ("motions", path.clone()));
-        [("responses", self.input.clone())].into_iter().chain(motions).collect()
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        let motions = self.motions.iter().map(|path| ("motions", path.into()));
+        [("responses", (&self.input).into())].into_iter().chain(motions).collect()
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.reliability_path(), self.out.clone()]
+    fn targets(&self) -> Vec<source::Target> {
+        vec![self.reliability_path().into(), (&self.out).into()]
     }
 
     fn parameters(&self) -> Value {
@@ -155,7 +156,7 @@ impl Stage for RankIms {
             samples.into_par_iter().map(|(group, sample)| rows(group, sample, &self.rules)).collect();
         let rows = rows.concat();
         let mut writer =
-            TableWriter::create(&self.reliability_path(), &RANKING_RELIABILITY, provenance.clone())?;
+            TableWriter::create(self.reliability_path(), &RANKING_RELIABILITY, provenance.clone())?;
         writer.append(&ranking::reliability_batch(&rows)?)?;
         writer.finish()?;
         let mut writer = TableWriter::create(&self.out, &RANKING, provenance.clone())?;

@@ -8,15 +8,29 @@ use super::fits::FitsOptions;
 use crate::fragility::{DemandLaw, DemandModel, FragilityModel, Predictor};
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
-use crate::pipeline::stage::with_part;
 use crate::table::fits::{self, FitRow};
 use crate::table::pex::Model;
 use crate::table::provenance::stamp;
 use crate::table::schema::{self, Column, PEX_BOOTSTRAP, PRO_BOOTSTRAP, Table};
+use crate::table::source::{Source, with_part};
 
 /// The bootstrap files beside those of the fits, of P_ex and of P_ro.
-pub fn files(options: &FitsOptions) -> [PathBuf; 2] {
-    [&options.pex, &options.pro].map(|path| with_part(path, "bootstrap"))
+///
+/// # Errors
+/// If the fits are in memory.
+pub fn files(options: &FitsOptions) -> anyhow::Result<[PathBuf; 2]> {
+    let file = |fits| -> anyhow::Result<PathBuf> { Ok(with_part(path_of(fits)?, "bootstrap")) };
+    Ok([file(&options.pex)?, file(&options.pro)?])
+}
+
+fn path_of(fits: &Source) -> anyhow::Result<&Path> {
+    match fits {
+        Source::Path(path) => Ok(path),
+        Source::Memory(table) => Err(UsageError::because(format!(
+            "{}: a table in memory; limits by resamples need the files that fit-pex and fit-pro write with --bootstrap",
+            table.name.display()
+        ))),
+    }
 }
 
 /// The chosen fits in each resample.
@@ -24,9 +38,9 @@ pub fn files(options: &FitsOptions) -> [PathBuf; 2] {
 /// # Errors
 /// If there are no such files, or they are not of the same resamples as the fits and each other.
 pub fn read(options: &FitsOptions, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<FragilityModel>>> {
-    let [pex, pro] = files(options);
-    same_plan(&options.pex, &pex)?;
-    same_plan(&options.pro, &pro)?;
+    let [pex, pro] = files(options)?;
+    same_plan(path_of(&options.pex)?, &pex)?;
+    same_plan(path_of(&options.pro)?, &pro)?;
     let seed =
         |path: &Path| anyhow::Ok(stamp(path)?.map(|stamp| stamp.provenance.parameters["seed"].clone()));
     if seed(&pex)? != seed(&pro)? {

@@ -139,7 +139,8 @@ pub fn dry_run(stages: &[Box<dyn Stage>], force: bool) -> anyhow::Result<String>
     let mut text = String::new();
     let mut anew: Vec<PathBuf> = Vec::new();
     for stage in stages {
-        let waits = stage.inputs().into_iter().find(|(_, path)| anew.contains(path));
+        let waits =
+            stage.inputs().into_iter().find(|(_, source)| anew.iter().any(|path| path == source.name()));
         let state = match waits {
             Some((role, _)) => Freshness::Stale(format!("the {role} are made anew")),
             None if force => Freshness::Stale("--force".to_string()),

@@ -1,7 +1,5 @@
 //! sample-scenarios: the magnitude-distance grid and the random parameters of the pulses.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -14,6 +12,7 @@ use crate::pipeline::stage::Stage;
 use crate::table::provenance::Provenance;
 use crate::table::scenarios;
 use crate::table::schema::SCENARIOS;
+use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 
 /// Cells in a row group.
@@ -70,16 +69,16 @@ impl SampleScenariosOptions {
 /// The stage, ready to run.
 pub struct SampleScenarios {
     grid: Grid,
-    out: PathBuf,
+    out: Target,
 }
 
 impl SampleScenarios {
-    /// Into the file `out`.
+    /// Into `out`.
     ///
     /// # Errors
     /// If an option is out of range.
-    pub fn new(options: &SampleScenariosOptions, out: PathBuf) -> anyhow::Result<SampleScenarios> {
-        Ok(SampleScenarios { grid: options.grid()?, out })
+    pub fn new(options: &SampleScenariosOptions, out: impl Into<Target>) -> anyhow::Result<SampleScenarios> {
+        Ok(SampleScenarios { grid: options.grid()?, out: out.into() })
     }
 }
 
@@ -88,11 +87,11 @@ impl Stage for SampleScenarios {
         SCENARIOS.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
         Vec::new()
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
+    fn targets(&self) -> Vec<Target> {
         vec![self.out.clone()]
     }
 
@@ -101,13 +100,16 @@ impl Stage for SampleScenarios {
         json!({ "mw": mw, "re": re_km, "samples": samples, "design": Word(*design), "seed": seed })
     }
 
-    fn execute(&self, provenance: &Provenance, _console: &Console) -> anyhow::Result<String> {
-        let mut writer = TableWriter::create(&self.out, &SCENARIOS, provenance.clone())?;
+    fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        let mut writer = TableWriter::create(self.out.clone(), &SCENARIOS, provenance.clone())?;
         let cells: Vec<usize> = (0..self.grid.cells()).collect();
+        let bar = console.bar(self.subcommand(), cells.len() as u64);
         for cells in cells.chunks(CELLS_AT_ONCE) {
             let scenarios: Vec<_> = cells.par_iter().map(|&cell| self.grid.scenarios_of_cell(cell)).collect();
             writer.write_row_group(&scenarios::batch(&scenarios.concat())?)?;
+            bar.inc(cells.len() as u64)?;
         }
+        bar.finish();
         writer.finish()?;
         Ok(format!("{} scenarios", self.grid.cells() * self.grid.samples))
     }

@@ -1,7 +1,7 @@
 //! simulate: every structure through every motion.
 
 use std::collections::HashSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::bail;
 use arrow_array::RecordBatch;
@@ -11,18 +11,24 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::motions::{Peaks, SeenIds, record};
+use super::partitions::Share;
 use super::structures::{StructureSpec, Structures, parameters};
 use crate::motion::IntensityScratch;
+use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{Several, Word, check, defaults};
-use crate::pipeline::stage::{Stage, with_part};
+use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
+use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
-use crate::rocking::{Path as SolverPath, Problem, Record, Structure, simulate_all, trace};
+use crate::rocking::{
+    Path as SolverPath, Problem, Record, RecordError, Structure, simulate_all, trace, with_tail,
+};
 use crate::table::TableError;
-use crate::table::motions::{self, Motion, MotionFile, MotionId, Part};
+use crate::table::motions::{self, Motion, MotionId, MotionTable, Part};
+use crate::table::partition::Partition;
 use crate::table::provenance::Provenance;
 use crate::table::responses;
 use crate::table::schema::{RESPONSES, TRACE};
+use crate::table::source::{Source, Target};
 use crate::table::trace::{self as trace_table, TraceRow};
 
 /// Parts of the file that are read at once, for each thread.
@@ -56,6 +62,10 @@ pub struct SimulateOptions {
     /// Motions whose response over time is written too, beside the output as NAME.trace.parquet
     #[arg(long, value_name = "ID,...")]
     pub trace: Option<Several<String>>,
+    /// Only partition i of n, i from 0 to n - 1: of a folder its file part-0000i.parquet, of a file an equal share of the motions;
+    /// the output is then a folder, too
+    #[arg(long, value_name = "I/N", conflicts_with = "trace")]
+    pub partition: Option<Parsed<Partition>>,
 }
 
 impl Default for SimulateOptions {
@@ -99,24 +109,45 @@ pub struct Simulate {
     structures: Vec<Structure>,
     path: SolverPath,
     traced: Vec<String>,
-    input: PathBuf,
-    out: PathBuf,
+    share: Share,
+    out: Target,
 }
 
 impl Simulate {
-    /// With the motions in `input`, into the file `out`.
+    /// With the motions in `input`, into `out`.
     ///
     /// # Errors
-    /// If the structures cannot be read or are impossible.
-    pub fn new(options: &SimulateOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<Simulate> {
-        let traced = options.trace.clone().map_or(Vec::new(), |Several(ids)| ids);
-        Ok(Simulate { structures: options.structures()?, path: options.path()?, traced, input, out })
+    /// If the structures cannot be read or are impossible, or there is no such partition.
+    pub fn new(
+        options: &SimulateOptions,
+        input: impl Into<Source>,
+        out: impl Into<Target>,
+    ) -> anyhow::Result<Simulate> {
+        let partition = options.partition.map(|Parsed(partition)| partition);
+        if partition.is_some() && options.trace.is_some() {
+            return Err(UsageError::because(
+                "trace and partition exclude each other; trace motions of one file",
+            ));
+        }
+        Ok(Simulate {
+            structures: options.structures()?,
+            path: options.path()?,
+            traced: options.trace.clone().map_or(Vec::new(), |Several(ids)| ids),
+            share: Share::of(input.into(), partition)?,
+            out: out.into(),
+        })
     }
 
     /// Each motion is read once, and all structures run on it while it is at hand.
-    fn respond(&self, motions: &[Motion], by_name: bool, scratch: &mut Scratch) -> anyhow::Result<Responded> {
+    fn respond(
+        &self,
+        path: &Path,
+        motions: &[Motion],
+        by_name: bool,
+        scratch: &mut Scratch,
+    ) -> anyhow::Result<Responded> {
         let Scratch { samples, intensity } = scratch;
-        let records = self.records(motions, samples)?;
+        let records = records(path, motions, samples)?;
         let problems: Vec<Problem> = records
             .iter()
             .flat_map(|&record| self.structures.iter().map(move |structure| Problem { structure, record }))
@@ -130,37 +161,18 @@ impl Simulate {
         }
         let traced = motions.iter().zip(&records);
         let traced = traced.filter(|(motion, _)| self.traced.contains(&motion.motion_id.to_string()));
+        let traces = traced.map(|(motion, record)| self.trace(&motion.motion_id, record));
+        let traces = traces.collect::<Result<Vec<_>, _>>()?;
         Ok(Responded {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             rows: responses::batch(&rows, by_name)?,
-            traces: traced.flat_map(|(motion, record)| self.trace(&motion.motion_id, record)).collect(),
+            traces: traces.concat(),
         })
     }
 
-    /// The records of some motions, whose samples are laid out in `samples`.
-    fn records<'a>(
-        &self,
-        motions: &[Motion],
-        samples: &'a mut Vec<f64>,
-    ) -> Result<Vec<Record<'a>>, TableError> {
-        samples.clear();
-        let mut ends = Vec::with_capacity(motions.len());
-        for motion in motions {
-            motion.acceleration_m_s2.append_to(samples);
-            ends.push(samples.len());
-        }
-        let starts = std::iter::once(0).chain(ends.iter().copied());
-        let ranges = starts.zip(ends.iter().copied());
-        ranges
-            .zip(motions)
-            .map(|((start, end), motion)| record(&self.input, motion, &samples[start..end]))
-            .collect()
-    }
-
-    fn trace(&self, motion_id: &MotionId, record: &Record) -> Vec<TraceRow> {
-        let quiet = (TRACE_TAIL_S / record.dt_s()).ceil() as usize;
-        let ended = [record.acceleration_m_s2(), &vec![0.0; quiet]].concat();
-        let Ok(record) = Record::new(&ended, record.dt_s()) else { return Vec::new() };
+    fn trace(&self, motion_id: &MotionId, record: &Record) -> Result<Vec<TraceRow>, RecordError> {
+        let ended = with_tail(record, TRACE_TAIL_S);
+        let record = Record::new(&ended, record.dt_s())?;
         let rows = |structure: &Structure| {
             let (_, points) = trace(structure, &record);
             let row = |point| TraceRow {
@@ -172,22 +184,42 @@ impl Simulate {
             };
             points.into_iter().map(row).collect::<Vec<_>>()
         };
-        self.structures.iter().flat_map(rows).collect()
+        Ok(self.structures.iter().flat_map(rows).collect())
     }
 
-    fn trace_path(&self) -> PathBuf {
-        with_part(&self.out, "trace")
+    fn trace_target(&self) -> Target {
+        self.out.part("trace")
     }
 
     fn expect_traced(&self, traces: &[TraceRow]) -> anyhow::Result<()> {
         let seen: HashSet<String> = traces.iter().map(|row| row.motion_id.to_string()).collect();
         match self.traced.iter().find(|id| !seen.contains(*id)) {
             Some(id) => {
-                bail!("{}: no motion '{id}' to trace; expected one of its motion_id", self.input.display())
+                bail!(
+                    "{}: no motion '{id}' to trace; expected one of its motion_id",
+                    self.share.input.name().display()
+                )
             }
             None => Ok(()),
         }
     }
+}
+
+/// The records of some motions, whose samples are laid out in `samples`.
+fn records<'a>(
+    path: &Path,
+    motions: &[Motion],
+    samples: &'a mut Vec<f64>,
+) -> Result<Vec<Record<'a>>, TableError> {
+    samples.clear();
+    let mut ends = Vec::with_capacity(motions.len());
+    for motion in motions {
+        motion.acceleration_m_s2.append_to(samples);
+        ends.push(samples.len());
+    }
+    let starts = std::iter::once(0).chain(ends.iter().copied());
+    let ranges = starts.zip(ends.iter().copied());
+    ranges.zip(motions).map(|((start, end), motion)| record(path, motion, &samples[start..end])).collect()
 }
 
 /// What came of some motions.
@@ -209,26 +241,29 @@ impl Stage for Simulate {
         RESPONSES.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        vec![("motions", self.input.clone())]
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        vec![("motions", self.share.input.clone())]
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
+    fn targets(&self) -> Vec<Target> {
         if self.traced.is_empty() {
             vec![self.out.clone()]
         } else {
-            vec![self.trace_path(), self.out.clone()]
+            vec![self.trace_target(), self.out.clone()]
         }
     }
 
     fn parameters(&self) -> Value {
-        json!({ "structures": parameters(&self.structures), "trace": self.traced, "path": self.path.arithmetic() })
+        let parameters = json!({
+            "structures": parameters(&self.structures), "trace": self.traced, "path": self.path.arithmetic()
+        });
+        Partition::add_to(self.share.partition, parameters)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let motions = MotionFile::open(&self.input)?;
+        let motions = MotionTable::open(&self.share.input, self.share.rows)?;
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
-        let mut writer = motions::writer(&self.out, &RESPONSES, by_name, provenance)?;
+        let mut writer = motions::writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
         let mut seen = SeenIds::default();
         let mut traces: Vec<TraceRow> = Vec::new();
         let pool = Pool::new(Scratch::default);
@@ -237,11 +272,13 @@ impl Stage for Simulate {
             batches(motions.parts(), PARTS_A_THREAD * rayon::current_num_threads()),
             |parts| {
                 let respond = |part: &Part| -> anyhow::Result<Vec<Responded>> {
+                    let path = motions.path_of(part);
                     let motions = motions.motions(part)?;
-                    let respond = |motions| pool.lend(|scratch| self.respond(motions, by_name, scratch));
-                    let responded = motions.chunks(CHUNK).map(respond).collect();
-                    bar.inc(motions.len() as u64);
-                    responded
+                    let respond =
+                        |motions| pool.lend(|scratch| self.respond(&path, motions, by_name, scratch));
+                    let responded = motions.chunks(CHUNK).map(respond).collect::<anyhow::Result<_>>()?;
+                    bar.inc(motions.len() as u64)?;
+                    Ok(responded)
                 };
                 let responded: Vec<Vec<Responded>> =
                     parts.par_iter().map(respond).collect::<anyhow::Result<_>>()?;
@@ -249,7 +286,7 @@ impl Stage for Simulate {
             },
             |responded| {
                 for Responded { motion_ids, rows, traces: traced } in responded {
-                    seen.note(&self.input, &motion_ids)?;
+                    seen.note(self.share.input.name(), &motion_ids)?;
                     traces.extend(traced);
                     writer.append(&rows)?;
                 }
@@ -258,12 +295,12 @@ impl Stage for Simulate {
         )?;
         if !self.traced.is_empty() {
             self.expect_traced(&traces)?;
-            let mut trace_writer = motions::writer(&self.trace_path(), &TRACE, by_name, provenance)?;
+            let mut trace_writer = motions::writer(self.trace_target(), &TRACE, by_name, provenance)?;
             trace_writer.append(&trace_table::batch(&traces, by_name)?)?;
             trace_writer.finish()?;
         }
         writer.finish()?;
-        bar.finish_and_clear();
+        bar.finish();
         Ok(format!(
             "{} responses of {} structure(s)",
             total * self.structures.len() as u64,

@@ -1,7 +1,5 @@
 //! synthesize-motions: the pulse, the high frequencies and their combination for every scenario.
 
-use std::path::PathBuf;
-
 use anyhow::Context;
 use clap::Args;
 use rayon::prelude::*;
@@ -17,13 +15,15 @@ use crate::motion::{
 };
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{Several, Steps, Word, check, defaults};
+use crate::pipeline::options::{Parsed, Several, Steps, Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::table::motions::{self, SyntheticMotion};
+use crate::table::partition::Partition;
 use crate::table::provenance::Provenance;
 use crate::table::scenarios;
 use crate::table::schema::MOTIONS;
+use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 
 /// How motions are made.
@@ -71,6 +71,10 @@ pub struct SynthesizeMotionsOptions {
     /// Scenarios in a row group: what is held in memory and read at once; the rows do not depend on it
     #[arg(long, default_value = "128")]
     pub row_group: usize,
+    /// Only partition i of n, i from 0 to n - 1: an equal share of the scenarios; the output is then a folder, in which it is
+    /// part-0000i.parquet
+    #[arg(long, value_name = "I/N")]
+    pub partition: Option<Parsed<Partition>>,
 }
 
 impl Default for SynthesizeMotionsOptions {
@@ -140,19 +144,20 @@ pub struct SynthesizeMotions {
     suites: Vec<Suite>,
     plan: MeasurePlan,
     row_group: usize,
-    input: PathBuf,
-    out: PathBuf,
+    partition: Option<Partition>,
+    input: Source,
+    out: Target,
 }
 
 impl SynthesizeMotions {
-    /// From the scenarios in `input`, into the file `out`.
+    /// From the scenarios in `input`, into `out`.
     ///
     /// # Errors
     /// If an option is out of range or the site table cannot be read.
     pub fn new(
         options: &SynthesizeMotionsOptions,
-        input: PathBuf,
-        out: PathBuf,
+        input: impl Into<Source>,
+        out: impl Into<Target>,
     ) -> anyhow::Result<SynthesizeMotions> {
         let (model, suites) = (options.model()?, options.suites()?);
         Ok(SynthesizeMotions {
@@ -160,8 +165,9 @@ impl SynthesizeMotions {
             suites,
             plan: measure_plan(options.housner, options.sa.as_ref())?,
             row_group: options.row_group,
-            input,
-            out,
+            partition: options.partition.map(|Parsed(partition)| partition),
+            input: input.into(),
+            out: out.into(),
         })
     }
 
@@ -196,11 +202,11 @@ impl Stage for SynthesizeMotions {
         MOTIONS.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
         vec![("scenarios", self.input.clone())]
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
+    fn targets(&self) -> Vec<Target> {
         vec![self.out.clone()]
     }
 
@@ -214,22 +220,26 @@ impl Stage for SynthesizeMotions {
             Site::Table(rows) => json!(rows),
         };
         let suites: Vec<_> = self.suites.iter().map(|&suite| Word(suite)).collect();
-        json!({
+        let parameters = json!({
             "suite": suites, "dt": dt_s, "difference": Word(*difference), "epoch": Word(*epoch), "site": site,
             "kappa": kappa_s, "fmax": fmax_hz, "low-cut": low_cut.map(|cut| (cut.corner_hz, cut.order)),
             "housner": self.plan.housner, "sa": self.plan.sa_periods_s, "seed": seed,
-        })
+        });
+        Partition::add_to(self.partition, parameters)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let scenarios = scenarios::read(&self.input)?;
+        let all = scenarios::read(&self.input)?;
+        let rows = self.partition.map_or(0..all.len() as u64, |partition| partition.rows(all.len() as u64));
+        let scenarios = &all[rows.start as usize..rows.end as usize];
         let (model, suites) = (self.model.clone(), self.suites.clone());
         let pool = Pool::new(move || Scratch {
             synthesizer: Synthesizer::new(model.clone(), &suites),
             intensity: IntensityScratch::default(),
         });
         let schema = MOTIONS.schema_with_spectrum(&self.plan.sa_periods_s);
-        let mut writer = TableWriter::with_schema(&self.out, &MOTIONS, schema.clone(), provenance.clone())?;
+        let mut writer =
+            TableWriter::with_schema(self.out.clone(), &MOTIONS, schema.clone(), provenance.clone())?;
         let bar = console.bar(self.subcommand(), scenarios.len() as u64);
         pipelined(
             scenarios.chunks(self.row_group).map(Ok),
@@ -238,13 +248,13 @@ impl Stage for SynthesizeMotions {
                     .par_iter()
                     .flat_map_iter(|scenario| pool.lend(|scratch| self.motions_of(scenario, scratch)))
                     .collect();
-                bar.inc(scenarios.len() as u64);
+                bar.inc(scenarios.len() as u64)?;
                 Ok(motions::batch(&motions, &schema)?)
             },
             |batch| Ok(writer.write_row_group(&batch)?),
         )?;
         writer.finish()?;
-        bar.finish_and_clear();
+        bar.finish();
         Ok(format!("{} motions", scenarios.len() * self.suites.len()))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::groups::Group;
 use super::sample_scenarios::DEFAULT_SEED;
-use crate::fragility::{Strata, bootstrap};
+use crate::fragility::{Resamples, Strata, TOGETHER, bootstrap};
 use crate::pipeline::options::check;
 
 /// More than this is a slip of the finger.
@@ -32,7 +32,11 @@ impl Uncertainty {
     }
 
     /// Refits of a group, resampled within its cells.
-    pub fn bootstrap<T: Send>(&self, group: &Group, refit: impl Fn(&[f64]) -> T + Sync) -> Vec<T> {
+    pub fn bootstrap<T: Send>(
+        &self,
+        group: &Group,
+        refit: impl Fn(&Resamples) -> [T; TOGETHER] + Sync,
+    ) -> Vec<T> {
         bootstrap(&Strata::new(&group.cells), self.replicates, self.seed, refit)
     }
 }

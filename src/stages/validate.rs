@@ -14,6 +14,7 @@ use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 use crate::table::provenance::{Provenance, stamp};
 use crate::table::schema::VALIDATION;
+use crate::table::source::{Source, Target};
 use crate::table::validation::{self, ValidationRow};
 use crate::table::writer::TableWriter;
 
@@ -36,8 +37,8 @@ const RESPONSES_ROLE: &str = "responses";
 /// The stage, ready to run.
 pub struct Validate {
     fits: Vec<anyhow::Result<ChosenFits>>,
-    pex: PathBuf,
-    pro: PathBuf,
+    pex: Source,
+    pro: Source,
     input: PathBuf,
     out: PathBuf,
 }
@@ -62,11 +63,11 @@ impl Validate {
         let responses = provenance.inputs.get(RESPONSES_ROLE);
         for fits in [&self.pex, &self.pro] {
             let fitted_to =
-                stamp(fits)?.and_then(|stamp| stamp.provenance.inputs.get(RESPONSES_ROLE).cloned());
+                stamp(fits.name())?.and_then(|stamp| stamp.provenance.inputs.get(RESPONSES_ROLE).cloned());
             if fitted_to.as_ref() == responses {
                 console.note(&format!(
                     "warning: {} was fitted to the very responses of {}: that they agree proves nothing",
-                    fits.display(),
+                    fits.name().display(),
                     self.input.display()
                 ));
             }
@@ -129,12 +130,12 @@ impl Stage for Validate {
         VALIDATION.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), (RESPONSES_ROLE, self.input.clone())]
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), (RESPONSES_ROLE, (&self.input).into())]
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.clone()]
+    fn targets(&self) -> Vec<Target> {
+        vec![(&self.out).into()]
     }
 
     fn parameters(&self) -> Value {
@@ -157,7 +158,7 @@ impl Stage for Validate {
             anyhow::bail!(
                 "{}: nothing that the fits of {} foretell; expected rocking responses of the same structures",
                 self.input.display(),
-                self.pex.display()
+                self.pex.name().display()
             );
         }
         self.warn_of_impossible(&rows, console);

@@ -1,12 +1,13 @@
 //! The rows of files of fits, as evaluate and export take them, and other readers.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::TableError;
 use super::columns::Columns;
-use super::reader::{Batch, Batches};
+use super::reader::Batches;
 use super::schema::{self, Column, Kind, PEX, PRO, Table};
+use super::source::Source;
 use crate::fragility::{DemandLaw, FitStatus, Link, Measure, Predictor};
 use crate::keyword::{self, Keyword};
 
@@ -23,30 +24,30 @@ pub struct FitRow {
 ///
 /// # Errors
 /// If it is none.
-pub fn regressions(path: &Path) -> Result<Vec<FitRow>, TableError> {
-    rows(path, &PEX)
+pub fn regressions(source: impl Into<Source>) -> Result<Vec<FitRow>, TableError> {
+    rows(source, &PEX)
 }
 
 /// The curves of a pro file.
 ///
 /// # Errors
 /// If it is none.
-pub fn curves(path: &Path) -> Result<Vec<FitRow>, TableError> {
-    rows(path, &PRO)
+pub fn curves(source: impl Into<Source>) -> Result<Vec<FitRow>, TableError> {
+    rows(source, &PRO)
 }
 
 /// The rows of a file of fits.
 ///
 /// # Errors
 /// If it is not the output of the stage of this table.
-pub fn rows(path: &Path, table: &Table) -> Result<Vec<FitRow>, TableError> {
+pub fn rows(source: impl Into<Source>, table: &Table) -> Result<Vec<FitRow>, TableError> {
     let mut rows: Vec<FitRow> = Vec::new();
-    for batch in Batches::open_whole(path, table, &[table.stage])? {
-        let Batch { rows: batch, first_row } = batch?;
-        let columns = Columns::new(path, &batch, first_row);
+    for batch in Batches::open_whole(source, table, &[table.stage])? {
+        let batch = batch?;
+        let columns = batch.columns();
         let row = |row| FitRow {
-            path: path.to_path_buf(),
-            row: first_row + row as u64,
+            path: batch.path.to_path_buf(),
+            row: batch.first_row + row as u64,
             text: HashMap::new(),
             numbers: HashMap::new(),
         };

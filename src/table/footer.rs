@@ -1,4 +1,4 @@
-//! The end of a Parquet file, which says what is in the whole.
+//! The end of a Parquet file, which says what is in the whole; or those of a folder.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -14,6 +14,7 @@ use parquet::file::reader::{ChunkReader, Length};
 use parquet::file::statistics::Statistics;
 
 use super::TableError;
+use super::folder;
 use super::guarded::guarded;
 use super::limits::{MOST_FOOTER_BYTES, check_footer, check_rows};
 use super::shared_file::SharedFile;
@@ -48,22 +49,49 @@ pub struct Range {
 }
 
 impl Range {
-    fn add(&mut self, statistics: &Statistics) {
-        self.nulls += statistics.null_count_opt().unwrap_or(0);
-        if let Statistics::Double(numbers) = statistics {
-            let least = numbers.min_opt().copied();
-            let largest = numbers.max_opt().copied();
-            self.least = self.least.into_iter().chain(least).reduce(f64::min);
-            self.largest = self.largest.into_iter().chain(largest).reduce(f64::max);
+    fn of(statistics: &Statistics) -> Range {
+        let nulls = statistics.null_count_opt().unwrap_or(0);
+        match statistics {
+            Statistics::Double(numbers) => {
+                Range { nulls, least: numbers.min_opt().copied(), largest: numbers.max_opt().copied() }
+            }
+            _ => Range { nulls, ..Range::default() },
+        }
+    }
+
+    fn merge(&mut self, other: &Range) {
+        self.nulls += other.nulls;
+        self.least = self.least.into_iter().chain(other.least).reduce(f64::min);
+        self.largest = self.largest.into_iter().chain(other.largest).reduce(f64::max);
+    }
+}
+
+impl Footer {
+    /// What two files hold together, of the same columns.
+    fn add(&mut self, other: Footer) {
+        self.rows += other.rows;
+        self.row_groups += other.row_groups;
+        self.bytes += other.bytes;
+        for (column, range) in other.ranges {
+            self.ranges.entry(column).or_default().merge(&range);
         }
     }
 }
 
-/// Reads only the end of a Parquet file.
+/// Reads only the end of a Parquet file, or of each in a folder.
 ///
 /// # Errors
 /// If it is missing or no Parquet file.
 pub fn footer(path: &Path) -> Result<Footer, TableError> {
+    let files = folder::files(path)?;
+    let mut whole = of_file(&files[0])?;
+    for file in &files[1..] {
+        whole.add(of_file(file)?);
+    }
+    Ok(whole)
+}
+
+fn of_file(path: &Path) -> Result<Footer, TableError> {
     let Opened { file, metadata } = open_keeping(path, ParquetStatisticsPolicy::KeepAll)?;
     let schema = metadata.schema().clone();
     let metadata = metadata.metadata();
@@ -80,7 +108,7 @@ fn ranges(metadata: &ParquetMetaData) -> HashMap<String, Range> {
     let mut ranges: HashMap<String, Range> = HashMap::new();
     for column in metadata.row_groups().iter().flat_map(|group| group.columns()) {
         if let ([name], Some(statistics)) = (column.column_path().parts(), column.statistics()) {
-            ranges.entry(name.clone()).or_default().add(statistics);
+            ranges.entry(name.clone()).or_default().merge(&Range::of(statistics));
         }
     }
     ranges

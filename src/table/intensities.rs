@@ -1,12 +1,12 @@
 //! A table of intensities, ours (motions, responses) or anyone's: pga_m_s2 and pgv_m_s, and what else is there.
 
 use std::f64::consts::FRAC_PI_2;
-use std::path::{Path, PathBuf};
 
 use super::TableError;
 use super::columns::Columns;
-use super::reader::{Batch, Batches, expect_columns};
+use super::reader::{Batch, Batches};
 use super::schema::{self, Column};
+use super::source::Source;
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 
@@ -40,7 +40,6 @@ pub struct Intensity {
 
 /// The rows of a table of intensities, some at a time.
 pub struct IntensityBatches {
-    path: PathBuf,
     batches: Batches,
     structure: Option<Structure>,
     eta: f64,
@@ -53,17 +52,15 @@ impl IntensityBatches {
     /// # Errors
     /// If the file is missing, unreadable, empty, of another stage, or lacks a column.
     pub fn open(
-        path: &Path,
+        source: impl Into<Source>,
         structure: Option<Structure>,
         eta: f64,
         batch_size: usize,
     ) -> Result<IntensityBatches, TableError> {
-        let batches = Batches::open(path, &STAGES, &READ, batch_size)?;
-        expect_columns(path, batches.schema(), &PEAKS)?;
-        if structure.is_none() {
-            expect_columns(path, batches.schema(), &STRUCTURE)?;
-        }
-        Ok(IntensityBatches { path: path.to_path_buf(), batches, structure, eta })
+        let structure_columns = if structure.is_none() { &STRUCTURE[..] } else { &[] };
+        let required = [&PEAKS, structure_columns].concat();
+        let batches = Batches::open(source, &STAGES, &READ, &required, batch_size)?;
+        Ok(IntensityBatches { batches, structure, eta })
     }
 
     /// How many rows the table has.
@@ -71,8 +68,8 @@ impl IntensityBatches {
         self.batches.rows()
     }
 
-    fn intensities(&self, Batch { rows, first_row }: &Batch) -> Result<Vec<Intensity>, TableError> {
-        let columns = Columns::new(&self.path, rows, *first_row);
+    fn intensities(&self, batch: &Batch) -> Result<Vec<Intensity>, TableError> {
+        let columns = batch.columns();
         let not_negative = "0 or more";
         let pga = within(&columns, &schema::PGA_M_S2, |pga| pga >= 0.0, not_negative)?;
         let pgv = within(&columns, &schema::PGV_M_S, |pgv| pgv >= 0.0, not_negative)?;

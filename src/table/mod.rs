@@ -3,11 +3,15 @@
 //! ```text
 //! schema       every column once: name, type, unit, words; every table as a list of columns (one file a subject)
 //! columns      the columns of one batch, by name, checked
+//! source       where a table is read from and written to: a path, or memory
+//! folder       a folder of files as one table; partition one of its parts
 //! footer       the end of a file, which says what is in it
 //! limits       what a file may ask of memory
 //! compact      the protocol in which files describe themselves
 //! guarded      damage that stops the decoder
-//! reader       batches from a file; narrow tables whole, as polars frames
+//! table_file   one file, open at some columns; piece that or a table in memory
+//! reader       batches from a table
+//! frame        narrow tables whole, as polars frames
 //! shared_file  a file that several threads read at once
 //! writer       batches to a file, written beside its name and renamed when whole
 //! fingerprint  the hash of what a file holds
@@ -32,7 +36,9 @@ mod compact;
 pub mod evaluated;
 pub mod fingerprint;
 pub mod fits;
+pub mod folder;
 pub mod footer;
+pub mod frame;
 pub mod guarded;
 pub mod hazard;
 pub mod ida;
@@ -42,8 +48,10 @@ mod measures;
 pub mod motion_measures;
 pub mod motions;
 pub mod paper;
+pub mod partition;
 pub mod pex;
 pub mod pex_scan;
+mod piece;
 pub mod pro;
 pub mod provenance;
 pub mod ranking;
@@ -55,6 +63,8 @@ pub mod responses;
 pub mod scenarios;
 pub mod schema;
 mod shared_file;
+pub mod source;
+mod table_file;
 pub mod text;
 pub mod trace;
 pub mod universality;
@@ -165,6 +175,20 @@ pub enum TableError {
         found: String,
         /// The type it should have.
         expected: String,
+    },
+    /// A folder does not stand for a whole table.
+    #[error("{}: {problem}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What is wrong with it and what to do.
+        problem: String,
+    },
+    /// A file can only be made from files.
+    #[error("{}: a table in memory; write it to a Parquet file and name that, so that what is made from it can say so", name.display())]
+    InMemory {
+        /// What it is called.
+        name: PathBuf,
     },
     /// The table has no rows.
     #[error("{}: the table is empty; expected at least one row", path.display())]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::TableError;
 use super::columns::Columns;
 use super::motions::STAGES;
-use super::reader::{Batch, TableFile};
+use super::reader::OpenTable;
 use super::schema::{self, Column};
 use crate::motion::Quantity;
 
@@ -61,9 +61,8 @@ impl MotionMeasures {
             pga_m_s2: Vec::new(),
             further: Vec::new(),
         };
-        for batch in TableFile::open_at(path, &STAGES, is_wanted)?.whole()? {
-            let Batch { rows, first_row } = batch?;
-            all.append(&Columns::new(path, &rows, first_row))?;
+        for batch in OpenTable::open_at(path, &STAGES, is_wanted)?.whole()? {
+            all.append(&batch?.columns())?;
         }
         all.further.retain(|measure| measure.values.iter().any(Option::is_some));
         Ok(all)

@@ -1,6 +1,7 @@
 //! The motions file: one row a ground motion, its samples as a list.
 
-use std::path::{Path, PathBuf};
+use std::ops::Range;
+use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::builder::{Float32Builder, ListBuilder};
@@ -8,12 +9,14 @@ use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::{ArrowError, DataType, Field, SchemaRef};
 
 use super::TableError;
-use super::columns::{Columns, Samples};
+use super::columns::Samples;
 use super::measures;
+use super::partition::Partition;
 use super::provenance::Provenance;
-use super::reader::{Batch, Batches, TableFile, expect_columns};
+use super::reader::{Batch, Batches, OpenTable, Run, expect_columns};
 use super::scenarios;
 use super::schema::{self, Column};
+use super::source::{Source, Target};
 use super::writer::TableWriter;
 use crate::keyword::Keyword;
 use crate::motion::{Measured, Scenario, Suite};
@@ -134,65 +137,80 @@ pub struct Motion {
     pub row: u64,
 }
 
-/// The motions of a file, some at a time.
+/// The motions of a table, some at a time.
 pub struct MotionBatches {
-    path: std::path::PathBuf,
     batches: Batches,
 }
 
 impl MotionBatches {
-    /// Opens a motions file, ours or anyone's with the three columns that count, `batch_size` motions at a time.
+    /// Opens a table of motions, ours or anyone's with the three columns that count, `batch_size` motions at a time.
     ///
     /// # Errors
-    /// If the file is missing, unreadable, empty, of another stage, or lacks a column.
-    pub fn open(path: &Path, batch_size: usize) -> Result<MotionBatches, TableError> {
-        let batches = Batches::open(path, &STAGES, &READ, batch_size)?;
-        expect_columns(path, batches.schema(), &REQUIRED)?;
-        Ok(MotionBatches { path: path.to_path_buf(), batches })
+    /// If it is missing, unreadable, empty, of another stage, or lacks a column.
+    pub fn open(source: impl Into<Source>, batch_size: usize) -> Result<MotionBatches, TableError> {
+        Ok(MotionBatches { batches: Batches::open(source, &STAGES, &READ, &REQUIRED, batch_size)? })
     }
 
-    /// How many motions the file has.
+    /// How many motions there are.
     pub fn rows(&self) -> u64 {
         self.batches.rows()
     }
+}
 
-    /// Whether motions go by name rather than by number.
-    pub fn ids_are_names(&self) -> bool {
-        ids_are_names(self.batches.schema())
+impl Iterator for MotionBatches {
+    type Item = Result<Vec<Motion>, TableError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        Some(self.batches.next()?.and_then(|batch| motions_of(&batch)))
     }
 }
 
-/// A motions file that several threads read.
-pub struct MotionFile {
-    path: PathBuf,
-    file: TableFile,
+/// A table of motions that several threads read.
+pub struct MotionTable {
+    table: OpenTable,
+    rows: Range<u64>,
     by_name: bool,
 }
 
-/// Some motions of a file, in order.
+/// Some motions, in order.
 pub enum Part {
-    /// A row group that is not yet read.
-    RowGroup(usize),
-    /// Rows of a row group that is too large to be read at once.
+    /// Few, and not yet read.
+    Unread(Run),
+    /// Some of a row group that is too large to be read at once.
     Rows(Batch),
 }
 
-impl MotionFile {
-    /// Opens a motions file.
+impl MotionTable {
+    /// Opens a table of motions, or a partition of it.
     ///
     /// # Errors
-    /// As [`MotionBatches::open`].
-    pub fn open(path: &Path) -> Result<MotionFile, TableError> {
-        let file = TableFile::open(path, &STAGES, &READ)?;
-        let schema = file.schema()?;
-        expect_columns(path, &schema, &REQUIRED)?;
-        let by_name = ids_are_names(&schema);
-        Ok(MotionFile { path: path.to_path_buf(), file, by_name })
+    /// As [`MotionBatches::open`], or if motions go by name in one file and by number in another.
+    pub fn open(source: impl Into<Source>, partition: Option<Partition>) -> Result<MotionTable, TableError> {
+        let table = OpenTable::open(source, &STAGES, &READ)?;
+        let schemas = table.schemas()?;
+        schemas.iter().try_for_each(|(path, schema)| expect_columns(path, schema, &REQUIRED))?;
+        let by_name = ids_are_names(&schemas[0].1);
+        if let Some((path, schema)) = schemas.iter().find(|(_, schema)| ids_are_names(schema) != by_name) {
+            let type_of = |schema: &SchemaRef| {
+                schema
+                    .field_with_name(schema::MOTION_ID.name)
+                    .map_or(String::new(), |f| f.data_type().to_string())
+            };
+            return Err(TableError::WrongType {
+                path: path.to_path_buf(),
+                column: schema::MOTION_ID.name.to_string(),
+                found: type_of(schema),
+                expected: format!("{} as in {}", type_of(&schemas[0].1), schemas[0].0.display()),
+            });
+        }
+        let total = table.rows();
+        let rows = partition.map_or(0..total, |partition| partition.rows(total));
+        Ok(MotionTable { table, rows, by_name })
     }
 
-    /// How many motions the file has.
+    /// How many motions there are.
     pub fn rows(&self) -> u64 {
-        self.file.rows_of_groups().iter().sum()
+        self.rows.end - self.rows.start
     }
 
     /// Whether motions go by name rather than by number.
@@ -201,40 +219,47 @@ impl MotionFile {
     }
 
     /// All motions: row groups, which any thread may read, where they are small.
-    pub fn parts(&self) -> impl Iterator<Item = Result<Part, TableError>> {
-        let groups = self.file.rows_of_groups().into_iter().enumerate().filter(|&(_, rows)| rows > 0);
-        groups.flat_map(|(group, rows)| -> Box<dyn Iterator<Item = Result<Part, TableError>> + Send> {
-            if rows <= LARGEST_PART as u64 {
-                return Box::new(std::iter::once(Ok(Part::RowGroup(group))));
+    pub fn parts(&self) -> impl Iterator<Item = Result<Part, TableError>> + Send {
+        let runs = self.table.runs(self.rows.clone()).into_iter();
+        runs.flat_map(|run| -> Box<dyn Iterator<Item = Result<Part, TableError>> + Send> {
+            if run.rows <= LARGEST_PART as u64 {
+                return Box::new(std::iter::once(Ok(Part::Unread(run))));
             }
-            match self.file.row_group(group, LARGEST_PART) {
+            match self.table.batches_of(run, LARGEST_PART) {
                 Ok(batches) => Box::new(batches.map(|batch| batch.map(Part::Rows))),
                 Err(error) => Box::new(std::iter::once(Err(error))),
             }
         })
     }
 
-    /// The row groups in which these rows lie, each with the rows of it, all ascending.
-    pub fn groups_of(&self, rows: &[u64]) -> Vec<(usize, Vec<u64>)> {
-        let mut first = 0;
-        let groups = self.file.rows_of_groups().into_iter().enumerate().map(|(group, count)| {
-            let inside = first..first + count;
-            first += count;
-            (group, rows.iter().copied().filter(|row| inside.contains(row)).collect::<Vec<u64>>())
-        });
-        groups.filter(|(_, rows)| !rows.is_empty()).collect()
+    /// The file of a part, or the name of the table in memory.
+    pub fn path_of(&self, part: &Part) -> Arc<Path> {
+        match part {
+            Part::Rows(batch) => batch.path.clone(),
+            Part::Unread(run) => self.table.path_of(*run),
+        }
     }
 
-    /// The motions of a row group that `wanted` picks.
+    /// The row groups in which these rows of the table lie, each with the rows of its file, all ascending.
+    pub fn runs_of(&self, rows: &[u64]) -> Vec<(Run, Vec<u64>)> {
+        let mut before = 0;
+        let runs = self.table.runs(self.rows.clone()).into_iter().map(|run| {
+            let inside = before..before + run.rows;
+            before += run.rows;
+            let rows = rows.iter().filter(|row| inside.contains(row));
+            (run, rows.map(|row| run.first_row + (row - inside.start)).collect::<Vec<u64>>())
+        });
+        runs.filter(|(_, rows)| !rows.is_empty()).collect()
+    }
+
+    /// The motions of a run that `wanted` picks.
     ///
     /// # Errors
     /// If the file is damaged or a value cannot be used.
-    pub fn pick(&self, group: usize, wanted: impl Fn(&Motion) -> bool) -> Result<Vec<Motion>, TableError> {
+    pub fn pick(&self, run: Run, wanted: impl Fn(&Motion) -> bool) -> Result<Vec<Motion>, TableError> {
         let mut picked = Vec::new();
-        for batch in self.file.row_group(group, LARGEST_PART)? {
-            let Batch { rows, first_row } = batch?;
-            let motions = motions_of(&Columns::new(&self.path, &rows, first_row), first_row)?;
-            picked.extend(motions.into_iter().filter(&wanted));
+        for batch in self.table.batches_of(run, LARGEST_PART)? {
+            picked.extend(motions_of(&batch?)?.into_iter().filter(&wanted));
         }
         Ok(picked)
     }
@@ -244,14 +269,12 @@ impl MotionFile {
     /// # Errors
     /// If the file is damaged or a value cannot be used.
     pub fn motions(&self, part: &Part) -> Result<Vec<Motion>, TableError> {
-        let of = |Batch { rows, first_row }: &Batch| {
-            motions_of(&Columns::new(&self.path, rows, *first_row), *first_row)
-        };
         match part {
-            Part::Rows(batch) => of(batch),
-            Part::RowGroup(group) => {
-                let batches = self.file.row_group(*group, LARGEST_PART)?;
-                let motions = batches.map(|batch| of(&batch?)).collect::<Result<Vec<_>, TableError>>()?;
+            Part::Rows(batch) => motions_of(batch),
+            Part::Unread(run) => {
+                let batches = self.table.batches_of(*run, LARGEST_PART)?;
+                let motions =
+                    batches.map(|batch| motions_of(&batch?)).collect::<Result<Vec<_>, TableError>>()?;
                 Ok(motions.into_iter().flatten().collect())
             }
         }
@@ -263,18 +286,8 @@ fn ids_are_names(schema: &SchemaRef) -> bool {
     field.is_ok_and(|field| !field.data_type().is_numeric())
 }
 
-impl Iterator for MotionBatches {
-    type Item = Result<Vec<Motion>, TableError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let batch = self.batches.next()?;
-        Some(batch.and_then(|Batch { rows, first_row }| {
-            motions_of(&Columns::new(&self.path, &rows, first_row), first_row)
-        }))
-    }
-}
-
-fn motions_of(columns: &Columns, first_row: u64) -> Result<Vec<Motion>, TableError> {
+fn motions_of(batch: &Batch) -> Result<Vec<Motion>, TableError> {
+    let columns = batch.columns();
     let ids: Vec<MotionId> = if columns.is_text(&schema::MOTION_ID) {
         columns.text(&schema::MOTION_ID)?.into_iter().map(MotionId::Name).collect()
     } else {
@@ -300,22 +313,22 @@ fn motions_of(columns: &Columns, first_row: u64) -> Result<Vec<Motion>, TableErr
         pgv_m_s: pgv[row],
         tm_s: tm[row],
         tp_s: tp[row],
-        row: first_row + row as u64,
+        row: batch.first_row + row as u64,
     };
     Ok(ids.into_iter().zip(samples).enumerate().map(motion).collect())
 }
 
-/// Starts a file of a table in which motions go by number or by name.
+/// Starts a table in which motions go by number or by name.
 ///
 /// # Errors
 /// As [`TableWriter::create`].
 pub fn writer(
-    path: &Path,
+    target: impl Into<Target>,
     table: &schema::Table,
     by_name: bool,
     provenance: &Provenance,
 ) -> Result<TableWriter, TableError> {
-    TableWriter::with_schema(path, table, schema_of(table, by_name), provenance.clone())
+    TableWriter::with_schema(target, table, schema_of(table, by_name), provenance.clone())
 }
 
 /// The schema of a table in which motions go by name or by number.

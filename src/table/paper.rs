@@ -10,7 +10,7 @@ use arrow_schema::ArrowError;
 use polars::prelude::DataFrame;
 use serde::{Deserialize, Serialize};
 
-use super::reader::read_frame;
+use super::frame::read_frame;
 use super::schema::{self, Column, PAPER};
 
 /// The published transition between the two planes.

@@ -10,7 +10,7 @@ use arrow_schema::ArrowError;
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
-use super::reader::read_frame;
+use super::frame::read_frame;
 use super::schema::{self, Column, PEX};
 use crate::fragility::{
     BootstrapLimits, DemandReplicate, Estimate, FitStatus, Limits, LinearFit, Measure, Test,

@@ -10,7 +10,7 @@ use nalgebra::DVector;
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
-use super::reader::read_frame;
+use super::frame::read_frame;
 use super::schema::{self, Column, PRO};
 use crate::fragility::{
     BootstrapLimits, CurveModel, CurveParameter, Estimate, FitStatus, Limits, Link, Measure, OverturningFit,

@@ -7,8 +7,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 
 use super::TableError;
-use super::columns::Columns;
-use super::reader::{Batch, Batches};
+use super::reader::Batches;
 use super::schema::{self, Column, RANKING};
 use super::text;
 
@@ -59,8 +58,8 @@ pub fn show(path: &Path) -> anyhow::Result<String> {
 fn chosen(path: &Path) -> Result<Vec<Chosen>, TableError> {
     let mut rows = Vec::new();
     for batch in Batches::open_whole(path, &RANKING, &[RANKING.stage])? {
-        let Batch { rows: batch, first_row } = batch?;
-        let columns = Columns::new(path, &batch, first_row);
+        let batch = batch?;
+        let columns = batch.columns();
         let suites = columns.optional_text(&schema::SUITE)?;
         let [structures, targets, measures, forms] =
             [schema::STRUCTURE, schema::TARGET, schema::MEASURES, schema::FORM]

@@ -1,6 +1,5 @@
 //! The scenarios file: one row a scenario.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::{ArrayRef, Float64Array, Int32Array, Int64Array, RecordBatch};
@@ -8,8 +7,9 @@ use arrow_schema::ArrowError;
 
 use super::TableError;
 use super::columns::Columns;
-use super::reader::{Batch, Batches};
+use super::reader::Batches;
 use super::schema::{self, SCENARIOS};
+use super::source::Source;
 use crate::motion::Scenario;
 
 /// Half-way round the globe, km.
@@ -47,15 +47,14 @@ pub(super) fn columns(scenarios: &[Scenario]) -> Vec<ArrayRef> {
     ]
 }
 
-/// The scenarios of a file, checked: positive amplitude and period, gamma of 1 or more.
+/// The scenarios of a table, checked: positive amplitude and period, gamma of 1 or more.
 ///
 /// # Errors
 /// If the file is not one of scenarios or a value is out of range.
-pub fn read(path: &Path) -> Result<Vec<Scenario>, TableError> {
+pub fn read(source: impl Into<Source>) -> Result<Vec<Scenario>, TableError> {
     let mut scenarios = Vec::new();
-    for batch in Batches::open_whole(path, &SCENARIOS, &[SCENARIOS.stage])? {
-        let Batch { rows, first_row } = batch?;
-        scenarios.extend(rows_of(&Columns::new(path, &rows, first_row))?);
+    for batch in Batches::open_whole(source, &SCENARIOS, &[SCENARIOS.stage])? {
+        scenarios.extend(rows_of(&batch?.columns())?);
     }
     Ok(scenarios)
 }

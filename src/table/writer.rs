@@ -1,9 +1,10 @@
-//! Writes a table beside its name and renames it when it is whole.
+//! Writes a table beside its name and renames it when it is whole; or leaves it in memory.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
+use arrow_schema::SchemaRef;
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, Encoding, ZstdLevel};
 use parquet::errors::ParquetError;
@@ -15,6 +16,7 @@ use super::TableError;
 use super::fingerprint::Fingerprint;
 use super::provenance::Provenance;
 use super::schema::{Kind, Table};
+use super::source::{MemoryTable, Shelf, Target};
 
 /// The end of the name of a file that is still being written.
 const PARTIAL: &str = ".partial";
@@ -26,7 +28,15 @@ const ROWS_IN_GROUP: usize = 4096;
 const MOST_ROW_GROUPS: usize = 32_767;
 
 /// Writes the batches of one table in order.
-pub struct TableWriter {
+pub struct TableWriter(Destination);
+
+enum Destination {
+    File(Box<FileWriter>),
+    Memory(Shelf, String, MemoryTable),
+}
+
+/// A file on its way to its name.
+struct FileWriter {
     path: PathBuf,
     provenance: Provenance,
     writer: ArrowWriter<File>,
@@ -42,9 +52,12 @@ impl TableWriter {
     ///
     /// # Errors
     /// If the folder is not there or cannot be written.
-    pub fn create(path: &Path, table: &Table, provenance: Provenance) -> Result<TableWriter, TableError> {
-        let schema = table.schema();
-        TableWriter::with_schema(path, table, schema, provenance)
+    pub fn create(
+        target: impl Into<Target>,
+        table: &Table,
+        provenance: Provenance,
+    ) -> Result<TableWriter, TableError> {
+        TableWriter::with_schema(target, table, table.schema(), provenance)
     }
 
     /// As [`TableWriter::create`], with a schema that differs from the table's own (the type of motion_id).
@@ -52,24 +65,27 @@ impl TableWriter {
     /// # Errors
     /// As there.
     pub fn with_schema(
-        path: &Path,
+        target: impl Into<Target>,
         table: &Table,
-        schema: arrow_schema::SchemaRef,
+        schema: SchemaRef,
         provenance: Provenance,
     ) -> Result<TableWriter, TableError> {
-        let failed = |message: String| TableError::Write { path: path.to_path_buf(), message };
-        let partial = temporary_beside(path)?;
-        partial.as_file().try_lock().map_err(|source| failed(source.to_string()))?;
-        let file = partial.as_file().try_clone().map_err(|source| failed(source.to_string()))?;
-        let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(table)))
-            .map_err(|source| failed(words(&source)))?;
-        let fingerprint = Fingerprint::new(schema);
-        Ok(TableWriter { path: path.to_path_buf(), provenance, writer, partial, fingerprint, waiting: 0 })
+        Ok(TableWriter(match target.into() {
+            Target::Path(path) => {
+                Destination::File(Box::new(FileWriter::create(&path, table, schema, provenance)?))
+            }
+            Target::Memory(shelf, name) => {
+                let empty = MemoryTable { name: table.name.into(), schema, batches: Vec::new() };
+                Destination::Memory(shelf, name, empty)
+            }
+        }))
     }
 
     /// Says in the file that it came to be otherwise than planned, so that it does not count as up to date.
     pub fn made_otherwise(&mut self, provenance: Provenance) {
-        self.provenance = provenance;
+        if let Destination::File(file) = &mut self.0 {
+            file.provenance = provenance;
+        }
     }
 
     /// Appends a batch and ends the row group, so that a reader streams what was written together; but where most of the row
@@ -78,8 +94,10 @@ impl TableWriter {
     /// # Errors
     /// If the disk is full or the batch has other columns.
     pub fn write_row_group(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
-        self.write(batch)?;
-        if self.waiting < self.share() { Ok(()) } else { self.end_row_group() }
+        match &mut self.0 {
+            Destination::File(file) => file.write_row_group(batch),
+            Destination::Memory(..) => self.append(batch),
+        }
     }
 
     /// Appends a batch.
@@ -87,12 +105,56 @@ impl TableWriter {
     /// # Errors
     /// If the disk is full or the batch has other columns.
     pub fn append(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
-        self.write(batch)?;
-        if self.writer.in_progress_rows() < ROWS_IN_GROUP * self.share() {
-            Ok(())
-        } else {
-            self.end_row_group()
+        match &mut self.0 {
+            Destination::File(file) => file.append(batch),
+            Destination::Memory(_, _, table) => {
+                table.batches.push(batch.clone());
+                Ok(())
+            }
         }
+    }
+
+    /// Completes the file and puts it at its name.
+    ///
+    /// # Errors
+    /// If the disk is full, the name cannot be taken, or an input is no longer what it was.
+    pub fn finish(self) -> Result<(), TableError> {
+        match self.0 {
+            Destination::File(file) => file.finish(),
+            Destination::Memory(shelf, name, table) => {
+                shelf.put(&name, table);
+                Ok(())
+            }
+        }
+    }
+}
+
+impl FileWriter {
+    fn create(
+        path: &Path,
+        table: &Table,
+        schema: SchemaRef,
+        provenance: Provenance,
+    ) -> Result<FileWriter, TableError> {
+        let failed = |message: String| TableError::Write { path: path.to_path_buf(), message };
+        let partial = temporary_beside(path)?;
+        partial.as_file().try_lock().map_err(|source| failed(source.to_string()))?;
+        let file = partial.as_file().try_clone().map_err(|source| failed(source.to_string()))?;
+        let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(table)))
+            .map_err(|source| failed(words(&source)))?;
+        let fingerprint = Fingerprint::new(schema);
+        Ok(FileWriter { path: path.to_path_buf(), provenance, writer, partial, fingerprint, waiting: 0 })
+    }
+
+    fn write_row_group(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
+        self.write(batch)?;
+        if self.waiting < self.share() { Ok(()) } else { self.end_row_group() }
+    }
+
+    fn append(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
+        self.write(batch)?;
+        let most = ROWS_IN_GROUP * self.share();
+        if self.writer.in_progress_rows() < most { Ok(()) } else { self.end_row_group() }
     }
 
     fn write(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
@@ -113,11 +175,7 @@ impl TableWriter {
         MOST_ROW_GROUPS / left.max(1)
     }
 
-    /// Completes the file and puts it at its name.
-    ///
-    /// # Errors
-    /// If the disk is full, the name cannot be taken, or an input is no longer what it was.
-    pub fn finish(mut self) -> Result<(), TableError> {
+    fn finish(mut self) -> Result<(), TableError> {
         self.provenance.expect_unchanged()?;
         for pair in self.provenance.key_values(&self.fingerprint.finish()) {
             self.writer.append_key_value_metadata(pair);

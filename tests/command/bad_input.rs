@@ -112,7 +112,7 @@ fn files_that_are_missing_damaged_or_of_another_stage_are_named() {
     fail(folder.path(), "simulate --in bad.parquet", 1, &["bad.parquet", "not a readable Parquet file"]);
     std::fs::write(folder.path().join("none.parquet"), b"").unwrap();
     fail(folder.path(), "inspect none.parquet", 1, &["none.parquet", "not a readable Parquet file"]);
-    fail(folder.path(), "simulate --in .", 1, &["a folder"]);
+    fail(folder.path(), "simulate --in .", 1, &["bad.parquet", "not a readable Parquet file"]);
     succeed(folder.path(), "run");
     fail(
         folder.path(),

@@ -63,7 +63,7 @@ fn the_worked_example_of_section_3_is_answered() {
         row.text(&schema::SUITE) == Some("csgm")
             && row.text(&schema::STRUCTURE) == Some("electrical-equipment")
     };
-    let rows = curves(&run_folder().join("pro.parquet")).unwrap();
+    let rows = curves(run_folder().join("pro.parquet")).unwrap();
     let row = rows.iter().find(|row| hybrid(row) && of(row)).unwrap();
     let [lambda, mu, beta] =
         [schema::LAMBDA, schema::MU, schema::BETA].map(|column| row.number(&column).unwrap());

@@ -59,7 +59,7 @@ fn write_motions(path: &Path, motions: &[(f64, Vec<f64>)]) {
 #[test]
 fn a_stripe_is_what_simulate_makes_of_the_scaled_motions() {
     let folder = with_motions();
-    let motions = MotionBatches::open(&folder.path().join("motions.parquet"), 64).unwrap();
+    let motions = MotionBatches::open(folder.path().join("motions.parquet"), 64).unwrap();
     let motions: Vec<(f64, Vec<f64>)> = motions
         .flat_map(Result::unwrap)
         .map(|motion| (motion.dt_s, motion.acceleration_m_s2.to_vec()))
@@ -138,7 +138,7 @@ fn neither_threads_nor_other_motions_matter() {
         contents.push(FILES.map(|file| content(&folder.path().join(file))));
     }
     assert_eq!(contents[0], contents[1]);
-    let motions = MotionBatches::open(&folder.path().join("motions.parquet"), 64).unwrap();
+    let motions = MotionBatches::open(folder.path().join("motions.parquet"), 64).unwrap();
     let motions: Vec<(f64, Vec<f64>)> = motions
         .flat_map(Result::unwrap)
         .map(|motion| (motion.dt_s, motion.acceleration_m_s2.to_vec()))

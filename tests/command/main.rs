@@ -8,6 +8,7 @@ mod export;
 mod ida;
 mod import;
 mod kill;
+mod partitions;
 mod pipeline;
 mod rank_ims;
 mod report;

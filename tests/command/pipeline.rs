@@ -96,7 +96,7 @@ fn a_scenario_and_its_motion_are_the_same_alone_and_among_others() {
             &format!("synthesize-motions --dt 0.02 --in {out}.s.parquet --out {out}.parquet"),
         );
         let motions =
-            rockfrag::table::motions::MotionBatches::open(&folder.path().join(format!("{out}.parquet")), 64);
+            rockfrag::table::motions::MotionBatches::open(folder.path().join(format!("{out}.parquet")), 64);
         motions.unwrap().flat_map(Result::unwrap).collect::<Vec<_>>()
     };
     // The cells of one magnitude come first, so a shorter list of magnitudes is a prefix.

@@ -53,7 +53,7 @@ fn rows_of_one_file_do_not_say_that_they_come_from_another() {
     let stage = Simulate::new(&SimulateOptions::default(), motions("one"), out.clone()).unwrap();
     let planned = stage.provenance().unwrap();
     std::fs::copy(motions("other"), motions("one")).unwrap();
-    let console = Console { quiet: true, progress: false };
+    let console = Console { quiet: true, ..Console::default() };
     let words = format!("{:#}", stage.execute(&planned, &console).unwrap_err());
     assert!(words.contains("motions.parquet") && words.contains("changed"), "{words}");
     assert!(!out.exists());

@@ -17,7 +17,7 @@ fn reference(name: &str) -> PathBuf {
 }
 
 fn motions() -> HashMap<String, Motion> {
-    let batches = MotionBatches::open(&reference("rocking/motions.parquet"), 64).unwrap();
+    let batches = MotionBatches::open(reference("rocking/motions.parquet"), 64).unwrap();
     batches.flat_map(Result::unwrap).map(|motion| (motion.motion_id.to_string(), motion)).collect()
 }
 

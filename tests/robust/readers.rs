@@ -7,7 +7,7 @@ use rockfrag::rocking::Record;
 use rockfrag::stages::{groups, inspect::inspect};
 use rockfrag::table::intensities::IntensityBatches;
 use rockfrag::table::motion_measures::MotionMeasures;
-use rockfrag::table::motions::{Motion, MotionBatches, MotionFile};
+use rockfrag::table::motions::{Motion, MotionBatches, MotionTable};
 use rockfrag::table::schema::{POOLED, UNIVERSALITY};
 use rockfrag::table::{
     TableError, fits, ida, paper, provenance, ranking_verdict, reader, scenarios, validation,
@@ -53,7 +53,7 @@ fn motions(path: &Path) -> Result<(), TableError> {
 }
 
 fn motions_in_parts(path: &Path) -> Result<(), TableError> {
-    let file = MotionFile::open(path)?;
+    let file = MotionTable::open(path, None)?;
     file.parts().try_for_each(|part| file.motions(&part?).map(|motions| check(&motions)))
 }
 

@@ -1,13 +1,11 @@
 //! Resampling within cells, refits and limits against statsmodels and scipy.stats.bootstrap.
 
 use rockfrag::fragility::{
-    CurveInference, CurveModel, CurveParameter, DemandInference, Link, Strata, acceleration, bootstrap,
-    bootstrap_limits, fit_overturning,
+    CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits, Link, Resamples,
+    Strata, acceleration, bootstrap, bootstrap_limits, fit_overturning,
 };
 
 use crate::data::{answers, data, distribution};
-
-const EVERYWHERE: std::ops::Range<f64> = 0.0..f64::INFINITY;
 
 /// The weights of the reference: row k counts (k^2 + 1) mod 3 times.
 fn counts(rows: usize) -> Vec<f64> {
@@ -21,17 +19,41 @@ fn a_refit_equals_the_fit_of_repeated_cases() {
     for name in ["x", "xy"] {
         let sample = data.event_sample(name);
         let fit = fit_overturning(&sample, &CurveModel::default()).unwrap();
-        let b = CurveInference::new(&sample, &fit.regression).coefficients(&counts).unwrap();
+        let resamples = Resamples::alike(&counts);
+        let [b, ..] = CurveRefits::new(&sample, &fit.regression).coefficients(&resamples);
+        let b = b.unwrap();
         for (k, b) in b.iter().enumerate() {
             answers.check(&format!("weighted_probit_{name}_b{k}"), *b, 1e-7);
         }
         let sample = data.demand_sample(name);
-        let refit =
-            DemandInference::new(&sample, &sample.fit().unwrap()).replicate(&counts, EVERYWHERE).unwrap();
+        let [refit, ..] = DemandRefits::new(&sample).replicates(&Resamples::alike(&counts));
+        let refit = refit.unwrap();
         for (k, b) in refit.coefficients.iter().enumerate() {
             answers.check(&format!("weighted_ols_{name}_b{k}"), *b, 1e-10);
         }
         answers.check(&format!("weighted_ols_{name}_sd"), refit.residual_sd, 1e-10);
+    }
+}
+
+#[test]
+fn refits_by_expansion_are_those_by_newtons_method() {
+    let data = data();
+    for (name, link) in [("x", Link::Probit), ("x", Link::Logit), ("x", Link::Cloglog), ("xy", Link::Probit)]
+    {
+        let sample = data.event_sample(name);
+        let fit = fit_overturning(&sample, &CurveModel { link, ..CurveModel::default() }).unwrap().regression;
+        let (refits, inference) = (CurveRefits::new(&sample, &fit), CurveInference::new(&sample, &fit));
+        let apart = bootstrap(&Strata::new(&data.cells), 200, 42, |resamples| {
+            let refits = refits.coefficients(resamples);
+            std::array::from_fn(|resample| {
+                let refit = refits[resample].as_ref().unwrap();
+                let exact = inference.coefficients(&resamples.of(resample, &sample.rows)).unwrap();
+                let standard_errors = fit.covariance.diagonal().map(f64::sqrt);
+                (refit - exact).component_div(&standard_errors).amax()
+            })
+        });
+        let worst = apart.iter().copied().fold(0.0, f64::max);
+        assert!(worst < 3e-5, "{link:?} on {name}: {worst:e} standard errors apart");
     }
 }
 
@@ -71,11 +93,9 @@ fn limits_equal_scipys_on_the_same_replicates() {
 #[test]
 fn our_own_resamples_spread_as_scipys() {
     let (data, answers) = (data(), answers());
-    let sample = data.demand_sample("x");
-    let fit = sample.fit().unwrap();
-    let refit = DemandInference::new(&sample, &fit);
-    let slopes: Vec<f64> = bootstrap(&Strata::new(&data.cells), 4000, 42, |counts| {
-        refit.replicate(counts, EVERYWHERE).unwrap().coefficients[1]
+    let refits = DemandRefits::new(&data.demand_sample("x"));
+    let slopes: Vec<f64> = bootstrap(&Strata::new(&data.cells), 4000, 42, |resamples| {
+        refits.replicates(resamples).map(|fit| fit.unwrap().coefficients[1])
     });
     let mean = slopes.iter().sum::<f64>() / slopes.len() as f64;
     let sd = (slopes.iter().map(|b| (b - mean).powi(2)).sum::<f64>() / slopes.len() as f64).sqrt();
@@ -91,7 +111,12 @@ fn every_cell_keeps_its_size_in_every_resample() {
         strata.members().iter().map(|rows| rows.iter().map(|&row| counts[row]).sum()).collect()
     };
     let original = sizes(&[1.0; 300]);
-    let resamples = bootstrap(&strata, 50, 1, |counts| (sizes(counts), counts.to_vec()));
+    let all = |resamples: &Resamples| {
+        let rows: Vec<usize> = (0..300).collect();
+        std::array::from_fn(|resample| resamples.of(resample, &rows))
+    };
+    let resamples =
+        bootstrap(&strata, 50, 1, |resamples| all(resamples).map(|counts| (sizes(&counts), counts)));
     assert!(resamples.iter().all(|(sizes, _)| *sizes == original));
     assert!(resamples.windows(2).all(|pair| pair[0].1 != pair[1].1), "each resample is another");
 }
@@ -99,7 +124,9 @@ fn every_cell_keeps_its_size_in_every_resample() {
 #[test]
 fn a_replicate_depends_on_its_number_and_the_seed_alone() {
     let strata = Strata::new(&[0, 0, 0, 1, 1, 2]);
-    let draw = |replicates, seed| bootstrap(&strata, replicates, seed, <[f64]>::to_vec);
+    let of_all =
+        |resamples: &Resamples| std::array::from_fn(|resample| resamples.of(resample, &[0, 1, 2, 3, 4, 5]));
+    let draw = |replicates, seed| bootstrap(&strata, replicates, seed, of_all);
     let many = draw(40, 5);
     assert_eq!(draw(7, 5), many[..7]);
     assert_ne!(draw(7, 6), many[..7]);

@@ -1,8 +1,8 @@
 //! Tests of fit, bent curves and the smooth transition against statsmodels and scipy; and what is diagnosed.
 
 use rockfrag::fragility::{
-    CurveModel, DemandSample, Estimator, FitStatus, Link, Measure, chi_squared_upper_tail, f_upper_tail,
-    find_transition, fit_overturning, fit_smooth, fit_with_interaction, fit_with_spline, hosmer_lemeshow,
+    CurveModel, DemandSample, Estimator, FitStatus, Link, Measure, TransitionSearch, chi_squared_upper_tail,
+    f_upper_tail, fit_overturning, fit_smooth, fit_with_interaction, fit_with_spline, hosmer_lemeshow,
     least_squares, likelihood_ratio, reset, transition_limits,
 };
 use rockfrag::keyword::Keyword;
@@ -93,7 +93,7 @@ fn the_smooth_transition_equals_scipys() {
 fn hansens_limits_hold_the_break() {
     let cases = smooth_cases();
     let sample = DemandSample::new(&cases, &[Measure::Im4, Measure::Im3], 0.0..f64::INFINITY);
-    let scan = find_transition(&sample.ln_im[0], &sample.ln_im[1], &sample.ln_edp).unwrap();
+    let scan = TransitionSearch::new(&sample).find(&vec![1.0; cases.len()]).unwrap();
     let limits = transition_limits(&scan.scan, 0.95).unwrap();
     assert!(limits.low <= scan.im4 && scan.im4 <= limits.high);
     // -2 ln(1 - sqrt(0.95)) = 7.352 (Hansen 2000, Table 1).

@@ -1,5 +1,3 @@
-use std::path::PathBuf;
-
 use arrow_array::RecordBatch;
 use serde_json::Value;
 
@@ -7,6 +5,7 @@ use super::{EvaluateOptions, Format};
 use crate::pipeline::UsageError;
 use crate::table::provenance::{Provenance, content_of};
 use crate::table::schema::Table;
+use crate::table::source::Source;
 use crate::table::text;
 use crate::table::writer::TableWriter;
 
@@ -21,7 +20,7 @@ pub struct Answer {
     /// What it depends on besides the fits.
     pub parameters: Value,
     /// A file besides the fits, by the role it plays.
-    pub input: Option<(&'static str, PathBuf)>,
+    pub input: Option<(&'static str, Source)>,
 }
 
 impl Answer {
@@ -48,10 +47,11 @@ impl Answer {
 
     fn provenance(&self, options: &EvaluateOptions) -> anyhow::Result<Provenance> {
         let mut inputs = std::collections::BTreeMap::new();
-        for (role, path) in options.fit_files().into_iter().chain(self.input.clone()) {
+        for (role, source) in options.limits.0.fit_files(&options.fits)?.into_iter().chain(self.input.clone())
+        {
             let content = match role {
-                "hazard" => blake3::hash(&std::fs::read(&path)?).to_hex().to_string(),
-                _ => content_of(&path)?,
+                "hazard" => blake3::hash(&std::fs::read(source.name())?).to_hex().to_string(),
+                _ => content_of(&source)?,
             };
             inputs.insert(role.to_string(), content);
         }

@@ -9,6 +9,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+pub use self::table::EvaluateTable;
+
 use super::chosen_fits::ChosenFits;
 use super::fits::FitsOptions;
 use super::resampled_fits;
@@ -19,6 +21,7 @@ use crate::pipeline::cache;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
 use crate::pipeline::stage::beside;
+use crate::table::source::Source;
 
 /// What is asked, of which fits and structure.
 #[derive(Debug, Clone, Args)]
@@ -108,27 +111,27 @@ pub enum Format {
 
 keywords!(Format { Table = "table", Csv = "csv", Json = "json", Parquet = "parquet" });
 
-impl EvaluateOptions {
+impl LimitsBy {
     /// The fits, with their resamples where limits need them.
-    fn choose(&self) -> anyhow::Result<ChosenFits> {
-        let chosen = self.fits.choose()?;
-        let limits = match self.limits.0 {
+    fn choose(self, options: &FitsOptions) -> anyhow::Result<ChosenFits> {
+        let chosen = options.choose()?;
+        let limits = match self {
             LimitsBy::Delta => return Ok(chosen),
             LimitsBy::Percentile => ReplicateLimits::Percentile,
             LimitsBy::BiasCorrected => ReplicateLimits::BiasCorrected,
         };
-        let replicates = resampled_fits::read(&self.fits, &chosen)?;
+        let replicates = resampled_fits::read(options, &chosen)?;
         Ok(ChosenFits { resampled: Some(ResampledModel { replicates, limits }), ..chosen })
     }
 
     /// The files that the fits come from, by the role each plays.
-    fn fit_files(&self) -> Vec<(&'static str, PathBuf)> {
-        let mut files = vec![("pex", self.fits.pex.clone()), ("pro", self.fits.pro.clone())];
-        if self.limits.0 != LimitsBy::Delta {
-            let [pex, pro] = resampled_fits::files(&self.fits);
-            files.extend([("pex bootstrap", pex), ("pro bootstrap", pro)]);
+    fn fit_files(self, options: &FitsOptions) -> anyhow::Result<Vec<(&'static str, Source)>> {
+        let mut files = vec![("pex", options.pex.clone()), ("pro", options.pro.clone())];
+        if self != LimitsBy::Delta {
+            let [pex, pro] = resampled_fits::files(options)?;
+            files.extend([("pex bootstrap", pex.into()), ("pro bootstrap", pro.into())]);
         }
-        files
+        Ok(files)
     }
 }
 
@@ -137,13 +140,13 @@ impl EvaluateOptions {
 /// # Errors
 /// If an input cannot be used, an option is out of range, or the output cannot be written.
 pub fn evaluate(options: &EvaluateOptions, force: bool, console: &Console) -> anyhow::Result<String> {
-    let fits = options.choose()?;
-    fits.warn_of_few_events(console);
     if let Some(input) = &options.table.input {
         let out = options.out.clone().unwrap_or_else(|| beside(input, "evaluated.parquet"));
-        let stage = table::EvaluateTable::new(options, fits, input.clone(), out)?;
+        let stage = EvaluateTable::new(&options.fits, options.limits.0, &options.structure, input, out)?;
         return cache::run_alone(&stage, force, console).map(|()| String::new());
     }
+    let fits = options.limits.0.choose(&options.fits)?;
+    fits.warn_of_few_events(console);
     let structure = options.structure.structure(fits.model.eta)?;
     fits.warn_of_eta(&structure, console);
     let answer = match &options.hazard.hazard {

@@ -69,7 +69,7 @@ pub fn answer(
         ),
         parameters: json!({ "p": p_rad_s, "alpha": alpha_rad, "eta": eta, "ratio": options.ratio,
             "years": years, "fits": fits.words(), "limits": fits.words_of_limits() }),
-        input: Some(("hazard", path.to_path_buf())),
+        input: Some(("hazard", path.into())),
     })
 }
 

@@ -1,18 +1,19 @@
-use std::path::PathBuf;
-
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use super::EvaluateOptions;
+use super::LimitsBy;
 use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
 use crate::stages::chosen_fits::ChosenFits;
+use crate::stages::fits::FitsOptions;
+use crate::stages::structure_options::StructureOptions;
 use crate::table::evaluated::{self, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
 use crate::table::provenance::Provenance;
 use crate::table::schema::EVALUATED;
+use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 
 /// Rows that are read at once, and written as a row group.
@@ -21,27 +22,29 @@ const BATCH: usize = 16_384;
 /// Probabilities at each intensity of a table, ready to run.
 pub struct EvaluateTable {
     fits: ChosenFits,
-    fit_files: Vec<(&'static str, PathBuf)>,
+    fit_files: Vec<(&'static str, Source)>,
     /// Of all rows; without it each row has its own.
     structure: Option<Structure>,
-    input: PathBuf,
-    out: PathBuf,
+    input: Source,
+    out: Target,
 }
 
 impl EvaluateTable {
-    /// At the intensities in `input`, into the file `out`.
+    /// At the intensities in `input`, into `out`.
     ///
     /// # Errors
-    /// If the structure in the options is impossible.
+    /// If the fits cannot be read or chosen, or the structure in the options is impossible.
     pub fn new(
-        options: &EvaluateOptions,
-        fits: ChosenFits,
-        input: PathBuf,
-        out: PathBuf,
+        fits: &FitsOptions,
+        limits: LimitsBy,
+        structure: &StructureOptions,
+        input: impl Into<Source>,
+        out: impl Into<Target>,
     ) -> anyhow::Result<EvaluateTable> {
-        let given = options.structure.is_given();
-        let structure = given.then(|| options.structure.structure(fits.model.eta)).transpose()?;
-        Ok(EvaluateTable { fits, fit_files: options.fit_files(), structure, input, out })
+        let fit_files = limits.fit_files(fits)?;
+        let fits = limits.choose(fits)?;
+        let structure = structure.is_given().then(|| structure.structure(fits.model.eta)).transpose()?;
+        Ok(EvaluateTable { fits, fit_files, structure, input: input.into(), out: out.into() })
     }
 
     fn row(&self, intensity: &Intensity) -> EvaluatedRow {
@@ -103,11 +106,11 @@ impl Stage for EvaluateTable {
         EVALUATED.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
         self.fit_files.iter().cloned().chain([("intensities", self.input.clone())]).collect()
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
+    fn targets(&self) -> Vec<Target> {
         vec![self.out.clone()]
     }
 
@@ -121,7 +124,8 @@ impl Stage for EvaluateTable {
         let nameless = self.structure.clone().map(|structure| Structure { name: String::new(), ..structure });
         let intensities = IntensityBatches::open(&self.input, nameless, self.fits.model.eta, BATCH)?;
         let total = intensities.rows();
-        let mut writer = TableWriter::create(&self.out, &EVALUATED, provenance.clone())?;
+        self.fits.warn_of_few_events(console);
+        let mut writer = TableWriter::create(self.out.clone(), &EVALUATED, provenance.clone())?;
         let mut doubtful = Doubtful::default();
         let bar = console.bar(self.subcommand(), total);
         pipelined(
@@ -129,7 +133,7 @@ impl Stage for EvaluateTable {
             |intensities| {
                 let rows: Vec<EvaluatedRow> = intensities.par_iter().map(|one| self.row(one)).collect();
                 let doubtful = Doubtful::among(&rows, &intensities, &self.fits);
-                bar.inc(rows.len() as u64);
+                bar.inc(rows.len() as u64)?;
                 Ok((evaluated::batch(&rows)?, doubtful))
             },
             |(batch, more)| {
@@ -138,7 +142,7 @@ impl Stage for EvaluateTable {
             },
         )?;
         writer.finish()?;
-        bar.finish_and_clear();
+        bar.finish();
         doubtful.warn(&self.fits, console);
         Ok(format!("{total} rows"))
     }

@@ -25,13 +25,14 @@ use super::structures::parameters;
 use crate::keyword::Keyword;
 use crate::motion::IntensityScratch;
 use crate::pipeline::console::Console;
-use crate::pipeline::stage::{Stage, with_part};
+use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Path as SolverPath, Scan, Structure};
 use crate::table::ida;
-use crate::table::motions::{self, Motion, MotionFile, MotionId, Part};
+use crate::table::motions::{self, Motion, MotionId, MotionTable, Part};
 use crate::table::provenance::Provenance;
 use crate::table::schema::{IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
+use crate::table::source::{Source, Target, with_part};
 use crate::table::writer::TableWriter;
 
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are bisected.
@@ -78,11 +79,12 @@ impl Ida {
 
     fn analyse(
         &self,
+        path: &Path,
         motions: &[Motion],
         by_name: bool,
         scratch: &mut IntensityScratch,
     ) -> anyhow::Result<Analysed> {
-        let (stripes, capacities) = self.looks(motions, scratch)?;
+        let (stripes, capacities) = self.looks(path, motions, scratch)?;
         Ok(Analysed {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             tally: Tally::of(&self.scan, &stripes, &capacities),
@@ -98,13 +100,14 @@ impl Stage for Ida {
         IDA.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        vec![("motions", self.input.clone())]
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        vec![("motions", (&self.input).into())]
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
+    fn targets(&self) -> Vec<Target> {
         let beside = [IDA_STRIPES, IDA_WINDOWS, IDA_SHARES, IDA_FRAGILITY];
-        beside.iter().map(|table| with_part(&self.out, table.name)).chain([self.out.clone()]).collect()
+        let beside = beside.iter().map(|table| with_part(&self.out, table.name).into());
+        beside.chain([(&self.out).into()]).collect()
     }
 
     fn parameters(&self) -> Value {
@@ -116,7 +119,7 @@ impl Stage for Ida {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let file = MotionFile::open(&self.input)?;
+        let file = MotionTable::open(&self.input, None)?;
         let (total, by_name) = (file.rows(), file.ids_are_names());
         let paths = self.outputs();
         let [stripes_path, windows_path, shares_path, fragility_path, out] = &paths[..] else {
@@ -132,11 +135,11 @@ impl Stage for Ida {
             batches(file.parts(), rayon::current_num_threads()),
             |parts| {
                 let analyse = |part: &Part| -> anyhow::Result<Vec<Analysed>> {
-                    let motions = file.motions(part)?;
+                    let (path, motions) = (file.path_of(part), file.motions(part)?);
                     let analyse = |motions: &[Motion]| {
-                        let analysed = pool.lend(|scratch| self.analyse(motions, by_name, scratch));
-                        bar.inc(motions.len() as u64);
-                        analysed
+                        let analysed = pool.lend(|scratch| self.analyse(&path, motions, by_name, scratch))?;
+                        bar.inc(motions.len() as u64)?;
+                        Ok(analysed)
                     };
                     motions.par_chunks(CHUNK).map(analyse).collect()
                 };
@@ -161,7 +164,7 @@ impl Stage for Ida {
         let mut fragility = TableWriter::create(fragility_path, &IDA_FRAGILITY, provenance.clone())?;
         fragility.append(&ida::fragility(&rows)?)?;
         [stripes, windows, shares, fragility, capacities].into_iter().try_for_each(TableWriter::finish)?;
-        bar.finish_and_clear();
+        bar.finish();
         Ok(format!(
             "{total} motions and {} structure(s) at {} levels in ratios of {:.4}, of {:.4} near overturning",
             self.structures.len(),

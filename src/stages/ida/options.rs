@@ -80,7 +80,7 @@ impl IdaOptions {
 
     pub(super) fn structures(&self) -> anyhow::Result<(Vec<Structure>, SolverPath)> {
         let IdaOptions { p, alpha, eta, structures, path, .. } = self.clone();
-        let simulate = SimulateOptions { p, alpha, eta, structures, path, trace: None };
+        let simulate = SimulateOptions { p, alpha, eta, structures, path, trace: None, partition: None };
         Ok((simulate.structures()?, simulate.path()?))
     }
 }

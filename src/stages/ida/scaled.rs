@@ -1,5 +1,7 @@
 //! All structures under some motions, from the foot of the scan to its top.
 
+use std::path::Path;
+
 use super::Ida;
 use crate::motion::{IntensityMeasures, IntensityScratch};
 use crate::rocking::{
@@ -16,6 +18,8 @@ const MOST_SAMPLES: usize = 1 << 20;
 
 /// A structure under a motion.
 struct Case<'m, 's> {
+    /// The file of the motion.
+    path: &'m Path,
     motion: &'m Motion,
     samples: &'s [f64],
     peaks: Peaks,
@@ -28,16 +32,17 @@ impl Ida {
     /// The stripes and the capacity of each structure under each of some motions, in order.
     pub(super) fn looks<'a>(
         &'a self,
+        path: &'a Path,
         motions: &'a [Motion],
         scratch: &mut IntensityScratch,
     ) -> anyhow::Result<(Vec<StripeRow<'a>>, Vec<CapacityRow<'a>>)> {
         let samples: Vec<Vec<f64>> = motions.iter().map(|motion| motion.acceleration_m_s2.to_vec()).collect();
         let mut cases = Vec::new();
         for (motion, samples) in motions.iter().zip(&samples) {
-            let peaks = Peaks::of(motion, &record(&self.input, motion, samples)?, scratch);
+            let peaks = Peaks::of(motion, &record(path, motion, samples)?, scratch);
             for structure in &self.structures {
-                let unscaled = self.unscaled(motion, &peaks, structure)?;
-                cases.push(Case { motion, samples, peaks, structure, unscaled });
+                let unscaled = self.unscaled(path, motion, &peaks, structure)?;
+                cases.push(Case { path, motion, samples, peaks, structure, unscaled });
             }
         }
         let scans = self.scan.run(cases.len(), |looks| self.respond(&cases, looks))?;
@@ -60,7 +65,13 @@ impl Ida {
         Ok((stripes, capacities))
     }
 
-    fn unscaled(&self, motion: &Motion, peaks: &Peaks, structure: &Structure) -> Result<f64, TableError> {
+    fn unscaled(
+        &self,
+        path: &Path,
+        motion: &Motion,
+        peaks: &Peaks,
+        structure: &Structure,
+    ) -> Result<f64, TableError> {
         let measures =
             IntensityMeasures::new(structure, peaks.pga_m_s2, peaks.pgv_m_s, motion.tp_s, peaks.tm_s);
         self.options.measure.0.unscaled(peaks, &measures).ok_or_else(|| {
@@ -68,13 +79,8 @@ impl Ida {
             let problem = format!(
                 "motion '{id}' has no {measure} above 0 that could be scaled; leave it out, or take --measure scale"
             );
-            self.value_error(motion, problem)
+            value_error(path, motion, problem)
         })
-    }
-
-    fn value_error(&self, motion: &Motion, problem: String) -> TableError {
-        let column = schema::ACCELERATION_M_S2.name.to_string();
-        TableError::Value { path: self.input.clone(), row: motion.row, column, problem }
     }
 
     /// The responses to scaled copies of the samples, as many at once as fit.
@@ -85,12 +91,12 @@ impl Ida {
             let (block, later) = rest.split_at(block(rest.iter().map(|look| cases[look.case].samples.len())));
             let scaled: Vec<Vec<f64>> = block.iter().map(|look| cases[look.case].scaled(look)).collect();
             let problems = block.iter().zip(&scaled).map(|(look, samples)| {
-                let Case { structure, motion, .. } = &cases[look.case];
+                let Case { path, structure, motion, .. } = &cases[look.case];
                 let refused = |problem: RecordError| {
                     let id = &motion.motion_id;
                     let problem =
                         format!("motion '{id}', scaled: {problem}; mend it, or scale less by a lower --to");
-                    self.value_error(motion, problem)
+                    value_error(path, motion, problem)
                 };
                 Ok(Problem { structure, record: Record::new(samples, motion.dt_s).map_err(refused)? })
             });
@@ -128,4 +134,9 @@ fn block(lengths: impl Iterator<Item = usize>) -> usize {
         samples <= MOST_SAMPLES
     });
     fits.count().max(1)
+}
+
+fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
+    let column = schema::ACCELERATION_M_S2.name.to_string();
+    TableError::Value { path: path.to_path_buf(), row: motion.row, column, problem }
 }

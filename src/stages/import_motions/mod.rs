@@ -45,6 +45,7 @@ use crate::table::TableError;
 use crate::table::provenance::Provenance;
 use crate::table::records;
 use crate::table::schema::RECORDS;
+use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 
 /// Motions in a row group.
@@ -57,19 +58,20 @@ pub struct ImportMotions {
     reading: Reading,
     processing: Processing,
     keep_going: bool,
-    out: PathBuf,
+    out: Target,
 }
 
 impl ImportMotions {
-    /// Into the file `out`.
+    /// Into `out`.
     ///
     /// # Errors
     /// If an option is out of range, or no file is named.
-    pub fn new(options: &ImportMotionsOptions, out: PathBuf) -> anyhow::Result<ImportMotions> {
+    pub fn new(options: &ImportMotionsOptions, out: impl Into<Target>) -> anyhow::Result<ImportMotions> {
+        let out = out.into();
         let mut files = expand(&options.files);
         // What an earlier run wrote into a folder of records is no record.
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-        files.retain(|file| absolute(file) != absolute(&out));
+        files.retain(|file| out.path().is_none_or(|out| absolute(file) != absolute(out)));
         if files.is_empty() {
             return Err(UsageError::because("no files; expected files or folders of records"));
         }
@@ -87,7 +89,8 @@ impl ImportMotions {
 impl ImportMotions {
     /// That the files still hold what they held before they were read.
     fn expect_unchanged(&self, planned: &Provenance) -> anyhow::Result<()> {
-        if self.provenance()?.inputs != planned.inputs {
+        let now = self.provenance()?.inputs;
+        if planned.inputs.iter().any(|(role, content)| now.get(role) != Some(content)) {
             bail!("the files changed while they were read; run again");
         }
         Ok(())
@@ -99,11 +102,11 @@ impl Stage for ImportMotions {
         RECORDS.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        self.files.iter().map(|file| ("files", file.clone())).collect()
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        self.files.iter().map(|file| ("files", file.into())).collect()
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
+    fn targets(&self) -> Vec<Target> {
         vec![self.out.clone()]
     }
 
@@ -135,7 +138,8 @@ impl Stage for ImportMotions {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let schema = RECORDS.schema_with_spectrum(&self.processing.plan.sa_periods_s);
-        let mut writer = TableWriter::with_schema(&self.out, &RECORDS, schema.clone(), provenance.clone())?;
+        let mut writer =
+            TableWriter::with_schema(self.out.clone(), &RECORDS, schema.clone(), provenance.clone())?;
         let pool = Pool::new(Scratch::default);
         let Plan { work, mut refused } = self.plan(console);
         let bar = console.bar(self.subcommand(), self.files.len() as u64);
@@ -143,7 +147,7 @@ impl Stage for ImportMotions {
         pipelined(
             work.map(Ok),
             |work| {
-                bar.inc(work.len() as u64);
+                bar.inc(work.len() as u64)?;
                 Ok(work.into_par_iter().flat_map_iter(|work| self.rows_of(work, &pool)).collect::<Vec<_>>())
             },
             |results| {
@@ -161,7 +165,7 @@ impl Stage for ImportMotions {
                     .try_for_each(|rows| Ok(writer.write_row_group(&records::batch(rows, &schema)?)?))
             },
         )?;
-        bar.finish_and_clear();
+        bar.finish();
         if seen.is_empty() {
             bail!("no motion is imported; {}", summary(&refused, self.files.len()));
         }

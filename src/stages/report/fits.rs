@@ -69,8 +69,8 @@ pub fn models(pex: &Path, pro: &Path, groups: &[Group]) -> Vec<Model> {
     let forms = std::iter::once(None).chain(Measure::SCALAR.map(Some));
     let models = forms.flat_map(|measure| {
         let options = FitsOptions {
-            pex: pex.to_path_buf(),
-            pro: pro.to_path_buf(),
+            pex: pex.into(),
+            pro: pro.into(),
             suite: None,
             structure: None,
             model: Word(if measure.is_some() { ModelForm::Univariate } else { ModelForm::Bivariate }),

@@ -23,6 +23,7 @@ use crate::report::{ALL, Draw, Figure, Page, Place, page, png, svg};
 use crate::table::TableError;
 use crate::table::footer::footer;
 use crate::table::provenance::{self, Provenance, Stamp};
+use crate::table::source::{Source, Target};
 use crate::table::text;
 
 /// The stage's name.
@@ -81,11 +82,12 @@ impl Report {
         Ok(Report { options: options.clone(), files: Files::in_folder(&folder), out })
     }
 
-    /// All files that a report can show, in the order of the pipeline, by the role each plays.
-    fn known(&self) -> Vec<(&'static str, PathBuf)> {
+    /// The responses, and of the other files that a report can show those that are there, in the order of the pipeline, by the
+    /// role each plays.
+    fn there(&self) -> Vec<(&'static str, PathBuf)> {
         let Files { scenarios, motions, responses, pex, pro, paper, ranking, universality, folder, .. } =
             self.files.clone();
-        vec![
+        let mut known = vec![
             ("scenarios", scenarios),
             ("motions", motions),
             ("responses", responses),
@@ -95,11 +97,13 @@ impl Report {
             ("validation", folder.join("validation.parquet")),
             ("ranking", ranking),
             ("universality", universality),
-        ]
+        ];
+        known.retain(|(role, path)| *role == "responses" || path.is_file());
+        known
     }
 
     fn material(&self, console: &Console) -> anyhow::Result<Material> {
-        let inputs = self.inputs();
+        let inputs = self.there();
         let there =
             |role: &str| inputs.iter().find(|(other, _)| *other == role).map(|(_, path)| path.as_path());
         let (mut groups, left_out) = responses::read(&self.files.responses, &self.options)?;
@@ -171,14 +175,12 @@ impl Stage for Report {
         NAME
     }
 
-    /// The responses, and of the others those that are there.
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        let needed = |(role, path): &(&str, PathBuf)| *role == "responses" || path.is_file();
-        self.known().into_iter().filter(needed).collect()
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        self.there().into_iter().map(|(role, path)| (role, path.into())).collect()
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.clone()]
+    fn targets(&self) -> Vec<Target> {
+        vec![(&self.out).into()]
     }
 
     fn parameters(&self) -> Value {

@@ -7,7 +7,7 @@ use crate::motion::Suite;
 use crate::report::material::{Group, Motion, Parts, Trace};
 use crate::rocking::{Record, Structure, trace};
 use crate::table::TableError;
-use crate::table::motions::{self, MotionFile};
+use crate::table::motions::{self, MotionTable};
 
 /// The structures of the groups, each once.
 pub fn structures(groups: &[Group]) -> Vec<Structure> {
@@ -26,13 +26,12 @@ pub fn read(
     structures: &[Structure],
     count: usize,
 ) -> anyhow::Result<(Vec<Motion>, Option<Parts>)> {
-    let file = MotionFile::open(path)?;
+    let file = MotionTable::open(path, None)?;
     let rows = file.rows();
     let count = rows.min(count as u64);
     let wanted: Vec<u64> = (0..count).map(|k| ((2 * k + 1) * rows) / (2 * count)).collect();
-    let groups = file.groups_of(&wanted);
-    let picked =
-        groups.par_iter().map(|(group, rows)| file.pick(*group, |motion| rows.contains(&motion.row)));
+    let runs = file.runs_of(&wanted);
+    let picked = runs.par_iter().map(|(run, rows)| file.pick(*run, |motion| rows.contains(&motion.row)));
     let picked = picked.collect::<Result<Vec<Vec<motions::Motion>>, TableError>>()?;
     let shown = picked.into_par_iter().flatten().map(|motion| shown(&motion, structures)).collect();
     Ok((shown, parts(&file, rows / 2)?))
@@ -60,9 +59,9 @@ fn shown(motion: &motions::Motion, structures: &[Structure]) -> Motion {
 }
 
 /// The first motion from this row on that has its pulse in the same row group, or else the one of this row.
-fn parts(file: &MotionFile, row: u64) -> Result<Option<Parts>, TableError> {
-    let Some((group, _)) = file.groups_of(&[row]).first().cloned() else { return Ok(None) };
-    let motions = file.pick(group, |_| true)?;
+fn parts(file: &MotionTable, row: u64) -> Result<Option<Parts>, TableError> {
+    let Some((run, rows)) = file.runs_of(&[row]).pop() else { return Ok(None) };
+    let (motions, row) = (file.pick(run, |_| true)?, rows[0]);
     let is = |motion: &motions::Motion, suite: Suite| motion.suite.as_deref() == Some(suite.as_str());
     let earthquake = |motion: &motions::Motion| [motion.mw, motion.re_km, motion.tp_s];
     let pulse_of = |whole: &motions::Motion| {

@@ -7,7 +7,7 @@ use crate::pipeline::UsageError;
 use crate::report::material::{Group, Seen};
 use crate::rocking::Structure;
 use crate::table::columns::Columns;
-use crate::table::reader::{Batch, Batches};
+use crate::table::reader::Batches;
 use crate::table::responses::MeasureColumns;
 use crate::table::schema::{self, RESPONSES};
 
@@ -15,8 +15,7 @@ use crate::table::schema::{self, RESPONSES};
 pub fn read(path: &Path, options: &ReportOptions) -> anyhow::Result<(Vec<Group>, usize)> {
     let mut sorted = Sorted::default();
     for batch in Batches::open_whole(path, &RESPONSES, &[RESPONSES.stage])? {
-        let Batch { rows, first_row } = batch?;
-        sorted.add(&Columns::new(path, &rows, first_row), options)?;
+        sorted.add(&batch?.columns(), options)?;
     }
     let Sorted { mut groups, names } = sorted;
     if groups.is_empty() {

@@ -21,9 +21,10 @@ use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Word, check, defaults};
-use crate::pipeline::stage::{Stage, with_part};
+use crate::pipeline::stage::Stage;
 use crate::table::provenance::Provenance;
 use crate::table::schema::{POOLED, UNIVERSALITY};
+use crate::table::source::{Source, Target, with_part};
 use crate::table::universality::{self, PooledRow, UniversalityRow};
 use crate::table::writer::TableWriter;
 
@@ -212,12 +213,12 @@ impl Stage for Universality {
         UNIVERSALITY.stage
     }
 
-    fn inputs(&self) -> Vec<(&'static str, PathBuf)> {
-        vec![("responses", self.input.clone())]
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        vec![("responses", (&self.input).into())]
     }
 
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.pooled_path(), self.out.clone()]
+    fn targets(&self) -> Vec<Target> {
+        vec![self.pooled_path().into(), (&self.out).into()]
     }
 
     fn parameters(&self) -> Value {
@@ -229,7 +230,7 @@ impl Stage for Universality {
         let suites = self.suites(&groups)?;
         let mut structures = 0;
         let mut writer = TableWriter::create(&self.out, &UNIVERSALITY, provenance.clone())?;
-        let mut pooled_writer = TableWriter::create(&self.pooled_path(), &POOLED, provenance.clone())?;
+        let mut pooled_writer = TableWriter::create(self.pooled_path(), &POOLED, provenance.clone())?;
         for suite in &suites {
             structures = structures.max(suite.groups.len());
             for &branch in Branch::ALL {

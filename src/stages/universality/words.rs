@@ -5,9 +5,9 @@ use std::path::Path;
 
 use crate::fragility::{Branch, FitStatus, PooledTerms, Verdict, least_squares};
 use crate::keyword::Keyword;
-use crate::pipeline::stage::with_part;
 use crate::table::fits::{self, FitRow};
 use crate::table::schema::{self, Column, POOLED, UNIVERSALITY};
+use crate::table::source::with_part;
 
 /// More levels of a parameter than this are no grid.
 const MOST_LEVELS: usize = 8;
@@ -24,7 +24,7 @@ const PARAMETERS: [(&str, Column); 3] =
 /// If there is no such file, or none of pooled curves beside it.
 pub fn show(path: &Path) -> anyhow::Result<String> {
     let rows = fits::rows(path, &UNIVERSALITY)?;
-    let pooled = fits::rows(&with_part(path, "pooled"), &POOLED)?;
+    let pooled = fits::rows(with_part(path, "pooled"), &POOLED)?;
     let mut text = String::new();
     let mut suites: Vec<Option<&str>> = Vec::new();
     for row in &rows {

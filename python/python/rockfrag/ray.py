@@ -1,0 +1,158 @@
+"""Motions and responses in partitions on a Ray cluster, by Ray Data: ``pip install rockfrag[ray]``.
+
+A partition is a task; Ray decides where and when it runs, and runs it again elsewhere when a node is lost. Each writes its file
+under its own name once it is whole, so a task that runs twice does no harm, and one whose file is up to date does nothing: a job that was cut
+short is simply run again. Rows are those of one machine::
+
+    rockfrag.ray.synthesize("scenarios.parquet", "motions", partitions=100)
+    rockfrag.ray.simulate("motions", "responses", structures="structures.yaml")
+    rockfrag.fit_pro("responses")
+
+Paths must be the same on all nodes: a shared folder, or a store that ``filesystem`` (of pyarrow or fsspec) reaches from each of them.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import time
+import uuid
+from collections.abc import Callable
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+import pyarrow.fs
+import pyarrow.parquet
+import ray.data
+
+import rockfrag
+from rockfrag._rockfrag import partition_file
+
+__all__ = ["simulate", "synthesize"]
+
+
+def synthesize(
+    scenarios: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    *,
+    partitions: int,
+    filesystem: Any = None,
+    num_cpus: int = 1,
+    **options: Any,
+) -> list[dict[str, Any]]:
+    """Synthesizes motions in partitions.
+
+    Args:
+        scenarios: File of scenarios.
+        out: Folder of the partitions.
+        partitions: How many.
+        filesystem: Where both are, if not in a folder that all nodes see: a filesystem of pyarrow or fsspec.
+        num_cpus: Threads of a task.
+        options: Those of :func:`rockfrag.synthesize_motions`.
+
+    Returns:
+        For each partition its name, file, rows, seconds and node.
+    """
+    return _each_partition(rockfrag.synthesize_motions, scenarios, out, partitions, filesystem, num_cpus, options)
+
+
+def simulate(
+    motions: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    *,
+    filesystem: Any = None,
+    num_cpus: int = 1,
+    **options: Any,
+) -> list[dict[str, Any]]:
+    """Simulates the response to the motions of each partition.
+
+    Args:
+        motions: Folder of the partitions that :func:`synthesize` made.
+        out: Folder of the partitions of responses.
+        filesystem: Where both are, if not in a folder that all nodes see: a filesystem of pyarrow or fsspec.
+        num_cpus: Threads of a task.
+        options: Those of :func:`rockfrag.simulate`.
+
+    Returns:
+        For each partition its name, file, rows, seconds and node.
+    """
+    files = _filesystem(filesystem).get_file_info(pyarrow.fs.FileSelector(os.fspath(motions)))
+    partitions = sum(file.extension == "parquet" and file.base_name[0] not in "._" for file in files)
+    if partitions == 0:
+        raise rockfrag.TableError(f"{motions}: a folder without Parquet files; expected partitions of motions")
+    return _each_partition(rockfrag.simulate, motions, out, partitions, filesystem, num_cpus, options)
+
+
+def _each_partition(
+    stage: Callable[..., Any],
+    source: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    partitions: int,
+    filesystem: Any,
+    num_cpus: int,
+    options: dict[str, Any],
+) -> list[dict[str, Any]]:
+    names = [{"partition": f"{index}/{partitions}"} for index in range(partitions)]
+    source, out = os.fspath(source), os.fspath(out)
+
+    def run(row: dict[str, Any]) -> dict[str, Any]:
+        start = time.perf_counter()
+        call = {**options, "partition": row["partition"], "threads": num_cpus}
+        file = _run(stage, source, out, filesystem, call)
+        with _filesystem(filesystem).open_input_file(file) as opened:
+            rows = pyarrow.parquet.read_metadata(opened).num_rows
+        node = ray.get_runtime_context().get_node_id()
+        return {**row, "file": file, "rows": rows, "seconds": time.perf_counter() - start, "node": node}
+
+    dataset = ray.data.from_items(names, override_num_blocks=partitions)
+    results = dataset.map(run, num_cpus=num_cpus).take_all()
+    return sorted(results, key=lambda result: int(result["partition"].split("/")[0]))
+
+
+def _run(stage: Callable[..., Any], source: str, out: str, filesystem: Any, call: dict[str, Any]) -> str:
+    """Runs a stage on a partition, and gives the file that it wrote."""
+    if filesystem is None:
+        return str(stage(source, out=f"{out}/", **call))
+    remote = _filesystem(filesystem)
+    with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
+        name = partition_file(call["partition"])
+        # A file that is there already is fetched, so that the stage can tell whether it is up to date.
+        here = Path(folder, "out", name)
+        there = str(PurePosixPath(out, name))
+        before = _fetch(remote, there, here)
+        local = Path(folder, "in", name)
+        if _fetch(remote, source, local) is None:
+            # What the folder has under this name is the whole partition, and says itself which.
+            call = {**call, "partition": None}
+            if _fetch(remote, str(PurePosixPath(source, name)), local) is None:
+                raise rockfrag.MissingFileError(f"{source}: no such file, nor a folder with {name}")
+        stage(local, out=here, **call)
+        if before is None or here.stat().st_mtime_ns != before:
+            _send(remote, here, there)
+    return there
+
+
+def _fetch(remote: pyarrow.fs.FileSystem, path: str, to: Path) -> int | None:
+    """Copies a file to this machine and gives its time of change; none where there is no such file."""
+    if remote.get_file_info(path).type != pyarrow.fs.FileType.File:
+        return None
+    to.parent.mkdir(exist_ok=True)
+    pyarrow.fs.copy_files(path, str(to), source_filesystem=remote)
+    return to.stat().st_mtime_ns
+
+
+def _send(remote: pyarrow.fs.FileSystem, file: Path, path: str) -> None:
+    """Copies a file beside its name, which it takes when it is whole."""
+    folder = PurePosixPath(path).parent
+    remote.create_dir(str(folder), recursive=True)
+    partial = str(folder / f".{file.name}.{uuid.uuid4().hex}.partial")
+    pyarrow.fs.copy_files(str(file), partial, destination_filesystem=remote)
+    remote.move(partial, path)
+
+
+def _filesystem(given: Any) -> pyarrow.fs.FileSystem:
+    if given is None:
+        return pyarrow.fs.LocalFileSystem()
+    if isinstance(given, pyarrow.fs.FileSystem):
+        return given
+    return pyarrow.fs.PyFileSystem(pyarrow.fs.FSSpecHandler(given))

@@ -1,0 +1,39 @@
+//! The Python package: the stages of rockfrag with tables that come and go as Arrow.
+//!
+//! ```text
+//! stages    a function a stage: options as JSON, tables or paths in, a table or a path out
+//! response  one structure and one motion, as NumPy arrays
+//! table     tables between Python and the stages, without a copy
+//! run       the GIL released, threads, progress, Ctrl-C
+//! error     errors as Python's exceptions
+//! ```
+
+use pyo3::prelude::*;
+use rockfrag::table::guarded::quiet_damage;
+
+mod error;
+mod response;
+mod run;
+mod stages;
+mod table;
+
+#[pymodule]
+mod _rockfrag {
+    use super::*;
+
+    #[pymodule_export]
+    use crate::response::response;
+    #[pymodule_export]
+    use crate::stages::{
+        evaluate, fit_pex, fit_pro, import_motions, partition_file, sample_scenarios, simulate,
+        synthesize_motions,
+    };
+    #[pymodule_export]
+    use crate::table::PyTable;
+
+    #[pymodule_init]
+    fn init(module: &Bound<PyModule>) -> PyResult<()> {
+        quiet_damage();
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

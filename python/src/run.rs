@@ -1,0 +1,138 @@
+//! A stage in the background of a Python call: the GIL is released, and whoever called hears of progress and can interrupt.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use rockfrag::pipeline::console::{Console, Follower};
+
+use crate::error::to_python;
+
+/// Between two looks at signals and progress.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// How a call is run.
+#[derive(FromPyObject)]
+pub struct Manner {
+    /// Threads; all cores if none.
+    #[pyo3(item)]
+    threads: Option<usize>,
+    /// Called with the number of steps done and of all.
+    #[pyo3(item)]
+    progress: Option<Py<PyAny>>,
+    /// Whether even what is up to date is run.
+    #[pyo3(item)]
+    pub force: bool,
+}
+
+/// What the stage says, for the thread that waits for it.
+#[derive(Default)]
+struct Followed {
+    done: AtomicU64,
+    total: AtomicU64,
+    stop: AtomicBool,
+    notes: Mutex<Vec<String>>,
+}
+
+impl Follower for Followed {
+    fn note(&self, line: &str) {
+        if let Ok(mut notes) = self.notes.lock() {
+            notes.push(line.to_string());
+        }
+    }
+
+    fn begin(&self, steps: u64) {
+        self.total.fetch_add(steps, Ordering::Relaxed);
+    }
+
+    fn advance(&self, steps: u64) -> anyhow::Result<()> {
+        self.done.fetch_add(steps, Ordering::Relaxed);
+        anyhow::ensure!(!self.stop.load(Ordering::Relaxed), "interrupted");
+        Ok(())
+    }
+}
+
+/// Runs `work` on a thread of its own, with as many threads as `manner` says, until it is done or Python interrupts it.
+pub fn run<T: Send>(
+    py: Python,
+    manner: &Manner,
+    work: impl FnOnce(&Console) -> anyhow::Result<T> + Send,
+) -> PyResult<T> {
+    let followed = Arc::new(Followed::default());
+    let console = Console { follower: Some(followed.clone()), ..Console::default() };
+    let (finished, wait) = sync_channel(1);
+    let (watched, console) = (&followed, &console);
+    let (result, interrupted) = py.detach(move || {
+        thread::scope(|scope| {
+            let worker = scope.spawn(move || {
+                let result = on_threads(manner.threads, || work(console));
+                // Whoever waits is there until this is said.
+                let _ = finished.send(());
+                result
+            });
+            let mut interrupted = None;
+            let mut told = 0;
+            while wait.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                if interrupted.is_some() {
+                    continue;
+                }
+                if let Err(error) = Python::attach(|py| look(py, manner, watched, &mut told)) {
+                    watched.stop.store(true, Ordering::Relaxed);
+                    interrupted = Some(error);
+                }
+            }
+            (worker.join(), interrupted)
+        })
+    });
+    if let Some(error) = interrupted {
+        return Err(error);
+    }
+    let result = result.unwrap_or_else(|_| Err(anyhow::anyhow!("the stage stopped unexpectedly")));
+    tell(py, &followed)?;
+    let result = result.map_err(|error| to_python(py, &error))?;
+    look(py, manner, &followed, &mut 0)?;
+    Ok(result)
+}
+
+fn on_threads<T: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> anyhow::Result<T> + Send,
+) -> anyhow::Result<T> {
+    match threads {
+        Some(threads) => rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(work),
+        None => work(),
+    }
+}
+
+/// Lets Python interrupt, and tells it what is done if that is more than was `told`.
+fn look(py: Python, manner: &Manner, followed: &Followed, told: &mut u64) -> PyResult<()> {
+    py.check_signals()?;
+    let done = followed.done.load(Ordering::Relaxed);
+    if let Some(progress) = manner.progress.as_ref().filter(|_| done > *told) {
+        *told = done;
+        progress.call1(py, (done, followed.total.load(Ordering::Relaxed)))?;
+    }
+    Ok(())
+}
+
+/// Warnings as Python's, what was done as a line of its log.
+fn tell(py: Python, followed: &Followed) -> PyResult<()> {
+    let notes = followed.notes.lock().map(|mut notes| std::mem::take(&mut *notes)).unwrap_or_default();
+    for note in notes {
+        match note.strip_prefix("warning: ") {
+            Some(warning) => {
+                let class = py.import("rockfrag.errors")?.getattr("RockfragWarning")?;
+                // The line of whoever called the package's function.
+                py.import("warnings")?.call_method1("warn", (warning, class, 2))?;
+            }
+            None => {
+                let log = py.import("logging")?.call_method1("getLogger", ("rockfrag",))?;
+                log.call_method1("info", (note,))?;
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,88 @@
+//! Least squares in many resamples at once.
+
+use super::bootstrap::TOGETHER;
+
+/// A pivot smaller than this beside its diagonal is nothing but rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// The lower triangle, row by row, of the sums of products of (1, x1, x2 ..., y) in each resample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NormalEquations {
+    /// The sums; the first is how many cases there are.
+    pub products: Vec<[f64; TOGETHER]>,
+}
+
+/// What follows from them, NaN where they do not determine it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LeastSquares {
+    /// Intercept first.
+    pub coefficients: Vec<[f64; TOGETHER]>,
+    /// Residual sum of squares.
+    pub rss: [f64; TOGETHER],
+}
+
+impl NormalEquations {
+    /// Of no cases, with so many coefficients.
+    pub fn empty(coefficients: usize) -> NormalEquations {
+        NormalEquations { products: vec![[0.0; TOGETHER]; place(coefficients, coefficients) + 1] }
+    }
+
+    /// Adds those of further cases.
+    pub fn add(&mut self, other: &NormalEquations) {
+        for (sum, other) in self.products.iter_mut().flatten().zip(other.products.iter().flatten()) {
+            *sum += other;
+        }
+    }
+
+    /// Takes over those of one resample.
+    pub fn copy(&mut self, other: &NormalEquations, resample: usize) {
+        for (product, other) in self.products.iter_mut().zip(&other.products) {
+            product[resample] = other[resample];
+        }
+    }
+
+    /// The residual sums of squares alone, by symmetric elimination.
+    pub fn rss(&self, coefficients: usize) -> [f64; TOGETHER] {
+        self.eliminated(coefficients)[place(coefficients, coefficients)]
+    }
+
+    /// Coefficients and residuals.
+    pub fn solve(&self, coefficients: usize) -> LeastSquares {
+        let k = coefficients;
+        let triangle = self.eliminated(k);
+        let mut b = vec![[0.0; TOGETHER]; k];
+        for p in (0..k).rev() {
+            for resample in 0..TOGETHER {
+                let later = (p + 1..k).map(|q| triangle[place(q, p)][resample] * b[q][resample]).sum::<f64>();
+                b[p][resample] = (triangle[place(k, p)][resample] - later) / triangle[place(p, p)][resample];
+            }
+        }
+        LeastSquares { coefficients: b, rss: triangle[place(k, k)] }
+    }
+
+    fn eliminated(&self, k: usize) -> Vec<[f64; TOGETHER]> {
+        let mut triangle = self.products.clone();
+        for p in 0..k {
+            for (pivot, diagonal) in triangle[place(p, p)].iter_mut().zip(&self.products[place(p, p)]) {
+                if *pivot <= ROUNDING * diagonal {
+                    *pivot = f64::NAN;
+                }
+            }
+            for i in p + 1..=k {
+                for j in p + 1..=i {
+                    let [pivot, row, column, here] =
+                        [(p, p), (i, p), (j, p), (i, j)].map(|(i, j)| triangle[place(i, j)]);
+                    triangle[place(i, j)] = std::array::from_fn(|resample| {
+                        here[resample] - row[resample] / pivot[resample] * column[resample]
+                    });
+                }
+            }
+        }
+        triangle
+    }
+}
+
+/// Where row `i` and column `j` of a lower triangle stand.
+fn place(i: usize, j: usize) -> usize {
+    i * (i + 1) / 2 + j
+}

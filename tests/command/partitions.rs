@@ -1,0 +1,130 @@
+//! Work that many processes share: partitions, and folders of them where a file may stand.
+
+use std::path::{Path, PathBuf};
+
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use rockfrag::table::fingerprint::Fingerprint;
+
+use crate::common::{content, fail, rockfrag, small_pipeline, succeed};
+
+/// The content fingerprint of the rows of a folder's files, in the order of names.
+fn together(folder: &Path) -> String {
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    let open = |file| ParquetRecordBatchReaderBuilder::try_new(std::fs::File::open(file).unwrap()).unwrap();
+    let mut fingerprint = Fingerprint::new(open(&files[0]).schema().clone());
+    for batch in files.iter().flat_map(|file| open(file).build().unwrap()) {
+        fingerprint.update(&batch.unwrap());
+    }
+    fingerprint.finish()
+}
+
+/// The small pipeline, with its motions also in `n` partitions.
+fn partitioned(n: usize) -> tempfile::TempDir {
+    let (folder, _) = small_pipeline();
+    succeed(folder.path(), "run");
+    for i in 0..n {
+        let call = "synthesize-motions --config pipeline.yaml --in out/scenarios.parquet --out parts";
+        succeed(folder.path(), &format!("{call} --partition {i}/{n}"));
+    }
+    folder
+}
+
+#[test]
+fn partitions_together_are_the_whole() {
+    let folder = partitioned(3);
+    let at = |name: &str| folder.path().join(name);
+    assert!(at("parts/part-00002.parquet").is_file());
+    assert_eq!(together(&at("parts")), content(&at("out/motions.parquet")));
+    // Each on its own, out of order.
+    for i in [2, 0, 1] {
+        let call = "simulate --config pipeline.yaml --in parts --out responses";
+        succeed(folder.path(), &format!("{call} --partition {i}/3"));
+    }
+    assert_eq!(together(&at("responses")), content(&at("out/responses.parquet")));
+    // Motions in one file, cut where no row group ends.
+    for i in 0..7 {
+        let call = "simulate --config pipeline.yaml --in out/motions.parquet --out cut";
+        succeed(folder.path(), &format!("{call} --partition {i}/7"));
+    }
+    assert_eq!(together(&at("cut")), content(&at("out/responses.parquet")));
+}
+
+#[test]
+fn a_folder_stands_where_a_file_may() {
+    let folder = partitioned(3);
+    let at = |name: &str| folder.path().join(name);
+    succeed(folder.path(), "simulate --config pipeline.yaml --in parts --out one.parquet");
+    assert_eq!(content(&at("one.parquet")), content(&at("out/responses.parquet")));
+    let told = succeed(folder.path(), "simulate --config pipeline.yaml --in parts --out responses/");
+    assert_eq!(told.matches("responses of 2").count(), 3, "{told}");
+    assert_eq!(together(&at("responses")), content(&at("out/responses.parquet")));
+    let again = succeed(folder.path(), "simulate --config pipeline.yaml --in parts --out responses/");
+    assert_eq!(again.matches("up to date").count(), 3, "{again}");
+    for (fit, name) in [("fit-pex", "pex"), ("fit-pro", "pro")] {
+        succeed(folder.path(), &format!("{fit} --config pipeline.yaml --in responses --out {name}.parquet"));
+        assert_eq!(content(&at(&format!("{name}.parquet"))), content(&at(&format!("out/{name}.parquet"))));
+    }
+    let text = rockfrag(folder.path()).args(["inspect", "responses"]).output().unwrap();
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(text.contains("160 rows in 3 row groups") && text.contains("made by simulate"), "{text}");
+}
+
+#[test]
+fn a_partition_that_is_done_is_skipped() {
+    let folder = partitioned(2);
+    let call = "synthesize-motions --config pipeline.yaml --in out/scenarios.parquet --out parts --partition";
+    let told = succeed(folder.path(), &format!("{call} 1/2"));
+    assert!(told.contains("up to date"), "{told}");
+    // Another cut is other work, even where the name is the same.
+    let told = succeed(folder.path(), &format!("{call} 1/3"));
+    assert!(told.contains("26 motions") || told.contains("28 motions"), "{told}");
+    fail(folder.path(), "simulate --in parts", 1, &["part-00001.parquet", "3 partitions", "of 2"]);
+}
+
+#[test]
+fn an_incomplete_folder_is_no_table() {
+    let folder = partitioned(3);
+    let at = |name: &str| folder.path().join(name);
+    std::fs::remove_file(at("parts/part-00001.parquet")).unwrap();
+    let missing = ["parts", "part-00001.parquet is missing", "--partition 1/3"];
+    fail(folder.path(), "simulate --in parts --out r.parquet", 1, &missing);
+    // A partition needs no other one.
+    succeed(folder.path(), "simulate --in parts --partition 2/3 --out r");
+    fail(
+        folder.path(),
+        "simulate --in parts --partition 1/3 --out r",
+        1,
+        &["part-00001.parquet", "no such file"],
+    );
+    fail(folder.path(), "simulate --in parts --partition 2/4 --out r", 1, &["3 partitions", "2/4"]);
+    std::fs::create_dir(at("empty")).unwrap();
+    fail(folder.path(), "simulate --in empty --out r.parquet", 1, &["empty", "part-00000.parquet"]);
+}
+
+#[test]
+fn a_partition_that_cannot_be_is_named() {
+    let folder = partitioned(1);
+    for wrong in ["3/3", "-1/3", "1", "a/b", "0/0"] {
+        let call = format!("synthesize-motions --in out/scenarios.parquet --partition={wrong}");
+        fail(folder.path(), &call, 2, &["from 0 to n - 1"]);
+    }
+    let call = "simulate --in out/motions.parquet --trace 1 --partition 0/2";
+    fail(folder.path(), call, 2, &["--partition", "--trace"]);
+    let call = "simulate --in parts/part-00000.parquet --out r --partition 0/2";
+    fail(folder.path(), call, 2, &["partition 0/1", "--partition 0/2"]);
+}
+
+#[test]
+fn a_partition_may_have_no_rows() {
+    let folder = partitioned(1);
+    succeed(folder.path(), "sample-scenarios --samples 1 --mw 6 --re 5,10 --out two.parquet");
+    succeed(folder.path(), "synthesize-motions --in two.parquet --out few --partition 0/3");
+    succeed(folder.path(), "synthesize-motions --in two.parquet --out few --partition 1/3");
+    succeed(folder.path(), "synthesize-motions --in two.parquet --out few --partition 2/3");
+    let told = succeed(folder.path(), "simulate --in few --out r.parquet");
+    assert!(told.contains("4 responses"), "{told}");
+    let told = succeed(folder.path(), "simulate --in few --out r --partition 0/3");
+    assert!(told.contains("0 responses"), "{told}");
+}
