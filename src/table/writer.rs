@@ -96,10 +96,7 @@ impl TableWriter {
     pub fn write_row_group(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
         match &mut self.0 {
             Destination::File(file) => file.write_row_group(batch),
-            Destination::Memory(_, _, table) => {
-                table.batches.push(batch.clone());
-                Ok(())
-            }
+            Destination::Memory(..) => self.append(batch),
         }
     }
 
@@ -156,11 +153,8 @@ impl FileWriter {
 
     fn append(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
         self.write(batch)?;
-        if self.writer.in_progress_rows() < ROWS_IN_GROUP * self.share() {
-            Ok(())
-        } else {
-            self.end_row_group()
-        }
+        let most = ROWS_IN_GROUP * self.share();
+        if self.writer.in_progress_rows() < most { Ok(()) } else { self.end_row_group() }
     }
 
     fn write(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
