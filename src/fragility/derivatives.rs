@@ -49,6 +49,40 @@ pub fn derivatives(
     widest(Pass { design, coefficients, score })
 }
 
+/// The sum of a value of each case. `value` is given some neighbouring cases and their indices b0 + b1 x1 + ..., to be
+/// replaced by their values; what it calls must be inlined to be fast.
+pub fn sum(design: &DesignMatrix, coefficients: &[f64], value: impl Fn(Range<usize>, &mut [f64])) -> f64 {
+    widest(Sum { design, coefficients, value })
+}
+
+/// A pass over all cases for their values.
+struct Sum<'a, F> {
+    design: &'a DesignMatrix,
+    coefficients: &'a [f64],
+    value: F,
+}
+
+impl<F: Fn(Range<usize>, &mut [f64])> NullaryFnOnce for Sum<'_, F> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let (mut sums, mut values) = ([0.0; PARTS], [0.0; BLOCK]);
+        for from in (0..self.design.cases()).step_by(BLOCK) {
+            let cases = from..self.design.cases().min(from + BLOCK);
+            let values = &mut values[..cases.len()];
+            indices(self.design, self.coefficients, cases.clone(), values);
+            (self.value)(cases, values);
+            let (whole, rest) = values.as_chunks::<PARTS>();
+            for values in whole {
+                sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+            }
+            sums.iter_mut().zip(rest).for_each(|(sum, value)| *sum += value);
+        }
+        sums.iter().sum()
+    }
+}
+
 /// A pass over all cases.
 struct Pass<'a, F> {
     design: &'a DesignMatrix,
@@ -69,10 +103,7 @@ impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
         for from in (0..self.design.cases()).step_by(BLOCK) {
             let to = self.design.cases().min(from + BLOCK);
             let (slope, curvature) = (&mut slope[..to - from], &mut curvature[..to - from]);
-            slope.fill(0.0);
-            for (column, &b) in columns.iter().zip(self.coefficients) {
-                slope.iter_mut().zip(&column[from..to]).for_each(|(index, x)| *index += b * x);
-            }
+            indices(self.design, self.coefficients, from..to, slope);
             (self.score)(from..to, Scores { slope, curvature });
             for i in 0..k {
                 let x = &columns[i][from..to];
@@ -88,6 +119,15 @@ impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
             gradient: DVector::from_iterator(k, gradient.iter().map(total)),
             information: DMatrix::from_fn(k, k, |i, j| total(&information[place(i, j)])),
         }
+    }
+}
+
+/// b0 + b1 x1 + ... of some cases.
+#[inline(always)]
+fn indices(design: &DesignMatrix, coefficients: &[f64], cases: Range<usize>, indices: &mut [f64]) {
+    indices.fill(0.0);
+    for (column, &b) in design.columns().iter().zip(coefficients) {
+        indices.iter_mut().zip(&column[cases.clone()]).for_each(|(index, x)| *index += b * x);
     }
 }
 

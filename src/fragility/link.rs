@@ -49,7 +49,7 @@ impl Link {
     pub fn ln_probability(self, index: f64, event: bool) -> f64 {
         let z = if event { index } else { -index };
         match self {
-            Link::Probit => normal::ln_cdf(z),
+            Link::Probit => probit_ln_probability(index, event),
             Link::Logit if z > 0.0 => -(-z).exp().ln_1p(),
             Link::Logit => z - z.exp().ln_1p(),
             Link::Cloglog if event => (-(-index.exp()).exp_m1()).ln(),
@@ -88,6 +88,12 @@ impl Link {
             }
         }
     }
+}
+
+/// [`Link::ln_probability`] of the probit.
+#[inline(always)]
+pub(super) fn probit_ln_probability(index: f64, event: bool) -> f64 {
+    normal::ln_cdf(if event { index } else { -index })
 }
 
 /// [`Link::score`] of the probit.

@@ -1,6 +1,9 @@
 //! Least squares in many resamples at once.
 
+use pulp::NullaryFnOnce;
+
 use super::bootstrap::TOGETHER;
+use crate::wide::widest;
 
 /// A pivot smaller than this beside its diagonal is nothing but rounding.
 const ROUNDING: f64 = 1e-12;
@@ -61,20 +64,36 @@ impl NormalEquations {
     }
 
     fn eliminated(&self, k: usize) -> Vec<[f64; TOGETHER]> {
-        let mut triangle = self.products.clone();
-        for p in 0..k {
-            for (pivot, diagonal) in triangle[place(p, p)].iter_mut().zip(&self.products[place(p, p)]) {
+        widest(Elimination { triangle: self.products.clone(), coefficients: k })
+    }
+}
+
+/// Symmetric elimination of all rows but the last.
+struct Elimination {
+    triangle: Vec<[f64; TOGETHER]>,
+    coefficients: usize,
+}
+
+impl NullaryFnOnce for Elimination {
+    type Output = Vec<[f64; TOGETHER]>;
+
+    #[inline(always)]
+    fn call(self) -> Vec<[f64; TOGETHER]> {
+        let Elimination { mut triangle, coefficients: k } = self;
+        let diagonals: Vec<[f64; TOGETHER]> = (0..k).map(|p| triangle[place(p, p)]).collect();
+        for (p, diagonal) in diagonals.iter().enumerate() {
+            for (pivot, diagonal) in triangle[place(p, p)].iter_mut().zip(diagonal) {
                 if *pivot <= ROUNDING * diagonal {
                     *pivot = f64::NAN;
                 }
             }
             for i in p + 1..=k {
+                let [pivot, row] = [(p, p), (i, p)].map(|(i, j)| triangle[place(i, j)]);
+                let share: [f64; TOGETHER] = std::array::from_fn(|resample| row[resample] / pivot[resample]);
                 for j in p + 1..=i {
-                    let [pivot, row, column, here] =
-                        [(p, p), (i, p), (j, p), (i, j)].map(|(i, j)| triangle[place(i, j)]);
-                    triangle[place(i, j)] = std::array::from_fn(|resample| {
-                        here[resample] - row[resample] / pivot[resample] * column[resample]
-                    });
+                    let [column, here] = [(j, p), (i, j)].map(|(i, j)| triangle[place(i, j)]);
+                    triangle[place(i, j)] =
+                        std::array::from_fn(|resample| here[resample] - share[resample] * column[resample]);
                 }
             }
         }

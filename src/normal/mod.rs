@@ -1,6 +1,7 @@
 //! The standard normal distribution.
 
 mod exponential;
+mod logarithm;
 mod polynomial;
 mod quantile;
 mod tail;

@@ -1,20 +1,23 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI, LN_2};
 
 use super::exponential::falling_exp;
+use super::logarithm::ln;
 use super::polynomial::polynomial;
 
 /// 1 / sqrt(2 pi).
 const DENSITY_AT_0: f64 = 0.5 * FRAC_2_SQRT_PI * FRAC_1_SQRT_2;
 
-/// Logarithm of the cumulative probability at `x`, precise in both tails.
+/// Logarithm of the cumulative probability at `x`, precise in both tails. Without branches or calls, as [`inverse_mills`].
+#[inline(always)]
 pub fn ln_cdf(x: f64) -> f64 {
     let y = x.abs() * FRAC_1_SQRT_2;
-    let scaled_erfc = scaled_erfc_by_1_plus(y) / (1.0 + y);
-    if x < 0.0 {
-        libm::log(scaled_erfc) - LN_2 - 0.5 * x * x
-    } else {
-        libm::log1p(-0.5 * libm::exp(-0.5 * x * x) * scaled_erfc)
-    }
+    let (scaled, square) = (scaled_erfc_by_1_plus(y) / (1.0 + y), 0.5 * x * x);
+    let above = 0.5 * falling_exp(-square) * scaled;
+    let rest = 1.0 - above;
+    // ln(1 - q) = ln(u) + ((1 - u) - q) / u, where u is 1 - q rounded.
+    let (of, further) =
+        if x < 0.0 { (scaled, -LN_2 - square) } else { (rest, ((1.0 - rest) - above) / rest) };
+    ln(of) + further
 }
 
 /// Density over cumulative probability at `x`, the inverse Mills ratio and derivative of [`ln_cdf`], precise in both
