@@ -46,21 +46,29 @@ def test_other_threads_work_meanwhile():
     assert sum(start < tick < end for tick in ticks) > 3
 
 
-def test_control_c_ends_a_call_and_leaves_nothing(tmp_path):
-    scenarios, motions = str(tmp_path / "scenarios.parquet"), str(tmp_path / "motions.parquet")
+def interrupted(begin, call):
+    """Sends an interrupt to a process in the midst of a call; what it prints of it."""
     code = (
-        "import rockfrag\n"
-        f"rockfrag.sample_scenarios(samples=20000, out={scenarios!r})\n"
-        "print('begun', flush=True)\n"
-        "try:\n"
-        f"    rockfrag.synthesize_motions({scenarios!r}, out={motions!r})\n"
-        "except KeyboardInterrupt:\n"
-        "    print('interrupted')\n"
+        f"import rockfrag\n{begin}\nprint('begun', flush=True)\n"
+        f"try:\n    {call}\nexcept KeyboardInterrupt:\n    print('interrupted')\n"
     )
     called = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
     assert called.stdout.readline() == "begun\n"
     time.sleep(0.5)
     called.send_signal(signal.SIGINT)
-    rest, _ = called.communicate(timeout=120)
-    assert rest == "interrupted\n"
+    return called.communicate(timeout=120)[0]
+
+
+def test_control_c_ends_a_call_and_leaves_nothing(tmp_path):
+    scenarios, motions = str(tmp_path / "scenarios.parquet"), str(tmp_path / "motions.parquet")
+    told = interrupted(
+        f"rockfrag.sample_scenarios(samples=20000, out={scenarios!r})",
+        f"rockfrag.synthesize_motions({scenarios!r}, out={motions!r})",
+    )
+    assert told == "interrupted\n"
     assert os.listdir(tmp_path) == ["scenarios.parquet"]
+
+
+def test_control_c_ends_refits(out):
+    responses = str(out / "responses.parquet")
+    assert interrupted("", f"rockfrag.fit_pex({responses!r}, bootstrap=1_000_000)") == "interrupted\n"

@@ -1,5 +1,7 @@
 //! Resampling that respects the design: rows are drawn anew within each cell.
 
+use std::convert::Infallible;
+
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
 
@@ -75,6 +77,21 @@ pub fn bootstrap<T: Send>(
     seed: u64,
     refit: impl Fn(&Resamples) -> [T; TOGETHER] + Sync,
 ) -> Vec<T> {
+    let refit = |resamples: &Resamples| Ok::<_, Infallible>(refit(resamples));
+    let Ok(refits) = try_bootstrap(strata, replicates, seed, refit);
+    refits
+}
+
+/// [`bootstrap`] that ends with the first error of `refit`.
+///
+/// # Errors
+/// Those of `refit`.
+pub fn try_bootstrap<T: Send, E: Send>(
+    strata: &Strata,
+    replicates: usize,
+    seed: u64,
+    refit: impl Fn(&Resamples) -> Result<[T; TOGETHER], E> + Sync,
+) -> Result<Vec<T>, E> {
     let together = |batch: usize| {
         let mut resamples = Resamples { counts: vec![[0.0; TOGETHER]; strata.rows] };
         for resample in 0..TOGETHER {
@@ -83,7 +100,7 @@ pub fn bootstrap<T: Send>(
         }
         refit(&resamples)
     };
-    let batches: Vec<[T; TOGETHER]> =
-        (0..replicates.div_ceil(TOGETHER)).into_par_iter().map(together).collect();
-    batches.into_iter().flatten().take(replicates).collect()
+    let batches = (0..replicates.div_ceil(TOGETHER)).into_par_iter().map(together);
+    let batches = batches.collect::<Result<Vec<[T; TOGETHER]>, E>>()?;
+    Ok(batches.into_iter().flatten().take(replicates).collect())
 }

@@ -166,11 +166,8 @@ impl Stage for FitPro {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let bar = console.bar(self.subcommand(), groups.len() as u64);
-        let fit = |group| {
-            let fitted = self.model.fit(group);
-            bar.inc(1).map(|()| fitted)
-        };
+        let bar = console.bar(self.subcommand(), groups.len() as u64 * self.model.uncertainty.steps());
+        let fit = |group| self.model.fit(group, &bar);
         let rows: Vec<Vec<ProRow>> = groups.par_iter().map(fit).collect::<anyhow::Result<_>>()?;
         bar.finish();
         let rows = rows.concat();

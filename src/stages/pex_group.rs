@@ -9,6 +9,7 @@ use crate::fragility::{
     PLANE, ScanPoint, SmoothFit, Strata, TOGETHER, TransitionSearch, bootstrap_limits, fit_biplanar,
     fit_plane, fit_smooth, fit_univariate, ranges, reset, transition_limits,
 };
+use crate::pipeline::console::Progress;
 use crate::table::pex::{Model, PexReplicate, PexRow};
 use crate::table::pex_scan::ScanRow;
 
@@ -46,17 +47,21 @@ enum Refit {
 impl PexModel {
     /// The six univariate regressions, the plane, the two planes and those with a smooth transition, and the search for the
     /// break. The smooth ones have no replicates: a search for each would take a hundred times as long as all others.
-    pub fn fit(&self, group: &Group) -> (Vec<PexRow>, Vec<ScanRow>) {
+    ///
+    /// # Errors
+    /// If whoever follows wants it to stop.
+    pub fn fit(&self, group: &Group, progress: &Progress) -> anyhow::Result<(Vec<PexRow>, Vec<ScanRow>)> {
+        progress.inc(1)?;
         let (mut rows, scan) = self.regressions(group);
         if self.uncertainty.replicates > 0 {
-            self.resample(group, &mut rows);
+            self.resample(group, progress, &mut rows)?;
         }
         rows.iter_mut().for_each(|row| self.infer(group, row));
         rows.extend(self.smooth(group));
         for row in &mut rows {
             row.ranges = ranges(&sample(group, row, row.range()).predictors());
         }
-        (rows, scan)
+        Ok((rows, scan))
     }
 
     fn regressions(&self, group: &Group) -> (Vec<PexRow>, Vec<ScanRow>) {
@@ -150,10 +155,10 @@ impl PexModel {
     }
 
     /// Adds the regressions of each resample.
-    fn resample(&self, group: &Group, rows: &mut [PexRow]) {
+    fn resample(&self, group: &Group, progress: &Progress, rows: &mut [PexRow]) -> anyhow::Result<()> {
         let search = TransitionSearch::new(&DemandSample::new(&group.cases, &PLANE, EVERYWHERE));
         let refits: Vec<Option<Refit>> = rows.iter().map(|row| self.refit(group, row)).collect();
-        let resampled = self.uncertainty.bootstrap(group, |resamples| {
+        let resampled = self.uncertainty.bootstrap(group, progress, |resamples| {
             let breaks = search.breaks(resamples);
             let of_all = |refit: &Option<Refit>| match refit {
                 Some(Refit::Of(refits)) => refits.replicates(resamples),
@@ -170,7 +175,7 @@ impl PexModel {
                 };
                 Resampled { found, fits: rows.iter().zip(&mut fits).map(replicate).collect() }
             })
-        });
+        })?;
         let found: Vec<Option<f64>> = resampled.iter().map(|resample| resample.found).collect();
         for (k, row) in rows.iter_mut().enumerate() {
             row.replicates = resampled.iter().map(|resample| resample.fits[k].clone()).collect();
@@ -179,6 +184,7 @@ impl PexModel {
                 row.transition_percentile = limits.map(|limits| limits.percentile);
             }
         }
+        Ok(())
     }
 
     fn refit(&self, group: &Group, row: &PexRow) -> Option<Refit> {

@@ -9,6 +9,7 @@ use crate::fragility::{
     likelihood_ratio, ranges,
 };
 use crate::keyword::Keyword;
+use crate::pipeline::console::Progress;
 use crate::table::pro::{ParameterInference, ProRow};
 
 /// How all curves are made.
@@ -25,16 +26,20 @@ pub struct ProModel {
 
 impl ProModel {
     /// The curves of the six scalar measures and of the hybrid ones.
-    pub fn fit(&self, group: &Group) -> Vec<ProRow> {
+    ///
+    /// # Errors
+    /// If whoever follows wants it to stop.
+    pub fn fit(&self, group: &Group, progress: &Progress) -> anyhow::Result<Vec<ProRow>> {
+        progress.inc(1)?;
         let scalar = Measure::SCALAR.into_iter().map(|measure| (measure, None));
         let measures = scalar.chain(self.pairs.iter().map(|&Pair(x, y)| (x, Some(y))));
         let (mut rows, samples): (Vec<ProRow>, Vec<EventSample>) =
             measures.map(|(im_x, im_y)| self.curve(group, im_x, im_y)).unzip();
         if self.uncertainty.replicates > 0 {
-            self.resample(group, &mut rows, &samples);
+            self.resample(group, progress, &mut rows, &samples)?;
         }
         rows.iter_mut().zip(&samples).for_each(|(row, sample)| self.infer(group, row, sample));
-        rows
+        Ok(rows)
     }
 
     fn curve(&self, group: &Group, im_x: Measure, im_y: Option<Measure>) -> (ProRow, EventSample) {
@@ -67,21 +72,28 @@ impl ProModel {
     }
 
     /// Adds the coefficients in each resample.
-    fn resample(&self, group: &Group, rows: &mut [ProRow], samples: &[EventSample]) {
+    fn resample(
+        &self,
+        group: &Group,
+        progress: &Progress,
+        rows: &mut [ProRow],
+        samples: &[EventSample],
+    ) -> anyhow::Result<()> {
         let pairs = rows.iter().zip(samples);
         let refits: Vec<Option<CurveRefits>> = pairs
             .map(|(row, sample)| Some(CurveRefits::new(sample, &row.fit.as_ref().ok()?.regression)))
             .collect();
-        let resampled = self.uncertainty.bootstrap(group, |resamples| {
+        let resampled = self.uncertainty.bootstrap(group, progress, |resamples| {
             let of_all = |refits: &Option<CurveRefits>| Some(refits.as_ref()?.coefficients(resamples));
             let mut fits: Vec<_> = refits.iter().map(of_all).collect();
             std::array::from_fn(|resample| -> Vec<_> {
                 fits.iter_mut().map(|fit| fit.as_mut()?[resample].take()).collect()
             })
-        });
+        })?;
         for (k, row) in rows.iter_mut().enumerate() {
             row.replicates = resampled.iter().map(|fits| fits[k].clone()).collect();
         }
+        Ok(())
     }
 
     /// Adds clustered errors, profile-likelihood limits, and limits from the replicates if there are any.

@@ -2,7 +2,8 @@
 
 use super::groups::Group;
 use super::sample_scenarios::DEFAULT_SEED;
-use crate::fragility::{Resamples, Strata, TOGETHER, bootstrap};
+use crate::fragility::{Resamples, Strata, TOGETHER, try_bootstrap};
+use crate::pipeline::console::Progress;
 use crate::pipeline::options::check;
 
 /// More than this is a slip of the finger.
@@ -31,12 +32,24 @@ impl Uncertainty {
         Ok(Uncertainty { replicates, confidence, seed: seed.unwrap_or(DEFAULT_SEED) })
     }
 
+    /// The steps of progress of a group: a fit, and each refit of it.
+    pub fn steps(&self) -> u64 {
+        1 + self.replicates.next_multiple_of(TOGETHER) as u64
+    }
+
     /// Refits of a group, resampled within its cells.
+    ///
+    /// # Errors
+    /// If whoever follows wants it to stop.
     pub fn bootstrap<T: Send>(
         &self,
         group: &Group,
+        progress: &Progress,
         refit: impl Fn(&Resamples) -> [T; TOGETHER] + Sync,
-    ) -> Vec<T> {
-        bootstrap(&Strata::new(&group.cells), self.replicates, self.seed, refit)
+    ) -> anyhow::Result<Vec<T>> {
+        try_bootstrap(&Strata::new(&group.cells), self.replicates, self.seed, |resamples| {
+            progress.inc(TOGETHER as u64)?;
+            Ok(refit(resamples))
+        })
     }
 }
