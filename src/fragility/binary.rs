@@ -108,6 +108,10 @@ impl BinaryLikelihood<'_> {
         objective
     }
 
+    #[expect(
+        clippy::redundant_closure,
+        reason = "a function passed along is called in a way that need not be inlined"
+    )]
     fn log_likelihood(&self, coefficients: &DVector<f64>) -> f64 {
         match self.link {
             Link::Probit => self.total(
@@ -134,10 +138,12 @@ impl BinaryLikelihood<'_> {
         )
     }
 
-    // Closures, since a function that is passed along is called in a way that need not be inlined.
-
     /// Derivatives of the likelihood alone, its value left at zero: all that plain Newton steps need, in a fraction of the
     /// time.
+    #[expect(
+        clippy::redundant_closure,
+        reason = "a function passed along is called in a way that need not be inlined"
+    )]
     pub fn derivatives_at(&self, coefficients: &DVector<f64>) -> Objective {
         match self.link {
             Link::Probit => self.sum(
