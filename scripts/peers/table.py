@@ -12,6 +12,7 @@ import os
 import pathlib
 import platform
 import resource
+import shutil
 import statistics
 import subprocess
 import sys
@@ -172,6 +173,21 @@ def compare(folder, rockfrag, repeat):
         f"{singly / grid:.2f}",
     )
 
+    if shutil.which("valgrind"):
+        flops = json.loads(run(sys.executable, HERE / "flops.py", motions, "--rockfrag", rockfrag)[2])
+        operations = flops["flop_an_analysis"] * analyses / grid
+        benchmark = ROOT / "target" / "criterion" / "processor" / "multiply-adds" / "new" / "benchmark.json"
+        multiply_adds = json.loads(benchmark.read_text())["throughput"]["Elements"]
+        peak = 2 * multiply_adds / solver["processor/multiply-adds"]
+        table.add(
+            "the same, operations",
+            f"{flops['flop_an_analysis'] / 1e3:.0f} kflop each, {operations / 1e9:.0f} GFLOP/s",
+            "fused multiply-adds alone",
+            f"{peak / 1e9:.0f} GFLOP/s",
+            "",
+            f"{operations / peak:.0%}",
+        )
+
     one_core = lambda: run(*synthesize, "--threads", 1, "--quiet", core=0)[0]
     numpy_motions = folder / "numpy.parquet"
     numpy_wall = lambda: sum(
@@ -259,6 +275,30 @@ def compare(folder, rockfrag, repeat):
     return table
 
 
+def stages(folder, rockfrag, repeat):
+    """The stages of the whole paper one by one on two threads: seconds, and how busy two cores are."""
+    at = lambda name: folder / "stages" / f"{name}.parquet"
+    between = lambda stage, source, made: (stage, "--in", at(source), "--out", at(made))
+    fitted = ("--pex", at("pex"), "--pro", at("pro"), "--responses", at("responses"))
+    commands = [
+        ("sample-scenarios", "--out", at("scenarios")),
+        between("synthesize-motions", "scenarios", "motions"),
+        between("simulate", "motions", "responses"),
+        between("fit-pex", "responses", "pex"),
+        between("fit-pro", "responses", "pro"),
+        ("compare-paper", *fitted, "--out", at("paper")),
+        ("report", "--in", folder / "stages", "--out", folder / "stages" / "report.html"),
+    ]
+    (folder / "stages").mkdir()
+    lines = ["| stage | s | of two cores |", "| --- | --- | --- |"]
+    for command in commands:
+        call = (rockfrag, "--config", ROOT / "pipeline.yaml", "--threads", 2, *command, "--force", "--quiet")
+        runs = [run(*call)[:2] for _ in range(repeat)]
+        wall, processor = (statistics.median(times) for times in zip(*runs))
+        lines.append(f"| {command[0]} | {wall:.2f} | {processor / wall / 2:.0%} |")
+    return "\n".join(lines)
+
+
 def machine():
     """What this was measured on."""
     model = next(
@@ -275,8 +315,10 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         table = compare(pathlib.Path(folder), options.rockfrag, options.repeat)
+        by_stage = stages(pathlib.Path(folder), options.rockfrag, options.repeat)
     print(f"Measured on {machine()}; medians of {options.repeat} runs.\n")
     print(table.markdown())
+    print(f"\n{by_stage}")
 
 
 if __name__ == "__main__":
