@@ -61,7 +61,8 @@ def operations(program):
     for place, name, operands in re.findall(r"^\s+([0-9a-f]+):\t(\S+)[ \t]*(.*)$", listing.stdout, re.M):
         if known := ARITHMETIC.match(name):
             width = next((WIDTHS[r] for r in "zyx" if f"%{r}mm" in operands), 1)
-            of_place[int(place, 16)] = (2 if "m" in known[1][:3] and known[1][0] == "f" else 1) * (width if known[2] == "p" else 1)
+            lanes = width if known[2] == "p" else 1
+            of_place[int(place, 16)] = 2 * lanes if known[1].startswith("f") else lanes
     return of_place
 
 

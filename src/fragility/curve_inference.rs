@@ -17,8 +17,7 @@ use super::separation::is_separated;
 /// What the last step may gain in log-likelihood. It then moves the coefficients by some 1e-3 of their standard errors, and
 /// Newton's convergence squares that.
 pub(super) const TOLERANCE: f64 = 1e-6;
-/// Plain Newton steps from where one step leads from the fit are fewer than this; more raise the suspicion that there is no
-/// maximum.
+/// Plain Newton steps from nearby are fewer than this; more raise the suspicion that there is no maximum.
 const SUSPICIOUS_STEPS: usize = 6;
 
 /// A curve with the cases it was fitted to.

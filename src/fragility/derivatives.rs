@@ -7,6 +7,7 @@ use pulp::NullaryFnOnce;
 
 use super::design_matrix::DesignMatrix;
 use super::newton::Objective;
+use super::triangle;
 use crate::wide::widest;
 
 /// Cases that are worked on together, so that they stay in the nearest cache.
@@ -97,8 +98,7 @@ impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
     fn call(self) -> Objective {
         let columns = self.design.columns();
         let k = columns.len();
-        let place = |i: usize, j: usize| i.max(j) * (i.max(j) + 1) / 2 + i.min(j);
-        let (mut gradient, mut information) = (vec![[0.0; PARTS]; k], vec![[0.0; PARTS]; k * (k + 1) / 2]);
+        let (mut gradient, mut information) = (vec![[0.0; PARTS]; k], vec![[0.0; PARTS]; triangle::count(k)]);
         let (mut slope, mut curvature) = ([0.0; BLOCK], [0.0; BLOCK]);
         for from in (0..self.design.cases()).step_by(BLOCK) {
             let to = self.design.cases().min(from + BLOCK);
@@ -109,7 +109,12 @@ impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
                 let x = &columns[i][from..to];
                 add_products(&mut gradient[i], slope, x, &columns[0][from..to]);
                 for j in 0..=i {
-                    add_products(&mut information[place(i, j)], curvature, x, &columns[j][from..to]);
+                    add_products(
+                        &mut information[triangle::place(i, j)],
+                        curvature,
+                        x,
+                        &columns[j][from..to],
+                    );
                 }
             }
         }
@@ -117,7 +122,7 @@ impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
         Objective {
             value: 0.0,
             gradient: DVector::from_iterator(k, gradient.iter().map(total)),
-            information: DMatrix::from_fn(k, k, |i, j| total(&information[place(i, j)])),
+            information: DMatrix::from_fn(k, k, |i, j| total(&information[triangle::place(i, j)])),
         }
     }
 }

@@ -36,6 +36,7 @@
 //! separation       whether there is a maximum at all
 //! design_matrix    the columns of a regression
 //! derivatives      sums over its cases, in wide registers
+//! triangle         where the numbers of a symmetric matrix stand
 //! overlap          the proof that there is one, for many predictors
 //! dependence       whether the predictors can be told apart
 //! spline           columns that bend a line
@@ -108,6 +109,7 @@ mod smooth;
 mod spline;
 mod transfer;
 mod transition;
+mod triangle;
 mod universality;
 mod validation;
 

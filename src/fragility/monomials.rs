@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::triangle;
+
 /// All products of powers of some variables up to a degree, those of a lower degree first, from 1 on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Monomials {
@@ -107,7 +109,7 @@ impl Monomials {
         let sum = |pair: usize| -> f64 {
             self.second[pair].iter().map(|d| d.factor * factors[d.of] * values[d.earlier]).sum()
         };
-        DMatrix::from_fn(self.variables, self.variables, |i, j| sum(i.max(j) * (i.max(j) + 1) / 2 + i.min(j)))
+        DMatrix::from_fn(self.variables, self.variables, |i, j| sum(triangle::place(i, j)))
     }
 }
 

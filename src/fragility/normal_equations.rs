@@ -3,6 +3,7 @@
 use pulp::NullaryFnOnce;
 
 use super::bootstrap::TOGETHER;
+use super::triangle::{self, place};
 use crate::wide::widest;
 
 /// A pivot smaller than this beside its diagonal is nothing but rounding.
@@ -27,7 +28,7 @@ pub struct LeastSquares {
 impl NormalEquations {
     /// Of no cases, with so many coefficients.
     pub fn empty(coefficients: usize) -> NormalEquations {
-        NormalEquations { products: vec![[0.0; TOGETHER]; place(coefficients, coefficients) + 1] }
+        NormalEquations { products: vec![[0.0; TOGETHER]; triangle::count(coefficients + 1)] }
     }
 
     /// Adds those of further cases.
@@ -99,9 +100,4 @@ impl NullaryFnOnce for Elimination {
         }
         triangle
     }
-}
-
-/// Where row `i` and column `j` of a lower triangle stand.
-fn place(i: usize, j: usize) -> usize {
-    i * (i + 1) / 2 + j
 }

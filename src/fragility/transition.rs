@@ -127,34 +127,38 @@ impl TransitionSearch {
     }
 
     fn sides(&self, resamples: &Resamples) -> Vec<Sides> {
-        let (k, mut from) = (self.refits.coefficients(), 0);
-        let starts = self.places.iter().map(|&(_, to)| std::mem::replace(&mut from, to)).collect::<Vec<_>>();
-        let between = starts.into_iter().zip(&self.places);
+        let k = self.refits.coefficients();
+        let below = self.places.iter().map(|&(_, below)| below);
+        let ends: Vec<usize> = std::iter::once(0).chain(below).chain([self.refits.cases()]).collect();
         let parts: Vec<NormalEquations> =
-            between.map(|(from, &(_, to))| self.refits.equations(from..to, resamples)).collect();
-        let mut above = self.refits.equations(from..self.refits.cases(), resamples);
-        // From the top down, so that nothing is subtracted.
-        let highs: Vec<NormalEquations> = parts
-            .iter()
-            .rev()
-            .map(|part| {
-                let high = above.clone();
-                above.add(part);
-                high
-            })
-            .collect();
-        let mut low = NormalEquations::empty(k);
-        let sides = self.places.iter().zip(&parts).zip(highs.into_iter().rev());
-        let at_place = |((&(im4, _), part), high): ((&(f64, usize), &NormalEquations), NormalEquations)| {
-            low.add(part);
-            let (rss_low, rss_high) = (low.rss(k), high.rss(k));
-            let pooled_rss = std::array::from_fn(|resample| {
-                let enough = low.products[0][resample].min(high.products[0][resample]) >= LEAST_CASES;
-                let rss = rss_low[resample] + rss_high[resample];
-                if enough && rss.is_finite() { rss } else { f64::INFINITY }
-            });
-            Sides { im4, low: low.clone(), high, pooled_rss }
-        };
-        sides.map(at_place).collect()
+            ends.windows(2).map(|ends| self.refits.equations(ends[0]..ends[1], resamples)).collect();
+        // Both from their own end, so that nothing is subtracted.
+        let lows = running_sums(k, parts.iter());
+        let highs: Vec<NormalEquations> = running_sums(k, parts[1..].iter().rev()).collect();
+        let sides = self.places.iter().zip(lows.zip(highs.into_iter().rev()));
+        sides.map(|(&(im4, _), (low, high))| Sides::new(k, im4, low, high)).collect()
     }
+}
+
+impl Sides {
+    fn new(coefficients: usize, im4: f64, low: NormalEquations, high: NormalEquations) -> Sides {
+        let (rss_low, rss_high) = (low.rss(coefficients), high.rss(coefficients));
+        let pooled_rss = std::array::from_fn(|resample| {
+            let enough = low.products[0][resample].min(high.products[0][resample]) >= LEAST_CASES;
+            let rss = rss_low[resample] + rss_high[resample];
+            if enough && rss.is_finite() { rss } else { f64::INFINITY }
+        });
+        Sides { im4, low, high, pooled_rss }
+    }
+}
+
+/// The equations of the cases up to each part.
+fn running_sums<'a>(
+    coefficients: usize,
+    parts: impl Iterator<Item = &'a NormalEquations>,
+) -> impl Iterator<Item = NormalEquations> {
+    parts.scan(NormalEquations::empty(coefficients), |sum, part| {
+        sum.add(part);
+        Some(sum.clone())
+    })
 }

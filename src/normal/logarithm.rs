@@ -5,7 +5,7 @@ use super::polynomial::polynomial;
 /// The bits of the root of 1/2: what a number is above it, in the place of the exponent, is a whole power of two.
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
 
-/// ln x for normal x > 0, to 4e-16 and without branches: ln(2^n m) = n ln 2 + 2 atanh(s), s = (m - 1) / (m + 1), |s| < 0.172.
+/// ln x for normal x > 0, to 6e-16 and without branches: ln(2^n m) = n ln 2 + 2 atanh(s), s = (m - 1) / (m + 1), |s| < 0.172.
 #[inline(always)]
 pub fn ln(x: f64) -> f64 {
     let powers = x.to_bits().wrapping_sub(ROOT_OF_HALF) as i64 >> 52;
