@@ -1,11 +1,11 @@
 //! Plain loops in the widest registers of the processor.
 
-use pulp::NullaryFnOnce;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
+use pulp::{NullaryFnOnce, Scalar, Simd, WithSimd};
 
 /// Runs `work` compiled for the widest registers that the processor has; its loops, and what it calls, must be inlined to
-/// gain by it. The results have the same bits on any processor: no operation is fused or reordered.
+/// gain by it. The results have the same bits on any processor: what is fused is so everywhere, and nothing is reordered.
 pub fn widest<T>(work: impl NullaryFnOnce<Output = T>) -> T {
     #[cfg(target_arch = "x86_64")]
     if let Some(machine) = V4::try_new() {
@@ -14,4 +14,15 @@ pub fn widest<T>(work: impl NullaryFnOnce<Output = T>) -> T {
         return machine.vectorize(work);
     }
     work.call()
+}
+
+/// The same for work that names the registers itself.
+pub fn widest_registers<T>(work: impl WithSimd<Output = T>) -> T {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(machine) = V4::try_new() {
+        return Simd::vectorize(machine, work);
+    } else if let Some(machine) = V3::try_new() {
+        return Simd::vectorize(machine, work);
+    }
+    work.with_simd(Scalar)
 }

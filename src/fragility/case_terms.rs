@@ -2,13 +2,16 @@
 
 use std::ops::Range;
 
-use pulp::NullaryFnOnce;
+use pulp::{Simd, WithSimd};
 
 use super::bootstrap::{Resamples, TOGETHER};
-use crate::wide::widest;
+use crate::wide::widest_registers;
 
-/// Terms that are summed together: as many sums as stay in registers.
-const BLOCK: usize = 8;
+/// Terms that are summed together: as many sums as stay in registers, and a divisor of the numbers of terms up to the sixth
+/// degree (28, 84, 210).
+const BLOCK: usize = 14;
+/// Cases whose counts stay in the nearest cache.
+const NEAR: usize = 256;
 
 /// The terms of each case, to be summed over the cases of resamples.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,31 +48,59 @@ impl CaseTerms {
 
     /// The same over some of the cases.
     pub fn sums_of(&self, cases: Range<usize>, resamples: &Resamples) -> Vec<[f64; TOGETHER]> {
-        let rows = &self.rows[cases.clone()];
-        let block = |block: &Vec<_>| widest(BlockSums { rows, terms: &block[cases.clone()], resamples });
-        self.blocks.iter().flat_map(block).take(self.terms).collect()
+        let mut sums = widest_registers(Sums { of: self, cases, resamples });
+        sums.truncate(self.terms);
+        sums
     }
 }
 
-/// The sums of some terms.
-struct BlockSums<'a> {
-    rows: &'a [usize],
-    terms: &'a [[f64; BLOCK]],
+/// The sums over some cases, with those of the zeros that fill up.
+struct Sums<'a> {
+    of: &'a CaseTerms,
+    cases: Range<usize>,
     resamples: &'a Resamples,
 }
 
-impl NullaryFnOnce for BlockSums<'_> {
-    type Output = [[f64; TOGETHER]; BLOCK];
+impl WithSimd for Sums<'_> {
+    type Output = Vec<[f64; TOGETHER]>;
 
     #[inline(always)]
-    fn call(self) -> Self::Output {
-        let mut sums = [[0.0; TOGETHER]; BLOCK];
-        for (&row, terms) in self.rows.iter().zip(self.terms) {
-            let counts = &self.resamples.counts[row];
-            for (sum, term) in sums.iter_mut().zip(terms) {
-                *sum = std::array::from_fn(|resample| sum[resample] + term * counts[resample]);
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let CaseTerms { rows, blocks, .. } = self.of;
+        let mut sums = vec![[[0.0; TOGETHER]; BLOCK]; blocks.len()];
+        for from in self.cases.clone().step_by(NEAR) {
+            let near = from..self.cases.end.min(from + NEAR);
+            for (sums, terms) in sums.iter_mut().zip(blocks) {
+                for register in 0..TOGETHER / S::F64_LANES {
+                    self.add(simd, sums, register, &rows[near.clone()], &terms[near.clone()]);
+                }
             }
         }
-        sums
+        sums.into_flattened()
+    }
+}
+
+impl Sums<'_> {
+    /// Adds some terms of some cases in as many resamples as a register holds.
+    #[inline(always)]
+    fn add<S: Simd>(
+        &self,
+        simd: S,
+        sums: &mut [[f64; TOGETHER]; BLOCK],
+        register: usize,
+        rows: &[usize],
+        terms: &[[f64; BLOCK]],
+    ) {
+        let mut total: [S::f64s; BLOCK] =
+            std::array::from_fn(|term| S::as_simd_f64s(&sums[term]).0[register]);
+        for (&row, terms) in rows.iter().zip(terms) {
+            let counts = S::as_simd_f64s(&self.resamples.counts[row]).0[register];
+            for (total, &term) in total.iter_mut().zip(terms) {
+                *total = simd.mul_add_f64s(simd.splat_f64s(term), counts, *total);
+            }
+        }
+        for (sums, total) in sums.iter_mut().zip(total) {
+            S::as_mut_simd_f64s(sums).0[register] = total;
+        }
     }
 }

@@ -132,7 +132,7 @@ impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
 fn indices(design: &DesignMatrix, coefficients: &[f64], cases: Range<usize>, indices: &mut [f64]) {
     indices.fill(0.0);
     for (column, &b) in design.columns().iter().zip(coefficients) {
-        indices.iter_mut().zip(&column[cases.clone()]).for_each(|(index, x)| *index += b * x);
+        indices.iter_mut().zip(&column[cases.clone()]).for_each(|(index, x)| *index = b.mul_add(*x, *index));
     }
 }
 
@@ -143,10 +143,10 @@ fn add_products(sums: &mut [f64; PARTS], a: &[f64], b: &[f64], c: &[f64]) {
     let (c, rest_c) = c.as_chunks::<PARTS>();
     for ((a, b), c) in a.iter().zip(b).zip(c) {
         for part in 0..PARTS {
-            sums[part] += a[part] * b[part] * c[part];
+            sums[part] = (a[part] * b[part]).mul_add(c[part], sums[part]);
         }
     }
     for (part, sum) in sums.iter_mut().enumerate().take(rest_a.len()) {
-        *sum += rest_a[part] * rest_b[part] * rest_c[part];
+        *sum = (rest_a[part] * rest_b[part]).mul_add(rest_c[part], *sum);
     }
 }

@@ -7,8 +7,8 @@ pub fn polynomial<const N: usize>(c: &[f64; N], x: f64) -> f64 {
     let mut power = N - 2;
     while power > 0 {
         power -= 2;
-        even = even * square + c[power];
-        odd = odd * square + c[power + 1];
+        even = even.mul_add(square, c[power]);
+        odd = odd.mul_add(square, c[power + 1]);
     }
-    even + x * odd
+    x.mul_add(odd, even)
 }
