@@ -2,6 +2,7 @@
 //! what is known of each case beforehand, so that a resample costs no exponential.
 
 use nalgebra::{DMatrix, DVector};
+use pulp::NullaryFnOnce;
 
 use super::binary::BinaryFit;
 use super::bootstrap::{Resamples, TOGETHER};
@@ -9,13 +10,16 @@ use super::case_terms::CaseTerms;
 use super::event_sample::EventSample;
 use super::link_series::ln_probability_series;
 use super::monomials::Monomials;
-use super::newton::{Along, Objective, maximise, newton_step};
+use super::normal_equations::{LeastSquares, NormalEquations};
+use crate::wide::widest;
 
 /// The degree of the polynomial.
 const ORDER: usize = 6;
-/// By how many standard errors the terms of the last two degrees may move the maximum. Those that are left out then move it by
-/// a tenth of that or less (`tests/uncertainty/bootstrap.rs`).
-const LAST_TERMS: f64 = 1e-4;
+/// By how many standard errors the terms that are left out may move the maximum. That is taken to be less than what the last two
+/// degrees do by as much as those do less than the two degrees before (`tests/uncertainty/bootstrap.rs`).
+const LEFT_OUT: f64 = 2e-6;
+/// Where the polynomial is precise it takes fewer steps.
+const MOST_STEPS: usize = 10;
 
 /// The log-likelihood of resamples about a fit.
 pub struct Expansion {
@@ -52,33 +56,85 @@ impl Expansion {
     /// The maximum in each resample to within `tolerance` of the log-likelihood, or where one Newton step leads; none
     /// where that leads nowhere.
     pub fn maxima(&self, resamples: &Resamples, tolerance: f64) -> [Option<Nearby>; TOGETHER] {
-        let sums = self.terms.sums(resamples);
+        let factors = self.terms.sums(resamples);
+        let Summits { at, first, settled, left_out } =
+            widest(Climb { monomials: &self.monomials, factors: &factors, tolerance });
         std::array::from_fn(|resample| {
-            let factors: Vec<f64> = sums.iter().map(|sum| sum[resample]).collect();
-            self.maximum(&factors, tolerance)
+            let of_resample = |of: &[[f64; TOGETHER]]| {
+                let moved = DVector::from_iterator(of.len(), of.iter().map(|moved| moved[resample]));
+                &self.fitted + &self.scale * moved
+            };
+            let precise = settled[resample] && left_out[resample] < LEFT_OUT;
+            let at = of_resample(if settled[resample] { &at } else { &first });
+            at.iter().all(|b| b.is_finite()).then_some(Nearby { at, precise })
         })
     }
+}
 
-    fn maximum(&self, factors: &[f64], tolerance: f64) -> Option<Nearby> {
-        let start = DVector::zeros(self.fitted.len());
-        let polynomial = |at: &DVector<f64>| self.derivatives(factors, at);
-        let (moved, precise) = match maximise(polynomial, &start, Along::All, tolerance) {
-            Some(maximum) => {
-                let values = self.monomials.values(maximum.at.as_slice());
-                let last = self.monomials.gradient(factors, &values, self.monomials.degrees_from(ORDER - 1));
-                (maximum.at, last.norm() < LAST_TERMS)
+/// Newton's steps for the polynomials of all resamples at once.
+struct Climb<'a> {
+    monomials: &'a Monomials,
+    factors: &'a [[f64; TOGETHER]],
+    tolerance: f64,
+}
+
+/// Where they lead.
+struct Summits {
+    at: Vec<[f64; TOGETHER]>,
+    /// Where the first one leads.
+    first: Vec<[f64; TOGETHER]>,
+    /// Whether they come to an end.
+    settled: [bool; TOGETHER],
+    /// By how many standard errors the terms that are left out may move it.
+    left_out: [f64; TOGETHER],
+}
+
+impl NullaryFnOnce for Climb<'_> {
+    type Output = Summits;
+
+    #[inline(always)]
+    fn call(self) -> Summits {
+        let Climb { monomials, factors, tolerance } = self;
+        let mut at = vec![[0.0; TOGETHER]; monomials.variables()];
+        let mut first = Vec::new();
+        let mut settled = [false; TOGETHER];
+        for _ in 0..MOST_STEPS {
+            let values = monomials.values(&at);
+            let gradients = monomials.gradients(factors, &values, 0..monomials.count());
+            let curvatures = monomials.second_derivatives(factors, &values);
+            // Newton's step solves normal equations of the information and the gradient.
+            let information = curvatures.into_iter().map(|curvature| curvature.map(|c| -c));
+            let products = information.chain(gradients).chain([[0.0; TOGETHER]]).collect();
+            let LeastSquares { coefficients: steps, rss } = NormalEquations { products }.solve(at.len());
+            for (at, step) in at.iter_mut().zip(&steps) {
+                for resample in 0..TOGETHER {
+                    at[resample] += if settled[resample] { 0.0 } else { step[resample] };
+                }
             }
-            None => (newton_step(&polynomial(&start), Along::All)?, false),
-        };
-        Some(Nearby { at: &self.fitted + &self.scale * moved, precise })
-    }
-
-    fn derivatives(&self, factors: &[f64], at: &DVector<f64>) -> Objective {
-        let values = self.monomials.values(at.as_slice());
-        Objective {
-            value: 0.0,
-            gradient: self.monomials.gradient(factors, &values, 0..self.monomials.count()),
-            information: -self.monomials.second_derivatives(factors, &values),
+            if first.is_empty() {
+                first.clone_from(&at);
+            }
+            for (settled, rss) in settled.iter_mut().zip(rss) {
+                *settled |= -0.5 * rss <= tolerance;
+            }
+            if settled == [true; TOGETHER] {
+                break;
+            }
         }
+        let values = monomials.values(&at);
+        // By how much each of two degrees moves the maximum.
+        let moved_by = |degrees: [usize; 2]| {
+            let mut moved = [0.0; TOGETHER];
+            for degree in degrees {
+                let gradients = monomials.gradients(factors, &values, monomials.of_degree(degree));
+                for (resample, moved) in moved.iter_mut().enumerate() {
+                    *moved += gradients.iter().map(|g| g[resample] * g[resample]).sum::<f64>().sqrt();
+                }
+            }
+            moved
+        };
+        let (before, last) = (moved_by([ORDER - 3, ORDER - 2]), moved_by([ORDER - 1, ORDER]));
+        let left_out = std::array::from_fn(|resample| last[resample] * last[resample] / before[resample]);
+        Summits { at, first, settled, left_out }
     }
 }

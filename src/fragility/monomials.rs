@@ -2,15 +2,13 @@
 
 use std::ops::Range;
 
-use nalgebra::{DMatrix, DVector};
-
-use super::triangle;
-
 /// All products of powers of some variables up to a degree, those of a lower degree first, from 1 on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Monomials {
-    variables: usize,
-    powers: Vec<Vec<usize>>,
+    /// The degree of each.
+    degrees: Vec<usize>,
+    /// The multinomial coefficient of each: how often it stands in a power of the sum of all variables.
+    ways: Vec<f64>,
     /// A monomial is this variable times that earlier one.
     factors: Vec<(usize, usize)>,
     /// With respect to each variable.
@@ -30,7 +28,8 @@ struct Derivative {
 impl Monomials {
     /// Of `variables` variables up to degree `order`.
     pub fn new(variables: usize, order: usize) -> Monomials {
-        let powers: Vec<Vec<usize>> = (0..=order).flat_map(|degree| of_degree(variables, degree)).collect();
+        let powers: Vec<Vec<usize>> =
+            (0..=order).flat_map(|degree| powers_of_degree(variables, degree)).collect();
         let place = |wanted: &[usize]| powers.iter().position(|powers| powers == wanted);
         let without = |powers: &[usize], variable: usize| {
             let mut fewer = powers.to_vec();
@@ -51,75 +50,119 @@ impl Monomials {
             };
             powers.iter().enumerate().filter_map(of).collect()
         };
+        let degree = |powers: &Vec<usize>| powers.iter().sum();
+        let ways = |powers: &Vec<usize>| {
+            factorial(degree(powers)) / powers.iter().map(|&power| factorial(power)).product::<f64>()
+        };
         Monomials {
-            variables,
+            degrees: powers.iter().map(degree).collect(),
+            ways: powers.iter().map(ways).collect(),
             factors: powers.iter().map(factor).collect(),
             first: (0..variables).map(|i| derivative(&[i])).collect(),
             second: (0..variables)
                 .flat_map(|i| (0..=i).map(move |j| [i, j]))
                 .map(|ij| derivative(&ij))
                 .collect(),
-            powers,
         }
+    }
+
+    /// Of how many variables.
+    pub fn variables(&self) -> usize {
+        self.first.len()
     }
 
     /// How many there are, with 1.
     pub fn count(&self) -> usize {
-        self.powers.len()
+        self.degrees.len()
     }
 
-    /// Those of a degree or a higher one.
-    pub fn degrees_from(&self, degree: usize) -> Range<usize> {
-        self.powers.partition_point(|powers| powers.iter().sum::<usize>() < degree)..self.count()
+    /// Those of a degree.
+    pub fn of_degree(&self, degree: usize) -> Range<usize> {
+        let below = |degree: usize| self.degrees.partition_point(|&lower| lower < degree);
+        below(degree)..below(degree + 1)
     }
 
-    /// The value of each.
-    pub fn values(&self, at: &[f64]) -> Vec<f64> {
+    /// The value of each, at several places at once.
+    #[inline(always)]
+    pub fn values<const N: usize>(&self, at: &[[f64; N]]) -> Vec<[f64; N]> {
         let mut values = Vec::with_capacity(self.count());
-        values.push(1.0);
+        values.push([1.0; N]);
         for &(variable, earlier) in &self.factors[1..] {
-            values.push(at[variable] * values[earlier]);
+            let (x, earlier): ([f64; N], [f64; N]) = (at[variable], values[earlier]);
+            values.push(std::array::from_fn(|place| x[place] * earlier[place]));
         }
         values
     }
 
-    /// The factors of each in the sum over degrees of a_degree (x1 y1 + x2 y2 + ...)^degree, a polynomial of y: with
-    /// multinomial coefficients.
+    /// The factors of each in the sum over degrees of a_degree (x1 y1 + x2 y2 + ...)^degree, a polynomial of y.
     pub fn powers_of_sum(&self, x: &[f64], a: &[f64]) -> Vec<f64> {
-        let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
-        let factor = |(powers, value): (&Vec<usize>, f64)| {
-            let degree = powers.iter().sum();
-            let ways = factorial(degree) / powers.iter().map(|&power| factorial(power)).product::<f64>();
-            a[degree] * ways * value
-        };
-        self.powers.iter().zip(self.values(x)).map(factor).collect()
+        let (x, []) = x.as_chunks::<1>() else { unreachable!("chunks of one leave no rest") };
+        let values = self.degrees.iter().zip(&self.ways).zip(self.values(x));
+        values.map(|((&degree, ways), [value])| a[degree] * ways * value).collect()
     }
 
-    /// The gradient of the polynomial with these factors, from the values of the monomials; of some of its terms.
-    pub fn gradient(&self, factors: &[f64], values: &[f64], terms: Range<usize>) -> DVector<f64> {
-        let sum = |i: usize| {
-            let within = self.first[i].iter().filter(|derivative| terms.contains(&derivative.of));
-            within.map(|d| d.factor * factors[d.of] * values[d.earlier]).sum()
+    /// The gradients of polynomials with these factors, from the values of the monomials; of some of their terms.
+    #[inline(always)]
+    pub fn gradients<const N: usize>(
+        &self,
+        factors: &[[f64; N]],
+        values: &[[f64; N]],
+        terms: Range<usize>,
+    ) -> Vec<[f64; N]> {
+        let within = |derivatives: &[Derivative]| {
+            let from = derivatives.partition_point(|derivative| derivative.of < terms.start);
+            let to = derivatives.partition_point(|derivative| derivative.of < terms.end);
+            from..to
         };
-        DVector::from_fn(self.variables, |i, _| sum(i))
+        let mut gradients = vec![[0.0; N]; self.first.len()];
+        for (gradient, all) in gradients.iter_mut().zip(&self.first) {
+            add_derivatives(gradient, &all[within(all)], factors, values);
+        }
+        gradients
     }
 
-    /// Its second derivatives.
-    pub fn second_derivatives(&self, factors: &[f64], values: &[f64]) -> DMatrix<f64> {
-        let sum = |pair: usize| -> f64 {
-            self.second[pair].iter().map(|d| d.factor * factors[d.of] * values[d.earlier]).sum()
-        };
-        DMatrix::from_fn(self.variables, self.variables, |i, j| sum(triangle::place(i, j)))
+    /// Their second derivatives, the rows of the lower triangle one after the other.
+    #[inline(always)]
+    pub fn second_derivatives<const N: usize>(
+        &self,
+        factors: &[[f64; N]],
+        values: &[[f64; N]],
+    ) -> Vec<[f64; N]> {
+        let mut curvatures = vec![[0.0; N]; self.second.len()];
+        for (curvature, all) in curvatures.iter_mut().zip(&self.second) {
+            add_derivatives(curvature, all, factors, values);
+        }
+        curvatures
     }
 }
 
+/// Adds the derivatives of the terms of polynomials with these factors.
+#[inline(always)]
+fn add_derivatives<const N: usize>(
+    sums: &mut [f64; N],
+    terms: &[Derivative],
+    factors: &[[f64; N]],
+    values: &[[f64; N]],
+) {
+    for &Derivative { of, factor, earlier } in terms {
+        let (of, earlier) = (&factors[of], &values[earlier]);
+        for place in 0..N {
+            sums[place] = (factor * of[place]).mul_add(earlier[place], sums[place]);
+        }
+    }
+}
+
+fn factorial(n: usize) -> f64 {
+    (1..=n).map(|k| k as f64).product()
+}
+
 /// The powers of all monomials of a degree.
-fn of_degree(variables: usize, degree: usize) -> Vec<Vec<usize>> {
+fn powers_of_degree(variables: usize, degree: usize) -> Vec<Vec<usize>> {
     if variables == 0 {
         return if degree == 0 { vec![Vec::new()] } else { Vec::new() };
     }
     let with_last = |last: usize| {
-        let mut others = of_degree(variables - 1, degree - last);
+        let mut others = powers_of_degree(variables - 1, degree - last);
         others.iter_mut().for_each(|powers| powers.push(last));
         others
     };
