@@ -26,6 +26,9 @@ pub(super) const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
 
 /// The most motions that a thread reads at once.
 const LARGEST_PART: usize = 128;
+/// Motions of a row group that are decoded at once: few, since what decoding them takes besides is then soon used again. More
+/// of it would be memory that the kernel has to clear first, which takes longer than to decode.
+const DECODED_AT_ONCE: usize = 32;
 
 /// What `simulate` cannot do without.
 const REQUIRED: [Column; 3] = [schema::MOTION_ID, schema::DT_S, schema::ACCELERATION_M_S2];
@@ -272,7 +275,7 @@ impl MotionTable {
         match part {
             Part::Rows(batch) => motions_of(batch),
             Part::Unread(run) => {
-                let batches = self.table.batches_of(*run, LARGEST_PART)?;
+                let batches = self.table.batches_of(*run, DECODED_AT_ONCE)?;
                 let motions =
                     batches.map(|batch| motions_of(&batch?)).collect::<Result<Vec<_>, TableError>>()?;
                 Ok(motions.into_iter().flatten().collect())
