@@ -9,6 +9,8 @@ use crate::random::{Purpose, stream};
 
 /// Resamples that are worked on together: as many as the widest register has numbers.
 pub const TOGETHER: usize = 8;
+/// How often rows are drawn, at most, before the refits are made: 32 MiB of counts.
+const MOST_DRAWS: usize = 1 << 24;
 
 /// The rows of a sample by the stratum they were drawn in.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -57,15 +59,32 @@ impl Resamples {
     pub fn of(&self, resample: usize, rows: &[usize]) -> Vec<f64> {
         rows.iter().map(|&row| self.counts[row][resample]).collect()
     }
+}
 
-    /// Draws as many rows from each stratum as it has, with replacement.
+/// The same in little room.
+struct Draws(Vec<[u16; TOGETHER]>);
+
+impl Draws {
+    fn new(strata: &Strata, seed: u64, first: usize) -> Draws {
+        let mut draws = Draws(vec![[0; TOGETHER]; strata.rows]);
+        for resample in 0..TOGETHER {
+            draws.draw(resample, strata, &mut stream(seed, Purpose::Bootstrap, (first + resample) as u64));
+        }
+        draws
+    }
+
+    /// As many rows from each stratum as it has, with replacement.
     fn draw(&mut self, resample: usize, strata: &Strata, random: &mut impl Rng) {
         for rows in &strata.members {
             let size = rows.len() as u32;
             for _ in rows {
-                self.counts[rows[random.random_range(0..size) as usize]][resample] += 1.0;
+                self.0[rows[random.random_range(0..size) as usize]][resample] += 1;
             }
         }
+    }
+
+    fn resamples(&self) -> Resamples {
+        Resamples { counts: self.0.iter().map(|counts| counts.map(f64::from)).collect() }
     }
 }
 
@@ -77,30 +96,34 @@ pub fn bootstrap<T: Send>(
     seed: u64,
     refit: impl Fn(&Resamples) -> [T; TOGETHER] + Sync,
 ) -> Vec<T> {
-    let refit = |resamples: &Resamples| Ok::<_, Infallible>(refit(resamples));
-    let Ok(refits) = try_bootstrap(strata, replicates, seed, refit);
-    refits
+    let refit = |(): &(), resamples: &Resamples| Ok::<_, Infallible>(refit(resamples));
+    let Ok(refits) = bootstrap_each(strata, replicates, seed, &[()], refit);
+    refits.into_iter().flatten().collect()
 }
 
-/// [`bootstrap`] that ends with the first error of `refit`.
+/// [`bootstrap`] of several samples with the same strata, each in the same resamples, of which `refit` is given one. Ends
+/// with its first error.
 ///
 /// # Errors
 /// Those of `refit`.
-pub fn try_bootstrap<T: Send, E: Send>(
+pub fn bootstrap_each<S: Sync, T: Send, E: Send>(
     strata: &Strata,
     replicates: usize,
     seed: u64,
-    refit: impl Fn(&Resamples) -> Result<[T; TOGETHER], E> + Sync,
-) -> Result<Vec<T>, E> {
-    let together = |batch: usize| {
-        let mut resamples = Resamples { counts: vec![[0.0; TOGETHER]; strata.rows] };
-        for resample in 0..TOGETHER {
-            let number = (batch * TOGETHER + resample) as u64;
-            resamples.draw(resample, strata, &mut stream(seed, Purpose::Bootstrap, number));
+    samples: &[S],
+    refit: impl Fn(&S, &Resamples) -> Result<[T; TOGETHER], E> + Sync,
+) -> Result<Vec<Vec<T>>, E> {
+    let at_once = MOST_DRAWS / (strata.rows.max(1) * TOGETHER) + 1;
+    let firsts: Vec<usize> = (0..replicates).step_by(TOGETHER).collect();
+    let mut refits: Vec<Vec<T>> = samples.iter().map(|_| Vec::with_capacity(replicates)).collect();
+    for firsts in firsts.chunks(at_once) {
+        let draws: Vec<Draws> = firsts.par_iter().map(|&first| Draws::new(strata, seed, first)).collect();
+        for (sample, refits) in samples.iter().zip(&mut refits) {
+            let together = |draws: &Draws| refit(sample, &draws.resamples());
+            let batches = draws.par_iter().map(together).collect::<Result<Vec<[T; TOGETHER]>, E>>()?;
+            refits.extend(batches.into_iter().flatten());
         }
-        refit(&resamples)
-    };
-    let batches = (0..replicates.div_ceil(TOGETHER)).into_par_iter().map(together);
-    let batches = batches.collect::<Result<Vec<[T; TOGETHER]>, E>>()?;
-    Ok(batches.into_iter().flatten().take(replicates).collect())
+    }
+    refits.iter_mut().for_each(|refits| refits.truncate(replicates));
+    Ok(refits)
 }

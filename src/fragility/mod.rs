@@ -115,7 +115,7 @@ mod validation;
 
 pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use binary::{BinaryError, BinaryFit, binary_regression};
-pub use bootstrap::{Resamples, Strata, TOGETHER, bootstrap, try_bootstrap};
+pub use bootstrap::{Resamples, Strata, TOGETHER, bootstrap, bootstrap_each};
 pub use candidate::{Candidate, Form};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Measure};

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
-use super::groups;
-use super::pex_group::PexModel;
+use super::groups::{self, Group};
+use super::pex_group::{PexModel, Regressions};
 use super::uncertainty::Uncertainty;
 use crate::fragility::FitStatus;
 use crate::keyword::Keyword;
@@ -150,10 +150,11 @@ impl Stage for FitPex {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
         let bar = console.bar(self.subcommand(), groups.len() as u64 * self.model.uncertainty.steps());
-        let fit = |group| self.model.fit(group, &bar);
-        let fitted = groups.par_iter().map(fit).collect::<anyhow::Result<Vec<_>>>()?;
+        let fit = |groups: &&[Group]| self.model.fit(groups, &bar);
+        let fitted = groups::alike(&groups).par_iter().map(fit).collect::<anyhow::Result<Vec<_>>>()?;
         bar.finish();
-        let (rows, scans): (Vec<_>, Vec<_>) = fitted.into_iter().unzip();
+        let fitted = fitted.into_iter().flatten().map(|Regressions { rows, scan }| (rows, scan));
+        let (rows, scans): (Vec<_>, Vec<_>) = fitted.unzip();
         let (rows, scans) = (rows.concat(), scans.concat());
         let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (row.reason(), row.measures())));

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::groups;
+use super::groups::{self, Group};
 use super::pro_group::ProModel;
 use super::uncertainty::Uncertainty;
 use crate::fragility::{Case, CurveModel, Estimator, FitStatus, Link, Measure};
@@ -167,8 +167,9 @@ impl Stage for FitPro {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
         let bar = console.bar(self.subcommand(), groups.len() as u64 * self.model.uncertainty.steps());
-        let fit = |group| self.model.fit(group, &bar);
-        let rows: Vec<Vec<ProRow>> = groups.par_iter().map(fit).collect::<anyhow::Result<_>>()?;
+        let fit = |groups: &&[Group]| self.model.fit(groups, &bar);
+        let rows: Vec<Vec<ProRow>> =
+            groups::alike(&groups).par_iter().map(fit).collect::<anyhow::Result<_>>()?;
         bar.finish();
         let rows = rows.concat();
         let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);

@@ -48,6 +48,15 @@ impl Group {
     }
 }
 
+/// Groups that are resampled jointly, at most: what is known of all their cases is held at once.
+const JOINTLY: usize = 8;
+
+/// The groups, together with those that follow and have the same cells: they have the same resamples, which need be drawn
+/// only once.
+pub fn alike(groups: &[Group]) -> Vec<&[Group]> {
+    groups.chunk_by(|a, b| a.cells == b.cells).flat_map(|alike| alike.chunks(JOINTLY)).collect()
+}
+
 /// The groups of a responses file, or of the stripes of ida, in the order in which they first appear.
 ///
 /// # Errors

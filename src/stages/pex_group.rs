@@ -2,19 +2,22 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use super::groups::Group;
+use super::pex_refits::PexRefits;
 use super::uncertainty::Uncertainty;
 use crate::fragility::{
-    Biplanar, DemandInference, DemandRefits, DemandReplicate, DemandSample, FitStatus, LinearFit, Measure,
-    PLANE, ScanPoint, SmoothFit, Strata, TOGETHER, TransitionSearch, bootstrap_limits, fit_biplanar,
-    fit_plane, fit_smooth, fit_univariate, ranges, reset, transition_limits,
+    Biplanar, DemandInference, DemandSample, FitStatus, LinearFit, Measure, PLANE, ScanPoint, SmoothFit,
+    Strata, bootstrap_limits, fit_biplanar, fit_plane, fit_smooth, fit_univariate, ranges, reset,
+    transition_limits,
 };
 use crate::pipeline::console::Progress;
 use crate::table::pex::{Model, PexReplicate, PexRow};
 use crate::table::pex_scan::ScanRow;
 
 /// Every value of a measure.
-const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
+pub(super) const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
 /// Every IM4 at which there is rocking.
 const ABOVE_UPLIFT: Range<f64> = 1.0..f64::INFINITY;
 
@@ -28,43 +31,43 @@ pub struct PexModel {
     pub uncertainty: Uncertainty,
 }
 
-/// All fits of one resample.
-struct Resampled {
-    found: Option<f64>,
-    fits: Vec<Option<PexReplicate>>,
-}
-
-/// How a regression is made anew.
-enum Refit {
-    /// From cases that stay the same.
-    Of(DemandRefits),
-    /// Below the break of the resample.
-    Below,
-    /// Above it.
-    Above,
+/// The regressions of a group.
+pub struct Regressions {
+    /// Each.
+    pub rows: Vec<PexRow>,
+    /// The search for the break.
+    pub scan: Vec<ScanRow>,
 }
 
 impl PexModel {
     /// The six univariate regressions, the plane, the two planes and those with a smooth transition, and the search for the
     /// break. The smooth ones have no replicates: a search for each would take a hundred times as long as all others.
     ///
+    /// Of groups with the same cells.
+    ///
     /// # Errors
     /// If whoever follows wants it to stop.
-    pub fn fit(&self, group: &Group, progress: &Progress) -> anyhow::Result<(Vec<PexRow>, Vec<ScanRow>)> {
-        progress.inc(1)?;
-        let (mut rows, scan) = self.regressions(group);
+    pub fn fit(&self, groups: &[Group], progress: &Progress) -> anyhow::Result<Vec<Regressions>> {
+        let regressions = |group| {
+            progress.inc(1)?;
+            Ok(self.regressions(group))
+        };
+        let mut fitted: Vec<Regressions> =
+            groups.par_iter().map(regressions).collect::<anyhow::Result<_>>()?;
         if self.uncertainty.replicates > 0 {
-            self.resample(group, progress, &mut rows)?;
+            self.resample(groups, progress, &mut fitted)?;
         }
-        rows.iter_mut().for_each(|row| self.infer(group, row));
-        rows.extend(self.smooth(group));
-        for row in &mut rows {
-            row.ranges = ranges(&sample(group, row, row.range()).predictors());
-        }
-        Ok((rows, scan))
+        fitted.par_iter_mut().zip(groups).for_each(|(fitted, group)| {
+            fitted.rows.iter_mut().for_each(|row| self.infer(group, row));
+            fitted.rows.extend(self.smooth(group));
+            for row in &mut fitted.rows {
+                row.ranges = ranges(&sample(group, row, row.range()).predictors());
+            }
+        });
+        Ok(fitted)
     }
 
-    fn regressions(&self, group: &Group) -> (Vec<PexRow>, Vec<ScanRow>) {
+    fn regressions(&self, group: &Group) -> Regressions {
         let univariate = |&measure: &Measure| PexRow {
             im_x: measure,
             im_y: None,
@@ -75,7 +78,7 @@ impl PexModel {
         rows.push(self.row(group, Model::Plane, ABOVE_UPLIFT, fit_plane(&group.cases, ABOVE_UPLIFT)));
         let (biplanar, scan) = self.biplanar(group);
         rows.extend(biplanar);
-        (rows, scan)
+        Regressions { rows, scan }
     }
 
     fn biplanar(&self, group: &Group) -> (Vec<PexRow>, Vec<ScanRow>) {
@@ -155,45 +158,28 @@ impl PexModel {
     }
 
     /// Adds the regressions of each resample.
-    fn resample(&self, group: &Group, progress: &Progress, rows: &mut [PexRow]) -> anyhow::Result<()> {
-        let search = TransitionSearch::new(&DemandSample::new(&group.cases, &PLANE, EVERYWHERE));
-        let refits: Vec<Option<Refit>> = rows.iter().map(|row| self.refit(group, row)).collect();
-        let resampled = self.uncertainty.bootstrap(group, progress, |resamples| {
-            let breaks = search.breaks(resamples);
-            let of_all = |refit: &Option<Refit>| match refit {
-                Some(Refit::Of(refits)) => refits.replicates(resamples),
-                Some(Refit::Below) => breaks.each_ref().map(|at| at.as_ref()?.low.clone()),
-                Some(Refit::Above) => breaks.each_ref().map(|at| at.as_ref()?.high.clone()),
-                None => [const { None }; TOGETHER],
-            };
-            let mut fits: Vec<_> = refits.iter().map(of_all).collect();
-            std::array::from_fn(|resample| {
-                let found = breaks[resample].as_ref().map(|at| at.im4);
-                let replicate = |(row, fits): (&PexRow, &mut [Option<DemandReplicate>; TOGETHER])| {
-                    let range = row.range_at(self.transition.or(found))?;
-                    Some(PexReplicate { range, fit: fits[resample].take()? })
-                };
-                Resampled { found, fits: rows.iter().zip(&mut fits).map(replicate).collect() }
-            })
-        })?;
-        let found: Vec<Option<f64>> = resampled.iter().map(|resample| resample.found).collect();
-        for (k, row) in rows.iter_mut().enumerate() {
-            row.replicates = resampled.iter().map(|resample| resample.fits[k].clone()).collect();
-            if let Some(estimate) = row.transition_found {
-                let limits = bootstrap_limits(estimate, &found, 0.0, self.uncertainty.confidence);
-                row.transition_percentile = limits.map(|limits| limits.percentile);
+    fn resample(
+        &self,
+        groups: &[Group],
+        progress: &Progress,
+        fitted: &mut [Regressions],
+    ) -> anyhow::Result<()> {
+        let pairs = groups.par_iter().zip(&*fitted);
+        let refits: Vec<PexRefits> =
+            pairs.map(|(group, fitted)| PexRefits::new(group, &fitted.rows, self.transition)).collect();
+        let cells = &groups[0].cells;
+        let resampled = self.uncertainty.bootstrap(cells, &refits, progress, PexRefits::resampled)?;
+        for (fitted, resampled) in fitted.iter_mut().zip(resampled) {
+            let found: Vec<Option<f64>> = resampled.iter().map(|resample| resample.found).collect();
+            for (k, row) in fitted.rows.iter_mut().enumerate() {
+                row.replicates = resampled.iter().map(|resample| resample.fits[k].clone()).collect();
+                if let Some(estimate) = row.transition_found {
+                    let limits = bootstrap_limits(estimate, &found, 0.0, self.uncertainty.confidence);
+                    row.transition_percentile = limits.map(|limits| limits.percentile);
+                }
             }
         }
         Ok(())
-    }
-
-    fn refit(&self, group: &Group, row: &PexRow) -> Option<Refit> {
-        row.fit.as_ref().ok()?;
-        Some(match (row.model, self.transition, row.range_high) {
-            (Model::Biplanar, None, Some(_)) => Refit::Below,
-            (Model::Biplanar, None, None) => Refit::Above,
-            _ => Refit::Of(DemandRefits::new(&sample(group, row, row.range()))),
-        })
     }
 
     /// Adds Ramsey's test, clustered errors, and limits from the replicates if there are any.
@@ -217,7 +203,7 @@ impl PexModel {
 }
 
 /// The cases of a regression in a range of its first measure.
-fn sample(group: &Group, row: &PexRow, range: Range<f64>) -> DemandSample {
+pub(super) fn sample(group: &Group, row: &PexRow, range: Range<f64>) -> DemandSample {
     let measures: Vec<Measure> = std::iter::once(row.im_x).chain(row.im_y).collect();
     DemandSample::new(&group.cases, &measures, range)
 }

@@ -1,5 +1,7 @@
 //! All curves of one group of responses, with their uncertainty, as rows of the pro file.
 
+use rayon::prelude::*;
+
 use super::fit_pro::{FittedEvent, Pair};
 use super::groups::Group;
 use super::uncertainty::Uncertainty;
@@ -24,25 +26,46 @@ pub struct ProModel {
     pub uncertainty: Uncertainty,
 }
 
+/// A curve with the sample it was fitted to.
+struct Curve {
+    row: ProRow,
+    sample: EventSample,
+}
+
+impl Curve {
+    fn refits(&self) -> Option<CurveRefits<'_>> {
+        Some(CurveRefits::new(&self.sample, &self.row.fit.as_ref().ok()?.regression))
+    }
+}
+
 impl ProModel {
-    /// The curves of the six scalar measures and of the hybrid ones.
+    /// The curves of the six scalar measures and of the hybrid ones, of groups with the same cells.
     ///
     /// # Errors
     /// If whoever follows wants it to stop.
-    pub fn fit(&self, group: &Group, progress: &Progress) -> anyhow::Result<Vec<ProRow>> {
-        progress.inc(1)?;
-        let scalar = Measure::SCALAR.into_iter().map(|measure| (measure, None));
-        let measures = scalar.chain(self.pairs.iter().map(|&Pair(x, y)| (x, Some(y))));
-        let (mut rows, samples): (Vec<ProRow>, Vec<EventSample>) =
-            measures.map(|(im_x, im_y)| self.curve(group, im_x, im_y)).unzip();
+    pub fn fit(&self, groups: &[Group], progress: &Progress) -> anyhow::Result<Vec<ProRow>> {
+        let curves = |group| {
+            progress.inc(1)?;
+            Ok(self.curves(group))
+        };
+        let mut fitted: Vec<Vec<Curve>> = groups.par_iter().map(curves).collect::<anyhow::Result<_>>()?;
         if self.uncertainty.replicates > 0 {
-            self.resample(group, progress, &mut rows, &samples)?;
+            self.resample(&groups[0].cells, progress, &mut fitted)?;
         }
-        rows.iter_mut().zip(&samples).for_each(|(row, sample)| self.infer(group, row, sample));
-        Ok(rows)
+        let infer = |(mut curves, group): (Vec<Curve>, &Group)| {
+            curves.iter_mut().for_each(|curve| self.infer(group, curve));
+            curves.into_iter().map(|curve| curve.row).collect::<Vec<_>>()
+        };
+        Ok(fitted.into_par_iter().zip(groups).flat_map_iter(infer).collect())
     }
 
-    fn curve(&self, group: &Group, im_x: Measure, im_y: Option<Measure>) -> (ProRow, EventSample) {
+    fn curves(&self, group: &Group) -> Vec<Curve> {
+        let scalar = Measure::SCALAR.into_iter().map(|measure| (measure, None));
+        let measures = scalar.chain(self.pairs.iter().map(|&Pair(x, y)| (x, Some(y))));
+        measures.map(|(im_x, im_y)| self.curve(group, im_x, im_y)).collect()
+    }
+
+    fn curve(&self, group: &Group, im_x: Measure, im_y: Option<Measure>) -> Curve {
         let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
         let sample = EventSample::new(&group.cases, &measures, |case| self.event.happened(case));
         let fit = fit_overturning(&sample, &self.curve);
@@ -68,36 +91,35 @@ impl ProModel {
             inference: Vec::new(),
             replicates: Vec::new(),
         };
-        (row, sample)
+        Curve { row, sample }
     }
 
     /// Adds the coefficients in each resample.
     fn resample(
         &self,
-        group: &Group,
+        cells: &[usize],
         progress: &Progress,
-        rows: &mut [ProRow],
-        samples: &[EventSample],
+        fitted: &mut [Vec<Curve>],
     ) -> anyhow::Result<()> {
-        let pairs = rows.iter().zip(samples);
-        let refits: Vec<Option<CurveRefits>> = pairs
-            .map(|(row, sample)| Some(CurveRefits::new(sample, &row.fit.as_ref().ok()?.regression)))
-            .collect();
-        let resampled = self.uncertainty.bootstrap(group, progress, |resamples| {
+        let groups: Vec<Vec<Option<CurveRefits>>> =
+            fitted.par_iter().map(|curves| curves.iter().map(Curve::refits).collect()).collect();
+        let resampled = self.uncertainty.bootstrap(cells, &groups, progress, |refits, resamples| {
             let of_all = |refits: &Option<CurveRefits>| Some(refits.as_ref()?.coefficients(resamples));
             let mut fits: Vec<_> = refits.iter().map(of_all).collect();
             std::array::from_fn(|resample| -> Vec<_> {
                 fits.iter_mut().map(|fit| fit.as_mut()?[resample].take()).collect()
             })
         })?;
-        for (k, row) in rows.iter_mut().enumerate() {
-            row.replicates = resampled.iter().map(|fits| fits[k].clone()).collect();
+        for (curves, replicates) in fitted.iter_mut().zip(resampled) {
+            for (k, curve) in curves.iter_mut().enumerate() {
+                curve.row.replicates = replicates.iter().map(|fits| fits[k].clone()).collect();
+            }
         }
         Ok(())
     }
 
     /// Adds clustered errors, profile-likelihood limits, and limits from the replicates if there are any.
-    fn infer(&self, group: &Group, row: &mut ProRow, sample: &EventSample) {
+    fn infer(&self, group: &Group, Curve { row, sample }: &mut Curve) {
         let Ok(fit) = &row.fit else { return };
         let (inference, confidence) =
             (CurveInference::new(sample, &fit.regression), self.uncertainty.confidence);

@@ -1,8 +1,7 @@
 //! How uncertain the fits are: the options that fit-pex and fit-pro share, checked.
 
-use super::groups::Group;
 use super::sample_scenarios::DEFAULT_SEED;
-use crate::fragility::{Resamples, Strata, TOGETHER, try_bootstrap};
+use crate::fragility::{Resamples, Strata, TOGETHER, bootstrap_each};
 use crate::pipeline::console::Progress;
 use crate::pipeline::options::check;
 
@@ -37,19 +36,21 @@ impl Uncertainty {
         1 + self.replicates.next_multiple_of(TOGETHER) as u64
     }
 
-    /// Refits of a group, resampled within its cells.
+    /// The replicates of each group; the groups have the same cells, within which they are resampled. `refit` is given what it
+    /// needs to know of a group.
     ///
     /// # Errors
     /// If whoever follows wants it to stop.
-    pub fn bootstrap<T: Send>(
+    pub fn bootstrap<G: Sync, T: Send>(
         &self,
-        group: &Group,
+        cells: &[usize],
+        groups: &[G],
         progress: &Progress,
-        refit: impl Fn(&Resamples) -> [T; TOGETHER] + Sync,
-    ) -> anyhow::Result<Vec<T>> {
-        try_bootstrap(&Strata::new(&group.cells), self.replicates, self.seed, |resamples| {
+        refit: impl Fn(&G, &Resamples) -> [T; TOGETHER] + Sync,
+    ) -> anyhow::Result<Vec<Vec<T>>> {
+        bootstrap_each(&Strata::new(cells), self.replicates, self.seed, groups, |group, resamples| {
             progress.inc(TOGETHER as u64)?;
-            Ok(refit(resamples))
+            Ok(refit(group, resamples))
         })
     }
 }
