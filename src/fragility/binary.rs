@@ -2,10 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::derivatives::{Score, derivatives, sum};
+use super::derivatives::{derivatives, sum};
 use super::design_matrix::DesignMatrix;
 use super::firth::{Estimator, penalty};
-use super::link::{Link, cloglog_score, logit_score, probit_ln_probability, probit_score};
+use super::link::Link;
 use super::newton::{Along, Maximum, Objective, maximise};
 
 /// A binary regression with an intercept: P(event) = F(b0 + b1 x1 + ...).
@@ -108,76 +108,38 @@ impl BinaryLikelihood<'_> {
         objective
     }
 
-    #[expect(
-        clippy::redundant_closure,
-        reason = "a function passed along is called in a way that need not be inlined"
-    )]
     fn log_likelihood(&self, coefficients: &DVector<f64>) -> f64 {
-        match self.link {
-            Link::Probit => self.total(
-                coefficients,
-                #[inline(always)]
-                |index, event| probit_ln_probability(index, event),
-            ),
-            link => self.total(coefficients, |index, event| link.ln_probability(index, event)),
-        }
-    }
-
-    fn total(&self, coefficients: &DVector<f64>, ln_probability: impl Fn(f64, bool) -> f64) -> f64 {
         sum(
             self.design,
             coefficients.as_slice(),
             #[inline(always)]
             |cases, values| {
-                let counted = self.events[cases.clone()].iter().zip(&self.weights[cases]);
-                for (value, (&event, &weight)) in values.iter_mut().zip(counted) {
-                    let ln_probability = ln_probability(*value, event);
-                    *value = if weight > 0.0 { weight * ln_probability } else { 0.0 };
-                }
+                self.link.ln_probabilities(&self.events[cases.clone()], values);
+                values.iter_mut().zip(&self.weights[cases]).for_each(|(value, &weight)| count(value, weight));
             },
         )
     }
 
     /// Derivatives of the likelihood alone, its value left at zero: all that plain Newton steps need, in a fraction of the
     /// time.
-    #[expect(
-        clippy::redundant_closure,
-        reason = "a function passed along is called in a way that need not be inlined"
-    )]
     pub fn derivatives_at(&self, coefficients: &DVector<f64>) -> Objective {
-        match self.link {
-            Link::Probit => self.sum(
-                coefficients,
-                #[inline(always)]
-                |index, event| probit_score(index, event),
-            ),
-            Link::Logit => self.sum(
-                coefficients,
-                #[inline(always)]
-                |index, event| logit_score(index, event),
-            ),
-            Link::Cloglog => self.sum(
-                coefficients,
-                #[inline(always)]
-                |index, event| cloglog_score(index, event),
-            ),
-        }
-    }
-
-    fn sum(&self, coefficients: &DVector<f64>, score: impl Fn(f64, bool) -> Score) -> Objective {
         derivatives(
             self.design,
             coefficients.as_slice(),
             #[inline(always)]
             |cases, mut scores| {
-                let counted = self.events[cases.clone()].iter().zip(&self.weights[cases]);
-                for ((slope, curvature), (&event, &weight)) in scores.iter_mut().zip(counted) {
-                    let score = score(*slope, event);
-                    // Where a case does not count its derivatives need not be finite.
-                    *slope = if weight > 0.0 { weight * score.slope } else { 0.0 };
-                    *curvature = if weight > 0.0 { weight * score.curvature } else { 0.0 };
+                self.link.scores(&self.events[cases.clone()], scores.reborrow());
+                for ((slope, curvature), &weight) in scores.iter_mut().zip(&self.weights[cases]) {
+                    count(slope, weight);
+                    count(curvature, weight);
                 }
             },
         )
     }
+}
+
+/// Lets a value count so often. Where it does not it need not be finite.
+#[inline(always)]
+fn count(value: &mut f64, weight: f64) {
+    *value = if weight > 0.0 { weight * *value } else { 0.0 };
 }

@@ -24,6 +24,12 @@ pub struct Scores<'a> {
 }
 
 impl Scores<'_> {
+    /// The same, to be used again afterwards.
+    #[inline(always)]
+    pub fn reborrow(&mut self) -> Scores<'_> {
+        Scores { slope: self.slope, curvature: self.curvature }
+    }
+
     /// Each slope and curvature.
     #[inline(always)]
     pub fn iter_mut(&mut self) -> impl Iterator<Item = (&mut f64, &mut f64)> {

@@ -7,6 +7,7 @@ use pulp::NullaryFnOnce;
 use super::binary::BinaryFit;
 use super::bootstrap::{Resamples, TOGETHER};
 use super::case_terms::CaseTerms;
+use super::derivatives::Scores;
 use super::event_sample::EventSample;
 use super::link_series::ln_probability_series;
 use super::monomials::Monomials;
@@ -44,9 +45,19 @@ impl Expansion {
         let scale = fit.covariance.clone().cholesky()?.l();
         let monomials = Monomials::new(fit.coefficients.len(), ORDER);
         let design = sample.design();
-        let cases = fit.indices(&design).into_iter().zip(&sample.happened).zip(design.rows());
-        let terms = cases.map(|((index, &event), row)| {
-            let series: [f64; ORDER + 1] = ln_probability_series(fit.link, index, event);
+        let (indices, events) = (fit.indices(&design), &sample.happened);
+        let (mut values, mut slopes, mut curvatures) =
+            (indices.clone(), indices.clone(), vec![0.0; indices.len()]);
+        widest(
+            #[inline(always)]
+            || {
+                fit.link.ln_probabilities(events, &mut values);
+                fit.link.scores(events, Scores { slope: &mut slopes, curvature: &mut curvatures });
+            },
+        );
+        let terms = design.rows().enumerate().map(|(case, row)| {
+            let series: [f64; ORDER + 1] =
+                ln_probability_series(fit.link, events[case], indices[case], values[case], slopes[case]);
             monomials.powers_of_sum(scale.tr_mul(&row).as_slice(), &series)
         });
         let terms = CaseTerms::new(&sample.rows, monomials.count(), terms);

@@ -9,6 +9,7 @@ use super::binary::BinaryFit;
 use super::derivatives::{Scores, derivatives};
 use super::design_matrix::DesignMatrix;
 use super::newton::{Along, newton_step};
+use crate::wide::widest;
 
 /// The derivatives of a log-likelihood (or of half the negative residual sum of squares) with respect to the index of
 /// each case, at the fit.
@@ -28,9 +29,11 @@ impl Influence {
 
     /// Of a binary regression.
     pub fn of_regression(fit: &BinaryFit, design: &DesignMatrix, events: &[bool]) -> Influence {
-        let cases = fit.indices(design).into_iter().zip(events);
-        let scores = cases.map(|(index, &event)| fit.link.score(index, event));
-        let (score, curvature) = scores.map(|score| (score.slope, score.curvature)).unzip();
+        let (mut score, mut curvature) = (fit.indices(design), vec![0.0; events.len()]);
+        widest(
+            #[inline(always)]
+            || fit.link.scores(events, Scores { slope: &mut score, curvature: &mut curvature }),
+        );
         Influence { score, curvature }
     }
 

@@ -1,6 +1,6 @@
 //! How the index of a binary regression becomes a probability.
 
-use super::derivatives::Score;
+use super::derivatives::{Score, Scores};
 use crate::keyword::keywords;
 use crate::normal;
 
@@ -67,6 +67,52 @@ impl Link {
         }
     }
 
+    /// Replaces the indices of some cases by [`Link::ln_probability`].
+    #[inline(always)]
+    pub fn ln_probabilities(self, events: &[bool], values: &mut [f64]) {
+        match self {
+            Link::Probit => {
+                for (value, &event) in values.iter_mut().zip(events) {
+                    *value = probit_ln_probability(*value, event);
+                }
+            }
+            link => {
+                for (value, &event) in values.iter_mut().zip(events) {
+                    *value = link.ln_probability(*value, event);
+                }
+            }
+        }
+    }
+
+    /// Replaces the indices of some cases by [`Link::score`].
+    #[inline(always)]
+    #[expect(
+        clippy::redundant_closure,
+        reason = "a function passed along is called in a way that need not be inlined"
+    )]
+    pub fn scores(self, events: &[bool], scores: Scores) {
+        match self {
+            Link::Probit => replace(
+                events,
+                scores,
+                #[inline(always)]
+                |index, event| probit_score(index, event),
+            ),
+            Link::Logit => replace(
+                events,
+                scores,
+                #[inline(always)]
+                |index, event| logit_score(index, event),
+            ),
+            Link::Cloglog => replace(
+                events,
+                scores,
+                #[inline(always)]
+                |index, event| cloglog_score(index, event),
+            ),
+        }
+    }
+
     /// The expected information at an index.
     pub fn information(self, index: f64) -> Information {
         match self {
@@ -90,15 +136,23 @@ impl Link {
     }
 }
 
+#[inline(always)]
+fn replace(events: &[bool], mut scores: Scores, score: impl Fn(f64, bool) -> Score) {
+    for ((slope, curvature), &event) in scores.iter_mut().zip(events) {
+        let score = score(*slope, event);
+        (*slope, *curvature) = (score.slope, score.curvature);
+    }
+}
+
 /// [`Link::ln_probability`] of the probit.
 #[inline(always)]
-pub(super) fn probit_ln_probability(index: f64, event: bool) -> f64 {
+fn probit_ln_probability(index: f64, event: bool) -> f64 {
     normal::ln_cdf(if event { index } else { -index })
 }
 
 /// [`Link::score`] of the probit.
 #[inline(always)]
-pub(super) fn probit_score(index: f64, event: bool) -> Score {
+fn probit_score(index: f64, event: bool) -> Score {
     let sign = if event { 1.0 } else { -1.0 };
     let z = sign * index;
     let mills = normal::inverse_mills(z);
@@ -107,7 +161,7 @@ pub(super) fn probit_score(index: f64, event: bool) -> Score {
 
 /// [`Link::score`] of the logit.
 #[inline(always)]
-pub(super) fn logit_score(index: f64, event: bool) -> Score {
+fn logit_score(index: f64, event: bool) -> Score {
     let sign = if event { 1.0 } else { -1.0 };
     let z = sign * index;
     let (p, q) = (1.0 / (1.0 + (-z).exp()), 1.0 / (1.0 + z.exp()));
@@ -116,7 +170,7 @@ pub(super) fn logit_score(index: f64, event: bool) -> Score {
 
 /// [`Link::score`] of the complementary log-log.
 #[inline(always)]
-pub(super) fn cloglog_score(index: f64, event: bool) -> Score {
+fn cloglog_score(index: f64, event: bool) -> Score {
     let hazard = index.exp();
     if event {
         let ratio = hazard_ratio(hazard);

@@ -2,31 +2,35 @@
 //! equation of products, from which its powers follow one after the other.
 
 use super::link::Link;
-use crate::normal;
 
-/// The factors of t^0, t, t^2 ... in [`Link::ln_probability`] at `index + t`.
-pub fn ln_probability_series<const N: usize>(link: Link, index: f64, event: bool) -> [f64; N] {
+/// The factors of t^0, t, t^2 ... in [`Link::ln_probability`] at `index + t`, from that at the index and its first derivative.
+pub fn ln_probability_series<const N: usize>(
+    link: Link,
+    event: bool,
+    index: f64,
+    ln_probability: f64,
+    slope: f64,
+) -> [f64; N] {
     let (sign, z) = if event { (1.0, index) } else { (-1.0, -index) };
-    let slope: [f64; N] = match (link, event) {
+    let slopes: [f64; N] = match (link, event) {
         // Of the inverse Mills ratio m at z + u, with u = t or -t: m' = -m (z + u + m).
-        (Link::Probit, _) => series(normal::inverse_mills(z), |m, n| {
+        (Link::Probit, _) => series(sign * slope, |m, n| {
             let linear = z * m[n] + if n > 0 { m[n - 1] } else { 0.0 };
             -linear - product(m, m, n)
         }),
         // Of the other outcome's probability: q' = q^2 - q.
-        (Link::Logit, _) => series(link.probability(-z), |q, n| product(q, q, n) - q[n]),
+        (Link::Logit, _) => series(sign * slope, |q, n| product(q, q, n) - q[n]),
         // Of r = h / (exp(h) - 1) with the hazard h = exp(index): r' = r (1 - h - r).
         (Link::Cloglog, true) => {
             let hazard: [f64; N] = series(index.exp(), |h, n| h[n]);
-            let ratio = link.score(index, event).slope;
-            series(ratio, |r, n| r[n] - product(&hazard, r, n) - product(r, r, n))
+            series(slope, |r, n| r[n] - product(&hazard, r, n) - product(r, r, n))
         }
         // Of h, in t = -u.
-        (Link::Cloglog, false) => series(index.exp(), |h, n| -h[n]),
+        (Link::Cloglog, false) => series(-slope, |h, n| -h[n]),
     };
     std::array::from_fn(|n| match n {
-        0 => link.ln_probability(index, event),
-        _ => f64::powi(sign, n as i32) * slope[n - 1] / n as f64,
+        0 => ln_probability,
+        _ => f64::powi(sign, n as i32) * slopes[n - 1] / n as f64,
     })
 }
 

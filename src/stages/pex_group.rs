@@ -171,8 +171,11 @@ impl PexModel {
         let resampled = self.uncertainty.bootstrap(cells, &refits, progress, PexRefits::resampled)?;
         for (fitted, resampled) in fitted.iter_mut().zip(resampled) {
             let found: Vec<Option<f64>> = resampled.iter().map(|resample| resample.found).collect();
-            for (k, row) in fitted.rows.iter_mut().enumerate() {
-                row.replicates = resampled.iter().map(|resample| resample.fits[k].clone()).collect();
+            for resample in resampled {
+                let fits = fitted.rows.iter_mut().zip(resample.fits);
+                fits.for_each(|(row, fit)| row.replicates.push(fit));
+            }
+            for row in &mut fitted.rows {
                 if let Some(estimate) = row.transition_found {
                     let limits = bootstrap_limits(estimate, &found, 0.0, self.uncertainty.confidence);
                     row.transition_percentile = limits.map(|limits| limits.percentile);

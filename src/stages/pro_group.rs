@@ -111,8 +111,8 @@ impl ProModel {
             })
         })?;
         for (curves, replicates) in fitted.iter_mut().zip(resampled) {
-            for (k, curve) in curves.iter_mut().enumerate() {
-                curve.row.replicates = replicates.iter().map(|fits| fits[k].clone()).collect();
+            for fits in replicates {
+                curves.iter_mut().zip(fits).for_each(|(curve, fit)| curve.row.replicates.push(fit));
             }
         }
         Ok(())
