@@ -1,8 +1,10 @@
 //! Resampling within cells, refits and limits against statsmodels and scipy.stats.bootstrap.
 
+use std::convert::Infallible;
+
 use rockfrag::fragility::{
     CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits, Link, Resamples,
-    Strata, acceleration, bootstrap, bootstrap_limits, fit_overturning,
+    Strata, acceleration, bootstrap, bootstrap_each, bootstrap_limits, fit_overturning,
 };
 
 use crate::data::{answers, data, distribution};
@@ -132,6 +134,20 @@ fn a_replicate_depends_on_its_number_and_the_seed_alone() {
     assert_ne!(draw(7, 6), many[..7]);
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert_eq!(one_thread.install(|| draw(40, 5)), many);
+}
+
+#[test]
+fn samples_of_the_same_rows_are_resampled_alike() {
+    // More draws than are made at once.
+    let (rows, replicates, at_once) = (9000, 2400, 1872);
+    let strata = Strata::new(&vec![0; rows]);
+    let count = |row: &usize, resamples: &Resamples| Ok::<_, Infallible>(resamples.counts[*row]);
+    let Ok(each) = bootstrap_each(&strata, replicates, 3, &[0, 17], count);
+    let alone = bootstrap(&strata, replicates, 3, |resamples| resamples.counts[17]);
+    assert_eq!(each[1], alone);
+    assert_eq!(alone.len(), replicates);
+    assert_ne!(each[0], alone);
+    assert_ne!(alone[..replicates - at_once], alone[at_once..], "later replicates are others");
 }
 
 #[test]
