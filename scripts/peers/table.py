@@ -244,12 +244,9 @@ def compare(folder, rockfrag, repeat):
         )[0]
         for stage in ("fit-pex", "fit-pro")
     )
-    (ours,) = in_turns(repeat, fits)
-    theirs = peer(
-        "fits_statsmodels", paper, "--replicates", 20, "--scale-to", REPLICATES, "--out", folder / "fits.csv"
-    )
-    theirs = theirs["scaled_seconds"]
-    theirs = sum(theirs.values()) if isinstance(theirs, dict) else theirs
+    scaled = ("--replicates", 20, "--scale-to", REPLICATES, "--out", folder / "fits.csv")
+    statsmodels = lambda: peer("fits_statsmodels", paper, *scaled)["scaled_seconds"]
+    ours, theirs = in_turns(repeat, fits, statsmodels)
     table.add(
         f"all fits, {REPLICATES} replicates, one core",
         f"{ours:.2f} s",
