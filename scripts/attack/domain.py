@@ -23,7 +23,7 @@ MODULES = ["export", "fragility", "hazard", "keyword", "motion", "normal", "rand
 TESTS = {
     "solver": ["rocking", "incremental", "solver_truth", "solver_paths", "robust/numbers"],
     "motions": ["intensity", "motion_model", "records/main"],
-    "fits": ["normal", "hazard", "validation", "universality", "export", "evaluate", "fits", "fits_limits", "uncertainty/main", "coverage"],
+    "fits": ["normal", "hazard", "validation", "universality", "export", "evaluate", "fits", "fits_limits", "uncertainty/main", "incremental", "coverage"],
 }
 DEPENDENCIES = [
     "anyhow", "blake3", "csv", "libm", "nalgebra", "pulp", "rand", "rand_chacha", "rand_distr", "rayon", "realfft", "serde", "serde_json",
