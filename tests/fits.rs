@@ -204,6 +204,9 @@ fn two_planes_and_their_transition_are_found() {
         "the jump between the sides counts only overall"
     );
     assert_eq!(fit_biplanar(&cases, Some(1.5)).unwrap().transition, 1.5);
+    let larger: Vec<Case> = cases.iter().map(|case| Case { edp: 20.0 * case.edp, ..*case }).collect();
+    let larger = fit_biplanar(&larger, None).unwrap();
+    close(larger.r2_overall.unwrap(), fit.r2_overall.unwrap(), 1e-9, "R2 in other units");
 }
 
 #[test]

@@ -20,6 +20,8 @@ fn a_refit_equals_the_fit_of_repeated_cases() {
     for name in ["x", "xy"] {
         let sample = data.event_sample(name);
         let fit = fit_overturning(&sample, &CurveModel::default()).unwrap();
+        let parameters = CurveInference::new(&sample, &fit.regression).curve_parameters();
+        assert_eq!(parameters.contains(&CurveParameter::Lambda), name == "xy");
         let resamples = Resamples::alike(&counts);
         let [b, ..] = CurveRefits::new(&sample, &fit.regression).coefficients(&resamples);
         let b = b.unwrap();

@@ -85,6 +85,21 @@ fn gains_have_the_clustered_errors_of_statsmodels() {
 }
 
 #[test]
+fn the_best_of_as_many_measures_is_what_others_are_held_against() {
+    let mut ranking = ranking(&data(), Target::Demand, &[]);
+    ranking.retain(|ranked| ranked.rank.is_some());
+    assert!(ranking.len() > 5);
+    let score = |of: &Ranked| of.rating.as_ref().unwrap().unseen.as_ref().unwrap().log_score();
+    for ranked in &ranking {
+        let rivals = ranking.iter().filter(|other| other.measures.len() == ranked.measures.len());
+        let best = rivals.map(score).fold(f64::NEG_INFINITY, f64::max);
+        let gain = ranked.over_best.unwrap().value;
+        assert!((gain - (score(ranked) - best)).abs() < 1e-9, "{ranked:?}");
+        assert_eq!(gain == 0.0, ranked.rank == Some(1), "{ranked:?}");
+    }
+}
+
+#[test]
 fn whole_clusters_are_left_out_once() {
     for (clusters, most) in [(35, 10), (35, 100), (3, 10)] {
         let of: Vec<usize> = (0..clusters * 4).map(|case| 7 * (case % clusters)).collect();
