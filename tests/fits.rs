@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use proptest::prelude::*;
 use rockfrag::fragility::{
     Case, CurveModel, DemandSample, Estimator, EventSample, FitStatus, Link, Measure, OverturningFit, PLANE,
-    TransitionSearch, auc, binary_regression, brier_score, fit_biplanar, fit_overturning, fit_univariate,
-    is_separated, least_squares, p_exceeding, p_failure_given_rocking, p_no_rocking, p_overturning,
-    t_quantile,
+    Plane, TransitionSearch, auc, binary_regression, brier_score, fit_biplanar, fit_overturning,
+    fit_univariate, is_separated, least_squares, p_exceeding, p_failure_given_rocking, p_no_rocking,
+    p_overturning, t_quantile,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -247,6 +247,9 @@ fn skill_scores_have_their_textbook_values() {
 
 #[test]
 fn the_tree_joins_the_probabilities() {
+    let plane = Plane { ln_a: 1.0, b1: 2.0, b2: 3.0 };
+    assert_eq!(plane.ln_demand(1.0, std::f64::consts::E), 4.0);
+    assert_eq!(plane.ln_demand(std::f64::consts::E, 1.0), 3.0);
     assert_eq!((p_no_rocking(0.999), p_no_rocking(1.0)), (1.0, 0.0));
     assert_eq!(p_exceeding(0.1_f64.ln(), 0.1, 0.8), 0.5);
     assert!(p_exceeding(0.2_f64.ln(), 0.1, 0.8) > 0.5, "grows with demand");

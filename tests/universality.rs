@@ -55,6 +55,10 @@ fn pooled_curves_equal_those_of_statsmodels() {
                 answers[&(branch.as_str().to_string(), terms.as_str().to_string(), quantity)]
             };
             let part = fit.parts.last().unwrap();
+            let named = |key: &&(String, String, String)| {
+                key.0 == branch.as_str() && key.1 == terms.as_str() && key.2.starts_with("coefficient")
+            };
+            assert_eq!(part.terms.len(), answers.keys().filter(named).count());
             for (k, term) in part.terms.iter().enumerate() {
                 close(term.coefficient, answer(format!("coefficient {k}")), 1e-7);
                 close(term.standard_error, answer(format!("error {k}")), 1e-6);

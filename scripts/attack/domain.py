@@ -32,6 +32,7 @@ DEPENDENCIES = [
 PROFILE = """
 [profile.dev]
 debug = 0
+incremental = false
 opt-level = 1
 
 [profile.dev.package."*"]
