@@ -204,9 +204,15 @@ fn two_planes_and_their_transition_are_found() {
         "the jump between the sides counts only overall"
     );
     assert_eq!(fit_biplanar(&cases, Some(1.5)).unwrap().transition, 1.5);
-    let larger: Vec<Case> = cases.iter().map(|case| Case { edp: 20.0 * case.edp, ..*case }).collect();
-    let larger = fit_biplanar(&larger, None).unwrap();
-    close(larger.r2_overall.unwrap(), fit.r2_overall.unwrap(), 1e-9, "R2 in other units");
+    // The same as that of one regression whose coefficients all depend on the side.
+    let sample = DemandSample::new(&cases, &PLANE, 0.0..f64::INFINITY);
+    let [x, y] = &sample.ln_im[..] else { panic!("two measures") };
+    let above: Vec<f64> = x.iter().map(|x| f64::from(u8::from(x.exp() >= fit.transition))).collect();
+    let times = |column: &[f64]| above.iter().zip(column).map(|(a, b)| a * b).collect::<Vec<f64>>();
+    let joint = least_squares(&[&above, x, y, &times(x), &times(y)], &sample.ln_edp).unwrap();
+    close(fit.r2_overall.unwrap(), joint.r2, 1e-9, "R2 of both sides");
+    let nothing = Case { edp: 0.0, ..cases[0] };
+    assert_eq!(DemandSample::new(&[nothing, cases[1]], &PLANE, 0.0..f64::INFINITY).rows, [1]);
 }
 
 #[test]
