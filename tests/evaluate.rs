@@ -5,8 +5,8 @@ mod paper_model;
 use paper_model::{BETA, LAMBDA, MU, equipment, model};
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Link, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits, ResampledModel, Slice,
-    least_squares, p_exceeding, p_failure_given_rocking, p_overturning, ranges,
+    DemandLaw, Link, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits, ResampledModel,
+    Slice, least_squares, p_exceeding, p_failure_given_rocking, p_overturning, ranges,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
@@ -66,6 +66,19 @@ fn the_variance_of_a_prediction_is_that_of_the_textbook() {
     let variance = fit.residual_sd.powi(2) * (1.0 / n + (1.5f64.ln() - mean).powi(2) / spread);
     assert!((predictor.at(&measures).unwrap().variance / variance - 1.0).abs() < 1e-10);
     assert_eq!(ranges(&[&x]), [[1.0, x[11].exp()]]);
+
+    // The error of the index of P_ex by small changes of the median and of the dispersion, whose error is beta / sqrt(2 degrees).
+    let law = DemandLaw { ln_median: predictor, beta: fit.residual_sd, degrees: 10.0 };
+    let (limit, step, median) = (9.0f64, 1e-6, predictor.at(&measures).unwrap());
+    let index = |median: f64, beta: f64| (median - limit.ln()) / beta;
+    let slope = |median_by: f64, beta_by: f64| {
+        let at = |sign: f64| index(median.value + sign * median_by, law.beta + sign * beta_by);
+        (at(1.0) - at(-1.0)) / (2.0 * step)
+    };
+    let error = (slope(step, 0.0) * variance.sqrt()).hypot(slope(0.0, step) * law.beta / 20.0f64.sqrt());
+    let found = law.exceeding(&measures, limit).unwrap();
+    assert!((found.value - index(median.value, law.beta)).abs() < 1e-12);
+    assert!((found.standard_error / error - 1.0).abs() < 1e-8, "{} for {error}", found.standard_error);
 }
 
 #[test]

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use proptest::prelude::*;
 use rockfrag::fragility::{
     Case, CurveModel, DemandSample, Estimator, EventSample, FitStatus, Link, Measure, OverturningFit, PLANE,
-    TransitionSearch, auc, binary_regression, brier_score, fit_biplanar, fit_overturning, fit_univariate,
-    is_separated, least_squares, p_exceeding, p_failure_given_rocking, p_no_rocking, p_overturning,
-    t_quantile,
+    Plane, TransitionSearch, auc, binary_regression, brier_score, fit_biplanar, fit_overturning,
+    fit_univariate, is_separated, least_squares, p_exceeding, p_failure_given_rocking, p_no_rocking,
+    p_overturning, t_quantile,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -204,6 +204,15 @@ fn two_planes_and_their_transition_are_found() {
         "the jump between the sides counts only overall"
     );
     assert_eq!(fit_biplanar(&cases, Some(1.5)).unwrap().transition, 1.5);
+    // The same as that of one regression whose coefficients all depend on the side.
+    let sample = DemandSample::new(&cases, &PLANE, 0.0..f64::INFINITY);
+    let [x, y] = &sample.ln_im[..] else { panic!("two measures") };
+    let above: Vec<f64> = x.iter().map(|x| f64::from(u8::from(x.exp() >= fit.transition))).collect();
+    let times = |column: &[f64]| above.iter().zip(column).map(|(a, b)| a * b).collect::<Vec<f64>>();
+    let joint = least_squares(&[&above, x, y, &times(x), &times(y)], &sample.ln_edp).unwrap();
+    close(fit.r2_overall.unwrap(), joint.r2, 1e-9, "R2 of both sides");
+    let nothing = Case { edp: 0.0, ..cases[0] };
+    assert_eq!(DemandSample::new(&[nothing, cases[1]], &PLANE, 0.0..f64::INFINITY).rows, [1]);
 }
 
 #[test]
@@ -244,6 +253,9 @@ fn skill_scores_have_their_textbook_values() {
 
 #[test]
 fn the_tree_joins_the_probabilities() {
+    let plane = Plane { ln_a: 1.0, b1: 2.0, b2: 3.0 };
+    assert_eq!(plane.ln_demand(1.0, std::f64::consts::E), 4.0);
+    assert_eq!(plane.ln_demand(std::f64::consts::E, 1.0), 3.0);
     assert_eq!((p_no_rocking(0.999), p_no_rocking(1.0)), (1.0, 0.0));
     assert_eq!(p_exceeding(0.1_f64.ln(), 0.1, 0.8), 0.5);
     assert!(p_exceeding(0.2_f64.ln(), 0.1, 0.8) > 0.5, "grows with demand");

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use proptest::prelude::*;
 use rockfrag::fragility::{
     Case, CurveModel, Estimator, EventSample, FitStatus, Link, Measure, OverturningFit, Plane, auc,
-    binary_regression, fit_overturning, is_separated, p_failure, p_failure_given_rocking, p_no_rocking,
-    rms_difference,
+    binary_regression, fit_overturning, has_few_events, is_separated, p_failure, p_failure_given_rocking,
+    p_no_rocking, rms_difference,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -86,6 +86,21 @@ fn overlapping(seed: u64) -> Points {
         events.push(event);
     }
     (x, y, events)
+}
+
+#[test]
+fn events_are_few_below_ten_a_coefficient() {
+    // A curve of one measure has two coefficients, the hybrid of two has three.
+    for (events, n, measures, few) in [
+        (19, 100, 1, true),
+        (20, 100, 1, false),
+        (81, 100, 1, true),
+        (80, 100, 1, false),
+        (29, 100, 2, true),
+        (30, 100, 2, false),
+    ] {
+        assert_eq!(has_few_events(events, n, measures), few, "{events} of {n}");
+    }
 }
 
 #[test]

@@ -195,6 +195,7 @@ fn a_scan_looks_closer_only_where_it_must() {
 #[test]
 fn the_ends_of_a_scan_are_told_apart() {
     let scan = Scan::new(0.5, 2.0, 6, 2, 1e-3);
+    assert_eq!((scan.foot(), scan.top()), (0.5, 2.0));
     let safe = scan_of(&scan, &[]);
     assert_eq!((safe.status, safe.overturning, safe.safe_below), (CapacityStatus::Safe, None, Some(2.0)));
     let below = scan_of(&scan, &[(0.0, 9.0, 0)]);

@@ -10,7 +10,10 @@ fn close(value: f64, expected: f64, tolerance: f64) {
 fn cumulative_probabilities_equal_scipys() {
     close(cdf(0.5), 0.691_462_461_274_013_1, 1e-15);
     close(cdf(-10.0), 7.619_853_024_160_525e-24, 1e-13);
+    close(cdf(2.0), 0.977_249_868_051_820_8, 1e-15);
     close(pdf(1.0), 0.241_970_724_519_143_37, 1e-15);
+    close(pdf(-3.5), 0.000_872_682_695_045_760_2, 1e-14);
+    close(pdf(0.25), 0.386_668_116_802_849_3, 1e-15);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use rockfrag::motion::Pulse;
 use rockfrag::rocking::{
     Event, Outcome, Record, RecordError, Structure, StructureError, frame_eta, frame_p, housner_eta,
-    rectangular_p, simulate, trace,
+    rectangular_p, simulate, trace, with_tail,
 };
 use rockfrag::units::G_M_S2;
 
@@ -299,6 +299,14 @@ fn a_trace_tells_what_happens_when() {
         after.clone().count() > 10
             && after.clone().all(|point| point.theta_rad == 0.0 && point.theta_dot_rad_s == 0.0)
     );
+}
+
+#[test]
+fn quiet_after_a_record_lasts_as_long_as_asked_for() {
+    let record = Record::new(&[1.0, 2.0], 0.25).unwrap();
+    assert_eq!(with_tail(&record, 0.5), [1.0, 2.0, 0.0, 0.0]);
+    assert_eq!(with_tail(&record, 0.6), [1.0, 2.0, 0.0, 0.0, 0.0]);
+    assert_eq!(with_tail(&record, 0.0), [1.0, 2.0]);
 }
 
 #[test]

@@ -94,6 +94,46 @@ fn outcomes_and_peaks_agree_with_the_scalar_path() {
     }
 }
 
+/// The same acceleration, linear between samples, in `parts` times as many steps.
+fn finer(samples: &[f64], parts: usize) -> Vec<f64> {
+    let between = |pair: &[f64]| {
+        let (start, end) = (pair[0], pair[1]);
+        (0..parts).map(move |k| start + (end - start) * k as f64 / parts as f64).collect::<Vec<f64>>()
+    };
+    samples.windows(2).flat_map(between).chain(samples.last().copied()).collect()
+}
+
+#[test]
+fn a_record_of_few_samples_says_what_many_say() {
+    // A fast structure, which takes many Taylor steps between two samples; and a slow one, which turns and strikes its base
+    // within a step.
+    let levels = [0.0, 1.5, 0.2, -0.5, 0.0, 0.0];
+    let zigzag: Vec<f64> = (0..60).map(|k| f64::from((k * 37 + k * k * 5) % 23) / 2.3 - 5.0).collect();
+    for (p, alpha, levels, parts) in
+        [(8.0, 0.2, &levels[..], 64), (8.0, 1e-3, &levels, 64), (0.02, 0.1, &zigzag, 16)]
+    {
+        let structure = Structure::new("s", p, alpha, 0.9).unwrap();
+        let uplift = structure.uplift_acceleration_m_s2();
+        let samples: Vec<f64> = levels.iter().map(|level| level * uplift).collect();
+        let fine = finer(&samples, parts);
+        let problem =
+            |samples, dt_s| Problem { structure: &structure, record: Record::new(samples, dt_s).unwrap() };
+        let problems = [problem(&samples, 0.1), problem(&fine, 0.1 / parts as f64)];
+        for path in vector_paths().into_iter().chain([Path::Scalar]) {
+            let [few, many] = simulate_all(&problems, path)[..] else { panic!("two answers") };
+            assert_eq!(few.outcome, Outcome::SafeRocking, "{path:?} {p}");
+            assert_eq!((few.outcome, few.impacts), (many.outcome, many.impacts), "{path:?} {p}");
+            assert!((few.edp / many.edp - 1.0).abs() < 1e-10, "{path:?} {p}: {few:?} {many:?}");
+        }
+    }
+}
+
+#[test]
+fn results_are_named_after_their_bits() {
+    assert_eq!(Path::Scalar.arithmetic(), "scalar");
+    assert!(vector_paths().iter().all(|path| path.arithmetic() == "vector"));
+}
+
 #[test]
 fn no_problems_give_no_answers() {
     for path in vector_paths() {

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use rockfrag::fragility::{
-    Branch, Case, Curve, CurveForm, CurveSubject, FitStatus, PooledStructure, PooledTerms, Transfer, Verdict,
-    calibration_slope, fit_pooled,
+    Branch, Case, Curve, CurveForm, CurveSubject, DemandModel, DemandSample, FitStatus, PLANE,
+    PooledStructure, PooledTerms, Transfer, Verdict, calibration_slope, fit_pooled,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
@@ -55,6 +55,10 @@ fn pooled_curves_equal_those_of_statsmodels() {
                 answers[&(branch.as_str().to_string(), terms.as_str().to_string(), quantity)]
             };
             let part = fit.parts.last().unwrap();
+            let named = |key: &&(String, String, String)| {
+                key.0 == branch.as_str() && key.1 == terms.as_str() && key.2.starts_with("coefficient")
+            };
+            assert_eq!(part.terms.len(), answers.keys().filter(named).count());
             for (k, term) in part.terms.iter().enumerate() {
                 close(term.coefficient, answer(format!("coefficient {k}")), 1e-7);
                 close(term.standard_error, answer(format!("error {k}")), 1e-6);
@@ -90,6 +94,22 @@ fn a_curve_holds_for_its_own_structure() {
         let own = transfer.own.as_ref().unwrap();
         assert_eq!((own.loss.value, own.mean_error, own.worst_over, own.worst_under), (0.0, 0.0, 0.0, 0.0));
         assert_eq!((transfer.share_lost(), transfer.verdict()), (Some(0.0), Verdict::Holds));
+    }
+}
+
+#[test]
+fn each_side_of_the_transition_has_its_own_plane() {
+    let (cases, _) = cases_and_cells();
+    let (transition, limit) = (2.0, 0.1);
+    let form = CurveForm::Hybrid { transition };
+    let curve = CurveSubject { branch: Branch::Exceeding, form, limit }.fit(&cases).unwrap();
+    let Curve::Exceeding { demand: DemandModel::Biplanar { low, high, .. }, .. } = curve else {
+        panic!("{curve:?}")
+    };
+    for (law, range) in [(low, 0.0..transition), (high, transition..f64::INFINITY)] {
+        let fit = DemandSample::new(&cases, &PLANE, range).fit().unwrap();
+        assert_eq!(law.ln_median.coefficients, [0, 1, 2].map(|k| fit.coefficients[k].value));
+        assert_eq!((law.beta, law.degrees), (fit.residual_sd, (fit.n - 3) as f64));
     }
 }
 

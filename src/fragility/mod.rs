@@ -138,6 +138,7 @@ pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use index::{Probability, ProbitIndex};
 pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
 pub use link::{Information, Link};
+pub use link_series::ln_probability_series;
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
 pub use overturning::{CurveModel, OverturningFit, fit_overturning, has_few_events};
 pub use poisson_binomial::PoissonBinomial;

@@ -3,11 +3,12 @@
 use std::convert::Infallible;
 
 use rockfrag::fragility::{
-    CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits, Link, Resamples,
-    Strata, acceleration, bootstrap, bootstrap_each, bootstrap_limits, fit_overturning,
+    Case, CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits,
+    DemandSample, FitStatus, Link, Measure, Resamples, Strata, TransitionSearch, acceleration, bootstrap,
+    bootstrap_each, bootstrap_limits, fit_overturning,
 };
 
-use crate::data::{answers, data, distribution};
+use crate::data::{answers, data, distribution, smooth_cases};
 
 /// The weights of the reference: row k counts (k^2 + 1) mod 3 times.
 fn counts(rows: usize) -> Vec<f64> {
@@ -21,6 +22,8 @@ fn a_refit_equals_the_fit_of_repeated_cases() {
     for name in ["x", "xy"] {
         let sample = data.event_sample(name);
         let fit = fit_overturning(&sample, &CurveModel::default()).unwrap();
+        let parameters = CurveInference::new(&sample, &fit.regression).curve_parameters();
+        assert_eq!(parameters.contains(&CurveParameter::Lambda), name == "xy");
         let resamples = Resamples::alike(&counts);
         let [b, ..] = CurveRefits::new(&sample, &fit.regression).coefficients(&resamples);
         let b = b.unwrap();
@@ -56,6 +59,64 @@ fn refits_by_expansion_are_those_by_newtons_method() {
         });
         let worst = apart.iter().copied().fold(0.0, f64::max);
         assert!(worst < 3e-5, "{link:?} on {name}: {worst:e} standard errors apart");
+    }
+}
+
+#[test]
+fn refits_of_few_cases_are_those_of_repeated_cases_or_none() {
+    // Of 20 cases, half of them events, a fifth of the resamples are separated.
+    let mut data = data();
+    data.first(20);
+    let sample = data.event_sample("x");
+    let fit = fit_overturning(&sample, &CurveModel::default()).unwrap().regression;
+    let refits = CurveRefits::new(&sample, &fit);
+    let pairs = bootstrap(&Strata::new(&data.cells), 200, 3, |resamples| {
+        let mut refits = refits.coefficients(resamples);
+        std::array::from_fn(|resample| {
+            let counts = resamples.of(resample, &sample.rows);
+            let rows = (0..20).flat_map(|row| std::iter::repeat_n(row, counts[row] as usize));
+            let repeated = data.rows(rows).event_sample("x");
+            (refits[resample].take(), fit_overturning(&repeated, &CurveModel::default()))
+        })
+    });
+    let (mut fitted, mut separated) = (0, 0);
+    for pair in pairs {
+        match pair {
+            (refit, Ok(exact)) => {
+                let exact = exact.regression;
+                let apart = (refit.unwrap() - exact.coefficients)
+                    .component_div(&exact.covariance.diagonal().map(f64::sqrt));
+                assert!(apart.amax() < 1e-3, "{apart}");
+                fitted += 1;
+            }
+            (refit, Err(FitStatus::Separated)) => {
+                assert_eq!(refit, None);
+                separated += 1;
+            }
+            _ => {}
+        }
+    }
+    assert!(fitted > 100 && separated > 20, "{fitted} {separated}");
+}
+
+#[test]
+fn a_break_in_a_resample_is_that_of_repeated_cases() {
+    let cases = smooth_cases();
+    let counts = counts(cases.len());
+    let repeated: Vec<Case> =
+        cases.iter().zip(&counts).flat_map(|(case, count)| vec![*case; *count as usize]).collect();
+    let sample = |cases: &[Case], range| DemandSample::new(cases, &[Measure::Im4, Measure::Im3], range);
+    let search = TransitionSearch::new(&sample(&cases, 0.0..f64::INFINITY));
+    let [found, ..] = search.breaks(&Resamples::alike(&counts));
+    let found = found.unwrap();
+    let of_repeated = TransitionSearch::new(&sample(&repeated, 0.0..f64::INFINITY));
+    assert_eq!(found.im4, of_repeated.find(&vec![1.0; repeated.len()]).unwrap().im4);
+    for (plane, range) in [(found.low, 0.0..found.im4), (found.high, found.im4..f64::INFINITY)] {
+        let (plane, fit) = (plane.unwrap(), sample(&repeated, range).fit().unwrap());
+        for (b, estimate) in plane.coefficients.iter().zip(&fit.coefficients) {
+            assert!((b - estimate.value).abs() < 1e-9 * estimate.standard_error, "{b} for {estimate:?}");
+        }
+        assert!((plane.residual_sd / fit.residual_sd - 1.0).abs() < 1e-9, "{plane:?}");
     }
 }
 

@@ -47,6 +47,18 @@ impl Data {
         self.cells.truncate(cases);
     }
 
+    /// These cases, each as often as it is named.
+    pub fn rows(&self, rows: impl Iterator<Item = usize> + Clone) -> Data {
+        let of = |column: &[f64]| rows.clone().map(|row| column[row]).collect();
+        Data {
+            x: of(&self.x),
+            y: of(&self.y),
+            demand: of(&self.demand),
+            event: rows.clone().map(|row| self.event[row]).collect(),
+            cells: rows.clone().map(|row| self.cells[row]).collect(),
+        }
+    }
+
     /// The measures whose logarithms these are.
     pub fn measures(name: &str) -> Vec<Measure> {
         if name == "x" { vec![Measure::Im4] } else { vec![Measure::Im4, Measure::Im3] }

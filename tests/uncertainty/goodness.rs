@@ -1,9 +1,9 @@
 //! Tests of fit, bent curves and the smooth transition against statsmodels and scipy; and what is diagnosed.
 
 use rockfrag::fragility::{
-    CurveModel, DemandSample, Estimator, FitStatus, Link, Measure, TransitionSearch, chi_squared_upper_tail,
-    f_upper_tail, fit_overturning, fit_smooth, fit_with_interaction, fit_with_spline, hosmer_lemeshow,
-    least_squares, likelihood_ratio, reset, transition_limits,
+    Case, CurveModel, DemandSample, Estimator, FitStatus, Link, Measure, TransitionSearch,
+    chi_squared_upper_tail, f_upper_tail, fit_overturning, fit_smooth, fit_with_interaction, fit_with_spline,
+    hosmer_lemeshow, least_squares, likelihood_ratio, reset, transition_limits,
 };
 use rockfrag::keyword::Keyword;
 
@@ -87,6 +87,15 @@ fn the_smooth_transition_equals_scipys() {
         (fit.ln_demand(im4, 1.0) - (b[0] + b[1] * im4.ln())).abs()
     };
     assert!(far(1.0, &fit.low) < 1e-12 && far(1e6, &fit.high) < 1e-6, "at uplift, and far above it");
+}
+
+#[test]
+fn a_demand_that_bends_all_the_way_has_no_transition() {
+    // In x = ln IM4 a parabola is what the planes are nearer to the wider they pass into one another.
+    let bent = |case: Case| Case { edp: (-3.0 + 2.0 * case.measures.im4.ln().powi(2)).exp(), ..case };
+    let cases: Vec<Case> = smooth_cases().into_iter().map(bent).collect();
+    let sample = DemandSample::new(&cases, &[Measure::Im4, Measure::Im3], 0.0..f64::INFINITY);
+    assert_eq!(fit_smooth(&sample, 0.95).unwrap_err(), FitStatus::NotConverged);
 }
 
 #[test]

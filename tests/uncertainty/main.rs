@@ -5,6 +5,7 @@ mod bootstrap;
 mod data;
 mod firth;
 mod goodness;
+mod link_series;
 mod links;
 mod ranking;
 mod robust;

@@ -51,6 +51,13 @@ fn every_figure_equals_that_of_statsmodels_and_scipy() {
                 let rating = find(&ranking, measures, form).rating.as_ref().unwrap();
                 let unseen = rating.unseen.as_ref().unwrap();
                 let [intercept, slope] = unseen.calibration.unwrap();
+                let groups = &unseen.reliability;
+                assert_eq!(groups.iter().map(|group| group.n).sum::<usize>(), unseen.log_scores.len());
+                assert!(groups.windows(2).all(|pair| pair[0].forecast < pair[1].forecast), "{groups:?}");
+                assert!(
+                    groups.iter().all(|group| 0.0 < group.forecast && group.forecast < 1.0),
+                    "{groups:?}"
+                );
                 for (figure, value) in [
                     ("llf", rating.log_likelihood),
                     ("aic", rating.aic),
@@ -82,6 +89,24 @@ fn gains_have_the_clustered_errors_of_statsmodels() {
     let loss = find(&overturning, &["im4"], Form::Single).over_paper.unwrap();
     answers.check_absolute("p_ro_im4:im3_single_over", -loss.value, 1e-7);
     answers.check_absolute("p_ro_im4:im3_single_se", loss.standard_error, 1e-7);
+}
+
+#[test]
+fn the_best_of_as_many_measures_is_what_others_are_held_against() {
+    let mut ranking = ranking(&data(), Target::Demand, &[]);
+    ranking.retain(|ranked| ranked.rank.is_some());
+    assert!(ranking.len() > 5);
+    let of_im4 = find(&ranking, &["im4"], Form::Single).rating.as_ref().unwrap();
+    let residual_sd = data().demand_sample("x").fit().unwrap().residual_sd;
+    assert!((of_im4.beta / residual_sd - 1.0).abs() < 1e-9, "{} for {residual_sd}", of_im4.beta);
+    let score = |of: &Ranked| of.rating.as_ref().unwrap().unseen.as_ref().unwrap().log_score();
+    for ranked in &ranking {
+        let rivals = ranking.iter().filter(|other| other.measures.len() == ranked.measures.len());
+        let best = rivals.map(score).fold(f64::NEG_INFINITY, f64::max);
+        let gain = ranked.over_best.unwrap().value;
+        assert!((gain - (score(ranked) - best)).abs() < 1e-9, "{ranked:?}");
+        assert_eq!(gain == 0.0, ranked.rank == Some(1), "{ranked:?}");
+    }
 }
 
 #[test]

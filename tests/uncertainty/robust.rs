@@ -14,6 +14,20 @@ fn curve(sample: &EventSample) -> rockfrag::fragility::OverturningFit {
 }
 
 #[test]
+fn limits_at_another_confidence_are_students() {
+    let fit = data().demand_sample("x").fit().unwrap();
+    let wider = fit.clone().at_confidence(0.99);
+    for (at_95, at_99) in fit.coefficients.iter().zip(&wider.coefficients) {
+        // scipy.stats.t.ppf of 0.975 and 0.995 with 398 degrees of freedom.
+        for (estimate, quantile) in [(at_95, 1.965_942_323_976_266_1), (at_99, 2.588_238_404_934_375)] {
+            let half_width = quantile * at_95.standard_error;
+            assert!((estimate.high - at_95.value - half_width).abs() < 1e-9 * half_width, "{estimate:?}");
+            assert!((at_95.value - estimate.low - half_width).abs() < 1e-9 * half_width, "{estimate:?}");
+        }
+    }
+}
+
+#[test]
 fn clustered_errors_equal_pyfragilitys_under_every_link() {
     let (data, answers) = (data(), answers());
     for &link in Link::ALL {
