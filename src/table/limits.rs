@@ -14,7 +14,7 @@ pub(super) const MOST_FOOTER_BYTES: u64 = 256 << 20;
 /// The largest page, decompressed; those of common writers have a megabyte.
 const MOST_PAGE_BYTES: i64 = 256 << 20;
 /// The most samples in a row group, which one motion of a hostile file could have all to itself.
-const MOST_SAMPLES: u64 = 1 << 28;
+pub(super) const MOST_SAMPLES: u64 = 1 << 28;
 /// DELTA_LENGTH_BYTE_ARRAY and DELTA_BYTE_ARRAY.
 const ENCODINGS_OF_DIFFERENCES: [i64; 2] = [6, 7];
 /// How deep columns may nest.

@@ -28,7 +28,7 @@
 //! ida          the same motions at rising intensity
 //! validation   forecasts beside what happened
 //! universality the curve of one structure on others, and curves of all
-//! text         any table as aligned text, CSV or JSON
+//! text         any table as aligned text, CSV or JSON; text_file text files whole
 //! ```
 
 pub mod columns;
@@ -66,6 +66,7 @@ mod shared_file;
 pub mod source;
 mod table_file;
 pub mod text;
+pub mod text_file;
 pub mod trace;
 pub mod universality;
 pub mod validation;
@@ -145,7 +146,7 @@ pub enum TableError {
         path: PathBuf,
     },
     /// The file says that it has more rows than it can hold.
-    #[error("{}: {rows} rows in a file of {bytes} bytes; expected a table with a byte a row at least", path.display())]
+    #[error("{}: {rows} rows in a file of {bytes} bytes; expected a byte a row at least: write it plain, without dictionaries and compression", path.display())]
     TooManyRows {
         /// The file.
         path: PathBuf,
