@@ -26,7 +26,7 @@ for target in ${targets[@]}; do
     nice -n 19 "fuzz/target/debug/$target" "fuzz/corpus/$target" $(seeds "$target") -artifact_prefix="fuzz/artifacts/$target/" \
         -rss_limit_mb=4500 -timeout=300 -max_len=65536 -print_final_stats=1 2> "fuzz/artifacts/$target.log" &
     fuzzer=$!
-    while kill -0 "$fuzzer" 2> /dev/null && [ "$(spent "$fuzzer")" -lt "$seconds" ]; do
+    while used=$(spent "$fuzzer" 2> /dev/null) && [ "$used" -lt "$seconds" ]; do
         sleep 2
     done
     kill -USR1 "$fuzzer" 2> /dev/null || true

@@ -104,7 +104,8 @@ fn files_of_any_size_are_read_up_to_a_bound() {
         let file = std::fs::File::create(&path).unwrap();
         let words = |more: u64| {
             file.set_len((most_mib << 20) + more).unwrap();
-            format!("{:#}", read(&path).unwrap_err())
+            // A file of zeros may be a table without rows.
+            read(&path).map_or_else(|error| format!("{error:#}"), |()| String::new())
         };
         let (largest, larger) = (words(0), words(1));
         assert!(!largest.contains("larger than"), "{name}: {largest}");
