@@ -7,7 +7,7 @@
 //! folder       a folder of files as one table; partition one of its parts
 //! footer       the end of a file, which says what is in it
 //! limits       what a file may ask of memory
-//! compact      the protocol in which files describe themselves
+//! compact      the protocol in which files describe themselves; description the fields of which they do
 //! guarded      damage that stops the decoder
 //! table_file   one file, open at some columns; piece that or a table in memory
 //! reader       batches from a table
@@ -33,6 +33,7 @@
 
 pub mod columns;
 mod compact;
+mod description;
 pub mod evaluated;
 pub mod fingerprint;
 pub mod fits;
