@@ -29,3 +29,14 @@ call synthesize-motions --in scenarios.parquet --dt 0.05 --out motions.parquet
 call simulate --in motions.parquet --path scalar --trace 0 --out traced.parquet
 awk 'BEGIN { for (k = 0; k < 400; k++) print k * 0.01, 0.5 * sin(k * k / 900) }' > "$work/record.txt"
 call import-motions "$work/record.txt" --unit g --out records.parquet
+
+# Of the stages that came later, from the files above.
+call ida --in motions.parquet --from 1 --to 3 --steps 4 --halvings 1 --tolerance 0.05 --path scalar --out ida.parquet
+call rank-ims --in responses.parquet --terms 1 --folds 4 --out ranking.parquet > "$work/ranking.txt"
+call universality --in responses.parquet --out universality.parquet > "$work/universality.txt"
+fits="--pex pex.parquet --pro pro.parquet --structure electrical-equipment --p 2.5 --alpha 0.20"
+# shellcheck disable=SC2086
+call evaluate $fits --in motions.parquet --out evaluated.parquet
+for part in 0 1; do
+    call synthesize-motions --in scenarios.parquet --suite pulse --dt 0.05 --partition $part/2 --out motions
+done

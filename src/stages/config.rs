@@ -17,6 +17,10 @@ use super::synthesize_motions::SynthesizeMotionsOptions;
 use super::universality::UniversalityOptions;
 use crate::pipeline::UsageError;
 use crate::pipeline::yaml::explain;
+use crate::table::text_file;
+
+/// The largest file: many thousand structures.
+const MOST_MIB: u64 = 1;
 
 /// The whole file. A stage that is left out is not run.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -57,9 +61,8 @@ impl Config {
     /// If it is missing, is no YAML (with line and column), or has an unknown key (naming the nearest known one) or a
     /// value of another type.
     pub fn read(path: &Path) -> anyhow::Result<Config> {
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            UsageError::because(format!("{}: {error}; expected a pipeline file", path.display()))
-        })?;
+        let text = text_file::text(path, MOST_MIB, "a pipeline file")
+            .map_err(|error| UsageError::because(format!("{}: {error}", path.display())))?;
         let mut config: Config = serde_saphyr::from_str(&text)
             .map_err(|error| UsageError::because(format!("{}: {}", path.display(), explain(&error))))?;
         config.spread_seed();

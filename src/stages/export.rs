@@ -14,7 +14,7 @@ use crate::keyword::keywords;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Steps, Word, check};
-use crate::table::text;
+use crate::table::text_file;
 
 /// To whom, and at which intensities.
 #[derive(Debug, Clone, Args)]
@@ -103,7 +103,7 @@ pub fn export(options: &ExportOptions, console: &Console) -> anyhow::Result<()> 
         }
     };
     for (path, content) in &files {
-        text::write(path, content)?;
+        text_file::write(path, content)?;
     }
     let paths: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
     let levels = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);

@@ -9,6 +9,10 @@ use serde_json::{Value, json};
 use crate::pipeline::UsageError;
 use crate::pipeline::yaml::explain;
 use crate::rocking::Structure;
+use crate::table::text_file;
+
+/// The largest file: hundreds of thousands of structures.
+const MOST_MIB: u64 = 16;
 
 /// One structure: p, alpha and eta; or the width and height (m) of a block or of a frame's columns, with beam-mass-ratio for a
 /// frame. Of the latter two, eta may be left out.
@@ -135,7 +139,7 @@ impl Structures {
 
 fn read(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
     let failed = |what: String| UsageError::because(format!("{}: {what}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
+    let text = text_file::text(path, MOST_MIB, "structures").map_err(|error| failed(error.to_string()))?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extension.as_str() {
         "yaml" | "yml" => serde_saphyr::from_str(&text).map_err(|error| failed(explain(&error))),

@@ -1,5 +1,7 @@
 //! synthesize-motions: the pulse, the high frequencies and their combination for every scenario.
 
+use std::path::Path;
+
 use anyhow::Context;
 use clap::Args;
 use rayon::prelude::*;
@@ -24,7 +26,11 @@ use crate::table::provenance::Provenance;
 use crate::table::scenarios;
 use crate::table::schema::MOTIONS;
 use crate::table::source::{Source, Target};
+use crate::table::text_file;
 use crate::table::writer::TableWriter;
+
+/// The largest table of site amplification.
+const MOST_SITE_MIB: u64 = 1;
 
 /// How motions are made.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -120,7 +126,9 @@ impl SynthesizeMotionsOptions {
                         "site is '{file}'; expected rock, soil, none, or a CSV file with a header line"
                     ))
                 };
-                let rows = csv::Reader::from_path(file).with_context(expected)?.into_deserialize();
+                let text = text_file::text(Path::new(file), MOST_SITE_MIB, "amplification by frequency")
+                    .with_context(expected)?;
+                let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize();
                 let rows = rows.collect::<Result<Vec<(f64, f64)>, _>>().with_context(expected)?;
                 Site::table(rows).with_context(expected)
             }

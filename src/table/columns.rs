@@ -14,7 +14,7 @@ use super::schema::{Column, SPECTRAL_ACCELERATION, is_spectral_acceleration};
 const LONGEST_TEXT: usize = 4096;
 
 /// The most samples of a motion: what is made of them (spectra, velocities) takes many times their room.
-const LONGEST_MOTION: usize = 1 << 24;
+pub const LONGEST_MOTION: usize = 1 << 24;
 
 /// A batch of rows of a file.
 pub struct Columns<'a> {

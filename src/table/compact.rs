@@ -25,8 +25,15 @@ type Result<T> = std::result::Result<T, Broken>;
 pub(super) struct Kind(u8);
 
 impl Kind {
-    const TRUE: Kind = Kind(1);
-    const FALSE: Kind = Kind(2);
+    pub const TRUE: Kind = Kind(1);
+    pub const FALSE: Kind = Kind(2);
+    pub const I8: Kind = Kind(3);
+    pub const I16: Kind = Kind(4);
+    pub const I32: Kind = Kind(5);
+    pub const I64: Kind = Kind(6);
+    pub const DOUBLE: Kind = Kind(7);
+    pub const BINARY: Kind = Kind(8);
+    pub const LIST: Kind = Kind(9);
     pub const STRUCT: Kind = Kind(12);
 }
 

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::{Context, anyhow, bail};
 
+use super::text_file;
 use crate::fragility::Peak;
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks};
 use crate::units::G_M_S2;
@@ -13,6 +14,9 @@ const INTENSITIES: [(&str, Peak, f64); 3] =
     [("pga_g", Peak::Pga, G_M_S2), ("pga_m_s2", Peak::Pga, 1.0), ("pgv_m_s", Peak::Pgv, 1.0)];
 const EXCEEDANCE: &str = "annual_rate_of_exceedance";
 const OCCURRENCE: &str = "annual_rate_of_occurrence";
+
+/// The largest file: a joint hazard of two million pairs.
+const MOST_MIB: u64 = 64;
 
 /// The hazard in a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +33,7 @@ pub enum Hazard {
 /// # Errors
 /// If the file cannot be read, has other columns, or holds what is no hazard.
 pub fn read(path: &Path) -> anyhow::Result<Hazard> {
-    let read = || of(&std::fs::read_to_string(path)?);
+    let read = || of(&text_file::text(path, MOST_MIB, "a hazard")?);
     read().with_context(|| path.display().to_string())
 }
 

@@ -13,6 +13,10 @@ use crate::rocking::Structure;
 /// The stages whose output can stand as a table of intensities.
 const STAGES: [&str; 4] = ["synthesize-motions", "import-motions", "simulate", "evaluate"];
 
+/// Rows that a table may have, however small it is: a grid of intensities, in which each occurs thousands of times, takes less
+/// than a byte a row.
+const FEW_ROWS: u64 = 1 << 24;
+
 const PEAKS: [Column; 2] = [schema::PGA_M_S2, schema::PGV_M_S];
 const STRUCTURE: [Column; 2] = [schema::P_RAD_S, schema::ALPHA_RAD];
 const READ: [Column; 7] = [
@@ -59,7 +63,7 @@ impl IntensityBatches {
     ) -> Result<IntensityBatches, TableError> {
         let structure_columns = if structure.is_none() { &STRUCTURE[..] } else { &[] };
         let required = [&PEAKS, structure_columns].concat();
-        let batches = Batches::open(source, &STAGES, &READ, &required, batch_size)?;
+        let batches = Batches::open(source, &STAGES, &READ, &required, FEW_ROWS, batch_size)?;
         Ok(IntensityBatches { batches, structure, eta })
     }
 

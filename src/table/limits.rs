@@ -7,6 +7,7 @@ use parquet::file::metadata::ColumnChunkMetaData;
 use parquet::file::reader::{ChunkReader, Length};
 
 use super::compact::{Broken, Compact, Kind};
+use super::description::{FILE, PAGE_HEADER};
 use super::shared_file::SharedFile;
 
 /// The largest footer: that of tens of thousands of row groups.
@@ -14,7 +15,7 @@ pub(super) const MOST_FOOTER_BYTES: u64 = 256 << 20;
 /// The largest page, decompressed; those of common writers have a megabyte.
 const MOST_PAGE_BYTES: i64 = 256 << 20;
 /// The most samples in a row group, which one motion of a hostile file could have all to itself.
-const MOST_SAMPLES: u64 = 1 << 28;
+pub(super) const MOST_SAMPLES: u64 = 1 << 28;
 /// DELTA_LENGTH_BYTE_ARRAY and DELTA_BYTE_ARRAY.
 const ENCODINGS_OF_DIFFERENCES: [i64; 2] = [6, 7];
 /// How deep columns may nest.
@@ -27,7 +28,8 @@ fn refused(words: impl Into<String>) -> ParquetError {
     ParquetError::General(words.into())
 }
 
-/// That the footer is a description of moderate depth, in which no list is longer than its bytes.
+/// That the footer is a description of moderate depth, in which no list is longer than its bytes, and each field what it should
+/// be.
 pub(super) fn check_footer(bytes: &[u8]) -> Result<()> {
     let mut reader = Compact::new(bytes);
     let mut children = Vec::new();
@@ -48,7 +50,8 @@ pub(super) fn check_footer(bytes: &[u8]) -> Result<()> {
     };
     const SCHEMA: i64 = 2;
     const CHILDREN: i64 = 5;
-    reader.fields(schema).map_err(|broken| refused(broken.to_string()))?;
+    let passed = FILE.pass(&mut Compact::new(bytes)).and_then(|()| reader.fields(schema));
+    passed.map_err(|broken| refused(broken.to_string()))?;
     check_nesting(&children)
 }
 
@@ -147,7 +150,7 @@ fn page(file: &SharedFile, at: u64, end: u64) -> Result<(Page, u64)> {
         let length = window.min(end - at);
         let bytes = file.get_bytes(at, length as usize)?;
         let mut reader = Compact::new(&bytes);
-        match page_header(&mut reader) {
+        match PAGE_HEADER.pass(&mut Compact::new(&bytes)).and_then(|()| page_header(&mut reader)) {
             Ok(page) => return Ok((page, reader.read() as u64)),
             Err(Broken::Ends) if length == window && window < MOST_PAGE_HEADER_BYTES => window *= 16,
             Err(broken) => return Err(refused(format!("page at byte {at}: {broken}"))),

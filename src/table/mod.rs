@@ -7,7 +7,7 @@
 //! folder       a folder of files as one table; partition one of its parts
 //! footer       the end of a file, which says what is in it
 //! limits       what a file may ask of memory
-//! compact      the protocol in which files describe themselves
+//! compact      the protocol in which files describe themselves; description the fields of which they do
 //! guarded      damage that stops the decoder
 //! table_file   one file, open at some columns; piece that or a table in memory
 //! reader       batches from a table
@@ -28,11 +28,12 @@
 //! ida          the same motions at rising intensity
 //! validation   forecasts beside what happened
 //! universality the curve of one structure on others, and curves of all
-//! text         any table as aligned text, CSV or JSON
+//! text         any table as aligned text, CSV or JSON; text_file text files whole
 //! ```
 
 pub mod columns;
 mod compact;
+mod description;
 pub mod evaluated;
 pub mod fingerprint;
 pub mod fits;
@@ -66,6 +67,7 @@ mod shared_file;
 pub mod source;
 mod table_file;
 pub mod text;
+pub mod text_file;
 pub mod trace;
 pub mod universality;
 pub mod validation;
@@ -145,7 +147,7 @@ pub enum TableError {
         path: PathBuf,
     },
     /// The file says that it has more rows than it can hold.
-    #[error("{}: {rows} rows in a file of {bytes} bytes; expected a table with a byte a row at least", path.display())]
+    #[error("{}: {rows} rows in a file of {bytes} bytes; expected a byte a row at least: write it plain, without dictionaries and compression", path.display())]
     TooManyRows {
         /// The file.
         path: PathBuf,

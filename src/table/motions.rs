@@ -151,7 +151,7 @@ impl MotionBatches {
     /// # Errors
     /// If it is missing, unreadable, empty, of another stage, or lacks a column.
     pub fn open(source: impl Into<Source>, batch_size: usize) -> Result<MotionBatches, TableError> {
-        Ok(MotionBatches { batches: Batches::open(source, &STAGES, &READ, &REQUIRED, batch_size)? })
+        Ok(MotionBatches { batches: Batches::open(source, &STAGES, &READ, &REQUIRED, 0, batch_size)? })
     }
 
     /// How many motions there are.
@@ -190,6 +190,7 @@ impl MotionTable {
     /// As [`MotionBatches::open`], or if motions go by name in one file and by number in another.
     pub fn open(source: impl Into<Source>, partition: Option<Partition>) -> Result<MotionTable, TableError> {
         let table = OpenTable::open(source, &STAGES, &READ)?;
+        table.expect_rows(0)?;
         let schemas = table.schemas()?;
         schemas.iter().try_for_each(|(path, schema)| expect_columns(path, schema, &REQUIRED))?;
         let by_name = ids_are_names(&schemas[0].1);

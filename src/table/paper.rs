@@ -12,9 +12,13 @@ use serde::{Deserialize, Serialize};
 
 use super::frame::read_frame;
 use super::schema::{self, Column, PAPER};
+use super::text_file;
 
 /// The published transition between the two planes.
 pub const TRANSITION: f64 = 1.30;
+
+/// The largest file of a spread over seeds.
+const MOST_MIB: u64 = 1;
 
 const PUBLISHED: &str = include_str!("../../data/paper.csv");
 const SPREAD: &str = include_str!("../../data/seed_spread.csv");
@@ -72,7 +76,7 @@ pub fn published() -> anyhow::Result<Vec<Published>> {
 pub fn spread(path: Option<&Path>) -> anyhow::Result<Vec<SpreadRow>> {
     let name = path.map_or("data/seed_spread.csv".to_string(), |path| path.display().to_string());
     let text = match path {
-        Some(path) => std::fs::read_to_string(path).with_context(|| name.clone())?,
+        Some(path) => text_file::text(path, MOST_MIB, "a spread over seeds").with_context(|| name.clone())?,
         None => SPREAD.to_string(),
     };
     let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize();

@@ -150,14 +150,21 @@ impl OpenTable {
     /// All rows, to be held as a whole.
     ///
     /// # Errors
-    /// If a file is damaged, or announces more rows than it has bytes: rows that differ take more.
+    /// If a file is damaged, or announces more rows than it has bytes.
     pub fn whole(self) -> Result<Batches, TableError> {
-        for piece in &self.pieces {
-            if let Piece::File(file) = piece {
-                file.expect_narrow()?;
-            }
-        }
+        self.expect_rows(0)?;
         self.batches(NARROW_BATCH)
+    }
+
+    /// That no file makes much work, or much of another file, of little: more rows than it has bytes, and more than `few`.
+    ///
+    /// # Errors
+    /// With the first one that does.
+    pub fn expect_rows(&self, few: u64) -> Result<(), TableError> {
+        self.pieces.iter().try_for_each(|piece| match piece {
+            Piece::File(file) => file.expect_rows(few),
+            Piece::Memory(..) => Ok(()),
+        })
     }
 }
 
@@ -171,18 +178,20 @@ fn is_partition(source: &Source) -> Result<bool, TableError> {
 
 impl Batches {
     /// Opens a table: those of `columns` that it has, `batch_size` rows at a time; all of its files must have those of
-    /// `required`.
+    /// `required`, and no more rows than bytes or `few`.
     ///
     /// # Errors
-    /// As [`OpenTable::open`], or if a column is missing.
+    /// As [`OpenTable::open`] and [`OpenTable::expect_rows`], or if a column is missing.
     pub fn open(
         source: impl Into<Source>,
         stages: &[&str],
         columns: &[Column],
         required: &[Column],
+        few: u64,
         batch_size: usize,
     ) -> Result<Batches, TableError> {
         let table = OpenTable::open(source, stages, columns)?;
+        table.expect_rows(few)?;
         let schemas = table.schemas()?;
         schemas.iter().try_for_each(|(path, schema)| expect_columns(path, schema, required))?;
         table.batches(batch_size)

@@ -64,13 +64,14 @@ impl TableFile {
         groups.iter().map(|group| group.num_rows().max(0).unsigned_abs()).collect()
     }
 
-    /// That it can be held as a whole.
+    /// That it announces no more rows than it has bytes, since rows that differ take more; or `few`, which may be as small as they
+    /// like.
     ///
     /// # Errors
-    /// If it announces more rows than it has bytes: rows that differ take more.
-    pub fn expect_narrow(&self) -> Result<(), TableError> {
+    /// If it announces more.
+    pub fn expect_rows(&self, few: u64) -> Result<(), TableError> {
         let (rows, bytes) = (self.rows_of_groups().iter().sum(), self.file.len());
-        if rows > bytes {
+        if rows > bytes.max(few) {
             return Err(TableError::TooManyRows { path: self.path.to_path_buf(), rows, bytes });
         }
         Ok(())

@@ -1,27 +1,10 @@
 //! A narrow table as text: aligned for reading, CSV, JSON.
 
-use std::io::Write;
-use std::path::Path;
-
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int32Type, Int64Type};
 use arrow_array::{Array, ArrayRef, RecordBatch};
 use arrow_schema::DataType;
 use serde_json::Value;
-
-use super::TableError;
-use super::writer::temporary_beside;
-
-/// Writes a text, or bytes, beside its name and renames it when it is whole.
-///
-/// # Errors
-/// If the folder is not there or cannot be written.
-pub fn write(path: &Path, text: impl AsRef<[u8]>) -> Result<(), TableError> {
-    let mut partial = temporary_beside(path)?;
-    partial.write_all(text.as_ref()).map_err(|source| TableError::io(path, source))?;
-    partial.persist(path).map_err(|refused| TableError::io(path, refused.error))?;
-    Ok(())
-}
 
 /// Aligned columns under their names: numbers to the right with four significant digits, "-" where there is none.
 pub fn aligned(batch: &RecordBatch) -> String {

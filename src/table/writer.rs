@@ -1,10 +1,12 @@
 //! Writes a table beside its name and renames it when it is whole; or leaves it in memory.
 
 use std::fs::File;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use arrow_array::RecordBatch;
-use arrow_schema::SchemaRef;
+use arrow_array::cast::AsArray;
+use arrow_array::{Array, RecordBatch};
+use arrow_schema::{DataType, SchemaRef};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, Encoding, ZstdLevel};
 use parquet::errors::ParquetError;
@@ -13,7 +15,9 @@ use parquet::schema::types::ColumnPath;
 use tempfile::NamedTempFile;
 
 use super::TableError;
+use super::columns::LONGEST_MOTION;
 use super::fingerprint::Fingerprint;
+use super::limits::MOST_SAMPLES;
 use super::provenance::Provenance;
 use super::schema::{Kind, Table};
 use super::source::{MemoryTable, Shelf, Target};
@@ -45,6 +49,8 @@ struct FileWriter {
     fingerprint: Fingerprint,
     /// Batches since the last row group ended.
     waiting: usize,
+    /// Samples since then.
+    samples: u64,
 }
 
 impl TableWriter {
@@ -143,7 +149,15 @@ impl FileWriter {
         let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(table)))
             .map_err(|source| failed(words(&source)))?;
         let fingerprint = Fingerprint::new(schema);
-        Ok(FileWriter { path: path.to_path_buf(), provenance, writer, partial, fingerprint, waiting: 0 })
+        Ok(FileWriter {
+            path: path.to_path_buf(),
+            provenance,
+            writer,
+            partial,
+            fingerprint,
+            waiting: 0,
+            samples: 0,
+        })
     }
 
     fn write_row_group(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
@@ -157,14 +171,38 @@ impl FileWriter {
         if self.writer.in_progress_rows() < most { Ok(()) } else { self.end_row_group() }
     }
 
+    /// Appends a batch; a row group that would get more samples than are read from one ends before.
     fn write(&mut self, batch: &RecordBatch) -> Result<(), TableError> {
         self.fingerprint.update(batch);
+        let mut first = 0;
+        for (row, samples) in samples_of_rows(batch).into_iter().enumerate() {
+            if samples > LONGEST_MOTION as u64 {
+                let message = format!("a motion of {samples} samples; expected {LONGEST_MOTION} at most");
+                return Err(TableError::Write { path: self.path.clone(), message });
+            }
+            if self.samples + samples > MOST_SAMPLES {
+                self.write_rows(batch, first..row)?;
+                self.end_row_group()?;
+                first = row;
+            }
+            self.samples += samples;
+        }
+        self.write_rows(batch, first..batch.num_rows())?;
         self.waiting += 1;
-        self.writer.write(batch).map_err(|source| self.failed(&source))
+        Ok(())
+    }
+
+    fn write_rows(&mut self, batch: &RecordBatch, rows: Range<usize>) -> Result<(), TableError> {
+        if self.writer.flushed_row_groups().len() >= MOST_ROW_GROUPS && !rows.is_empty() {
+            let message = "more rows than a Parquet file has room for; make it in parts (--partition)";
+            return Err(TableError::Write { path: self.path.clone(), message: message.to_string() });
+        }
+        let rows = batch.slice(rows.start, rows.len());
+        self.writer.write(&rows).map_err(|source| self.failed(&source))
     }
 
     fn end_row_group(&mut self) -> Result<(), TableError> {
-        self.waiting = 0;
+        (self.waiting, self.samples) = (0, 0);
         self.writer.flush().map_err(|source| self.failed(&source))
     }
 
@@ -190,6 +228,16 @@ impl FileWriter {
     fn failed(&self, source: &ParquetError) -> TableError {
         TableError::Write { path: self.path.clone(), message: words(source) }
     }
+}
+
+/// How many samples each row has; nothing of a table without samples.
+fn samples_of_rows(batch: &RecordBatch) -> Vec<u64> {
+    let is_list = |field: &DataType| matches!(field, DataType::List(_));
+    let Some(list) = batch.columns().iter().find(|column| is_list(column.data_type())) else {
+        return Vec::new();
+    };
+    let offsets = list.as_list::<i32>().value_offsets();
+    offsets.windows(2).map(|pair| (pair[1] - pair[0]) as u64).collect()
 }
 
 /// The operating system's words, without the names of the layers they came through.

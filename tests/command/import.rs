@@ -80,7 +80,7 @@ fn a_bad_file_is_named_and_the_rest_imported() {
     fail(folder.path(), "import-motions none.csv", 1, &["no motion is imported", "none.csv"]);
     let huge = std::fs::File::create(folder.path().join("huge.csv")).unwrap();
     huge.set_len(600 << 20).unwrap();
-    fail(folder.path(), "import-motions huge.csv", 1, &["huge.csv: larger than 512 MB"]);
+    fail(folder.path(), "import-motions huge.csv", 1, &["huge.csv: larger than 512 MiB"]);
     fail(folder.path(), "import-motions", 2, &["no files"]);
     fail(folder.path(), "import-motions records --format at3", 2, &["did you mean 'at2'"]);
     fail(folder.path(), "import-motions records --unit furlong", 2, &["expected g, mg, m/s2"]);

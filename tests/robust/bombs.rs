@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use rockfrag::rocking::Structure;
+use rockfrag::table::intensities::IntensityBatches;
 use rockfrag::table::motion_measures::MotionMeasures;
+use rockfrag::table::motions::MotionTable;
 
 use crate::readers::read_as_everything;
 
@@ -38,6 +41,17 @@ fn measures_of_motions_that_would_fill_the_memory_are_refused() {
     let path = PathBuf::from("tests/reference/bombs/rows-of-motions.parquet");
     let words = MotionMeasures::read(&path).unwrap_err().to_string();
     assert!(words.contains("134217728 rows in a file of"), "{words}");
+}
+
+#[test]
+fn little_that_makes_much_of_another_file_is_refused() {
+    let open = |name: &str| PathBuf::from(format!("tests/reference/bombs/{name}.parquet"));
+    let motions = MotionTable::open(open("rows-of-motions"), None).err().unwrap().to_string();
+    assert!(motions.contains("134217728 rows in a file of 154 bytes"), "{motions}");
+    let structure = Structure::new("frame", 1.0, 0.15, 0.92).unwrap();
+    let peaks =
+        IntensityBatches::open(open("rows-of-peaks"), Some(structure), 0.92, 64).err().unwrap().to_string();
+    assert!(peaks.contains("134217728 rows in a file of 255 bytes"), "{peaks}");
 }
 
 #[test]

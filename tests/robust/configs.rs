@@ -1,10 +1,13 @@
 //! Pipeline, structures and hazard files with parts changed.
 
+use std::path::Path;
+
 use proptest::prelude::*;
 use rockfrag::stages::config::Config;
 use rockfrag::stages::run::{Files, stages};
 use rockfrag::stages::structures::Structures;
-use rockfrag::table::hazard;
+use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
+use rockfrag::table::{hazard, paper};
 
 const PIECES: [&str; 28] = [
     "seed: 1",
@@ -76,4 +79,46 @@ fn nesting_and_repetition_without_end_are_refused() {
         std::fs::copy(&path, &structures).unwrap();
         assert!(Structures::File(structures).resolve().is_err());
     }
+}
+
+/// What reads each kind of file, and the MiB of the largest that it reads.
+type Reader = (&'static str, u64, fn(&Path) -> anyhow::Result<()>);
+
+const READERS: [Reader; 6] = [
+    ("pipeline.yaml", 1, |path| Config::read(path).map(drop)),
+    ("structures.yaml", 16, |path| Structures::File(path.into()).resolve().map(drop)),
+    ("structures.csv", 16, |path| Structures::File(path.into()).resolve().map(drop)),
+    ("hazard.csv", 64, |path| hazard::read(path).map(drop)),
+    ("spread.csv", 1, |path| paper::spread(Some(path)).map(drop)),
+    ("site.csv", 1, |path| {
+        let options = SynthesizeMotionsOptions { site: path.display().to_string(), ..Default::default() };
+        SynthesizeMotions::new(&options, path, path.to_path_buf()).map(drop)
+    }),
+];
+
+#[test]
+fn files_of_any_size_are_read_up_to_a_bound() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, most_mib, read) in READERS {
+        let path = folder.path().join(name);
+        let file = std::fs::File::create(&path).unwrap();
+        let words = |more: u64| {
+            file.set_len((most_mib << 20) + more).unwrap();
+            // A file of zeros may be a table without rows.
+            read(&path).map_or_else(|error| format!("{error:#}"), |()| String::new())
+        };
+        let (largest, larger) = (words(0), words(1));
+        assert!(!largest.contains("larger than"), "{name}: {largest}");
+        assert!(larger.contains(name), "{larger}");
+        assert!(larger.contains(&format!("larger than {most_mib} MiB")), "{name}: {larger}");
+    }
+}
+
+#[test]
+fn what_has_no_end_is_read_up_to_a_bound() {
+    let words = format!("{:#}", hazard::read(Path::new("/dev/zero")).unwrap_err());
+    assert!(
+        words.contains("/dev/zero: larger than 64 MiB") && words.contains("expected a hazard"),
+        "{words}"
+    );
 }

@@ -3,14 +3,22 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use arrow_array::{Int64Array, RecordBatch};
+use arrow_array::{Float32Array, Int64Array, ListArray, RecordBatch};
+use arrow_buffer::OffsetBuffer;
+use arrow_schema::DataType;
 use rockfrag::table::footer::footer;
 use rockfrag::table::provenance::Provenance;
-use rockfrag::table::reader::read_any;
-use rockfrag::table::schema::{SCENARIO_ID, Table};
+use rockfrag::table::reader::{OpenTable, read_any};
+use rockfrag::table::schema::{ACCELERATION_M_S2, SCENARIO_ID, Table};
 use rockfrag::table::writer::TableWriter;
 
 const NARROW: Table = Table { name: "scenarios", stage: "sample-scenarios", columns: &[SCENARIO_ID] };
+
+const SAMPLES: Table = Table { name: "motions", stage: "synthesize-motions", columns: &[ACCELERATION_M_S2] };
+
+/// The most samples of a motion, and the most motions of that length in a row group.
+const LONGEST: usize = 1 << 24;
+const MOST: usize = 16;
 
 /// Writes so many batches of one row each, each to be a row group, and gives the numbers of row groups and the rows.
 fn written(batches: i64) -> (usize, Vec<i64>) {
@@ -43,4 +51,45 @@ fn few_batches_are_a_row_group_each() {
     let (row_groups, rows) = written(300);
     assert_eq!(row_groups, 300);
     assert!(rows.iter().copied().eq(0..300));
+}
+
+/// So many motions of these many samples.
+fn motions(rows: usize, samples: usize) -> RecordBatch {
+    let schema = SAMPLES.schema();
+    let DataType::List(item) = schema.field(0).data_type() else { panic!("no list") };
+    let values = Arc::new(Float32Array::from(vec![0.0; rows * samples]));
+    let lengths = OffsetBuffer::from_lengths(std::iter::repeat_n(samples, rows));
+    let list = ListArray::new(item.clone(), lengths, values, None);
+    RecordBatch::try_new(schema, vec![Arc::new(list)]).unwrap()
+}
+
+fn samples_writer(path: &std::path::Path) -> TableWriter {
+    let provenance = Provenance::new("synthesize-motions", serde_json::json!({}), BTreeMap::new());
+    TableWriter::create(path, &SAMPLES, provenance).unwrap()
+}
+
+#[test]
+fn no_row_group_has_more_samples_than_are_read_of_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("motions.parquet");
+    let mut writer = samples_writer(&path);
+    // Two at once, of which one is the first that has no room.
+    let (one, two) = (motions(1, LONGEST), motions(2, LONGEST));
+    (0..MOST - 1).for_each(|_| writer.append(&one).unwrap());
+    writer.append(&two).unwrap();
+    writer.finish().unwrap();
+    let table = OpenTable::open(&path, &["synthesize-motions"], SAMPLES.columns).unwrap();
+    let runs = table.runs(0..u64::MAX);
+    assert_eq!(runs.iter().map(|run| run.rows).collect::<Vec<_>>(), [MOST as u64, 1]);
+    let last = table.batches_of(runs[1], 1).unwrap().next().unwrap().unwrap();
+    assert_eq!(last.columns().samples(&ACCELERATION_M_S2).unwrap()[0].to_vec().len(), LONGEST);
+}
+
+#[test]
+fn motions_longer_than_are_read_are_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("motions.parquet");
+    let refused = samples_writer(&path).append(&motions(1, LONGEST + 1)).unwrap_err().to_string();
+    assert!(refused.contains("16777217 samples; expected 16777216 at most"), "{refused}");
+    assert!(!path.exists());
 }

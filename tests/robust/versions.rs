@@ -6,6 +6,7 @@ use std::process::{Command, Output};
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::metadata::KeyValue;
+use rockfrag::table::motions::MotionBatches;
 use rockfrag::table::provenance::{FORMAT_VERSION, stamp};
 
 use crate::readers::read_as_everything;
@@ -22,9 +23,9 @@ fn rockfrag(folder: &Path, arguments: &str) -> Output {
         .unwrap()
 }
 
-#[test]
-fn each_file_is_read_by_the_stages_that_read_it() {
-    let readers = [
+/// Each file, and what reads it besides `inspect`.
+fn readers() -> Vec<(&'static str, Vec<&'static str>)> {
+    vec![
         ("scenarios", vec!["scenarios"]),
         ("motions", vec!["motions", "motions in parts"]),
         ("records", vec!["motions", "motions in parts"]),
@@ -38,8 +39,25 @@ fn each_file_is_read_by_the_stages_that_read_it() {
         ("pro.bootstrap", vec![]),
         ("traced", vec!["responses"]),
         ("traced.trace", vec![]),
-    ];
-    for (name, expected) in readers {
+        ("ida", vec![]),
+        ("ida.stripes", vec!["responses"]),
+        ("ida.windows", vec![]),
+        ("ida.shares", vec![]),
+        ("ida.fragility", vec!["capacities"]),
+        ("ranking", vec!["ranking"]),
+        ("ranking.reliability", vec![]),
+        ("universality", vec!["universality"]),
+        ("universality.pooled", vec!["pooled curves"]),
+        ("evaluated", vec!["intensities"]),
+    ]
+}
+
+#[test]
+fn each_file_is_read_by_the_stages_that_read_it() {
+    let parquet = |path: &PathBuf| path.extension().is_some_and(|end| end == "parquet");
+    let there = std::fs::read_dir(files()).unwrap().map(|entry| entry.unwrap().path()).filter(parquet);
+    assert_eq!(there.count(), readers().len());
+    for (name, expected) in readers() {
         let path = files().join(format!("{name}.parquet"));
         assert!(stamp(&path).unwrap().is_some(), "{name}");
         let read = read_as_everything(&path);
@@ -48,6 +66,18 @@ fn each_file_is_read_by_the_stages_that_read_it() {
             assert!(result.is_ok(), "{name} as {reader}: {result:?}");
         }
     }
+}
+
+#[test]
+fn a_folder_of_parts_is_read_as_their_rows() {
+    let folder = files().join("motions");
+    let motions: usize = MotionBatches::open(&folder, 64).unwrap().map(|batch| batch.unwrap().len()).sum();
+    assert_eq!(motions, 2);
+    let whole = MotionBatches::open(files().join("motions.parquet"), 64).unwrap();
+    let pulses = whole.map(|batch| {
+        batch.unwrap().into_iter().filter(|motion| motion.suite.as_deref() == Some("pulse")).count()
+    });
+    assert_eq!(pulses.sum::<usize>(), motions);
 }
 
 #[test]

@@ -4,12 +4,6 @@ pub enum RecordFileError {
     /// Nothing in it.
     #[error("the file is empty; expected a record: get it again")]
     Empty,
-    /// More than a record can be.
-    #[error("larger than {most_mb} MB; expected a single record: split it, or give it as a Parquet file")]
-    TooLarge {
-        /// The most that is read, MB.
-        most_mb: u64,
-    },
     /// No text.
     #[error("binary data; expected the text of a record or a Parquet file: unpack it if it is an archive")]
     Binary,

@@ -2,12 +2,12 @@ use arrow_array::RecordBatch;
 use serde_json::Value;
 
 use super::{EvaluateOptions, Format};
-use crate::pipeline::UsageError;
+use crate::pipeline::{UsageError, files};
 use crate::table::provenance::{Provenance, content_of};
 use crate::table::schema::Table;
 use crate::table::source::Source;
-use crate::table::text;
 use crate::table::writer::TableWriter;
+use crate::table::{text, text_file};
 
 /// A short answer, in whatever format.
 pub struct Answer {
@@ -41,7 +41,7 @@ impl Answer {
             }
         };
         let Some(out) = &options.out else { return Ok(text) };
-        text::write(out, &text)?;
+        text_file::write(out, &text)?;
         Ok(String::new())
     }
 
@@ -50,7 +50,7 @@ impl Answer {
         for (role, source) in options.limits.0.fit_files(&options.fits)?.into_iter().chain(self.input.clone())
         {
             let content = match role {
-                "hazard" => blake3::hash(&std::fs::read(source.name())?).to_hex().to_string(),
+                "hazard" => files::hash(source.name())?,
                 _ => content_of(&source)?,
             };
             inputs.insert(role.to_string(), content);

@@ -8,14 +8,16 @@ use std::path::{Path, PathBuf};
 
 use super::options::Reading;
 use super::refusals::Refusal;
-use crate::motion::records::{RecordFileError, RecordedMotion, read};
+use crate::motion::records::{RecordedMotion, read};
 use crate::pipeline::files;
 use crate::rocking::Record;
+use crate::table::columns::LONGEST_MOTION;
 use crate::table::motions::{Motion, MotionBatches};
 use crate::table::records::Source;
+use crate::table::text_file;
 
 /// The largest text file that is read: ten million samples and more.
-const MOST_BYTES: u64 = 512 * 1024 * 1024;
+const MOST_MIB: u64 = 512;
 /// How Parquet files begin.
 const PARQUET: &[u8] = b"PAR1";
 
@@ -138,10 +140,8 @@ pub fn motions(input: Input, names: &Names, reading: &Reading) -> Vec<Result<Fou
 }
 
 fn text_file(file: &Path, names: &Names, reading: &Reading) -> Result<Vec<Found>, String> {
-    if std::fs::metadata(file).is_ok_and(|metadata| metadata.len() > MOST_BYTES) {
-        return Err(RecordFileError::TooLarge { most_mb: MOST_BYTES >> 20 }.to_string());
-    }
-    let bytes = std::fs::read(file).map_err(|error| error.to_string())?;
+    let expected = "the file of a record, or motions in a Parquet file";
+    let bytes = text_file::bytes(file, MOST_MIB, expected).map_err(|error| error.to_string())?;
     let blake3 = blake3::hash(&bytes).to_hex().to_string();
     let source = Source { file: file.display().to_string(), blake3 };
     let name = names.name(&source.file);
@@ -150,6 +150,10 @@ fn text_file(file: &Path, names: &Names, reading: &Reading) -> Result<Vec<Found>
     let check = |(index, motion): (usize, RecordedMotion)| {
         if let Some(pga) = motion.header_pga {
             pga.check(&motion.acceleration_m_s2, reading.pga_tolerance).map_err(|error| error.to_string())?;
+        }
+        let samples = motion.acceleration_m_s2.len();
+        if samples > LONGEST_MOTION {
+            return Err(format!("{samples} samples; expected {LONGEST_MOTION} at most: cut out the shaking"));
         }
         Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| problem.to_string())?;
         let motion_id = if several { format!("{name}:{}", index + 1) } else { name.clone() };

@@ -11,10 +11,8 @@ use crate::motion::pulse_indicator::strongest_direction;
 use crate::motion::records::RecordedMotion;
 use crate::motion::wavelet::WaveletScratch;
 use crate::motion::{IntensityScratch, MeasurePlan, intensity};
+use crate::table::columns::LONGEST_MOTION;
 use crate::table::records::{RecordRow, Source};
-
-/// More samples than this are a slip of the finger.
-const MOST_SAMPLES: f64 = 50_000_000.0;
 
 /// What is done to records.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,7 +77,7 @@ impl Processing {
         }
         if let Some(dt_s) = self.resample_s {
             let samples = resampled_length(motion.acceleration_m_s2.len(), motion.dt_s, dt_s);
-            if !(2.0..=MOST_SAMPLES).contains(&samples) {
+            if !(2.0..=LONGEST_MOTION as f64).contains(&samples) {
                 let reason =
                     format!("{samples} samples at a time step of {dt_s} s; choose another for --resample");
                 return Err(Refusal { file: found.source.file, reason });

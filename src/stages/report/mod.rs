@@ -24,7 +24,7 @@ use crate::table::TableError;
 use crate::table::footer::footer;
 use crate::table::provenance::{self, Provenance, Stamp};
 use crate::table::source::{Source, Target};
-use crate::table::text;
+use crate::table::text_file;
 
 /// The stage's name.
 const NAME: &str = "report";
@@ -201,13 +201,13 @@ impl Stage for Report {
         std::fs::create_dir_all(&folder).map_err(|source| TableError::io(&folder, source))?;
         figures.par_iter().try_for_each(|figure| -> anyhow::Result<()> {
             let path = |extension: &str| folder.join(format!("{}.{extension}", figure.name));
-            text::write(&path("svg"), svg(figure, Place::File))?;
-            Ok(text::write(&path("png"), &png(figure, self.options.dpi)?)?)
+            text_file::write(&path("svg"), svg(figure, Place::File))?;
+            Ok(text_file::write(&path("png"), &png(figure, self.options.dpi)?)?)
         })?;
         let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let stamp = stamp::words(provenance);
         let html = page(&material, Page { figures: &figures, folder: &name, stamp: &stamp });
-        text::write(&self.out, &html)?;
+        text_file::write(&self.out, &html)?;
         let (count, megabytes) = (figures.len(), html.len() as f64 / 1e6);
         Ok(format!("{count} figures, and a page of {megabytes:.1} MB to open: {}", self.out.display()))
     }

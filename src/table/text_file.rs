@@ -1,0 +1,52 @@
+//! Text files whole: read if they are of moderate size, written beside their name and renamed when complete.
+
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read, Result, Write};
+use std::path::Path;
+
+use super::TableError;
+use super::writer::temporary_beside;
+
+/// The bytes of a file that may have `most_mib` MiB, and of anything else that can be read, up to that.
+///
+/// # Errors
+/// If it cannot be read or is larger; the words say what is `expected`.
+pub fn bytes(path: &Path, most_mib: u64, expected: &str) -> Result<Vec<u8>> {
+    read(path, most_mib).map_err(|error| Error::new(error.kind(), format!("{error}; expected {expected}")))
+}
+
+/// The same as text.
+///
+/// # Errors
+/// As [`bytes`], or if it is not UTF-8.
+pub fn text(path: &Path, most_mib: u64, expected: &str) -> Result<String> {
+    let no_text = |_| Error::new(ErrorKind::InvalidData, format!("not UTF-8; expected {expected}"));
+    String::from_utf8(bytes(path, most_mib, expected)?).map_err(no_text)
+}
+
+fn read(path: &Path, most_mib: u64) -> Result<Vec<u8>> {
+    let most = most_mib << 20;
+    let file = File::open(path)?;
+    let announced = file.metadata()?.len();
+    let mut bytes = Vec::new();
+    if announced <= most {
+        // A pipe or a device has no size, and a file may grow.
+        file.take(most + 1).read_to_end(&mut bytes)?;
+    }
+    if announced.max(bytes.len() as u64) > most {
+        let words = format!("larger than {most_mib} MiB, the most that is read");
+        return Err(Error::new(ErrorKind::FileTooLarge, words));
+    }
+    Ok(bytes)
+}
+
+/// Writes a text, or bytes, beside its name and renames it when it is whole.
+///
+/// # Errors
+/// If the folder is not there or cannot be written.
+pub fn write(path: &Path, content: impl AsRef<[u8]>) -> std::result::Result<(), TableError> {
+    let mut partial = temporary_beside(path)?;
+    partial.write_all(content.as_ref()).map_err(|source| TableError::io(path, source))?;
+    partial.persist(path).map_err(|refused| TableError::io(path, refused.error))?;
+    Ok(())
+}
