@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The domain modules and their tests as a crate of its own, which builds in seconds: domain.py FOLDER (needs pyarrow).
 
-    scripts/attack/domain.py /tmp/house/domain && cd /tmp/house/domain
+    scripts/attack/domain.py /tmp/domain && cd /tmp/domain
     export PROPTEST_CASES=64
     cargo mutants --in-place --file 'src/rocking/**' --cargo-test-arg=--test=solver
     cargo mutants --in-place --file 'src/fragility/**' --file 'src/normal/**' --cargo-test-arg=--test=fits

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Which mutants the tests catch, all in a few builds: mutants.py CRATE TEST RESULTS FILE... (with cargo-mutants in the path).
 
-    scripts/attack/domain.py /tmp/house/domain
-    scripts/attack/mutants.py /tmp/house/domain solver /tmp/house/solver.jsonl 'src/rocking/**'
-    scripts/attack/mutants.py /tmp/house/domain fits /tmp/house/fits.jsonl 'src/fragility/**' 'src/normal/**'
+    scripts/attack/domain.py /tmp/domain
+    scripts/attack/mutants.py /tmp/domain solver /tmp/solver.jsonl 'src/rocking/**'
+    scripts/attack/mutants.py /tmp/domain fits /tmp/fits.jsonl 'src/fragility/**' 'src/normal/**'
 
 The mutants are those of cargo-mutants, but a build holds many: each function becomes a match over the number of the mutant that
 is wanted, which an environment variable says. What is always inlined is mutated in a build of its own, or copies would
