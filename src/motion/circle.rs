@@ -1,12 +1,40 @@
 /// Every so many angles the sine and cosine are computed afresh.
-const STRIDE: usize = 32;
+pub const STRIDE: usize = 32;
 
-/// Sine and cosine of `start`, `start + step`, `start + 2 step` ... (rad): by the addition theorem from those of every 32nd
-/// angle and of the steps between.
-pub fn equal_steps(start: f64, step: f64) -> impl Iterator<Item = (f64, f64)> {
-    let between: [(f64, f64); STRIDE] = std::array::from_fn(|k| libm::sincos(k as f64 * step));
-    (0_u32..).flat_map(move |stride| {
-        let (sin, cos) = libm::sincos(start + f64::from(stride) * STRIDE as f64 * step);
-        between.map(|(sin_step, cos_step)| (sin * cos_step + cos * sin_step, cos * cos_step - sin * sin_step))
-    })
+/// Sines and cosines of [`STRIDE`] angles.
+pub struct SinCos {
+    /// Sines.
+    pub sin: [f64; STRIDE],
+    /// Cosines.
+    pub cos: [f64; STRIDE],
+}
+
+/// Equal steps along a circle.
+pub struct EqualSteps {
+    start: f64,
+    step: f64,
+    /// Those from the first angle of a stride to each of it.
+    between: SinCos,
+}
+
+impl EqualSteps {
+    /// The angles `start`, `start + step`, `start + 2 step` ..., rad.
+    pub fn new(start: f64, step: f64) -> EqualSteps {
+        let mut between = SinCos { sin: [0.0; STRIDE], cos: [0.0; STRIDE] };
+        for k in 0..STRIDE {
+            (between.sin[k], between.cos[k]) = libm::sincos(k as f64 * step);
+        }
+        EqualSteps { start, step, between }
+    }
+
+    /// Of the angles of a stride, the first of which is number [`STRIDE`] times `stride`: by the addition theorem.
+    #[inline(always)]
+    pub fn stride(&self, stride: usize) -> SinCos {
+        let (sin, cos) = libm::sincos(self.start + stride as f64 * STRIDE as f64 * self.step);
+        let between = &self.between;
+        SinCos {
+            sin: std::array::from_fn(|k| sin * between.cos[k] + cos * between.sin[k]),
+            cos: std::array::from_fn(|k| cos * between.cos[k] - sin * between.sin[k]),
+        }
+    }
 }

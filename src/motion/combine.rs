@@ -1,6 +1,7 @@
 use realfft::num_complex::Complex64;
 
 use crate::keyword::keywords;
+use crate::wide::widest;
 
 /// What becomes of the difference D = |H| - |P| of the Fourier amplitudes of high frequencies and pulse. The literature
 /// leaves it open where the pulse is the larger one.
@@ -32,6 +33,7 @@ keywords!(Epoch { EnvelopePeak = "envelope-peak", Pga = "pga", Pgv = "pgv" });
 
 impl Difference {
     /// What the high frequencies keep of their amplitude, D' / |H|, where the pulse is `ratio` = |P| / |H| times as large.
+    #[inline(always)]
     pub fn kept(self, ratio: f64) -> f64 {
         match self {
             Difference::Absolute => (1.0 - ratio).abs(),
@@ -45,14 +47,17 @@ impl Difference {
 /// Steps 4 to 6 of section 2.1.3 on Fourier coefficients: the spectrum of the combined motion, D' exp(i arg H) + P, into
 /// `high_frequency`. The mean stays 0, so that the ground comes to rest.
 pub fn combine(high_frequency: &mut [Complex64], pulse: &[Complex64], difference: Difference) {
-    for (h, p) in high_frequency.iter_mut().zip(pulse) {
-        let power = h.norm_sqr();
-        // Where there is no high frequency there is no phase either.
-        if power > 0.0 {
-            *h *= difference.kept((p.norm_sqr() / power).sqrt());
-        }
-        *h += p;
-    }
+    widest(
+        #[inline(always)]
+        || {
+            for (h, p) in high_frequency.iter_mut().zip(pulse) {
+                let power = h.norm_sqr();
+                let kept = difference.kept((p.norm_sqr() / power).sqrt());
+                // Where there is no high frequency there is no phase either.
+                *h = *h * if power > 0.0 { kept } else { 1.0 } + p;
+            }
+        },
+    );
     if let Some(mean) = high_frequency.first_mut() {
         *mean = Complex64::ZERO;
     }

@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::circle::equal_steps;
+use super::circle::{EqualSteps, STRIDE};
 use super::scenario::Scenario;
+use crate::wide::widest;
 
 /// A velocity pulse: a cosine under a raised-cosine envelope.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,14 +49,24 @@ impl Pulse {
         let first = (((epoch_s - half_s) / dt_s).ceil().max(0.0) as usize).min(samples);
         let last = (((epoch_s + half_s) / dt_s).floor() as usize + 1).clamp(first, samples);
         let x = wp * (first as f64 * dt_s - epoch_s);
-        let envelope = equal_steps(x / gamma, wp * dt_s / gamma);
-        let carrier = equal_steps(x + self.nu_rad, wp * dt_s);
-        let pulse = envelope.zip(carrier).take(last - first);
+        let envelope = EqualSteps::new(x / gamma, wp * dt_s / gamma);
+        let carrier = EqualSteps::new(x + self.nu_rad, wp * dt_s);
         let scale = self.amplitude_m_s * wp;
         acceleration_m_s2.clear();
-        acceleration_m_s2.resize(first, 0.0);
-        acceleration_m_s2.extend(pulse.map(|(envelope, carrier)| scale * slope(envelope, carrier, gamma)));
         acceleration_m_s2.resize(samples, 0.0);
+        widest(
+            #[inline(always)]
+            || {
+                for (stride, samples) in acceleration_m_s2[first..last].chunks_mut(STRIDE).enumerate() {
+                    let (envelope, carrier) = (envelope.stride(stride), carrier.stride(stride));
+                    for (k, sample) in samples.iter_mut().enumerate() {
+                        let (envelope, carrier) =
+                            ((envelope.sin[k], envelope.cos[k]), (carrier.sin[k], carrier.cos[k]));
+                        *sample = scale * slope(envelope, carrier, gamma);
+                    }
+                }
+            },
+        );
     }
 
     /// x = wp (t - t0) inside the pulse.
@@ -76,6 +87,7 @@ fn unit_acceleration(x: f64, gamma: f64, nu: f64) -> f64 {
 }
 
 /// dv/dx / A of the sines and cosines of x / gamma and x + nu.
+#[inline(always)]
 fn slope((sin, cos): (f64, f64), (carrier_sin, carrier_cos): (f64, f64), gamma: f64) -> f64 {
     -0.5 / gamma * (sin * carrier_cos + gamma * (1.0 + cos) * carrier_sin)
 }
@@ -88,22 +100,25 @@ pub fn largest_velocity(gamma: f64, nu: f64) -> f64 {
     // Eight points in a half cycle separate the peaks, which are a half cycle apart.
     let points = (8.0 * (gamma + 1.0)).ceil() as usize * 2;
     let at = |k: usize| -end + 2.0 * end * k as f64 / points as f64;
-    let mut largest = 0.0_f64;
+    let velocity = |x: f64| unit_velocity(x, gamma, nu).abs();
+    let rises = |x: f64| unit_acceleration(x, gamma, nu) > 0.0;
+    let (mut largest, mut rising) = (velocity(at(0)), rises(at(0)));
     for k in 0..points {
         let (mut low, mut high) = (at(k), at(k + 1));
-        let rising = unit_acceleration(low, gamma, nu) > 0.0;
-        if rising != (unit_acceleration(high, gamma, nu) > 0.0) {
+        largest = largest.max(velocity(high));
+        let rose = std::mem::replace(&mut rising, rises(high));
+        if rose != rising {
             // The velocity is stationary at its peak: 30 halvings make its error far smaller than rounding.
             for _ in 0..30 {
                 let middle = 0.5 * (low + high);
-                if (unit_acceleration(middle, gamma, nu) > 0.0) == rising {
+                if rises(middle) == rose {
                     low = middle;
                 } else {
                     high = middle;
                 }
             }
+            largest = largest.max(velocity(low)).max(velocity(high));
         }
-        largest = largest.max(unit_velocity(low, gamma, nu).abs()).max(unit_velocity(high, gamma, nu).abs());
     }
     largest
 }

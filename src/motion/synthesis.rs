@@ -12,6 +12,7 @@ use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window, quality_exp
 use super::suite::Suite;
 use crate::random::{Purpose, stream};
 use crate::units::CM_PER_M;
+use crate::wide::widest;
 
 /// Quiet time before and after all that moves, s: the zero-phase filters reach this far.
 const MARGIN_S: f64 = 2.0;
@@ -214,9 +215,11 @@ impl Synthesizer {
         let mean_square = inner.iter().map(|x| x.norm_sqr()).sum::<f64>() / inner.len() as f64;
         // From the continuous spectrum to the discrete one.
         let scale = 1.0 / (mean_square.sqrt() * self.model.dt_s);
-        for (x, amplitude) in self.noise.iter_mut().zip(amplitudes) {
-            *x *= scale * amplitude;
-        }
+        let noise = &mut self.noise;
+        widest(
+            #[inline(always)]
+            || noise.iter_mut().zip(amplitudes).for_each(|(x, amplitude)| *x *= scale * amplitude),
+        );
         self.noise[0] = Complex64::ZERO;
         if self.high_frequency {
             self.pulse.clone_from(&self.noise);

@@ -25,7 +25,7 @@ pub fn significant_duration(acceleration: &[f64], dt_s: f64, from: f64, to: f64)
 }
 
 /// The integral of a^2 to each sample, m2/s3.
-pub(super) fn running_energy(acceleration: &[f64], dt_s: f64) -> impl Iterator<Item = f64> {
+fn running_energy(acceleration: &[f64], dt_s: f64) -> impl Iterator<Item = f64> {
     let areas = trapezoids(acceleration, dt_s, |a| a * a);
     std::iter::once(0.0).chain(areas.scan(0.0, |sum, area| {
         *sum += area;

@@ -6,7 +6,7 @@ mod plan;
 mod spectral;
 
 pub use energy::{arias_intensity, cumulative_absolute_velocity, significant_duration};
-use energy::{arias_of, moment, running_energy};
+use energy::{arias_of, moment};
 pub use fourier::{IntensityScratch, mean_period};
 pub use plan::{MeasurePlan, Measured};
 pub use spectral::{housner_intensity, spectral_acceleration};
@@ -34,14 +34,14 @@ pub struct Measures {
 
 /// All measures of a motion of these samples (m/s2), `dt_s` apart.
 pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Measures {
-    let passage = Passage::through(acceleration, dt_s);
     let energy = &mut scratch.energy;
     energy.clear();
-    energy.extend(running_energy(acceleration, dt_s));
+    energy.resize(acceleration.len(), 0.0);
+    let passage = Passage::through(acceleration, dt_s, energy);
     let arias_m_s = arias_of(energy.last().copied().unwrap_or_default());
     let [d5, d75, d95] = [0.05, 0.75, 0.95].map(|share| moment(energy, dt_s, share));
     Measures {
-        pga_m_s2: peak(acceleration),
+        pga_m_s2: passage.pga_m_s2,
         pgv_m_s: passage.pgv_m_s,
         pgd_m: passage.pgd_m,
         tm_s: mean_period(acceleration, dt_s, scratch),
@@ -52,30 +52,41 @@ pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch)
     }
 }
 
-/// Trapezoidal integrals of a motion up to a sample, and the peaks so far: all in one pass.
+/// Trapezoidal integrals of a motion up to a sample, and the peaks so far: all in one pass, since each waits for its own last
+/// value.
 #[derive(Default)]
 struct Passage {
     velocity_m_s: f64,
     displacement_m: f64,
+    energy: f64,
+    pga_m_s2: f64,
     pgv_m_s: f64,
     pgd_m: f64,
     cav_m_s: f64,
 }
 
 impl Passage {
-    fn through(acceleration: &[f64], dt_s: f64) -> Passage {
-        acceleration.windows(2).fold(Passage::default(), |before, pair| {
-            let velocity_m_s = before.velocity_m_s + 0.5 * dt_s * (pair[0] + pair[1]);
-            let displacement_m = before.displacement_m + 0.5 * dt_s * (before.velocity_m_s + velocity_m_s);
-            Passage {
-                velocity_m_s,
-                displacement_m,
-                pgv_m_s: before.pgv_m_s.max(velocity_m_s.abs()),
-                pgd_m: before.pgd_m.max(displacement_m.abs()),
-                cav_m_s: before.cav_m_s + 0.5 * dt_s * (pair[0].abs() + pair[1].abs()),
-            }
-        })
+    /// With the integral of a^2 to each sample, of which the first is 0, m2/s3.
+    fn through(acceleration: &[f64], dt_s: f64, energy: &mut [f64]) -> Passage {
+        let mut p = Passage { pga_m_s2: acceleration.first().map_or(0.0, |a| a.abs()), ..Passage::default() };
+        for (pair, energy) in acceleration.windows(2).zip(energy.iter_mut().skip(1)) {
+            let velocity_m_s = p.velocity_m_s + 0.5 * dt_s * (pair[0] + pair[1]);
+            p.displacement_m += 0.5 * dt_s * (p.velocity_m_s + velocity_m_s);
+            p.velocity_m_s = velocity_m_s;
+            p.energy += 0.5 * dt_s * (pair[0] * pair[0] + pair[1] * pair[1]);
+            *energy = p.energy;
+            p.pga_m_s2 = larger(p.pga_m_s2, pair[1].abs());
+            p.pgv_m_s = larger(p.pgv_m_s, velocity_m_s.abs());
+            p.pgd_m = larger(p.pgd_m, p.displacement_m.abs());
+            p.cav_m_s += 0.5 * dt_s * (pair[0].abs() + pair[1].abs());
+        }
+        p
     }
+}
+
+/// The larger of two numbers, in one instruction: the maximum of the standard library asks for NaN too.
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }
 
 /// The largest absolute value.
