@@ -1,5 +1,6 @@
 use std::f64::consts::PI;
 
+use super::{Passage, trapezoid};
 use crate::units::G_M_S2;
 
 /// Arias intensity, m/s: pi/(2 g) times the trapezoidal integral of a^2.
@@ -20,17 +21,9 @@ pub fn cumulative_absolute_velocity(acceleration: &[f64], dt_s: f64) -> f64 {
 /// Significant duration, s: between the moments at which the shares `from` and `to` of the Arias intensity have come;
 /// within a time step it grows linearly. 0 for a motion without energy.
 pub fn significant_duration(acceleration: &[f64], dt_s: f64, from: f64, to: f64) -> f64 {
-    let energy: Vec<f64> = running_energy(acceleration, dt_s).collect();
+    let mut energy = vec![0.0; acceleration.len()];
+    Passage::through(acceleration, dt_s, &mut energy);
     moment(&energy, dt_s, to) - moment(&energy, dt_s, from)
-}
-
-/// The integral of a^2 to each sample, m2/s3.
-fn running_energy(acceleration: &[f64], dt_s: f64) -> impl Iterator<Item = f64> {
-    let areas = trapezoids(acceleration, dt_s, |a| a * a);
-    std::iter::once(0.0).chain(areas.scan(0.0, |sum, area| {
-        *sum += area;
-        Some(*sum)
-    }))
 }
 
 /// When a share of the last value of a running integral has come, s.
@@ -43,5 +36,5 @@ pub(super) fn moment(energy: &[f64], dt_s: f64, share: f64) -> f64 {
 }
 
 fn trapezoids(acceleration: &[f64], dt_s: f64, height: impl Fn(f64) -> f64) -> impl Iterator<Item = f64> {
-    acceleration.windows(2).map(move |pair| 0.5 * dt_s * (height(pair[0]) + height(pair[1])))
+    acceleration.windows(2).map(move |pair| trapezoid(dt_s, height(pair[0]), height(pair[1])))
 }

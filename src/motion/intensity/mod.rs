@@ -70,18 +70,23 @@ impl Passage {
     fn through(acceleration: &[f64], dt_s: f64, energy: &mut [f64]) -> Passage {
         let mut p = Passage { pga_m_s2: acceleration.first().map_or(0.0, |a| a.abs()), ..Passage::default() };
         for (pair, energy) in acceleration.windows(2).zip(energy.iter_mut().skip(1)) {
-            let velocity_m_s = p.velocity_m_s + 0.5 * dt_s * (pair[0] + pair[1]);
-            p.displacement_m += 0.5 * dt_s * (p.velocity_m_s + velocity_m_s);
+            let velocity_m_s = p.velocity_m_s + trapezoid(dt_s, pair[0], pair[1]);
+            p.displacement_m += trapezoid(dt_s, p.velocity_m_s, velocity_m_s);
             p.velocity_m_s = velocity_m_s;
-            p.energy += 0.5 * dt_s * (pair[0] * pair[0] + pair[1] * pair[1]);
+            p.energy += trapezoid(dt_s, pair[0] * pair[0], pair[1] * pair[1]);
             *energy = p.energy;
             p.pga_m_s2 = larger(p.pga_m_s2, pair[1].abs());
             p.pgv_m_s = larger(p.pgv_m_s, velocity_m_s.abs());
             p.pgd_m = larger(p.pgd_m, p.displacement_m.abs());
-            p.cav_m_s += 0.5 * dt_s * (pair[0].abs() + pair[1].abs());
+            p.cav_m_s += trapezoid(dt_s, pair[0].abs(), pair[1].abs());
         }
         p
     }
+}
+
+/// The integral between two samples.
+fn trapezoid(dt_s: f64, left: f64, right: f64) -> f64 {
+    0.5 * dt_s * (left + right)
 }
 
 /// The larger of two numbers, in one instruction: the maximum of the standard library asks for NaN too.
@@ -91,12 +96,12 @@ fn larger(a: f64, b: f64) -> f64 {
 
 /// The largest absolute value.
 pub fn peak(series: &[f64]) -> f64 {
-    series.iter().fold(0.0, |largest, value| value.abs().max(largest))
+    series.iter().fold(0.0, |largest, value| larger(largest, value.abs()))
 }
 
 /// Ground velocity (m/s): the trapezoidal integral, 0 at the first sample.
 pub fn velocity(acceleration: &[f64], dt_s: f64) -> Vec<f64> {
-    let steps = acceleration.windows(2).map(|pair| 0.5 * dt_s * (pair[0] + pair[1]));
+    let steps = acceleration.windows(2).map(|pair| trapezoid(dt_s, pair[0], pair[1]));
     let rest = steps.scan(0.0, |sum, step| {
         *sum += step;
         Some(*sum)
