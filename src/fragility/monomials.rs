@@ -96,8 +96,7 @@ impl Monomials {
 
     /// The factors of each in the sum over degrees of a_degree (x1 y1 + x2 y2 + ...)^degree, a polynomial of y.
     pub fn powers_of_sum(&self, x: &[f64], a: &[f64]) -> Vec<f64> {
-        let (x, []) = x.as_chunks::<1>() else { unreachable!("chunks of one leave no rest") };
-        let values = self.degrees.iter().zip(&self.ways).zip(self.values(x));
+        let values = self.degrees.iter().zip(&self.ways).zip(self.values::<1>(x.as_chunks().0));
         values.map(|((&degree, ways), [value])| a[degree] * ways * value).collect()
     }
 
