@@ -1,5 +1,7 @@
 use std::ops::RangeInclusive;
 
+use crate::wide::widest;
+
 /// Time steps that are simulated, s.
 const TIME_STEPS_S: RangeInclusive<f64> = 1e-6..=10.0;
 /// The largest acceleration that is simulated, m/s2: a thousand times that of gravity.
@@ -55,12 +57,11 @@ impl<'a> Record<'a> {
         if acceleration_m_s2.len() < 2 {
             return Err(RecordError::TooShort(acceleration_m_s2.len()));
         }
-        let finite = acceleration_m_s2.iter().fold(true, |finite, value| finite & value.is_finite());
-        if !finite {
+        let peak_m_s2 = largest(acceleration_m_s2);
+        if !peak_m_s2.is_finite() {
             let sample = acceleration_m_s2.iter().position(|value| !value.is_finite()).unwrap_or_default();
             return Err(RecordError::NotFinite { sample, value: acceleration_m_s2[sample] });
         }
-        let peak_m_s2 = largest(acceleration_m_s2);
         if peak_m_s2 > LARGEST_M_S2 {
             let too_large = |value: &f64| value.abs() > LARGEST_M_S2;
             let sample = acceleration_m_s2.iter().position(too_large).unwrap_or_default();
@@ -96,13 +97,16 @@ impl<'a> Record<'a> {
     }
 }
 
-/// The largest absolute value, several side by side so that a processor compares them at once.
+/// The largest absolute value; not finite if one of them is not, since the bits of infinity and NaN are above all others.
 fn largest(values: &[f64]) -> f64 {
-    let mut largest = [0.0_f64; 8];
-    for block in values.chunks(largest.len()) {
-        for (largest, value) in largest.iter_mut().zip(block) {
-            *largest = if value.abs() > *largest { value.abs() } else { *largest };
-        }
-    }
-    largest.into_iter().fold(0.0, f64::max)
+    widest(
+        #[inline(always)]
+        || {
+            let mut largest = 0;
+            for value in values {
+                largest = largest.max(value.abs().to_bits());
+            }
+            f64::from_bits(largest)
+        },
+    )
 }
