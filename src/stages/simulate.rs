@@ -23,7 +23,8 @@ use crate::rocking::{
     Path as SolverPath, Problem, Record, RecordError, Structure, simulate_all, trace, with_tail,
 };
 use crate::table::TableError;
-use crate::table::motions::{self, Motion, MotionId, MotionTable, Part};
+use crate::table::motion_table::{MotionTable, Part};
+use crate::table::motions::{self, Motion, MotionId};
 use crate::table::partition::Partition;
 use crate::table::provenance::Provenance;
 use crate::table::responses;
@@ -33,8 +34,8 @@ use crate::table::trace::{self as trace_table, TraceRow};
 
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;
-/// Motions that a thread takes at once: enough to keep the lanes of its registers busy.
-const CHUNK: usize = 64;
+/// Motions that a thread takes at once: enough to keep the lanes of its registers busy, and few enough for its caches.
+const CHUNK: usize = 32;
 /// Quiet time after a traced record in which free rocking shows, s.
 const TRACE_TAIL_S: f64 = 10.0;
 
@@ -212,6 +213,7 @@ fn records<'a>(
     samples: &'a mut Vec<f64>,
 ) -> Result<Vec<Record<'a>>, TableError> {
     samples.clear();
+    samples.reserve(motions.iter().map(|motion| motion.acceleration_m_s2.len()).sum());
     let mut ends = Vec::with_capacity(motions.len());
     for motion in motions {
         motion.acceleration_m_s2.append_to(samples);
@@ -273,12 +275,14 @@ impl Stage for Simulate {
             |parts| {
                 let respond = |part: &Part| -> anyhow::Result<Vec<Responded>> {
                     let path = motions.path_of(part);
-                    let motions = motions.motions(part)?;
-                    let respond =
-                        |motions| pool.lend(|scratch| self.respond(&path, motions, by_name, scratch));
-                    let responded = motions.chunks(CHUNK).map(respond).collect::<anyhow::Result<_>>()?;
-                    bar.inc(motions.len() as u64)?;
-                    Ok(responded)
+                    let respond = |motions: Result<Vec<Motion>, TableError>| {
+                        let motions = motions?;
+                        let responded =
+                            pool.lend(|scratch| self.respond(&path, &motions, by_name, scratch))?;
+                        bar.inc(motions.len() as u64)?;
+                        Ok(responded)
+                    };
+                    motions.chunks(part, CHUNK)?.map(respond).collect()
                 };
                 let responded: Vec<Vec<Responded>> =
                     parts.par_iter().map(respond).collect::<anyhow::Result<_>>()?;

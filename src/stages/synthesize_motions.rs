@@ -20,12 +20,12 @@ use crate::pipeline::console::Console;
 use crate::pipeline::options::{Parsed, Several, Steps, Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
-use crate::table::motions::{self, SyntheticMotion};
 use crate::table::partition::Partition;
 use crate::table::provenance::Provenance;
 use crate::table::scenarios;
 use crate::table::schema::MOTIONS;
 use crate::table::source::{Source, Target};
+use crate::table::synthetic_motions::{self, SyntheticMotion};
 use crate::table::text_file;
 use crate::table::writer::TableWriter;
 
@@ -257,7 +257,7 @@ impl Stage for SynthesizeMotions {
                     .flat_map_iter(|scenario| pool.lend(|scratch| self.motions_of(scenario, scratch)))
                     .collect();
                 bar.inc(scenarios.len() as u64)?;
-                Ok(motions::batch(&motions, &schema)?)
+                Ok(synthetic_motions::batch(&motions, &schema)?)
             },
             |batch| Ok(writer.write_row_group(&batch)?),
         )?;

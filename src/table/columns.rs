@@ -43,6 +43,15 @@ pub struct SpectralAcceleration {
 }
 
 impl Samples {
+    /// How many.
+    #[expect(clippy::len_without_is_empty, reason = "a record has samples, or is none")]
+    pub fn len(&self) -> usize {
+        match self {
+            Samples::Float32(samples) => samples.len(),
+            Samples::Float64(samples) => samples.len(),
+        }
+    }
+
     /// All of them.
     pub fn to_vec(&self) -> Vec<f64> {
         let mut values = Vec::new();

@@ -16,6 +16,7 @@
 //! writer       batches to a file, written beside its name and renamed when whole
 //! fingerprint  the hash of what a file holds
 //! provenance   what made a file, in its metadata
+//! motion_table a motions file that several threads read; synthetic_motions what synthesize-motions writes
 //! scenarios, motions, records, responses, trace, pex, pex_scan, pro, replicates, paper
 //!              one file a table: its rows as Rust structs
 //! ranking      sets of intensity measures by how well they predict; ranking_verdict the same in words
@@ -47,6 +48,7 @@ pub mod intensities;
 mod limits;
 mod measures;
 pub mod motion_measures;
+pub mod motion_table;
 pub mod motions;
 pub mod paper;
 pub mod partition;
@@ -65,6 +67,7 @@ pub mod scenarios;
 pub mod schema;
 mod shared_file;
 pub mod source;
+pub mod synthetic_motions;
 mod table_file;
 pub mod text;
 pub mod text_file;

@@ -1,40 +1,26 @@
 //! The motions file: one row a ground motion, its samples as a list.
 
-use std::ops::Range;
-use std::path::Path;
 use std::sync::Arc;
 
-use arrow_array::builder::{Float32Builder, ListBuilder};
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
-use arrow_schema::{ArrowError, DataType, Field, SchemaRef};
+use arrow_array::{ArrayRef, Int64Array, StringArray};
+use arrow_schema::{DataType, SchemaRef};
 
 use super::TableError;
 use super::columns::Samples;
-use super::measures;
-use super::partition::Partition;
 use super::provenance::Provenance;
-use super::reader::{Batch, Batches, OpenTable, Run, expect_columns};
-use super::scenarios;
+use super::reader::{Batch, Batches};
 use super::schema::{self, Column};
 use super::source::{Source, Target};
 use super::writer::TableWriter;
-use crate::keyword::Keyword;
-use crate::motion::{Measured, Scenario, Suite};
 
 /// The stages whose output can stand as a motions file.
 pub(super) const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
 
-/// The most motions that a thread reads at once.
-const LARGEST_PART: usize = 128;
-/// Motions of a row group that are decoded at once: few, since what decoding them takes besides is then soon used again. More
-/// of it would be memory that the kernel has to clear first, which takes longer than to decode.
-const DECODED_AT_ONCE: usize = 32;
-
 /// What `simulate` cannot do without.
-const REQUIRED: [Column; 3] = [schema::MOTION_ID, schema::DT_S, schema::ACCELERATION_M_S2];
+pub(super) const REQUIRED: [Column; 3] = [schema::MOTION_ID, schema::DT_S, schema::ACCELERATION_M_S2];
 
 /// What it reads where it is there.
-const READ: [Column; 11] = [
+pub(super) const READ: [Column; 11] = [
     schema::MOTION_ID,
     schema::SUITE,
     schema::MW,
@@ -47,51 +33,6 @@ const READ: [Column; 11] = [
     schema::TP_S,
     schema::ACCELERATION_M_S2,
 ];
-
-/// A synthetic motion on its way into a file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SyntheticMotion {
-    /// Unique in the file.
-    pub motion_id: i64,
-    /// Its kind.
-    pub suite: Suite,
-    /// The scenario it belongs to.
-    pub scenario: Scenario,
-    /// Time between samples, s.
-    pub dt_s: f64,
-    /// Samples, m/s2, as they are written.
-    pub acceleration_m_s2: Vec<f32>,
-    /// Intensity measures of these samples.
-    pub measured: Measured,
-}
-
-/// The rows of the motions file in its schema, which has the spectral accelerations at its end.
-///
-/// # Errors
-/// If a row cannot be represented, which the schema rules out.
-pub fn batch(motions: &[SyntheticMotion], schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
-    let mut columns: Vec<ArrayRef> = vec![
-        Arc::new(Int64Array::from_iter_values(motions.iter().map(|motion| motion.motion_id))),
-        Arc::new(StringArray::from_iter_values(motions.iter().map(|motion| motion.suite.as_str()))),
-    ];
-    columns.extend(scenarios::columns(&motions.iter().map(|motion| motion.scenario).collect::<Vec<_>>()));
-    columns.push(Arc::new(Float64Array::from_iter_values(motions.iter().map(|motion| motion.dt_s))));
-    columns.extend(measures::columns(motions.iter().map(|motion| &motion.measured)));
-    columns.push(samples(motions.iter().map(|motion| motion.acceleration_m_s2.as_slice())));
-    columns.extend(measures::spectrum(motions.iter().map(|motion| &motion.measured)));
-    RecordBatch::try_new(schema.clone(), columns)
-}
-
-/// The column of samples.
-pub(super) fn samples<'a>(motions: impl Iterator<Item = &'a [f32]>) -> ArrayRef {
-    let item = Field::new("item", DataType::Float32, false);
-    let mut list = ListBuilder::new(Float32Builder::new()).with_field(item);
-    for motion in motions {
-        list.values().append_slice(motion);
-        list.append(true);
-    }
-    Arc::new(list.finish())
-}
 
 /// What a motion is called: by number in our files, by number or name in those of others.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -168,129 +109,17 @@ impl Iterator for MotionBatches {
     }
 }
 
-/// A table of motions that several threads read.
-pub struct MotionTable {
-    table: OpenTable,
-    rows: Range<u64>,
-    by_name: bool,
-}
-
-/// Some motions, in order.
-pub enum Part {
-    /// Few, and not yet read.
-    Unread(Run),
-    /// Some of a row group that is too large to be read at once.
-    Rows(Batch),
-}
-
-impl MotionTable {
-    /// Opens a table of motions, or a partition of it.
-    ///
-    /// # Errors
-    /// As [`MotionBatches::open`], or if motions go by name in one file and by number in another.
-    pub fn open(source: impl Into<Source>, partition: Option<Partition>) -> Result<MotionTable, TableError> {
-        let table = OpenTable::open(source, &STAGES, &READ)?;
-        table.expect_rows(0)?;
-        let schemas = table.schemas()?;
-        schemas.iter().try_for_each(|(path, schema)| expect_columns(path, schema, &REQUIRED))?;
-        let by_name = ids_are_names(&schemas[0].1);
-        if let Some((path, schema)) = schemas.iter().find(|(_, schema)| ids_are_names(schema) != by_name) {
-            let type_of = |schema: &SchemaRef| {
-                schema
-                    .field_with_name(schema::MOTION_ID.name)
-                    .map_or(String::new(), |f| f.data_type().to_string())
-            };
-            return Err(TableError::WrongType {
-                path: path.to_path_buf(),
-                column: schema::MOTION_ID.name.to_string(),
-                found: type_of(schema),
-                expected: format!("{} as in {}", type_of(&schemas[0].1), schemas[0].0.display()),
-            });
-        }
-        let total = table.rows();
-        let rows = partition.map_or(0..total, |partition| partition.rows(total));
-        Ok(MotionTable { table, rows, by_name })
-    }
-
-    /// How many motions there are.
-    pub fn rows(&self) -> u64 {
-        self.rows.end - self.rows.start
-    }
-
-    /// Whether motions go by name rather than by number.
-    pub fn ids_are_names(&self) -> bool {
-        self.by_name
-    }
-
-    /// All motions: row groups, which any thread may read, where they are small.
-    pub fn parts(&self) -> impl Iterator<Item = Result<Part, TableError>> + Send {
-        let runs = self.table.runs(self.rows.clone()).into_iter();
-        runs.flat_map(|run| -> Box<dyn Iterator<Item = Result<Part, TableError>> + Send> {
-            if run.rows <= LARGEST_PART as u64 {
-                return Box::new(std::iter::once(Ok(Part::Unread(run))));
-            }
-            match self.table.batches_of(run, LARGEST_PART) {
-                Ok(batches) => Box::new(batches.map(|batch| batch.map(Part::Rows))),
-                Err(error) => Box::new(std::iter::once(Err(error))),
-            }
-        })
-    }
-
-    /// The file of a part, or the name of the table in memory.
-    pub fn path_of(&self, part: &Part) -> Arc<Path> {
-        match part {
-            Part::Rows(batch) => batch.path.clone(),
-            Part::Unread(run) => self.table.path_of(*run),
-        }
-    }
-
-    /// The row groups in which these rows of the table lie, each with the rows of its file, all ascending.
-    pub fn runs_of(&self, rows: &[u64]) -> Vec<(Run, Vec<u64>)> {
-        let mut before = 0;
-        let runs = self.table.runs(self.rows.clone()).into_iter().map(|run| {
-            let inside = before..before + run.rows;
-            before += run.rows;
-            let rows = rows.iter().filter(|row| inside.contains(row));
-            (run, rows.map(|row| run.first_row + (row - inside.start)).collect::<Vec<u64>>())
-        });
-        runs.filter(|(_, rows)| !rows.is_empty()).collect()
-    }
-
-    /// The motions of a run that `wanted` picks.
-    ///
-    /// # Errors
-    /// If the file is damaged or a value cannot be used.
-    pub fn pick(&self, run: Run, wanted: impl Fn(&Motion) -> bool) -> Result<Vec<Motion>, TableError> {
-        let mut picked = Vec::new();
-        for batch in self.table.batches_of(run, LARGEST_PART)? {
-            picked.extend(motions_of(&batch?)?.into_iter().filter(&wanted));
-        }
-        Ok(picked)
-    }
-
-    /// The motions of a part.
-    ///
-    /// # Errors
-    /// If the file is damaged or a value cannot be used.
-    pub fn motions(&self, part: &Part) -> Result<Vec<Motion>, TableError> {
-        match part {
-            Part::Rows(batch) => motions_of(batch),
-            Part::Unread(run) => {
-                let batches = self.table.batches_of(*run, DECODED_AT_ONCE)?;
-                let motions =
-                    batches.map(|batch| motions_of(&batch?)).collect::<Result<Vec<_>, TableError>>()?;
-                Ok(motions.into_iter().flatten().collect())
-            }
-        }
-    }
-}
-
-fn ids_are_names(schema: &SchemaRef) -> bool {
+/// Whether motions go by name rather than by number.
+pub(super) fn ids_are_names(schema: &SchemaRef) -> bool {
     let field = schema.field_with_name(schema::MOTION_ID.name);
     field.is_ok_and(|field| !field.data_type().is_numeric())
 }
 
-fn motions_of(batch: &Batch) -> Result<Vec<Motion>, TableError> {
+/// The motions of a batch.
+///
+/// # Errors
+/// If a value cannot be used.
+pub(super) fn motions_of(batch: &Batch) -> Result<Vec<Motion>, TableError> {
     let columns = batch.columns();
     let ids: Vec<MotionId> = if columns.is_text(&schema::MOTION_ID) {
         columns.text(&schema::MOTION_ID)?.into_iter().map(MotionId::Name).collect()

@@ -49,6 +49,15 @@ impl Batch {
     pub fn columns(&self) -> Columns<'_> {
         Columns::new(&self.path, &self.rows, self.first_row)
     }
+
+    /// Its rows in order, `size` at a time.
+    pub fn pieces(&self, size: usize) -> impl Iterator<Item = Batch> {
+        (0..self.rows.num_rows()).step_by(size).map(move |first| Batch {
+            rows: self.rows.slice(first, size.min(self.rows.num_rows() - first)),
+            path: self.path.clone(),
+            first_row: self.first_row + first as u64,
+        })
+    }
 }
 
 impl Piece {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::{ArrowError, SchemaRef};
 
-use super::{measures, motions};
+use super::{measures, synthetic_motions};
 use crate::keyword::Keyword;
 use crate::motion::processing::RotD;
 use crate::motion::pulse::largest_velocity;
@@ -119,7 +119,7 @@ pub fn batch(rows: &[RecordRow], schema: &SchemaRef) -> Result<RecordBatch, Arro
         fitted(|fit| fit.t0_s),
         fitted(|fit| fit.r2),
     ]);
-    columns.push(motions::samples(rows.iter().map(|row| row.acceleration_m_s2.as_slice())));
+    columns.push(synthetic_motions::samples(rows.iter().map(|row| row.acceleration_m_s2.as_slice())));
     columns.extend(measures::spectrum(rows.iter().map(|row| &row.measured)));
     RecordBatch::try_new(schema.clone(), columns)
 }

@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 use rockfrag::rocking::Structure;
 use rockfrag::table::intensities::IntensityBatches;
 use rockfrag::table::motion_measures::MotionMeasures;
-use rockfrag::table::motions::MotionTable;
+use rockfrag::table::motion_table::MotionTable;
 
 use crate::readers::read_as_everything;
 

@@ -7,7 +7,8 @@ use rockfrag::rocking::Record;
 use rockfrag::stages::{groups, inspect::inspect};
 use rockfrag::table::intensities::IntensityBatches;
 use rockfrag::table::motion_measures::MotionMeasures;
-use rockfrag::table::motions::{Motion, MotionBatches, MotionTable};
+use rockfrag::table::motion_table::MotionTable;
+use rockfrag::table::motions::{Motion, MotionBatches};
 use rockfrag::table::schema::{POOLED, UNIVERSALITY};
 use rockfrag::table::{
     TableError, fits, ida, paper, provenance, ranking_verdict, reader, scenarios, validation,
@@ -54,7 +55,9 @@ fn motions(path: &Path) -> Result<(), TableError> {
 
 fn motions_in_parts(path: &Path) -> Result<(), TableError> {
     let file = MotionTable::open(path, None)?;
-    file.parts().try_for_each(|part| file.motions(&part?).map(|motions| check(&motions)))
+    file.parts().try_for_each(|part| {
+        file.chunks(&part?, 64)?.try_for_each(|motions| motions.map(|motions| check(&motions)))
+    })
 }
 
 fn regressions(path: &Path) -> Result<(), TableError> {

@@ -29,7 +29,8 @@ use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Path as SolverPath, Scan, Structure};
 use crate::table::ida;
-use crate::table::motions::{self, Motion, MotionId, MotionTable, Part};
+use crate::table::motion_table::{MotionTable, Part};
+use crate::table::motions::{self, Motion, MotionId};
 use crate::table::provenance::Provenance;
 use crate::table::schema::{IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
 use crate::table::source::{Source, Target, with_part};
@@ -135,13 +136,15 @@ impl Stage for Ida {
             batches(file.parts(), rayon::current_num_threads()),
             |parts| {
                 let analyse = |part: &Part| -> anyhow::Result<Vec<Analysed>> {
-                    let (path, motions) = (file.path_of(part), file.motions(part)?);
-                    let analyse = |motions: &[Motion]| {
-                        let analysed = pool.lend(|scratch| self.analyse(&path, motions, by_name, scratch))?;
+                    let path = file.path_of(part);
+                    let analyse = |motions: Vec<Motion>| {
+                        let analysed =
+                            pool.lend(|scratch| self.analyse(&path, &motions, by_name, scratch))?;
                         bar.inc(motions.len() as u64)?;
                         Ok(analysed)
                     };
-                    motions.par_chunks(CHUNK).map(analyse).collect()
+                    let motions = file.chunks(part, CHUNK)?.collect::<Result<Vec<_>, _>>()?;
+                    motions.into_par_iter().map(analyse).collect()
                 };
                 let analysed: Vec<Vec<Analysed>> =
                     parts.par_iter().map(analyse).collect::<anyhow::Result<_>>()?;

@@ -7,7 +7,8 @@ use crate::motion::Suite;
 use crate::report::material::{Group, Motion, Parts, Trace};
 use crate::rocking::{Record, Structure, trace};
 use crate::table::TableError;
-use crate::table::motions::{self, MotionTable};
+use crate::table::motion_table::MotionTable;
+use crate::table::motions;
 
 /// The structures of the groups, each once.
 pub fn structures(groups: &[Group]) -> Vec<Structure> {
