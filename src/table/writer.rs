@@ -289,12 +289,14 @@ fn remove_strays(folder: &Path, prefix: &str) {
 }
 
 /// Samples as split bytes and lightly compressed: smaller than plain, and as fast to read as it matters; a dictionary
-/// or statistics of samples would only cost time and room.
+/// or statistics of samples would only cost time and room. What stands beside them, some numbers in each row group, would
+/// hardly shrink, and to get ready for it takes longer than to read it.
 fn properties(table: &Table) -> WriterProperties {
     let zstd = Compression::ZSTD(ZstdLevel::try_new(1).unwrap_or_default());
+    let has_samples = table.columns.iter().any(|column| column.kind == Kind::Samples);
     let mut properties = WriterProperties::builder()
         .set_created_by(format!("rockfrag {}", env!("CARGO_PKG_VERSION")))
-        .set_compression(zstd)
+        .set_compression(if has_samples { Compression::UNCOMPRESSED } else { zstd })
         // What is kept for each row group until the end: as little as serves, since there may be many.
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true);
@@ -305,6 +307,7 @@ fn properties(table: &Table) -> WriterProperties {
     for column in table.columns.iter().filter(|column| column.kind == Kind::Samples) {
         let path = samples_path(column.name);
         properties = properties
+            .set_column_compression(path.clone(), zstd)
             .set_column_dictionary_enabled(path.clone(), false)
             .set_column_statistics_enabled(path.clone(), EnabledStatistics::None)
             .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT);
