@@ -10,6 +10,7 @@
 //! compact      the protocol in which files describe themselves; description the fields of which they do
 //! guarded      damage that stops the decoder
 //! table_file   one file, open at some columns; piece that or a table in memory
+//! row_group    some rows of one, column by column; lists the samples of them
 //! reader       batches from a table
 //! frame        narrow tables whole, as polars frames
 //! shared_file  a file that several threads read at once
@@ -46,6 +47,7 @@ pub mod hazard;
 pub mod ida;
 pub mod intensities;
 mod limits;
+mod lists;
 mod measures;
 pub mod motion_measures;
 pub mod motion_table;
@@ -63,6 +65,7 @@ pub mod reader;
 pub mod records;
 pub mod replicates;
 pub mod responses;
+mod row_group;
 pub mod scenarios;
 pub mod schema;
 mod shared_file;

@@ -70,7 +70,7 @@ impl Piece {
 
     pub fn schema(&self) -> Result<SchemaRef, TableError> {
         match self {
-            Piece::File(file) => file.schema(),
+            Piece::File(file) => Ok(file.schema.clone()),
             Piece::Memory(table, columns) => {
                 table.schema.project(columns).map(Arc::new).map_err(|source| damaged(table, &source))
             }

@@ -4,27 +4,42 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::RecordBatch;
-use arrow_schema::SchemaRef;
+use arrow_schema::{FieldRef, SchemaRef};
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ParquetRecordBatchReaderBuilder};
 use parquet::errors::{ParquetError, Result as ParquetResult};
 use parquet::file::metadata::ParquetMetaData;
 use parquet::file::reader::Length;
-use parquet::schema::types::TypePtr;
+use parquet::file::serialized_reader::SerializedPageReader;
 
 use super::TableError;
 use super::footer::{self, Opened, not_parquet};
 use super::guarded::guarded;
 use super::limits::check_pages;
+use super::lists::Lists;
 use super::provenance::stamp_in;
+use super::row_group::RowGroup;
 use super::shared_file::SharedFile;
 
 /// The file, its description, and the columns.
 pub(super) struct TableFile {
     pub path: Arc<Path>,
+    /// The columns that will be read.
+    pub schema: SchemaRef,
     file: SharedFile,
     metadata: ArrowReaderMetadata,
     columns: ProjectionMask,
+    /// Those that are read straight from their pages.
+    lists: Vec<ListColumn>,
+}
+
+/// A column of lists of samples.
+struct ListColumn {
+    /// Among those that will be read.
+    place: usize,
+    /// Among the columns of the file, as deep as they nest.
+    leaf: usize,
+    item: FieldRef,
 }
 
 impl TableFile {
@@ -42,20 +57,14 @@ impl TableFile {
         if let Some(stages) = stages {
             expect_stage(path, metadata.metadata(), stages)?;
         }
-        let roots = metadata.parquet_schema().root_schema().get_fields();
-        let wanted = |field: &TypePtr| is_wanted(field.name());
-        let wanted: Vec<usize> = (0..roots.len()).filter(|&root| wanted(&roots[root])).collect();
-        let columns = ProjectionMask::roots(metadata.parquet_schema(), wanted);
-        Ok(TableFile { path: path.into(), file, metadata, columns })
-    }
-
-    /// The columns that will be read.
-    ///
-    /// # Errors
-    /// If the file is damaged.
-    pub fn schema(&self) -> Result<SchemaRef, TableError> {
-        let reader = guarded(|| self.builder(1).build()).map_err(|source| not_parquet(&self.path, source))?;
-        Ok(arrow_array::RecordBatchReader::schema(&reader))
+        let fields = metadata.schema().fields();
+        let wanted: Vec<usize> =
+            (0..fields.len()).filter(|&column| is_wanted(fields[column].name())).collect();
+        let schema = metadata.schema().project(&wanted).map_err(ParquetError::from);
+        let schema = Arc::new(schema.map_err(|source| not_parquet(path, source))?);
+        let columns = ProjectionMask::roots(metadata.parquet_schema(), wanted.iter().copied());
+        let lists = lists_among(&wanted, &metadata);
+        Ok(TableFile { path: path.into(), schema, file, metadata, columns, lists })
     }
 
     /// How many rows each of its row groups has.
@@ -88,29 +97,47 @@ impl TableFile {
         rows: u64,
         batch_size: usize,
     ) -> Result<impl Iterator<Item = Result<RecordBatch, TableError>> + Send + use<>, TableError> {
-        let build = || {
-            self.check(group)?;
-            let mut builder = self.builder(batch_size).with_row_groups(vec![group]);
-            if rows < self.rows_of_groups()[group] {
-                builder = builder.with_offset(first as usize).with_limit(rows as usize);
-            }
-            builder.build()
-        };
         let path = self.path.clone();
-        let mut reader = guarded(build).map_err(|source| not_parquet(&path, source))?;
+        let open = || self.open_row_group(group, first, rows, batch_size);
+        let mut rows = guarded(open).map_err(|source| not_parquet(&path, source))?;
         Ok(std::iter::from_fn(move || {
-            let decoded = guarded(|| {
-                let decoded = reader.next().transpose();
-                decoded.map_err(|source| ParquetError::ArrowError(source.to_string()))
-            });
-            decoded.map_err(|source| not_parquet(&path, source)).transpose()
+            guarded(|| rows.next()).map_err(|source| not_parquet(&path, source)).transpose()
         }))
     }
 
-    fn builder(&self, batch_size: usize) -> ParquetRecordBatchReaderBuilder<SharedFile> {
-        ParquetRecordBatchReaderBuilder::new_with_metadata(self.file.clone(), self.metadata.clone())
+    fn open_row_group(
+        &self,
+        group: usize,
+        first: u64,
+        rows: u64,
+        batch_size: usize,
+    ) -> ParquetResult<RowGroup> {
+        self.check(group)?;
+        let leaves = self.metadata.parquet_schema();
+        let of_group = self.metadata.metadata().row_group(group);
+        let lists = |column: &ListColumn| {
+            let (file, rows) = (Arc::new(self.file.clone()), of_group.num_rows() as usize);
+            let pages = SerializedPageReader::new(file, of_group.column(column.leaf), rows, None)?;
+            let lists = Lists::new(column.item.clone(), leaves.column(column.leaf), Box::new(pages), first)?;
+            Ok((column.place, lists))
+        };
+        let is_narrow = |leaf: &usize| {
+            self.columns.leaf_included(*leaf) && self.lists.iter().all(|column| column.leaf != *leaf)
+        };
+        let narrow = ProjectionMask::leaves(leaves, (0..leaves.num_columns()).filter(is_narrow));
+        let metadata = self.metadata.clone();
+        let mut builder = ParquetRecordBatchReaderBuilder::new_with_metadata(self.file.clone(), metadata)
             .with_batch_size(batch_size)
-            .with_projection(self.columns.clone())
+            .with_projection(narrow)
+            .with_row_groups(vec![group]);
+        if rows < self.rows_of_groups()[group] {
+            builder = builder.with_offset(first as usize).with_limit(rows as usize);
+        }
+        Ok(RowGroup {
+            schema: self.schema.clone(),
+            narrow: builder.build()?,
+            lists: self.lists.iter().map(lists).collect::<ParquetResult<_>>()?,
+        })
     }
 
     /// That what will be read of a row group fits into memory.
@@ -119,6 +146,17 @@ impl TableFile {
         let wanted = group.columns().iter().enumerate().filter(|(leaf, _)| self.columns.leaf_included(*leaf));
         wanted.into_iter().try_for_each(|(_, column)| check_pages(&self.file, column, group.num_rows()))
     }
+}
+
+/// Those of the wanted columns that are lists of samples as our own files hold them.
+fn lists_among(wanted: &[usize], metadata: &ArrowReaderMetadata) -> Vec<ListColumn> {
+    let (fields, leaves) = (metadata.schema().fields(), metadata.parquet_schema());
+    let list_column = |(place, &root): (usize, &usize)| {
+        let leaf = (0..leaves.num_columns()).find(|&leaf| leaves.get_column_root_idx(leaf) == root)?;
+        let item = Lists::item_of(&fields[root], &leaves.column(leaf))?;
+        Some(ListColumn { place, leaf, item })
+    };
+    wanted.iter().enumerate().filter_map(list_column).collect()
 }
 
 /// That a file which says by which stage it was made was made by one of these.

@@ -4,6 +4,7 @@ mod bombs;
 mod configs;
 mod damage;
 mod importers;
+mod lists;
 mod numbers;
 mod readers;
 mod replaced;
