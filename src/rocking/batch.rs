@@ -9,6 +9,7 @@ use super::record::Record;
 use super::response::Response;
 use super::structure::Structure;
 use super::tail::{Tail, free_rocking};
+use super::vector::Vector;
 use crate::keyword::keywords;
 
 /// A structure and the record that shakes it.
@@ -96,18 +97,13 @@ impl WithSimd for Batch<'_> {
             next: 0,
             responses: vec![Response::NO_ROCKING; self.problems.len()],
         };
-        // Two registers in flight: while one waits for its results the other one is worked on.
-        let mut vectors = [Lanes::new(simd), Lanes::new(simd)];
-        for lanes in &mut vectors {
-            (0..S::F64_LANES).for_each(|lane| queue.refill(lane, lanes));
-        }
-        while !vectors.iter().all(Lanes::are_idle) {
-            let steps = [vectors[0].step(), vectors[1].step()];
-            for (lanes, step) in vectors.iter_mut().zip(&steps) {
-                let events = lanes.advance(step);
-                if events.any() {
-                    queue.attend(events, lanes);
-                }
+        let mut lanes = Lanes::new(simd);
+        (0..Vector::<S>::LANES).for_each(|lane| queue.refill(lane, &mut lanes));
+        while !lanes.are_idle() {
+            let step = lanes.step();
+            let events = lanes.advance(&step);
+            if events.any() {
+                queue.attend(events, &mut lanes);
             }
         }
         queue.responses

@@ -12,7 +12,7 @@ use super::march::{REST_VELOCITY, first_impact, first_overturning, largest};
 use super::polynomial::{self, Polynomial};
 use super::real::Real;
 use super::taylor::{Excess, State, series};
-use super::vector::{MOST_LANES, Mask, Vector};
+use super::vector::{Mask, Vector};
 use crate::units::PER_G;
 
 /// What happened in the lanes during a step, a bit for each.
@@ -47,6 +47,19 @@ pub struct Step<S: Simd> {
     /// The lanes whose curvature is negative, or nowhere negative, over the whole step.
     concave: Mask<S>,
     convex: Mask<S>,
+}
+
+impl<S: Simd> Step<S> {
+    /// The lanes whose slope keeps its sign over the whole step, since its first term outweighs all others.
+    #[inline(always)]
+    fn steady(&self) -> Mask<S> {
+        let r = &self.rotation;
+        let mut change = r[0].like(0.0);
+        for (k, coefficient) in r.iter().enumerate().skip(2) {
+            change = coefficient.abs().mul_add(r[0].like(k as f64), change);
+        }
+        change.le(r[1].abs())
+    }
 }
 
 impl<S: Simd> Lanes<'_, S> {
@@ -135,8 +148,12 @@ impl<S: Simd> Lanes<'_, S> {
         let below = step.last.lt(zero);
         let starts_above = zero.lt(c[0]) | zero.lt(c[1]);
         let monotone = step.end.velocity.le(zero) | zero.le(c[1]);
-        let strikes = below & starts_above & (step.concave | step.convex);
-        let passes = !below & (step.concave | (step.convex & monotone));
+        let mut convex = step.convex;
+        if (doubtful & !(step.concave | step.convex)).any() {
+            convex = convex | step.steady();
+        }
+        let strikes = below & starts_above & (step.concave | convex);
+        let passes = !below & (step.concave | (convex & monotone));
         let mut lanes = strikes & doubtful;
         let mut until = one;
         if lanes.any() {
@@ -168,7 +185,11 @@ impl<S: Simd> Lanes<'_, S> {
         let r = &step.rotation;
         let higher = self.peak.lt(step.high);
         let turns = step.concave & zero.lt(r[1]) & step.end.velocity.lt(zero);
-        let ends = higher & (step.concave | step.convex) & !turns;
+        let mut ends = step.concave | step.convex;
+        if (higher & !ends).any() {
+            ends = ends | step.steady();
+        }
+        let ends = higher & ends & !turns;
         self.peak = ends.select(self.peak.max(step.end.rotation), self.peak);
         let mut left = higher & !ends;
         if (left & turns).any() {
@@ -187,15 +208,13 @@ impl<S: Simd> Lanes<'_, S> {
     #[inline(always)]
     fn pass_samples(&mut self, arrived: u32) -> u32 {
         let mut ended = 0;
-        let mut next = [0.0; MOST_LANES];
-        for (lane, next) in next.iter_mut().enumerate().take(S::F64_LANES) {
+        for lane in 0..Vector::<S>::LANES {
             let ahead = self.index[lane] + 1 + (arrived >> lane & 1) as usize;
             self.index[lane] = ahead - 1;
             let sample = self.samples[lane].get(ahead);
             ended |= u32::from(sample.is_none()) << lane;
-            *next = sample.copied().unwrap_or(0.0);
+            self.next.set(lane, sample.copied().unwrap_or(0.0));
         }
-        self.next = Vector::of(self.simd, &next);
         ended
     }
 }

@@ -69,7 +69,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
             impacts: zero,
             impacts_after: [(0, 0); MOST_LANES],
         };
-        (0..S::F64_LANES).for_each(|lane| lanes.vacate(lane));
+        (0..Vector::<S>::LANES).for_each(|lane| lanes.vacate(lane));
         lanes
     }
 

@@ -1,4 +1,5 @@
-//! Several numbers at once: the lanes of a vector register, with the operators of numbers.
+//! Several numbers at once: the lanes of two vector registers, with the operators of numbers. While one register waits for a
+//! result, the other one is worked on.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -6,37 +7,50 @@ use pulp::{Simd, bytemuck};
 
 use super::real::Real;
 
-/// The most numbers a register holds.
-pub const MOST_LANES: usize = 8;
+/// The registers of a vector.
+const REGISTERS: usize = 2;
 
-/// As many numbers as a register holds.
+/// The most numbers a vector holds.
+pub const MOST_LANES: usize = REGISTERS * 8;
+
+/// As many numbers as the registers hold.
 #[derive(Debug, Clone, Copy)]
 pub struct Vector<S: Simd> {
     simd: S,
-    lanes: S::f64s,
+    registers: [S::f64s; REGISTERS],
 }
 
 /// A yes or no for each lane.
 #[derive(Debug, Clone, Copy)]
 pub struct Mask<S: Simd> {
     simd: S,
-    lanes: S::m64s,
+    registers: [S::m64s; REGISTERS],
+}
+
+/// The same in each register, whose number is `k`. A loop or a closure would have to be inlined for the registers to be used.
+macro_rules! in_each {
+    ($k:ident: $result:expr) => {
+        [
+            {
+                let $k = 0;
+                $result
+            },
+            {
+                let $k = 1;
+                $result
+            },
+        ]
+    };
 }
 
 impl<S: Simd> Vector<S> {
+    /// How many numbers it holds.
+    pub const LANES: usize = REGISTERS * S::F64_LANES;
+
     /// The same number in all lanes.
     #[inline(always)]
     pub fn splat(simd: S, value: f64) -> Vector<S> {
-        Vector { simd, lanes: simd.splat_f64s(value) }
-    }
-
-    /// The first numbers of `values`, one in each lane.
-    #[inline(always)]
-    pub fn of(simd: S, values: &[f64; MOST_LANES]) -> Vector<S> {
-        Vector {
-            simd,
-            lanes: bytemuck::pod_read_unaligned(&bytemuck::bytes_of(values)[..size_of::<S::f64s>()]),
-        }
+        Vector { simd, registers: [simd.splat_f64s(value); REGISTERS] }
     }
 
     /// The same number in all lanes.
@@ -48,48 +62,57 @@ impl<S: Simd> Vector<S> {
     /// The number of one lane.
     #[inline(always)]
     pub fn lane(&self, lane: usize) -> f64 {
-        bytemuck::cast_slice(std::slice::from_ref(&self.lanes))[lane]
+        bytemuck::cast_slice(&self.registers)[lane]
     }
 
     /// Changes the number of one lane.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, value: f64) {
-        bytemuck::cast_slice_mut(std::slice::from_mut(&mut self.lanes))[lane] = value;
+        bytemuck::cast_slice_mut(&mut self.registers)[lane] = value;
     }
 
     #[inline(always)]
     pub fn sqrt(self) -> Vector<S> {
-        Vector { lanes: self.simd.sqrt_f64s(self.lanes), ..self }
+        Vector { registers: in_each!(k: self.simd.sqrt_f64s(self.registers[k])), ..self }
     }
 
     #[inline(always)]
     pub fn abs(self) -> Vector<S> {
-        Vector { lanes: self.simd.abs_f64s(self.lanes), ..self }
+        Vector { registers: in_each!(k: self.simd.abs_f64s(self.registers[k])), ..self }
     }
 
     #[inline(always)]
     pub fn min(self, other: Vector<S>) -> Vector<S> {
-        Vector { lanes: self.simd.min_f64s(self.lanes, other.lanes), ..self }
+        Vector { registers: in_each!(k: self.simd.min_f64s(self.registers[k], other.registers[k])), ..self }
     }
 
     #[inline(always)]
     pub fn max(self, other: Vector<S>) -> Vector<S> {
-        Vector { lanes: self.simd.max_f64s(self.lanes, other.lanes), ..self }
+        Vector { registers: in_each!(k: self.simd.max_f64s(self.registers[k], other.registers[k])), ..self }
     }
 
     #[inline(always)]
     pub fn lt(self, other: Vector<S>) -> Mask<S> {
-        Mask { simd: self.simd, lanes: self.simd.less_than_f64s(self.lanes, other.lanes) }
+        Mask {
+            simd: self.simd,
+            registers: in_each!(k: self.simd.less_than_f64s(self.registers[k], other.registers[k])),
+        }
     }
 
     #[inline(always)]
     pub fn le(self, other: Vector<S>) -> Mask<S> {
-        Mask { simd: self.simd, lanes: self.simd.less_than_or_equal_f64s(self.lanes, other.lanes) }
+        Mask {
+            simd: self.simd,
+            registers: in_each!(k: self.simd.less_than_or_equal_f64s(self.registers[k], other.registers[k])),
+        }
     }
 
     #[inline(always)]
     pub fn equals(self, other: Vector<S>) -> Mask<S> {
-        Mask { simd: self.simd, lanes: self.simd.equal_f64s(self.lanes, other.lanes) }
+        Mask {
+            simd: self.simd,
+            registers: in_each!(k: self.simd.equal_f64s(self.registers[k], other.registers[k])),
+        }
     }
 }
 
@@ -97,21 +120,17 @@ impl<S: Simd> Mask<S> {
     /// The numbers of `yes` in the lanes of the mask, those of `no` in the others.
     #[inline(always)]
     pub fn select(self, yes: Vector<S>, no: Vector<S>) -> Vector<S> {
-        Vector { simd: self.simd, lanes: self.simd.select_f64s(self.lanes, yes.lanes, no.lanes) }
+        Vector {
+            simd: self.simd,
+            registers: in_each!(k: self.simd.select_f64s(self.registers[k], yes.registers[k], no.registers[k])),
+        }
     }
 
     /// Bit k is that of lane k.
     #[inline(always)]
     pub fn bits(self) -> u32 {
-        let bytes = bytemuck::bytes_of(&self.lanes);
-        if let [bits] = bytes {
-            return u32::from(*bits);
-        }
-        // A mask of whole words.
-        bytes
-            .chunks_exact(8)
-            .enumerate()
-            .fold(0, |bits, (lane, word)| bits | (u32::from(word[7] >> 7) << lane))
+        let [first, second] = in_each!(k: bits_of::<S>(&self.registers[k]));
+        first | second << S::F64_LANES
     }
 
     /// Yes in one lane only.
@@ -127,6 +146,17 @@ impl<S: Simd> Mask<S> {
     }
 }
 
+/// The bits of a mask of one register.
+#[inline(always)]
+fn bits_of<S: Simd>(mask: &S::m64s) -> u32 {
+    let bytes = bytemuck::bytes_of(mask);
+    if let [bits] = bytes {
+        return u32::from(*bits);
+    }
+    // A mask of whole words.
+    bytes.chunks_exact(8).enumerate().fold(0, |bits, (lane, word)| bits | (u32::from(word[7] >> 7) << lane))
+}
+
 macro_rules! lanewise {
     ($($trait:ident $method:ident $on:ident $simd:ident),* $(,)?) => {$(
         impl<S: Simd> $trait for $on<S> {
@@ -134,7 +164,7 @@ macro_rules! lanewise {
 
             #[inline(always)]
             fn $method(self, other: $on<S>) -> $on<S> {
-                $on { simd: self.simd, lanes: self.simd.$simd(self.lanes, other.lanes) }
+                $on { registers: in_each!(k: self.simd.$simd(self.registers[k], other.registers[k])), ..self }
             }
         }
     )*};
@@ -163,7 +193,7 @@ impl<S: Simd> Neg for Vector<S> {
 
     #[inline(always)]
     fn neg(self) -> Vector<S> {
-        Vector { lanes: self.simd.neg_f64s(self.lanes), ..self }
+        Vector { registers: in_each!(k: self.simd.neg_f64s(self.registers[k])), ..self }
     }
 }
 
@@ -172,7 +202,7 @@ impl<S: Simd> Not for Mask<S> {
 
     #[inline(always)]
     fn not(self) -> Mask<S> {
-        Mask { lanes: self.simd.not_m64s(self.lanes), ..self }
+        Mask { registers: in_each!(k: self.simd.not_m64s(self.registers[k])), ..self }
     }
 }
 
@@ -211,7 +241,10 @@ fn horner<S: Simd>(c: &[f64; 6], z: Vector<S>) -> Vector<S> {
 impl<S: Simd> Real for Vector<S> {
     #[inline(always)]
     fn mul_add(self, factor: Vector<S>, addend: Vector<S>) -> Vector<S> {
-        Vector { lanes: self.simd.mul_add_f64s(self.lanes, factor.lanes, addend.lanes), ..self }
+        Vector {
+            registers: in_each!(k: self.simd.mul_add_f64s(self.registers[k], factor.registers[k], addend.registers[k])),
+            ..self
+        }
     }
 
     #[inline(always)]
