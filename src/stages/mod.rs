@@ -1,4 +1,4 @@
-//! One subcommand a file: read, call the domain, write. Besides these:
+//! One subcommand a file, or a folder with its options beside it: read, call the domain, write. Besides these:
 //!
 //! ```text
 //! config             pipeline.yaml, the options of all

@@ -1,22 +1,23 @@
 //! simulate: every structure through every motion.
 
+mod options;
+
 use std::collections::HashSet;
 use std::path::Path;
 
 use anyhow::bail;
 use arrow_array::RecordBatch;
-use clap::Args;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+pub use self::options::SimulateOptions;
 use super::motions::{Peaks, SeenIds, record};
 use super::partitions::Share;
-use super::structures::{StructureSpec, Structures, parameters};
+use super::structures::parameters;
 use crate::motion::IntensityScratch;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
+use crate::pipeline::options::{Parsed, Several};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{
@@ -38,72 +39,6 @@ const PARTS_A_THREAD: usize = 4;
 const CHUNK: usize = 32;
 /// Quiet time after a traced record in which free rocking shows, s.
 const TRACE_TAIL_S: f64 = 10.0;
-
-/// Which structures, and which motions to look at.
-#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
-pub struct SimulateOptions {
-    /// Frequency parameter of the structure, rad/s
-    #[arg(long, default_value = "2.5")]
-    pub p: f64,
-    /// Slenderness of the structure, rad
-    #[arg(long, default_value = "0.20")]
-    pub alpha: f64,
-    /// Coefficient of restitution
-    #[arg(long, default_value = "0.92")]
-    pub eta: f64,
-    /// Structures from a YAML or CSV file: p, alpha, eta; or width and height of a block (m), with beam-mass-ratio for
-    /// a frame
-    #[arg(long, conflicts_with_all = ["p", "alpha", "eta"])]
-    pub structures: Option<Structures>,
-    /// How the solver works: scalar, or several motions at once with avx2 or avx512, which give the same bits and differ from
-    /// scalar by rounding [default: the fastest of this processor]
-    #[arg(long)]
-    pub path: Option<Word<SolverPath>>,
-    /// Motions whose response over time is written too, beside the output as NAME.trace.parquet
-    #[arg(long, value_name = "ID,...")]
-    pub trace: Option<Several<String>>,
-    /// Only partition i of n, i from 0 to n - 1: of a folder its file part-0000i.parquet, of a file an equal share of the motions;
-    /// the output is then a folder, too
-    #[arg(long, value_name = "I/N", conflicts_with = "trace")]
-    pub partition: Option<Parsed<Partition>>,
-}
-
-impl Default for SimulateOptions {
-    fn default() -> Self {
-        defaults()
-    }
-}
-
-impl SimulateOptions {
-    /// Makes the path of a structures file relative to `folder`, that of the pipeline file.
-    pub fn resolve_paths(&mut self, folder: &Path) {
-        if let Some(structures) = &mut self.structures {
-            structures.resolve_path(folder);
-        }
-    }
-
-    pub(super) fn path(&self) -> anyhow::Result<SolverPath> {
-        let Some(Word(path)) = self.path else { return Ok(SolverPath::fastest()) };
-        check(path.is_available(), "path", Word(path), "one that this processor has")?;
-        Ok(path)
-    }
-
-    pub(super) fn structures(&self) -> anyhow::Result<Vec<Structure>> {
-        match &self.structures {
-            Some(structures) => structures.resolve(),
-            None => {
-                let one = StructureSpec {
-                    p: Some(self.p),
-                    alpha: Some(self.alpha),
-                    eta: Some(self.eta),
-                    ..StructureSpec::default()
-                };
-                Ok(vec![one.structure()?])
-            }
-        }
-    }
-}
 
 /// The stage, ready to run.
 pub struct Simulate {

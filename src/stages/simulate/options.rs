@@ -1,0 +1,77 @@
+//! The options of simulate.
+
+use std::path::Path;
+
+use clap::Args;
+use serde::{Deserialize, Serialize};
+
+use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
+use crate::rocking::{Path as SolverPath, Structure};
+use crate::stages::structures::{StructureSpec, Structures};
+use crate::table::partition::Partition;
+
+/// Which structures, and which motions to look at.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct SimulateOptions {
+    /// Frequency parameter of the structure, rad/s
+    #[arg(long, default_value = "2.5")]
+    pub p: f64,
+    /// Slenderness of the structure, rad
+    #[arg(long, default_value = "0.20")]
+    pub alpha: f64,
+    /// Coefficient of restitution
+    #[arg(long, default_value = "0.92")]
+    pub eta: f64,
+    /// Structures from a YAML or CSV file: p, alpha, eta; or width and height of a block (m), with beam-mass-ratio for
+    /// a frame
+    #[arg(long, conflicts_with_all = ["p", "alpha", "eta"])]
+    pub structures: Option<Structures>,
+    /// How the solver works: scalar, or several motions at once with avx2 or avx512, which give the same bits and differ from
+    /// scalar by rounding [default: the fastest of this processor]
+    #[arg(long)]
+    pub path: Option<Word<SolverPath>>,
+    /// Motions whose response over time is written too, beside the output as NAME.trace.parquet
+    #[arg(long, value_name = "ID,...")]
+    pub trace: Option<Several<String>>,
+    /// Only partition i of n, i from 0 to n - 1: of a folder its file part-0000i.parquet, of a file an equal share of the motions;
+    /// the output is then a folder, too
+    #[arg(long, value_name = "I/N", conflicts_with = "trace")]
+    pub partition: Option<Parsed<Partition>>,
+}
+
+impl Default for SimulateOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+impl SimulateOptions {
+    /// Makes the path of a structures file relative to `folder`, that of the pipeline file.
+    pub fn resolve_paths(&mut self, folder: &Path) {
+        if let Some(structures) = &mut self.structures {
+            structures.resolve_path(folder);
+        }
+    }
+
+    pub(in crate::stages) fn path(&self) -> anyhow::Result<SolverPath> {
+        let Some(Word(path)) = self.path else { return Ok(SolverPath::fastest()) };
+        check(path.is_available(), "path", Word(path), "one that this processor has")?;
+        Ok(path)
+    }
+
+    pub(in crate::stages) fn structures(&self) -> anyhow::Result<Vec<Structure>> {
+        match &self.structures {
+            Some(structures) => structures.resolve(),
+            None => {
+                let one = StructureSpec {
+                    p: Some(self.p),
+                    alpha: Some(self.alpha),
+                    eta: Some(self.eta),
+                    ..StructureSpec::default()
+                };
+                Ok(vec![one.structure()?])
+            }
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The options of synthesize-motions.
+
+use std::path::Path;
+
+use anyhow::Context;
+use clap::Args;
+use serde::{Deserialize, Serialize};
+
+use crate::motion::stochastic::{LowCut, Site};
+use crate::motion::{Difference, Epoch, MotionModel, StochasticModel, Suite};
+use crate::pipeline::UsageError;
+use crate::pipeline::options::{Parsed, Several, Steps, Word, check, defaults};
+use crate::stages::sample_scenarios::DEFAULT_SEED;
+use crate::table::partition::Partition;
+use crate::table::text_file;
+
+/// The largest table of site amplification.
+const MOST_SITE_MIB: u64 = 1;
+
+/// How motions are made.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+pub struct SynthesizeMotionsOptions {
+    /// Seed of the noise [default: 42]
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Suites, parted by commas: pulse, csgm (pulse and high frequencies), hfc (high frequencies alone)
+    #[arg(long, default_value = "pulse,csgm")]
+    pub suite: Several<Word<Suite>>,
+    /// Time between samples, s
+    #[arg(long, default_value = "0.005")]
+    pub dt: f64,
+    /// What the high frequencies keep where the pulse is the stronger: absolute, signed, clamp or none (plain sum)
+    #[arg(long, default_value = "absolute")]
+    pub difference: Word<Difference>,
+    /// When the pulse peaks: at the peak of the envelope, or of the acceleration or velocity of the high frequencies
+    /// (envelope-peak, pga, pgv)
+    #[arg(long, default_value = "envelope-peak")]
+    pub epoch: Word<Epoch>,
+    /// Site amplification: rock, soil, none, or a CSV file of frequency in Hz and factor
+    #[arg(long, default_value = "rock")]
+    pub site: String,
+    /// Near-surface attenuation kappa, s
+    #[arg(long, default_value = "0.03")]
+    pub kappa: f64,
+    /// Corner of the filter 1/sqrt(1 + (f/fmax)^8), Hz [default: none]
+    #[arg(long)]
+    pub fmax: Option<f64>,
+    /// Corner of the high-pass filter 1/(1 + (fc/f)^(2n)), Hz [default: none]
+    #[arg(long)]
+    pub low_cut: Option<f64>,
+    /// Order n of the high-pass filter
+    #[arg(long, default_value = "4")]
+    pub low_cut_order: u32,
+    /// Also compute the Housner intensity, which doubles the time
+    #[arg(long)]
+    pub housner: bool,
+    /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers parted by
+    /// commas; sa_0p20_m_s2 is that at 0.2 s
+    #[arg(long)]
+    pub sa: Option<Steps>,
+    /// Scenarios in a row group: what is held in memory and read at once; the rows do not depend on it
+    #[arg(long, default_value = "128")]
+    pub row_group: usize,
+    /// Only partition i of n, i from 0 to n - 1: an equal share of the scenarios; the output is then a folder, in which it is
+    /// part-0000i.parquet
+    #[arg(long, value_name = "I/N")]
+    pub partition: Option<Parsed<Partition>>,
+}
+
+impl Default for SynthesizeMotionsOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+impl SynthesizeMotionsOptions {
+    pub(super) fn model(&self) -> anyhow::Result<MotionModel> {
+        check((1e-4..=0.1).contains(&self.dt), "dt", self.dt, "a time step from 0.0001 to 0.1 s")?;
+        check((0.0..=1.0).contains(&self.kappa), "kappa", self.kappa, "0 to 1 s")?;
+        for (option, corner) in [("fmax", self.fmax), ("low-cut", self.low_cut)] {
+            if let Some(corner) = corner {
+                check(corner > 0.0 && corner.is_finite(), option, corner, "a frequency above 0 Hz")?;
+            }
+        }
+        check((1..=20).contains(&self.low_cut_order), "low-cut-order", self.low_cut_order, "1 to 20")?;
+        check((1..=4096).contains(&self.row_group), "row-group", self.row_group, "1 to 4096 scenarios")?;
+        let low_cut = self.low_cut.map(|corner_hz| LowCut { corner_hz, order: self.low_cut_order });
+        Ok(MotionModel {
+            dt_s: self.dt,
+            difference: self.difference.0,
+            epoch: self.epoch.0,
+            stochastic: StochasticModel {
+                site: self.site()?,
+                kappa_s: self.kappa,
+                fmax_hz: self.fmax,
+                low_cut,
+            },
+            seed: self.seed.unwrap_or(DEFAULT_SEED),
+        })
+    }
+
+    fn site(&self) -> anyhow::Result<Site> {
+        match self.site.as_str() {
+            "rock" => Ok(Site::Rock),
+            "soil" => Ok(Site::Soil),
+            "none" => Ok(Site::None),
+            file => {
+                let expected = || {
+                    UsageError(format!(
+                        "site is '{file}'; expected rock, soil, none, or a CSV file with a header line"
+                    ))
+                };
+                let text = text_file::text(Path::new(file), MOST_SITE_MIB, "amplification by frequency")
+                    .with_context(expected)?;
+                let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize();
+                let rows = rows.collect::<Result<Vec<(f64, f64)>, _>>().with_context(expected)?;
+                Site::table(rows).with_context(expected)
+            }
+        }
+    }
+
+    pub(super) fn suites(&self) -> anyhow::Result<Vec<Suite>> {
+        let suites: Vec<Suite> = self.suite.0.iter().map(|word| word.0).collect();
+        let made = |suite: &Suite| matches!(suite, Suite::Pulse | Suite::Csgm | Suite::Hfc);
+        let distinct = (1..suites.len()).all(|k| !suites[..k].contains(&suites[k]));
+        let words: Vec<String> = self.suite.0.iter().map(ToString::to_string).collect();
+        let fine = !suites.is_empty() && suites.iter().all(made) && distinct;
+        check(fine, "suite", words.join(","), "some of pulse, csgm and hfc, each once")?;
+        Ok(suites)
+    }
+}
