@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
 use proptest::prelude::*;
+use rand_distr::{Distribution, StandardNormal};
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 use rockfrag::motion::pulse::largest_velocity;
@@ -13,6 +14,7 @@ use rockfrag::motion::{
     Design, Difference, Epoch, Grid, IntensityScratch, MotionModel, Pulse, Scenario, Suite, Synthesizer,
     Synthetic, intensity, measures,
 };
+use rockfrag::random::{Normals, Purpose, stream};
 
 const ALL: [Suite; 3] = [Suite::Pulse, Suite::Hfc, Suite::Csgm];
 const EPOCHS: [Epoch; 3] = [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv];
@@ -142,6 +144,33 @@ fn the_largest_velocity_of_a_pulse_has_its_published_values() {
     }
     // Of (1 + cos x) sin x / 2, in closed form.
     assert!((largest_velocity(1.0, FRAC_PI_2) - 3.0 * 3f64.sqrt() / 8.0).abs() < 1e-14);
+}
+
+#[test]
+fn normals_are_those_of_rand_distr() {
+    // Some 40,000 of these numbers need more than one number of the stream, and 1000 are in the tails.
+    let rows = [
+        (0, 2_000_000),
+        (1, 1),
+        (2, 511),
+        (3, 512),
+        (1 << 40, 1_000_000),
+        (3, 513),
+        (4, 0),
+        (u64::MAX, 50_000),
+    ];
+    let mut normals = Normals::new(42, Purpose::Noise);
+    for (row, count) in rows {
+        let mut ours = vec![0.0; count];
+        normals.fill(row, &mut ours);
+        let theirs = StandardNormal.sample_iter(stream(42, Purpose::Noise, row));
+        let differs = ours.iter().zip(theirs).position(|(a, b): (&f64, f64)| a.to_bits() != b.to_bits());
+        assert_eq!(differs, None, "row {row}");
+    }
+    let mut other = [0.0];
+    Normals::new(43, Purpose::Noise).fill(0, &mut other);
+    let first: f64 = StandardNormal.sample(&mut stream(43, Purpose::Noise, 0));
+    assert_eq!(other, [first]);
 }
 
 #[test]

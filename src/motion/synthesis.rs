@@ -1,6 +1,5 @@
 use std::sync::Arc;
 
-use rand_distr::{Distribution, StandardNormal};
 use realfft::num_complex::Complex64;
 
 use super::combine::{Difference, Epoch, combine};
@@ -10,7 +9,7 @@ use super::pulse::Pulse;
 use super::scenario::Scenario;
 use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window, quality_exponent};
 use super::suite::Suite;
-use crate::random::{Purpose, stream};
+use crate::random::{Normals, Purpose};
 use crate::units::CM_PER_M;
 use crate::wide::widest;
 
@@ -79,6 +78,7 @@ pub struct Synthesizer {
     combined: bool,
     axes: ByLength<FrequencyAxis>,
     earthquake: Option<Earthquake>,
+    normals: Normals,
     noise: Vec<Complex64>,
     pulse: Vec<Complex64>,
     scratch: Vec<Complex64>,
@@ -138,6 +138,7 @@ impl Synthesizer {
             high_frequency: suites.contains(&Suite::Hfc) || model.epoch != Epoch::EnvelopePeak,
             combined: suites.contains(&Suite::Csgm),
             synthetic: Synthetic { dt_s: model.dt_s, ..Synthetic::default() },
+            normals: Normals::new(model.seed, Purpose::Noise),
             model,
             axes: ByLength::default(),
             earthquake: None,
@@ -195,15 +196,15 @@ impl Synthesizer {
 
     /// Noise under the window, in `synthetic.high_frequency`.
     fn windowed_noise(&mut self, scenario: &Scenario, weights: &[f64], timeline: &Timeline) {
-        let mut random = stream(self.model.seed, Purpose::Noise, scenario.scenario_id as u64);
         let samples = &mut self.synthetic.high_frequency;
         samples.clear();
-        samples.resize(timeline.onset + 1, 0.0);
-        samples.extend(weights.iter().map(|weight| {
-            let normal: f64 = StandardNormal.sample(&mut random);
-            weight * normal
-        }));
         samples.resize(timeline.samples, 0.0);
+        let windowed = &mut samples[timeline.onset + 1..][..weights.len()];
+        self.normals.fill(scenario.scenario_id as u64, windowed);
+        widest(
+            #[inline(always)]
+            || windowed.iter_mut().zip(weights).for_each(|(sample, weight)| *sample *= weight),
+        );
     }
 
     /// Gives the noise the Fourier amplitude of the source, in `synthetic.high_frequency` if it is wanted and,

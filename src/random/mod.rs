@@ -1,7 +1,12 @@
 //! Counter-based random streams: the numbers of a row do not depend on which other rows are made.
 
+mod normals;
+mod words;
+
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+
+pub use normals::Normals;
 
 /// What random numbers are for. Streams of different purposes are independent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,8 +37,12 @@ impl Purpose {
 
 /// The stream of random numbers of a seed, a purpose and a row.
 pub fn stream(seed: u64, purpose: Purpose, row: u64) -> ChaCha8Rng {
-    let key = blake3::hash(format!("rockfrag {} {seed}", purpose.label()).as_bytes());
-    let mut generator = ChaCha8Rng::from_seed(*key.as_bytes());
+    let mut generator = ChaCha8Rng::from_seed(key(seed, purpose));
     generator.set_stream(row);
     generator
+}
+
+/// The key of all streams of a seed and a purpose.
+fn key(seed: u64, purpose: Purpose) -> [u8; 32] {
+    *blake3::hash(format!("rockfrag {} {seed}", purpose.label()).as_bytes()).as_bytes()
 }
