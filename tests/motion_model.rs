@@ -609,6 +609,16 @@ proptest! {
     }
 
     #[test]
+    fn the_largest_velocity_is_that_of_eq_1(gamma in 1.0..6.0f64, nu in -3.0..6.0f64) {
+        let pulse = Pulse { amplitude_m_s: 1.0, tp_s: 1.0, gamma, nu_rad: nu };
+        let points = 10_000;
+        let time = |k: usize| pulse.duration_s() * (k as f64 / points as f64 - 0.5);
+        let seen = (0..=points).map(|k| pulse.velocity_m_s(time(k)).abs()).fold(0.0, f64::max);
+        let f = largest_velocity(gamma, nu);
+        prop_assert!(seen <= f + 1e-15 && seen > f - 1e-4, "{seen}, {f}");
+    }
+
+    #[test]
     fn the_largest_velocity_has_the_symmetries_of_the_pulse(gamma in 1.0..4.0f64, nu in -3.0..6.0f64) {
         let f = largest_velocity(gamma, nu);
         prop_assert!(f > 0.6 && f <= 1.0 + 1e-14, "{f}");
