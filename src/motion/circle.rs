@@ -32,9 +32,11 @@ impl EqualSteps {
     pub fn stride(&self, stride: usize) -> SinCos {
         let (sin, cos) = libm::sincos(self.start + stride as f64 * STRIDE as f64 * self.step);
         let between = &self.between;
-        SinCos {
-            sin: std::array::from_fn(|k| sin * between.cos[k] + cos * between.sin[k]),
-            cos: std::array::from_fn(|k| cos * between.cos[k] - sin * between.sin[k]),
+        let mut angles = SinCos { sin: [0.0; STRIDE], cos: [0.0; STRIDE] };
+        for k in 0..STRIDE {
+            angles.sin[k] = sin * between.cos[k] + cos * between.sin[k];
+            angles.cos[k] = cos * between.cos[k] - sin * between.sin[k];
         }
+        angles
     }
 }

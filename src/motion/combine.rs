@@ -47,18 +47,29 @@ impl Difference {
 /// Steps 4 to 6 of section 2.1.3 on Fourier coefficients: the spectrum of the combined motion, D' exp(i arg H) + P, into
 /// `high_frequency`. The mean stays 0, so that the ground comes to rest.
 pub fn combine(high_frequency: &mut [Complex64], pulse: &[Complex64], difference: Difference) {
+    // One loop for each: a choice within it would keep it out of wide registers.
+    match difference {
+        Difference::Absolute => add(high_frequency, pulse, |ratio| Difference::Absolute.kept(ratio)),
+        Difference::Signed => add(high_frequency, pulse, |ratio| Difference::Signed.kept(ratio)),
+        Difference::Clamp => add(high_frequency, pulse, |ratio| Difference::Clamp.kept(ratio)),
+        Difference::None => add(high_frequency, pulse, |ratio| Difference::None.kept(ratio)),
+    }
+    if let Some(mean) = high_frequency.first_mut() {
+        *mean = Complex64::ZERO;
+    }
+}
+
+/// What is kept of the high frequencies, and the pulse.
+fn add(high_frequency: &mut [Complex64], pulse: &[Complex64], kept: impl Fn(f64) -> f64) {
     widest(
         #[inline(always)]
         || {
             for (h, p) in high_frequency.iter_mut().zip(pulse) {
                 let power = h.norm_sqr();
-                let kept = difference.kept((p.norm_sqr() / power).sqrt());
+                let kept = kept((p.norm_sqr() / power).sqrt());
                 // Where there is no high frequency there is no phase either.
                 *h = *h * if power > 0.0 { kept } else { 1.0 } + p;
             }
         },
     );
-    if let Some(mean) = high_frequency.first_mut() {
-        *mean = Complex64::ZERO;
-    }
 }

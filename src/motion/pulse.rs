@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use pulp::NullaryFnOnce;
+
 use super::circle::{EqualSteps, STRIDE};
 use super::scenario::Scenario;
 use crate::wide::widest;
@@ -54,28 +56,42 @@ impl Pulse {
         let x = wp * (first as f64 * dt_s - epoch_s);
         let envelope = EqualSteps::new(x / gamma, wp * dt_s / gamma);
         let carrier = EqualSteps::new(x + self.nu_rad, wp * dt_s);
-        let scale = self.amplitude_m_s * wp;
         acceleration_m_s2.clear();
         acceleration_m_s2.resize(samples, 0.0);
-        widest(
-            #[inline(always)]
-            || {
-                for (stride, samples) in acceleration_m_s2[first..last].chunks_mut(STRIDE).enumerate() {
-                    let (envelope, carrier) = (envelope.stride(stride), carrier.stride(stride));
-                    for (k, sample) in samples.iter_mut().enumerate() {
-                        let (envelope, carrier) =
-                            ((envelope.sin[k], envelope.cos[k]), (carrier.sin[k], carrier.cos[k]));
-                        *sample = scale * slope(envelope, carrier, gamma);
-                    }
-                }
-            },
-        );
+        let samples = &mut acceleration_m_s2[first..last];
+        widest(Slopes { envelope, carrier, gamma, scale: self.amplitude_m_s * wp, samples });
     }
 
     /// x = wp (t - t0) inside the pulse.
     fn phase(&self, time_s: f64) -> Option<f64> {
         let x = 2.0 * PI / self.tp_s * time_s;
         (x.abs() <= PI * self.gamma).then_some(x)
+    }
+}
+
+/// dv/dx of a pulse at equal steps, times a scale.
+struct Slopes<'a> {
+    envelope: EqualSteps,
+    carrier: EqualSteps,
+    gamma: f64,
+    scale: f64,
+    samples: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Slopes<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Slopes { envelope, carrier, gamma, scale, samples } = self;
+        for (stride, samples) in samples.chunks_mut(STRIDE).enumerate() {
+            let (envelope, carrier) = (envelope.stride(stride), carrier.stride(stride));
+            for (k, sample) in samples.iter_mut().enumerate() {
+                let (envelope, carrier) =
+                    ((envelope.sin[k], envelope.cos[k]), (carrier.sin[k], carrier.cos[k]));
+                *sample = scale * slope(envelope, carrier, gamma);
+            }
+        }
     }
 }
 
