@@ -1,6 +1,7 @@
 use std::f64::consts::PI;
 
-use super::{Passage, trapezoid};
+use super::passage::Passage;
+use super::trapezoid;
 use crate::units::G_M_S2;
 
 /// Arias intensity, m/s: pi/(2 g) times the trapezoidal integral of a^2.

@@ -2,12 +2,14 @@
 
 mod energy;
 mod fourier;
+mod passage;
 mod plan;
 mod spectral;
 
 pub use energy::{arias_intensity, cumulative_absolute_velocity, significant_duration};
 use energy::{arias_of, moment};
 pub use fourier::{IntensityScratch, mean_period};
+use passage::Passage;
 pub use plan::{MeasurePlan, Measured};
 pub use spectral::{housner_intensity, spectral_acceleration};
 
@@ -52,51 +54,30 @@ pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch)
     }
 }
 
-/// Trapezoidal integrals of a motion up to a sample, and the peaks so far: all in one pass, since each waits for its own last
-/// value.
-#[derive(Default)]
-struct Passage {
-    velocity_m_s: f64,
-    displacement_m: f64,
-    energy: f64,
-    pga_m_s2: f64,
-    pgv_m_s: f64,
-    pgd_m: f64,
-    cav_m_s: f64,
-}
-
-impl Passage {
-    /// With the integral of a^2 to each sample, of which the first is 0, m2/s3.
-    fn through(acceleration: &[f64], dt_s: f64, energy: &mut [f64]) -> Passage {
-        let mut p = Passage { pga_m_s2: acceleration.first().map_or(0.0, |a| a.abs()), ..Passage::default() };
-        for (pair, energy) in acceleration.windows(2).zip(energy.iter_mut().skip(1)) {
-            let velocity_m_s = p.velocity_m_s + trapezoid(dt_s, pair[0], pair[1]);
-            p.displacement_m += trapezoid(dt_s, p.velocity_m_s, velocity_m_s);
-            p.velocity_m_s = velocity_m_s;
-            p.energy += trapezoid(dt_s, pair[0] * pair[0], pair[1] * pair[1]);
-            *energy = p.energy;
-            p.pga_m_s2 = larger(p.pga_m_s2, pair[1].abs());
-            p.pgv_m_s = larger(p.pgv_m_s, velocity_m_s.abs());
-            p.pgd_m = larger(p.pgd_m, p.displacement_m.abs());
-            p.cav_m_s += trapezoid(dt_s, pair[0].abs(), pair[1].abs());
-        }
-        p
-    }
-}
-
 /// The integral between two samples.
+#[inline(always)]
 fn trapezoid(dt_s: f64, left: f64, right: f64) -> f64 {
     0.5 * dt_s * (left + right)
 }
 
 /// The larger of two numbers, in one instruction: the maximum of the standard library asks for NaN too.
+#[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
 /// The largest absolute value.
+#[inline(always)]
 pub fn peak(series: &[f64]) -> f64 {
-    series.iter().fold(0.0, |largest, value| larger(largest, value.abs()))
+    const LANES: usize = 8;
+    let (eights, rest) = series.as_chunks::<LANES>();
+    let mut largest = [0.0; LANES];
+    for eight in eights {
+        for lane in 0..LANES {
+            largest[lane] = larger(largest[lane], eight[lane].abs());
+        }
+    }
+    largest.iter().chain(rest).fold(0.0, |largest, value| larger(largest, value.abs()))
 }
 
 /// Ground velocity (m/s): the trapezoidal integral, 0 at the first sample.
