@@ -148,7 +148,7 @@ fn the_largest_velocity_of_a_pulse_has_its_published_values() {
 
 #[test]
 fn normals_are_those_of_rand_distr() {
-    // Some 40,000 of these numbers need more than one number of the stream, and 1000 are in the tails.
+    // Some 40,000 of these numbers need more than one number of the stream, and 800 are in the tails.
     let rows = [
         (0, 2_000_000),
         (1, 1),
