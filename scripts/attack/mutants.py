@@ -9,7 +9,8 @@ The mutants are those of cargo-mutants, but a build holds many: each function be
 is wanted, which an environment variable says. What is always inlined is mutated in a build of its own, or copies would
 multiply; constants and functions that return `impl Trait` are mutated one by one. A mutant that does not end counts as caught once
 it has used several times the processor time of all tests. Results are appended, one JSON object a line; what stands there
-already is not tried again. `--only REGEX` takes those whose names match, `--sample N` so many of them by chance.
+already is not tried again. `--only REGEX` takes those whose names match, `--sample N` so many of them by chance; `--inlined` those
+of functions that are always inlined, with one build for a file: of a sample, there are few copies.
 """
 
 import argparse
@@ -196,6 +197,26 @@ def outcome(executable: str, test: str, number: int, folder: Path) -> tuple[str,
 
 def builds(crate: Path, mutants: list[dict]) -> list[Build]:
     """All that can share a build, functions that are always inlined one at a time, and the rest one by one."""
+    together, inlined, single = sorted_out(crate, mutants)
+    groups = ([together] if together else []) + list(inlined.values())
+    return [Build(crate, group, True) for group in groups] + [Build(crate, [mutant], False) for mutant in single]
+
+
+def inlined_files(crate: Path, mutants: list[dict], sample: int | None) -> list[Build]:
+    """Some of the mutants of functions that are always inlined, a build a file."""
+    found = list(itertools.chain(*sorted_out(crate, mutants)[1].values()))
+    files = defaultdict(list)
+    for mutant in sampled(found, sample):
+        files[mutant["file"]].append(mutant)
+    return [Build(crate, group, True) for group in files.values()]
+
+
+def sampled(mutants: list[dict], number: int | None) -> list[dict]:
+    return mutants if number is None else random.Random(1).sample(mutants, min(number, len(mutants)))
+
+
+def sorted_out(crate: Path, mutants: list[dict]) -> tuple[list[dict], dict[tuple, list[dict]], list[dict]]:
+    """Those that can share a build, those of each function that is always inlined, and the rest."""
     together, inlined, single = [], defaultdict(list), []
     sources = {}
     for mutant in mutants:
@@ -211,8 +232,7 @@ def builds(crate: Path, mutants: list[dict]) -> list[Build]:
             inlined[mutant["file"], source.body(function)].append(mutant)
         else:
             together.append(mutant)
-    groups = ([together] if together else []) + list(inlined.values())
-    return [Build(crate, group, True) for group in groups] + [Build(crate, [mutant], False) for mutant in single]
+    return together, inlined, single
 
 
 def main() -> None:
@@ -223,6 +243,7 @@ def main() -> None:
     parser.add_argument("files", nargs="+")
     parser.add_argument("--only", default="")
     parser.add_argument("--sample", type=int, help="so many of them, by chance")
+    parser.add_argument("--inlined", action="store_true", help="of functions that are always inlined, a build a file")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
     crate = options.crate.resolve()
@@ -231,8 +252,10 @@ def main() -> None:
     done = options.results.read_text().splitlines() if options.results.exists() else []
     done = {json.loads(line)["name"] for line in done}
     mutants = [mutant for mutant in mutants if mutant["name"] not in done and re.search(options.only, mutant["name"])]
-    if options.sample is not None:
-        mutants = random.Random(1).sample(mutants, min(options.sample, len(mutants)))
+    if options.inlined:
+        wanted = inlined_files(crate, mutants, options.sample)
+    else:
+        wanted = builds(crate, sampled(mutants, options.sample))
     folder = options.results.resolve().with_suffix(".empty")
     folder.mkdir(parents=True, exist_ok=True)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended"))  # so that the sources are put back
@@ -242,7 +265,7 @@ def main() -> None:
             results.write(json.dumps({"name": mutant["name"], "outcome": how, "by": by}) + "\n")
             results.flush()
 
-        for build in builds(crate, mutants):
+        for build in wanted:
             try:
                 executable = build.make(options.test)
                 numbered = [(n, mutant) for n, mutant in enumerate(build.mutants, 1) if n not in build.unviable]
