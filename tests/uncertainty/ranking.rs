@@ -1,8 +1,8 @@
 //! The ranking of measures against statsmodels and scipy (scripts/reference/ranking.py), and what it must not depend on.
 
 use rockfrag::fragility::{
-    Case, Contest, FitStatus, Folds, Form, FurtherMeasure, OfPaper, Ranked, RankingRules, RankingSample,
-    Target, is_separated,
+    Candidate, Case, Contest, FitStatus, Folds, Form, FurtherMeasure, Measure, OfPaper, Ranked, RankingRules,
+    RankingSample, Rating, Target, fit_biplanar, is_separated,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::rocking::Outcome;
@@ -147,6 +147,42 @@ fn no_case_is_foretold_with_the_help_of_its_own_cluster() {
     for k in 0..data.x.len() {
         let (p, q) = (probability(&before, k, original.event[k]), probability(&after, k, data.event[k]));
         assert_eq!((p - q).abs() < 1e-9, data.cells[k].is_multiple_of(10), "{k}: {p}, {q}");
+    }
+}
+
+#[test]
+fn a_break_is_found_without_the_cases_that_it_foretells() {
+    let data = data();
+    let two_planes = |transition: Option<f64>| -> Rating {
+        let cases = cases(&data, Target::Demand);
+        let sample = RankingSample::new(Target::Demand, &cases, &data.cells, &[], 0.1);
+        let mut pair = [Measure::Im4, Measure::Im3].map(|measure| sample.place(measure).unwrap());
+        pair.sort_unstable();
+        let contest = Contest::new(sample, &RankingRules { transition, ..RULES });
+        let planes = |candidate: &&Candidate| candidate.form == Form::Broken && candidate.measures == pair;
+        contest.rate(contest.candidates.iter().find(planes).unwrap()).unwrap()
+    };
+    let folds = Folds::new(&data.cells, RULES.folds).unwrap();
+    let break_without = |fold: Option<usize>| {
+        let kept = (0..data.x.len()).filter(|&case| Some(folds.of[case]) != fold);
+        fit_biplanar(&cases(&data.rows(kept), Target::Demand), None).unwrap().transition
+    };
+    let log_scores = |rating: &Rating| rating.unseen.as_ref().unwrap().log_scores.clone();
+    let (found, of_all) = (two_planes(None), break_without(None));
+    let likelihood = two_planes(Some(of_all)).log_likelihood;
+    assert!((found.log_likelihood - likelihood).abs() < 1e-9, "{} for {likelihood}", found.log_likelihood);
+    let breaks: Vec<f64> = (0..folds.count).map(|fold| break_without(Some(fold))).collect();
+    assert!(breaks.iter().any(|&at| at != of_all), "the cases left out have no say: {breaks:?}");
+    for (fold, &at) in breaks.iter().enumerate() {
+        let (scores, given) = (log_scores(&found), log_scores(&two_planes(Some(at))));
+        for case in (0..data.x.len()).filter(|&case| folds.of[case] == fold) {
+            assert!(
+                (scores[case] - given[case]).abs() < 1e-9,
+                "{case}: {} for {}",
+                scores[case],
+                given[case]
+            );
+        }
     }
 }
 
