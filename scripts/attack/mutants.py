@@ -9,8 +9,8 @@ The mutants are those of cargo-mutants, but a build holds many: each function be
 is wanted, which an environment variable says. What is always inlined is mutated in a build of its own, or copies would
 multiply; constants and functions that return `impl Trait` are mutated one by one. A mutant that does not end counts as caught once
 it has used several times the processor time of all tests. Results are appended, one JSON object a line; what stands there
-already is not tried again. `--only REGEX` takes those whose names match, `--sample N` so many of them by chance; `--inlined` those
-of functions that are always inlined, with one build for a file: of a sample, there are few copies.
+already is not tried again. `--only REGEX` takes those whose names match, `--sample N` so many of them by chance. Of a sample there are few
+copies: `--inlined file` takes those of functions that are always inlined, with a build for each file, or `folder`.
 """
 
 import argparse
@@ -202,13 +202,14 @@ def builds(crate: Path, mutants: list[dict]) -> list[Build]:
     return [Build(crate, group, True) for group in groups] + [Build(crate, [mutant], False) for mutant in single]
 
 
-def inlined_files(crate: Path, mutants: list[dict], sample: int | None) -> list[Build]:
-    """Some of the mutants of functions that are always inlined, a build a file."""
+def inlined_builds(crate: Path, mutants: list[dict], sample: int | None, together: str) -> list[Build]:
+    """Some of the mutants of functions that are always inlined."""
     found = list(itertools.chain(*sorted_out(crate, mutants)[1].values()))
-    files = defaultdict(list)
+    groups = defaultdict(list)
     for mutant in sampled(found, sample):
-        files[mutant["file"]].append(mutant)
-    return [Build(crate, group, True) for group in files.values()]
+        file = Path(mutant["file"])
+        groups[file if together == "file" else file.parent].append(mutant)
+    return [Build(crate, group, True) for group in groups.values()]
 
 
 def sampled(mutants: list[dict], number: int | None) -> list[dict]:
@@ -243,7 +244,7 @@ def main() -> None:
     parser.add_argument("files", nargs="+")
     parser.add_argument("--only", default="")
     parser.add_argument("--sample", type=int, help="so many of them, by chance")
-    parser.add_argument("--inlined", action="store_true", help="of functions that are always inlined, a build a file")
+    parser.add_argument("--inlined", choices=["file", "folder"], help="those that are always inlined, a build for each")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
     crate = options.crate.resolve()
@@ -253,7 +254,7 @@ def main() -> None:
     done = {json.loads(line)["name"] for line in done}
     mutants = [mutant for mutant in mutants if mutant["name"] not in done and re.search(options.only, mutant["name"])]
     if options.inlined:
-        wanted = inlined_files(crate, mutants, options.sample)
+        wanted = inlined_builds(crate, mutants, options.sample, options.inlined)
     else:
         wanted = builds(crate, sampled(mutants, options.sample))
     folder = options.results.resolve().with_suffix(".empty")
