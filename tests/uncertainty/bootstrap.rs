@@ -100,6 +100,29 @@ fn refits_of_few_cases_are_those_of_repeated_cases_or_none() {
 }
 
 #[test]
+fn a_case_that_does_not_count_may_lie_anywhere() {
+    let (near, mut far) = (data(), data());
+    // By the curve of the others its probability is zero, which has no finite logarithm.
+    let columns = [&mut far.x, &mut far.y, &mut far.demand];
+    columns.into_iter().zip([600.0, 0.0, 0.0]).for_each(|(column, value)| column.push(value));
+    far.event.push(false);
+    far.cells.push(20);
+    let rows = near.x.len();
+    let counts: Vec<f64> = (0..=rows).map(|row| if row < rows { 1.0 } else { 0.0 }).collect();
+    let model = CurveModel { link: Link::Cloglog, ..CurveModel::default() };
+    let expected = fit_overturning(&near.event_sample("x"), &model).unwrap().regression;
+    let sample = far.event_sample("x");
+    let fit = fit_overturning(&sample, &model).unwrap().regression;
+    let [by_refits, ..] = CurveRefits::new(&sample, &fit).coefficients(&Resamples::alike(&counts));
+    let by_inference = CurveInference::new(&sample, &fit).coefficients(&counts);
+    for refit in [by_refits.unwrap(), by_inference.unwrap()] {
+        let standard_errors = expected.covariance.diagonal().map(f64::sqrt);
+        let apart = (refit - &expected.coefficients).component_div(&standard_errors);
+        assert!(apart.amax() < 1e-3, "{apart}");
+    }
+}
+
+#[test]
 fn a_break_in_a_resample_is_that_of_repeated_cases() {
     let cases = smooth_cases();
     let counts = counts(cases.len());
