@@ -232,6 +232,8 @@ impl Stage for Simulate {
                 Ok(())
             },
         )?;
+        // Its footer is read once more at the end, to see that the file is the same: not two of them at a time.
+        drop(motions);
         if !self.traced.is_empty() {
             self.expect_traced(&traces)?;
             let mut trace_writer = motions::writer(self.trace_target(), &TRACE, by_name, provenance)?;
