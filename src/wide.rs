@@ -5,7 +5,8 @@ use pulp::x86::{V3, V4};
 use pulp::{NullaryFnOnce, Scalar, Simd, WithSimd};
 
 /// Runs `work` compiled for the widest registers that the processor has; its loops, and what it calls, must be inlined to
-/// gain by it. A closure that changes what it captures is inlined only if it is short; a struct always is. The results have the same bits on any processor: what is fused is so everywhere, and nothing is reordered.
+/// gain by it. A closure that changes what it captures is inlined only if it is short; a struct always is. The results have
+/// the same bits on any processor: what is fused is so everywhere, and nothing is reordered.
 pub fn widest<T>(work: impl NullaryFnOnce<Output = T>) -> T {
     widest_registers(Plain(work))
 }
