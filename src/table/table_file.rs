@@ -130,7 +130,7 @@ impl TableFile {
             .with_batch_size(batch_size)
             .with_projection(narrow)
             .with_row_groups(vec![group]);
-        if rows < self.rows_of_groups()[group] {
+        if rows < of_group.num_rows().unsigned_abs() {
             builder = builder.with_offset(first as usize).with_limit(rows as usize);
         }
         Ok(RowGroup {
