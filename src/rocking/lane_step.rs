@@ -1,6 +1,6 @@
 //! A step of all lanes at once: what [`super::march`] does for one structure. The Taylor polynomial to the next sample, its
-//! first root if it strikes before, the peak. Where the curvature keeps its sign over the step, which is nearly always, the
-//! ends tell all; what is rare is left to the scalar code for the lane that needs it.
+//! first root if it strikes before, the peak. Where the curvature or the slope keeps its sign over the step, which is nearly
+//! always, the ends tell all; what is rare is left to the scalar code for the lane that needs it.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -50,15 +50,21 @@ pub struct Step<S: Simd> {
 }
 
 impl<S: Simd> Step<S> {
-    /// The lanes whose slope keeps its sign over the whole step, since its first term outweighs all others.
+    /// The lanes, of those `asked` for, whose curvature or slope keeps its sign over the whole step; the second of these is only
+    /// looked at where the first does not.
     #[inline(always)]
-    fn steady(&self) -> Mask<S> {
+    fn keeps_a_sign(&self, asked: Mask<S>) -> Mask<S> {
+        let curvature = self.concave | self.convex;
+        if !(asked & !curvature).any() {
+            return curvature;
+        }
+        // By how much the slope changes at most.
         let r = &self.rotation;
         let mut change = r[0].like(0.0);
         for (k, coefficient) in r.iter().enumerate().skip(2) {
             change = coefficient.abs().mul_add(r[0].like(k as f64), change);
         }
-        change.le(r[1].abs())
+        curvature | change.le(r[1].abs())
     }
 }
 
@@ -148,12 +154,9 @@ impl<S: Simd> Lanes<'_, S> {
         let below = step.last.lt(zero);
         let starts_above = zero.lt(c[0]) | zero.lt(c[1]);
         let monotone = step.end.velocity.le(zero) | zero.le(c[1]);
-        let mut convex = step.convex;
-        if (doubtful & !(step.concave | step.convex)).any() {
-            convex = convex | step.steady();
-        }
-        let strikes = below & starts_above & (step.concave | convex);
-        let passes = !below & (step.concave | (convex & monotone));
+        let plain = step.keeps_a_sign(doubtful);
+        let strikes = below & starts_above & plain;
+        let passes = !below & (step.concave | (plain & monotone));
         let mut lanes = strikes & doubtful;
         let mut until = one;
         if lanes.any() {
@@ -185,11 +188,7 @@ impl<S: Simd> Lanes<'_, S> {
         let r = &step.rotation;
         let higher = self.peak.lt(step.high);
         let turns = step.concave & zero.lt(r[1]) & step.end.velocity.lt(zero);
-        let mut ends = step.concave | step.convex;
-        if (higher & !ends).any() {
-            ends = ends | step.steady();
-        }
-        let ends = higher & ends & !turns;
+        let ends = higher & step.keeps_a_sign(higher) & !turns;
         self.peak = ends.select(self.peak.max(step.end.rotation), self.peak);
         let mut left = higher & !ends;
         if (left & turns).any() {
