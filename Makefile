@@ -63,14 +63,14 @@ unsafe: Cargo.lock
 # Faults of the machine, 200 times each (as root), and inputs by chance; fuzz/ has longer ones.
 attack: | $(ROCKFRAG)
 	python3 scripts/attack/faults.py $(ROCKFRAG) 200
-	PROPTEST_CASES=100000 cargo test --locked --test robust
+	PROPTEST_CASES=100000 cargo test --release --locked --test robust
 
 # A headless Chromium looks at the report.
 check-report: $(OUT)/report.html
 	scripts/check_report.sh $(ROCKFRAG) $(OUT)
 
 test:
-	cargo test --locked
+	cargo test --release --locked
 
 clean:
 	rm -rf $(OUT)

@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 
-COMMAND = pathlib.Path(os.environ.get("ROCKFRAG", pathlib.Path(__file__).parents[2] / "target/debug/rockfrag"))
+COMMAND = pathlib.Path(os.environ.get("ROCKFRAG", pathlib.Path(__file__).parents[2] / "target/release/rockfrag"))
 
 SCENARIOS = {"mw": "6.5,7.5", "re": "5,10", "samples": 10, "seed": 7}
 MOTIONS = {"dt": 0.01, "seed": 7}
