@@ -10,13 +10,14 @@ use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use rockfrag::fragility::{
     Case, CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits,
-    DemandSample, Estimate, Estimator, EventSample, FitStatus, Limits, Measure, Strata, bootstrap,
-    bootstrap_limits, fit_overturning, t_quantile,
+    DemandSample, EventSample, Measure, fit_overturning,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::normal::quantile;
 use rockfrag::random::{Purpose, stream};
+use rockfrag::resampling::{Strata, bootstrap};
 use rockfrag::rocking::Outcome;
+use rockfrag::statistics::{Estimate, Estimator, FitStatus, Limits, bootstrap_limits, t_quantile};
 
 /// The truth: a lognormal curve, of one measure or of two, and a power law of the demand.
 const MU: f64 = 0.3;

@@ -5,12 +5,13 @@ mod paper_model;
 use paper_model::{BETA, LAMBDA, MU, equipment, model};
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    DemandLaw, Link, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits, ResampledModel,
-    Slice, least_squares, p_exceeding, p_failure_given_rocking, p_overturning, ranges,
+    DemandLaw, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits, ResampledModel, Slice,
+    p_exceeding, p_failure_given_rocking, p_overturning, ranges,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::normal;
+use rockfrag::statistics::{Link, least_squares};
 
 fn at(pga_m_s2: f64, pgv_m_s: f64) -> IntensityMeasures {
     IntensityMeasures::new(&equipment(), pga_m_s2, pgv_m_s, None, None)

@@ -4,13 +4,15 @@ use std::collections::HashMap;
 
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Case, CurveModel, DemandSample, Estimator, EventSample, FitStatus, Link, Measure, OverturningFit, PLANE,
-    Plane, TransitionSearch, auc, binary_regression, brier_score, fit_biplanar, fit_overturning,
-    fit_univariate, is_separated, least_squares, p_exceeding, p_failure_given_rocking, p_no_rocking,
-    p_overturning, t_quantile,
+    Case, CurveModel, DemandSample, EventSample, Measure, OverturningFit, PLANE, Plane, TransitionSearch,
+    fit_biplanar, fit_overturning, fit_univariate, p_exceeding, p_failure_given_rocking, p_no_rocking,
+    p_overturning,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
+use rockfrag::statistics::{
+    Estimator, FitStatus, Link, auc, binary_regression, brier_score, is_separated, least_squares, t_quantile,
+};
 
 struct Data {
     x: Vec<f64>,

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Case, CurveModel, Estimator, EventSample, FitStatus, Link, Measure, OverturningFit, Plane, auc,
-    binary_regression, fit_overturning, has_few_events, is_separated, p_failure, p_failure_given_rocking,
-    p_no_rocking, rms_difference,
+    Case, CurveModel, EventSample, Measure, OverturningFit, Plane, fit_overturning, has_few_events,
+    p_failure, p_failure_given_rocking, p_no_rocking, rms_difference,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
+use rockfrag::statistics::{Estimator, FitStatus, Link, auc, binary_regression, is_separated};
 
 /// A hybrid curve of measures whose logarithms are x and y.
 fn hybrid(x: &[f64], y: &[f64], events: &[bool]) -> Result<OverturningFit, FitStatus> {

@@ -1,8 +1,9 @@
 //! Annual rates against closed forms.
 
-use rockfrag::fragility::{Link, p_overturning};
+use rockfrag::fragility::p_overturning;
 use rockfrag::hazard::{HazardCurve, HazardError, JointHazard, PairOfPeaks, probability_in_years};
 use rockfrag::normal;
+use rockfrag::statistics::Link;
 
 /// H = k0 IM^-k at `n` intensities from 1e-4 to 1e4.
 fn power_law(k0: f64, k: f64, n: usize) -> HazardCurve {

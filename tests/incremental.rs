@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
-use rockfrag::fragility::{FitStatus, KnownCapacity, fit_capacities};
+use rockfrag::fragility::{KnownCapacity, fit_capacities};
 use rockfrag::rocking::{
     Capacity, CapacityStatus, Look, Outcome, Path, Problem, Record, Response, SafeWindow, Scan, Structure,
     simulate_all,
 };
+use rockfrag::statistics::FitStatus;
 use rockfrag::units::G_M_S2;
 
 /// So slender that the equation of motion is linear.

@@ -2,14 +2,16 @@
 
 use std::collections::HashMap;
 
-use rockfrag::fragility::{
-    Branch, Case, Curve, CurveForm, CurveSubject, DemandModel, DemandSample, FitStatus, PLANE,
-    PooledStructure, PooledTerms, Transfer, Verdict, calibration_slope, fit_pooled,
-};
+use rockfrag::fragility::{Case, DemandModel, DemandSample, PLANE};
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::normal;
 use rockfrag::rocking::Outcome;
+use rockfrag::statistics::FitStatus;
+use rockfrag::studies::{
+    Branch, Curve, CurveForm, CurveSubject, PooledStructure, PooledTerms, Transfer, Verdict,
+    calibration_slope, fit_pooled,
+};
 
 /// structure, ln p, ln alpha, eta, im4, im3, overturned, edp
 type Row = (usize, f64, f64, f64, f64, f64, u8, f64);

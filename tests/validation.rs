@@ -1,9 +1,8 @@
 //! Forecasts against what happened: closed forms, and numbers of scipy 1.16 where there are none.
 
-use rockfrag::fragility::{
-    Forecast, Limits, PoissonBinomial, Probability, Validation, auc, calibration_in_the_large,
-    expected_log_score, log_score, wilson_limits,
-};
+use rockfrag::fragility::Probability;
+use rockfrag::statistics::{Limits, PoissonBinomial, auc, expected_log_score, log_score};
+use rockfrag::studies::{Forecast, Validation, calibration_in_the_large, wilson_limits};
 
 #[track_caller]
 fn close(value: f64, expected: f64, tolerance: f64) {

@@ -2,12 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::FitStatus;
 use super::index::Z_95;
-use super::limits::Limits;
-use super::newton::{Along, Objective, maximise};
 use super::slice::Lognormal;
 use crate::normal::{inverse_mills, ln_cdf};
+use crate::statistics::FitStatus;
+use crate::statistics::limits::Limits;
+use crate::statistics::newton::{Along, Objective, maximise};
 
 /// What is known of a capacity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,5 +1,5 @@
-use super::link::Link;
 use crate::normal;
+use crate::statistics::link::Link;
 
 /// Probability that the demand exceeds `limit` in safe rocking, of the logarithm of its median and its dispersion beta:
 /// Phi((ln Dm - ln c) / beta). Eq. 14 prints the argument with the other sign, by which it would fall with demand.

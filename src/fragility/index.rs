@@ -3,7 +3,7 @@
 use crate::normal;
 
 /// The 97.5 % quantile of the normal distribution.
-pub(super) const Z_95: f64 = 1.959_963_984_540_054;
+pub(crate) const Z_95: f64 = 1.959_963_984_540_054;
 
 /// A probability with its 95 % limits of confidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,7 +51,10 @@ impl ProbitIndex {
             -normal::quantile(survival)
         } else {
             let p_exceeding = normal::cdf(exceeding.value);
-            normal::quantile(super::p_failure_given_rocking(normal::cdf(overturning.value), p_exceeding))
+            normal::quantile(crate::fragility::p_failure_given_rocking(
+                normal::cdf(overturning.value),
+                p_exceeding,
+            ))
         };
         if !value.is_finite() {
             return ProbitIndex { value, standard_error: 0.0 };

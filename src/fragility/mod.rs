@@ -54,141 +54,31 @@
 //! curve_inference   all of these for a curve, demand_inference for a regression of the demand
 //! ```
 
-mod bent_curve;
-mod binary;
-mod bootstrap;
-mod candidate;
-mod capacity;
-mod case;
-mod case_terms;
-mod contest;
-mod curve;
-mod curve_inference;
-mod curve_parameter;
-mod curve_refits;
-mod demand;
-mod demand_inference;
-mod demand_refits;
-mod demand_sample;
-mod dependence;
-mod derivatives;
-mod design_matrix;
-mod distribution;
-mod event_sample;
-mod expansion;
-mod firth;
-mod folds;
-mod forecast;
-mod goodness;
-mod index;
-mod influence;
-mod limits;
-mod link;
-mod link_series;
-mod model;
-mod monomials;
-mod newton;
-mod normal_equations;
-mod overlap;
-mod overturning;
-mod poisson_binomial;
-mod pooled;
-mod predictor;
-mod profile;
-mod ranking;
-mod ranking_sample;
-mod rate_demand;
-mod rate_overturning;
-mod rating;
-mod regression;
-mod resampled;
-mod separation;
-mod skill;
-mod slice;
-mod smooth;
-mod spline;
-mod transfer;
-mod transition;
-mod triangle;
-mod universality;
-mod validation;
+pub(crate) mod capacity;
+pub(crate) mod case;
+pub(crate) mod curve;
+pub(crate) mod demand;
+pub(crate) mod index;
+pub(crate) mod model;
+pub(crate) mod overturning;
+pub(crate) mod predictor;
+pub(crate) mod resampled;
+pub(crate) mod slice;
 
-pub use bent_curve::{fit_with_interaction, fit_with_spline};
-pub use binary::{BinaryError, BinaryFit, binary_regression};
-pub use bootstrap::{Resamples, Strata, TOGETHER, bootstrap, bootstrap_each};
-pub use candidate::{Candidate, Form};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Measure};
-pub use contest::{Contest, RankingRules};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
-pub use curve_inference::CurveInference;
-pub use curve_parameter::CurveParameter;
-pub use curve_refits::CurveRefits;
-pub use demand::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
-pub use demand_inference::{DemandInference, DemandReplicate};
-pub use demand_refits::DemandRefits;
-pub use demand_sample::DemandSample;
-pub use derivatives::Score;
-pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
-pub use event_sample::EventSample;
-pub use firth::Estimator;
-pub use folds::{Folds, Gain, gain};
-pub use forecast::{Forecast, Forecasts, Foretold};
-pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
+pub use demand::{
+    Biplanar, Break, DemandInference, DemandRefits, DemandReplicate, DemandSample, PLANE, Plane, ScanPoint,
+    SmoothFit, Transition, TransitionSearch, fit_biplanar, fit_plane, fit_smooth, fit_univariate,
+    rms_difference, transition_limits,
+};
 pub use index::{Probability, ProbitIndex};
-pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
-pub use link::{Information, Link};
-pub use link_series::ln_probability_series;
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
-pub use overturning::{CurveModel, OverturningFit, fit_overturning, has_few_events};
-pub use poisson_binomial::PoissonBinomial;
-pub use pooled::{PooledFit, PooledPart, PooledStructure, PooledTerm, PooledTerms, fit_pooled};
+pub use overturning::{
+    CurveInference, CurveModel, CurveParameter, CurveRefits, EventSample, OverturningFit, fit_overturning,
+    fit_with_interaction, fit_with_spline, has_few_events,
+};
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
-pub use ranking::{OfPaper, Ranked};
-pub use ranking_sample::{FurtherMeasure, RankingSample, Target};
-pub use rating::{Rating, ReliabilityGroup, Skill, Unseen};
-pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
 pub use resampled::{ReplicateLimits, ResampledModel};
-pub use separation::is_separated;
-pub use skill::{auc, brier_score, expected_log_score, log_score};
 pub use slice::{Lognormal, Peak, Slice};
-pub use smooth::{SmoothFit, fit_smooth};
-pub use spline::natural_spline;
-pub use transfer::{Branch, Curve, CurveForm, CurveSubject};
-pub use transition::{Break, ScanPoint, Transition, TransitionSearch, transition_limits};
-pub use universality::{BesideOwn, Transfer, Verdict};
-pub use validation::{Validation, calibration_in_the_large, calibration_slope, wilson_limits};
-
-use crate::keyword::keywords;
-
-/// Whether there is a fit, and if not, why.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FitStatus {
-    /// There is.
-    Ok,
-    /// There is, but what it is about falls as the measure (of two, the hybrid or the first) grows.
-    Falling,
-    /// Fewer cases than the fit needs.
-    TooFewCases,
-    /// Fewer events, or fewer non-events, than say anything about a probability.
-    TooFewEvents,
-    /// The measure tells the outcomes apart without overlap: the likelihood has no maximum.
-    Separated,
-    /// A measure, or the demand, does not vary.
-    Constant,
-    /// The measures do not vary independently of each other.
-    Collinear,
-    /// The iterations did not come to an end.
-    NotConverged,
-}
-
-keywords!(FitStatus {
-    Ok = "ok",
-    Falling = "falling",
-    TooFewCases = "too_few_cases",
-    TooFewEvents = "too_few_events",
-    Separated = "separated",
-    Constant = "constant",
-    Collinear = "collinear",
-    NotConverged = "not_converged",
-});

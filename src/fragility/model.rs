@@ -66,7 +66,7 @@ impl DemandModel {
 
 /// Whether a measure outside of the range lies where there are no data. IM4 has no lower end: whatever rocks is at or above
 /// uplift, and so are the data.
-pub(super) fn has_no_data(out: &OutOfRange) -> bool {
+pub(crate) fn has_no_data(out: &OutOfRange) -> bool {
     out.measure != Measure::Im4 || out.value > out.range[1]
 }
 
@@ -136,7 +136,7 @@ impl FragilityModel {
     }
 
     /// P_ex, P_ro and the probability of failure (Eq. 12) given rocking, without limits; none where a measure is missing.
-    pub(super) fn given(&self, measures: &IntensityMeasures) -> Option<[f64; 3]> {
+    pub(crate) fn given(&self, measures: &IntensityMeasures) -> Option<[f64; 3]> {
         let law = self.demand.law(measures);
         let p_ex = p_exceeding(law.ln_median.at(measures)?.value, self.limit, law.beta);
         let p_ro = normal::cdf(self.overturning.at(measures)?.value);
@@ -161,7 +161,7 @@ impl FragilityModel {
     }
 
     /// Those of P_ex.
-    pub(super) fn demand_out_of_range(
+    pub(crate) fn demand_out_of_range(
         &self,
         measures: &IntensityMeasures,
     ) -> impl Iterator<Item = OutOfRange> {
@@ -169,7 +169,7 @@ impl FragilityModel {
     }
 
     /// Those of P_ro.
-    pub(super) fn overturning_out_of_range(
+    pub(crate) fn overturning_out_of_range(
         &self,
         measures: &IntensityMeasures,
     ) -> impl Iterator<Item = OutOfRange> {

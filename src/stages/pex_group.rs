@@ -8,11 +8,12 @@ use super::groups::Group;
 use super::pex_refits::PexRefits;
 use super::uncertainty::Uncertainty;
 use crate::fragility::{
-    Biplanar, DemandInference, DemandSample, FitStatus, LinearFit, Measure, PLANE, ScanPoint, SmoothFit,
-    Strata, bootstrap_limits, fit_biplanar, fit_plane, fit_smooth, fit_univariate, ranges, reset,
-    transition_limits,
+    Biplanar, DemandInference, DemandSample, Measure, PLANE, ScanPoint, SmoothFit, fit_biplanar, fit_plane,
+    fit_smooth, fit_univariate, ranges, transition_limits,
 };
 use crate::pipeline::console::Progress;
+use crate::resampling::Strata;
+use crate::statistics::{FitStatus, LinearFit, bootstrap_limits, reset};
 use crate::table::pex::{Model, PexReplicate, PexRow};
 use crate::table::pex_scan::ScanRow;
 

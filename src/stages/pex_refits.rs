@@ -2,9 +2,8 @@
 
 use super::groups::Group;
 use super::pex_group::{EVERYWHERE, sample};
-use crate::fragility::{
-    DemandRefits, DemandReplicate, DemandSample, PLANE, Resamples, TOGETHER, TransitionSearch,
-};
+use crate::fragility::{DemandRefits, DemandReplicate, DemandSample, PLANE, TransitionSearch};
+use crate::resampling::{Resamples, TOGETHER};
 use crate::table::pex::{Model, PexReplicate, PexRow};
 
 /// The regressions of a group, to be made anew.

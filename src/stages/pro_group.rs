@@ -6,12 +6,13 @@ use super::fit_pro::{FittedEvent, Pair};
 use super::groups::Group;
 use super::uncertainty::Uncertainty;
 use crate::fragility::{
-    BinaryFit, CurveInference, CurveModel, CurveParameter, CurveRefits, Estimator, EventSample, FitStatus,
-    Measure, Strata, bootstrap_limits, fit_overturning, fit_with_interaction, fit_with_spline,
-    likelihood_ratio, ranges,
+    CurveInference, CurveModel, CurveParameter, CurveRefits, EventSample, Measure, fit_overturning,
+    fit_with_interaction, fit_with_spline, ranges,
 };
 use crate::keyword::Keyword;
 use crate::pipeline::console::Progress;
+use crate::resampling::Strata;
+use crate::statistics::{BinaryFit, Estimator, FitStatus, bootstrap_limits, likelihood_ratio};
 use crate::table::pro::{ParameterInference, ProRow};
 
 /// How all curves are made.

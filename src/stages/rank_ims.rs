@@ -10,11 +10,11 @@ use serde_json::{Value, json};
 
 use super::fit_pex::TransitionAt;
 use super::groups::{self, Group};
-use crate::fragility::{Contest, FurtherMeasure, RankingRules, RankingSample, Target};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, defaults};
 use crate::pipeline::stage::Stage;
+use crate::studies::{Contest, FurtherMeasure, RankingRules, RankingSample, Target};
 use crate::table::motion_measures::MotionMeasures;
 use crate::table::provenance::Provenance;
 use crate::table::ranking::{self, RankingRow};

@@ -1,9 +1,9 @@
 //! How uncertain the fits are: the options that fit-pex and fit-pro share, checked.
 
 use super::sample_scenarios::DEFAULT_SEED;
-use crate::fragility::{Resamples, Strata, TOGETHER, bootstrap_each};
 use crate::pipeline::console::Progress;
 use crate::pipeline::options::check;
+use crate::resampling::{Resamples, Strata, TOGETHER, bootstrap_each};
 
 /// More than this is a slip of the finger.
 const MOST_REPLICATES: usize = 1_000_000;

@@ -8,8 +8,9 @@ use super::columns::Columns;
 use super::reader::Batches;
 use super::schema::{self, Column, Kind, PEX, PRO, Table};
 use super::source::Source;
-use crate::fragility::{DemandLaw, FitStatus, Link, Measure, Predictor};
+use crate::fragility::{DemandLaw, Measure, Predictor};
 use crate::keyword::{self, Keyword};
+use crate::statistics::{FitStatus, Link};
 
 /// A row of a file of fits.
 #[derive(Debug, Clone, PartialEq)]

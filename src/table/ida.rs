@@ -11,9 +11,11 @@ use super::reader::{Batch, Batches};
 use super::responses::{self, ResponseRow};
 use super::schema::{IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
 use super::text;
-use crate::fragility::{CapacityFit, FitStatus, wilson_limits};
+use crate::fragility::CapacityFit;
 use crate::keyword::Keyword;
 use crate::rocking::{Capacity, CapacityStatus, SafeWindow, Structure};
+use crate::statistics::FitStatus;
+use crate::studies::wilson_limits;
 
 /// What a scan says of a structure under a motion.
 #[derive(Debug, Clone, PartialEq)]

@@ -12,10 +12,9 @@ use polars::prelude::{ChunkCompareEq, DataFrame};
 use super::TableError;
 use super::frame::read_frame;
 use super::schema::{self, Column, PEX};
-use crate::fragility::{
-    BootstrapLimits, DemandReplicate, Estimate, FitStatus, Limits, LinearFit, Measure, Test,
-};
+use crate::fragility::{DemandReplicate, Measure};
 use crate::keyword::{Keyword, keywords};
+use crate::statistics::{BootstrapLimits, Estimate, FitStatus, Limits, LinearFit, Test};
 
 /// The form of a regression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

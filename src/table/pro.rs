@@ -12,11 +12,9 @@ use polars::prelude::{ChunkCompareEq, DataFrame};
 use super::TableError;
 use super::frame::read_frame;
 use super::schema::{self, Column, PRO};
-use crate::fragility::{
-    BootstrapLimits, CurveModel, CurveParameter, Estimate, FitStatus, Limits, Link, Measure, OverturningFit,
-    Test, has_few_events,
-};
+use crate::fragility::{CurveModel, CurveParameter, Measure, OverturningFit, has_few_events};
 use crate::keyword::{self, Keyword};
+use crate::statistics::{BootstrapLimits, Estimate, FitStatus, Limits, Link, Test};
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]

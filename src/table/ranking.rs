@@ -6,8 +6,9 @@ use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 
 use super::schema::{RANKING, RANKING_RELIABILITY};
-use crate::fragility::{FitStatus, OfPaper, Ranked, Rating, ReliabilityGroup, Target, Unseen, wilson_limits};
 use crate::keyword::Keyword;
+use crate::statistics::FitStatus;
+use crate::studies::{OfPaper, Ranked, Rating, ReliabilityGroup, Target, Unseen, wilson_limits};
 
 /// One candidate.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,11 +6,10 @@ use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 
 use super::schema::{POOLED, UNIVERSALITY};
-use crate::fragility::{
-    BesideOwn, Branch, FitStatus, PooledPart, PooledTerm, PooledTerms, Transfer, Validation,
-};
 use crate::keyword::Keyword;
 use crate::rocking::Structure;
+use crate::statistics::FitStatus;
+use crate::studies::{BesideOwn, Branch, PooledPart, PooledTerm, PooledTerms, Transfer, Validation};
 
 /// The curve of one structure on another.
 #[derive(Debug, Clone, PartialEq)]

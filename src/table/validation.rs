@@ -9,8 +9,8 @@ use arrow_schema::ArrowError;
 use super::reader::{Batch, Batches, expect_columns};
 use super::schema::{self, VALIDATION};
 use super::text;
-use crate::fragility::{Foretold, Validation};
 use crate::keyword::Keyword;
+use crate::studies::{Foretold, Validation};
 
 /// One event, foretold and seen.
 #[derive(Debug, Clone, PartialEq)]

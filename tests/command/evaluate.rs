@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use arrow_array::{ArrayRef, Float64Array};
-use rockfrag::fragility::{Link, p_failure_given_rocking, p_overturning};
+use rockfrag::fragility::{p_failure_given_rocking, p_overturning};
+use rockfrag::statistics::Link;
 use rockfrag::table::fits::{FitRow, curves};
 use rockfrag::table::schema;
 

@@ -4,9 +4,10 @@ use std::convert::Infallible;
 
 use rockfrag::fragility::{
     Case, CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits,
-    DemandSample, FitStatus, Link, Measure, Resamples, Strata, TransitionSearch, acceleration, bootstrap,
-    bootstrap_each, bootstrap_limits, fit_overturning,
+    DemandSample, Measure, TransitionSearch, fit_overturning,
 };
+use rockfrag::resampling::{Resamples, Strata, bootstrap, bootstrap_each};
+use rockfrag::statistics::{FitStatus, Link, acceleration, bootstrap_limits};
 
 use crate::data::{answers, data, distribution, smooth_cases};
 

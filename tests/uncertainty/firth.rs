@@ -1,10 +1,8 @@
 //! Firth's estimator against firthmodels (logistic) and the penalised likelihood in 30 digits (the other links).
 
-use rockfrag::fragility::{
-    BinaryFit, CurveInference, CurveModel, CurveParameter, Estimator, FitStatus, Link, binary_regression,
-    fit_overturning, is_separated,
-};
+use rockfrag::fragility::{CurveInference, CurveModel, CurveParameter, fit_overturning};
 use rockfrag::keyword::Keyword;
+use rockfrag::statistics::{BinaryFit, Estimator, FitStatus, Link, binary_regression, is_separated};
 
 use crate::data::{Data, answers, data};
 

@@ -1,11 +1,14 @@
 //! Tests of fit, bent curves and the smooth transition against statsmodels and scipy; and what is diagnosed.
 
 use rockfrag::fragility::{
-    Case, CurveModel, DemandSample, Estimator, FitStatus, Link, Measure, TransitionSearch,
-    chi_squared_upper_tail, f_upper_tail, fit_overturning, fit_smooth, fit_with_interaction, fit_with_spline,
-    hosmer_lemeshow, least_squares, likelihood_ratio, reset, transition_limits,
+    Case, CurveModel, DemandSample, Measure, TransitionSearch, fit_overturning, fit_smooth,
+    fit_with_interaction, fit_with_spline, transition_limits,
 };
 use rockfrag::keyword::Keyword;
+use rockfrag::statistics::{
+    Estimator, FitStatus, Link, chi_squared_upper_tail, f_upper_tail, hosmer_lemeshow, least_squares,
+    likelihood_ratio, reset,
+};
 
 use crate::data::{answers, data, smooth_cases};
 
@@ -82,7 +85,7 @@ fn the_smooth_transition_equals_scipys() {
         }
     }
     assert!(fit.reset.unwrap().p > 0.01, "{:?}", fit.reset);
-    let far = |im4: f64, plane: &rockfrag::fragility::LinearFit| {
+    let far = |im4: f64, plane: &rockfrag::statistics::LinearFit| {
         let b = plane.values();
         (fit.ln_demand(im4, 1.0) - (b[0] + b[1] * im4.ln())).abs()
     };

@@ -1,6 +1,6 @@
 //! The Taylor series of the log-likelihood of a case.
 
-use rockfrag::fragility::{Link, ln_probability_series};
+use rockfrag::statistics::{Link, ln_probability_series};
 
 /// What is left out at t = 0.1 is below 1e-14.
 const TERMS: usize = 16;

@@ -1,7 +1,8 @@
 //! Each link against statsmodels and pyFragility.
 
-use rockfrag::fragility::{CurveModel, CurveParameter, Estimator, Link, binary_regression, fit_overturning};
+use rockfrag::fragility::{CurveModel, CurveParameter, fit_overturning};
 use rockfrag::keyword::Keyword;
+use rockfrag::statistics::{Estimator, Link, binary_regression};
 
 use crate::data::{answers, data};
 

@@ -1,11 +1,13 @@
 //! The ranking of measures against statsmodels and scipy (scripts/reference/ranking.py), and what it must not depend on.
 
-use rockfrag::fragility::{
-    Candidate, Case, Contest, FitStatus, Folds, Form, FurtherMeasure, Measure, OfPaper, Ranked, RankingRules,
-    RankingSample, Rating, Target, fit_biplanar, is_separated,
-};
+use rockfrag::fragility::{Case, Measure, fit_biplanar};
 use rockfrag::keyword::Keyword;
 use rockfrag::rocking::Outcome;
+use rockfrag::statistics::{FitStatus, is_separated};
+use rockfrag::studies::{
+    Candidate, Contest, Folds, Form, FurtherMeasure, OfPaper, Ranked, RankingRules, RankingSample, Rating,
+    Target,
+};
 
 use crate::data::{Data, data, ranking_answers};
 

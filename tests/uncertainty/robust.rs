@@ -1,11 +1,11 @@
 //! Profile-likelihood limits and clustered errors against pyFragility and statsmodels.
 
 use rockfrag::fragility::{
-    CurveInference, CurveModel, CurveParameter, DemandInference, Estimator, EventSample, Link,
-    binary_regression, fit_overturning,
+    CurveInference, CurveModel, CurveParameter, DemandInference, EventSample, fit_overturning,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::normal;
+use rockfrag::statistics::{Estimator, Link, binary_regression};
 
 use crate::data::{answers, data};
 

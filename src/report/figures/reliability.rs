@@ -1,6 +1,6 @@
 //! Reliability: what was foretold against what was seen.
 
-use crate::fragility::{DemandModel, Measure, wilson_limits};
+use crate::fragility::{DemandModel, Measure};
 use crate::normal;
 use crate::report::axis::Axis;
 use crate::report::drawing::{Dash, Ink};
@@ -9,6 +9,7 @@ use crate::report::label::Label;
 use crate::report::legend::{Mark, legend};
 use crate::report::material::{Group, Material, Seen};
 use crate::report::panel::Panel;
+use crate::studies::wilson_limits;
 
 /// The probability of an event in each case, and whether it happened.
 type Forecasts = Vec<(f64, bool)>;

@@ -13,15 +13,16 @@ pub use words::show;
 
 use super::fits::ModelForm;
 use super::groups::{self, Group};
-use crate::fragility::{
-    Branch, CurveForm, CurveSubject, FitStatus, Measure, PooledFit, PooledStructure, PooledTerms, Transfer,
-    fit_pooled,
-};
+use crate::fragility::Measure;
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{Word, check, defaults};
 use crate::pipeline::stage::Stage;
+use crate::statistics::FitStatus;
+use crate::studies::{
+    Branch, CurveForm, CurveSubject, PooledFit, PooledStructure, PooledTerms, Transfer, fit_pooled,
+};
 use crate::table::provenance::Provenance;
 use crate::table::schema::{POOLED, UNIVERSALITY};
 use crate::table::source::{Source, Target, with_part};

@@ -3,8 +3,9 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::fragility::{Branch, FitStatus, PooledTerms, Verdict, least_squares};
 use crate::keyword::Keyword;
+use crate::statistics::{FitStatus, least_squares};
+use crate::studies::{Branch, PooledTerms, Verdict};
 use crate::table::fits::{self, FitRow};
 use crate::table::schema::{self, Column, POOLED, UNIVERSALITY};
 use crate::table::source::with_part;

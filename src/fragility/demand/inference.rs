@@ -1,0 +1,99 @@
+//! How sure a regression of the demand is: clustered errors and refits of resampled cases.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::sample::DemandSample;
+use crate::resampling::bootstrap::Strata;
+use crate::statistics::design_matrix::DesignMatrix;
+use crate::statistics::influence::Influence;
+use crate::statistics::limits::acceleration;
+use crate::statistics::regression::LinearFit;
+
+/// A regression of resampled cases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DemandReplicate {
+    /// Intercept first.
+    pub coefficients: Vec<f64>,
+    /// Dispersion beta.
+    pub residual_sd: f64,
+}
+
+impl DemandReplicate {
+    /// Coefficients and dispersion.
+    pub fn parameters(&self) -> impl Iterator<Item = f64> {
+        self.coefficients.iter().copied().chain(std::iter::once(self.residual_sd))
+    }
+}
+
+/// A regression with cases: those it was fitted to, or for refits a larger sample.
+pub struct DemandInference<'a> {
+    sample: &'a DemandSample,
+    coefficients: DVector<f64>,
+    residual_sd: f64,
+    /// The inverse of X'X.
+    bread: DMatrix<f64>,
+    rss: f64,
+    n: usize,
+    design: DesignMatrix,
+    residuals: Vec<f64>,
+    influence: Influence,
+}
+
+impl<'a> DemandInference<'a> {
+    /// Of a regression to any sample of the same measures. Least squares being quadratic, one Newton step leads from
+    /// one sample to another.
+    pub fn new(sample: &'a DemandSample, fit: &LinearFit) -> DemandInference<'a> {
+        let (design, coefficients) = (sample.design(), fit.values());
+        let fitted = design.indices(coefficients.as_slice());
+        let residuals: Vec<f64> = sample.ln_edp.iter().zip(fitted).map(|(y, fitted)| y - fitted).collect();
+        let influence = Influence::of_residuals(residuals.clone());
+        let bread = &fit.covariance / fit.residual_sd.powi(2);
+        let LinearFit { residual_sd, rss, n, .. } = *fit;
+        DemandInference { sample, coefficients, residual_sd, bread, rss, n, design, residuals, influence }
+    }
+
+    /// Standard errors of the coefficients where cases of one cluster may depend on each other; `clusters` are those of
+    /// all cases. Of the sample of the fit.
+    pub fn clustered_errors(&self, clusters: &[usize]) -> Vec<f64> {
+        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
+        let covariance = self.influence.clustered_covariance(&self.design, &self.bread, &clusters);
+        covariance.diagonal().iter().map(|variance| variance.sqrt()).collect()
+    }
+
+    /// The fit itself.
+    pub fn fitted(&self) -> DemandReplicate {
+        let coefficients = self.coefficients.as_slice().to_vec();
+        DemandReplicate { coefficients, residual_sd: self.residual_sd }
+    }
+
+    /// The regression where each case of the sample counts so often; none if they do not determine it.
+    pub fn refit(&self, weights: &[f64]) -> Option<DemandReplicate> {
+        let change = self.influence.step(&self.design, weights)?;
+        let degrees = weights.iter().sum::<f64>() - change.len() as f64;
+        let shifts = self.design.indices(change.as_slice());
+        let square = |((residual, shift), weight): ((&f64, f64), &f64)| weight * (residual - shift).powi(2);
+        let rss: f64 = self.residuals.iter().zip(shifts).zip(weights).map(square).sum();
+        (degrees > 0.0).then(|| DemandReplicate {
+            coefficients: (&self.coefficients + change).as_slice().to_vec(),
+            residual_sd: (rss / degrees).sqrt(),
+        })
+    }
+
+    /// Of coefficients and dispersion, for BCa limits. Of the sample of the fit.
+    pub fn accelerations(&self, strata: &Strata) -> Vec<f64> {
+        let fit = self.fitted();
+        let mut without_each = vec![fit.clone(); strata.rows()];
+        let degrees = (self.n - 1 - fit.coefficients.len()) as f64;
+        let changes = self.influence.without_each(&self.design, &self.bread);
+        let cases = self.sample.rows.iter().zip(&self.residuals).zip(self.design.rows());
+        for (((&row, residual), x), change) in cases.zip(changes) {
+            let rss = self.rss - residual * (residual - x.dot(&change));
+            without_each[row].residual_sd = (rss / degrees).sqrt();
+            without_each[row].coefficients.iter_mut().zip(&change).for_each(|(b, change)| *b += change);
+        }
+        let parameter = |k: usize| -> Vec<f64> {
+            without_each.iter().filter_map(|fit| fit.parameters().nth(k)).collect()
+        };
+        (0..=fit.coefficients.len()).map(|k| acceleration(&parameter(k), strata)).collect()
+    }
+}

@@ -1,0 +1,129 @@
+//! P_ro: the probability of overturning given rocking, as a lognormal curve (Eqs. 19-24).
+
+use super::parameter::CurveParameter;
+use super::sample::EventSample;
+use crate::normal;
+use crate::statistics::FitStatus;
+use crate::statistics::binary::{BinaryFit, binary_regression};
+use crate::statistics::dependence::{Dependence, dependence};
+use crate::statistics::firth::Estimator;
+use crate::statistics::goodness::{Test, hosmer_lemeshow};
+use crate::statistics::link::Link;
+use crate::statistics::regression::Estimate;
+use crate::statistics::separation::is_separated;
+use crate::statistics::skill::{auc, brier_score};
+
+/// A curve from fewer events, or non-events, would be an opinion; Firth's needs one, and says in its limits how little it
+/// knows.
+const LEAST_EVENTS: usize = 5;
+
+/// With fewer events, or non-events, for each coefficient, limits by the standard errors of lambda, mu and beta are too narrow, and so
+/// are those of small probabilities by resamples; those by the profile likelihood, and of probabilities by the delta method, are not
+/// (`tests/coverage.rs`).
+const EVENTS_A_COEFFICIENT: usize = 10;
+
+/// Whether so few of `n` cases are events, or are not, that some limits of a curve of so many measures are too narrow.
+pub fn has_few_events(events: usize, n: usize, measures: usize) -> bool {
+    events.min(n - events) < EVENTS_A_COEFFICIENT * (1 + measures)
+}
+
+/// How a curve is fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveModel {
+    /// How the index becomes a probability.
+    pub link: Link,
+    /// What is maximised.
+    pub estimator: Estimator,
+    /// Probability with which the limits hold the truth.
+    pub confidence: f64,
+}
+
+impl Default for CurveModel {
+    fn default() -> CurveModel {
+        CurveModel { link: Link::Probit, estimator: Estimator::Ml, confidence: 0.95 }
+    }
+}
+
+/// A fitted fragility curve: Phi((ln IM - mu) / beta), or with another link as [`CurveParameter`] says. Errors by the
+/// delta method, limits by the normal distribution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OverturningFit {
+    /// The regression behind it.
+    pub regression: BinaryFit,
+    /// Exponent of the first measure; of two only.
+    pub lambda: Option<Estimate>,
+    /// ln of the median.
+    pub mu: Estimate,
+    /// Dispersion.
+    pub beta: Estimate,
+    /// Median exp(mu); its limits are those of mu.
+    pub theta: Estimate,
+    /// Akaike's criterion.
+    pub aic: f64,
+    /// Bayesian criterion.
+    pub bic: f64,
+    /// Area under the receiver operating characteristic.
+    pub auc: f64,
+    /// Brier score.
+    pub brier: f64,
+    /// Hosmer and Lemeshow's test of the probabilities, where there are cases enough.
+    pub hosmer_lemeshow: Option<Test>,
+    /// Cases used.
+    pub n: usize,
+    /// Those in which the event happened.
+    pub events: usize,
+}
+
+impl OverturningFit {
+    /// Whether the probability grows with the measure.
+    pub fn status(&self) -> FitStatus {
+        if self.beta.value > 0.0 { FitStatus::Ok } else { FitStatus::Falling }
+    }
+}
+
+/// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood (Eq. 20).
+///
+/// # Errors
+/// With the status that says why there is no curve: too few events, measures that do not vary, separation, no convergence.
+pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<OverturningFit, FitStatus> {
+    let (n, events) = (sample.happened.len(), sample.events());
+    let least = if model.estimator == Estimator::Firth { 1 } else { LEAST_EVENTS };
+    if events < least || n - events < least {
+        return Err(FitStatus::TooFewEvents);
+    }
+    let predictors = sample.predictors();
+    match dependence(&predictors) {
+        Some(Dependence::Constant) => return Err(FitStatus::Constant),
+        Some(Dependence::Collinear) => return Err(FitStatus::Collinear),
+        None => {}
+    }
+    if model.estimator == Estimator::Ml && is_separated(&predictors, &sample.happened) {
+        return Err(FitStatus::Separated);
+    }
+    let regression = binary_regression(&predictors, &sample.happened, model.link, model.estimator)
+        .map_err(|_| FitStatus::NotConverged)?;
+    let scores = regression.indices(&sample.design());
+    let probabilities: Vec<f64> = scores.iter().map(|&score| model.link.probability(score)).collect();
+    let log_likelihood = regression.log_likelihood;
+    let b = &regression.coefficients;
+    let quantile = normal::quantile(0.5 * (1.0 + model.confidence));
+    let estimate = |parameter: CurveParameter| {
+        let error = parameter.standard_error(model.link, b, &regression.covariance);
+        Estimate::symmetric(parameter.value(model.link, b), error, quantile)
+    };
+    let (parameters, mu) = (b.len() as f64, estimate(CurveParameter::Mu));
+    Ok(OverturningFit {
+        lambda: (b.len() == 3).then(|| estimate(CurveParameter::Lambda)),
+        mu,
+        beta: estimate(CurveParameter::Beta),
+        theta: mu.exp(),
+        aic: 2.0 * parameters - 2.0 * log_likelihood,
+        bic: parameters * (n as f64).ln() - 2.0 * log_likelihood,
+        auc: auc(&scores, &sample.happened),
+        brier: brier_score(&probabilities, &sample.happened),
+        hosmer_lemeshow: hosmer_lemeshow(&probabilities, &sample.happened),
+        n,
+        events,
+        regression,
+    })
+}

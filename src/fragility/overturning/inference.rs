@@ -1,0 +1,120 @@
+//! How sure the parameters of a curve are: clustered errors, profile-likelihood limits and refits of resampled cases.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::parameter::CurveParameter;
+use super::profile::profile_limits;
+use super::sample::EventSample;
+use crate::resampling::bootstrap::Strata;
+use crate::statistics::binary::{BinaryFit, BinaryLikelihood};
+use crate::statistics::design_matrix::DesignMatrix;
+use crate::statistics::firth::Estimator;
+use crate::statistics::influence::Influence;
+use crate::statistics::limits::{Limits, acceleration};
+use crate::statistics::newton::{Along, Maximum, maximise};
+use crate::statistics::separation::is_separated;
+
+/// What the last step may gain in log-likelihood. It then moves the coefficients by some 1e-3 of their standard errors, and
+/// Newton's convergence squares that.
+pub(crate) const TOLERANCE: f64 = 1e-6;
+/// Plain Newton steps from nearby are fewer than this; more raise the suspicion that there is no maximum.
+const SUSPICIOUS_STEPS: usize = 6;
+
+/// A curve with the cases it was fitted to.
+pub struct CurveInference<'a> {
+    sample: &'a EventSample,
+    fit: &'a BinaryFit,
+    design: DesignMatrix,
+    once_each: Vec<f64>,
+    influence: Influence,
+}
+
+impl<'a> CurveInference<'a> {
+    /// Of a curve and the sample it was fitted to.
+    pub fn new(sample: &'a EventSample, fit: &'a BinaryFit) -> CurveInference<'a> {
+        let design = sample.design();
+        let influence = Influence::of_regression(fit, &design, &sample.happened);
+        CurveInference { sample, fit, design, once_each: vec![1.0; sample.happened.len()], influence }
+    }
+
+    /// The covariance of the coefficients where cases of one cluster may depend on each other; `clusters` are those of all
+    /// cases.
+    pub fn clustered_covariance(&self, clusters: &[usize]) -> DMatrix<f64> {
+        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
+        self.influence.clustered_covariance(&self.design, &self.fit.covariance, &clusters)
+    }
+
+    /// The standard error of a parameter that follows from a covariance of the coefficients.
+    pub fn standard_error(&self, parameter: CurveParameter, covariance: &DMatrix<f64>) -> f64 {
+        parameter.standard_error(self.fit.link, &self.fit.coefficients, covariance)
+    }
+
+    /// Limits of a parameter by the profile likelihood.
+    pub fn profile_limits(&self, parameter: CurveParameter, confidence: f64) -> Limits {
+        profile_limits(&self.likelihood(&self.once_each), self.fit, parameter, confidence)
+    }
+
+    /// The coefficients where each case of the sample counts so often; none without a maximum of the likelihood.
+    pub fn coefficients(&self, weights: &[f64]) -> Option<DVector<f64>> {
+        let step = || self.influence.step(&self.design, weights);
+        let likelihood = self.fit.estimator == Estimator::Ml;
+        self.maximum(weights, likelihood.then(step).flatten().map(|step| &self.fit.coefficients + step))
+    }
+
+    /// The same, by plain Newton steps of the likelihood alone if they may start nearby.
+    pub(crate) fn maximum(&self, weights: &[f64], nearby: Option<DVector<f64>>) -> Option<DVector<f64>> {
+        let likelihood = self.likelihood(weights);
+        if let Some(start) = nearby {
+            let plain = maximise(|b| likelihood.derivatives_at(b), &start, Along::All, TOLERANCE);
+            if let Some(Maximum { at, .. }) = plain.filter(|maximum| maximum.steps < SUSPICIOUS_STEPS) {
+                return Some(at);
+            }
+        }
+        if self.fit.estimator == Estimator::Ml && self.separated(weights) {
+            return None;
+        }
+        likelihood.maximise(&self.fit.coefficients, Along::All, TOLERANCE).map(|maximum| maximum.at)
+    }
+
+    /// The parameters of the curve.
+    pub fn curve_parameters(&self) -> &'static [CurveParameter] {
+        CurveParameter::of_curve(self.fit.coefficients.len())
+    }
+
+    /// A parameter of the fit itself.
+    pub fn fitted(&self, parameter: CurveParameter) -> f64 {
+        parameter.value(self.fit.link, &self.fit.coefficients)
+    }
+
+    /// A parameter in each of these refits; none where there is no fit or its slope has the other sign.
+    pub fn parameters(&self, parameter: CurveParameter, refits: &[Option<DVector<f64>>]) -> Vec<Option<f64>> {
+        let value = |b: &DVector<f64>| parameter.refitted(self.fit.link, b, &self.fit.coefficients);
+        refits.iter().map(|b| b.as_ref().and_then(value)).collect()
+    }
+
+    /// The acceleration of a parameter for BCa limits.
+    pub fn acceleration(&self, parameter: CurveParameter, strata: &Strata) -> f64 {
+        let (link, fitted) = (self.fit.link, &self.fit.coefficients);
+        let mut without_each = vec![self.fitted(parameter); strata.rows()];
+        let changes = self.influence.without_each(&self.design, &self.fit.covariance);
+        for (&row, change) in self.sample.rows.iter().zip(changes) {
+            without_each[row] = parameter.value(link, &(fitted + change));
+        }
+        acceleration(&without_each, strata)
+    }
+
+    fn likelihood<'b>(&'b self, weights: &'b [f64]) -> BinaryLikelihood<'b> {
+        let BinaryFit { link, estimator, .. } = *self.fit;
+        BinaryLikelihood { design: &self.design, events: &self.sample.happened, weights, link, estimator }
+    }
+
+    fn separated(&self, weights: &[f64]) -> bool {
+        let drawn = |values: &[f64]| -> Vec<f64> {
+            values.iter().zip(weights).filter(|(_, weight)| **weight > 0.0).map(|(x, _)| *x).collect()
+        };
+        let columns: Vec<Vec<f64>> = self.sample.predictors().into_iter().map(drawn).collect();
+        let events = self.sample.happened.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
+        let events: Vec<bool> = events.map(|(event, _)| *event).collect();
+        is_separated(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), &events)
+    }
+}

@@ -1,0 +1,153 @@
+//! Limits of confidence by the profile likelihood: no symmetry is assumed, and no limit where the likelihood sets none.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::parameter::{CurveParameter, slope};
+use crate::normal;
+use crate::statistics::binary::{BinaryFit, BinaryLikelihood};
+use crate::statistics::limits::Limits;
+use crate::statistics::newton::Along;
+
+/// What the last Newton step to a constrained maximum may gain.
+const TOLERANCE: f64 = 1e-13;
+/// To which limits are exact, in standard errors.
+const CLOSE: f64 = 1e-10;
+/// Steps outwards, each twice the last, before a limit counts as infinitely far.
+const MOST_STEPS: usize = 20;
+/// Steps of the search between two places.
+const MOST_TRIALS: usize = 60;
+
+/// The values of a parameter at which the likelihood, maximised over all else, lies within half the quantile of chi
+/// squared of its maximum (Venzon & Moolgavkar 1988, Applied Statistics 37, 87-94; for a penalised likelihood Heinze &
+/// Schemper 2002, Statistics in Medicine 21, 2409-2419). Infinite where it never falls so far.
+pub fn profile_limits(
+    likelihood: &BinaryLikelihood,
+    fit: &BinaryFit,
+    parameter: CurveParameter,
+    confidence: f64,
+) -> Limits {
+    let depth = normal::quantile(0.5 * (1.0 + confidence));
+    let profile = Profile { likelihood, fit, parameter };
+    let (below, above) = (profile.limit(-1.0, depth), profile.limit(1.0, depth));
+    match parameter {
+        CurveParameter::Lambda | CurveParameter::Mu => Limits { low: below, high: above },
+        // The slope is what is varied; it has the sign of the fit throughout.
+        CurveParameter::Beta => Limits { low: 1.0 / above, high: 1.0 / below },
+    }
+}
+
+/// The profile of a likelihood over lambda, mu or, for beta, the slope 1/beta, in which it is regular.
+struct Profile<'a> {
+    likelihood: &'a BinaryLikelihood<'a>,
+    fit: &'a BinaryFit,
+    parameter: CurveParameter,
+}
+
+/// A place on the profile.
+struct Place {
+    /// Of the parameter.
+    value: f64,
+    /// Where the likelihood is largest there.
+    coefficients: DVector<f64>,
+    /// The root of twice how far it lies below the maximum of all.
+    depth: f64,
+}
+
+impl Profile<'_> {
+    /// The value on one side of the fit at which the profile has this depth.
+    fn limit(&self, side: f64, depth: f64) -> f64 {
+        let b = &self.fit.coefficients;
+        let (value, error) = match self.parameter {
+            CurveParameter::Beta => {
+                (slope(b), self.fit.covariance.view((1, 1), (b.len() - 1, b.len() - 1)).sum().sqrt())
+            }
+            parameter => {
+                let error = parameter.standard_error(self.fit.link, b, &self.fit.covariance);
+                (parameter.value(self.fit.link, b), error)
+            }
+        };
+        let mut inside = Place { value, coefficients: b.clone(), depth: 0.0 };
+        let mut step = side * depth * error;
+        for _ in 0..MOST_STEPS {
+            let next = inside.value + step;
+            let at_edge = self.parameter == CurveParameter::Beta && next * value <= 0.0;
+            let Some(outside) = self.at(if at_edge { 0.0 } else { next }, &inside.coefficients) else {
+                return f64::NAN;
+            };
+            if outside.depth >= depth {
+                return self.between(inside, outside, depth, CLOSE * error);
+            }
+            if at_edge {
+                return 0.0;
+            }
+            (inside, step) = (outside, 2.0 * step);
+        }
+        side * f64::INFINITY
+    }
+
+    /// The value between two places at which the profile has this depth, by regula falsi (Illinois): the depth is nearly
+    /// a line.
+    fn between(&self, mut inside: Place, mut outside: Place, depth: f64, close: f64) -> f64 {
+        let (mut short, mut long) = (inside.depth - depth, outside.depth - depth);
+        let mut last_was_inside = None;
+        for _ in 0..MOST_TRIALS {
+            let value = (inside.value * long - outside.value * short) / (long - short);
+            if (value - inside.value).abs().min((value - outside.value).abs()) <= close {
+                return value;
+            }
+            let Some(place) = self.at(value, &inside.coefficients) else { return f64::NAN };
+            let is_inside = place.depth < depth;
+            let again = last_was_inside == Some(is_inside);
+            if is_inside {
+                (short, inside) = (place.depth - depth, place);
+                long *= if again { 0.5 } else { 1.0 };
+            } else {
+                (long, outside) = (place.depth - depth, place);
+                short *= if again { 0.5 } else { 1.0 };
+            }
+            last_was_inside = Some(is_inside);
+        }
+        f64::NAN
+    }
+
+    /// The place where the parameter has this value, searched from coefficients nearby.
+    fn at(&self, value: f64, near: &DVector<f64>) -> Option<Place> {
+        let (start, directions) = self.constrained(value, near);
+        let maximum = self.likelihood.maximise(&start, Along::Columns(&directions), TOLERANCE)?;
+        let fall = self.fit.objective - maximum.objective.value;
+        Some(Place { value, coefficients: maximum.at, depth: (2.0 * fall).max(0.0).sqrt() })
+    }
+
+    /// Coefficients that have this value of the parameter, and the directions that keep it.
+    fn constrained(&self, value: f64, near: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let (k, mut start) = (near.len(), near.clone());
+        let directions = match self.parameter {
+            // b1 = lambda b2
+            CurveParameter::Lambda => {
+                start[1] = value * start[2];
+                DMatrix::from_column_slice(3, 2, &[1.0, 0.0, 0.0, 0.0, value, 1.0])
+            }
+            // b0 + mu (b1 + b2) = m
+            CurveParameter::Mu => {
+                start[0] = self.fit.link.median_index() - value * slope(near);
+                DMatrix::from_fn(k, k - 1, |row, column| match row {
+                    0 => -value,
+                    row => f64::from(u8::from(row == column + 1)),
+                })
+            }
+            // b1 + b2 = 1/beta
+            CurveParameter::Beta => {
+                let missing = (value - slope(near)) / (k - 1) as f64;
+                start.rows_mut(1, k - 1).add_scalar_mut(missing);
+                // The intercept, and each slope after the first at the cost of the first.
+                DMatrix::from_fn(k, k - 1, |row, column| match (row, column) {
+                    (0, 0) => 1.0,
+                    (0, _) | (_, 0) => 0.0,
+                    (1, _) => -1.0,
+                    (row, column) => f64::from(u8::from(row == column + 1)),
+                })
+            }
+        };
+        (start, directions)
+    }
+}

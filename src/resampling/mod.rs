@@ -1,0 +1,8 @@
+//! The bootstrap: resamples, and sums over many of them at once.
+
+pub(crate) mod bootstrap;
+pub(crate) mod case_terms;
+pub(crate) mod monomials;
+pub(crate) mod normal_equations;
+
+pub use bootstrap::{Resamples, Strata, TOGETHER, bootstrap, bootstrap_each};

@@ -1,0 +1,89 @@
+//! Limits of confidence from bootstrap replicates.
+
+use crate::normal;
+use crate::resampling::bootstrap::Strata;
+
+/// Limits of confidence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// The lower one.
+    pub low: f64,
+    /// The upper one.
+    pub high: f64,
+}
+
+/// The limits that replicates of an estimate give.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BootstrapLimits {
+    /// The quantiles of the replicates.
+    pub percentile: Limits,
+    /// Bias-corrected and accelerated: second-order accurate, and the same whatever the scale of the parameter. None
+    /// where all replicates lie on one side of the estimate.
+    pub bca: Option<Limits>,
+}
+
+impl BootstrapLimits {
+    /// Percentile low and high, BCa low and high.
+    pub fn in_order(&self) -> [Option<f64>; 4] {
+        let Limits { low, high } = self.percentile;
+        [Some(low), Some(high), self.bca.map(|bca| bca.low), self.bca.map(|bca| bca.high)]
+    }
+}
+
+/// The limits at `confidence` of `estimate` from its replicates, where `acceleration` is that of [`acceleration`]
+/// (DiCiccio & Efron 1996, Bootstrap confidence intervals, Statistical Science 11, 189-228). None without replicates,
+/// or where so many have no value that they could fill the tails.
+pub fn bootstrap_limits(
+    estimate: f64,
+    replicates: &[Option<f64>],
+    acceleration: f64,
+    confidence: f64,
+) -> Option<BootstrapLimits> {
+    let mut values: Vec<f64> = replicates.iter().flatten().copied().filter(|v| v.is_finite()).collect();
+    let missing = (replicates.len() - values.len()) as f64;
+    if values.is_empty() || missing > (1.0 - confidence) * replicates.len() as f64 {
+        return None;
+    }
+    values.sort_by(f64::total_cmp);
+    let tail = 0.5 * (1.0 - confidence);
+    let at = |tail: f64| quantile(&values, tail);
+    let percentile = Limits { low: at(tail), high: at(1.0 - tail) };
+    let bias = normal::quantile(rank(&values, estimate));
+    let corrected = |tail: f64| {
+        let z = bias + normal::quantile(tail);
+        normal::cdf(bias + z / (1.0 - acceleration * z))
+    };
+    let (low, high) = (corrected(tail), corrected(1.0 - tail));
+    let bca = (low.is_finite() && high.is_finite() && bias.is_finite())
+        .then(|| Limits { low: at(low), high: at(high) });
+    Some(BootstrapLimits { percentile, bca })
+}
+
+/// The acceleration of BCa limits: a sixth of the skewness of the jackknife, over strata (DiCiccio & Efron 1996, Eq. 6.6;
+/// Davison & Hinkley 1997, Eq. 5.33). `without_each` holds the estimate without each row in turn.
+pub fn acceleration(without_each: &[f64], strata: &Strata) -> f64 {
+    let (mut cubes, mut squares) = (0.0, 0.0);
+    for rows in strata.members() {
+        let n = rows.len() as f64;
+        let mean = rows.iter().map(|&row| without_each[row]).sum::<f64>() / n;
+        for &row in rows {
+            let influence = (n - 1.0) * (mean - without_each[row]) / n;
+            cubes += influence.powi(3);
+            squares += influence.powi(2);
+        }
+    }
+    if squares > 0.0 { cubes / (6.0 * squares.powf(1.5)) } else { 0.0 }
+}
+
+/// The share of values below `x`, ties counted half.
+fn rank(sorted: &[f64], x: f64) -> f64 {
+    let (below, up_to) = (sorted.partition_point(|&v| v < x), sorted.partition_point(|&v| v <= x));
+    0.5 * (below + up_to) as f64 / sorted.len() as f64
+}
+
+/// The value with this share below it, linear between those of the sample.
+pub fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let place = share.clamp(0.0, 1.0) * (sorted.len() - 1) as f64;
+    let (below, above) = (place.floor() as usize, place.ceil() as usize);
+    sorted[below] + (place - place.floor()) * (sorted[above] - sorted[below])
+}

@@ -1,0 +1,184 @@
+//! Which measures predict best: alone, in pairs and in triples, and by forward selection.
+
+use super::candidate::{Candidate, Form};
+use super::folds::{Gain, gain};
+use super::ranking_sample::RankingSample;
+use super::rating::Rating;
+use crate::statistics::FitStatus;
+
+/// Log-likelihoods that differ by less than this share are those of one model in other measures.
+const SAME: f64 = 1e-9;
+
+/// What a candidate is to the paper.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OfPaper {
+    /// The model that it settles on.
+    Model,
+    /// The best of its six measures alone, as one power law.
+    Scalar,
+}
+
+/// A candidate and how it does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranked {
+    /// Its measures.
+    pub measures: Vec<String>,
+    /// How they enter.
+    pub form: Form,
+    /// How well it predicts, or why there is no fit.
+    pub rating: Result<Rating, FitStatus>,
+    /// Measures of the first candidate that is the same model, if it is not itself.
+    pub same_as: Option<Vec<String>>,
+    /// Its place among the models of as many measures, from 1.
+    pub rank: Option<usize>,
+    /// Over the best model of as many measures: not above 0.
+    pub over_best: Option<Gain>,
+    /// Over the model that the paper settles on.
+    pub over_paper: Option<Gain>,
+    /// What it is to the paper.
+    pub of_paper: Option<OfPaper>,
+    /// The step of forward selection that arrives here, from 0 for no measure at all.
+    pub step: Option<usize>,
+    /// Over the step before.
+    pub over_step: Option<Gain>,
+}
+
+/// All candidates with their ratings.
+pub struct Standings<'a> {
+    sample: &'a RankingSample,
+    candidates: &'a [Candidate],
+    ratings: Vec<Result<Rating, FitStatus>>,
+    /// The first candidate that is the same model.
+    models: Vec<usize>,
+    /// All candidates, the best first.
+    order: Vec<usize>,
+}
+
+impl<'a> Standings<'a> {
+    /// Of candidates that compete in these cases.
+    pub fn new(
+        sample: &'a RankingSample,
+        candidates: &'a [Candidate],
+        ratings: Vec<Result<Rating, FitStatus>>,
+    ) -> Standings<'a> {
+        let models = models(candidates, &ratings);
+        let key = |k: usize| match &ratings[models[k]] {
+            Ok(Rating { unseen: Some(unseen), .. }) => (0, -unseen.log_score()),
+            Ok(rating) => (1, rating.aic),
+            Err(_) => (2, 0.0),
+        };
+        let mut order: Vec<(usize, (u8, f64))> = (0..candidates.len()).map(|k| (k, key(k))).collect();
+        order.sort_by(|(a, (a_kind, a_score)), (b, (b_kind, b_score))| {
+            let by_terms = candidates[*a].measures.len().cmp(&candidates[*b].measures.len());
+            let by_score = a_kind.cmp(b_kind).then(a_score.total_cmp(b_score));
+            by_terms.then(by_score).then(models[*a].cmp(&models[*b])).then(a.cmp(b))
+        });
+        let order = order.into_iter().map(|(k, _)| k).collect();
+        Standings { sample, candidates, ratings, models, order }
+    }
+
+    /// All of them, as [`Contest::rank`](crate::studies::Contest::rank) orders them.
+    pub fn ranked(&self) -> Vec<Ranked> {
+        let paper = Candidate::of_paper(self.sample);
+        let paper = paper.and_then(|paper| self.candidates.iter().position(|of| *of == paper));
+        let (scalar, steps) = (self.scalar_of_paper(), self.forward());
+        let ranks = self.ranks();
+        let ranked = |&k: &usize| {
+            let Candidate { measures, form } = &self.candidates[k];
+            let best = |&&other: &&usize| self.candidates[other].measures.len() == measures.len();
+            let step = steps.iter().position(|&of| of == k);
+            Ranked {
+                measures: self.names(k),
+                form: *form,
+                rating: self.ratings[k].clone(),
+                same_as: (self.models[k] != k).then(|| self.names(self.models[k])),
+                rank: ranks[k],
+                over_best: self.order.iter().find(best).and_then(|&best| self.gain(k, best)),
+                over_paper: paper.and_then(|paper| self.gain(k, paper)),
+                of_paper: match k {
+                    k if paper == Some(k) => Some(OfPaper::Model),
+                    k if scalar == Some(k) => Some(OfPaper::Scalar),
+                    _ => None,
+                },
+                step,
+                over_step: step.and_then(|step| self.gain(k, steps[step.checked_sub(1)?])),
+            }
+        };
+        self.order.iter().map(ranked).collect()
+    }
+
+    fn names(&self, k: usize) -> Vec<String> {
+        self.candidates[k].measures.iter().map(|&place| self.sample.names[place].clone()).collect()
+    }
+
+    fn gain(&self, k: usize, over: usize) -> Option<Gain> {
+        let log_scores = |k: usize| Some(&self.ratings[k].as_ref().ok()?.unseen.as_ref()?.log_scores);
+        // Of the models, so that no rounding tells those apart that are the same.
+        Some(gain(log_scores(self.models[k])?, log_scores(self.models[over])?, &self.sample.clusters))
+    }
+
+    fn has_score(&self, k: usize) -> bool {
+        self.ratings[k].as_ref().is_ok_and(|rating| rating.unseen.is_some())
+    }
+
+    /// The best of the paper's measures alone.
+    fn scalar_of_paper(&self) -> Option<usize> {
+        let measures = self.sample.target.measures_of_paper();
+        let places: Vec<usize> = measures.iter().filter_map(|&measure| self.sample.place(measure)).collect();
+        self.order.iter().copied().filter(|&k| self.has_score(k)).find(|&k| {
+            let Candidate { measures, form } = &self.candidates[k];
+            *form == Form::Single && matches!(measures[..], [place] if places.contains(&place))
+        })
+    }
+
+    /// The place of each model among those of as many measures.
+    fn ranks(&self) -> Vec<Option<usize>> {
+        let mut ranks = vec![None; self.candidates.len()];
+        let (mut terms, mut rank) = (0, 0);
+        for &k in self.order.iter().filter(|&&k| self.has_score(k)) {
+            if self.candidates[k].measures.len() != terms {
+                (terms, rank) = (self.candidates[k].measures.len(), 0);
+            }
+            if self.models[k] == k {
+                rank += 1;
+            }
+            ranks[k] = Some(rank);
+        }
+        ranks
+    }
+
+    /// Forward selection: no measure, the best one, then the best that holds those before.
+    fn forward(&self) -> Vec<usize> {
+        let mut steps: Vec<usize> = Vec::new();
+        for terms in 0.. {
+            let next = self.order.iter().copied().filter(|&k| self.has_score(k)).find(|&k| {
+                let holds_last = |last: &usize| self.candidates[*last].is_within(&self.candidates[k]);
+                self.candidates[k].measures.len() == terms && steps.last().is_none_or(holds_last)
+            });
+            match next {
+                Some(next) => steps.push(next),
+                None => break,
+            }
+        }
+        steps
+    }
+}
+
+/// For each candidate the first one that is the same model: of as many measures, each a product of powers of those of the other,
+/// so that both fit equally well.
+fn models(candidates: &[Candidate], ratings: &[Result<Rating, FitStatus>]) -> Vec<usize> {
+    let mut models: Vec<usize> = (0..candidates.len()).collect();
+    let likelihood = |k: usize| ratings[k].as_ref().map_or(f64::NAN, |rating| rating.log_likelihood);
+    let kind = |k: usize| (candidates[k].measures.len(), candidates[k].form == Form::Broken);
+    let mut fitted: Vec<usize> = (0..candidates.len()).filter(|&k| likelihood(k).is_finite()).collect();
+    fitted.sort_by(|&a, &b| kind(a).cmp(&kind(b)).then(likelihood(a).total_cmp(&likelihood(b))));
+    let same = |a: usize, b: usize| {
+        let difference = likelihood(b) - likelihood(a);
+        kind(a) == kind(b) && difference <= SAME * (1.0 + likelihood(a).abs())
+    };
+    for equal in fitted.chunk_by(|&a, &b| same(a, b)) {
+        let first = equal.iter().copied().min();
+        equal.iter().for_each(|&k| models[k] = first.unwrap_or(k));
+    }
+    models
+}

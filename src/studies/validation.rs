@@ -1,0 +1,127 @@
+//! How forecasts fare on cases that were not fitted.
+
+use super::forecast::Forecast;
+use crate::fragility::index::Z_95;
+use crate::normal;
+use crate::statistics::binary::binary_regression;
+use crate::statistics::dependence::is_constant;
+use crate::statistics::firth::Estimator;
+use crate::statistics::limits::Limits;
+use crate::statistics::link::Link;
+use crate::statistics::poisson_binomial::PoissonBinomial;
+use crate::statistics::separation::is_separated;
+use crate::statistics::skill::{auc, brier_score, expected_log_score, log_score};
+
+/// Forecasts held against what happened.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Validation {
+    /// How many.
+    pub n: usize,
+    /// Those in which a measure lies outside of the range of the data of the fit.
+    pub extrapolated: usize,
+    /// Events seen.
+    pub seen: usize,
+    /// Events expected: the sum of the probabilities.
+    pub expected: f64,
+    /// The sums of the lower and of the upper 95 % limits: the error of the fits, as if all were too low or too high together.
+    pub expected_limits: Limits,
+    /// Limits within which a count lies with a probability of 95 % if the probabilities are right and the cases independent.
+    pub chance_limits: [usize; 2],
+    /// Probability of a count as far out as the seen one, likewise.
+    pub chance_p: f64,
+    /// Seen events over cases, with 95 % limits.
+    pub share: f64,
+    /// Its limits (Wilson).
+    pub share_limits: Limits,
+    /// Those in which happened what has a probability of exactly 0 in double precision.
+    pub impossible: usize,
+    /// Mean logarithm of the probability of what happened; none, that is minus infinity, if there are impossible cases.
+    pub log_score: Option<f64>,
+    /// What this would be in the mean if the probabilities are right.
+    pub log_score_expected: f64,
+    /// Brier score.
+    pub brier: f64,
+    /// Area under the receiver operating characteristic; none without events or without non-events.
+    pub auc: Option<f64>,
+    /// Calibration in the large; none without events or without non-events.
+    pub calibration: Option<f64>,
+}
+
+impl Validation {
+    /// Of these forecasts; none without any.
+    pub fn of(forecasts: &[Forecast]) -> Option<Validation> {
+        let n = forecasts.len();
+        if n == 0 {
+            return None;
+        }
+        let probabilities: Vec<f64> = forecasts.iter().map(|forecast| forecast.probability.value).collect();
+        let happened: Vec<bool> = forecasts.iter().map(|forecast| forecast.happened).collect();
+        let seen = happened.iter().filter(|&&happened| happened).count();
+        let count = PoissonBinomial::new(probabilities.iter().copied());
+        let is_mixed = seen > 0 && seen < n;
+        Some(Validation {
+            n,
+            extrapolated: forecasts.iter().filter(|forecast| forecast.is_extrapolated).count(),
+            seen,
+            expected: probabilities.iter().sum(),
+            expected_limits: Limits {
+                low: forecasts.iter().map(|forecast| forecast.probability.low).sum(),
+                high: forecasts.iter().map(|forecast| forecast.probability.high).sum(),
+            },
+            chance_limits: [0.025, 0.975].map(|level| count.quantile(level)),
+            chance_p: count.two_sided_p(seen),
+            share: seen as f64 / n as f64,
+            share_limits: wilson_limits(seen, n),
+            impossible: forecasts.iter().filter(|forecast| forecast.is_impossible()).count(),
+            log_score: Some(log_score(&probabilities, &happened)).filter(|score| score.is_finite()),
+            log_score_expected: expected_log_score(&probabilities),
+            brier: brier_score(&probabilities, &happened),
+            auc: is_mixed.then(|| auc(&probabilities, &happened)),
+            calibration: calibration_in_the_large(&probabilities, seen),
+        })
+    }
+}
+
+/// The 95 % limits of a probability of which `seen` of `n` independent cases tell (Wilson 1927, Probable inference, the law of
+/// succession, and statistical inference, Journal of the American Statistical Association 22, 209-212).
+pub fn wilson_limits(seen: usize, n: usize) -> Limits {
+    let (n, share) = (n as f64, seen as f64 / n as f64);
+    let (middle, width) = (share + Z_95 * Z_95 / (2.0 * n), 1.0 + Z_95 * Z_95 / n);
+    let half = Z_95 * (share * (1.0 - share) / n + (Z_95 / (2.0 * n)).powi(2)).sqrt();
+    Limits { low: ((middle - half) / width).max(0.0), high: ((middle + half) / width).min(1.0) }
+}
+
+/// Calibration in the large: by how much all log odds must rise for the expected count to be the seen one, 0 where they are right
+/// and positive where they are too low. None where no finite shift does it. It is the maximum-likelihood intercept of a logistic
+/// recalibration with slope 1 (Cox 1958, Two further applications of a model for binary regression, Biometrika 45, 562-565).
+pub fn calibration_in_the_large(probabilities: &[f64], seen: usize) -> Option<f64> {
+    // p e^shift / (1 - p + p e^shift) keeps probabilities of 0 and 1 as they are.
+    let expected = |shift: f64| -> f64 {
+        let odds = shift.exp();
+        probabilities.iter().map(|p| p * odds / (1.0 - p + p * odds)).sum()
+    };
+    let (seen, [mut low, mut high]) = (seen as f64, SHIFTS);
+    if !(expected(low) < seen && seen < expected(high)) {
+        return None;
+    }
+    while high - low > TOLERANCE {
+        let middle = 0.5 * (low + high);
+        if expected(middle) < seen { low = middle } else { high = middle }
+    }
+    Some(0.5 * (low + high))
+}
+
+/// Calibration slope: by how much the log odds of probabilities Phi(index) must be stretched, besides a shift, to be those of what
+/// happened: below 1 where they are too sure (Cox 1958, likewise). None where the events can be told apart without error, or are all
+/// the same.
+pub fn calibration_slope(indices: &[f64], happened: &[bool]) -> Option<f64> {
+    // Of the index, since probabilities themselves may round to 1.
+    let log_odds: Vec<f64> = indices.iter().map(|&x| normal::ln_cdf(x) - normal::ln_cdf(-x)).collect();
+    let can_be_told = is_constant(&log_odds) || is_separated(&[&log_odds], happened);
+    let fit = (!can_be_told).then(|| binary_regression(&[&log_odds], happened, Link::Logit, Estimator::Ml));
+    Some(fit?.ok()?.coefficients[1])
+}
+
+/// Odds beyond e^±30 are certainties.
+const SHIFTS: [f64; 2] = [-30.0, 30.0];
+const TOLERANCE: f64 = 1e-12;
