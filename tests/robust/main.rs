@@ -5,7 +5,6 @@ mod configs;
 mod damage;
 mod importers;
 mod lists;
-mod numbers;
 mod readers;
 mod replaced;
 mod row_groups;

@@ -19,7 +19,7 @@ const LEAST_EVENTS: usize = 5;
 
 /// With fewer events, or non-events, for each coefficient, limits by the standard errors of lambda, mu and beta are too narrow, and so
 /// are those of small probabilities by resamples; those by the profile likelihood, and of probabilities by the delta method, are not
-/// (`tests/coverage.rs`).
+/// (`tests/fits/coverage.rs`).
 const EVENTS_A_COEFFICIENT: usize = 10;
 
 /// Whether so few of `n` cases are events, or are not, that some limits of a curve of so many measures are too narrow.

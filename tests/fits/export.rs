@@ -1,8 +1,6 @@
 //! Fragility as files of other programs. scripts/check_exports.sh asks these programs themselves.
 
-mod paper_model;
-
-use paper_model::{equipment, model};
+use crate::paper_model::{equipment, model};
 use rockfrag::export::{
     Function, GAP, Model, continuous, discrete, levels, metadata, parameters, plain_id, whole_curve_end,
 };

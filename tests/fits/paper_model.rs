@@ -1,5 +1,4 @@
 //! A fragility as the paper has it, for tests.
-#![allow(dead_code, reason = "each test uses its part")]
 
 use rockfrag::fragility::{DemandLaw, DemandModel, FragilityModel, Measure, Predictor};
 use rockfrag::rocking::Structure;

@@ -1,8 +1,6 @@
 //! Probabilities and their limits at an intensity, and along a slice.
 
-mod paper_model;
-
-use paper_model::{BETA, LAMBDA, MU, equipment, model};
+use crate::paper_model::{BETA, LAMBDA, MU, equipment, model};
 use proptest::prelude::*;
 use rockfrag::fragility::{
     DemandLaw, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits, ResampledModel, Slice,

@@ -2,9 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-mod noise;
-
-use noise::synthetic_motion;
+use crate::noise::synthetic_motion;
 use proptest::prelude::*;
 use rockfrag::motion::Pulse;
 use rockfrag::rocking::{

@@ -1,8 +1,6 @@
 //! One problem at a time and several at once: the same answers, in any company and order.
 
-mod noise;
-
-use noise::synthetic_motion;
+use crate::noise::synthetic_motion;
 use proptest::prelude::*;
 use rockfrag::keyword::Keyword;
 use rockfrag::rocking::{Outcome, Path, Problem, Record, Response, Structure, simulate, simulate_all};

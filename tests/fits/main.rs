@@ -1,0 +1,12 @@
+//! The fits, their limits and what is made of them, against statsmodels, scipy and closed forms.
+
+mod coverage;
+mod evaluate;
+mod export;
+mod hazard;
+mod limits;
+mod normal;
+mod paper_model;
+mod regressions_and_curves;
+mod universality;
+mod validation;
