@@ -1,0 +1,24 @@
+//! The paper's whole run from `pipeline.yaml`.
+
+use std::path::Path;
+
+use assert_cmd::Command;
+
+use crate::snapshot::check_each;
+use crate::tables::fingerprints;
+
+#[test]
+#[ignore = "takes a minute in release"]
+fn paper_run_fingerprints() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("pipeline.yaml")).unwrap();
+    // The solver of lanes differs from the scalar one by rounding, and not every processor has it.
+    let text = text.replace("simulate:\n", "simulate:\n  path: scalar\n");
+    std::fs::write(folder.path().join("pipeline.yaml"), text).unwrap();
+    Command::cargo_bin("rockfrag").unwrap().current_dir(folder.path()).arg("run").assert().success();
+    let names = ["scenarios", "motions", "responses", "pex", "pex.scan", "pro", "paper"];
+    check_each(names.map(|name| {
+        let path = folder.path().join(format!("out/{name}.parquet"));
+        (format!("paper_run.{name}"), fingerprints(&path))
+    }));
+}
