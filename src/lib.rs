@@ -26,21 +26,27 @@
 //! [`report`], which draws it. [`table`] reads and writes the files, [`pipeline`] decides what must run, [`stages`] joins
 //! them: one file a subcommand.
 
+#[cfg(feature = "pipeline")]
 pub mod cli;
+#[cfg(feature = "pipeline")]
 pub mod export;
 pub mod fragility;
 pub mod hazard;
 pub mod keyword;
 pub mod motion;
 pub mod normal;
+#[cfg(feature = "pipeline")]
 pub mod pipeline;
 pub mod random;
+#[cfg(feature = "pipeline")]
 pub mod report;
 pub mod resampling;
 pub mod rocking;
+#[cfg(feature = "pipeline")]
 pub mod stages;
 pub mod statistics;
 pub mod studies;
+#[cfg(feature = "pipeline")]
 pub mod table;
 pub mod units;
 mod wide;

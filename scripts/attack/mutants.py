@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Which mutants the tests catch, all in a few builds: mutants.py CRATE TEST RESULTS FILE... (with cargo-mutants in the path).
 
-    scripts/attack/domain.py /tmp/domain
-    scripts/attack/mutants.py /tmp/domain solver /tmp/solver.jsonl 'src/rocking/**'
-    scripts/attack/mutants.py /tmp/domain fits /tmp/fits.jsonl 'src/fragility/**' 'src/normal/**'
+    git worktree add /tmp/copy
+    scripts/attack/mutants.py /tmp/copy solver /tmp/solver.jsonl 'src/rocking/**'
+    scripts/attack/mutants.py /tmp/copy fits /tmp/fits.jsonl 'src/fragility/**' 'src/statistics/**' 'src/normal/**'
 
 The mutants are those of cargo-mutants, but a build holds many: each function becomes a match over the number of the mutant that
 is wanted, which an environment variable says. What is always inlined is mutated in a build of its own, or copies would
@@ -32,7 +32,8 @@ from pathlib import Path
 DEAR = {
     "solver": ["outcomes_and_peaks_agree", "an_answer_does_not_depend", "registers_of_any_width"],
     "fits": ["limits_hold_the_truth_as_often"],
-    "motions": [],
+    "motion": [],
+    "uncertainty": [],
 }
 SECONDS = 8  # of processor time; twice to three times that for the dear ones
 SWITCH = """

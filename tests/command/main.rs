@@ -1,5 +1,7 @@
 //! The command as a user calls it.
 
+#![cfg(feature = "pipeline")]
+
 mod bad_input;
 mod clusters;
 mod common;

@@ -2,6 +2,7 @@
 
 mod coverage;
 mod evaluate;
+#[cfg(feature = "pipeline")]
 mod export;
 mod hazard;
 mod limits;

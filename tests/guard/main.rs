@@ -9,6 +9,8 @@
 //!
 //! Hashes hold for x86-64 with glibc: `exp`, `ln` and `tan` of the fits are those of the platform.
 
+#![cfg(feature = "pipeline")]
+
 mod help;
 mod paper_run;
 mod pipeline;

@@ -1,5 +1,7 @@
 //! Recorded motions: from files of every format to accelerations, and what becomes of them.
 
+#![cfg(feature = "pipeline")]
+
 mod known_records;
 mod processing;
 mod pulses;

@@ -5,4 +5,5 @@ mod noise;
 mod numbers;
 mod paths;
 mod rocking;
+#[cfg(feature = "pipeline")]
 mod truth;
