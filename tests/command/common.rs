@@ -1,10 +1,13 @@
 //! What the tests of the command share.
 
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 use arrow_array::{ArrayRef, RecordBatch};
 use assert_cmd::Command;
 use parquet::arrow::ArrowWriter;
+
+use crate::snapshot::{check_each, redact};
 
 /// The command, called in `folder`.
 pub fn rockfrag(folder: &Path) -> Command {
@@ -22,6 +25,22 @@ pub fn succeed(folder: &Path, arguments: &str) -> String {
     stderr
 }
 
+thread_local! {
+    /// How many messages this test has kept; each test runs in a thread of its own.
+    static KEPT: Cell<usize> = const { Cell::new(0) };
+}
+
+/// Compares a message with the snapshot of its place in the test, in tests/guard/snapshots/message.
+fn keep(folder: &Path, arguments: &str, stderr: &str) {
+    let place = KEPT.replace(KEPT.get() + 1) + 1;
+    let test = std::thread::current().name().unwrap().replace("::", ".");
+    let text = format!("$ rockfrag {arguments}\n{stderr}");
+    let text = text
+        .replace(env!("CARGO_TARGET_TMPDIR"), "[target]")
+        .replace(&folder.display().to_string(), "[folder]");
+    check_each("message", [(format!("{test}.{place:02}"), redact(&text))]);
+}
+
 /// Runs the command, which must fail with this exit code and one line that says all of `expected`.
 #[track_caller]
 pub fn fail(folder: &Path, arguments: &str, code: i32, expected: &[&str]) {
@@ -32,6 +51,7 @@ pub fn fail(folder: &Path, arguments: &str, code: i32, expected: &[&str]) {
     for part in expected {
         assert!(stderr.contains(part), "'{part}' is not in: {stderr}");
     }
+    keep(folder, arguments, &stderr);
 }
 
 /// A folder with a small pipeline file: 12 scenarios, both suites, both structures of the paper.

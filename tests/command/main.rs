@@ -14,6 +14,8 @@ mod partitions;
 mod pipeline;
 mod rank_ims;
 mod report;
+#[path = "../guard/snapshot.rs"]
+mod snapshot;
 mod together;
 mod universality;
 mod validate;

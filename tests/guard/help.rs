@@ -23,7 +23,7 @@ fn help_texts() {
     let top = help(&[]);
     let of_each = subcommands(&top);
     let of_each = of_each.iter().filter(|name| *name != "help");
-    let of_each = of_each.map(|name| (format!("help.{name}"), help(&[name]))).collect::<Vec<_>>();
+    let of_each = of_each.map(|name| (name.clone(), help(&[name]))).collect::<Vec<_>>();
     assert!(of_each.len() > 10, "{top}");
-    check_each([("help".to_string(), top)].into_iter().chain(of_each));
+    check_each("help", [("rockfrag".to_string(), top)].into_iter().chain(of_each));
 }

@@ -3,7 +3,7 @@
 //!
 //! Run it with `cargo test --test guard`. A difference fails the test and leaves a `.snap.new` beside the snapshot. After a
 //! wanted change, write the snapshots anew with `INSTA_UPDATE=always cargo test --test guard`, look at `git diff`, and commit them
-//! with the change. A renamed column shows as the same hash under another name in `fingerprints.*.snap`; any other new hash
+//! with the change. A renamed column shows as the same hash under another name in `snapshots/fingerprints`; any other new hash
 //! there is another number. `tests/command` guards its messages in the same way (`INSTA_UPDATE=always cargo test --test command`).
 //! The paper's whole run is compared by `cargo test --release --test guard -- --ignored`, which takes a minute.
 //!
@@ -14,5 +14,6 @@
 mod help;
 mod paper_run;
 mod pipeline;
+mod report;
 mod snapshot;
 mod tables;

@@ -2,11 +2,12 @@
 
 use std::panic::catch_unwind;
 
-/// Compares each text with the snapshot of its name; fails after the last one, so that all differences are shown.
-pub fn check_each(texts: impl IntoIterator<Item = (String, String)>) {
+/// Compares each text with the snapshot of its name in the folder of its kind; fails after the last one, so that all
+/// differences are shown.
+pub fn check_each(kind: &str, texts: impl IntoIterator<Item = (String, String)>) {
     let mut settings = insta::Settings::clone_current();
     settings.set_prepend_module_to_snapshot(false);
-    settings.set_snapshot_path("snapshots");
+    settings.set_snapshot_path(format!("snapshots/{kind}"));
     settings.set_omit_expression(true);
     let differing: Vec<String> = settings.bind(|| {
         let differs = |(name, text): &(String, String)| {
@@ -14,27 +15,39 @@ pub fn check_each(texts: impl IntoIterator<Item = (String, String)>) {
         };
         texts.into_iter().filter(differs).map(|(name, _)| name).collect()
     });
-    assert!(differing.is_empty(), "snapshots differ: {}", differing.join(", "));
+    assert!(differing.is_empty(), "snapshots of {kind} differ: {}", differing.join(", "));
 }
 
-/// The text without what may differ from run to run: the version, times, sizes and hashes of files.
+/// The text without what may differ from run to run: the version, times, sizes, hashes and random names of files.
 pub fn redact(text: &str) -> String {
     let text = text.replace(env!("CARGO_PKG_VERSION"), "[version]");
-    text.lines().map(|line| redact_line(line) + "\n").collect()
+    text.lines().map(|line| without_random_names(&without_hashes(&without_times(line))) + "\n").collect()
 }
 
-fn redact_line(line: &str) -> String {
-    let mut words: Vec<String> = line.split(' ').map(str::to_string).collect();
-    for index in 0..words.len() {
-        let next = words.get(index + 1).cloned().unwrap_or_default();
+fn without_times(line: &str) -> String {
+    let words: Vec<&str> = line.split(' ').collect();
+    let is = |index: usize, word: &str| words.get(index).is_some_and(|other| other.starts_with(word));
+    let shown = |index: usize| {
+        let is_time = index > 0 && is(index - 1, "in") && is(index + 1, "s");
         let is_number = words[index].parse::<f64>().is_ok();
-        let is_time = next == "s" && index > 0 && words[index - 1] == "in" && is_number;
-        let word = &mut words[index];
-        if is_time || (next.starts_with("MB") && is_number) {
-            *word = "[number]".to_string();
-        } else if word.len() == 64 && word.chars().all(|letter| letter.is_ascii_hexdigit()) {
-            *word = "[hash]".to_string();
-        }
-    }
-    words.join(" ")
+        if is_number && (is_time || is(index + 1, "MB")) { "[number]" } else { words[index] }
+    };
+    (0..words.len()).map(shown).collect::<Vec<_>>().join(" ")
+}
+
+fn without_hashes(line: &str) -> String {
+    let is_hash = |run: &str| run.len() == 64 && run.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let runs = line.split_inclusive(|letter: char| !letter.is_ascii_alphanumeric());
+    let shown = runs.map(|run| {
+        let word = run.trim_end_matches(|letter: char| !letter.is_ascii_alphanumeric());
+        if is_hash(word) { run.replace(word, "[hash]") } else { run.to_string() }
+    });
+    shown.collect()
+}
+
+/// A file that is being written has random letters before its ending.
+fn without_random_names(line: &str) -> String {
+    let Some((before, after)) = line.split_once(".partial") else { return line.to_string() };
+    let (name, _) = before.rsplit_once('.').unwrap_or((before, ""));
+    format!("{name}.[random].partial{after}")
 }
