@@ -56,23 +56,27 @@
 
 pub(crate) mod capacity;
 pub(crate) mod case;
+pub(crate) mod clusters;
 pub(crate) mod curve;
-pub(crate) mod demand;
+pub mod demand;
+pub(crate) mod group;
 pub(crate) mod index;
 pub(crate) mod model;
-pub(crate) mod overturning;
+pub mod overturning;
 pub(crate) mod predictor;
 pub(crate) mod resampled;
 pub(crate) mod slice;
 
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Measure};
+pub use clusters::{Clusters, SharedBy, cells};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use demand::{
     Biplanar, Break, DemandInference, DemandRefits, DemandReplicate, DemandSample, PLANE, Plane, ScanPoint,
     SmoothFit, Transition, TransitionSearch, fit_biplanar, fit_plane, fit_smooth, fit_univariate,
     rms_difference, transition_limits,
 };
+pub use group::{CaseGroup, Progress, Uncertainty, unwatched};
 pub use index::{Probability, ProbitIndex};
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
 pub use overturning::{

@@ -3,23 +3,25 @@
 use std::str::FromStr;
 
 use clap::Args;
-use rayon::prelude::*;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::groups::{self, Group};
-use super::pex_group::{PexModel, Regressions};
-use super::uncertainty::Uncertainty;
+use super::uncertainty::uncertainty;
+use crate::fragility::CaseGroup;
+use crate::fragility::demand::{Regression, RegressionOptions};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, defaults, from_scalar};
 use crate::pipeline::stage::Stage;
 use crate::statistics::FitStatus;
+use crate::table::pex::{self, PexRow};
+use crate::table::pex_scan::{self, ScanRow};
 use crate::table::provenance::Provenance;
+use crate::table::replicates;
 use crate::table::schema::{PEX, PEX_BOOTSTRAP, PEX_SCAN};
 use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
-use crate::table::{pex, pex_scan, replicates};
 
 /// How the demand is fitted.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -97,7 +99,7 @@ impl<'de> Deserialize<'de> for TransitionAt {
 /// The stage, ready to run.
 pub struct FitPex {
     options: FitPexOptions,
-    model: PexModel,
+    regressions: RegressionOptions,
     input: Source,
     out: Target,
 }
@@ -115,10 +117,10 @@ impl FitPex {
         let limit = options.limit_state;
         check(limit > 0.0 && limit.is_finite(), "limit-state", limit, "a demand |theta|max / alpha above 0")?;
         let transition = options.transition.im4();
-        let uncertainty = Uncertainty::new(options.bootstrap, options.confidence, options.seed)?;
+        let uncertainty = uncertainty(options.bootstrap, options.confidence, options.seed)?;
         let options = FitPexOptions { seed: Some(uncertainty.seed), ..options.clone() };
-        let model = PexModel { limit_state: limit, transition, uncertainty };
-        Ok(FitPex { options, model, input: input.into(), out: out.into() })
+        let regressions = RegressionOptions { transition, uncertainty };
+        Ok(FitPex { options, regressions, input: input.into(), out: out.into() })
     }
 
     fn scan_target(&self) -> Target {
@@ -149,15 +151,27 @@ impl Stage for FitPex {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let bar = console.bar(self.subcommand(), groups.len() as u64 * self.model.uncertainty.steps());
-        let fit = |groups: &&[Group]| self.model.fit(groups, &bar);
-        let fitted = groups::alike(&groups).par_iter().map(fit).collect::<anyhow::Result<Vec<_>>>()?;
+        let steps = groups.len() as u64 * self.regressions.uncertainty.steps();
+        let bar = console.bar(self.subcommand(), steps);
+        let to_fit: Vec<CaseGroup> = groups.iter().map(Group::to_fit).collect();
+        let fitted = self.regressions.fit(&to_fit, &|steps| bar.inc(steps))?;
         bar.finish();
-        let fitted = fitted.into_iter().flatten().map(|Regressions { rows, scan }| (rows, scan));
-        let (rows, scans): (Vec<_>, Vec<_>) = fitted.unzip();
-        let (rows, scans) = (rows.concat(), scans.concat());
-        let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
-        console.warn_each(missing.map(|row| (row.reason(), row.measures())));
+        let (mut rows, mut scans) = (Vec::new(), Vec::new());
+        for (group, fitted) in groups.iter().zip(fitted) {
+            let row = |regression| PexRow {
+                suite: group.suite.clone(),
+                structure: group.structure.clone(),
+                eta: group.eta,
+                limit_state: self.options.limit_state,
+                regression,
+            };
+            let scan =
+                |point| ScanRow { suite: group.suite.clone(), structure: group.structure.clone(), point };
+            rows.extend(fitted.fits.into_iter().map(row));
+            scans.extend(fitted.scan.into_iter().map(scan));
+        }
+        let missing = rows.iter().filter(|row| row.regression.status() != FitStatus::Ok);
+        console.warn_each(missing.map(|row| (reason(row), measures(&row.regression))));
         let mut scan_writer = TableWriter::create(self.scan_target(), &PEX_SCAN, provenance.clone())?;
         scan_writer.append(&pex_scan::batch(&scans)?)?;
         scan_writer.finish()?;
@@ -169,8 +183,22 @@ impl Stage for FitPex {
         let mut writer = TableWriter::create(self.out.clone(), &PEX, provenance.clone())?;
         writer.append(&pex::batch(&rows)?)?;
         writer.finish()?;
-        let fitted = rows.iter().filter(|row| row.status() == FitStatus::Ok).count();
+        let fitted = rows.iter().filter(|row| row.regression.status() == FitStatus::Ok).count();
         let status = FitStatus::Ok.as_str();
         Ok(format!("{fitted} of {} fits {status}", rows.len()))
+    }
+}
+
+/// The form and the measure of a regression, for a message.
+fn measures(regression: &Regression) -> String {
+    format!("{} {}", regression.form.as_str(), regression.im_x.as_str())
+}
+
+/// What is wrong with a regression, for a message.
+fn reason(PexRow { suite, structure, regression, .. }: &PexRow) -> String {
+    let suite = suite.as_deref().unwrap_or("the motions");
+    match regression.status() {
+        FitStatus::Falling => format!("the demand for {suite}, {structure}, falls with the measure"),
+        status => format!("no fit of the demand for {suite}, {structure}: {}", status.as_str()),
     }
 }

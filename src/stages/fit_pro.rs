@@ -1,22 +1,17 @@
 //! fit-pro: fragility curves of overturning, or of rocking, by maximum likelihood.
 
-use std::fmt;
-use std::str::FromStr;
-
 use clap::Args;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::groups::{self, Group};
-use super::pro_group::ProModel;
-use super::uncertainty::Uncertainty;
-use crate::fragility::{Case, CurveModel, Measure};
-use crate::keyword::{self, Keyword, keywords};
+use super::uncertainty::uncertainty;
+use crate::fragility::overturning::{Curve, CurveOptions, FittedEvent, Pair};
+use crate::fragility::{CaseGroup, CurveModel};
+use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{Several, Word, defaults};
+use crate::pipeline::options::{Parsed, Several, Word, defaults};
 use crate::pipeline::stage::Stage;
-use crate::rocking::Outcome;
 use crate::statistics::{Estimator, FitStatus, Link};
 use crate::table::pro::{self, ProRow};
 use crate::table::provenance::Provenance;
@@ -34,7 +29,7 @@ pub struct FitProOptions {
     pub event: Word<FittedEvent>,
     /// Pairs of measures that make hybrid ones, besides the six scalar measures
     #[arg(long, default_value = "im4:im3_inv")]
-    pub pairs: Several<Pair>,
+    pub pairs: Several<Parsed<Pair>>,
     /// How the index becomes a probability: probit (lognormal curve), logit or cloglog
     #[arg(long, default_value = "probit")]
     pub link: Word<Link>,
@@ -58,66 +53,10 @@ impl Default for FitProOptions {
     }
 }
 
-/// What a fragility curve is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FittedEvent {
-    /// Overturning given rocking: P_ro.
-    Overturning,
-    /// Rocking: 1 - P_nr.
-    Rocking,
-}
-
-keywords!(FittedEvent { Overturning = "overturning", Rocking = "rocking" });
-
-impl FittedEvent {
-    /// Whether it happened in a case; none if the case does not count.
-    pub fn happened(self, case: &Case) -> Option<bool> {
-        match (self, case.outcome) {
-            (FittedEvent::Overturning, Outcome::NoRocking) => None,
-            (FittedEvent::Overturning, outcome) => Some(outcome == Outcome::Overturning),
-            (FittedEvent::Rocking, outcome) => Some(outcome != Outcome::NoRocking),
-        }
-    }
-}
-
-/// Two measures that make a hybrid one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Pair(pub Measure, pub Measure);
-
-impl FromStr for Pair {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Pair, String> {
-        let (x, y) =
-            text.split_once(':').ok_or_else(|| format!("'{text}': expected two measures as im4:im3_inv"))?;
-        let measure = |name: &str| keyword::parse(name.trim()).map_err(|unknown| unknown.to_string());
-        let pair = Pair(measure(x)?, measure(y)?);
-        if pair.0 == pair.1 { Err(format!("'{text}': expected two different measures")) } else { Ok(pair) }
-    }
-}
-
-impl fmt::Display for Pair {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}:{}", self.0.as_str(), self.1.as_str())
-    }
-}
-
-impl Serialize for Pair {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
-    }
-}
-
-impl<'de> Deserialize<'de> for Pair {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Pair, D::Error> {
-        crate::pipeline::options::from_scalar(deserializer)
-    }
-}
-
 /// The stage, ready to run.
 pub struct FitPro {
     options: FitProOptions,
-    model: ProModel,
+    curves: CurveOptions,
     input: Source,
     out: Target,
 }
@@ -132,15 +71,16 @@ impl FitPro {
         input: impl Into<Source>,
         out: impl Into<Target>,
     ) -> anyhow::Result<FitPro> {
-        let uncertainty = Uncertainty::new(options.bootstrap, options.confidence, options.seed)?;
-        let curve = CurveModel {
+        let uncertainty = uncertainty(options.bootstrap, options.confidence, options.seed)?;
+        let model = CurveModel {
             link: options.link.0,
             estimator: options.estimator.0,
             confidence: uncertainty.confidence,
         };
-        let model = ProModel { event: options.event.0, pairs: options.pairs.0.clone(), curve, uncertainty };
+        let pairs = options.pairs.0.iter().map(|pair| pair.0).collect();
+        let curves = CurveOptions { event: options.event.0, pairs, model, uncertainty };
         let options = FitProOptions { seed: Some(uncertainty.seed), ..options.clone() };
-        Ok(FitPro { options, model, input: input.into(), out: out.into() })
+        Ok(FitPro { options, curves, input: input.into(), out: out.into() })
     }
 
     fn bootstrap_target(&self) -> Option<Target> {
@@ -167,16 +107,20 @@ impl Stage for FitPro {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let bar = console.bar(self.subcommand(), groups.len() as u64 * self.model.uncertainty.steps());
-        let fit = |groups: &&[Group]| self.model.fit(groups, &bar);
-        let rows: Vec<Vec<ProRow>> =
-            groups::alike(&groups).par_iter().map(fit).collect::<anyhow::Result<_>>()?;
+        let bar = console.bar(self.subcommand(), groups.len() as u64 * self.curves.uncertainty.steps());
+        let to_fit: Vec<CaseGroup> = groups.iter().map(Group::to_fit).collect();
+        let fitted = self.curves.fit(&to_fit, &|steps| bar.inc(steps))?;
         bar.finish();
-        let rows = rows.concat();
-        let missing = rows.iter().filter(|row| row.status() != FitStatus::Ok);
-        console.warn_each(missing.map(|row| (row.reason(), row.measures())));
-        let few = rows.iter().filter(|row| row.has_few_events());
-        console.warn_each(few.map(|row| (row.few_events(), row.measures())));
+        let rows = |(group, curves): (&Group, Vec<Curve>)| {
+            let (suite, structure, eta) = (group.suite.clone(), group.structure.clone(), group.eta);
+            let row = move |curve| ProRow { suite: suite.clone(), structure: structure.clone(), eta, curve };
+            curves.into_iter().map(row)
+        };
+        let rows: Vec<ProRow> = groups.iter().zip(fitted).flat_map(rows).collect();
+        let missing = rows.iter().filter(|row| row.curve.status() != FitStatus::Ok);
+        console.warn_each(missing.map(|row| (reason(row), measures(&row.curve))));
+        let few = rows.iter().filter(|row| row.curve.has_few_events());
+        console.warn_each(few.map(|row| (few_events(row), measures(&row.curve))));
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PRO_BOOTSTRAP, provenance.clone())?;
             rows.iter().try_for_each(|row| anyhow::Ok(writer.append(&replicates::pro_batch(row)?)?))?;
@@ -187,8 +131,39 @@ impl Stage for FitPro {
         writer.finish()?;
         Ok(format!(
             "{} of {} curves ok",
-            rows.iter().filter(|row| row.status() == FitStatus::Ok).count(),
+            rows.iter().filter(|row| row.curve.status() == FitStatus::Ok).count(),
             rows.len()
         ))
+    }
+}
+
+/// The measures of a curve, for a message.
+fn measures(curve: &Curve) -> String {
+    let second = curve.im_y.map_or(String::new(), |measure| format!(":{}", measure.as_str()));
+    format!("{}{second}", curve.im_x.as_str())
+}
+
+/// Which limits to take where events are few, for a message.
+fn few_events(ProRow { suite, structure, curve, .. }: &ProRow) -> String {
+    let suite = suite.as_deref().unwrap_or("the motions");
+    format!(
+        "few events for {suite}, {structure} ({} of {} cases), so that limits by standard errors are too narrow; take the profile limits",
+        curve.events, curve.n
+    )
+}
+
+/// What is wrong with a curve, for a message.
+fn reason(ProRow { suite, structure, curve, .. }: &ProRow) -> String {
+    let suite = suite.as_deref().unwrap_or("the motions");
+    let Curve { events, n, .. } = curve;
+    let event = curve.event.as_str();
+    match curve.status() {
+        FitStatus::Falling => {
+            format!("the probability of {event} for {suite}, {structure}, falls with the measure")
+        }
+        status => format!(
+            "no curve of {event} for {suite}, {structure}: {} ({events} of {n} cases)",
+            status.as_str()
+        ),
     }
 }

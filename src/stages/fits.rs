@@ -5,13 +5,13 @@ use std::path::Path;
 use clap::Args;
 
 use super::chosen_fits::ChosenFits;
-use super::fit_pro::FittedEvent;
+use crate::fragility::demand::Form;
+use crate::fragility::overturning::FittedEvent;
 use crate::fragility::{DemandModel, FragilityModel, Measure, has_few_events};
 use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::Word;
 use crate::table::fits::{self, FitRow};
-use crate::table::pex::Model;
 use crate::table::schema;
 use crate::table::source::Source;
 
@@ -126,7 +126,7 @@ impl FitsOptions {
     }
 
     fn biplanar(&self, rows: &[&FitRow]) -> anyhow::Result<DemandModel> {
-        let planes = || rows.iter().filter(|row| row.text(&schema::MODEL) == Some(Model::Biplanar.as_str()));
+        let planes = || rows.iter().filter(|row| row.text(&schema::MODEL) == Some(Form::Biplanar.as_str()));
         let plane = |below: bool, side: &str| -> anyhow::Result<&FitRow> {
             let mut on_side =
                 planes().filter(|row| row.optional_number(&schema::RANGE_HIGH).is_some() == below);
@@ -138,7 +138,7 @@ impl FitsOptions {
     }
 
     fn univariate(&self, rows: &[&FitRow], measure: Measure) -> anyhow::Result<DemandModel> {
-        let mut rows = rows.iter().filter(|row| row.text(&schema::MODEL) == Some(Model::Univariate.as_str()));
+        let mut rows = rows.iter().filter(|row| row.text(&schema::MODEL) == Some(Form::Univariate.as_str()));
         let row = rows.find(|row| row.text(&schema::IM_X) == Some(measure.as_str()));
         let row =
             found(row.copied(), self.pex.name(), &format!("univariate regression on {}", measure.as_str()))?;

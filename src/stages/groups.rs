@@ -1,12 +1,9 @@
 //! The responses of each suite and structure, as the fits take them.
 
-use std::collections::HashMap;
-
 use anyhow::Context;
 use polars::prelude::{Column, DataFrame};
 
-use super::clusters::Clusters;
-use crate::fragility::Case;
+use crate::fragility::{Case, CaseGroup, Clusters, cells};
 use crate::keyword;
 use crate::rocking::Structure;
 use crate::table::frame::read_frame_of;
@@ -41,20 +38,16 @@ pub struct Group {
 }
 
 impl Group {
+    /// What the fits take.
+    pub fn to_fit(&self) -> CaseGroup<'_> {
+        CaseGroup { cases: &self.cases, cells: &self.cells, clusters: &self.clusters.numbers }
+    }
+
     /// The structure of a response.
     pub fn structure_of(&self, row: usize) -> Structure {
         let (p_rad_s, alpha_rad) = (self.p_rad_s[row], self.alpha_rad[row]);
         Structure { name: self.structure.clone(), p_rad_s, alpha_rad, eta: self.eta }
     }
-}
-
-/// Groups that are resampled jointly, at most: what is known of all their cases is held at once.
-const JOINTLY: usize = 8;
-
-/// The groups, together with those that follow and have the same cells: they have the same resamples, which need be drawn
-/// only once.
-pub fn alike(groups: &[Group]) -> Vec<&[Group]> {
-    groups.chunk_by(|a, b| a.cells == b.cells).flat_map(|alike| alike.chunks(JOINTLY)).collect()
 }
 
 /// The groups of a responses file, or of the stripes of ida, in the order in which they first appear.
@@ -100,19 +93,6 @@ fn of(frame: &DataFrame) -> anyhow::Result<Group> {
         motion_ids,
         pga_m_s2: finite(schema::PGA_M_S2)?,
     })
-}
-
-/// Numbers the cells in the order in which they first appear.
-fn cells(mw: &[Option<f64>], re_km: &[Option<f64>]) -> Vec<usize> {
-    let mut numbers = HashMap::new();
-    let bits = |value: &Option<f64>| value.map(f64::to_bits);
-    mw.iter()
-        .zip(re_km)
-        .map(|(mw, re_km)| {
-            let next = numbers.len();
-            *numbers.entry((bits(mw), bits(re_km))).or_insert(next)
-        })
-        .collect()
 }
 
 /// Names, or numbers as such.

@@ -6,15 +6,13 @@
 //! motions            records and peaks of motions, under distinct names
 //! measures           which intensity measures are taken
 //! partitions         which part of a table a process works on, and what its file is called
-//! groups             the responses of a suite and structure, clusters which of them resemble each other; pex_group and
-//!                    pro_group their fits, pex_refits those of resamples
-//! uncertainty        the limits that both are asked for
+//! groups             the responses of a suite and structure
+//! uncertainty        the limits of confidence that are asked for
 //! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
 //! resampled_fits     the same in each resample
 //! ```
 
 pub mod chosen_fits;
-pub mod clusters;
 pub mod compare_paper;
 pub mod config;
 pub mod evaluate;
@@ -29,9 +27,6 @@ pub mod inspect;
 pub mod measures;
 pub mod motions;
 pub mod partitions;
-pub mod pex_group;
-mod pex_refits;
-pub mod pro_group;
 pub mod rank_ims;
 pub mod report;
 pub mod resampled_fits;

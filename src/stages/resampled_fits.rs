@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::chosen_fits::ChosenFits;
-use super::fit_pro::FittedEvent;
 use super::fits::FitsOptions;
+use crate::fragility::demand::Form;
+use crate::fragility::overturning::FittedEvent;
 use crate::fragility::{DemandLaw, DemandModel, FragilityModel, Predictor};
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::table::fits::{self, FitRow};
-use crate::table::pex::Model;
 use crate::table::provenance::stamp;
 use crate::table::schema::{self, Column, PEX_BOOTSTRAP, PRO_BOOTSTRAP, Table};
 use crate::table::source::{Source, with_part};
@@ -98,20 +98,20 @@ fn rows(path: &Path, table: &Table, chosen: &ChosenFits) -> anyhow::Result<Vec<F
 
 /// Of the fit of the chosen measures, in the order of the replicates.
 fn demands(rows: &[FitRow], chosen: &DemandModel) -> Vec<Option<DemandModel>> {
-    let of = |model: Model, law: &DemandLaw| -> Vec<&FitRow> {
+    let of = |model: Form, law: &DemandLaw| -> Vec<&FitRow> {
         let same = |row: &&FitRow| {
             row.text(&schema::MODEL) == Some(model.as_str()) && has_measures(row, &law.ln_median)
         };
         rows.iter().filter(same).collect()
     };
     match chosen {
-        DemandModel::Everywhere(law) => of(Model::Univariate, law)
+        DemandModel::Everywhere(law) => of(Form::Univariate, law)
             .iter()
             .map(|row| Some(DemandModel::Everywhere(resampled(row, law)?)))
             .collect(),
         DemandModel::Biplanar { low, high, .. } => {
             // All replicates of the lower plane come first.
-            let both = of(Model::Biplanar, high);
+            let both = of(Form::Biplanar, high);
             let (below, above) = both.split_at(both.len() / 2);
             let planes = |(below, above): (&&FitRow, &&FitRow)| {
                 let transition = above.optional_number(&schema::RANGE_LOW)?;

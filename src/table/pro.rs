@@ -5,119 +5,27 @@ use std::sync::Arc;
 
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
-use nalgebra::DVector;
-
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
 use super::frame::read_frame;
 use super::schema::{self, Column, PRO};
-use crate::fragility::{CurveModel, CurveParameter, Measure, OverturningFit, has_few_events};
+use crate::fragility::overturning::{Curve, ParameterInference};
+use crate::fragility::{CurveParameter, OverturningFit};
 use crate::keyword::{self, Keyword};
-use crate::statistics::{BootstrapLimits, Estimate, FitStatus, Limits, Link, Test};
+use crate::statistics::{Estimate, Link, Test};
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProRow {
-    /// Of which suite.
+    /// Suite of the responses, if known.
     pub suite: Option<String>,
-    /// Of which structure.
+    /// Name of the structure.
     pub structure: String,
     /// Its coefficient of restitution.
     pub eta: f64,
-    /// What it is the probability of.
-    pub event: &'static str,
-    /// First measure.
-    pub im_x: Measure,
-    /// Second measure, of a hybrid.
-    pub im_y: Option<Measure>,
-    /// Cases used.
-    pub n: usize,
-    /// Those in which the event happened.
-    pub events: usize,
-    /// Least and largest value of each measure in the cases.
-    pub ranges: Vec<[f64; 2]>,
-    /// How the curve was fitted.
-    pub model: CurveModel,
-    /// The curve, or why there is none.
-    pub fit: Result<OverturningFit, FitStatus>,
-    /// The likelihood-ratio test against a curve that bends as a spline.
-    pub spline: Option<Test>,
-    /// The same against one with an interaction.
-    pub interaction: Option<Test>,
-    /// How sure its parameters are.
-    pub inference: Vec<ParameterInference>,
-    /// The coefficients in each resample, where it has a curve.
-    pub replicates: Vec<Option<DVector<f64>>>,
-}
-
-impl ProRow {
-    /// The measures of the curve, for a message.
-    pub fn measures(&self) -> String {
-        let second = self.im_y.map_or(String::new(), |measure| format!(":{}", measure.as_str()));
-        format!("{}{second}", self.im_x.as_str())
-    }
-
-    /// Whether there is a curve, and if not, why.
-    pub fn status(&self) -> FitStatus {
-        match &self.fit {
-            Ok(fit) => fit.status(),
-            Err(status) => *status,
-        }
-    }
-
-    fn inference_of(&self, parameter: CurveParameter) -> Option<&ParameterInference> {
-        self.inference.iter().find(|inference| inference.parameter == parameter)
-    }
-
-    /// Whether there is a curve, from so few events that some of its limits are too narrow.
-    pub fn has_few_events(&self) -> bool {
-        let measures = 1 + usize::from(self.im_y.is_some());
-        self.fit.is_ok() && has_few_events(self.events, self.n, measures)
-    }
-
-    /// Which limits to take where events are few, for a message.
-    pub fn few_events(&self) -> String {
-        let suite = self.suite.as_deref().unwrap_or("the motions");
-        format!(
-            "few events for {suite}, {} ({} of {} cases), so that limits by standard errors are too narrow; take the profile limits",
-            self.structure, self.events, self.n
-        )
-    }
-
-    /// What is wrong with the curve, for a message.
-    pub fn reason(&self) -> String {
-        let suite = self.suite.as_deref().unwrap_or("the motions");
-        match self.status() {
-            FitStatus::Falling => {
-                format!(
-                    "the probability of {} for {suite}, {}, falls with the measure",
-                    self.event, self.structure
-                )
-            }
-            status => format!(
-                "no curve of {} for {suite}, {}: {} ({} of {} cases)",
-                self.event,
-                self.structure,
-                status.as_str(),
-                self.events,
-                self.n
-            ),
-        }
-    }
-}
-
-/// How sure a parameter of a curve is, besides the errors and limits of the model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ParameterInference {
-    /// Which.
-    pub parameter: CurveParameter,
-    /// Standard error where cases of one cell or earthquake may depend on each other.
-    pub clustered_error: f64,
-    /// By the profile likelihood.
-    pub profile: Limits,
-    /// From the replicates, if they give any.
-    pub bootstrap: Option<BootstrapLimits>,
+    /// What was fitted.
+    pub curve: Curve,
 }
 
 /// The rows of the pro file; a limit beyond all numbers is null.
@@ -127,7 +35,7 @@ pub struct ParameterInference {
 pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
     let number = |value: &dyn Fn(&OverturningFit) -> Option<f64>| -> ArrayRef {
         Arc::new(Float64Array::from_iter(
-            rows.iter().map(|row| row.fit.as_ref().ok().and_then(value).filter(|v| v.is_finite())),
+            rows.iter().map(|row| row.curve.fit.as_ref().ok().and_then(value).filter(|v| v.is_finite())),
         ))
     };
     let text = |value: fn(&ProRow) -> Option<&str>| -> ArrayRef {
@@ -144,9 +52,9 @@ pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
     let mut columns: Vec<ArrayRef> = vec![
         text(|row| row.suite.as_deref()),
         text(|row| Some(&row.structure)),
-        text(|row| Some(row.event)),
-        text(|row| Some(row.im_x.as_str())),
-        text(|row| row.im_y.map(Keyword::as_str)),
+        text(|row| Some(row.curve.event.as_str())),
+        text(|row| Some(row.curve.im_x.as_str())),
+        text(|row| row.curve.im_y.map(Keyword::as_str)),
     ];
     columns.extend(estimates.map(|estimate| part(estimate, |e| e.value)));
     columns.extend([
@@ -155,22 +63,23 @@ pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
         number(&|fit| Some(fit.bic)),
         number(&|fit| Some(fit.auc)),
         number(&|fit| Some(fit.brier)),
-        count(|row| row.n),
-        count(|row| row.events),
+        count(|row| row.curve.n),
+        count(|row| row.curve.events),
     ]);
     columns.extend(estimates.map(|estimate| part(estimate, |e| e.standard_error)));
     for estimate in estimates {
         columns.extend([part(estimate, |e| e.low), part(estimate, |e| e.high)]);
     }
-    columns.push(text(|row| Some(row.model.link.as_str())));
-    columns.push(text(|row| Some(row.model.estimator.as_str())));
+    columns.push(text(|row| Some(row.curve.model.link.as_str())));
+    columns.push(text(|row| Some(row.curve.model.estimator.as_str())));
     columns.extend((0..3).map(|k| number(&|fit| fit.regression.coefficients.get(k).copied())));
     let covariance = |place: (usize, usize)| number(&|fit| fit.regression.covariance.get(place).copied());
     columns.extend((0..3).map(|k| number(&|fit| Some(fit.regression.covariance.get((k, k))?.sqrt()))));
     columns.extend([(0, 1), (0, 2), (1, 2)].map(covariance));
     let inferred =
         |parameter: CurveParameter, value: &dyn Fn(&ParameterInference) -> Option<f64>| -> ArrayRef {
-            let value = |row: &ProRow| row.inference_of(parameter).and_then(value).filter(|v| v.is_finite());
+            let value =
+                |row: &ProRow| row.curve.inference_of(parameter).and_then(value).filter(|v| v.is_finite());
             Arc::new(Float64Array::from_iter(rows.iter().map(value)))
         };
     columns.extend(CurveParameter::ALL.map(|parameter| inferred(parameter, &|i| Some(i.clustered_error))));
@@ -178,28 +87,28 @@ pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
         columns.push(inferred(parameter, &|i| Some(i.profile.low)));
         columns.push(inferred(parameter, &|i| Some(i.profile.high)));
     }
-    columns.push(Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.model.confidence))));
-    columns.push(count(|row| row.replicates.iter().flatten().count()));
+    columns.push(Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.curve.model.confidence))));
+    columns.push(count(|row| row.curve.replicates.iter().flatten().count()));
     for parameter in CurveParameter::ALL {
         columns.extend((0..4).map(|k| inferred(parameter, &|i| i.bootstrap?.in_order()[k])));
     }
     let test = |test: fn(&ProRow) -> Option<Test>, part: fn(Test) -> f64| -> ArrayRef {
         Arc::new(Float64Array::from_iter(rows.iter().map(|row| test(row).map(part))))
     };
-    let hosmer_lemeshow = |row: &ProRow| row.fit.as_ref().ok()?.hosmer_lemeshow;
+    let hosmer_lemeshow = |row: &ProRow| row.curve.fit.as_ref().ok()?.hosmer_lemeshow;
     columns.extend([
         test(hosmer_lemeshow, |test| test.statistic),
         test(hosmer_lemeshow, |test| test.p),
-        test(|row| row.spline, |test| test.p),
-        test(|row| row.interaction, |test| test.p),
+        test(|row| row.curve.spline, |test| test.p),
+        test(|row| row.curve.interaction, |test| test.p),
     ]);
     let of_row = |value: &dyn Fn(&ProRow) -> Option<f64>| -> ArrayRef {
         Arc::new(Float64Array::from_iter(rows.iter().map(|row| value(row).filter(|v| v.is_finite()))))
     };
-    let end = |(measure, end): (usize, usize)| of_row(&|row| Some(row.ranges.get(measure)?[end]));
+    let end = |(measure, end): (usize, usize)| of_row(&|row| Some(row.curve.data_ranges.get(measure)?[end]));
     columns.extend([(0, 0), (0, 1), (1, 0), (1, 1)].map(end));
     columns.push(of_row(&|row| Some(row.eta)));
-    columns.push(text(|row| Some(row.status().as_str())));
+    columns.push(text(|row| Some(row.curve.status().as_str())));
     RecordBatch::try_new(PRO.schema(), columns)
 }
 

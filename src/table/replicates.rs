@@ -5,9 +5,10 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 
-use super::pex::{PexReplicate, PexRow};
+use super::pex::PexRow;
 use super::pro::ProRow;
 use super::schema::{PEX_BOOTSTRAP, PRO_BOOTSTRAP};
+use crate::fragility::demand::Replicate;
 use crate::keyword::Keyword;
 
 /// The resamples of a regression of the demand.
@@ -15,19 +16,21 @@ use crate::keyword::Keyword;
 /// # Errors
 /// If a row cannot be represented, which the schema rules out.
 pub fn pex_batch(row: &PexRow) -> Result<RecordBatch, ArrowError> {
-    let text = |value: Option<&str>| repeated(value, row.replicates.len());
-    let number = |value: &dyn Fn(&PexReplicate) -> Option<f64>| -> ArrayRef {
-        let finite = |replicate: &PexReplicate| value(replicate).filter(|v| v.is_finite());
-        Arc::new(Float64Array::from_iter(row.replicates.iter().map(|r| r.as_ref().and_then(finite))))
+    let text = |value: Option<&str>| repeated(value, row.regression.replicates.len());
+    let number = |value: &dyn Fn(&Replicate) -> Option<f64>| -> ArrayRef {
+        let finite = |replicate: &Replicate| value(replicate).filter(|v| v.is_finite());
+        Arc::new(Float64Array::from_iter(
+            row.regression.replicates.iter().map(|r| r.as_ref().and_then(finite)),
+        ))
     };
     let coefficient = |k: usize| number(&|replicate| replicate.fit.coefficients.get(k).copied());
     let columns: Vec<ArrayRef> = vec![
         text(row.suite.as_deref()),
         text(Some(&row.structure)),
-        text(Some(row.model.as_str())),
-        text(Some(row.im_x.as_str())),
-        text(row.im_y.map(Keyword::as_str)),
-        numbers(row.replicates.len()),
+        text(Some(row.regression.form.as_str())),
+        text(Some(row.regression.im_x.as_str())),
+        text(row.regression.im_y.map(Keyword::as_str)),
+        numbers(row.regression.replicates.len()),
         number(&|replicate| Some(replicate.range.start)),
         number(&|replicate| Some(replicate.range.end)),
         coefficient(0),
@@ -43,18 +46,18 @@ pub fn pex_batch(row: &PexRow) -> Result<RecordBatch, ArrowError> {
 /// # Errors
 /// If a row cannot be represented, which the schema rules out.
 pub fn pro_batch(row: &ProRow) -> Result<RecordBatch, ArrowError> {
-    let text = |value: Option<&str>| repeated(value, row.replicates.len());
+    let text = |value: Option<&str>| repeated(value, row.curve.replicates.len());
     let coefficient = |k: usize| -> ArrayRef {
-        let values = row.replicates.iter().map(|b| b.as_ref().and_then(|b| b.get(k).copied()));
+        let values = row.curve.replicates.iter().map(|b| b.as_ref().and_then(|b| b.get(k).copied()));
         Arc::new(Float64Array::from_iter(values))
     };
     let columns: Vec<ArrayRef> = vec![
         text(row.suite.as_deref()),
         text(Some(&row.structure)),
-        text(Some(row.event)),
-        text(Some(row.im_x.as_str())),
-        text(row.im_y.map(Keyword::as_str)),
-        numbers(row.replicates.len()),
+        text(Some(row.curve.event.as_str())),
+        text(Some(row.curve.im_x.as_str())),
+        text(row.curve.im_y.map(Keyword::as_str)),
+        numbers(row.curve.replicates.len()),
         coefficient(0),
         coefficient(1),
         coefficient(2),

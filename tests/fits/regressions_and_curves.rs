@@ -3,10 +3,12 @@
 use std::collections::HashMap;
 
 use proptest::prelude::*;
+use rockfrag::fragility::demand::{Form, Regression, RegressionOptions, Regressions};
+use rockfrag::fragility::overturning::{Curve, CurveOptions, FittedEvent, Pair};
 use rockfrag::fragility::{
-    Case, CurveModel, DemandSample, EventSample, Measure, OverturningFit, PLANE, Plane, TransitionSearch,
-    fit_biplanar, fit_overturning, fit_univariate, p_exceeding, p_failure_given_rocking, p_no_rocking,
-    p_overturning,
+    Case, CaseGroup, CurveModel, DemandSample, EventSample, Measure, OverturningFit, PLANE, Plane,
+    TransitionSearch, Uncertainty, fit_biplanar, fit_overturning, fit_univariate, p_exceeding,
+    p_failure_given_rocking, p_no_rocking, p_overturning, unwatched,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -172,6 +174,11 @@ fn student_quantiles_equal_scipys() {
 
 /// Cases on two planes that meet at `at`.
 fn two_planes(at: f64) -> Vec<Case> {
+    on_planes(at, [-8.0, 25.0, -2.0], [-1.5, 1.5, -1.0])
+}
+
+/// Cases on these planes, given by ln a, b1 and b2.
+fn on_planes(at: f64, low: [f64; 3], high: [f64; 3]) -> Vec<Case> {
     let mut state = 7_u64;
     let mut uniform = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -180,8 +187,8 @@ fn two_planes(at: f64) -> Vec<Case> {
     let mut one = || {
         let (im4, im3) = (1.0 + 2.0 * uniform(), 0.5 + uniform());
         let noise = 0.2 * (uniform() - 0.5);
-        let (x, y) = (im4.ln(), im3.ln());
-        let ln_edp = if im4 < at { -8.0 + 25.0 * x - 2.0 * y } else { -1.5 + 1.5 * x - 1.0 * y };
+        let [ln_a, b1, b2] = if im4 < at { low } else { high };
+        let ln_edp = ln_a + b1 * im4.ln() + b2 * im3.ln();
         case(Outcome::SafeRocking, (ln_edp + noise).exp(), im3, im4)
     };
     (0..1500).map(|_| one()).collect()
@@ -215,6 +222,44 @@ fn two_planes_and_their_transition_are_found() {
     close(fit.r2_overall.unwrap(), joint.r2, 1e-9, "R2 of both sides");
     let nothing = Case { edp: 0.0, ..cases[0] };
     assert_eq!(DemandSample::new(&[nothing, cases[1]], &PLANE, 0.0..f64::INFINITY).rows, [1]);
+}
+
+#[test]
+fn all_fits_of_a_group_follow_from_slices_of_its_cases() {
+    // The combined motions of Table II: frame, and electrical equipment.
+    let table = [
+        ([-12.02, 28.31, -0.236], [-2.263, 2.640, -1.436]),
+        ([-11.39, 30.39, -0.072], [-2.765, 2.954, -0.942]),
+    ];
+    let cases = table.map(|(low, high)| on_planes(1.3, low, high));
+    let cells: Vec<usize> = (0..cases[0].len()).map(|case| case % 20).collect();
+    let groups = cases.each_ref().map(|cases| CaseGroup { cases, cells: &cells, clusters: &cells });
+    let uncertainty = Uncertainty { replicates: 100, confidence: 0.95, seed: 42 };
+    let options = RegressionOptions { transition: None, uncertainty };
+    let Ok(fitted) = options.fit(&groups, &unwatched);
+    for (Regressions { fits, .. }, (low, high)) in fitted.iter().zip(table) {
+        let planes: Vec<&Regression> = fits.iter().filter(|fit| fit.form == Form::Biplanar).collect();
+        assert_eq!((planes.len(), fits.len()), (2, 6 + 1 + 2 + 2));
+        for (plane, expected) in planes.iter().zip([low, high]) {
+            for (k, expected) in expected.into_iter().enumerate() {
+                let estimate = plane.coefficient(k).unwrap();
+                let limits = plane.coefficient_limits(k).unwrap().percentile;
+                let errors = (estimate.value - expected).abs() / estimate.standard_error;
+                assert!(errors < 4.0, "{estimate:?}, expected {expected}");
+                assert!(limits.low < estimate.value && estimate.value < limits.high, "{limits:?}");
+            }
+        }
+        let [below, above] = [0, 1].map(|side| planes[side].range.clone());
+        assert!((below.start, above.end) == (1.0, f64::INFINITY) && below.end == above.start);
+    }
+    let event = FittedEvent::Overturning;
+    let pairs = vec![Pair(Measure::Im4, Measure::Im3Inverse)];
+    let options = CurveOptions { event, pairs, model: CurveModel::default(), uncertainty };
+    let Ok(curves) = options.fit(&groups, &unwatched);
+    let none = |curve: &Curve| curve.status() == FitStatus::TooFewEvents && curve.events == 0;
+    assert!(curves.iter().flatten().all(none) && curves[0].len() == 7, "nothing overturns");
+    let stopped = options.fit(&groups, &|_| Err("enough"));
+    assert_eq!(stopped.unwrap_err(), "enough");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! P_ex: regressions of the demand in safe rocking (Eqs. 14 to 18).
 
+pub(crate) mod group;
 pub(crate) mod inference;
 pub(crate) mod refits;
 pub(crate) mod regressions;
@@ -7,6 +8,7 @@ pub(crate) mod sample;
 pub(crate) mod smooth;
 pub(crate) mod transition;
 
+pub use group::{Form, Regression, RegressionOptions, Regressions, Replicate};
 pub use inference::{DemandInference, DemandReplicate};
 pub use refits::DemandRefits;
 pub use regressions::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};

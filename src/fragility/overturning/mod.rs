@@ -3,6 +3,7 @@
 pub(crate) mod bent_curve;
 pub(crate) mod curves;
 pub(crate) mod expansion;
+pub(crate) mod group;
 pub(crate) mod inference;
 pub(crate) mod parameter;
 pub(crate) mod profile;
@@ -11,6 +12,7 @@ pub(crate) mod sample;
 
 pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use curves::{CurveModel, OverturningFit, fit_overturning, has_few_events};
+pub use group::{Curve, CurveOptions, FittedEvent, Pair, ParameterInference};
 pub use inference::CurveInference;
 pub use parameter::CurveParameter;
 pub use refits::CurveRefits;

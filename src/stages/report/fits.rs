@@ -1,14 +1,14 @@
 use std::path::Path;
 
 use crate::fragility::Measure;
+use crate::fragility::demand::Form;
+use crate::fragility::overturning::FittedEvent;
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
 use crate::report::material::{Curve, Group, Model, Planes, Regression};
-use crate::stages::fit_pro::FittedEvent;
 use crate::stages::fits::{FitsOptions, ModelForm};
 use crate::table::fits::{self, FitRow};
-use crate::table::pex;
 use crate::table::schema;
 
 /// The row, if it is of this group.
@@ -21,12 +21,12 @@ fn is_of(row: &FitRow, group: &Group) -> bool {
 pub fn add_regressions(path: &Path, groups: &mut [Group]) -> anyhow::Result<Option<f64>> {
     let rows = fits::regressions(path)?;
     for group in groups {
-        let of_group = |model: pex::Model| {
+        let of_group = |model: Form| {
             let rows = rows.iter().filter(|row| is_of(row, group));
             rows.filter(move |row| row.text(&schema::MODEL) == Some(model.as_str())).collect::<Vec<_>>()
         };
-        let univariate = of_group(pex::Model::Univariate);
-        let planes = of_group(pex::Model::Biplanar);
+        let univariate = of_group(Form::Univariate);
+        let planes = of_group(Form::Biplanar);
         group.planes = match &planes[..] {
             [low, high] => regression(low).zip(regression(high)).and_then(|(below, above)| {
                 let transition = high.optional_number(&schema::RANGE_LOW)?;

@@ -4,10 +4,10 @@ use arrow_array::cast::AsArray;
 use arrow_array::{Array, RecordBatch};
 use arrow_schema::DataType;
 
+use crate::fragility::demand::Form;
 use crate::keyword::Keyword;
 use crate::report::material::{Column, Table};
 use crate::table::TableError;
-use crate::table::pex::Model;
 use crate::table::reader::read_any;
 use crate::table::schema;
 use crate::table::text;
@@ -20,7 +20,7 @@ struct Shown {
     role: &'static str,
     title: &'static str,
     /// Words that must stand in the column of the model; all rows where there are none.
-    models: &'static [Model],
+    models: &'static [Form],
     /// All columns where there are none.
     columns: &'static [schema::Column],
 }
@@ -29,7 +29,7 @@ const SHOWN: [Shown; 7] = [
     Shown {
         role: "pex",
         title: "Regressions of the demand on one measure (Table I)",
-        models: &[Model::Univariate],
+        models: &[Form::Univariate],
         columns: &[
             schema::SUITE,
             schema::STRUCTURE,
@@ -47,7 +47,7 @@ const SHOWN: [Shown; 7] = [
     Shown {
         role: "pex",
         title: "Regressions of the demand on two measures (Table II)",
-        models: &[Model::Plane, Model::Biplanar, Model::Smooth],
+        models: &[Form::Plane, Form::Biplanar, Form::Smooth],
         columns: &[
             schema::SUITE,
             schema::STRUCTURE,
@@ -138,7 +138,7 @@ fn column(field: &arrow_schema::Field) -> Column {
     Column { name: field.name().clone(), description, numeric: field.data_type() != &DataType::Utf8 }
 }
 
-fn is_of(batch: &RecordBatch, row: usize, models: &[Model]) -> bool {
+fn is_of(batch: &RecordBatch, row: usize, models: &[Form]) -> bool {
     let model = batch.column_by_name(schema::MODEL.name).and_then(|column| column.as_string_opt::<i32>());
     let is = |model: &arrow_array::StringArray| {
         !model.is_null(row) && models.iter().any(|wanted| wanted.as_str() == model.value(row))

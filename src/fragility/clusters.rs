@@ -1,6 +1,6 @@
 //! Which responses may depend on each other.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::keyword::keywords;
 
@@ -64,4 +64,17 @@ impl Clusters {
         let numbers: BTreeMap<&Origin, usize> = distinct.into_iter().zip(0..).collect();
         Clusters { numbers: origins.iter().map(|origin| numbers[origin]).collect(), shared }
     }
+}
+
+/// Numbers the cells of magnitude and distance in the order in which they first appear; responses that have neither are in one cell.
+pub fn cells(mw: &[Option<f64>], re_km: &[Option<f64>]) -> Vec<usize> {
+    let mut numbers = HashMap::new();
+    let bits = |value: &Option<f64>| value.map(f64::to_bits);
+    mw.iter()
+        .zip(re_km)
+        .map(|(mw, re_km)| {
+            let next = numbers.len();
+            *numbers.entry((bits(mw), bits(re_km))).or_insert(next)
+        })
+        .collect()
 }

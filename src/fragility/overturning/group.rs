@@ -1,0 +1,254 @@
+//! All curves of a group of cases, with their uncertainty.
+
+use std::fmt;
+use std::str::FromStr;
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+use super::bent_curve::{fit_with_interaction, fit_with_spline};
+use super::curves::{CurveModel, OverturningFit, fit_overturning, has_few_events};
+use super::inference::CurveInference;
+use super::parameter::CurveParameter;
+use super::refits::CurveRefits;
+use super::sample::EventSample;
+use crate::fragility::case::{Case, Measure};
+use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
+use crate::fragility::predictor::ranges;
+use crate::keyword::{self, Keyword, keywords};
+use crate::resampling::Strata;
+use crate::rocking::Outcome;
+use crate::statistics::{
+    BinaryFit, BootstrapLimits, Estimator, FitStatus, Limits, Test, bootstrap_limits, likelihood_ratio,
+};
+
+/// What a fragility curve is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FittedEvent {
+    /// Overturning given rocking: P_ro.
+    Overturning,
+    /// Rocking: 1 - P_nr.
+    Rocking,
+}
+
+keywords!(FittedEvent { Overturning = "overturning", Rocking = "rocking" });
+
+impl FittedEvent {
+    /// Whether it happened in a case; none if the case does not count.
+    pub fn happened(self, case: &Case) -> Option<bool> {
+        match (self, case.outcome) {
+            (FittedEvent::Overturning, Outcome::NoRocking) => None,
+            (FittedEvent::Overturning, outcome) => Some(outcome == Outcome::Overturning),
+            (FittedEvent::Rocking, outcome) => Some(outcome != Outcome::NoRocking),
+        }
+    }
+}
+
+/// Two measures that make a hybrid one (Eq. 23), written as `im4:im3_inv`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pair(pub Measure, pub Measure);
+
+impl FromStr for Pair {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Pair, String> {
+        let (x, y) =
+            text.split_once(':').ok_or_else(|| format!("'{text}': expected two measures as im4:im3_inv"))?;
+        let measure = |name: &str| keyword::parse(name.trim()).map_err(|unknown| unknown.to_string());
+        let pair = Pair(measure(x)?, measure(y)?);
+        if pair.0 == pair.1 { Err(format!("'{text}': expected two different measures")) } else { Ok(pair) }
+    }
+}
+
+impl fmt::Display for Pair {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}:{}", self.0.as_str(), self.1.as_str())
+    }
+}
+
+/// A fragility curve of one measure or of a hybrid of two.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// What it is the probability of.
+    pub event: FittedEvent,
+    /// First measure.
+    pub im_x: Measure,
+    /// Second measure, of a hybrid.
+    pub im_y: Option<Measure>,
+    /// Cases used.
+    pub n: usize,
+    /// Those in which the event happened.
+    pub events: usize,
+    /// Least and largest value of each measure in the cases.
+    pub data_ranges: Vec<[f64; 2]>,
+    /// How it was fitted.
+    pub model: CurveModel,
+    /// The fit, or why there is none.
+    pub fit: Result<OverturningFit, FitStatus>,
+    /// The likelihood-ratio test against a curve that bends as a spline.
+    pub spline: Option<Test>,
+    /// The same against one with an interaction.
+    pub interaction: Option<Test>,
+    /// How uncertain each of its parameters is.
+    pub inference: Vec<ParameterInference>,
+    /// The coefficients in each resample, where it has a curve.
+    pub replicates: Vec<Option<DVector<f64>>>,
+}
+
+/// How uncertain a parameter of a curve is, besides the errors and limits of the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParameterInference {
+    /// The parameter.
+    pub parameter: CurveParameter,
+    /// Standard error where cases of one cluster may depend on each other.
+    pub clustered_error: f64,
+    /// Limits by the profile likelihood.
+    pub profile: Limits,
+    /// Limits from the replicates, if they give any.
+    pub bootstrap: Option<BootstrapLimits>,
+}
+
+impl Curve {
+    /// Whether there is a curve, and if not, why.
+    pub fn status(&self) -> FitStatus {
+        match &self.fit {
+            Ok(fit) => fit.status(),
+            Err(status) => *status,
+        }
+    }
+
+    /// How uncertain a parameter is.
+    pub fn inference_of(&self, parameter: CurveParameter) -> Option<&ParameterInference> {
+        self.inference.iter().find(|inference| inference.parameter == parameter)
+    }
+
+    /// Whether there is a curve, from so few events that some of its limits are too narrow.
+    pub fn has_few_events(&self) -> bool {
+        let measures = 1 + usize::from(self.im_y.is_some());
+        self.fit.is_ok() && has_few_events(self.events, self.n, measures)
+    }
+}
+
+/// How all curves of a group are made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveOptions {
+    /// What they are about.
+    pub event: FittedEvent,
+    /// The hybrid measures, besides the six scalar ones.
+    pub pairs: Vec<Pair>,
+    /// How a curve is fitted.
+    pub model: CurveModel,
+    /// The limits that are asked for.
+    pub uncertainty: Uncertainty,
+}
+
+/// A curve with the cases that it was fitted to.
+type SampledCurve = (Curve, EventSample);
+
+fn refits((curve, sample): &SampledCurve) -> Option<CurveRefits<'_>> {
+    Some(CurveRefits::new(sample, &curve.fit.as_ref().ok()?.regression))
+}
+
+impl CurveOptions {
+    /// Fits the curves of each group: those of the six scalar measures, then of the hybrid ones.
+    ///
+    /// # Errors
+    /// Those of `progress`.
+    pub fn fit<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Vec<Curve>>, E> {
+        fit_jointly(groups, |groups| self.fit_alike(groups, progress))
+    }
+
+    /// Of groups with the same cells.
+    fn fit_alike<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Vec<Curve>>, E> {
+        let curves = |group: &CaseGroup| {
+            progress(1)?;
+            Ok(self.curves(group.cases))
+        };
+        let mut fitted = groups.par_iter().map(curves).collect::<Result<Vec<_>, E>>()?;
+        if self.uncertainty.replicates > 0 {
+            self.resample(groups[0].cells, progress, &mut fitted)?;
+        }
+        let infer = |(curves, group): (Vec<SampledCurve>, &CaseGroup)| {
+            let inferred = |(curve, sample)| self.infer(group, curve, &sample);
+            curves.into_iter().map(inferred).collect()
+        };
+        Ok(fitted.into_par_iter().zip(groups).map(infer).collect())
+    }
+
+    fn curves(&self, cases: &[Case]) -> Vec<SampledCurve> {
+        let scalar = Measure::SCALAR.into_iter().map(|measure| (measure, None));
+        let measures = scalar.chain(self.pairs.iter().map(|&Pair(x, y)| (x, Some(y))));
+        measures.map(|(im_x, im_y)| self.curve(cases, im_x, im_y)).collect()
+    }
+
+    fn curve(&self, cases: &[Case], im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
+        let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
+        let sample = EventSample::new(cases, &measures, |case| self.event.happened(case));
+        let fit = fit_overturning(&sample, &self.model);
+        let needed = |bent: fn(&EventSample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
+            let straight = &fit.as_ref().ok().filter(|_| self.model.estimator == Estimator::Ml)?.regression;
+            Some(likelihood_ratio(straight, &bent(&sample, &self.model).ok()?))
+        };
+        let (spline, interaction) = (needed(fit_with_spline), needed(fit_with_interaction));
+        let curve = Curve {
+            event: self.event,
+            im_x,
+            im_y,
+            n: sample.happened.len(),
+            events: sample.events(),
+            data_ranges: ranges(&sample.predictors()),
+            model: self.model,
+            fit,
+            spline,
+            interaction,
+            inference: Vec::new(),
+            replicates: Vec::new(),
+        };
+        (curve, sample)
+    }
+
+    /// Adds the coefficients in each resample.
+    fn resample<E: Send>(
+        &self,
+        cells: &[usize],
+        progress: Progress<E>,
+        fitted: &mut [Vec<SampledCurve>],
+    ) -> Result<(), E> {
+        let groups: Vec<Vec<Option<CurveRefits>>> =
+            fitted.par_iter().map(|curves| curves.iter().map(refits).collect()).collect();
+        let resampled = self.uncertainty.bootstrap(cells, &groups, progress, |refits, resamples| {
+            let of_all = |refits: &Option<CurveRefits>| Some(refits.as_ref()?.coefficients(resamples));
+            let mut fits: Vec<_> = refits.iter().map(of_all).collect();
+            std::array::from_fn(|resample| -> Vec<_> {
+                fits.iter_mut().map(|fit| fit.as_mut()?[resample].take()).collect()
+            })
+        })?;
+        for (curves, replicates) in fitted.iter_mut().zip(resampled) {
+            for fits in replicates {
+                curves.iter_mut().zip(fits).for_each(|((curve, _), fit)| curve.replicates.push(fit));
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds clustered errors, profile-likelihood limits, and limits from the replicates if there are any.
+    fn infer(&self, group: &CaseGroup, mut curve: Curve, sample: &EventSample) -> Curve {
+        let Ok(fit) = &curve.fit else { return curve };
+        let (inference, confidence) =
+            (CurveInference::new(sample, &fit.regression), self.uncertainty.confidence);
+        let (strata, clustered) = (Strata::new(group.cells), inference.clustered_covariance(group.clusters));
+        let of = |parameter: &CurveParameter| {
+            let replicates = inference.parameters(*parameter, &curve.replicates);
+            let acceleration = inference.acceleration(*parameter, &strata);
+            let estimate = inference.fitted(*parameter);
+            ParameterInference {
+                parameter: *parameter,
+                clustered_error: inference.standard_error(*parameter, &clustered),
+                profile: inference.profile_limits(*parameter, confidence),
+                bootstrap: bootstrap_limits(estimate, &replicates, acceleration, confidence),
+            }
+        };
+        curve.inference = inference.curve_parameters().iter().map(of).collect();
+        curve
+    }
+}
