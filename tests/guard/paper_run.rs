@@ -8,7 +8,7 @@ use crate::snapshot::check_each;
 use crate::tables::fingerprints;
 
 #[test]
-#[ignore = "takes a minute in release"]
+#[ignore = "takes half a minute in release"]
 fn paper_run_fingerprints() {
     let folder = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("pipeline.yaml")).unwrap();
