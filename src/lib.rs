@@ -20,9 +20,10 @@
 //! | sections 2.1.1 to 2.1.3, Eqs. 1 and 13: scenarios, motions, intensity measures | [`motion`] |
 //! | section 2.2: the rocking response | [`rocking`] |
 //! | sections 2.3 and 3, Eqs. 12 and 14 to 24: fragility | [`fragility`] |
+//! | beyond it: recorded motions | [`records`] |
 //! | beyond it: annual rates at a site | [`hazard`] |
 //!
-//! These four know no files, threads or command line, nor do [`export`], which words fragility for other programs, and
+//! These five know no files, threads or command line, nor do [`export`], which words fragility for other programs, and
 //! [`report`], which draws it. [`table`] reads and writes the files, [`pipeline`] decides what must run, [`stages`] joins
 //! them: one file a subcommand.
 
@@ -38,6 +39,7 @@ pub mod normal;
 #[cfg(feature = "pipeline")]
 pub mod pipeline;
 pub mod random;
+pub mod records;
 #[cfg(feature = "pipeline")]
 pub mod report;
 pub mod resampling;

@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use rockfrag::keyword::Keyword;
-use rockfrag::motion::records::{AccelerationUnit, ColumnChoice, Format, Given, read};
+use rockfrag::records::{AccelerationUnit, ColumnChoice, Format, Given, read};
 use rockfrag::rocking::Record;
 
 fuzz_target!(|bytes: &[u8]| {

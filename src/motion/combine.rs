@@ -1,3 +1,5 @@
+//! High frequencies and pulse into one motion (section 2.1.3).
+
 use realfft::num_complex::Complex64;
 
 use crate::keyword::keywords;
@@ -32,7 +34,7 @@ keywords!(Difference { Absolute = "absolute", Signed = "signed", Clamp = "clamp"
 keywords!(Epoch { EnvelopePeak = "envelope-peak", Pga = "pga", Pgv = "pgv" });
 
 impl Difference {
-    /// What the high frequencies keep of their amplitude, D' / |H|, where the pulse is `ratio` = |P| / |H| times as large.
+    /// Computes what the high frequencies keep of their amplitude, D' / |H|, where the pulse is `ratio` = |P| / |H| times as large.
     #[inline(always)]
     pub fn kept(self, ratio: f64) -> f64 {
         match self {
@@ -44,8 +46,8 @@ impl Difference {
     }
 }
 
-/// Steps 4 to 6 of section 2.1.3 on Fourier coefficients: the spectrum of the combined motion, D' exp(i arg H) + P, into
-/// `high_frequency`. The mean stays 0, so that the ground comes to rest.
+/// Makes the spectrum of the combined motion, D' exp(i arg H) + P, of that of the high frequencies, H: steps 4 to 6 of section
+/// 2.1.3 on Fourier coefficients. The mean stays 0, so that the ground comes to rest.
 pub fn combine(high_frequency: &mut [Complex64], pulse: &[Complex64], difference: Difference) {
     // One loop for each: a choice within it would keep it out of wide registers.
     match difference {
@@ -59,7 +61,7 @@ pub fn combine(high_frequency: &mut [Complex64], pulse: &[Complex64], difference
     }
 }
 
-/// What is kept of the high frequencies, and the pulse.
+/// Adds the pulse to what is kept of the high frequencies.
 fn add(high_frequency: &mut [Complex64], pulse: &[Complex64], kept: impl Fn(f64) -> f64) {
     widest(
         #[inline(always)]

@@ -1,8 +1,9 @@
+//! Which points of the unit cube sample the random parameters of a scenario (section 2.1.1).
+
 use rand::seq::SliceRandom;
 use rand::{Rng, RngExt};
 
 use super::scenario::{PulseParameters, Scenario};
-use super::sobol::SobolSequence;
 use crate::keyword::keywords;
 use crate::random::{Purpose, stream};
 
@@ -31,19 +32,17 @@ pub struct Grid {
     pub re_km: Vec<f64>,
     /// Scenarios in each cell.
     pub samples: usize,
-    /// How they are sampled.
     pub design: Design,
-    /// Seed of all random numbers.
     pub seed: u64,
 }
 
 impl Grid {
-    /// How many cells there are: magnitudes times distances.
+    /// Returns the number of cells: magnitudes times distances.
     pub fn cells(&self) -> usize {
         self.mw.len() * self.re_km.len()
     }
 
-    /// The scenarios of a cell, the same whichever other cells are sampled. The cells of one magnitude follow each
+    /// Samples the scenarios of a cell, the same whichever other cells are sampled. The cells of one magnitude follow each
     /// other.
     pub fn scenarios_of_cell(&self, cell: usize) -> Vec<Scenario> {
         let mw = self.mw[cell / self.re_km.len()];
@@ -65,7 +64,7 @@ impl Grid {
         self.quantiles_of_cell(cell).into_iter().enumerate().map(scenario).collect()
     }
 
-    /// The points of a cell in the unit cube.
+    /// Samples the points of a cell in the unit cube.
     pub fn quantiles_of_cell(&self, cell: usize) -> Vec<[f64; DIMENSIONS]> {
         match self.design {
             Design::Lhs => self.latin_hypercube(cell),
@@ -107,7 +106,61 @@ impl Grid {
     }
 }
 
-/// A uniform number of [0, 1) away from 0, where quantiles are infinite.
+/// Moves a uniform number of [0, 1) away from 0, where quantiles are infinite.
 fn open_unit(u: f64) -> f64 {
     u.max(f64::EPSILON)
+}
+
+/// Points of Sobol's sequence in four dimensions as 32 binary digits each, after Joe and Kuo (2008), in the order of
+/// Gray codes; the first point is 0.
+#[derive(Debug, Clone, Default)]
+struct SobolSequence {
+    index: u32,
+    digits: [u32; 4],
+}
+
+/// A primitive polynomial, without its first and last coefficient, and the initial direction numbers.
+struct Direction {
+    polynomial: u32,
+    initial: &'static [u32],
+}
+
+/// The dimensions after the first, which is van der Corput's sequence.
+const DIRECTIONS: [Direction; 3] = [
+    Direction { polynomial: 0, initial: &[1] },
+    Direction { polynomial: 1, initial: &[1, 3] },
+    Direction { polynomial: 1, initial: &[1, 3, 1] },
+];
+
+impl Iterator for SobolSequence {
+    type Item = [u32; 4];
+
+    fn next(&mut self) -> Option<[u32; 4]> {
+        let point = self.digits;
+        let bit = self.index.trailing_ones();
+        for (dimension, digits) in self.digits.iter_mut().enumerate() {
+            *digits ^= direction_number(dimension, bit as usize);
+        }
+        self.index = self.index.checked_add(1)?;
+        Some(point)
+    }
+}
+
+fn direction_number(dimension: usize, bit: usize) -> u32 {
+    if dimension == 0 {
+        return 1 << (31 - bit);
+    }
+    let Direction { polynomial, initial } = &DIRECTIONS[dimension - 1];
+    let degree = initial.len();
+    let mut numbers: Vec<u32> = initial.iter().enumerate().map(|(k, m)| m << (31 - k)).collect();
+    for k in degree..=bit {
+        let mut number = numbers[k - degree] ^ (numbers[k - degree] >> degree);
+        for j in 1..degree {
+            if polynomial >> (degree - 1 - j) & 1 == 1 {
+                number ^= numbers[k - j];
+            }
+        }
+        numbers.push(number);
+    }
+    numbers[bit]
 }

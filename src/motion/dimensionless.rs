@@ -1,6 +1,9 @@
+//! Intensity measures without units: those of Eq. 13, and any other measure of a motion as it meets a structure.
+
 use std::f64::consts::PI;
 
 use crate::rocking::Structure;
+use crate::units::G_M_S2;
 
 /// The dimensionless intensity measures of Eq. 13. Those of periods are missing where the period is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +23,7 @@ pub struct IntensityMeasures {
 }
 
 impl IntensityMeasures {
-    /// Of a structure and a motion of these peaks (m/s2, m/s) and periods (s).
+    /// Computes the measures (Eq. 13) of a motion with these peaks (m/s2, m/s) and periods (s) for a structure.
     pub fn new(
         structure: &Structure,
         pga_m_s2: f64,
@@ -29,16 +32,46 @@ impl IntensityMeasures {
         tm_s: Option<f64>,
     ) -> IntensityMeasures {
         let p = structure.p_rad_s;
-        let uplift = structure.uplift_acceleration_m_s2();
+        let g_tan_alpha = structure.uplift_acceleration_m_s2();
         let circular = |period_s: Option<f64>| period_s.filter(|&period| period > 0.0).map(|t| 2.0 * PI / t);
-        let wm = circular(tm_s);
+        let (wp, wm) = (circular(tp_s), circular(tm_s));
         IntensityMeasures {
-            im1: circular(tp_s).map(|wp| wp / p),
+            im1: wp.map(|wp| wp / p),
             im2: wm.map(|wm| wm / p),
             im3: (pgv_m_s > 0.0).then(|| pga_m_s2 / (p * pgv_m_s)),
-            im4: pga_m_s2 / uplift,
-            im5: p * pgv_m_s / uplift,
-            im6: wm.map(|wm| wm * pgv_m_s / uplift),
+            im4: pga_m_s2 / g_tan_alpha,
+            im5: p * pgv_m_s / g_tan_alpha,
+            im6: wm.map(|wm| wm * pgv_m_s / g_tan_alpha),
+        }
+    }
+}
+
+/// What a measure of a motion is. p (1/time) and g tan alpha (an acceleration) make it dimensionless, as Eq. 13 does with the
+/// peaks and periods.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// A duration D, s: p D.
+    Duration,
+    /// A length d, m: p^2 d / (g tan alpha).
+    Length,
+    /// A velocity v, m/s: p v / (g tan alpha).
+    Velocity,
+    /// An acceleration a, m/s2: a / (g tan alpha).
+    Acceleration,
+    /// An Arias intensity pi / (2 g) times the integral of the squared acceleration, m/s: p times that integral / (g tan alpha)^2.
+    AriasIntensity,
+}
+
+impl Quantity {
+    /// Makes a value in the unit above dimensionless for a structure.
+    pub fn dimensionless(self, value: f64, structure: &Structure) -> f64 {
+        let (p, g_tan_alpha) = (structure.p_rad_s, structure.uplift_acceleration_m_s2());
+        match self {
+            Quantity::Duration => p * value,
+            Quantity::Length => p * p * value / g_tan_alpha,
+            Quantity::Velocity => p * value / g_tan_alpha,
+            Quantity::Acceleration => value / g_tan_alpha,
+            Quantity::AriasIntensity => p * (2.0 * G_M_S2 / PI * value) / (g_tan_alpha * g_tan_alpha),
         }
     }
 }

@@ -1,3 +1,5 @@
+//! Fourier transforms of real series, planned once for each length.
+
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -11,14 +13,14 @@ pub struct Transform {
 }
 
 impl Transform {
-    /// Of `samples` samples. Each length is planned on its own: a shared planner builds on what it has planned
+    /// Plans the transforms of `samples` samples. Each length is planned on its own: a shared planner builds on what it has planned
     /// before, and its last digits then depend on the history of the thread.
     pub fn new(samples: usize) -> Transform {
         let mut planner = RealFftPlanner::new();
         Transform { forward: planner.plan_fft_forward(samples), inverse: planner.plan_fft_inverse(samples) }
     }
 
-    /// The Fourier coefficients of `samples`, which are used up.
+    /// Computes the Fourier coefficients of `samples`, which are used up.
     pub fn forward(&self, samples: &mut [f64], spectrum: &mut Vec<Complex64>, scratch: &mut Vec<Complex64>) {
         spectrum.resize(samples.len() / 2 + 1, Complex64::ZERO);
         scratch.resize(self.forward.get_scratch_len(), Complex64::ZERO);
@@ -26,7 +28,7 @@ impl Transform {
         debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
     }
 
-    /// The samples of these Fourier coefficients, which are used up.
+    /// Computes the samples of these Fourier coefficients, which are used up.
     pub fn inverse(&self, spectrum: &mut [Complex64], samples: &mut [f64], scratch: &mut Vec<Complex64>) {
         // Of a real series the mean and the Nyquist coefficient are real.
         if let [first, .., last] = spectrum {
@@ -41,7 +43,7 @@ impl Transform {
     }
 }
 
-/// What is kept for each length of series that has come.
+/// A cache of something that depends on the length of a series.
 pub struct ByLength<T>(HashMap<usize, Arc<T>>);
 
 impl<T> Default for ByLength<T> {
@@ -51,13 +53,13 @@ impl<T> Default for ByLength<T> {
 }
 
 impl<T> ByLength<T> {
-    /// That of this length, made where it is the first.
+    /// Returns what is kept for a length, made first where it is new.
     pub fn get(&mut self, length: usize, make: impl FnOnce() -> T) -> Arc<T> {
         self.0.entry(length).or_insert_with(|| Arc::new(make())).clone()
     }
 }
 
-/// The least even number of at least `n` without prime factors above 5: a length that a fast Fourier transform likes.
+/// Finds the least even number of at least `n` without prime factors above 5: a length that a fast Fourier transform likes.
 pub fn even_smooth_at_least(n: usize) -> usize {
     let smooth = |mut n: usize| {
         for prime in [2, 3, 5] {

@@ -1,6 +1,8 @@
-//! An earthquake scenario and the distributions of its random parameters (section 2.1.1).
+//! An earthquake scenario, the distributions of its random parameters (section 2.1.1), and the suites of motions made of it.
 
+use crate::keyword::keywords;
 use crate::normal;
+use crate::units::CM_PER_M;
 
 /// An earthquake as seen from a site: where, how large, and the velocity pulse that it sends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +52,7 @@ pub struct PulseParameters {
 }
 
 impl PulseParameters {
-    /// The parameters at the quantiles `u` (four numbers in (0, 1), for Vp, Tp, gamma and nu) of their distributions
+    /// Returns the parameters at the quantiles `u` (four numbers in (0, 1), for Vp, Tp, gamma and nu) of their distributions
     /// for a magnitude and a distance (km): Vp and Tp lognormal, gamma normal truncated below at 1, nu normal.
     pub fn at_quantiles(mw: f64, re_km: f64, u: [f64; 4]) -> PulseParameters {
         let log10_vp = median_log10_vp_cm_s(mw, re_km) + SIGMA_LOG10_VP * normal::quantile(u[0]);
@@ -59,7 +61,7 @@ impl PulseParameters {
         let below = normal::cdf((1.0 - mean) / sd);
         let gamma = mean + sd * normal::quantile(below + u[2] * (1.0 - below));
         PulseParameters {
-            vp_m_s: libm::exp10(log10_vp) / crate::units::CM_PER_M,
+            vp_m_s: libm::exp10(log10_vp) / CM_PER_M,
             tp_s: libm::exp10(log10_tp),
             gamma: gamma.max(1.0),
             nu_rad: NU_RAD.0 + NU_RAD.1 * normal::quantile(u[3]),
@@ -67,13 +69,44 @@ impl PulseParameters {
     }
 }
 
-/// Median log10 of the pulse amplitude Vp, cm/s (section 2.1.1); the magnitude counts up to 7.
+/// Computes the median log10 of the pulse amplitude Vp, cm/s (section 2.1.1); the magnitude counts up to 7.
 pub fn median_log10_vp_cm_s(mw: f64, re_km: f64) -> f64 {
     let m = mw.min(SATURATION_MW);
     -5.17 + 1.98 * m - 0.14 * m * m - 0.10 * libm::log10(re_km * re_km + 0.562)
 }
 
-/// Median log10 of the pulse period Tp, s (section 2.1.1).
+/// Computes the median log10 of the pulse period Tp, s (section 2.1.1).
 pub fn median_log10_tp_s(mw: f64) -> f64 {
     -2.87 + 0.47 * mw
+}
+
+/// A kind of ground motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Suite {
+    /// The coherent pulse alone.
+    Pulse,
+    /// The combined synthetic ground motion: pulse and high frequencies.
+    Csgm,
+    /// The stochastic high-frequency component alone.
+    Hfc,
+    /// A recorded motion.
+    Record,
+    /// A recorded motion without its pulse.
+    Residual,
+}
+
+keywords!(Suite { Pulse = "pulse", Csgm = "csgm", Hfc = "hfc", Record = "record", Residual = "residual" });
+
+impl Suite {
+    /// The suites that are synthesized from a scenario.
+    pub const SYNTHETIC: [Suite; 3] = [Suite::Pulse, Suite::Csgm, Suite::Hfc];
+    /// Numbers that each scenario keeps for its motions: one more than the suites that are synthesized.
+    const IDS_OF_SCENARIO: i64 = 4;
+
+    /// Returns the number of a scenario's motion in this suite, one of [`Suite::SYNTHETIC`]: unique across them, and the same
+    /// whichever suites are made.
+    pub fn motion_id(self, scenario_id: i64) -> i64 {
+        debug_assert!(Suite::SYNTHETIC.contains(&self), "recorded motions are named after their files");
+        scenario_id * Suite::IDS_OF_SCENARIO + self as i64
+    }
 }

@@ -1,22 +1,24 @@
+//! The synthetic motions of one scenario on one time axis (section 2.1).
+
 use std::sync::Arc;
 
+use rand_distr::{Distribution, StandardNormal};
 use realfft::num_complex::Complex64;
 
 use super::combine::{Difference, Epoch, combine};
 use super::fourier::{ByLength, Transform, even_smooth_at_least};
 use super::intensity::velocity;
 use super::pulse::Pulse;
-use super::scenario::Scenario;
+use super::scenario::{Scenario, Suite};
 use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window, quality_exponent};
-use super::suite::Suite;
-use crate::random::{Normals, Purpose};
+use crate::random::{Purpose, stream};
 use crate::units::CM_PER_M;
 use crate::wide::widest;
 
 /// Quiet time before and after all that moves, s: the zero-phase filters reach this far.
 const MARGIN_S: f64 = 2.0;
 
-/// How motions are made of scenarios.
+/// The model that makes motions of scenarios, with its options.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionModel {
     /// Time between samples, s.
@@ -25,7 +27,6 @@ pub struct MotionModel {
     pub difference: Difference,
     /// When the pulse comes.
     pub epoch: Epoch,
-    /// Spectrum of the high frequencies.
     pub stochastic: StochasticModel,
     /// Seed of the noise.
     pub seed: u64,
@@ -43,10 +44,9 @@ impl Default for MotionModel {
     }
 }
 
-/// The motions of one scenario on one time axis: accelerations, m/s2. One that nobody asked for is empty.
+/// The motions of one scenario on one time axis: accelerations, m/s2. Those of suites that nobody asked for are empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Synthetic {
-    /// Time between samples, s.
     pub dt_s: f64,
     /// When the pulse peaks, s from the first sample.
     pub epoch_s: f64,
@@ -59,7 +59,7 @@ pub struct Synthetic {
 }
 
 impl Synthetic {
-    /// The motion of a suite.
+    /// Returns the samples of the motion in a suite that is synthesized.
     pub fn samples(&self, suite: Suite) -> &[f64] {
         match suite {
             Suite::Pulse => &self.pulse,
@@ -78,7 +78,6 @@ pub struct Synthesizer {
     combined: bool,
     axes: ByLength<FrequencyAxis>,
     earthquake: Option<Earthquake>,
-    normals: Normals,
     noise: Vec<Complex64>,
     pulse: Vec<Complex64>,
     scratch: Vec<Complex64>,
@@ -132,13 +131,12 @@ struct Timeline {
 }
 
 impl Synthesizer {
-    /// For a model and the suites that are wanted of it.
+    /// Prepares the synthesis of some suites by a model.
     pub fn new(model: MotionModel, suites: &[Suite]) -> Synthesizer {
         Synthesizer {
             high_frequency: suites.contains(&Suite::Hfc) || model.epoch != Epoch::EnvelopePeak,
             combined: suites.contains(&Suite::Csgm),
             synthetic: Synthetic { dt_s: model.dt_s, ..Synthetic::default() },
-            normals: Normals::new(model.seed, Purpose::Noise),
             model,
             axes: ByLength::default(),
             earthquake: None,
@@ -148,7 +146,7 @@ impl Synthesizer {
         }
     }
 
-    /// The motions of a scenario.
+    /// Makes the motions of a scenario.
     pub fn synthesize(&mut self, scenario: &Scenario) -> &Synthetic {
         let Scenario { mw, re_km, .. } = *scenario;
         let mut earthquake = match self.earthquake.take() {
@@ -178,8 +176,8 @@ impl Synthesizer {
         &self.synthetic
     }
 
-    /// Padded at the start so that the pulse is never cut, and at the end; as long as a fast Fourier transform likes. The
-    /// window begins at a sample.
+    /// Lays out the time axis: padded at the start so that the pulse is never cut, and at the end; as long as a fast Fourier
+    /// transform likes. The window begins at a sample.
     fn timeline(&self, window: &Window, pulse: &Pulse) -> Timeline {
         let dt_s = self.model.dt_s;
         let half_pulse_s = 0.5 * pulse.duration_s();
@@ -194,21 +192,21 @@ impl Synthesizer {
         Timeline { onset, samples: even_smooth_at_least(onset + after) }
     }
 
-    /// Noise under the window, in `synthetic.high_frequency`.
+    /// Draws the noise under the window, into `synthetic.high_frequency`.
     fn windowed_noise(&mut self, scenario: &Scenario, weights: &[f64], timeline: &Timeline) {
         let samples = &mut self.synthetic.high_frequency;
         samples.clear();
         samples.resize(timeline.samples, 0.0);
         let windowed = &mut samples[timeline.onset + 1..][..weights.len()];
-        self.normals.fill(scenario.scenario_id as u64, windowed);
-        widest(
-            #[inline(always)]
-            || windowed.iter_mut().zip(weights).for_each(|(sample, weight)| *sample *= weight),
-        );
+        let noise = stream(self.model.seed, Purpose::Noise, scenario.scenario_id as u64);
+        let normals = Distribution::<f64>::sample_iter(StandardNormal, noise);
+        for ((sample, normal), weight) in windowed.iter_mut().zip(normals).zip(weights) {
+            *sample = normal * weight;
+        }
     }
 
-    /// Gives the noise the Fourier amplitude of the source, in `synthetic.high_frequency` if it is wanted and,
-    /// transformed, in `self.noise`.
+    /// Gives the noise the Fourier amplitude of the source, in `synthetic.high_frequency` if that is wanted and, transformed, in
+    /// `self.noise`.
     fn shape_noise(&mut self, amplitudes: &[f64], axis: &FrequencyAxis) {
         let samples = &mut self.synthetic.high_frequency;
         axis.transform.forward(samples, &mut self.noise, &mut self.scratch);

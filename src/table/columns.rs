@@ -9,12 +9,10 @@ use arrow_schema::DataType;
 
 use super::TableError;
 use super::schema::{Column, SPECTRAL_ACCELERATION, is_spectral_acceleration};
+use crate::motion::LONGEST_MOTION;
 
 /// The longest name of anything, bytes: that of a path.
 const LONGEST_TEXT: usize = 4096;
-
-/// The most samples of a motion: what is made of them (spectra, velocities) takes many times their room.
-pub const LONGEST_MOTION: usize = 1 << 24;
 
 /// A batch of rows of a file.
 pub struct Columns<'a> {

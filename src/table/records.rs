@@ -7,88 +7,37 @@ use arrow_schema::{ArrowError, SchemaRef};
 
 use super::{measures, synthetic_motions};
 use crate::keyword::Keyword;
-use crate::motion::processing::RotD;
 use crate::motion::pulse::largest_velocity;
-use crate::motion::pulse_fit::FittedPulse;
-use crate::motion::pulse_indicator::PulseIndicator;
-use crate::motion::{Measured, Suite};
-
-/// A recorded motion on its way into a file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RecordRow {
-    /// Unique in the file.
-    pub motion_id: String,
-    /// Its kind.
-    pub suite: Suite,
-    /// The earthquake in the words of the file.
-    pub event: Option<String>,
-    /// The station in the words of the file.
-    pub station: Option<String>,
-    /// The component in the words of the file.
-    pub component: Option<String>,
-    /// Direction of positive acceleration, degrees clockwise from north.
-    pub azimuth_deg: Option<f64>,
-    /// The file it comes from.
-    pub source: Source,
-    /// The factor by which it is scaled.
-    pub scale: f64,
-    /// Time between samples, s.
-    pub dt_s: f64,
-    /// Samples, m/s2, as they are written.
-    pub acceleration_m_s2: Vec<f32>,
-    /// Intensity measures of these samples.
-    pub measured: Measured,
-    /// Peaks over all directions of the pair it is rotated from.
-    pub rotd: Option<RotD>,
-    /// Whether it holds a pulse, if that was looked for.
-    pub indicator: Option<PulseIndicator>,
-    /// The pulse that it holds.
-    pub pulse: Option<FittedPulse>,
-}
-
-/// A file, and the hash of what it holds.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Source {
-    /// Its path as given.
-    pub file: String,
-    /// BLAKE3, in hexadecimal digits.
-    pub blake3: String,
-}
-
-impl RecordRow {
-    fn name(&self) -> Option<String> {
-        let parts: Vec<&str> =
-            [&self.event, &self.station, &self.component].into_iter().flatten().map(String::as_str).collect();
-        (!parts.is_empty()).then(|| parts.join(", "))
-    }
-}
+use crate::records::processing::ImportedMotion;
+use crate::records::pulses::{FittedPulse, PulseIndicator};
+use crate::records::rotation::RotD;
 
 /// The rows of the file in its schema, which has the spectral accelerations at its end.
 ///
 /// # Errors
 /// If a row cannot be represented, which the schema rules out.
-pub fn batch(rows: &[RecordRow], schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
-    let text = |value: fn(&RecordRow) -> &str| -> ArrayRef {
+pub fn batch(rows: &[ImportedMotion], schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
+    let text = |value: fn(&ImportedMotion) -> &str| -> ArrayRef {
         Arc::new(StringArray::from_iter_values(rows.iter().map(value)))
     };
-    let optional_text = |value: fn(&RecordRow) -> Option<String>| -> ArrayRef {
+    let optional_text = |value: fn(&ImportedMotion) -> Option<String>| -> ArrayRef {
         Arc::new(rows.iter().map(value).collect::<StringArray>())
     };
-    let number = |value: fn(&RecordRow) -> f64| -> ArrayRef {
+    let number = |value: fn(&ImportedMotion) -> f64| -> ArrayRef {
         Arc::new(Float64Array::from_iter_values(rows.iter().map(value)))
     };
-    let optional = |value: fn(&RecordRow) -> Option<f64>| -> ArrayRef {
+    let optional = |value: fn(&ImportedMotion) -> Option<f64>| -> ArrayRef {
         Arc::new(Float64Array::from_iter(rows.iter().map(value)))
     };
     let mut columns = vec![
         text(|row| &row.motion_id),
         text(|row| row.suite.as_str()),
-        optional_text(RecordRow::name),
+        optional_text(ImportedMotion::name),
         optional_text(|row| row.event.clone()),
         optional_text(|row| row.station.clone()),
         optional_text(|row| row.component.clone()),
         optional(|row| row.azimuth_deg),
-        text(|row| &row.source.file),
+        text(|row| &row.source.path),
         text(|row| &row.source.blake3),
         number(|row| row.scale),
         number(|row| row.dt_s),

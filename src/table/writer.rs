@@ -15,12 +15,12 @@ use parquet::schema::types::ColumnPath;
 use tempfile::NamedTempFile;
 
 use super::TableError;
-use super::columns::LONGEST_MOTION;
 use super::fingerprint::Fingerprint;
 use super::limits::MOST_SAMPLES;
 use super::provenance::Provenance;
 use super::schema::{Kind, Table};
 use super::source::{MemoryTable, Shelf, Target};
+use crate::motion::LONGEST_MOTION;
 
 /// The end of the name of a file that is still being written.
 const PARTIAL: &str = ".partial";

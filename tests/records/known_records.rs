@@ -5,12 +5,12 @@
 use std::path::{Path, PathBuf};
 
 use rockfrag::motion::intensity::velocity;
-use rockfrag::motion::processing::HorizontalPair;
-use rockfrag::motion::pulse_fit::FittedPulse;
-use rockfrag::motion::pulse_indicator::{PulseIndicator, Verdict, strongest_direction};
-use rockfrag::motion::records::{Given, RecordedMotion, read};
-use rockfrag::motion::wavelet::WaveletScratch;
 use rockfrag::motion::{IntensityScratch, measures};
+use rockfrag::records::pulses::FittedPulse;
+use rockfrag::records::pulses::indicator::{PulseIndicator, Verdict, strongest_direction};
+use rockfrag::records::pulses::wavelet::WaveletScratch;
+use rockfrag::records::rotation::HorizontalPair;
+use rockfrag::records::{Given, RecordedMotion, read};
 use rockfrag::table::motions::MotionBatches;
 
 fn known(name: &str) -> Option<PathBuf> {
@@ -32,7 +32,7 @@ fn el_centro(azimuth: &str) -> Option<(RecordedMotion, String)> {
 fn pulse_of(acceleration: &[f64], dt_s: f64) -> (PulseIndicator, Option<FittedPulse>) {
     let velocity = velocity(acceleration, dt_s);
     let found = PulseIndicator::of(&velocity, dt_s, &mut WaveletScratch::default()).unwrap();
-    (found, FittedPulse::to(&velocity, dt_s, found.period_s, found.centre_s))
+    (found, FittedPulse::fit(&velocity, dt_s, found.period_s, found.centre_s))
 }
 
 #[test]

@@ -2,9 +2,8 @@
 
 use std::f64::consts::PI;
 
-use rockfrag::motion::processing::{
-    Baseline, HighPass, HighPassScratch, HorizontalPair, Scaling, resample, resampled_length,
-};
+use rockfrag::records::rotation::HorizontalPair;
+use rockfrag::records::signal::{Baseline, HighPass, HighPassScratch, Scaling, resample, resampled_length};
 
 use crate::writers::{DT, motion, peak};
 

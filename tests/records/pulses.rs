@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use rockfrag::motion::Pulse;
 use rockfrag::motion::intensity::peak;
-use rockfrag::motion::pulse_fit::FittedPulse;
-use rockfrag::motion::pulse_indicator::{PulseIndicator, Verdict, indicator, strongest_direction};
-use rockfrag::motion::wavelet::{SampledWavelet, Transformable, Wavelet, WaveletScratch};
+use rockfrag::records::pulses::FittedPulse;
+use rockfrag::records::pulses::indicator::{PulseIndicator, Verdict, indicator, strongest_direction};
+use rockfrag::records::pulses::wavelet::{SampledWavelet, Wavelet, WaveletScratch, WaveletTransform};
 
 const DT: f64 = 0.01;
 const PULSE: Pulse = Pulse { amplitude_m_s: 0.8, tp_s: 3.0, gamma: 1.9, nu_rad: 0.7 };
@@ -43,7 +43,7 @@ fn the_wavelet_has_unit_energy_and_four_vanishing_moments() {
 fn the_transform_is_the_coefficient_at_every_sample() {
     let series = velocity(&PULSE, 0.1);
     let mut scratch = WaveletScratch::default();
-    let transformable = Transformable::new(&series, DT, 5.0, &mut scratch);
+    let transformable = WaveletTransform::new(&series, DT, 5.0, &mut scratch);
     for period_s in [0.3, 1.7, 5.0] {
         let all = transformable.coefficients(period_s, &mut scratch);
         let sampled = SampledWavelet::new(period_s, DT);
@@ -99,7 +99,7 @@ fn a_fitted_pulse_is_the_one_that_was_made() {
     ] {
         let velocity = velocity(&pulse, 0.0);
         let found = of(&velocity);
-        let fitted = FittedPulse::to(&velocity, DT, found.period_s, found.centre_s).unwrap();
+        let fitted = FittedPulse::fit(&velocity, DT, found.period_s, found.centre_s).unwrap();
         assert!(fitted.r2 > 1.0 - 1e-6, "{pulse:?} {fitted:?}");
         let worst = (0..velocity.len())
             .map(|k| (fitted.pulse.velocity_m_s(k as f64 * DT - fitted.t0_s) - velocity[k]).abs())
@@ -111,10 +111,10 @@ fn a_fitted_pulse_is_the_one_that_was_made() {
     // Under shaking it stays near.
     let noisy = velocity(&PULSE, 0.06);
     let found = of(&noisy);
-    let fitted = FittedPulse::to(&noisy, DT, found.period_s, found.centre_s).unwrap();
+    let fitted = FittedPulse::fit(&noisy, DT, found.period_s, found.centre_s).unwrap();
     assert!((fitted.pulse.tp_s / PULSE.tp_s - 1.0).abs() < 0.05, "{fitted:?}");
     assert!((fitted.pulse.amplitude_m_s / PULSE.amplitude_m_s - 1.0).abs() < 0.1, "{fitted:?}");
-    assert_eq!(FittedPulse::to(&[0.0; 500], DT, 1.0, 2.0), None);
+    assert_eq!(FittedPulse::fit(&[0.0; 500], DT, 1.0, 2.0), None);
 }
 
 #[test]

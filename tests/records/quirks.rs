@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use rockfrag::keyword::Keyword;
-use rockfrag::motion::records::{AccelerationUnit, Format, Given, RecordedMotion, read};
+use rockfrag::records::{AccelerationUnit, Format, Given, RecordedMotion, read};
 use rockfrag::units::G_M_S2;
 
 use crate::writers::*;

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use rockfrag::motion::intensity::velocity;
-use rockfrag::motion::pulse_fit::FittedPulse;
-use rockfrag::motion::pulse_indicator::PulseIndicator;
-use rockfrag::motion::wavelet::WaveletScratch;
 use rockfrag::motion::{IntensityScratch, MeasurePlan, Measured};
+use rockfrag::records::pulses::FittedPulse;
+use rockfrag::records::pulses::indicator::PulseIndicator;
+use rockfrag::records::pulses::wavelet::WaveletScratch;
 use rockfrag::table::motions::{Motion, MotionBatches};
 
 const SA_PERIODS_S: [f64; 6] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0];
@@ -98,7 +98,7 @@ fn pulses_are_those_of_full_resolution_and_global_search() {
             (found.period_s / period_s - 1.0).abs() < 0.03,
             "motion {motion_id}: {found:?} for {period_s}"
         );
-        let fitted = FittedPulse::to(&velocity, motion.dt_s, found.period_s, found.centre_s).unwrap();
+        let fitted = FittedPulse::fit(&velocity, motion.dt_s, found.period_s, found.centre_s).unwrap();
         assert!(fitted.r2 > r2 - 0.002, "motion {motion_id}: {fitted:?} for {r2}");
         same_period += usize::from((fitted.pulse.tp_s / tp_s - 1.0).abs() < 0.02);
     }

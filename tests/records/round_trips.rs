@@ -1,6 +1,6 @@
 //! Each format: what is written is what is read.
 
-use rockfrag::motion::records::{Format, Given, RecordedMotion, read};
+use rockfrag::records::{Format, Given, RecordedMotion, read};
 
 use crate::writers::*;
 

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use rockfrag::keyword::Keyword;
-use rockfrag::motion::records::{AccelerationUnit, ColumnChoice, Format, Given, read};
+use rockfrag::records::{AccelerationUnit, ColumnChoice, Format, Given, read};
 
 const SEEDS: [&str; 8] = [
     "PEER NGA STRONG MOTION DATABASE RECORD\nEvent, 1/1/1979, Station, 140\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=     4, DT=   .0050 SEC\n  .1 -.2\n  .3  0.\n",

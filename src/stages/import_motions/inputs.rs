@@ -6,14 +6,12 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use super::options::Reading;
-use super::refusals::Refusal;
-use crate::motion::records::{RecordedMotion, read};
+use crate::motion::LONGEST_MOTION;
 use crate::pipeline::files;
+use crate::records::processing::{NamedRecord, Refusal, SourceFile};
+use crate::records::{Format, Given, RecordedMotion, read};
 use crate::rocking::Record;
-use crate::table::columns::LONGEST_MOTION;
 use crate::table::motions::{Motion, MotionBatches};
-use crate::table::records::Source;
 use crate::table::text_file;
 
 /// The largest text file that is read: ten million samples and more.
@@ -21,28 +19,26 @@ const MOST_MIB: u64 = 512;
 /// How Parquet files begin.
 const PARQUET: &[u8] = b"PAR1";
 
-/// A motion and where it comes from.
+/// How files are read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
-    /// Unique among all that are imported.
-    pub motion_id: String,
-    /// Its file.
-    pub source: Source,
-    /// The record.
-    pub motion: RecordedMotion,
+pub struct Reading {
+    /// The format of text files; none: the one that the content shows.
+    pub format: Option<Format>,
+    pub given: Given,
+    /// By which share samples may miss the peak that their header gives.
+    pub pga_tolerance: f64,
 }
 
 /// What one thread reads.
 pub enum Input {
-    /// A text file.
     Text(PathBuf),
     /// A motion of a Parquet file.
-    Motion(Source, Box<Motion>),
+    Motion(SourceFile, Box<Motion>),
     /// What cannot be read.
     Refused(Refusal),
 }
 
-/// The files in order, in groups that are read at once: so many text files, or motions of a Parquet file.
+/// Splits the files, in order, into groups that are read at once: so many text files, or motions of a Parquet file.
 pub fn groups(files: &[PathBuf], at_once: usize) -> impl Iterator<Item = Vec<Input>> {
     let mut files = files.iter().peekable();
     let mut batches: Option<Batches> = None;
@@ -85,7 +81,7 @@ fn parquet(file: &Path, at_once: usize) -> Batches {
     match opened.and_then(|batches| Ok((batches, hash?))) {
         Ok((batches, blake3)) => {
             let path = file.to_path_buf();
-            let source = Source { file: path.display().to_string(), blake3 };
+            let source = SourceFile { path: path.display().to_string(), blake3 };
             let input = move |motion| Input::Motion(source.clone(), Box::new(motion));
             Box::new(batches.map(move |batch| match batch {
                 Ok(motions) => motions.into_iter().map(&input).collect(),
@@ -96,12 +92,11 @@ fn parquet(file: &Path, at_once: usize) -> Batches {
     }
 }
 
-/// What files are called in motion_id: by the name without its ending where no other file has the same, else by the name
+/// The names of files in motion_id: by the name without its ending where no other file has the same, else by the name
 /// (K-NET tells components by the ending), else by the path.
 pub struct Names(HashMap<String, usize>);
 
 impl Names {
-    /// Of these files.
     pub fn of(files: &[PathBuf]) -> Names {
         let mut counts = HashMap::new();
         for file in files {
@@ -124,8 +119,8 @@ fn text(name: Option<&OsStr>) -> String {
     name.unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The motions of an input, and for what cannot be read the file and what is wrong with it.
-pub fn motions(input: Input, names: &Names, reading: &Reading) -> Vec<Result<Found, Refusal>> {
+/// Reads the motions of an input; what cannot be read is refused.
+pub fn motions(input: Input, names: &Names, reading: &Reading) -> Vec<Result<NamedRecord, Refusal>> {
     match input {
         Input::Refused(refusal) => vec![Err(refusal)],
         Input::Text(file) => match text_file(&file, names, reading) {
@@ -133,18 +128,18 @@ pub fn motions(input: Input, names: &Names, reading: &Reading) -> Vec<Result<Fou
             Err(reason) => vec![Err(Refusal::of(&file, &reason))],
         },
         Input::Motion(source, motion) => {
-            let name = names.name(&source.file);
+            let name = names.name(&source.path);
             vec![of_parquet(*motion, &name, source)]
         }
     }
 }
 
-fn text_file(file: &Path, names: &Names, reading: &Reading) -> Result<Vec<Found>, String> {
+fn text_file(file: &Path, names: &Names, reading: &Reading) -> Result<Vec<NamedRecord>, String> {
     let expected = "the file of a record, or motions in a Parquet file";
     let bytes = text_file::bytes(file, MOST_MIB, expected).map_err(|error| error.to_string())?;
     let blake3 = blake3::hash(&bytes).to_hex().to_string();
-    let source = Source { file: file.display().to_string(), blake3 };
-    let name = names.name(&source.file);
+    let source = SourceFile { path: file.display().to_string(), blake3 };
+    let name = names.name(&source.path);
     let motions = read(&bytes, reading.format, &reading.given).map_err(|error| error.to_string())?;
     let several = motions.len() > 1;
     let check = |(index, motion): (usize, RecordedMotion)| {
@@ -157,18 +152,18 @@ fn text_file(file: &Path, names: &Names, reading: &Reading) -> Result<Vec<Found>
         }
         Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| problem.to_string())?;
         let motion_id = if several { format!("{name}:{}", index + 1) } else { name.clone() };
-        Ok(Found { motion_id, source: source.clone(), motion })
+        Ok(NamedRecord { motion_id, source: source.clone(), motion })
     };
     motions.into_iter().enumerate().map(check).collect()
 }
 
-fn of_parquet(motion: Motion, name: &str, source: Source) -> Result<Found, Refusal> {
+fn of_parquet(motion: Motion, name: &str, source: SourceFile) -> Result<NamedRecord, Refusal> {
     let acceleration_m_s2 = motion.acceleration_m_s2.to_vec();
     if let Err(problem) = Record::new(&acceleration_m_s2, motion.dt_s) {
         let reason = format!("row {}: {problem}", motion.row);
-        return Err(Refusal { file: source.file, reason });
+        return Err(Refusal { file: source.path, reason });
     }
-    Ok(Found {
+    Ok(NamedRecord {
         motion_id: format!("{name}:{}", motion.motion_id),
         source,
         motion: RecordedMotion {

@@ -1,46 +1,34 @@
 //! import-motions: recorded ground motions from files of many formats, as motions that simulate reads.
 //!
 //! ```text
-//! options     which files, how they are read, what is done to them
-//! inputs      files to records, and what is wrong with those that cannot be read
-//! pairs       which horizontal components belong together
-//! direction   where pairs are rotated to
-//! processing  what is done to records before they become rows
-//! rows        processed motions to rows: scaling, measures, pulses
-//! work        files or pairs in groups that are done at once
-//! refusals    files that are left out, and why
+//! options  which files, how they are read, what is done to them
+//! inputs   files to records, and what is wrong with those that cannot be read
+//! work     files or pairs in groups that are processed at once
 //! ```
 
-mod direction;
 mod inputs;
 mod options;
-mod pairs;
-mod processing;
-mod refusals;
-mod rows;
 mod work;
 
 use std::collections::{BTreeMap, HashSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::bail;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use self::inputs::Names;
+use self::inputs::{Names, Reading};
 pub use self::options::ImportMotionsOptions;
-use self::options::Reading;
-use self::processing::{Processing, Scratch};
-use self::refusals::{Refusal, summary};
-use self::work::Plan;
+use self::work::{Importer, Plan, summary};
 use crate::keyword::Keyword;
-use crate::motion::processing::Scaling;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::files::{content_of_all, expand};
 use crate::pipeline::options::Word;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
+use crate::records::processing::{Processing, Refusal, Scratch};
+use crate::records::signal::Scaling;
 use crate::table::TableError;
 use crate::table::provenance::Provenance;
 use crate::table::records;
@@ -53,16 +41,13 @@ const ROW_GROUP: usize = 64;
 
 /// The stage, ready to run.
 pub struct ImportMotions {
-    files: Vec<PathBuf>,
-    names: Names,
-    reading: Reading,
-    processing: Processing,
+    importer: Importer,
     keep_going: bool,
     out: Target,
 }
 
 impl ImportMotions {
-    /// Into `out`.
+    /// Creates the stage: reads the files of `options`, writes motions to `out`.
     ///
     /// # Errors
     /// If an option is out of range, or no file is named.
@@ -76,10 +61,12 @@ impl ImportMotions {
             return Err(UsageError::because("no files; expected files or folders of records"));
         }
         Ok(ImportMotions {
-            names: Names::of(&files),
-            files,
-            reading: options.reading()?,
-            processing: options.processing()?,
+            importer: Importer {
+                names: Names::of(&files),
+                files,
+                reading: options.reading()?,
+                processing: options.processing()?,
+            },
             keep_going: options.keep_going,
             out,
         })
@@ -87,7 +74,7 @@ impl ImportMotions {
 }
 
 impl ImportMotions {
-    /// That the files still hold what they held before they were read.
+    /// Checks that the files still hold what they held before they were read.
     fn expect_unchanged(&self, planned: &Provenance) -> anyhow::Result<()> {
         let now = self.provenance()?.inputs;
         if planned.inputs.iter().any(|(role, content)| now.get(role) != Some(content)) {
@@ -103,7 +90,7 @@ impl Stage for ImportMotions {
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        self.files.iter().map(|file| ("files", file.into())).collect()
+        self.importer.files.iter().map(|file| ("files", file.into())).collect()
     }
 
     fn targets(&self) -> Vec<Target> {
@@ -111,9 +98,9 @@ impl Stage for ImportMotions {
     }
 
     fn parameters(&self) -> Value {
-        let Reading { format, given, pga_tolerance } = &self.reading;
+        let Reading { format, given, pga_tolerance } = &self.importer.reading;
         let Processing { baseline, high_pass, resample_s, direction, scaling, pulses, residual, plan } =
-            &self.processing;
+            &self.importer.processing;
         let scaling = match scaling {
             Scaling::Factors(factors) => json!({ "factors": factors }),
             Scaling::Pga(target) => json!({ "pga_m_s2": target }),
@@ -132,23 +119,26 @@ impl Stage for ImportMotions {
     }
 
     fn provenance(&self) -> Result<Provenance, TableError> {
-        let inputs = BTreeMap::from([("files".to_string(), content_of_all(&self.files))]);
+        let inputs = BTreeMap::from([("files".to_string(), content_of_all(&self.importer.files))]);
         Ok(Provenance::new(self.subcommand(), self.parameters(), inputs))
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let schema = RECORDS.schema_with_spectrum(&self.processing.plan.sa_periods_s);
+        let schema = RECORDS.schema_with_spectrum(&self.importer.processing.plan.sa_periods_s);
         let mut writer =
             TableWriter::with_schema(self.out.clone(), &RECORDS, schema.clone(), provenance.clone())?;
         let pool = Pool::new(Scratch::default);
-        let Plan { work, mut refused } = self.plan(console);
-        let bar = console.bar(self.subcommand(), self.files.len() as u64);
+        let Plan { work, mut refused } = self.importer.plan(console);
+        let bar = console.bar(self.subcommand(), self.importer.files.len() as u64);
         let mut seen = HashSet::new();
         pipelined(
             work.map(Ok),
             |work| {
                 bar.inc(work.len() as u64)?;
-                Ok(work.into_par_iter().flat_map_iter(|work| self.rows_of(work, &pool)).collect::<Vec<_>>())
+                Ok(work
+                    .into_par_iter()
+                    .flat_map_iter(|work| self.importer.import(work, &pool))
+                    .collect::<Vec<_>>())
             },
             |results| {
                 let mut rows = Vec::new();
@@ -159,7 +149,7 @@ impl Stage for ImportMotions {
                     }
                 }
                 if let Some(row) = rows.iter().find(|row| !seen.insert(row.motion_id.clone())) {
-                    bail!("{}: two motions are called '{}'; rename the file", row.source.file, row.motion_id);
+                    bail!("{}: two motions are called '{}'; rename the file", row.source.path, row.motion_id);
                 }
                 rows.chunks(ROW_GROUP)
                     .try_for_each(|rows| Ok(writer.write_row_group(&records::batch(rows, &schema)?)?))
@@ -167,21 +157,21 @@ impl Stage for ImportMotions {
         )?;
         bar.finish();
         if seen.is_empty() {
-            bail!("no motion is imported; {}", summary(&refused, self.files.len()));
+            bail!("no motion is imported; {}", summary(&refused, self.importer.files.len()));
         }
         self.expect_unchanged(provenance)?;
         if refused.is_empty() || self.keep_going {
             writer.finish()?;
             if !refused.is_empty() {
-                console.note(&format!("warning: {}", summary(&refused, self.files.len())));
+                console.note(&format!("warning: {}", summary(&refused, self.importer.files.len())));
             }
-            return Ok(format!("{} motions of {} files", seen.len(), self.files.len()));
+            return Ok(format!("{} motions of {} files", seen.len(), self.importer.files.len()));
         }
         writer.made_otherwise(incomplete(provenance, &refused));
         writer.finish()?;
         bail!(
             "{}\n{} motions of the others are imported; with --keep-going this is no failure",
-            summary(&refused, self.files.len()),
+            summary(&refused, self.importer.files.len()),
             seen.len()
         )
     }

@@ -5,13 +5,14 @@ use std::str::FromStr;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use super::direction::Direction;
-use super::processing::Processing;
-use crate::keyword::{self, Keyword, keywords};
-use crate::motion::processing::{Baseline, HighPass, Scaling};
-use crate::motion::records::{AccelerationUnit, ColumnChoice, Format, Given};
+use super::inputs::Reading;
+use crate::keyword::{self, Keyword};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{Parsed, Steps, Word, check, defaults};
+use crate::records::processing::{Processing, PulseSearch};
+use crate::records::rotation::Direction;
+use crate::records::signal::{Baseline, HighPass, Scaling};
+use crate::records::{AccelerationUnit, ColumnChoice, Format, Given};
 use crate::stages::measures::measure_plan;
 use crate::units::G_M_S2;
 
@@ -159,28 +160,6 @@ impl ImportMotionsOptions {
             pga_tolerance: self.pga_tolerance,
         })
     }
-}
-
-/// Whether pulses are looked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PulseSearch {
-    /// They are.
-    Find,
-    /// They are not.
-    Skip,
-}
-
-keywords!(PulseSearch { Find = "find", Skip = "skip" });
-
-/// How files are read.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Reading {
-    /// The format, unless the content shows it.
-    pub format: Option<Format>,
-    /// What files may not say themselves.
-    pub given: Given,
-    /// By which share samples may miss the peak of their header.
-    pub pga_tolerance: f64,
 }
 
 /// A format, or `auto`.

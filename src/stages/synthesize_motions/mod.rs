@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 pub use self::options::SynthesizeMotionsOptions;
 use super::measures::measure_plan;
-use crate::motion::stochastic::Site;
+use crate::motion::Site;
 use crate::motion::{
     IntensityScratch, MeasurePlan, MotionModel, Scenario, StochasticModel, Suite, Synthesizer,
 };

@@ -6,7 +6,8 @@ use anyhow::Context;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use crate::motion::stochastic::{LowCut, Site};
+use crate::motion::Site;
+use crate::motion::stochastic::LowCut;
 use crate::motion::{Difference, Epoch, MotionModel, StochasticModel, Suite};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{Parsed, Several, Steps, Word, check, defaults};
@@ -122,7 +123,7 @@ impl SynthesizeMotionsOptions {
 
     pub(super) fn suites(&self) -> anyhow::Result<Vec<Suite>> {
         let suites: Vec<Suite> = self.suite.0.iter().map(|word| word.0).collect();
-        let made = |suite: &Suite| matches!(suite, Suite::Pulse | Suite::Csgm | Suite::Hfc);
+        let made = |suite: &Suite| Suite::SYNTHETIC.contains(suite);
         let distinct = (1..suites.len()).all(|k| !suites[..k].contains(&suites[k]));
         let words: Vec<String> = self.suite.0.iter().map(ToString::to_string).collect();
         let fine = !suites.is_empty() && suites.iter().all(made) && distinct;

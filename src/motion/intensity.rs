@@ -1,0 +1,267 @@
+//! Intensity measures of a ground acceleration (m/s2), whatever it comes from.
+
+use std::f64::consts::PI;
+
+use pulp::NullaryFnOnce;
+use realfft::num_complex::Complex64;
+
+use super::fourier::{ByLength, Transform, even_smooth_at_least};
+use crate::units::G_M_S2;
+use crate::wide::widest;
+
+/// The widest frequency step of the mean period, Hz.
+const FREQUENCY_STEP_HZ: f64 = 0.05;
+/// The band of the mean period, Hz.
+const BAND_HZ: (f64, f64) = (0.25, 20.0);
+/// Damping ratio of the spectral accelerations that become columns.
+const SPECTRAL_DAMPING: f64 = 0.05;
+/// First and last period (s) at which the Housner intensity is integrated, and how many there are.
+const HOUSNER_PERIODS: (f64, f64, usize) = (0.1, 2.5, 49);
+/// Damping ratio of the Housner intensity.
+const HOUSNER_DAMPING: f64 = 0.05;
+/// Samples whose steps and peaks are worked out at once, in wide registers.
+const BLOCK: usize = 256;
+
+/// The measures that every motion has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measures {
+    /// Peak ground acceleration, m/s2.
+    pub pga_m_s2: f64,
+    /// Peak ground velocity, m/s.
+    pub pgv_m_s: f64,
+    /// Peak ground displacement, m.
+    pub pgd_m: f64,
+    /// Mean period, s; none where there is no energy between 0.25 and 20 Hz.
+    pub tm_s: Option<f64>,
+    /// Arias intensity, m/s: pi/(2 g) times the integral of a^2.
+    pub arias_m_s: f64,
+    /// Cumulative absolute velocity, m/s: the integral of |a|.
+    pub cav_m_s: f64,
+    /// Significant duration, s: between the moments at which 5 and 75 % of the Arias intensity have come.
+    pub d5_75_s: f64,
+    /// Significant duration, s: between 5 and 95 % of the Arias intensity.
+    pub d5_95_s: f64,
+}
+
+/// Which measures are taken besides [`Measures`].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MeasurePlan {
+    /// Whether the Housner intensity, which takes as long as all others together.
+    pub housner: bool,
+    /// Periods of the spectral accelerations, s.
+    pub sa_periods_s: Vec<f64>,
+}
+
+/// The measures of one motion that a plan asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    pub measures: Measures,
+    /// Housner intensity, m.
+    pub housner_m: Option<f64>,
+    /// Pseudo-spectral accelerations at the periods of the plan, 5 % damping, m/s2.
+    pub sa_m_s2: Vec<f64>,
+}
+
+/// Plans and buffers that one motion after the other uses.
+#[derive(Default)]
+pub struct IntensityScratch {
+    transforms: ByLength<Transform>,
+    samples: Vec<f64>,
+    spectrum: Vec<Complex64>,
+    scratch: Vec<Complex64>,
+    energy: Vec<f64>,
+}
+
+impl MeasurePlan {
+    /// Measures a motion of these samples (m/s2), `dt_s` apart.
+    pub fn measure(&self, acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Measured {
+        let sa = |period_s: &f64| spectral_acceleration(acceleration, dt_s, *period_s, SPECTRAL_DAMPING);
+        Measured {
+            measures: measures(acceleration, dt_s, scratch),
+            housner_m: self.housner.then(|| housner_intensity(acceleration, dt_s)),
+            sa_m_s2: self.sa_periods_s.iter().map(sa).collect(),
+        }
+    }
+}
+
+/// Takes the measures that every motion has.
+pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Measures {
+    let energy = &mut scratch.energy;
+    energy.clear();
+    energy.resize(acceleration.len(), 0.0);
+    let Integrals { pga_m_s2, pgv_m_s, pgd_m, cav_m_s, .. } =
+        widest(Integration { acceleration, dt_s, energy });
+    let arias_m_s = 0.5 * PI / G_M_S2 * energy.last().copied().unwrap_or_default();
+    let [d5, d75, d95] = [0.05, 0.75, 0.95].map(|share| time_of_share(energy, dt_s, share));
+    Measures {
+        pga_m_s2,
+        pgv_m_s,
+        pgd_m,
+        tm_s: mean_period(acceleration, dt_s, scratch),
+        arias_m_s,
+        cav_m_s,
+        d5_75_s: d75 - d5,
+        d5_95_s: d95 - d5,
+    }
+}
+
+/// Finds when a share of the last value of a running integral has come, s; within a time step it grows linearly. 0 for a
+/// motion without energy.
+fn time_of_share(energy: &[f64], dt_s: f64, share: f64) -> f64 {
+    let Some(&total) = energy.last().filter(|total| **total > 0.0) else { return 0.0 };
+    let reached = share * total;
+    let after = energy.partition_point(|sum| *sum < reached).max(1);
+    let (before, sum) = (energy[after - 1], energy[after]);
+    dt_s * ((after - 1) as f64 + (reached - before) / (sum - before))
+}
+
+/// Trapezoidal integrals of a motion up to a sample, and the peaks so far.
+#[derive(Default)]
+struct Integrals {
+    velocity_m_s: f64,
+    displacement_m: f64,
+    /// Integral of a^2, m2/s3.
+    energy: f64,
+    pga_m_s2: f64,
+    pgv_m_s: f64,
+    pgd_m: f64,
+    /// Integral of |a|, m/s.
+    cav_m_s: f64,
+}
+
+/// All integrals of a motion in one pass, with the integral of a^2 to each sample written to `energy`.
+struct Integration<'a> {
+    acceleration: &'a [f64],
+    dt_s: f64,
+    energy: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Integration<'_> {
+    type Output = Integrals;
+
+    #[inline(always)]
+    fn call(self) -> Integrals {
+        let Integration { acceleration, dt_s, energy } = self;
+        let mut sum = Integrals { pga_m_s2: peak(acceleration), ..Integrals::default() };
+        let [mut velocity, mut displacement, mut cav] = [[0.0; BLOCK]; 3];
+        for (block, energy) in energy.get_mut(1..).unwrap_or_default().chunks_mut(BLOCK).enumerate() {
+            let samples = energy.len();
+            let left = &acceleration[block * BLOCK..][..samples];
+            let right = &acceleration[block * BLOCK + 1..][..samples];
+            for k in 0..samples {
+                velocity[k] = trapezoid(dt_s, left[k], right[k]);
+                energy[k] = trapezoid(dt_s, left[k] * left[k], right[k] * right[k]);
+                cav[k] = trapezoid(dt_s, left[k].abs(), right[k].abs());
+            }
+            // Sums wait for their own last value: they stand in a loop of their own, which keeps the one above wide.
+            for k in 0..samples {
+                let velocity_m_s = sum.velocity_m_s + velocity[k];
+                sum.displacement_m += trapezoid(dt_s, sum.velocity_m_s, velocity_m_s);
+                sum.velocity_m_s = velocity_m_s;
+                sum.energy += energy[k];
+                sum.cav_m_s += cav[k];
+                (velocity[k], displacement[k], energy[k]) = (velocity_m_s, sum.displacement_m, sum.energy);
+            }
+            sum.pgv_m_s = larger(sum.pgv_m_s, peak(&velocity[..samples]));
+            sum.pgd_m = larger(sum.pgd_m, peak(&displacement[..samples]));
+        }
+        sum
+    }
+}
+
+/// Integrates between two samples.
+#[inline(always)]
+fn trapezoid(dt_s: f64, left: f64, right: f64) -> f64 {
+    0.5 * dt_s * (left + right)
+}
+
+/// Returns the larger of two numbers, in one instruction: the maximum of the standard library asks for NaN too.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+/// Finds the largest absolute value of a series.
+#[inline(always)]
+pub fn peak(series: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let (eights, rest) = series.as_chunks::<LANES>();
+    let mut largest = [0.0; LANES];
+    for eight in eights {
+        for lane in 0..LANES {
+            largest[lane] = larger(largest[lane], eight[lane].abs());
+        }
+    }
+    largest.iter().chain(rest).fold(0.0, |largest, value| larger(largest, value.abs()))
+}
+
+/// Integrates an acceleration to the ground velocity (m/s) by trapezoids, 0 at the first sample.
+pub fn velocity(acceleration: &[f64], dt_s: f64) -> Vec<f64> {
+    let steps = acceleration.windows(2).map(|pair| trapezoid(dt_s, pair[0], pair[1]));
+    let rest = steps.scan(0.0, |sum, step| {
+        *sum += step;
+        Some(*sum)
+    });
+    acceleration.first().map(|_| 0.0).into_iter().chain(rest).collect()
+}
+
+/// Computes the mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of the acceleration from 0.25
+/// to 20 Hz, without smoothing, the record padded with zeros to a frequency step of 0.05 Hz or less. None where there
+/// is no amplitude in this band.
+pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Option<f64> {
+    let least = (1.0 / (FREQUENCY_STEP_HZ * dt_s)).ceil() as usize;
+    let length = even_smooth_at_least(acceleration.len().max(least));
+    let transform = scratch.transforms.get(length, || Transform::new(length));
+    scratch.samples.clear();
+    scratch.samples.extend_from_slice(acceleration);
+    scratch.samples.resize(length, 0.0);
+    transform.forward(&mut scratch.samples, &mut scratch.spectrum, &mut scratch.scratch);
+
+    let step_hz = 1.0 / (length as f64 * dt_s);
+    let first = (BAND_HZ.0 / step_hz).ceil() as usize;
+    let last = (BAND_HZ.1 / step_hz).floor() as usize;
+    let (mut weighted, mut total) = (0.0, 0.0);
+    for (k, coefficient) in scratch.spectrum.iter().enumerate().take(last + 1).skip(first) {
+        let power = coefficient.norm_sqr();
+        weighted += power / (k as f64 * step_hz);
+        total += power;
+    }
+    (total > 0.0).then(|| weighted / total)
+}
+
+/// Computes the pseudo-spectral acceleration, m/s2: (2 pi / T)^2 times the largest relative displacement of a linear oscillator of
+/// period `period_s` and damping ratio `damping` (0 to below 1), exact for an acceleration that is linear between samples (Nigam &
+/// Jennings 1969).
+pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, damping: f64) -> f64 {
+    let w = 2.0 * PI / period_s;
+    let wd = w * (1.0 - damping * damping).sqrt();
+    let decay = libm::exp(-damping * w * dt_s);
+    let (sin, cos) = (libm::sin(wd * dt_s), libm::cos(wd * dt_s));
+    let (mut displacement, mut velocity, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for pair in acceleration.windows(2) {
+        let slope = (pair[1] - pair[0]) / dt_s;
+        // The particular solution of u'' + 2 z w u' + w^2 u = -(a0 + slope t) is linear; the rest decays freely.
+        let linear = -slope / (w * w);
+        let constant = -pair[0] / (w * w) - 2.0 * damping / w * linear;
+        let free = displacement - constant;
+        let free_rate = (velocity - linear + damping * w * free) / wd;
+        displacement = decay * (free * cos + free_rate * sin) + constant + linear * dt_s;
+        velocity = decay
+            * ((free_rate * wd - damping * w * free) * cos - (free * wd + damping * w * free_rate) * sin)
+            + linear;
+        largest = largest.max(displacement.abs());
+    }
+    w * w * largest
+}
+
+/// Computes the Housner intensity, m: the trapezoidal integral of the pseudo-velocity spectrum at 5 % damping over the periods 0.1 to 2.5 s.
+pub fn housner_intensity(acceleration: &[f64], dt_s: f64) -> f64 {
+    let (first, last, points) = HOUSNER_PERIODS;
+    let step = (last - first) / (points - 1) as f64;
+    let pseudo_velocity = |k: usize| {
+        let period = first + k as f64 * step;
+        spectral_acceleration(acceleration, dt_s, period, HOUSNER_DAMPING) * period / (2.0 * PI)
+    };
+    let weight = |k: usize| if k == 0 || k == points - 1 { 0.5 } else { 1.0 };
+    (0..points).map(|k| weight(k) * step * pseudo_velocity(k)).sum()
+}

@@ -1,0 +1,85 @@
+//! Site amplification V(f) of the stochastic method.
+
+/// The amplification from the source to the surface, as a function of frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Site {
+    /// Generic rock (Boore & Joyner 1997).
+    Rock,
+    /// Generic soil (Boore & Joyner 1997).
+    Soil,
+    /// No amplification: a factor of 1.
+    None,
+    /// The user's own frequencies, Hz, and factors.
+    Table(Vec<(f64, f64)>),
+}
+
+/// Why a table of amplification cannot be used. `row` counts from 0.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SiteTableError {
+    /// There is nothing to interpolate between.
+    #[error("site table: {0} row(s); expected 2 or more of frequency in Hz and amplification")]
+    TooShort(usize),
+    /// A row is out of order or not positive.
+    #[error(
+        "site table, row {row}: frequency {frequency_hz} Hz, amplification {amplification}; expected \
+             rising frequencies and factors above 0"
+    )]
+    Row { row: usize, frequency_hz: f64, amplification: f64 },
+}
+
+/// Frequency (Hz), amplification of generic rock and of generic soil.
+const GENERIC: [(f64, f64, f64); 11] = [
+    (0.01, 1.00, 1.00),
+    (0.09, 1.10, 1.34),
+    (0.16, 1.18, 1.57),
+    (0.51, 1.42, 2.24),
+    (0.84, 1.58, 2.57),
+    (1.25, 1.74, 2.76),
+    (2.26, 2.06, 2.98),
+    (3.17, 2.25, 2.95),
+    (6.05, 2.58, 3.05),
+    (16.6, 3.13, 3.18),
+    (61.2, 4.00, 3.21),
+];
+
+impl Site {
+    /// Takes the user's own table.
+    ///
+    /// # Errors
+    /// If there are fewer than two rows, frequencies do not rise, or a number is not above 0.
+    pub fn table(rows: Vec<(f64, f64)>) -> Result<Site, SiteTableError> {
+        if rows.len() < 2 {
+            return Err(SiteTableError::TooShort(rows.len()));
+        }
+        let mut last_hz = 0.0;
+        for (row, &(frequency_hz, amplification)) in rows.iter().enumerate() {
+            let fine = frequency_hz > last_hz && amplification > 0.0;
+            if !(fine && frequency_hz.is_finite() && amplification.is_finite()) {
+                return Err(SiteTableError::Row { row, frequency_hz, amplification });
+            }
+            last_hz = frequency_hz;
+        }
+        Ok(Site::Table(rows))
+    }
+
+    /// Interpolates V(f) at a frequency in Hz: the logarithm of the factor is linear in the frequency, constant beyond the ends.
+    pub fn amplification(&self, frequency_hz: f64) -> f64 {
+        match self {
+            Site::None => 1.0,
+            Site::Rock => interpolate(&GENERIC.map(|(f, rock, _)| (f, rock)), frequency_hz),
+            Site::Soil => interpolate(&GENERIC.map(|(f, _, soil)| (f, soil)), frequency_hz),
+            Site::Table(rows) => interpolate(rows, frequency_hz),
+        }
+    }
+}
+
+fn interpolate(rows: &[(f64, f64)], frequency_hz: f64) -> f64 {
+    let above = rows.partition_point(|&(f, _)| f <= frequency_hz);
+    if above == 0 {
+        return rows[0].1;
+    }
+    let (f0, v0) = rows[above - 1];
+    let Some(&(f1, v1)) = rows.get(above) else { return v0 };
+    let share = (frequency_hz - f0) / (f1 - f0);
+    v0 * libm::pow(v1 / v0, share)
+}

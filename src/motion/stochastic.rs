@@ -1,0 +1,162 @@
+//! The high-frequency component: Boore's stochastic method with the two-corner source of Atkinson & Silva (2000)
+//! (section 2.1.2).
+
+use std::f64::consts::{E, FRAC_1_SQRT_2, PI};
+
+use super::site::Site;
+
+/// Density of the crust, g/cm3.
+const DENSITY: f64 = 2.8;
+/// Shear-wave velocity of the crust, km/s.
+const SHEAR_VELOCITY_KM_S: f64 = 3.5;
+/// Distance beyond which waves spread in two dimensions, km.
+const CROSSOVER_KM: f64 = 40.0;
+/// Quality factor Q = 180 f^0.45.
+const QUALITY: f64 = 180.0;
+const QUALITY_EXPONENT: f64 = 0.45;
+/// Where the window peaks, as a share of its duration: Boore's epsilon.
+pub const PEAK_SHARE: f64 = 0.2;
+/// What is left of the window at its end: Boore's eta.
+const END_VALUE: f64 = 0.05;
+
+/// The constant C of the Fourier amplitude: 0.55 (radiation) / sqrt(2) (one of two components) x 2 (free surface) x 1e-20 /
+/// (4 pi rho beta^3).
+pub const CONSTANT: f64 = 0.55 * FRAC_1_SQRT_2 * 2.0 * 1e-20
+    / (4.0 * PI * DENSITY * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S);
+
+/// The parts of the model that do not depend on the scenario.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StochasticModel {
+    /// Site amplification V(f).
+    pub site: Site,
+    /// Attenuation near the surface, exp(-pi kappa f), s.
+    pub kappa_s: f64,
+    /// Corner of the filter 1/sqrt(1 + (f/fmax)^8), Hz.
+    pub fmax_hz: Option<f64>,
+    /// High-pass filter 1/(1 + (fc/f)^(2n)).
+    pub low_cut: Option<LowCut>,
+}
+
+/// The high-pass filter 1/(1 + (fc/f)^(2n)).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LowCut {
+    /// fc, Hz.
+    pub corner_hz: f64,
+    /// n.
+    pub order: u32,
+}
+
+impl Default for StochasticModel {
+    fn default() -> StochasticModel {
+        StochasticModel { site: Site::Rock, kappa_s: 0.030, fmax_hz: None, low_cut: None }
+    }
+}
+
+impl StochasticModel {
+    /// Computes what every scenario shares at a frequency (Hz): (2 pi f)^2, which makes accelerations of displacements, the site
+    /// V(f) exp(-pi kappa f) and the filters. Times [`Source::amplitude`] it is the Fourier amplitude of the acceleration, cm/s.
+    pub fn common_factor(&self, f: f64) -> f64 {
+        let fmax = self.fmax_hz.map_or(1.0, |fmax| 1.0 / (1.0 + libm::pow(f / fmax, 8.0)).sqrt());
+        let low_cut = self.low_cut.map_or(1.0, |LowCut { corner_hz, order }| {
+            1.0 / (1.0 + libm::pow(corner_hz / f, 2.0 * f64::from(order)))
+        });
+        (2.0 * PI * f).powi(2)
+            * self.site.amplification(f)
+            * libm::exp(-PI * self.kappa_s * f)
+            * fmax
+            * low_cut
+    }
+}
+
+/// Computes f / f^0.45, on which the anelastic attenuation exp(-pi f R / (Q beta)) with Q = 180 f^0.45 depends; f in Hz.
+pub fn quality_exponent(f: f64) -> f64 {
+    libm::pow(f, 1.0 - QUALITY_EXPONENT)
+}
+
+/// The source of Atkinson & Silva (2000) with its two corner frequencies, and the path: spreading and anelastic attenuation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Source {
+    /// Lower corner frequency fa, Hz.
+    pub fa_hz: f64,
+    /// Higher corner frequency fb, Hz.
+    pub fb_hz: f64,
+    /// Weight epsilon of the higher corner.
+    pub epsilon: f64,
+    /// Effective distance R, km.
+    pub distance_km: f64,
+    /// C M0 G(R).
+    scale: f64,
+    /// pi R / (180 beta), s^0.55.
+    attenuation: f64,
+}
+
+impl Source {
+    /// Computes the corner frequencies, their weight and the effective distance (Atkinson & Silva 2000) of an earthquake of moment
+    /// magnitude `mw` at the distance `re_km`.
+    pub fn new(mw: f64, re_km: f64) -> Source {
+        let depth_km = libm::exp10(-0.05 + 0.15 * mw);
+        let distance_km = re_km.hypot(depth_km);
+        let moment_dyne_cm = libm::exp10(1.5 * mw + 16.05);
+        Source {
+            fa_hz: libm::exp10(2.181 - 0.496 * mw),
+            fb_hz: libm::exp10(2.410 - 0.408 * mw),
+            epsilon: libm::exp10(0.605 - 0.255 * mw),
+            distance_km,
+            scale: CONSTANT * moment_dyne_cm * spreading(distance_km),
+            attenuation: PI * distance_km / (QUALITY * SHEAR_VELOCITY_KM_S),
+        }
+    }
+
+    /// Returns the duration of source and path: 0.5/fa + 0.05 R, s.
+    pub fn duration_s(&self) -> f64 {
+        0.5 / self.fa_hz + 0.05 * self.distance_km
+    }
+
+    /// Computes C M0 S(f) G(R) exp(-pi f R / (Q beta)) of a frequency (Hz) and its [`quality_exponent`].
+    pub fn amplitude(&self, f: f64, quality: f64) -> f64 {
+        let corner = |corner_hz: f64| 1.0 / (1.0 + (f / corner_hz) * (f / corner_hz));
+        let shape = (1.0 - self.epsilon) * corner(self.fa_hz) + self.epsilon * corner(self.fb_hz);
+        self.scale * shape * libm::exp(-self.attenuation * quality)
+    }
+}
+
+/// Computes the geometric spreading G(R): 1/R to 40 km, then 1/40 sqrt(40/R).
+fn spreading(distance_km: f64) -> f64 {
+    if distance_km <= CROSSOVER_KM {
+        1.0 / distance_km
+    } else {
+        (CROSSOVER_KM / distance_km).sqrt() / CROSSOVER_KM
+    }
+}
+
+/// The exponential window w = a (t/te)^b exp(-c t/te) of Saragoni & Hart as used by Boore.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window {
+    /// Scale that makes the peak 1.
+    pub a: f64,
+    /// Power of the rise.
+    pub b: f64,
+    /// Rate of the decay.
+    pub c: f64,
+    /// te: twice the duration of the source, s.
+    pub duration_s: f64,
+}
+
+impl Window {
+    /// Shapes the window of a motion whose source and path last `source_duration_s`.
+    pub fn new(source_duration_s: f64) -> Window {
+        let b = -PEAK_SHARE * libm::log(END_VALUE) / (1.0 + PEAK_SHARE * (libm::log(PEAK_SHARE) - 1.0));
+        let c = b / PEAK_SHARE;
+        let a = libm::pow(E / PEAK_SHARE, b);
+        Window { a, b, c, duration_s: 2.0 * source_duration_s }
+    }
+
+    /// Computes the value at a time from its beginning, s: 0 outside, 1 at its peak.
+    pub fn value(&self, time_s: f64) -> f64 {
+        let x = time_s / self.duration_s;
+        if x <= 0.0 || x > 1.0 {
+            return 0.0;
+        }
+        self.a * libm::exp(self.b * libm::log(x) - self.c * x)
+    }
+}

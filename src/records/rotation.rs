@@ -1,0 +1,140 @@
+//! Two horizontal components in another direction, and their peaks over all directions.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::motion::intensity::{peak, velocity};
+
+/// Directions of RotD: each degree of a half turn.
+const DIRECTIONS: usize = 180;
+
+/// Two horizontal components of one station at right angles, of one length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HorizontalPair {
+    dt_s: f64,
+    azimuths_deg: [f64; 2],
+    accelerations: [Vec<f64>; 2],
+}
+
+/// Peaks over all directions (Boore 2010).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RotD {
+    /// Median peak acceleration, m/s2.
+    pub pga50_m_s2: f64,
+    /// Largest peak acceleration, m/s2.
+    pub pga100_m_s2: f64,
+    /// Median peak velocity, m/s.
+    pub pgv50_m_s: f64,
+    /// Largest peak velocity, m/s.
+    pub pgv100_m_s: f64,
+}
+
+impl RotD {
+    /// Returns the peaks of the same pair scaled by a factor.
+    pub fn scaled(&self, factor: f64) -> RotD {
+        RotD {
+            pga50_m_s2: factor * self.pga50_m_s2,
+            pga100_m_s2: factor * self.pga100_m_s2,
+            pgv50_m_s: factor * self.pgv50_m_s,
+            pgv100_m_s: factor * self.pgv100_m_s,
+        }
+    }
+}
+
+impl HorizontalPair {
+    /// Tells whether two azimuths (degrees) are at right angles to within a degree.
+    pub fn is_right_angle(first_deg: f64, second_deg: f64) -> bool {
+        ((first_deg - second_deg).rem_euclid(180.0) - 90.0).abs() <= 1.0
+    }
+
+    /// Pairs accelerations (m/s2) of one time step (s) that start together, with their azimuths (degrees clockwise from
+    /// north); the longer one is cut.
+    pub fn new(dt_s: f64, azimuths_deg: [f64; 2], mut accelerations: [Vec<f64>; 2]) -> HorizontalPair {
+        let length = accelerations.iter().map(Vec::len).min().unwrap_or(0);
+        accelerations.iter_mut().for_each(|samples| samples.truncate(length));
+        HorizontalPair { dt_s, azimuths_deg, accelerations }
+    }
+
+    pub fn dt_s(&self) -> f64 {
+        self.dt_s
+    }
+
+    pub fn accelerations(&self) -> &[Vec<f64>; 2] {
+        &self.accelerations
+    }
+
+    /// Computes the acceleration in the direction of an azimuth (degrees), m/s2.
+    pub fn towards(&self, azimuth_deg: f64) -> Vec<f64> {
+        let weights = self.azimuths_deg.map(|own| libm::cos((azimuth_deg - own).to_radians()));
+        let [first, second] = &self.accelerations;
+        first.iter().zip(second).map(|(a, b)| weights[0] * a + weights[1] * b).collect()
+    }
+
+    /// Computes the azimuth (degrees, 0 to below 360) of the direction with these parts along the two components.
+    pub fn azimuth_of(&self, parts: [f64; 2]) -> f64 {
+        let [first, second] = self.azimuths_deg.map(f64::to_radians);
+        let north = parts[0] * libm::cos(first) + parts[1] * libm::cos(second);
+        let east = parts[0] * libm::sin(first) + parts[1] * libm::sin(second);
+        libm::atan2(east, north).to_degrees().rem_euclid(360.0)
+    }
+
+    /// Computes RotD50 and RotD100 of peak acceleration and velocity (Boore 2010).
+    pub fn rotd(&self) -> RotD {
+        let [first, second] = &self.accelerations;
+        let accelerations = peaks_over_directions(first, second);
+        let velocities = peaks_over_directions(&velocity(first, self.dt_s), &velocity(second, self.dt_s));
+        RotD {
+            pga50_m_s2: median(&accelerations),
+            pga100_m_s2: peak(&accelerations),
+            pgv50_m_s: median(&velocities),
+            pgv100_m_s: peak(&velocities),
+        }
+    }
+}
+
+/// Computes the peak in each direction, in ascending order.
+fn peaks_over_directions(first: &[f64], second: &[f64]) -> Vec<f64> {
+    let in_direction = |degrees: usize| {
+        let (sin, cos) = libm::sincos((degrees as f64).to_radians());
+        first.iter().zip(second).fold(0.0_f64, |peak, (a, b)| (cos * a + sin * b).abs().max(peak))
+    };
+    let mut peaks: Vec<f64> = (0..DIRECTIONS).map(in_direction).collect();
+    peaks.sort_by(f64::total_cmp);
+    peaks
+}
+
+fn median(ascending: &[f64]) -> f64 {
+    0.5 * (ascending[(DIRECTIONS - 1) / 2] + ascending[DIRECTIONS / 2])
+}
+
+/// Where a pair of components is rotated to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Direction {
+    /// An azimuth, degrees.
+    Azimuth(f64),
+    /// The azimuth of the strongest wavelet (Shahi & Baker 2014).
+    StrongestPulse,
+}
+
+impl FromStr for Direction {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Direction, String> {
+        let azimuth = || text.parse().ok().filter(|azimuth| (0.0..=360.0).contains(azimuth));
+        match text {
+            "strongest-pulse" => Ok(Direction::StrongestPulse),
+            _ => azimuth().map(Direction::Azimuth).ok_or_else(|| {
+                format!("'{text}'; expected an azimuth from 0 to 360 degrees, or strongest-pulse")
+            }),
+        }
+    }
+}
+
+impl fmt::Display for Direction {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Direction::Azimuth(degrees) => write!(f, "{degrees}"),
+            Direction::StrongestPulse => f.write_str("strongest-pulse"),
+        }
+    }
+}
