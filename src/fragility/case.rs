@@ -20,6 +20,42 @@ impl Case {
     }
 }
 
+/// The event whose probability a curve gives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Event {
+    /// Rocking: 1 - P_nr.
+    Rocking,
+    /// Overturning given rocking: P_ro.
+    Overturning,
+    /// A demand above the limit given safe rocking: P_ex.
+    Exceeding,
+    /// Failure given rocking, overturning or a demand above the limit: P_f|r (Eq. 12).
+    Failure,
+}
+
+keywords!(Event {
+    Overturning = "overturning",
+    Rocking = "rocking",
+    Exceeding = "exceeding",
+    Failure = "failure",
+});
+
+impl Event {
+    /// The branches of the tree of Figure 6 that have a curve of their own.
+    pub const BRANCHES: [Event; 2] = [Event::Overturning, Event::Exceeding];
+
+    /// Whether it happened in a case, `limit` being the demand that P_ex is about; none if the case does not count.
+    pub fn happened(self, case: &Case, limit: f64) -> Option<bool> {
+        let overturned = case.outcome == Outcome::Overturning;
+        match (self, case.outcome) {
+            (Event::Rocking, outcome) => Some(outcome != Outcome::NoRocking),
+            (_, Outcome::NoRocking) | (Event::Exceeding, Outcome::Overturning) => None,
+            (Event::Overturning, _) => Some(overturned),
+            (Event::Exceeding | Event::Failure, _) => Some(overturned || case.edp > limit),
+        }
+    }
+}
+
 /// A dimensionless intensity measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Measure {

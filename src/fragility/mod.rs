@@ -68,7 +68,7 @@ pub(crate) mod resampled;
 pub(crate) mod slice;
 
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
-pub use case::{Case, Measure};
+pub use case::{Case, Event, Measure};
 pub use clusters::{Clusters, SharedBy, cells};
 pub use curve::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use demand::{

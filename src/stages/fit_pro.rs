@@ -6,11 +6,11 @@ use serde_json::{Value, json};
 
 use super::groups::{self, Group};
 use super::uncertainty::uncertainty;
-use crate::fragility::overturning::{Curve, CurveOptions, FittedEvent, Pair};
-use crate::fragility::{CaseGroup, CurveModel};
+use crate::fragility::overturning::{Curve, CurveOptions, Pair};
+use crate::fragility::{CaseGroup, CurveModel, Event};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{Parsed, Several, Word, defaults};
+use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::statistics::{Estimator, FitStatus, Link};
 use crate::table::pro::{self, ProRow};
@@ -26,7 +26,7 @@ use crate::table::writer::TableWriter;
 pub struct FitProOptions {
     /// What the probability is of: overturning (given rocking), or rocking (of all motions)
     #[arg(long, default_value = "overturning")]
-    pub event: Word<FittedEvent>,
+    pub event: Word<Event>,
     /// Pairs of measures that make hybrid ones, besides the six scalar measures
     #[arg(long, default_value = "im4:im3_inv")]
     pub pairs: Several<Parsed<Pair>>,
@@ -71,6 +71,8 @@ impl FitPro {
         input: impl Into<Source>,
         out: impl Into<Target>,
     ) -> anyhow::Result<FitPro> {
+        let possible = matches!(options.event.0, Event::Overturning | Event::Rocking);
+        check(possible, "event", options.event, "overturning or rocking")?;
         let uncertainty = uncertainty(options.bootstrap, options.confidence, options.seed)?;
         let model = CurveModel {
             link: options.link.0,

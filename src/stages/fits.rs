@@ -5,8 +5,8 @@ use std::path::Path;
 use clap::Args;
 
 use super::chosen_fits::ChosenFits;
+use crate::fragility::Event;
 use crate::fragility::demand::Form;
-use crate::fragility::overturning::FittedEvent;
 use crate::fragility::{DemandModel, FragilityModel, Measure, has_few_events};
 use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
@@ -120,7 +120,7 @@ impl FitsOptions {
         let model =
             FragilityModel { demand, limit, overturning: curve.probit()?, eta: curve.number(&schema::ETA)? };
         let (suite, structure) = group.clone();
-        let (n, events) = (curve.number(&schema::N)?, curve.number(&schema::N_OVERTURNED)?);
+        let (n, events) = (curve.number(&schema::N)?, curve.number(&schema::N_EVENTS)?);
         let few_events = has_few_events(events as usize, n as usize, model.overturning.measures().count());
         Ok(ChosenFits { suite, structure, model, resampled: None, few_events })
     }
@@ -151,7 +151,7 @@ impl FitsOptions {
         (x, y): (Measure, Option<Measure>),
     ) -> anyhow::Result<&'a FitRow> {
         let wanted = |row: &&&FitRow| {
-            row.text(&schema::FITTED_EVENT) == Some(FittedEvent::Overturning.as_str())
+            row.text(&schema::FITTED_EVENT) == Some(Event::Overturning.as_str())
                 && row.text(&schema::IM_X) == Some(x.as_str())
                 && row.text(&schema::IM_Y) == y.map(Keyword::as_str)
         };

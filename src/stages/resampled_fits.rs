@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::chosen_fits::ChosenFits;
 use super::fits::FitsOptions;
+use crate::fragility::Event;
 use crate::fragility::demand::Form;
-use crate::fragility::overturning::FittedEvent;
 use crate::fragility::{DemandLaw, DemandModel, FragilityModel, Predictor};
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
@@ -130,8 +130,7 @@ fn resampled(row: &FitRow, law: &DemandLaw) -> Option<DemandLaw> {
 
 fn curves(rows: &[FitRow], chosen: &Predictor) -> Vec<Option<Predictor>> {
     let same = |row: &&FitRow| {
-        row.text(&schema::FITTED_EVENT) == Some(FittedEvent::Overturning.as_str())
-            && has_measures(row, chosen)
+        row.text(&schema::FITTED_EVENT) == Some(Event::Overturning.as_str()) && has_measures(row, chosen)
     };
     let columns = [schema::B0, schema::INDEX_B1, schema::INDEX_B2];
     rows.iter().filter(same).map(|row| with_coefficients(row, chosen, columns)).collect()

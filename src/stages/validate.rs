@@ -8,10 +8,11 @@ use serde_json::{Value, json};
 use super::chosen_fits::ChosenFits;
 use super::fits::FitsOptions;
 use super::groups::{self, Group};
+use crate::fragility::Event;
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
-use crate::studies::{Forecasts, Foretold, Validation};
+use crate::studies::{Forecasts, Validation};
 use crate::table::provenance::{Provenance, stamp};
 use crate::table::schema::VALIDATION;
 use crate::table::source::{Source, Target};
@@ -111,7 +112,7 @@ impl Validate {
 
 /// All events of a group by the fits of one suite; those that cannot happen in any case are left out.
 fn rows<'a>(group: &'a Group, fits: &'a ChosenFits) -> impl Iterator<Item = ValidationRow> + 'a {
-    Foretold::ALL.iter().filter_map(|&event| {
+    [Event::Overturning, Event::Exceeding, Event::Failure].into_iter().filter_map(|event| {
         let Forecasts { forecasts, without_measure } = Forecasts::new(&fits.model, &group.cases, event);
         Some(ValidationRow {
             suite: group.suite.clone(),

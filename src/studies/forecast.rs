@@ -1,22 +1,7 @@
-use crate::fragility::case::Case;
+use crate::fragility::case::{Case, Event};
 use crate::fragility::index::Probability;
-use crate::fragility::model::{FragilityModel, GivenRocking};
-use crate::keyword::keywords;
+use crate::fragility::model::{FragilityModel, Probabilities};
 use crate::motion::IntensityMeasures;
-use crate::rocking::Outcome;
-
-/// What the curves foretell of a structure that rocks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Foretold {
-    /// Overturning given rocking: P_ro.
-    Overturning,
-    /// A demand above the limit given safe rocking: P_ex.
-    Exceeding,
-    /// Failure given rocking, the one or the other: P_f|r (Eq. 12).
-    Failure,
-}
-
-keywords!(Foretold { Overturning = "overturning", Exceeding = "exceeding", Failure = "failure" });
 
 /// A probability, and whether the event happened.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +10,7 @@ pub struct Forecast {
     pub probability: Probability,
     /// Whether it happened.
     pub happened: bool,
-    /// Whether a measure lies outside of the range of the data of the fit (of [`Foretold::Failure`], of either).
+    /// Whether a measure lies outside of the range of the data of the fit (of [`Event::Failure`], of either).
     pub is_extrapolated: bool,
 }
 
@@ -46,25 +31,16 @@ pub struct Forecasts {
 }
 
 impl Forecasts {
-    /// Of an event in these cases: those that rock, or of [`Foretold::Exceeding`] those that rock safely.
-    pub fn new(model: &FragilityModel, cases: &[Case], event: Foretold) -> Forecasts {
+    /// Forecasts of an event in those of the cases that count for it.
+    pub fn new(model: &FragilityModel, cases: &[Case], event: Event) -> Forecasts {
         let (mut forecasts, mut without_measure) = (Vec::new(), 0);
         for case in cases {
-            let overturned = case.outcome == Outcome::Overturning;
-            let exceeded = case.edp > model.limit;
-            let (can_happen, happened) = match event {
-                Foretold::Overturning => (true, overturned),
-                Foretold::Exceeding => (!overturned, exceeded),
-                Foretold::Failure => (true, overturned || exceeded),
-            };
-            if case.outcome == Outcome::NoRocking || !can_happen {
-                continue;
-            }
-            match model.probabilities(&case.measures).given_rocking {
-                Some(given) => forecasts.push(Forecast {
-                    probability: event.among(&given),
+            let Some(happened) = event.happened(case, model.limit) else { continue };
+            match probability(event, &model.probabilities(&case.measures)) {
+                Some(probability) => forecasts.push(Forecast {
+                    probability,
                     happened,
-                    is_extrapolated: event.is_out_of_range(model, &case.measures),
+                    is_extrapolated: is_out_of_range(event, model, &case.measures),
                 }),
                 None => without_measure += 1,
             }
@@ -73,22 +49,23 @@ impl Forecasts {
     }
 }
 
-impl Foretold {
-    fn is_out_of_range(self, model: &FragilityModel, measures: &IntensityMeasures) -> bool {
-        let of_demand = || model.demand_out_of_range(measures).next().is_some();
-        let of_overturning = || model.overturning_out_of_range(measures).next().is_some();
-        match self {
-            Foretold::Overturning => of_overturning(),
-            Foretold::Exceeding => of_demand(),
-            Foretold::Failure => of_overturning() || of_demand(),
-        }
+fn probability(event: Event, probabilities: &Probabilities) -> Option<Probability> {
+    let given = || probabilities.given_rocking;
+    match event {
+        Event::Rocking => Some(Probability::exact(1.0 - probabilities.p_nr)),
+        Event::Overturning => given().map(|given| given.p_ro),
+        Event::Exceeding => given().map(|given| given.p_ex),
+        Event::Failure => given().map(|given| given.p_failure),
     }
+}
 
-    fn among(self, given: &GivenRocking) -> Probability {
-        match self {
-            Foretold::Overturning => given.p_ro,
-            Foretold::Exceeding => given.p_ex,
-            Foretold::Failure => given.p_failure,
-        }
+fn is_out_of_range(event: Event, model: &FragilityModel, measures: &IntensityMeasures) -> bool {
+    let of_demand = || model.demand_out_of_range(measures).next().is_some();
+    let of_overturning = || model.overturning_out_of_range(measures).next().is_some();
+    match event {
+        Event::Rocking => false,
+        Event::Overturning => of_overturning(),
+        Event::Exceeding => of_demand(),
+        Event::Failure => of_overturning() || of_demand(),
     }
 }

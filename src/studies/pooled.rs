@@ -1,8 +1,8 @@
 //! One curve for all structures: what they differ in as covariates, and how well it foretells structures that it has not seen.
 
 use super::folds::{Folds, MOST_FOLDS};
-use super::transfer::{Branch, CurveSubject};
-use crate::fragility::case::{Case, Measure};
+use super::transfer::CurveSubject;
+use crate::fragility::case::{Case, Event, Measure};
 use crate::fragility::curve::exceeding_index;
 use crate::fragility::demand::inference::DemandInference;
 use crate::fragility::demand::sample::DemandSample;
@@ -135,9 +135,9 @@ pub fn fit_pooled(
     terms: PooledTerms,
 ) -> Result<PooledFit, FitStatus> {
     let mut scores: Scores = vec![(0.0, 0); structures.len()];
-    let part = |range| match subject.branch {
-        Branch::Overturning => overturning(subject, structures, terms, range, &mut scores),
-        Branch::Exceeding => demand(subject, structures, terms, range, &mut scores),
+    let part = |range| match subject.event {
+        Event::Exceeding => demand(subject, structures, terms, range, &mut scores),
+        _ => overturning(subject, structures, terms, range, &mut scores),
     };
     let parts = subject.parts().into_iter().map(part).collect::<Result<Vec<_>, _>>()?;
     let mean = |(sum, count): (f64, usize)| (count > 0).then(|| sum / count as f64);

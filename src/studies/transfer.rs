@@ -1,6 +1,6 @@
 //! The curves of a structure on their own: fitted to its cases, and asked about those of another.
 
-use crate::fragility::case::{Case, Measure};
+use crate::fragility::case::{Case, Event, Measure};
 use crate::fragility::demand::regressions::PLANE;
 use crate::fragility::demand::sample::DemandSample;
 use crate::fragility::index::ProbitIndex;
@@ -8,21 +8,8 @@ use crate::fragility::model::{DemandLaw, DemandModel, has_no_data};
 use crate::fragility::overturning::curves::{CurveModel, fit_overturning};
 use crate::fragility::overturning::sample::EventSample;
 use crate::fragility::predictor::Predictor;
-use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
-use crate::rocking::Outcome;
 use crate::statistics::FitStatus;
-
-/// A branch of the tree of Figure 6 that has a probability of its own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Branch {
-    /// Overturning given rocking: P_ro.
-    Overturning,
-    /// A demand above the limit given safe rocking: P_ex.
-    Exceeding,
-}
-
-keywords!(Branch { Overturning = "overturning", Exceeding = "exceeding" });
 
 /// On what the curves of all structures depend.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,8 +26,8 @@ pub enum CurveForm {
 /// What is fitted to each structure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveSubject {
-    /// Of which probability.
-    pub branch: Branch,
+    /// The event whose probability it gives.
+    pub event: Event,
     /// On what it depends.
     pub form: CurveForm,
     /// The demand |theta|max / alpha that P_ex is about.
@@ -64,17 +51,17 @@ pub enum Curve {
 impl CurveSubject {
     /// The measures that it takes.
     pub fn measures(&self) -> Vec<Measure> {
-        match (self.form, self.branch) {
+        match (self.form, self.event) {
             (CurveForm::Scalar(measure), _) => vec![measure],
-            (CurveForm::Hybrid { .. }, Branch::Overturning) => vec![Measure::Im4, Measure::Im3Inverse],
-            (CurveForm::Hybrid { .. }, Branch::Exceeding) => PLANE.to_vec(),
+            (CurveForm::Hybrid { .. }, Event::Exceeding) => PLANE.to_vec(),
+            (CurveForm::Hybrid { .. }, _) => vec![Measure::Im4, Measure::Im3Inverse],
         }
     }
 
     /// The ranges of the first measure of which each has a law of its own.
     pub fn parts(&self) -> Vec<std::ops::Range<f64>> {
-        match (self.form, self.branch) {
-            (CurveForm::Hybrid { transition }, Branch::Exceeding) => {
+        match (self.form, self.event) {
+            (CurveForm::Hybrid { transition }, Event::Exceeding) => {
                 vec![0.0..transition, transition..f64::INFINITY]
             }
             _ => vec![0.0..f64::INFINITY],
@@ -83,11 +70,7 @@ impl CurveSubject {
 
     /// Whether the event happened in a case; none if the case does not count.
     pub fn happened(&self, case: &Case) -> Option<bool> {
-        match (self.branch, case.outcome) {
-            (_, Outcome::NoRocking) | (Branch::Exceeding, Outcome::Overturning) => None,
-            (Branch::Overturning, outcome) => Some(outcome == Outcome::Overturning),
-            (Branch::Exceeding, Outcome::SafeRocking) => Some(case.edp > self.limit),
-        }
+        self.event.happened(case, self.limit)
     }
 
     /// The curve of these cases.
@@ -96,14 +79,8 @@ impl CurveSubject {
     /// With the status that says why there is none.
     pub fn fit(&self, cases: &[Case]) -> Result<Curve, FitStatus> {
         let measures = self.measures();
-        match self.branch {
-            Branch::Overturning => {
-                let sample = EventSample::new(cases, &measures, |case| self.happened(case));
-                let fit = fit_overturning(&sample, &CurveModel::default())?.regression;
-                let ln_im = sample.predictors();
-                Ok(Curve::Overturning(Predictor::new(&measures, &fit.coefficients, &fit.covariance, &ln_im)))
-            }
-            Branch::Exceeding => {
+        match self.event {
+            Event::Exceeding => {
                 let law = |range: std::ops::Range<f64>| -> Result<DemandLaw, FitStatus> {
                     let sample = DemandSample::new(cases, &measures, range);
                     let fit = sample.fit()?;
@@ -127,6 +104,12 @@ impl CurveSubject {
                     (_, []) => return Err(FitStatus::TooFewCases),
                 };
                 Ok(Curve::Exceeding { demand, limit: self.limit })
+            }
+            _ => {
+                let sample = EventSample::new(cases, &measures, |case| self.happened(case));
+                let fit = fit_overturning(&sample, &CurveModel::default())?.regression;
+                let ln_im = sample.predictors();
+                Ok(Curve::Overturning(Predictor::new(&measures, &fit.coefficients, &fit.covariance, &ln_im)))
             }
         }
     }

@@ -6,10 +6,11 @@ use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 
 use super::schema::{POOLED, UNIVERSALITY};
+use crate::fragility::Event;
 use crate::keyword::Keyword;
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
-use crate::studies::{BesideOwn, Branch, PooledPart, PooledTerm, PooledTerms, Transfer, Validation};
+use crate::studies::{BesideOwn, PooledPart, PooledTerm, PooledTerms, Transfer, Validation};
 
 /// The curve of one structure on another.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +22,7 @@ pub struct UniversalityRow {
     /// The structure whose curve it is.
     pub reference: String,
     /// What is foretold.
-    pub event: Branch,
+    pub event: Event,
     /// The demand that P_ex is about.
     pub limit_state: f64,
     /// How it fares.
@@ -36,7 +37,7 @@ pub struct PooledRow {
     /// Suite of the motions.
     pub suite: Option<String>,
     /// What is foretold.
-    pub event: Branch,
+    pub event: Event,
     /// What the curve consists of.
     pub terms: PooledTerms,
     /// The curve where it holds.

@@ -9,8 +9,9 @@ use arrow_schema::ArrowError;
 use super::reader::{Batch, Batches, expect_columns};
 use super::schema::{self, VALIDATION};
 use super::text;
+use crate::fragility::Event;
 use crate::keyword::Keyword;
-use crate::studies::{Foretold, Validation};
+use crate::studies::Validation;
 
 /// One event, foretold and seen.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +23,7 @@ pub struct ValidationRow {
     /// Suite of the fits.
     pub fits_suite: Option<String>,
     /// What is foretold.
-    pub event: Foretold,
+    pub event: Event,
     /// The demand that P_ex is about.
     pub limit_state: f64,
     /// How the forecasts fared.

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use proptest::prelude::*;
 use rockfrag::fragility::demand::{Form, Regression, RegressionOptions, Regressions};
-use rockfrag::fragility::overturning::{Curve, CurveOptions, FittedEvent, Pair};
+use rockfrag::fragility::overturning::{Curve, CurveOptions, Pair};
 use rockfrag::fragility::{
-    Case, CaseGroup, CurveModel, DemandSample, EventSample, Measure, OverturningFit, PLANE, Plane,
+    Case, CaseGroup, CurveModel, DemandSample, Event, EventSample, Measure, OverturningFit, PLANE, Plane,
     TransitionSearch, Uncertainty, fit_biplanar, fit_overturning, fit_univariate, p_exceeding,
     p_failure_given_rocking, p_no_rocking, p_overturning, unwatched,
 };
@@ -252,7 +252,7 @@ fn all_fits_of_a_group_follow_from_slices_of_its_cases() {
         let [below, above] = [0, 1].map(|side| planes[side].range.clone());
         assert!((below.start, above.end) == (1.0, f64::INFINITY) && below.end == above.start);
     }
-    let event = FittedEvent::Overturning;
+    let event = Event::Overturning;
     let pairs = vec![Pair(Measure::Im4, Measure::Im3Inverse)];
     let options = CurveOptions { event, pairs, model: CurveModel::default(), uncertainty };
     let Ok(curves) = options.fit(&groups, &unwatched);

@@ -2,15 +2,15 @@
 
 use std::collections::HashMap;
 
-use rockfrag::fragility::{Case, DemandModel, DemandSample, PLANE};
+use rockfrag::fragility::{Case, DemandModel, DemandSample, Event, PLANE};
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::normal;
 use rockfrag::rocking::Outcome;
 use rockfrag::statistics::FitStatus;
 use rockfrag::studies::{
-    Branch, Curve, CurveForm, CurveSubject, PooledStructure, PooledTerms, Transfer, Verdict,
-    calibration_slope, fit_pooled,
+    Curve, CurveForm, CurveSubject, PooledStructure, PooledTerms, Transfer, Verdict, calibration_slope,
+    fit_pooled,
 };
 
 /// structure, ln p, ln alpha, eta, im4, im3, overturned, edp
@@ -28,8 +28,8 @@ fn case(&(.., im4, im3, overturned, edp): &Row) -> Case {
 }
 
 /// P_ex in one plane: the transition lies below all cases.
-fn subject(branch: Branch) -> CurveSubject {
-    CurveSubject { branch, form: CurveForm::Hybrid { transition: 1.01 }, limit: 0.10 }
+fn subject(event: Event) -> CurveSubject {
+    CurveSubject { event, form: CurveForm::Hybrid { transition: 1.01 }, limit: 0.10 }
 }
 
 #[track_caller]
@@ -50,15 +50,15 @@ fn pooled_curves_equal_those_of_statsmodels() {
         .zip(parameters)
         .map(|(cases, (ln_p, ln_alpha, eta))| PooledStructure { cases, ln_p, ln_alpha, eta })
         .collect();
-    for &branch in Branch::ALL {
+    for event in Event::BRANCHES {
         for &terms in PooledTerms::ALL {
-            let fit = fit_pooled(&subject(branch), &structures, terms).unwrap();
+            let fit = fit_pooled(&subject(event), &structures, terms).unwrap();
             let answer = |quantity: String| {
-                answers[&(branch.as_str().to_string(), terms.as_str().to_string(), quantity)]
+                answers[&(event.as_str().to_string(), terms.as_str().to_string(), quantity)]
             };
             let part = fit.parts.last().unwrap();
             let named = |key: &&(String, String, String)| {
-                key.0 == branch.as_str() && key.1 == terms.as_str() && key.2.starts_with("coefficient")
+                key.0 == event.as_str() && key.1 == terms.as_str() && key.2.starts_with("coefficient")
             };
             assert_eq!(part.terms.len(), answers.keys().filter(named).count());
             for (k, term) in part.terms.iter().enumerate() {
@@ -91,8 +91,8 @@ fn cases_and_cells() -> (Vec<Case>, Vec<usize>) {
 #[test]
 fn a_curve_holds_for_its_own_structure() {
     let (cases, cells) = cases_and_cells();
-    for &branch in Branch::ALL {
-        let transfer = Transfer::new(&subject(branch), &cases, &cases, &cells).unwrap().unwrap();
+    for event in Event::BRANCHES {
+        let transfer = Transfer::new(&subject(event), &cases, &cases, &cells).unwrap().unwrap();
         let own = transfer.own.as_ref().unwrap();
         assert_eq!((own.loss.value, own.mean_error, own.worst_over, own.worst_under), (0.0, 0.0, 0.0, 0.0));
         assert_eq!((transfer.share_lost(), transfer.verdict()), (Some(0.0), Verdict::Holds));
@@ -104,7 +104,7 @@ fn each_side_of_the_transition_has_its_own_plane() {
     let (cases, _) = cases_and_cells();
     let (transition, limit) = (2.0, 0.1);
     let form = CurveForm::Hybrid { transition };
-    let curve = CurveSubject { branch: Branch::Exceeding, form, limit }.fit(&cases).unwrap();
+    let curve = CurveSubject { event: Event::Exceeding, form, limit }.fit(&cases).unwrap();
     let Curve::Exceeding { demand: DemandModel::Biplanar { low, high, .. }, .. } = curve else {
         panic!("{curve:?}")
     };
@@ -124,7 +124,7 @@ fn a_structure_that_fails_earlier_is_underestimated_by_the_shift() {
         case
     };
     let others: Vec<Case> = cases.iter().map(weaker).collect();
-    let subject = subject(Branch::Overturning);
+    let subject = subject(Event::Overturning);
     let transfer = Transfer::new(&subject, &cases, &others, &cells).unwrap().unwrap();
     let own = transfer.own.as_ref().unwrap();
     let Ok(Curve::Overturning(curve)) = subject.fit(&cases) else { panic!("no curve") };
@@ -144,7 +144,7 @@ fn a_structure_that_fails_earlier_is_underestimated_by_the_shift() {
 fn a_structure_without_events_is_counted_but_not_judged() {
     let (cases, cells) = cases_and_cells();
     let safe: Vec<Case> = cases.iter().map(|case| Case { outcome: Outcome::SafeRocking, ..*case }).collect();
-    let subject = subject(Branch::Overturning);
+    let subject = subject(Event::Overturning);
     let transfer = Transfer::new(&subject, &cases, &safe, &cells).unwrap().unwrap();
     assert_eq!((transfer.validation.seen, transfer.own.as_ref().err()), (0, Some(&FitStatus::TooFewEvents)));
     assert_eq!(transfer.verdict(), Verdict::TooFewEvents);

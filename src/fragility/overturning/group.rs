@@ -12,37 +12,14 @@ use super::inference::CurveInference;
 use super::parameter::CurveParameter;
 use super::refits::CurveRefits;
 use super::sample::EventSample;
-use crate::fragility::case::{Case, Measure};
+use crate::fragility::case::{Case, Event, Measure};
 use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
 use crate::fragility::predictor::ranges;
-use crate::keyword::{self, Keyword, keywords};
+use crate::keyword::{self, Keyword};
 use crate::resampling::Strata;
-use crate::rocking::Outcome;
 use crate::statistics::{
     BinaryFit, BootstrapLimits, Estimator, FitStatus, Limits, Test, bootstrap_limits, likelihood_ratio,
 };
-
-/// What a fragility curve is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FittedEvent {
-    /// Overturning given rocking: P_ro.
-    Overturning,
-    /// Rocking: 1 - P_nr.
-    Rocking,
-}
-
-keywords!(FittedEvent { Overturning = "overturning", Rocking = "rocking" });
-
-impl FittedEvent {
-    /// Whether it happened in a case; none if the case does not count.
-    pub fn happened(self, case: &Case) -> Option<bool> {
-        match (self, case.outcome) {
-            (FittedEvent::Overturning, Outcome::NoRocking) => None,
-            (FittedEvent::Overturning, outcome) => Some(outcome == Outcome::Overturning),
-            (FittedEvent::Rocking, outcome) => Some(outcome != Outcome::NoRocking),
-        }
-    }
-}
 
 /// Two measures that make a hybrid one (Eq. 23), written as `im4:im3_inv`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,7 +47,7 @@ impl fmt::Display for Pair {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
     /// What it is the probability of.
-    pub event: FittedEvent,
+    pub event: Event,
     /// First measure.
     pub im_x: Measure,
     /// Second measure, of a hybrid.
@@ -132,8 +109,8 @@ impl Curve {
 /// How all curves of a group are made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveOptions {
-    /// What they are about.
-    pub event: FittedEvent,
+    /// The event: overturning or rocking, which need no limit state.
+    pub event: Event,
     /// The hybrid measures, besides the six scalar ones.
     pub pairs: Vec<Pair>,
     /// How a curve is fitted.
@@ -183,7 +160,7 @@ impl CurveOptions {
 
     fn curve(&self, cases: &[Case], im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
         let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
-        let sample = EventSample::new(cases, &measures, |case| self.event.happened(case));
+        let sample = EventSample::new(cases, &measures, |case| self.event.happened(case, f64::INFINITY));
         let fit = fit_overturning(&sample, &self.model);
         let needed = |bent: fn(&EventSample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
             let straight = &fit.as_ref().ok().filter(|_| self.model.estimator == Estimator::Ml)?.regression;

@@ -12,7 +12,7 @@ pub(crate) mod sample;
 
 pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use curves::{CurveModel, OverturningFit, fit_overturning, has_few_events};
-pub use group::{Curve, CurveOptions, FittedEvent, Pair, ParameterInference};
+pub use group::{Curve, CurveOptions, Pair, ParameterInference};
 pub use inference::CurveInference;
 pub use parameter::CurveParameter;
 pub use refits::CurveRefits;

@@ -1,8 +1,8 @@
 use std::path::Path;
 
+use crate::fragility::Event;
 use crate::fragility::Measure;
 use crate::fragility::demand::Form;
-use crate::fragility::overturning::FittedEvent;
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
@@ -48,8 +48,7 @@ fn regression(row: &FitRow) -> Option<Regression> {
 /// Gives each group its curves of overturning.
 pub fn add_curves(path: &Path, groups: &mut [Group], console: &Console) -> anyhow::Result<()> {
     let rows = fits::curves(path)?;
-    let overturning =
-        |row: &&FitRow| row.text(&schema::FITTED_EVENT) == Some(FittedEvent::Overturning.as_str());
+    let overturning = |row: &&FitRow| row.text(&schema::FITTED_EVENT) == Some(Event::Overturning.as_str());
     let rows: Vec<&FitRow> = rows.iter().filter(overturning).filter(|row| row.is_ok()).collect();
     if let Some(Err(why)) = rows.first().map(|row| row.probit()) {
         console.note(&format!("warning: no curves of overturning in the figures: {why}"));

@@ -83,7 +83,7 @@ const SHOWN: [Shown; 7] = [
             schema::AUC,
             schema::BRIER,
             schema::N,
-            schema::N_OVERTURNED,
+            schema::N_EVENTS,
             schema::STATUS,
         ],
     },

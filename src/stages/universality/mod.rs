@@ -13,6 +13,7 @@ pub use words::show;
 
 use super::fits::ModelForm;
 use super::groups::{self, Group};
+use crate::fragility::Event;
 use crate::fragility::Measure;
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
@@ -21,7 +22,7 @@ use crate::pipeline::options::{Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::statistics::FitStatus;
 use crate::studies::{
-    Branch, CurveForm, CurveSubject, PooledFit, PooledStructure, PooledTerms, Transfer, fit_pooled,
+    CurveForm, CurveSubject, PooledFit, PooledStructure, PooledTerms, Transfer, fit_pooled,
 };
 use crate::table::provenance::Provenance;
 use crate::table::schema::{POOLED, UNIVERSALITY};
@@ -103,8 +104,8 @@ impl Universality {
         with_part(&self.out, "pooled")
     }
 
-    fn subject(&self, branch: Branch) -> CurveSubject {
-        CurveSubject { branch, form: self.form, limit: self.options.limit_state }
+    fn subject(&self, event: Event) -> CurveSubject {
+        CurveSubject { event, form: self.form, limit: self.options.limit_state }
     }
 
     /// The groups of each suite, which must have the reference and the same motions throughout.
@@ -140,8 +141,8 @@ impl Universality {
     }
 
     /// Holds all structures against the reference.
-    fn judge(&self, suite: &SuiteOfGroups, branch: Branch) -> anyhow::Result<Judgement> {
-        let (subject, reference) = (self.subject(branch), suite.groups[suite.reference]);
+    fn judge(&self, suite: &SuiteOfGroups, event: Event) -> anyhow::Result<Judgement> {
+        let (subject, reference) = (self.subject(event), suite.groups[suite.reference]);
         let cells = cells(reference);
         let pooled = pooled(&subject, suite);
         let row = |(k, group): (usize, &&Group)| {
@@ -150,7 +151,7 @@ impl Universality {
                     anyhow::anyhow!(
                         "{}: the curve of {} of '{}' is {}; choose another --reference",
                         self.input.display(),
-                        branch.as_str(),
+                        event.as_str(),
                         reference.structure,
                         status.as_str()
                     )
@@ -160,7 +161,7 @@ impl Universality {
                 suite: group.suite.clone(),
                 structure: group.structure_of(0),
                 reference: reference.structure.clone(),
-                event: branch,
+                event,
                 limit_state: subject.limit,
                 transfer,
                 pooled: [0, 1, 2, 3].map(|terms: usize| log_score(&pooled[terms])),
@@ -174,7 +175,7 @@ impl Universality {
                 Ok(fit) => coefficients.extend(fit.parts.iter().flat_map(|part| {
                     part.terms.iter().map(|term| PooledRow {
                         suite: reference.suite.clone(),
-                        event: branch,
+                        event,
                         terms,
                         part: part.clone(),
                         term: term.clone(),
@@ -182,7 +183,7 @@ impl Universality {
                 })),
                 Err(status) => missing.push((
                     format!("no pooled curve, {}", status.as_str()),
-                    format!("{} of {}", terms.as_str(), branch.as_str()),
+                    format!("{} of {}", terms.as_str(), event.as_str()),
                 )),
             }
         }
@@ -234,8 +235,8 @@ impl Stage for Universality {
         let mut pooled_writer = TableWriter::create(self.pooled_path(), &POOLED, provenance.clone())?;
         for suite in &suites {
             structures = structures.max(suite.groups.len());
-            for &branch in Branch::ALL {
-                let Judgement { rows, coefficients, missing } = self.judge(suite, branch)?;
+            for event in Event::BRANCHES {
+                let Judgement { rows, coefficients, missing } = self.judge(suite, event)?;
                 console.warn_each(missing.into_iter());
                 writer.append(&universality::batch(&rows)?)?;
                 pooled_writer.append(&universality::pooled_batch(&coefficients)?)?;

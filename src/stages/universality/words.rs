@@ -3,9 +3,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use crate::fragility::Event;
 use crate::keyword::Keyword;
 use crate::statistics::{FitStatus, least_squares};
-use crate::studies::{Branch, PooledTerms, Verdict};
+use crate::studies::{PooledTerms, Verdict};
 use crate::table::fits::{self, FitRow};
 use crate::table::schema::{self, Column, POOLED, UNIVERSALITY};
 use crate::table::source::with_part;
@@ -35,11 +36,11 @@ pub fn show(path: &Path) -> anyhow::Result<String> {
         }
     }
     for suite in suites {
-        for event in Branch::ALL {
+        for event in Event::BRANCHES {
             let of = |row: &&FitRow| {
                 row.text(&schema::SUITE) == suite && row.text(&schema::FORETOLD) == Some(event.as_str())
             };
-            let judged = Judged { event: *event, rows: rows.iter().filter(of).collect() };
+            let judged = Judged { event, rows: rows.iter().filter(of).collect() };
             let pooled: Vec<&FitRow> = pooled.iter().filter(of).collect();
             judged.write(suite, &pooled, &mut text)?;
         }
@@ -49,7 +50,7 @@ pub fn show(path: &Path) -> anyhow::Result<String> {
 
 /// All structures for one event under one suite.
 struct Judged<'a> {
-    event: Branch,
+    event: Event,
     rows: Vec<&'a FitRow>,
 }
 

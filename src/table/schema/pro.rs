@@ -19,7 +19,7 @@ columns! {
     BIC = "bic", Float64, "1", "Bayesian information criterion";
     AUC = "auc", Float64, "1", "area under the receiver operating characteristic";
     BRIER = "brier", Float64, "1", "Brier score";
-    N_OVERTURNED = "n_overturned", Int64, "1", "cases in which the event happened";
+    N_EVENTS = "n_events", Int64, "1", "cases in which the event happened";
     SE_LAMBDA = "se_lambda", Float64, "1", "standard error of lambda";
     SE_MU = "se_mu", Float64, "1", "standard error of mu";
     SE_BETA = "se_beta", Float64, "1", "standard error of beta";
@@ -83,7 +83,7 @@ pub const PRO: Table = Table {
         AUC.or_null(),
         BRIER.or_null(),
         N,
-        N_OVERTURNED,
+        N_EVENTS,
         SE_LAMBDA.or_null(),
         SE_MU.or_null(),
         SE_BETA.or_null(),

@@ -3,7 +3,7 @@
 use super::column::{Column, Kind, columns};
 use super::motion::SUITE;
 use super::pex::{BETA, N, STATUS, ZETA};
-use super::pro::{AIC, AUC, BIC, BRIER, LOG_LIKELIHOOD};
+use super::pro::{AIC, AUC, BIC, BRIER, LOG_LIKELIHOOD, N_EVENTS};
 use super::response::STRUCTURE;
 use super::table::Table;
 use super::validation::{SEEN, SHARE, SHARE_HIGH, SHARE_LOW};
@@ -33,7 +33,6 @@ columns! {
     RANK_B1 = "b1", Float64, "1", "power of the first measure; null for a broken form";
     RANK_B2 = "b2", Float64, "1", "power of the second measure";
     RANK_B3 = "b3", Float64, "1", "power of the third measure";
-    N_EVENTS = "n_events", Int64, "1", "cases in which the event happened";
     CLUSTERED_BY = "clustered_by", Text, "1", "what the cases of a cluster share: cell (magnitude and distance), earthquake or nothing";
 
     GROUP = "group", Int64, "1", "tenth of the cases, from the least probability";
