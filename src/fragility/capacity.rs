@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::index::Z_95;
+use super::probability::Z_95;
 use super::slice::Lognormal;
 use crate::normal::{inverse_mills, ln_cdf};
 use crate::statistics::FitStatus;
-use crate::statistics::limits::Limits;
+use crate::statistics::estimate::Limits;
 use crate::statistics::newton::{Along, Objective, maximise};
 
 /// What is known of a capacity.

@@ -1,9 +1,9 @@
 //! The fragility of a structure: P_nr, P_ex and P_ro joined in the tree of Eq. 12.
 
 use super::case::Measure;
-use super::curve::{exceeding_index, p_exceeding, p_failure_given_rocking, p_no_rocking};
-use super::index::{Probability, ProbitIndex};
 use super::predictor::{OutOfRange, Predictor};
+use super::probability::{Probability, ProbitIndex};
+use super::probability::{exceeding_index, p_exceeding, p_failure_given_rocking, p_no_rocking};
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::normal;
@@ -77,7 +77,7 @@ pub struct FragilityModel {
     pub demand: DemandModel,
     /// The demand |theta|max / alpha that P_ex is about.
     pub limit: f64,
-    /// P_ro: the probit index (ln IM - mu) / beta (Eq. 19).
+    /// P_ro: the probit index (ln IM - mu) / beta (Eq. 20; of a hybrid Eq. 24).
     pub overturning: Predictor,
     /// Coefficient of restitution of the structure that was simulated: the curves do not know any other.
     pub eta: f64,

@@ -83,7 +83,7 @@ impl Predictor {
         Some(Predicted { value: dot(&self.coefficients), variance })
     }
 
-    /// The one measure that it is a function of: the hybrid IMx^(b1/(b1 + b2)) IMy^(b2/(b1 + b2)) of two (Eq. 22, with
+    /// The one measure that it is a function of: the hybrid IMx^(b1/(b1 + b2)) IMy^(b2/(b1 + b2)) of two (Eq. 23, with
     /// lambda = b1/b2). None where a measure is missing.
     pub fn hybrid_measure(&self, measures: &IntensityMeasures) -> Option<f64> {
         let [b0, b1, b2] = self.coefficients;

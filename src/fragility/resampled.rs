@@ -1,10 +1,10 @@
 //! Limits of probabilities from the fits of resampled cases: of the curves themselves, whatever their coefficients do.
 
-use super::index::Probability;
 use super::model::{FragilityModel, GivenRocking};
+use super::probability::Probability;
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
-use crate::statistics::limits::bootstrap_limits;
+use crate::resampling::limits::bootstrap_limits;
 
 /// How limits follow from replicates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

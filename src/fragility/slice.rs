@@ -1,9 +1,9 @@
 //! A line through the plane of PGA and PGV along which a fragility depends on one peak alone.
 
 use super::case::Measure;
-use super::index::Probability;
 use super::model::FragilityModel;
 use super::predictor::Predictor;
+use super::probability::Probability;
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::normal;

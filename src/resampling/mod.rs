@@ -2,7 +2,9 @@
 
 pub(crate) mod bootstrap;
 pub(crate) mod case_terms;
+pub(crate) mod limits;
 pub(crate) mod monomials;
 pub(crate) mod normal_equations;
 
 pub use bootstrap::{Resamples, Strata, TOGETHER, bootstrap, bootstrap_each};
+pub use limits::{BootstrapLimits, acceleration, bootstrap_limits};

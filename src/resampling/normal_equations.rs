@@ -3,7 +3,7 @@
 use pulp::NullaryFnOnce;
 
 use super::bootstrap::TOGETHER;
-use crate::statistics::triangle::{self, place};
+use crate::statistics::derivatives::{triangle_count, triangle_place};
 use crate::wide::widest;
 
 /// A pivot smaller than this beside its diagonal is nothing but rounding.
@@ -28,7 +28,7 @@ pub struct LeastSquares {
 impl NormalEquations {
     /// Of no cases, with so many coefficients.
     pub fn empty(coefficients: usize) -> NormalEquations {
-        NormalEquations { products: vec![[0.0; TOGETHER]; triangle::count(coefficients + 1)] }
+        NormalEquations { products: vec![[0.0; TOGETHER]; triangle_count(coefficients + 1)] }
     }
 
     /// Adds those of further cases.
@@ -47,7 +47,7 @@ impl NormalEquations {
 
     /// The residual sums of squares alone, by symmetric elimination.
     pub fn rss(&self, coefficients: usize) -> [f64; TOGETHER] {
-        self.eliminated(coefficients)[place(coefficients, coefficients)]
+        self.eliminated(coefficients)[triangle_place(coefficients, coefficients)]
     }
 
     /// Coefficients and residuals.
@@ -57,11 +57,14 @@ impl NormalEquations {
         let mut b = vec![[0.0; TOGETHER]; k];
         for p in (0..k).rev() {
             for resample in 0..TOGETHER {
-                let later = (p + 1..k).map(|q| triangle[place(q, p)][resample] * b[q][resample]).sum::<f64>();
-                b[p][resample] = (triangle[place(k, p)][resample] - later) / triangle[place(p, p)][resample];
+                let later = (p + 1..k)
+                    .map(|q| triangle[triangle_place(q, p)][resample] * b[q][resample])
+                    .sum::<f64>();
+                b[p][resample] = (triangle[triangle_place(k, p)][resample] - later)
+                    / triangle[triangle_place(p, p)][resample];
             }
         }
-        LeastSquares { coefficients: b, rss: triangle[place(k, k)] }
+        LeastSquares { coefficients: b, rss: triangle[triangle_place(k, k)] }
     }
 
     fn eliminated(&self, k: usize) -> Vec<[f64; TOGETHER]> {
@@ -81,19 +84,19 @@ impl NullaryFnOnce for Elimination {
     #[inline(always)]
     fn call(self) -> Vec<[f64; TOGETHER]> {
         let Elimination { mut triangle, coefficients: k } = self;
-        let diagonals: Vec<[f64; TOGETHER]> = (0..k).map(|p| triangle[place(p, p)]).collect();
+        let diagonals: Vec<[f64; TOGETHER]> = (0..k).map(|p| triangle[triangle_place(p, p)]).collect();
         for (p, diagonal) in diagonals.iter().enumerate() {
-            for (pivot, diagonal) in triangle[place(p, p)].iter_mut().zip(diagonal) {
+            for (pivot, diagonal) in triangle[triangle_place(p, p)].iter_mut().zip(diagonal) {
                 if *pivot <= ROUNDING * diagonal {
                     *pivot = f64::NAN;
                 }
             }
             for i in p + 1..=k {
-                let [pivot, row] = [(p, p), (i, p)].map(|(i, j)| triangle[place(i, j)]);
+                let [pivot, row] = [(p, p), (i, p)].map(|(i, j)| triangle[triangle_place(i, j)]);
                 let share: [f64; TOGETHER] = std::array::from_fn(|resample| row[resample] / pivot[resample]);
                 for j in p + 1..=i {
-                    let [column, here] = [(j, p), (i, j)].map(|(i, j)| triangle[place(i, j)]);
-                    triangle[place(i, j)] =
+                    let [column, here] = [(j, p), (i, j)].map(|(i, j)| triangle[triangle_place(i, j)]);
+                    triangle[triangle_place(i, j)] =
                         std::array::from_fn(|resample| here[resample] - share[resample] * column[resample]);
                 }
             }

@@ -14,7 +14,7 @@ use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, defaults};
 use crate::pipeline::stage::Stage;
-use crate::studies::{Contest, FurtherMeasure, RankingRules, RankingSample, Target};
+use crate::studies::{FurtherMeasure, MeasureRanking, RankingRules, RankingSample, Target};
 use crate::table::motion_measures::MotionMeasures;
 use crate::table::provenance::Provenance;
 use crate::table::ranking::{self, RankingRow};
@@ -104,8 +104,8 @@ fn further(group: &Group, motions: &MotionMeasures) -> anyhow::Result<Vec<Furthe
 fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<RankingRow> {
     let (target, n) = (sample.target, sample.len());
     let events = sample.happened.iter().filter(|&&happened| happened).count();
-    let contest = Contest::new(sample, rules);
-    let ratings = contest.candidates.par_iter().map(|candidate| contest.rate(candidate)).collect();
+    let ranking = MeasureRanking::new(sample, rules);
+    let ratings = ranking.candidates.par_iter().map(|candidate| ranking.rate(candidate)).collect();
     let row = |ranked| RankingRow {
         suite: group.suite.clone(),
         structure: group.structure.clone(),
@@ -115,7 +115,7 @@ fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<Ranki
         clustered_by: group.clusters.shared.as_str(),
         ranked,
     };
-    contest.rank(ratings).into_iter().map(row).collect()
+    ranking.rank(ratings).into_iter().map(row).collect()
 }
 
 impl Stage for RankIms {

@@ -5,9 +5,8 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use pulp::NullaryFnOnce;
 
-use super::design_matrix::DesignMatrix;
+use super::design::DesignMatrix;
 use super::newton::Objective;
-use super::triangle;
 use crate::wide::widest;
 
 /// Cases that are worked on together, so that they stay in the nearest cache.
@@ -104,7 +103,7 @@ impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
     fn call(self) -> Objective {
         let columns = self.design.columns();
         let k = columns.len();
-        let (mut gradient, mut information) = (vec![[0.0; PARTS]; k], vec![[0.0; PARTS]; triangle::count(k)]);
+        let (mut gradient, mut information) = (vec![[0.0; PARTS]; k], vec![[0.0; PARTS]; triangle_count(k)]);
         let (mut slope, mut curvature) = ([0.0; BLOCK], [0.0; BLOCK]);
         for from in (0..self.design.cases()).step_by(BLOCK) {
             let to = self.design.cases().min(from + BLOCK);
@@ -115,12 +114,7 @@ impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
                 let x = &columns[i][from..to];
                 add_products(&mut gradient[i], slope, x, &columns[0][from..to]);
                 for j in 0..=i {
-                    add_products(
-                        &mut information[triangle::place(i, j)],
-                        curvature,
-                        x,
-                        &columns[j][from..to],
-                    );
+                    add_products(&mut information[triangle_place(i, j)], curvature, x, &columns[j][from..to]);
                 }
             }
         }
@@ -128,7 +122,7 @@ impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
         Objective {
             value: 0.0,
             gradient: DVector::from_iterator(k, gradient.iter().map(total)),
-            information: DMatrix::from_fn(k, k, |i, j| total(&information[triangle::place(i, j)])),
+            information: DMatrix::from_fn(k, k, |i, j| total(&information[triangle_place(i, j)])),
         }
     }
 }
@@ -155,4 +149,16 @@ fn add_products(sums: &mut [f64; PARTS], a: &[f64], b: &[f64], c: &[f64]) {
     for (part, sum) in sums.iter_mut().enumerate().take(rest_a.len()) {
         *sum = (rest_a[part] * rest_b[part]).mul_add(rest_c[part], *sum);
     }
+}
+
+/// Where row `i` and column `j` of a symmetric matrix stand among the rows of its lower triangle, in either order.
+#[inline(always)]
+pub fn triangle_place(i: usize, j: usize) -> usize {
+    let (row, column) = (i.max(j), i.min(j));
+    row * (row + 1) / 2 + column
+}
+
+/// How many numbers the lower triangle of a matrix with so many rows has.
+pub fn triangle_count(rows: usize) -> usize {
+    triangle_place(rows, 0)
 }

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::binary::BinaryFit;
 use super::derivatives::{Scores, derivatives};
-use super::design_matrix::DesignMatrix;
+use super::design::DesignMatrix;
 use super::newton::{Along, newton_step};
 use crate::wide::widest;
 

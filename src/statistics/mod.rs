@@ -1,38 +1,40 @@
 //! Statistics that know nothing of rocking: regressions, likelihoods, tests and their limits.
+//!
+//! ```text
+//! estimate      estimates, limits and quantiles
+//! design        the columns of a regression, and whether they can be told apart
+//! regression    least squares with standard errors and limits
+//! link, binary  maximum likelihood of binary outcomes, or Firth's penalised; separation: whether there is a maximum
+//! newton        the method that finds it; derivatives: sums over the cases, in wide registers
+//! influence     what each case adds to a fit: jackknife, clustered errors, first step of a refit
+//! goodness      tests of fit and scores; distribution: Student's t, F, chi squared, Poisson binomial
+//! ```
 
 pub(crate) mod binary;
-pub(crate) mod dependence;
 pub(crate) mod derivatives;
-pub(crate) mod design_matrix;
+pub(crate) mod design;
 pub(crate) mod distribution;
-pub(crate) mod firth;
+pub(crate) mod estimate;
 pub(crate) mod goodness;
 pub(crate) mod influence;
-pub(crate) mod limits;
 pub(crate) mod link;
-pub(crate) mod link_series;
 pub(crate) mod newton;
-pub(crate) mod overlap;
-pub(crate) mod poisson_binomial;
 pub(crate) mod regression;
 pub(crate) mod separation;
-pub(crate) mod skill;
-pub(crate) mod spline;
-pub(crate) mod triangle;
 
+pub use binary::Estimator;
 pub use binary::{BinaryError, BinaryFit, binary_regression};
 pub use derivatives::Score;
+pub use design::natural_spline;
+pub use distribution::PoissonBinomial;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
-pub use firth::Estimator;
+pub use estimate::{Estimate, Limits};
 pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
-pub use limits::{BootstrapLimits, Limits, acceleration, bootstrap_limits};
+pub use goodness::{auc, brier_score, expected_log_score, log_score};
+pub use link::ln_probability_series;
 pub use link::{Information, Link};
-pub use link_series::ln_probability_series;
-pub use poisson_binomial::PoissonBinomial;
-pub use regression::{Estimate, LinearFit, RegressionError, least_squares};
+pub use regression::{LinearFit, RegressionError, least_squares};
 pub use separation::is_separated;
-pub use skill::{auc, brier_score, expected_log_score, log_score};
-pub use spline::natural_spline;
 
 use crate::keyword::keywords;
 

@@ -1,46 +1,11 @@
+//! Ordinary least squares.
+
 use nalgebra::{DMatrix, DVector};
 
-use super::dependence::{Dependence, dependence, is_constant};
+use super::design::{Dependence, dependence, is_constant};
 use super::distribution::t_quantile;
-use super::limits::Limits;
+use super::estimate::Estimate;
 use crate::statistics::FitStatus;
-
-/// A number with its uncertainty.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
-    /// The best estimate.
-    pub value: f64,
-    /// Its standard error.
-    pub standard_error: f64,
-    /// Its lower limit of confidence.
-    pub low: f64,
-    /// Its upper limit of confidence.
-    pub high: f64,
-}
-
-impl Estimate {
-    /// With limits `quantile` standard errors away.
-    pub fn symmetric(value: f64, standard_error: f64, quantile: f64) -> Estimate {
-        let half_width = quantile * standard_error;
-        Estimate { value, standard_error, low: value - half_width, high: value + half_width }
-    }
-
-    /// Of the exponential: the error by the delta method, the limits those of this one.
-    pub fn exp(&self) -> Estimate {
-        let value = self.value.exp();
-        Estimate {
-            value,
-            standard_error: value * self.standard_error,
-            low: self.low.exp(),
-            high: self.high.exp(),
-        }
-    }
-
-    /// Its limits alone.
-    pub fn limits(&self) -> Limits {
-        Limits { low: self.low, high: self.high }
-    }
-}
 
 /// A linear regression with an intercept.
 #[derive(Debug, Clone, PartialEq)]

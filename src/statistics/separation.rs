@@ -1,6 +1,10 @@
-//! Whether a line through the measures tells the outcomes apart: then the likelihood grows without end.
+//! Whether a line through the measures separates the outcomes: then the likelihood grows without end.
 
-use super::overlap::overlaps;
+use nalgebra::{DMatrix, DVector};
+
+use crate::statistics::binary::{Estimator, binary_regression};
+use crate::statistics::design::DesignMatrix;
+use crate::statistics::link::Link;
 
 /// In a plane, classes that overlap by less than this share of the scores count as touching: a smaller overlap is the
 /// rounding of the scores themselves.
@@ -85,4 +89,43 @@ fn chain<'a>(points: impl Iterator<Item = &'a Point>) -> Vec<Point> {
 
 fn cross(a: Point, b: Point) -> f64 {
     a.0 * b.1 - a.1 * b.0
+}
+
+/// The rounding of a sum, as a share of the sizes of its terms.
+const SUM_ROUNDING: f64 = 1e-13;
+
+/// Whether no direction puts every event at or beyond every non-event.
+///
+/// With z = (1, x) of an event and -(1, x) of a non-event, a direction d separates them if z'd >= 0 for all. The equations of a
+/// logistic maximum hand over weights w > 0 whose sum of w z vanishes up to a rest r; Stiemke's lemma says that exact ones
+/// exist just where nothing separates (Albert & Anderson 1984, On the existence of maximum likelihood estimates in logistic
+/// regression models, Biometrika 71, 1-10). With the rest, a separating d of length 1 would have
+/// sum w (z'd)^2 <= max|z| sum w z'd <= max|z| |r|: it is ruled out where the least eigenvalue of sum w z z' is larger.
+pub fn overlaps(predictors: &[&[f64]], events: &[bool]) -> bool {
+    let columns: Vec<Vec<f64>> = predictors.iter().map(|values| standardised(values)).collect();
+    let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let Ok(fit) = binary_regression(&columns, events, Link::Logit, Estimator::Ml) else { return false };
+    let design = DesignMatrix::new(&columns, events.len());
+    let k = design.columns().len();
+    let (mut rest, mut rounding, mut largest) = (DVector::zeros(k), 0.0, 0.0_f64);
+    let mut moments = DMatrix::<f64>::zeros(k, k);
+    for ((row, index), &event) in design.rows().zip(fit.indices(&design)).zip(events) {
+        let slope = Link::Logit.score(index, event).slope;
+        let (weight, size) = (slope.abs(), row.norm());
+        rest += &row * slope;
+        rounding += SUM_ROUNDING * weight * size;
+        largest = largest.max(size);
+        moments += &row * row.transpose() * weight;
+    }
+    let rest = rest.norm() + rounding;
+    let least = moments.symmetric_eigenvalues().min();
+    least > largest * rest
+}
+
+/// About the mean, in standard deviations, which changes no separation.
+fn standardised(values: &[f64]) -> Vec<f64> {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let sd = (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / n).sqrt();
+    values.iter().map(|value| (value - mean) / sd).collect()
 }

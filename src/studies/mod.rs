@@ -1,27 +1,23 @@
 //! Studies of the curves: which measures predict best, how universal the curves are, how they do on other data.
 
 pub(crate) mod candidate;
-pub(crate) mod contest;
 pub(crate) mod folds;
-pub(crate) mod forecast;
 pub(crate) mod pooled;
 pub(crate) mod ranking;
 pub(crate) mod ranking_sample;
-pub(crate) mod rate_demand;
-pub(crate) mod rate_overturning;
 pub(crate) mod rating;
 pub(crate) mod transfer;
 pub(crate) mod universality;
 pub(crate) mod validation;
 
 pub use candidate::{Candidate, Form};
-pub use contest::{Contest, RankingRules};
 pub use folds::{Folds, Gain, gain};
-pub use forecast::{Forecast, Forecasts};
 pub use pooled::{PooledFit, PooledPart, PooledStructure, PooledTerm, PooledTerms, fit_pooled};
+pub use ranking::{MeasureRanking, RankingRules};
 pub use ranking::{OfPaper, Ranked};
 pub use ranking_sample::{FurtherMeasure, RankingSample, Target};
 pub use rating::{Rating, ReliabilityGroup, Skill, Unseen};
 pub use transfer::{Curve, CurveForm, CurveSubject};
 pub use universality::{BesideOwn, Transfer, Verdict};
+pub use validation::{Forecast, Forecasts};
 pub use validation::{Validation, calibration_in_the_large, calibration_slope, wilson_limits};

@@ -1,19 +1,19 @@
-//! One curve for all structures: what they differ in as covariates, and how well it foretells structures that it has not seen.
+//! One curve for all structures: what they differ in as covariates, and how well it predicts structures that it has not seen.
 
 use super::folds::{Folds, MOST_FOLDS};
 use super::transfer::CurveSubject;
 use crate::fragility::case::{Case, Event, Measure};
-use crate::fragility::curve::exceeding_index;
 use crate::fragility::demand::inference::DemandInference;
 use crate::fragility::demand::sample::DemandSample;
 use crate::fragility::overturning::inference::CurveInference;
 use crate::fragility::overturning::sample::EventSample;
+use crate::fragility::probability::exceeding_index;
 use crate::keyword::{Keyword, keywords};
 use crate::normal;
 use crate::statistics::FitStatus;
+use crate::statistics::binary::Estimator;
 use crate::statistics::binary::binary_regression;
-use crate::statistics::dependence::{Dependence, dependence};
-use crate::statistics::firth::Estimator;
+use crate::statistics::design::{Dependence, dependence};
 use crate::statistics::link::Link;
 
 /// What the index of a pooled curve consists of, each with all of the one before.

@@ -1,10 +1,12 @@
 //! Which measures predict best: alone, in pairs and in triples, and by forward selection.
 
-use super::candidate::{Candidate, Form};
-use super::folds::{Gain, gain};
-use super::ranking_sample::RankingSample;
-use super::rating::Rating;
 use crate::statistics::FitStatus;
+use crate::studies::candidate::{Candidate, Form};
+use crate::studies::folds::{Folds, Gain, gain};
+use crate::studies::ranking_sample::{RankingSample, Target};
+use crate::studies::rating::Rating;
+use crate::studies::rating::rate_overturning;
+use crate::studies::rating::{Breaks, rate_demand};
 
 /// Log-likelihoods that differ by less than this share are those of one model in other measures.
 const SAME: f64 = 1e-9;
@@ -44,7 +46,7 @@ pub struct Ranked {
 }
 
 /// All candidates with their ratings.
-pub struct Standings<'a> {
+pub struct RankedCandidates<'a> {
     sample: &'a RankingSample,
     candidates: &'a [Candidate],
     ratings: Vec<Result<Rating, FitStatus>>,
@@ -54,13 +56,13 @@ pub struct Standings<'a> {
     order: Vec<usize>,
 }
 
-impl<'a> Standings<'a> {
+impl<'a> RankedCandidates<'a> {
     /// Of candidates that compete in these cases.
     pub fn new(
         sample: &'a RankingSample,
         candidates: &'a [Candidate],
         ratings: Vec<Result<Rating, FitStatus>>,
-    ) -> Standings<'a> {
+    ) -> RankedCandidates<'a> {
         let models = models(candidates, &ratings);
         let key = |k: usize| match &ratings[models[k]] {
             Ok(Rating { unseen: Some(unseen), .. }) => (0, -unseen.log_score()),
@@ -74,10 +76,10 @@ impl<'a> Standings<'a> {
             by_terms.then(by_score).then(models[*a].cmp(&models[*b])).then(a.cmp(b))
         });
         let order = order.into_iter().map(|(k, _)| k).collect();
-        Standings { sample, candidates, ratings, models, order }
+        RankedCandidates { sample, candidates, ratings, models, order }
     }
 
-    /// All of them, as [`Contest::rank`](crate::studies::Contest::rank) orders them.
+    /// All of them, as [`MeasureRanking::rank`](crate::studies::MeasureRanking::rank) orders them.
     pub fn ranked(&self) -> Vec<Ranked> {
         let paper = Candidate::of_paper(self.sample);
         let paper = paper.and_then(|paper| self.candidates.iter().position(|of| *of == paper));
@@ -181,4 +183,52 @@ fn models(candidates: &[Candidate], ratings: &[Result<Rating, FitStatus>]) -> Ve
         equal.iter().for_each(|&k| models[k] = first.unwrap_or(k));
     }
     models
+}
+
+/// How measures are ranked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RankingRules {
+    /// The most folds of cross-validation.
+    pub folds: usize,
+    /// The most measures of a candidate.
+    pub terms: usize,
+    /// The IM4 at which the demand breaks, if not where the pooled residual of two planes is least.
+    pub transition: Option<f64>,
+}
+
+/// All sets of measures that compete in some cases.
+pub struct MeasureRanking {
+    sample: RankingSample,
+    folds: Option<Folds>,
+    breaks: Breaks,
+    /// Who competes.
+    pub candidates: Vec<Candidate>,
+}
+
+impl MeasureRanking {
+    /// In these cases, by these rules.
+    pub fn new(sample: RankingSample, rules: &RankingRules) -> MeasureRanking {
+        let folds = Folds::new(&sample.clusters, rules.folds);
+        let breaks = Breaks::new(&sample, folds.as_ref(), rules.transition);
+        let candidates = Candidate::all(&sample, rules.terms);
+        MeasureRanking { sample, folds, breaks, candidates }
+    }
+
+    /// How well a candidate predicts.
+    ///
+    /// # Errors
+    /// With the status that says why there is no fit.
+    pub fn rate(&self, candidate: &Candidate) -> Result<Rating, FitStatus> {
+        let (sample, folds) = (&self.sample, self.folds.as_ref());
+        match sample.target {
+            Target::Demand => rate_demand(sample, candidate, folds, &self.breaks),
+            Target::Overturning => rate_overturning(sample, candidate, folds),
+        }
+    }
+
+    /// The candidates with the rating of each, by the number of their measures, then by cross-validated log score, the best
+    /// first. Those without a score come after them, those without a fit last.
+    pub fn rank(&self, ratings: Vec<Result<Rating, FitStatus>>) -> Vec<Ranked> {
+        RankedCandidates::new(&self.sample, &self.candidates, ratings).ranked()
+    }
 }

@@ -3,11 +3,11 @@
 use crate::fragility::case::{Case, Event, Measure};
 use crate::fragility::demand::regressions::PLANE;
 use crate::fragility::demand::sample::DemandSample;
-use crate::fragility::index::ProbitIndex;
 use crate::fragility::model::{DemandLaw, DemandModel, has_no_data};
 use crate::fragility::overturning::curves::{CurveModel, fit_overturning};
 use crate::fragility::overturning::sample::EventSample;
 use crate::fragility::predictor::Predictor;
+use crate::fragility::probability::ProbitIndex;
 use crate::motion::IntensityMeasures;
 use crate::statistics::FitStatus;
 

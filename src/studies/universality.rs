@@ -1,14 +1,14 @@
 //! How the curve of one structure fares on another: is it universal?
 
 use super::folds::{Folds, Gain, MOST_FOLDS, gain};
-use super::forecast::Forecast;
 use super::transfer::{Curve, CurveSubject};
+use super::validation::Forecast;
 use super::validation::{Validation, calibration_slope};
 use crate::fragility::case::Case;
 use crate::keyword::keywords;
 use crate::normal;
 use crate::statistics::FitStatus;
-use crate::statistics::skill::expected_log_score;
+use crate::statistics::goodness::expected_log_score;
 
 /// The curve of one structure held against the cases of another.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,16 +1,17 @@
-//! How forecasts fare on cases that were not fitted.
+//! Forecasts of cases that were not fitted, held against what happened.
 
-use super::forecast::Forecast;
-use crate::fragility::index::Z_95;
+use crate::fragility::case::{Case, Event};
+use crate::fragility::model::{FragilityModel, Probabilities};
+use crate::fragility::probability::{Probability, Z_95};
+use crate::motion::IntensityMeasures;
 use crate::normal;
-use crate::statistics::binary::binary_regression;
-use crate::statistics::dependence::is_constant;
-use crate::statistics::firth::Estimator;
-use crate::statistics::limits::Limits;
+use crate::statistics::binary::{Estimator, binary_regression};
+use crate::statistics::design::is_constant;
+use crate::statistics::distribution::PoissonBinomial;
+use crate::statistics::estimate::Limits;
+use crate::statistics::goodness::{auc, brier_score, expected_log_score, log_score};
 use crate::statistics::link::Link;
-use crate::statistics::poisson_binomial::PoissonBinomial;
 use crate::statistics::separation::is_separated;
-use crate::statistics::skill::{auc, brier_score, expected_log_score, log_score};
 
 /// Forecasts held against what happened.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,3 +126,70 @@ pub fn calibration_slope(indices: &[f64], happened: &[bool]) -> Option<f64> {
 /// Odds beyond e^±30 are certainties.
 const SHIFTS: [f64; 2] = [-30.0, 30.0];
 const TOLERANCE: f64 = 1e-12;
+
+/// A probability, and whether the event happened.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forecast {
+    /// The probability, with limits.
+    pub probability: Probability,
+    /// Whether it happened.
+    pub happened: bool,
+    /// Whether a measure lies outside of the range of the data of the fit (of [`Event::Failure`], of either).
+    pub is_extrapolated: bool,
+}
+
+impl Forecast {
+    /// Whether what happened has a probability of exactly 0.
+    pub fn is_impossible(&self) -> bool {
+        self.probability.value == if self.happened { 0.0 } else { 1.0 }
+    }
+}
+
+/// Forecasts of an event in cases that were not fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Forecasts {
+    /// Of each case in which the event can happen.
+    pub forecasts: Vec<Forecast>,
+    /// Such cases without a forecast, for want of a measure.
+    pub without_measure: usize,
+}
+
+impl Forecasts {
+    /// Forecasts of an event in those of the cases that count for it.
+    pub fn new(model: &FragilityModel, cases: &[Case], event: Event) -> Forecasts {
+        let (mut forecasts, mut without_measure) = (Vec::new(), 0);
+        for case in cases {
+            let Some(happened) = event.happened(case, model.limit) else { continue };
+            match probability(event, &model.probabilities(&case.measures)) {
+                Some(probability) => forecasts.push(Forecast {
+                    probability,
+                    happened,
+                    is_extrapolated: is_out_of_range(event, model, &case.measures),
+                }),
+                None => without_measure += 1,
+            }
+        }
+        Forecasts { forecasts, without_measure }
+    }
+}
+
+fn probability(event: Event, probabilities: &Probabilities) -> Option<Probability> {
+    let given = || probabilities.given_rocking;
+    match event {
+        Event::Rocking => Some(Probability::exact(1.0 - probabilities.p_nr)),
+        Event::Overturning => given().map(|given| given.p_ro),
+        Event::Exceeding => given().map(|given| given.p_ex),
+        Event::Failure => given().map(|given| given.p_failure),
+    }
+}
+
+fn is_out_of_range(event: Event, model: &FragilityModel, measures: &IntensityMeasures) -> bool {
+    let of_demand = || model.demand_out_of_range(measures).next().is_some();
+    let of_overturning = || model.overturning_out_of_range(measures).next().is_some();
+    match event {
+        Event::Rocking => false,
+        Event::Overturning => of_overturning(),
+        Event::Exceeding => of_demand(),
+        Event::Failure => of_overturning() || of_demand(),
+    }
+}

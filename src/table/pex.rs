@@ -13,7 +13,8 @@ use super::frame::read_frame;
 use super::schema::{self, Column, PEX};
 use crate::fragility::demand::{Form, Regression};
 use crate::keyword::Keyword;
-use crate::statistics::{BootstrapLimits, Estimate, LinearFit};
+use crate::resampling::BootstrapLimits;
+use crate::statistics::{Estimate, LinearFit};
 
 /// One regression.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,9 +15,9 @@ use rockfrag::fragility::{
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::normal::quantile;
 use rockfrag::random::{Purpose, stream};
-use rockfrag::resampling::{Strata, bootstrap};
+use rockfrag::resampling::{Strata, bootstrap, bootstrap_limits};
 use rockfrag::rocking::Outcome;
-use rockfrag::statistics::{Estimate, Estimator, FitStatus, Limits, bootstrap_limits, t_quantile};
+use rockfrag::statistics::{Estimate, Estimator, FitStatus, Limits, t_quantile};
 
 /// The truth: a lognormal curve, of one measure or of two, and a power law of the demand.
 const MU: f64 = 0.3;

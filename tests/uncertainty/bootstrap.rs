@@ -6,8 +6,8 @@ use rockfrag::fragility::{
     Case, CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits,
     DemandSample, Measure, TransitionSearch, fit_overturning,
 };
-use rockfrag::resampling::{Resamples, Strata, bootstrap, bootstrap_each};
-use rockfrag::statistics::{FitStatus, Link, acceleration, bootstrap_limits};
+use rockfrag::resampling::{Resamples, Strata, acceleration, bootstrap, bootstrap_each, bootstrap_limits};
+use rockfrag::statistics::{FitStatus, Link};
 
 use crate::data::{answers, data, distribution, smooth_cases};
 

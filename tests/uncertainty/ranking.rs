@@ -5,8 +5,8 @@ use rockfrag::keyword::Keyword;
 use rockfrag::rocking::Outcome;
 use rockfrag::statistics::{FitStatus, is_separated};
 use rockfrag::studies::{
-    Candidate, Contest, Folds, Form, FurtherMeasure, OfPaper, Ranked, RankingRules, RankingSample, Rating,
-    Target,
+    Candidate, Folds, Form, FurtherMeasure, MeasureRanking, OfPaper, Ranked, RankingRules, RankingSample,
+    Rating, Target,
 };
 
 use crate::data::{Data, data, ranking_answers};
@@ -25,7 +25,7 @@ fn ranking(data: &Data, target: Target, further: &[FurtherMeasure]) -> Vec<Ranke
 }
 
 fn rank(sample: RankingSample) -> Vec<Ranked> {
-    let contest = Contest::new(sample, &RULES);
+    let contest = MeasureRanking::new(sample, &RULES);
     contest.rank(contest.candidates.iter().map(|candidate| contest.rate(candidate)).collect())
 }
 
@@ -160,7 +160,7 @@ fn a_break_is_found_without_the_cases_that_it_foretells() {
         let sample = RankingSample::new(Target::Demand, &cases, &data.cells, &[], 0.1);
         let mut pair = [Measure::Im4, Measure::Im3].map(|measure| sample.place(measure).unwrap());
         pair.sort_unstable();
-        let contest = Contest::new(sample, &RankingRules { transition, ..RULES });
+        let contest = MeasureRanking::new(sample, &RankingRules { transition, ..RULES });
         let planes = |candidate: &&Candidate| candidate.form == Form::Broken && candidate.measures == pair;
         contest.rate(contest.candidates.iter().find(planes).unwrap()).unwrap()
     };

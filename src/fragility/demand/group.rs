@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::inference::DemandRefits;
 use super::inference::{DemandInference, DemandReplicate};
-use super::refits::DemandRefits;
 use super::regressions::{Biplanar, PLANE, fit_biplanar, fit_plane, fit_univariate};
 use super::sample::DemandSample;
 use super::smooth::{SmoothFit, fit_smooth};
@@ -14,10 +14,8 @@ use crate::fragility::case::{Case, Measure};
 use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
 use crate::fragility::predictor::ranges;
 use crate::keyword::keywords;
-use crate::resampling::{Resamples, Strata, TOGETHER};
-use crate::statistics::{
-    BootstrapLimits, Estimate, FitStatus, Limits, LinearFit, Test, bootstrap_limits, reset,
-};
+use crate::resampling::{BootstrapLimits, Resamples, Strata, TOGETHER, bootstrap_limits};
+use crate::statistics::{Estimate, FitStatus, Limits, LinearFit, Test, reset};
 
 /// All values of a measure.
 const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;

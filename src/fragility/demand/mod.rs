@@ -2,15 +2,14 @@
 
 pub(crate) mod group;
 pub(crate) mod inference;
-pub(crate) mod refits;
 pub(crate) mod regressions;
 pub(crate) mod sample;
 pub(crate) mod smooth;
 pub(crate) mod transition;
 
 pub use group::{Form, Regression, RegressionOptions, Regressions, Replicate};
+pub use inference::DemandRefits;
 pub use inference::{DemandInference, DemandReplicate};
-pub use refits::DemandRefits;
 pub use regressions::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
 pub use sample::DemandSample;
 pub use smooth::{SmoothFit, fit_smooth};

@@ -1,6 +1,6 @@
 use crate::fragility::case::{Case, Measure};
 use crate::statistics::FitStatus;
-use crate::statistics::design_matrix::DesignMatrix;
+use crate::statistics::design::DesignMatrix;
 use crate::statistics::regression::{LinearFit, RegressionError, least_squares};
 
 /// The demands of the safe-rocking cases and the logarithms of their measures, where all are there.

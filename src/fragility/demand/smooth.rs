@@ -9,10 +9,11 @@ use super::sample::DemandSample;
 use crate::normal;
 use crate::statistics::FitStatus;
 use crate::statistics::derivatives::{Scores, derivatives};
-use crate::statistics::design_matrix::{DesignMatrix, dot};
+use crate::statistics::design::{DesignMatrix, dot};
+use crate::statistics::estimate::Estimate;
 use crate::statistics::goodness::{Test, added_powers};
 use crate::statistics::newton::{Along, newton_step};
-use crate::statistics::regression::{Estimate, LinearFit};
+use crate::statistics::regression::LinearFit;
 
 /// Between which logarithms of the width it is searched (0.005 and 2).
 const LN_WIDTHS: (f64, f64) = (-5.298, 0.693);

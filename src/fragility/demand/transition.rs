@@ -1,11 +1,11 @@
 //! Where the two planes of Eq. 18 meet.
 
+use super::inference::DemandRefits;
 use super::inference::DemandReplicate;
-use super::refits::DemandRefits;
 use super::sample::DemandSample;
 use crate::resampling::bootstrap::{Resamples, TOGETHER};
 use crate::resampling::normal_equations::NormalEquations;
-use crate::statistics::limits::Limits;
+use crate::statistics::estimate::Limits;
 
 /// The IM4 at which the planes may meet: first, last and step of the scan.
 const SCAN: (f64, f64, f64) = (1.05, 2.0, 0.01);

@@ -1,17 +1,15 @@
 //! P_ro: the probability of overturning given rocking, as a lognormal curve (Eqs. 19-24).
 
-use super::parameter::CurveParameter;
-use super::sample::EventSample;
+use crate::fragility::overturning::parameter::CurveParameter;
+use crate::fragility::overturning::sample::EventSample;
 use crate::normal;
 use crate::statistics::FitStatus;
-use crate::statistics::binary::{BinaryFit, binary_regression};
-use crate::statistics::dependence::{Dependence, dependence};
-use crate::statistics::firth::Estimator;
-use crate::statistics::goodness::{Test, hosmer_lemeshow};
+use crate::statistics::binary::{BinaryFit, Estimator, binary_regression};
+use crate::statistics::design::{Dependence, dependence, natural_spline};
+use crate::statistics::estimate::Estimate;
+use crate::statistics::goodness::{Test, auc, brier_score, hosmer_lemeshow};
 use crate::statistics::link::Link;
-use crate::statistics::regression::Estimate;
 use crate::statistics::separation::is_separated;
-use crate::statistics::skill::{auc, brier_score};
 
 /// A curve from fewer events, or non-events, would be an opinion; Firth's needs one, and says in its limits how little it
 /// knows.
@@ -81,7 +79,7 @@ impl OverturningFit {
     }
 }
 
-/// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood (Eq. 20).
+/// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood (Eqs. 19 and 22).
 ///
 /// # Errors
 /// With the status that says why there is no curve: too few events, measures that do not vary, separation, no convergence.
@@ -126,4 +124,32 @@ pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<Overt
         events,
         regression,
     })
+}
+
+/// The index bends with the first measure, as a natural cubic spline of its logarithm.
+///
+/// # Errors
+/// With the status that says why there is none.
+pub fn fit_with_spline(sample: &EventSample, model: &CurveModel) -> Result<BinaryFit, FitStatus> {
+    fit_with(sample, &natural_spline(sample.predictors()[0]), model)
+}
+
+/// The slope on one measure depends on the other: a product of their logarithms; of a single measure its square.
+///
+/// # Errors
+/// With the status that says why there is none.
+pub fn fit_with_interaction(sample: &EventSample, model: &CurveModel) -> Result<BinaryFit, FitStatus> {
+    let predictors = sample.predictors();
+    let pairs = predictors[0].iter().zip(predictors[predictors.len() - 1]);
+    fit_with(sample, &[pairs.map(|(x, y)| x * y).collect()], model)
+}
+
+fn fit_with(sample: &EventSample, terms: &[Vec<f64>], model: &CurveModel) -> Result<BinaryFit, FitStatus> {
+    let predictors: Vec<&[f64]> =
+        sample.predictors().into_iter().chain(terms.iter().map(Vec::as_slice)).collect();
+    if dependence(&predictors).is_some() {
+        return Err(FitStatus::Collinear);
+    }
+    binary_regression(&predictors, &sample.happened, model.link, model.estimator)
+        .map_err(|_| FitStatus::NotConverged)
 }

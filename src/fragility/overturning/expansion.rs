@@ -11,7 +11,7 @@ use crate::resampling::monomials::Monomials;
 use crate::resampling::normal_equations::{LeastSquares, NormalEquations};
 use crate::statistics::binary::BinaryFit;
 use crate::statistics::derivatives::Scores;
-use crate::statistics::link_series::ln_probability_series;
+use crate::statistics::link::ln_probability_series;
 use crate::wide::widest;
 
 /// The degree of the polynomial.

@@ -6,20 +6,18 @@ use std::str::FromStr;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::bent_curve::{fit_with_interaction, fit_with_spline};
 use super::curves::{CurveModel, OverturningFit, fit_overturning, has_few_events};
+use super::curves::{fit_with_interaction, fit_with_spline};
 use super::inference::CurveInference;
+use super::inference::CurveRefits;
 use super::parameter::CurveParameter;
-use super::refits::CurveRefits;
 use super::sample::EventSample;
 use crate::fragility::case::{Case, Event, Measure};
 use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
 use crate::fragility::predictor::ranges;
 use crate::keyword::{self, Keyword};
-use crate::resampling::Strata;
-use crate::statistics::{
-    BinaryFit, BootstrapLimits, Estimator, FitStatus, Limits, Test, bootstrap_limits, likelihood_ratio,
-};
+use crate::resampling::{BootstrapLimits, Strata, bootstrap_limits};
+use crate::statistics::{BinaryFit, Estimator, FitStatus, Limits, Test, likelihood_ratio};
 
 /// Two measures that make a hybrid one (Eq. 23), written as `im4:im3_inv`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,15 +2,16 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::parameter::CurveParameter;
-use super::profile::profile_limits;
-use super::sample::EventSample;
-use crate::resampling::bootstrap::Strata;
-use crate::statistics::binary::{BinaryFit, BinaryLikelihood};
-use crate::statistics::design_matrix::DesignMatrix;
-use crate::statistics::firth::Estimator;
+use crate::fragility::overturning::expansion::{Expansion, Nearby};
+use crate::fragility::overturning::parameter::CurveParameter;
+use crate::fragility::overturning::profile::profile_limits;
+use crate::fragility::overturning::sample::EventSample;
+use crate::resampling::bootstrap::{Resamples, Strata, TOGETHER};
+use crate::resampling::limits::acceleration;
+use crate::statistics::binary::{BinaryFit, BinaryLikelihood, Estimator};
+use crate::statistics::design::DesignMatrix;
+use crate::statistics::estimate::Limits;
 use crate::statistics::influence::Influence;
-use crate::statistics::limits::{Limits, acceleration};
 use crate::statistics::newton::{Along, Maximum, maximise};
 use crate::statistics::separation::is_separated;
 
@@ -116,5 +117,36 @@ impl<'a> CurveInference<'a> {
         let events = self.sample.happened.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
         let events: Vec<bool> = events.map(|(event, _)| *event).collect();
         is_separated(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), &events)
+    }
+}
+
+/// A curve, to be fitted in resamples of its cases.
+pub struct CurveRefits<'a> {
+    rows: &'a [usize],
+    inference: CurveInference<'a>,
+    expansion: Option<Expansion>,
+}
+
+impl<'a> CurveRefits<'a> {
+    /// Of a curve and the sample it was fitted to.
+    pub fn new(sample: &'a EventSample, fit: &'a BinaryFit) -> CurveRefits<'a> {
+        let expansion = (fit.estimator == Estimator::Ml).then(|| Expansion::new(sample, fit)).flatten();
+        CurveRefits { rows: &sample.rows, inference: CurveInference::new(sample, fit), expansion }
+    }
+
+    /// The coefficients in each resample; none without a maximum of the likelihood. They are those of the expansion where it
+    /// is precise; otherwise it is where Newton's steps start.
+    pub fn coefficients(&self, resamples: &Resamples) -> [Option<DVector<f64>>; TOGETHER] {
+        let mut nearby = match &self.expansion {
+            Some(expansion) => expansion.maxima(resamples, TOLERANCE),
+            None => [const { None }; TOGETHER],
+        };
+        std::array::from_fn(|resample| match nearby[resample].take() {
+            Some(Nearby { at, precise: true }) => Some(at),
+            start => {
+                let weights = resamples.of(resample, self.rows);
+                self.inference.maximum(&weights, start.map(|start| start.at))
+            }
+        })
     }
 }

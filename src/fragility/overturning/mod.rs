@@ -1,19 +1,16 @@
 //! P_ro: curves of the probability of overturning (Eqs. 19 to 24).
-
-pub(crate) mod bent_curve;
 pub(crate) mod curves;
 pub(crate) mod expansion;
 pub(crate) mod group;
 pub(crate) mod inference;
 pub(crate) mod parameter;
 pub(crate) mod profile;
-pub(crate) mod refits;
 pub(crate) mod sample;
 
-pub use bent_curve::{fit_with_interaction, fit_with_spline};
 pub use curves::{CurveModel, OverturningFit, fit_overturning, has_few_events};
+pub use curves::{fit_with_interaction, fit_with_spline};
 pub use group::{Curve, CurveOptions, Pair, ParameterInference};
 pub use inference::CurveInference;
+pub use inference::CurveRefits;
 pub use parameter::CurveParameter;
-pub use refits::CurveRefits;
 pub use sample::EventSample;

@@ -7,7 +7,7 @@ use crate::statistics::link::Link;
 /// A parameter of the curve F((ln IM - mu) / beta + m), where m is the index of the median: 0, but for the complementary
 /// log-log link.
 ///
-/// Of two measures IM is the hybrid IMx^(lambda/(1 + lambda)) IMy^(1/(1 + lambda)) (Eq. 22), so that the index is
+/// Of two measures IM is the hybrid IMx^(lambda/(1 + lambda)) IMy^(1/(1 + lambda)) (Eq. 23), so that the index is
 /// b0 + b1 ln IMx + b2 ln IMy with the slope b1 + b2 on ln IM; of one, b1 is the slope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CurveParameter {

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::parameter::{CurveParameter, slope};
 use crate::normal;
 use crate::statistics::binary::{BinaryFit, BinaryLikelihood};
-use crate::statistics::limits::Limits;
+use crate::statistics::estimate::Limits;
 use crate::statistics::newton::Along;
 
 /// What the last Newton step to a constrained maximum may gain.

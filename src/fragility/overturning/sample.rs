@@ -1,5 +1,5 @@
 use crate::fragility::case::{Case, Measure};
-use crate::statistics::design_matrix::DesignMatrix;
+use crate::statistics::design::DesignMatrix;
 
 /// The cases of a curve: logarithms of their measures, and whether the event happened.
 #[derive(Debug, Clone, PartialEq)]

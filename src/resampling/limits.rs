@@ -1,16 +1,8 @@
 //! Limits of confidence from bootstrap replicates.
 
+use super::bootstrap::Strata;
 use crate::normal;
-use crate::resampling::bootstrap::Strata;
-
-/// Limits of confidence.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// The lower one.
-    pub low: f64,
-    /// The upper one.
-    pub high: f64,
-}
+use crate::statistics::estimate::{Limits, quantile};
 
 /// The limits that replicates of an estimate give.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,11 +71,4 @@ pub fn acceleration(without_each: &[f64], strata: &Strata) -> f64 {
 fn rank(sorted: &[f64], x: f64) -> f64 {
     let (below, up_to) = (sorted.partition_point(|&v| v < x), sorted.partition_point(|&v| v <= x));
     0.5 * (below + up_to) as f64 / sorted.len() as f64
-}
-
-/// The value with this share below it, linear between those of the sample.
-pub fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let place = share.clamp(0.0, 1.0) * (sorted.len() - 1) as f64;
-    let (below, above) = (place.floor() as usize, place.ceil() as usize);
-    sorted[below] + (place - place.floor()) * (sorted[above] - sorted[below])
 }
