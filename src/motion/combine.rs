@@ -49,6 +49,7 @@ impl Difference {
 /// Makes the spectrum of the combined motion, D' exp(i arg H) + P, of that of the high frequencies, H: steps 4 to 6 of section
 /// 2.1.3 on Fourier coefficients. The mean stays 0, so that the ground comes to rest.
 pub fn combine(high_frequency: &mut [Complex64], pulse: &[Complex64], difference: Difference) {
+    // Steps 4 and 5: D' of D = |H| - |P| takes the phase of H; step 6 adds P.
     // One loop for each: a choice within it would keep it out of wide registers.
     match difference {
         Difference::Absolute => add(high_frequency, pulse, |ratio| Difference::Absolute.kept(ratio)),

@@ -205,8 +205,8 @@ pub fn velocity(acceleration: &[f64], dt_s: f64) -> Vec<f64> {
     acceleration.first().map(|_| 0.0).into_iter().chain(rest).collect()
 }
 
-/// Computes the mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of the acceleration from 0.25
-/// to 20 Hz, without smoothing, the record padded with zeros to a frequency step of 0.05 Hz or less. None where there
+/// Computes the mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of the
+/// acceleration from 0.25 to 20 Hz, without smoothing, the record padded with zeros to a frequency step of 0.05 Hz or less. None where there
 /// is no amplitude in this band.
 pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Option<f64> {
     let least = (1.0 / (FREQUENCY_STEP_HZ * dt_s)).ceil() as usize;
@@ -254,7 +254,8 @@ pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, dam
     w * w * largest
 }
 
-/// Computes the Housner intensity, m: the trapezoidal integral of the pseudo-velocity spectrum at 5 % damping over the periods 0.1 to 2.5 s.
+/// Computes the Housner intensity, m: the trapezoidal integral of the pseudo-velocity spectrum at 5 % damping over the
+/// periods 0.1 to 2.5 s.
 pub fn housner_intensity(acceleration: &[f64], dt_s: f64) -> f64 {
     let (first, last, points) = HOUSNER_PERIODS;
     let step = (last - first) / (points - 1) as f64;

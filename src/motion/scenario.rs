@@ -55,9 +55,11 @@ impl PulseParameters {
     /// Returns the parameters at the quantiles `u` (four numbers in (0, 1), for Vp, Tp, gamma and nu) of their distributions
     /// for a magnitude and a distance (km): Vp and Tp lognormal, gamma normal truncated below at 1, nu normal.
     pub fn at_quantiles(mw: f64, re_km: f64, u: [f64; 4]) -> PulseParameters {
+        // Lognormal: both sigmas are of the logarithm to base 10.
         let log10_vp = median_log10_vp_cm_s(mw, re_km) + SIGMA_LOG10_VP * normal::quantile(u[0]);
         let log10_tp = median_log10_tp_s(mw) + SIGMA_LOG10_TP * normal::quantile(u[1]);
         let (mean, sd) = GAMMA;
+        // The probability below 1 is cut off, and the rest stretched over (0, 1).
         let below = normal::cdf((1.0 - mean) / sd);
         let gamma = mean + sd * normal::quantile(below + u[2] * (1.0 - below));
         PulseParameters {

@@ -94,8 +94,10 @@ impl Source {
     /// Computes the corner frequencies, their weight and the effective distance (Atkinson & Silva 2000) of an earthquake of moment
     /// magnitude `mw` at the distance `re_km`.
     pub fn new(mw: f64, re_km: f64) -> Source {
+        // The depth h of an equivalent point source makes the effective distance R = sqrt(re^2 + h^2).
         let depth_km = libm::exp10(-0.05 + 0.15 * mw);
         let distance_km = re_km.hypot(depth_km);
+        // M0 of the moment magnitude (Hanks & Kanamori 1979).
         let moment_dyne_cm = libm::exp10(1.5 * mw + 16.05);
         Source {
             fa_hz: libm::exp10(2.181 - 0.496 * mw),
@@ -115,6 +117,7 @@ impl Source {
     /// Computes C M0 S(f) G(R) exp(-pi f R / (Q beta)) of a frequency (Hz) and its [`quality_exponent`].
     pub fn amplitude(&self, f: f64, quality: f64) -> f64 {
         let corner = |corner_hz: f64| 1.0 / (1.0 + (f / corner_hz) * (f / corner_hz));
+        // S(f) = (1 - epsilon) / (1 + (f/fa)^2) + epsilon / (1 + (f/fb)^2).
         let shape = (1.0 - self.epsilon) * corner(self.fa_hz) + self.epsilon * corner(self.fb_hz);
         self.scale * shape * libm::exp(-self.attenuation * quality)
     }
@@ -145,6 +148,7 @@ pub struct Window {
 impl Window {
     /// Shapes the window of a motion whose source and path last `source_duration_s`.
     pub fn new(source_duration_s: f64) -> Window {
+        // Boore (2003): b = -epsilon ln eta / (1 + epsilon (ln epsilon - 1)), c = b / epsilon, a = (e / epsilon)^b.
         let b = -PEAK_SHARE * libm::log(END_VALUE) / (1.0 + PEAK_SHARE * (libm::log(PEAK_SHARE) - 1.0));
         let c = b / PEAK_SHARE;
         let a = libm::pow(E / PEAK_SHARE, b);

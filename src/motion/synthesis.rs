@@ -158,6 +158,7 @@ impl Synthesizer {
         let axis = self.axis(timeline.samples);
         if self.high_frequency || self.combined {
             let amplitudes = earthquake.amplitudes(timeline.samples, &axis);
+            // Step 1 of section 2.1.3: the high frequencies of section 2.1.2.
             self.windowed_noise(scenario, &earthquake.weights, &timeline);
             self.shape_noise(&amplitudes, &axis);
         }
@@ -165,8 +166,10 @@ impl Synthesizer {
         self.earthquake = Some(earthquake);
 
         let Synthetic { pulse: samples, combined, .. } = &mut self.synthetic;
+        // Step 2: the pulse of Eq. 1, with its middle at the epoch.
         pulse.sample(self.model.dt_s, epoch_s, timeline.samples, samples);
         if self.combined {
+            // Steps 3 to 6: both as Fourier coefficients, combined and transformed back.
             combined.clone_from(samples);
             axis.transform.forward(combined, &mut self.pulse, &mut self.scratch);
             combine(&mut self.noise, &self.pulse, self.model.difference);
@@ -210,6 +213,7 @@ impl Synthesizer {
     fn shape_noise(&mut self, amplitudes: &[f64], axis: &FrequencyAxis) {
         let samples = &mut self.synthetic.high_frequency;
         axis.transform.forward(samples, &mut self.noise, &mut self.scratch);
+        // The noise has a mean square of 1 over all frequencies but the first and the last.
         let inner = &self.noise[1..self.noise.len() - 1];
         let mean_square = inner.iter().map(|x| x.norm_sqr()).sum::<f64>() / inner.len() as f64;
         // From the continuous spectrum to the discrete one.
@@ -219,6 +223,7 @@ impl Synthesizer {
             #[inline(always)]
             || noise.iter_mut().zip(amplitudes).for_each(|(x, amplitude)| *x *= scale * amplitude),
         );
+        // Without a mean the ground comes to rest.
         self.noise[0] = Complex64::ZERO;
         if self.high_frequency {
             self.pulse.clone_from(&self.noise);

@@ -44,6 +44,7 @@ impl RotD {
 impl HorizontalPair {
     /// Tells whether two azimuths (degrees) are at right angles to within a degree.
     pub fn is_right_angle(first_deg: f64, second_deg: f64) -> bool {
+        // Either component may be reversed.
         ((first_deg - second_deg).rem_euclid(180.0) - 90.0).abs() <= 1.0
     }
 

@@ -10,7 +10,8 @@ use crate::motion::intensity::{peak, velocity};
 
 /// Order n of the high-pass, each way.
 const HIGH_PASS_ORDER: i32 = 4;
-/// The most padding of the high-pass, in lengths of the record: a corner far below one over its duration asks for more than it is worth.
+/// The most padding of the high-pass, in lengths of the record: a corner far below one over its duration asks for more than
+/// it is worth.
 const MOST_PADDING: f64 = 8.0;
 /// Zero crossings of the interpolating sinc on each side.
 const LOBES: f64 = 24.0;
@@ -76,6 +77,7 @@ impl HighPass {
     /// Filters an acceleration of this time step (s) in place.
     pub fn apply(&self, samples: &mut [f64], dt_s: f64, scratch: &mut HighPassScratch) {
         let record = samples.len();
+        // Boore (2005): the filter rings for about this long.
         let wanted = 1.5 * f64::from(HIGH_PASS_ORDER) / (self.corner_hz * dt_s);
         let pad = wanted.min(MOST_PADDING * record as f64).ceil() as usize;
         let length = even_smooth_at_least(record + 2 * pad);

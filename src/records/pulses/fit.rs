@@ -192,6 +192,7 @@ impl Series {
             let Some(step) = damped.lu().solve(&gradient) else { break };
             let next = shape.moved(&step);
             let gain = self.solve(&next).explained - explained;
+            // Gauss and Newton's step where it gains, the steeper one of the gradient where it does not.
             if gain > 0.0 {
                 (shape, explained) = (next, explained + gain);
                 damping *= 0.2;

@@ -56,6 +56,7 @@ impl PulseIndicator {
     pub fn of(velocity: &[f64], dt_s: f64, scratch: &mut WaveletScratch) -> Option<PulseIndicator> {
         let strongest = strongest_wavelet(&[velocity], dt_s, scratch)?;
         let wavelet = strongest.refined(velocity, dt_s);
+        // Baker's predictors: what of peak velocity and energy remains without the pulse.
         let pulse = extract(velocity, dt_s, wavelet);
         let residual: Vec<f64> = velocity.iter().zip(&pulse).map(|(v, p)| v - p).collect();
         let pgv = peak(velocity);
