@@ -1,4 +1,11 @@
 //! Studies of the curves: which measures predict best, how universal the curves are, how they do on other data.
+//!
+//! ```text
+//! candidate     sets of measures; ranking_sample: the cases in which they are ranked
+//! rating        how well a set predicts; folds: which clusters are left out together; ranking: the order of all sets
+//! transfer      the curve of one structure, asked about another; universality: how it does; pooled: one curve for all
+//! validation    forecasts of cases that were not fitted, held against what happened
+//! ```
 
 pub(crate) mod candidate;
 pub(crate) mod folds;

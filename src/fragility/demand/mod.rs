@@ -1,4 +1,11 @@
 //! P_ex: regressions of the demand in safe rocking (Eqs. 14 to 18).
+//!
+//! ```text
+//! sample       the cases of a regression
+//! regressions  univariate, plane and biplanar; transition: where the two planes meet; smooth: a smooth transition instead
+//! inference    how uncertain a regression is, and refits in resamples
+//! group        all regressions of a group of cases: Table II and more
+//! ```
 
 pub(crate) mod group;
 pub(crate) mod inference;

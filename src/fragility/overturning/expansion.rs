@@ -1,5 +1,14 @@
-//! The log-likelihood of resampled cases about the fit to all of them, as a polynomial of the coefficients. Its terms are sums of
-//! what is known of each case beforehand, so that a resample costs no exponential.
+//! Fits thousands of resamples without a pass over the cases for each Newton step.
+//!
+//! The log-likelihood of a resample (Eq. 19) is a sum over cases of n_i l_i(b), in which only the counts n_i differ between resamples.
+//! Each l_i is expanded once, at the fit to all cases, into a Taylor polynomial of the coefficients b: with u = b - fit, the index of a
+//! case moves by x_i'u, and (x_i'u)^k is a sum of monomials of u. A resample is then the sum over cases of n_i times their factors
+//! ([`CaseTerms`]): 28 numbers, or 84 of two measures, that hold all that is needed of it, and cost no exponential. Newton's method maximises that
+//! polynomial, for [`TOGETHER`] resamples at once in the lanes of a register.
+//!
+//! u is measured along the Cholesky factor of the covariance, in standard errors, so that the monomials are of one size and the last
+//! two degrees tell how large those are that are left out. Where these might matter, or the steps do not settle, the result is only
+//! where Newton's steps on the likelihood itself start.
 
 use nalgebra::{DMatrix, DVector};
 use pulp::NullaryFnOnce;
@@ -32,7 +41,7 @@ pub struct Expansion {
 }
 
 /// Where the polynomial says that the likelihood is greatest.
-pub struct Nearby {
+pub struct NearMaximum {
     /// The coefficients.
     pub at: DVector<f64>,
     /// Whether it is precise there.
@@ -66,10 +75,10 @@ impl Expansion {
 
     /// The maximum in each resample to within `tolerance` of the log-likelihood, or where one Newton step leads; none
     /// where that leads nowhere.
-    pub fn maxima(&self, resamples: &Resamples, tolerance: f64) -> [Option<Nearby>; TOGETHER] {
+    pub fn maxima(&self, resamples: &Resamples, tolerance: f64) -> [Option<NearMaximum>; TOGETHER] {
         let factors = self.terms.sums(resamples);
-        let Summits { at, first, settled, left_out } =
-            widest(Climb { monomials: &self.monomials, factors: &factors, tolerance });
+        let Maxima { at, first, settled, left_out } =
+            widest(NewtonSteps { monomials: &self.monomials, factors: &factors, tolerance });
         std::array::from_fn(|resample| {
             let of_resample = |of: &[[f64; TOGETHER]]| {
                 let moved = DVector::from_iterator(of.len(), of.iter().map(|moved| moved[resample]));
@@ -77,20 +86,20 @@ impl Expansion {
             };
             let precise = settled[resample] && left_out[resample] < LEFT_OUT;
             let at = of_resample(if settled[resample] { &at } else { &first });
-            at.iter().all(|b| b.is_finite()).then_some(Nearby { at, precise })
+            at.iter().all(|b| b.is_finite()).then_some(NearMaximum { at, precise })
         })
     }
 }
 
 /// Newton's steps for the polynomials of all resamples at once.
-struct Climb<'a> {
+struct NewtonSteps<'a> {
     monomials: &'a Monomials,
     factors: &'a [[f64; TOGETHER]],
     tolerance: f64,
 }
 
 /// Where they lead.
-struct Summits {
+struct Maxima {
     at: Vec<[f64; TOGETHER]>,
     /// Where the first one leads.
     first: Vec<[f64; TOGETHER]>,
@@ -100,12 +109,12 @@ struct Summits {
     left_out: [f64; TOGETHER],
 }
 
-impl NullaryFnOnce for Climb<'_> {
-    type Output = Summits;
+impl NullaryFnOnce for NewtonSteps<'_> {
+    type Output = Maxima;
 
     #[inline(always)]
-    fn call(self) -> Summits {
-        let Climb { monomials, factors, tolerance } = self;
+    fn call(self) -> Maxima {
+        let NewtonSteps { monomials, factors, tolerance } = self;
         let mut at = vec![[0.0; TOGETHER]; monomials.variables()];
         let mut first = Vec::new();
         let mut settled = [false; TOGETHER];
@@ -113,7 +122,9 @@ impl NullaryFnOnce for Climb<'_> {
             let values = monomials.values(&at);
             let gradients = monomials.gradients(factors, &values, 0..monomials.count());
             let curvatures = monomials.second_derivatives(factors, &values);
-            // Newton's step solves normal equations of the information and the gradient.
+            // Newton's step s solves H s = g, H the information and g the gradient. That is what least squares solves: products
+            // of which the predictors' are H, those with the response g, and of the response with itself 0. Its residual sum of
+            // squares is then 0 - g's, and -rss / 2 what the quadratic model promises to gain: the test of convergence.
             let information = curvatures.into_iter().map(|curvature| curvature.map(|c| -c));
             let products = information.chain(gradients).chain([[0.0; TOGETHER]]).collect();
             let LeastSquares { coefficients: steps, rss } = NormalEquations { products }.solve(at.len());
@@ -146,6 +157,6 @@ impl NullaryFnOnce for Climb<'_> {
         };
         let (before, last) = (moved_by([ORDER - 3, ORDER - 2]), moved_by([ORDER - 1, ORDER]));
         let left_out = std::array::from_fn(|resample| last[resample] * last[resample] / before[resample]);
-        Summits { at, first, settled, left_out }
+        Maxima { at, first, settled, left_out }
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::fragility::overturning::expansion::{Expansion, Nearby};
+use crate::fragility::overturning::expansion::{Expansion, NearMaximum};
 use crate::fragility::overturning::parameter::CurveParameter;
 use crate::fragility::overturning::profile::profile_limits;
 use crate::fragility::overturning::sample::EventSample;
@@ -142,7 +142,7 @@ impl<'a> CurveRefits<'a> {
             None => [const { None }; TOGETHER],
         };
         std::array::from_fn(|resample| match nearby[resample].take() {
-            Some(Nearby { at, precise: true }) => Some(at),
+            Some(NearMaximum { at, precise: true }) => Some(at),
             start => {
                 let weights = resamples.of(resample, self.rows);
                 self.inference.maximum(&weights, start.map(|start| start.at))

@@ -1,4 +1,12 @@
 //! P_ro: curves of the probability of overturning (Eqs. 19 to 24).
+//!
+//! ```text
+//! sample     the cases of a curve
+//! curves     scalar and hybrid curves, and curves with terms more, against which they are tested
+//! parameter  lambda, mu and beta from the coefficients of the regression; profile: their limits by the profile likelihood
+//! inference  how uncertain a curve is, and refits in resamples; expansion: what makes these fast
+//! group      all curves of a group of cases
+//! ```
 pub(crate) mod curves;
 pub(crate) mod expansion;
 pub(crate) mod group;
