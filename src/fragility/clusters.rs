@@ -40,6 +40,11 @@ pub struct Clusters {
 }
 
 impl Clusters {
+    /// Those of no responses.
+    pub fn none() -> Clusters {
+        Clusters { numbers: Vec::new(), shared: SharedBy::Nothing }
+    }
+
     /// Of responses to motions of these names, by the earthquake where it is known, or else by magnitude and distance.
     pub fn new(
         motion_ids: &[String],

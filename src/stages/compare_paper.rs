@@ -12,11 +12,10 @@ use crate::fragility::{Plane, p_overturning, rms_difference};
 use crate::pipeline::console::Console;
 use crate::pipeline::options::defaults;
 use crate::pipeline::stage::Stage;
-use crate::table::paper::{self, PaperRow, Published, SpreadRow};
+use crate::table::paper::{self, PAPER, PaperRow, Published, SpreadRow};
 use crate::table::provenance::Provenance;
-use crate::table::schema::PAPER;
+use crate::table::row::WriteRow;
 use crate::table::source::{Source, Target};
-use crate::table::writer::TableWriter;
 use crate::table::{pex::PexFrame, pro::ProFrame};
 
 /// Against which spread over seeds our numbers are held.
@@ -183,15 +182,10 @@ impl Stage for ComparePaper {
         let row = |published: &Published| {
             let key = (published.quantity.as_str(), published.suite.as_str(), published.structure.as_str());
             let values = spread.get(&key).map_or(&[][..], Vec::as_slice);
-            PaperRow::new(published.clone(), ours.value(published), values)
+            PaperRow::new(published, ours.value(published), values)
         };
         let rows: Vec<PaperRow> = self.published.iter().map(row).collect();
-        let mut writer = TableWriter::create(&self.out, &PAPER, provenance.clone())?;
-        writer.append(&paper::batch(&rows)?)?;
-        writer.finish()?;
-        Ok(format!(
-            "{} published numbers",
-            rows.iter().filter(|row| row.published.published.is_some()).count()
-        ))
+        PaperRow::write(&rows, &self.out, provenance)?;
+        Ok(format!("{} published numbers", rows.iter().filter(|row| row.published.is_some()).count()))
     }
 }

@@ -9,17 +9,15 @@ use serde_json::{Value, json};
 use super::groups::{self, Group};
 use super::uncertainty::uncertainty;
 use crate::fragility::CaseGroup;
-use crate::fragility::demand::{Regression, RegressionOptions};
+use crate::fragility::demand::{Regression, RegressionOptions, ScanPoint};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, defaults, from_scalar};
 use crate::pipeline::stage::Stage;
 use crate::statistics::FitStatus;
-use crate::table::pex::{self, PexRow};
-use crate::table::pex_scan::{self, ScanRow};
+use crate::table::pex::{GroupRegression, PEX, PEX_BOOTSTRAP, PexReplicateRow, PexRow, ScanRow};
 use crate::table::provenance::Provenance;
-use crate::table::replicates;
-use crate::table::schema::{PEX, PEX_BOOTSTRAP, PEX_SCAN};
+use crate::table::row::WriteRow;
 use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 
@@ -158,31 +156,35 @@ impl Stage for FitPex {
         bar.finish();
         let (mut rows, mut scans) = (Vec::new(), Vec::new());
         for (group, fitted) in groups.iter().zip(fitted) {
-            let row = |regression| PexRow {
+            let row = |regression| GroupRegression {
                 suite: group.suite.clone(),
                 structure: group.structure.clone(),
                 eta: group.eta,
                 limit_state: self.options.limit_state,
                 regression,
             };
-            let scan =
-                |point| ScanRow { suite: group.suite.clone(), structure: group.structure.clone(), point };
+            let scan = |point: ScanPoint| ScanRow {
+                suite: group.suite.clone(),
+                structure: group.structure.clone(),
+                transition: point.im4,
+                pooled_rss: point.pooled_rss,
+                n_low: point.n_low,
+                n_high: point.n_high,
+            };
             rows.extend(fitted.fits.into_iter().map(row));
             scans.extend(fitted.scan.into_iter().map(scan));
         }
         let missing = rows.iter().filter(|row| row.regression.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (reason(row), measures(&row.regression))));
-        let mut scan_writer = TableWriter::create(self.scan_target(), &PEX_SCAN, provenance.clone())?;
-        scan_writer.append(&pex_scan::batch(&scans)?)?;
-        scan_writer.finish()?;
+        ScanRow::write(&scans, self.scan_target(), provenance)?;
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PEX_BOOTSTRAP, provenance.clone())?;
-            rows.iter().try_for_each(|row| anyhow::Ok(writer.append(&replicates::pex_batch(row)?)?))?;
+            for row in &rows {
+                writer.append(&PexReplicateRow::batch(&row.replicates().collect::<Vec<_>>())?)?;
+            }
             writer.finish()?;
         }
-        let mut writer = TableWriter::create(self.out.clone(), &PEX, provenance.clone())?;
-        writer.append(&pex::batch(&rows)?)?;
-        writer.finish()?;
+        PexRow::write(&rows.iter().map(PexRow::from).collect::<Vec<_>>(), self.out.clone(), provenance)?;
         let fitted = rows.iter().filter(|row| row.regression.status() == FitStatus::Ok).count();
         let status = FitStatus::Ok.as_str();
         Ok(format!("{fitted} of {} fits {status}", rows.len()))
@@ -195,7 +197,7 @@ fn measures(regression: &Regression) -> String {
 }
 
 /// What is wrong with a regression, for a message.
-fn reason(PexRow { suite, structure, regression, .. }: &PexRow) -> String {
+fn reason(GroupRegression { suite, structure, regression, .. }: &GroupRegression) -> String {
     let suite = suite.as_deref().unwrap_or("the motions");
     match regression.status() {
         FitStatus::Falling => format!("the demand for {suite}, {structure}, falls with the measure"),

@@ -13,10 +13,9 @@ use crate::pipeline::console::Console;
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::statistics::{Estimator, FitStatus, Link};
-use crate::table::pro::{self, ProRow};
+use crate::table::pro::{GroupCurve, PRO, PRO_BOOTSTRAP, ProReplicateRow, ProRow};
 use crate::table::provenance::Provenance;
-use crate::table::replicates;
-use crate::table::schema::{PRO, PRO_BOOTSTRAP};
+use crate::table::row::WriteRow;
 use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 
@@ -115,22 +114,23 @@ impl Stage for FitPro {
         bar.finish();
         let rows = |(group, curves): (&Group, Vec<Curve>)| {
             let (suite, structure, eta) = (group.suite.clone(), group.structure.clone(), group.eta);
-            let row = move |curve| ProRow { suite: suite.clone(), structure: structure.clone(), eta, curve };
+            let row =
+                move |curve| GroupCurve { suite: suite.clone(), structure: structure.clone(), eta, curve };
             curves.into_iter().map(row)
         };
-        let rows: Vec<ProRow> = groups.iter().zip(fitted).flat_map(rows).collect();
+        let rows: Vec<GroupCurve> = groups.iter().zip(fitted).flat_map(rows).collect();
         let missing = rows.iter().filter(|row| row.curve.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (reason(row), measures(&row.curve))));
         let few = rows.iter().filter(|row| row.curve.has_few_events());
         console.warn_each(few.map(|row| (few_events(row), measures(&row.curve))));
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PRO_BOOTSTRAP, provenance.clone())?;
-            rows.iter().try_for_each(|row| anyhow::Ok(writer.append(&replicates::pro_batch(row)?)?))?;
+            for row in &rows {
+                writer.append(&ProReplicateRow::batch(&row.replicates().collect::<Vec<_>>())?)?;
+            }
             writer.finish()?;
         }
-        let mut writer = TableWriter::create(self.out.clone(), &PRO, provenance.clone())?;
-        writer.append(&pro::batch(&rows)?)?;
-        writer.finish()?;
+        ProRow::write(&rows.iter().map(ProRow::from).collect::<Vec<_>>(), self.out.clone(), provenance)?;
         Ok(format!(
             "{} of {} curves ok",
             rows.iter().filter(|row| row.curve.status() == FitStatus::Ok).count(),
@@ -146,7 +146,7 @@ fn measures(curve: &Curve) -> String {
 }
 
 /// Which limits to take where events are few, for a message.
-fn few_events(ProRow { suite, structure, curve, .. }: &ProRow) -> String {
+fn few_events(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> String {
     let suite = suite.as_deref().unwrap_or("the motions");
     format!(
         "few events for {suite}, {structure} ({} of {} cases), so that limits by standard errors are too narrow; take the profile limits",
@@ -155,7 +155,7 @@ fn few_events(ProRow { suite, structure, curve, .. }: &ProRow) -> String {
 }
 
 /// What is wrong with a curve, for a message.
-fn reason(ProRow { suite, structure, curve, .. }: &ProRow) -> String {
+fn reason(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> String {
     let suite = suite.as_deref().unwrap_or("the motions");
     let Curve { events, n, .. } = curve;
     let event = curve.event.as_str();

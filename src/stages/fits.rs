@@ -115,31 +115,31 @@ impl FitsOptions {
             }
         };
         let curve = self.curve(&curves, pair)?;
-        let limit = regressions.first().map(|row| row.number(&schema::LIMIT_STATE));
+        let limit = regressions.first().map(|row| row.number(&schema::limit_state));
         let limit = limit.transpose()?.unwrap_or(f64::NAN);
         let model =
-            FragilityModel { demand, limit, overturning: curve.probit()?, eta: curve.number(&schema::ETA)? };
+            FragilityModel { demand, limit, overturning: curve.probit()?, eta: curve.number(&schema::eta)? };
         let (suite, structure) = group.clone();
-        let (n, events) = (curve.number(&schema::N)?, curve.number(&schema::N_EVENTS)?);
+        let (n, events) = (curve.number(&schema::n)?, curve.number(&schema::n_events)?);
         let few_events = has_few_events(events as usize, n as usize, model.overturning.measures().count());
         Ok(ChosenFits { suite, structure, model, resampled: None, few_events })
     }
 
     fn biplanar(&self, rows: &[&FitRow]) -> anyhow::Result<DemandModel> {
-        let planes = || rows.iter().filter(|row| row.text(&schema::MODEL) == Some(Form::Biplanar.as_str()));
+        let planes = || rows.iter().filter(|row| row.text(&schema::model) == Some(Form::Biplanar.as_str()));
         let plane = |below: bool, side: &str| -> anyhow::Result<&FitRow> {
             let mut on_side =
-                planes().filter(|row| row.optional_number(&schema::RANGE_HIGH).is_some() == below);
+                planes().filter(|row| row.optional_number(&schema::range_high).is_some() == below);
             found(on_side.next().copied(), self.pex.name(), &format!("plane {side} the transition"))
         };
         let (low, high) = (plane(true, "below")?, plane(false, "above")?);
-        let transition = high.number(&schema::RANGE_LOW)?;
+        let transition = high.number(&schema::range_low)?;
         Ok(DemandModel::Biplanar { transition, low: low.demand()?, high: high.demand()? })
     }
 
     fn univariate(&self, rows: &[&FitRow], measure: Measure) -> anyhow::Result<DemandModel> {
-        let mut rows = rows.iter().filter(|row| row.text(&schema::MODEL) == Some(Form::Univariate.as_str()));
-        let row = rows.find(|row| row.text(&schema::IM_X) == Some(measure.as_str()));
+        let mut rows = rows.iter().filter(|row| row.text(&schema::model) == Some(Form::Univariate.as_str()));
+        let row = rows.find(|row| row.text(&schema::im_x) == Some(measure.as_str()));
         let row =
             found(row.copied(), self.pex.name(), &format!("univariate regression on {}", measure.as_str()))?;
         Ok(DemandModel::Everywhere(row.demand()?))
@@ -151,9 +151,9 @@ impl FitsOptions {
         (x, y): (Measure, Option<Measure>),
     ) -> anyhow::Result<&'a FitRow> {
         let wanted = |row: &&&FitRow| {
-            row.text(&schema::FITTED_EVENT) == Some(Event::Overturning.as_str())
-                && row.text(&schema::IM_X) == Some(x.as_str())
-                && row.text(&schema::IM_Y) == y.map(Keyword::as_str)
+            row.text(&schema::fitted_event) == Some(Event::Overturning.as_str())
+                && row.text(&schema::im_x) == Some(x.as_str())
+                && row.text(&schema::im_y) == y.map(Keyword::as_str)
         };
         let second = y.map_or(String::new(), |y| format!(":{}", y.as_str()));
         let what = format!("curve of overturning on {}{second}", x.as_str());
@@ -184,8 +184,8 @@ impl FitRows {
 type Group = (Option<String>, String);
 
 fn group_of(row: &FitRow) -> Group {
-    let structure = row.text(&schema::STRUCTURE).unwrap_or_default().to_string();
-    (row.text(&schema::SUITE).map(str::to_string), structure)
+    let structure = row.text(&schema::structure).unwrap_or_default().to_string();
+    (row.text(&schema::suite).map(str::to_string), structure)
 }
 
 /// The row, if it is there and holds a fit.

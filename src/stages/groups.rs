@@ -1,14 +1,14 @@
 //! The responses of each suite and structure, as the fits take them.
 
-use anyhow::Context;
-use polars::prelude::{Column, DataFrame};
+use std::collections::HashMap;
+use std::sync::Arc;
 
 use crate::fragility::{Case, CaseGroup, Clusters, cells};
-use crate::keyword;
 use crate::rocking::Structure;
-use crate::table::frame::read_frame_of;
-use crate::table::responses::MeasureColumns;
-use crate::table::schema::{self, IDA_STRIPES, RESPONSES};
+use crate::table::ida::IDA_STRIPES;
+use crate::table::reader::Batches;
+use crate::table::responses::{RESPONSES, ResponseCase};
+use crate::table::row::{ReadRow, Row};
 use crate::table::source::Source;
 
 /// All responses of one structure to one suite.
@@ -55,55 +55,63 @@ impl Group {
 /// # Errors
 /// If the file is none of responses or holds an unknown outcome.
 pub fn read(source: impl Into<Source>) -> anyhow::Result<Vec<Group>> {
-    let source = source.into();
-    let responses = read_frame_of(&source, &RESPONSES, &[RESPONSES.stage, IDA_STRIPES.stage])?;
-    let groups = responses.partition_by_stable([schema::SUITE.name, schema::STRUCTURE.name], true)?;
-    groups.iter().map(|group| of(group).with_context(|| source.name().display().to_string())).collect()
-}
-
-fn of(frame: &DataFrame) -> anyhow::Result<Group> {
-    let number = |column: schema::Column| -> anyhow::Result<Vec<Option<f64>>> {
-        Ok(frame.column(column.name)?.f64()?.iter().collect())
-    };
-    let finite = |column| -> anyhow::Result<Vec<f64>> {
-        Ok(number(column)?.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
-    };
-    let first_number = |column: schema::Column| -> anyhow::Result<f64> {
-        Ok(frame.column(column.name)?.f64()?.get(0).unwrap_or(f64::NAN))
-    };
-    let outcomes = frame.column(schema::OUTCOME.name)?.str()?;
-    let edp = finite(schema::EDP)?;
-    let measures = MeasureColumns::read(number, finite)?;
-    let case = |(row, outcome): (usize, Option<&str>)| {
-        let outcome = keyword::parse(outcome.unwrap_or_default()).context("column 'outcome'")?;
-        Ok(Case { outcome, edp: edp[row], measures: measures.of_row(row) })
-    };
-    let motion_ids = names(frame.column(schema::MOTION_ID.name)?)?;
-    let events: Vec<Option<&str>> = frame.column(schema::EARTHQUAKE.name)?.str()?.iter().collect();
-    let (mw, re_km) = (number(schema::MW)?, number(schema::RE_KM)?);
-    Ok(Group {
-        suite: first_text(frame.column(schema::SUITE.name)?)?,
-        structure: first_text(frame.column(schema::STRUCTURE.name)?)?.unwrap_or_default(),
-        eta: first_number(schema::ETA)?,
-        cases: outcomes.iter().enumerate().map(case).collect::<anyhow::Result<_>>()?,
-        cells: cells(&mw, &re_km),
-        clusters: Clusters::new(&motion_ids, &events, &mw, &re_km),
-        p_rad_s: finite(schema::P_RAD_S)?,
-        alpha_rad: finite(schema::ALPHA_RAD)?,
-        motion_ids,
-        pga_m_s2: finite(schema::PGA_M_S2)?,
-    })
-}
-
-/// Names, or numbers as such.
-fn names(column: &Column) -> anyhow::Result<Vec<String>> {
-    if let Ok(names) = column.str() {
-        return Ok(names.iter().map(|name| name.unwrap_or_default().to_string()).collect());
+    let mut groups: Vec<Builder> = Vec::new();
+    let mut places: HashMap<(Option<Arc<str>>, Arc<str>), usize> = HashMap::new();
+    for batch in Batches::open_whole(source, &ResponseCase::TABLE, &[RESPONSES.stage, IDA_STRIPES.stage])? {
+        for row in ResponseCase::of(&batch?.columns())? {
+            let place = *places.entry((row.suite.clone(), row.structure.clone())).or_insert(groups.len());
+            match groups.get_mut(place) {
+                Some(group) => group.add(row),
+                None => groups.push(Builder::of(row)),
+            }
+        }
     }
-    let numbers = column.i64()?.iter();
-    Ok(numbers.map(|number| number.map_or(String::new(), |number| number.to_string())).collect())
+    Ok(groups.into_iter().map(Builder::finish).collect())
 }
 
-fn first_text(column: &Column) -> anyhow::Result<Option<String>> {
-    Ok(column.str()?.get(0).map(str::to_string))
+/// A group of which more responses may come.
+struct Builder {
+    group: Group,
+    earthquakes: Vec<Option<Arc<str>>>,
+    mw: Vec<Option<f64>>,
+    re_km: Vec<Option<f64>>,
+}
+
+impl Builder {
+    fn of(first: ResponseCase) -> Builder {
+        let group = Group {
+            suite: first.suite.as_deref().map(str::to_string),
+            structure: first.structure.to_string(),
+            eta: first.eta,
+            cases: Vec::new(),
+            p_rad_s: Vec::new(),
+            alpha_rad: Vec::new(),
+            motion_ids: Vec::new(),
+            pga_m_s2: Vec::new(),
+            cells: Vec::new(),
+            clusters: Clusters::none(),
+        };
+        let mut builder = Builder { group, earthquakes: Vec::new(), mw: Vec::new(), re_km: Vec::new() };
+        builder.add(first);
+        builder
+    }
+
+    fn add(&mut self, row: ResponseCase) {
+        let group = &mut self.group;
+        group.cases.push(Case { outcome: row.outcome, edp: row.edp, measures: row.measures() });
+        group.p_rad_s.push(row.p_rad_s);
+        group.alpha_rad.push(row.alpha_rad);
+        group.motion_ids.push(row.motion_id.to_string());
+        group.pga_m_s2.push(row.pga_m_s2);
+        self.earthquakes.push(row.earthquake);
+        self.mw.push(row.mw);
+        self.re_km.push(row.re_km);
+    }
+
+    fn finish(self) -> Group {
+        let Builder { group, earthquakes, mw, re_km } = self;
+        let earthquakes: Vec<Option<&str>> = earthquakes.iter().map(Option::as_deref).collect();
+        let clusters = Clusters::new(&group.motion_ids, &earthquakes, &mw, &re_km);
+        Group { cells: cells(&mw, &re_km), clusters, ..group }
+    }
 }

@@ -19,8 +19,8 @@ pub fn record<'a>(path: &Path, motion: &Motion, samples: &'a [f64]) -> Result<Re
         path: path.to_path_buf(),
         row: motion.row,
         column: match problem {
-            RecordError::TimeStep(_) => schema::DT_S.name.to_string(),
-            _ => schema::ACCELERATION_M_S2.name.to_string(),
+            RecordError::TimeStep(_) => schema::dt_s.name.to_string(),
+            _ => schema::acceleration_m_s2.name.to_string(),
         },
         problem: problem.to_string(),
     })
@@ -57,19 +57,30 @@ impl Peaks {
         response: Response,
     ) -> ResponseRow<'a> {
         let Peaks { pga_m_s2, pgv_m_s, tm_s } = *self;
+        let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, motion.tp_s, tm_s);
         ResponseRow {
             motion_id: &motion.motion_id,
             suite: motion.suite.as_deref(),
-            structure,
-            response,
+            structure: &structure.name,
+            p_rad_s: structure.p_rad_s,
+            alpha_rad: structure.alpha_rad,
+            eta: structure.eta,
+            outcome: response.outcome,
+            edp: response.edp,
+            impacts: i32::try_from(response.impacts).unwrap_or(i32::MAX),
             mw: motion.mw,
             re_km: motion.re_km,
-            event: motion.event.as_deref(),
+            earthquake: motion.earthquake.as_ref().map(|label| label.0.as_str()),
             pga_m_s2,
             pgv_m_s,
             tp_s: motion.tp_s,
             tm_s,
-            measures: IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, motion.tp_s, tm_s),
+            im1: measures.im1,
+            im2: measures.im2,
+            im3: measures.im3,
+            im4: measures.im4,
+            im5: measures.im5,
+            im6: measures.im6,
         }
     }
 

@@ -17,10 +17,9 @@ use crate::pipeline::stage::Stage;
 use crate::studies::{FurtherMeasure, MeasureRanking, RankingRules, RankingSample, Target};
 use crate::table::motion_measures::MotionMeasures;
 use crate::table::provenance::Provenance;
-use crate::table::ranking::{self, RankingRow};
-use crate::table::schema::{RANKING, RANKING_RELIABILITY};
+use crate::table::ranking::{RANKING, RankedCandidate, RankingRow, ReliabilityRow};
+use crate::table::row::WriteRow;
 use crate::table::source::{self, Source, with_part};
-use crate::table::writer::TableWriter;
 
 /// How measures are ranked.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -101,12 +100,12 @@ fn further(group: &Group, motions: &MotionMeasures) -> anyhow::Result<Vec<Furthe
 }
 
 /// All candidates for one target in a group.
-fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<RankingRow> {
+fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<RankedCandidate> {
     let (target, n) = (sample.target, sample.len());
     let events = sample.happened.iter().filter(|&&happened| happened).count();
     let ranking = MeasureRanking::new(sample, rules);
     let ratings = ranking.candidates.par_iter().map(|candidate| ranking.rate(candidate)).collect();
-    let row = |ranked| RankingRow {
+    let row = |ranked| RankedCandidate {
         suite: group.suite.clone(),
         structure: group.structure.clone(),
         target,
@@ -152,16 +151,13 @@ impl Stage for RankIms {
         }
         warn(&samples, console);
         let targets = samples.len();
-        let rows: Vec<Vec<RankingRow>> =
+        let ranked: Vec<Vec<RankedCandidate>> =
             samples.into_par_iter().map(|(group, sample)| rows(group, sample, &self.rules)).collect();
-        let rows = rows.concat();
-        let mut writer =
-            TableWriter::create(self.reliability_path(), &RANKING_RELIABILITY, provenance.clone())?;
-        writer.append(&ranking::reliability_batch(&rows)?)?;
-        writer.finish()?;
-        let mut writer = TableWriter::create(&self.out, &RANKING, provenance.clone())?;
-        writer.append(&ranking::batch(&rows)?)?;
-        writer.finish()?;
+        let reliability: Vec<ReliabilityRow> =
+            ranked.iter().flatten().flat_map(RankedCandidate::reliability).collect();
+        ReliabilityRow::write(&reliability, self.reliability_path(), provenance)?;
+        let rows: Vec<RankingRow> = ranked.iter().flatten().map(RankingRow::from).collect();
+        RankingRow::write(&rows, &self.out, provenance)?;
         Ok(format!("{} models for {} targets", rows.len(), targets))
     }
 }

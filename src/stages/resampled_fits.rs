@@ -10,8 +10,10 @@ use crate::fragility::{DemandLaw, DemandModel, FragilityModel, Predictor};
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::table::fits::{self, FitRow};
+use crate::table::pex::PEX_BOOTSTRAP;
+use crate::table::pro::PRO_BOOTSTRAP;
 use crate::table::provenance::stamp;
-use crate::table::schema::{self, Column, PEX_BOOTSTRAP, PRO_BOOTSTRAP, Table};
+use crate::table::schema::{self, Column, Table};
 use crate::table::source::{Source, with_part};
 
 /// The bootstrap files beside those of the fits, of P_ex and of P_ro.
@@ -90,8 +92,8 @@ fn same_plan(fits: &Path, bootstrap: &Path) -> anyhow::Result<()> {
 fn rows(path: &Path, table: &Table, chosen: &ChosenFits) -> anyhow::Result<Vec<FitRow>> {
     let mut rows = fits::rows(path, table)?;
     rows.retain(|row| {
-        row.text(&schema::SUITE) == chosen.suite.as_deref()
-            && row.text(&schema::STRUCTURE) == Some(&chosen.structure)
+        row.text(&schema::suite) == chosen.suite.as_deref()
+            && row.text(&schema::structure) == Some(&chosen.structure)
     });
     Ok(rows)
 }
@@ -100,7 +102,7 @@ fn rows(path: &Path, table: &Table, chosen: &ChosenFits) -> anyhow::Result<Vec<F
 fn demands(rows: &[FitRow], chosen: &DemandModel) -> Vec<Option<DemandModel>> {
     let of = |model: Form, law: &DemandLaw| -> Vec<&FitRow> {
         let same = |row: &&FitRow| {
-            row.text(&schema::MODEL) == Some(model.as_str()) && has_measures(row, &law.ln_median)
+            row.text(&schema::model) == Some(model.as_str()) && has_measures(row, &law.ln_median)
         };
         rows.iter().filter(same).collect()
     };
@@ -114,7 +116,7 @@ fn demands(rows: &[FitRow], chosen: &DemandModel) -> Vec<Option<DemandModel>> {
             let both = of(Form::Biplanar, high);
             let (below, above) = both.split_at(both.len() / 2);
             let planes = |(below, above): (&&FitRow, &&FitRow)| {
-                let transition = above.optional_number(&schema::RANGE_LOW)?;
+                let transition = above.optional_number(&schema::range_low)?;
                 let (low, high) = (resampled(below, low)?, resampled(above, high)?);
                 Some(DemandModel::Biplanar { transition, low, high })
             };
@@ -124,21 +126,21 @@ fn demands(rows: &[FitRow], chosen: &DemandModel) -> Vec<Option<DemandModel>> {
 }
 
 fn resampled(row: &FitRow, law: &DemandLaw) -> Option<DemandLaw> {
-    let ln_median = with_coefficients(row, &law.ln_median, [schema::LN_A, schema::B1, schema::B2])?;
-    Some(DemandLaw { ln_median, beta: row.optional_number(&schema::BETA)?, degrees: law.degrees })
+    let ln_median = with_coefficients(row, &law.ln_median, [schema::ln_a, schema::b1, schema::b2])?;
+    Some(DemandLaw { ln_median, beta: row.optional_number(&schema::beta)?, degrees: law.degrees })
 }
 
 fn curves(rows: &[FitRow], chosen: &Predictor) -> Vec<Option<Predictor>> {
     let same = |row: &&FitRow| {
-        row.text(&schema::FITTED_EVENT) == Some(Event::Overturning.as_str()) && has_measures(row, chosen)
+        row.text(&schema::fitted_event) == Some(Event::Overturning.as_str()) && has_measures(row, chosen)
     };
-    let columns = [schema::B0, schema::INDEX_B1, schema::INDEX_B2];
+    let columns = [schema::b0, schema::index_b1, schema::index_b2];
     rows.iter().filter(same).map(|row| with_coefficients(row, chosen, columns)).collect()
 }
 
 fn has_measures(row: &FitRow, fit: &Predictor) -> bool {
-    row.text(&schema::IM_X) == Some(fit.im_x.as_str())
-        && row.text(&schema::IM_Y) == fit.im_y.map(Keyword::as_str)
+    row.text(&schema::im_x) == Some(fit.im_x.as_str())
+        && row.text(&schema::im_y) == fit.im_y.map(Keyword::as_str)
 }
 
 /// The fit with the coefficients of a replicate.

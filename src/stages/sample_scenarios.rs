@@ -10,8 +10,8 @@ use crate::pipeline::console::Console;
 use crate::pipeline::options::{Steps, Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::table::provenance::Provenance;
-use crate::table::scenarios;
-use crate::table::schema::SCENARIOS;
+use crate::table::row::WriteRow;
+use crate::table::scenarios::{SCENARIOS, ScenarioRow};
 use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 
@@ -106,7 +106,8 @@ impl Stage for SampleScenarios {
         let bar = console.bar(self.subcommand(), cells.len() as u64);
         for cells in cells.chunks(CELLS_AT_ONCE) {
             let scenarios: Vec<_> = cells.par_iter().map(|&cell| self.grid.scenarios_of_cell(cell)).collect();
-            writer.write_row_group(&scenarios::batch(&scenarios.concat())?)?;
+            let rows: Vec<ScenarioRow> = scenarios.iter().flatten().map(ScenarioRow::from).collect();
+            writer.write_row_group(&ScenarioRow::batch(&rows)?)?;
             bar.inc(cells.len() as u64)?;
         }
         bar.finish();

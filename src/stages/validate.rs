@@ -14,10 +14,9 @@ use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 use crate::studies::{Forecasts, Validation};
 use crate::table::provenance::{Provenance, stamp};
-use crate::table::schema::VALIDATION;
+use crate::table::row::WriteRow;
 use crate::table::source::{Source, Target};
-use crate::table::validation::{self, ValidationRow};
-use crate::table::writer::TableWriter;
+use crate::table::validation::{VALIDATION, ValidationRow};
 
 /// Which curves, against which responses.
 #[derive(Debug, Clone, Args)]
@@ -78,13 +77,13 @@ impl Validate {
 
     /// That something happened which the curves hold impossible.
     fn warn_of_impossible(&self, rows: &[ValidationRow], console: &Console) {
-        for ValidationRow { structure, fits_suite, event, validation, .. } in rows {
-            if validation.impossible > 0 {
+        for ValidationRow { structure, fits_suite, event, n, impossible, .. } in rows {
+            if *impossible > 0 {
                 console.note(&format!(
                     "warning: {structure}: what happened in {} of {} cases has a probability of 0 by the curves of {} \
                      for {}: the log score is minus infinity (null)",
-                    validation.impossible,
-                    validation.n,
+                    impossible,
+                    n,
                     fits_suite.as_deref().unwrap_or("no suite"),
                     event.as_str()
                 ));
@@ -114,15 +113,15 @@ impl Validate {
 fn rows<'a>(group: &'a Group, fits: &'a ChosenFits) -> impl Iterator<Item = ValidationRow> + 'a {
     [Event::Overturning, Event::Exceeding, Event::Failure].into_iter().filter_map(|event| {
         let Forecasts { forecasts, without_measure } = Forecasts::new(&fits.model, &group.cases, event);
-        Some(ValidationRow {
-            suite: group.suite.clone(),
-            structure: group.structure.clone(),
-            fits_suite: fits.suite.clone(),
+        Some(ValidationRow::new(
+            group.suite.as_deref(),
+            &group.structure,
+            fits.suite.as_deref(),
             event,
-            limit_state: fits.model.limit,
-            validation: Validation::of(&forecasts)?,
+            fits.model.limit,
+            &Validation::of(&forecasts)?,
             without_measure,
-        })
+        ))
     })
 }
 
@@ -163,9 +162,7 @@ impl Stage for Validate {
             );
         }
         self.warn_of_impossible(&rows, console);
-        let mut writer = TableWriter::create(&self.out, &VALIDATION, provenance.clone())?;
-        writer.append(&validation::batch(&rows)?)?;
-        writer.finish()?;
+        ValidationRow::write(&rows, &self.out, provenance)?;
         Ok(format!("{} counts of {} groups of responses", rows.len(), groups.len()))
     }
 }

@@ -8,7 +8,7 @@ use arrow_array::{Array, ArrayRef, Float32Array, Float64Array, RecordBatch};
 use arrow_schema::DataType;
 
 use super::TableError;
-use super::schema::{Column, SPECTRAL_ACCELERATION, is_spectral_acceleration};
+use super::schema::{Column, is_spectral_acceleration, spectral_acceleration};
 use crate::motion::LONGEST_MOTION;
 
 /// The longest name of anything, bytes: that of a path.
@@ -127,7 +127,7 @@ impl<'a> Columns<'a> {
         let spectral = names.zip(self.batch.columns()).filter(|(name, _)| is_spectral_acceleration(name));
         let numbers = |(name, array): (&String, &ArrayRef)| {
             let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
-            let values = self.numbers_of(array, &SPECTRAL_ACCELERATION)?;
+            let values = self.numbers_of(array, &spectral_acceleration)?;
             Ok(SpectralAcceleration { name: name.clone(), values: values.into_iter().map(finite).collect() })
         };
         spectral.map(numbers).collect()
@@ -138,17 +138,19 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// If the column is missing or of another type, or a value is null.
     pub fn integers(&self, column: &Column) -> Result<Vec<i64>, TableError> {
-        let array = self.required(column)?;
-        let value: Box<dyn Fn(usize) -> i64> = match array.data_type() {
-            DataType::Int64 => Box::new(|row| array.as_primitive::<Int64Type>().value(row)),
-            DataType::Int32 => Box::new(|row| i64::from(array.as_primitive::<Int32Type>().value(row))),
-            _ => return Err(self.wrong_type(array, column)),
-        };
-        let each = |row| match array.is_null(row) {
-            true => Err(self.value_error(row, column, "null; expected a whole number")),
-            false => Ok(value(row)),
-        };
-        (0..self.rows()).map(each).collect()
+        let values = self.integers_of(self.required(column)?, column)?;
+        self.none_missing(values, column, "a whole number")
+    }
+
+    /// Whole numbers, or `None` where the column or the value is missing.
+    ///
+    /// # Errors
+    /// If the column has another type.
+    pub fn optional_integers(&self, column: &Column) -> Result<Vec<Option<i64>>, TableError> {
+        match self.batch.column_by_name(column.name) {
+            Some(array) => self.integers_of(array, column),
+            None => Ok(vec![None; self.rows()]),
+        }
     }
 
     /// Text, one in each row.
@@ -156,11 +158,7 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// If the column is missing or of another type, or a value is null.
     pub fn text(&self, column: &Column) -> Result<Vec<String>, TableError> {
-        let values = self.text_of(self.required(column)?, column)?.into_iter().enumerate();
-        let each = |(row, value): (usize, Option<String>)| {
-            value.ok_or_else(|| self.value_error(row, column, "null; expected text"))
-        };
-        values.map(each).collect()
+        self.each_text(column, |text| Ok(text.to_string()))
     }
 
     /// Text, or `None` where the column or the value is missing.
@@ -168,9 +166,34 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// If the column has another type.
     pub fn optional_text(&self, column: &Column) -> Result<Vec<Option<String>>, TableError> {
+        self.each_optional_text(column, |text| Ok(text.to_string()))
+    }
+
+    /// What `make` makes of the text in each row.
+    ///
+    /// # Errors
+    /// If the column is missing or of another type, or a value is null, or what `make` says is wrong with it.
+    pub fn each_text<T>(
+        &self,
+        column: &Column,
+        make: impl FnMut(&str) -> Result<T, String>,
+    ) -> Result<Vec<T>, TableError> {
+        let values = self.text_of(self.required(column)?, column, make)?;
+        self.none_missing(values, column, "text")
+    }
+
+    /// The same where there is text.
+    ///
+    /// # Errors
+    /// If the column is of another type, or what `make` says is wrong with a text.
+    pub fn each_optional_text<T>(
+        &self,
+        column: &Column,
+        make: impl FnMut(&str) -> Result<T, String>,
+    ) -> Result<Vec<Option<T>>, TableError> {
         match self.batch.column_by_name(column.name) {
-            Some(array) => self.text_of(array, column),
-            None => Ok(vec![None; self.rows()]),
+            Some(array) => self.text_of(array, column, make),
+            None => Ok((0..self.rows()).map(|_| None).collect()),
         }
     }
 
@@ -180,10 +203,7 @@ impl<'a> Columns<'a> {
     /// If the column is missing or of another type, or a value is null.
     pub fn labels(&self, column: &Column) -> Result<Vec<String>, TableError> {
         self.required(column)?;
-        let each = |(row, value): (usize, Option<String>)| {
-            value.ok_or_else(|| self.value_error(row, column, "null; expected a name or a whole number"))
-        };
-        self.optional_labels(column)?.into_iter().enumerate().map(each).collect()
+        self.none_missing(self.optional_labels(column)?, column, "a name or a whole number")
     }
 
     /// Text or whole numbers as text, or `None` where the column or the value is missing.
@@ -191,14 +211,10 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// If the column has another type.
     pub fn optional_labels(&self, column: &Column) -> Result<Vec<Option<String>>, TableError> {
-        let words = |value: Option<i64>| value.map(|number| number.to_string());
         match self.batch.column_by_name(column.name) {
-            Some(array) if array.data_type() == &DataType::Int64 => {
-                Ok(array.as_primitive::<Int64Type>().iter().map(words).collect())
-            }
-            Some(array) if array.data_type() == &DataType::Int32 => {
-                let values = array.as_primitive::<Int32Type>().iter();
-                Ok(values.map(|value| words(value.map(i64::from))).collect())
+            Some(array) if matches!(array.data_type(), DataType::Int64 | DataType::Int32) => {
+                let numbers = self.integers_of(array, column)?.into_iter();
+                Ok(numbers.map(|number| number.map(|number| number.to_string())).collect())
             }
             _ => self.optional_text(column),
         }
@@ -269,21 +285,49 @@ impl<'a> Columns<'a> {
         }
     }
 
-    fn text_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<String>>, TableError> {
-        let owned = |(row, value): (usize, Option<&str>)| match value {
-            Some(text) if text.len() > LONGEST_TEXT => {
-                let problem = format!("text of {} bytes; expected {LONGEST_TEXT} at most", text.len());
-                Err(self.value_error(row, column, &problem))
-            }
-            value => Ok(value.map(str::to_string)),
-        };
+    fn integers_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<i64>>, TableError> {
         match array.data_type() {
-            DataType::Utf8 => array.as_string::<i32>().iter().enumerate().map(owned).collect(),
-            DataType::LargeUtf8 => array.as_string::<i64>().iter().enumerate().map(owned).collect(),
-            DataType::Utf8View => array.as_string_view().iter().enumerate().map(owned).collect(),
-            DataType::Null => Ok(vec![None; array.len()]),
+            DataType::Int64 => Ok(array.as_primitive::<Int64Type>().iter().collect()),
+            DataType::Int32 => {
+                Ok(array.as_primitive::<Int32Type>().iter().map(|value| value.map(i64::from)).collect())
+            }
             _ => Err(self.wrong_type(array, column)),
         }
+    }
+
+    fn text_of<T>(
+        &self,
+        array: &ArrayRef,
+        column: &Column,
+        mut make: impl FnMut(&str) -> Result<T, String>,
+    ) -> Result<Vec<Option<T>>, TableError> {
+        let made = |(row, value): (usize, Option<&str>)| {
+            let Some(text) = value else { return Ok(None) };
+            let made = match text.len() {
+                0..=LONGEST_TEXT => make(text),
+                bytes => Err(format!("text of {bytes} bytes; expected {LONGEST_TEXT} at most")),
+            };
+            made.map(Some).map_err(|problem| self.value_error(row, column, &problem))
+        };
+        match array.data_type() {
+            DataType::Utf8 => array.as_string::<i32>().iter().enumerate().map(made).collect(),
+            DataType::LargeUtf8 => array.as_string::<i64>().iter().enumerate().map(made).collect(),
+            DataType::Utf8View => array.as_string_view().iter().enumerate().map(made).collect(),
+            DataType::Null => Ok((0..array.len()).map(|_| None).collect()),
+            _ => Err(self.wrong_type(array, column)),
+        }
+    }
+
+    fn none_missing<T>(
+        &self,
+        values: Vec<Option<T>>,
+        column: &Column,
+        expected: &str,
+    ) -> Result<Vec<T>, TableError> {
+        let each = |(row, value): (usize, Option<T>)| {
+            value.ok_or_else(|| self.value_error(row, column, &format!("null; expected {expected}")))
+        };
+        values.into_iter().enumerate().map(each).collect()
     }
 
     fn wrong_type(&self, array: &ArrayRef, column: &Column) -> TableError {

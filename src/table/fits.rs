@@ -5,8 +5,10 @@ use std::path::PathBuf;
 
 use super::TableError;
 use super::columns::Columns;
+use super::pex::PEX;
+use super::pro::PRO;
 use super::reader::Batches;
-use super::schema::{self, Column, Kind, PEX, PRO, Table};
+use super::schema::{self, Column, Kind, Table};
 use super::source::Source;
 use crate::fragility::{DemandLaw, Measure, Predictor};
 use crate::keyword::{self, Keyword};
@@ -107,7 +109,7 @@ impl FitRow {
 
     /// Why there is no fit in this row, or "ok".
     pub fn status(&self) -> &str {
-        self.text(&schema::STATUS).unwrap_or_default()
+        self.text(&schema::status).unwrap_or_default()
     }
 
     /// Whether there is a fit in this row.
@@ -120,19 +122,19 @@ impl FitRow {
     /// # Errors
     /// If the row lacks a number.
     pub fn demand(&self) -> Result<DemandLaw, TableError> {
-        let im_y = self.measure(&schema::IM_Y)?;
+        let im_y = self.measure(&schema::im_y)?;
         let second = |column| if im_y.is_some() { self.number(column) } else { Ok(0.0) };
         let (a, b1, b2) =
-            (self.number(&schema::SE_LN_A)?, self.number(&schema::SE_B1)?, second(&schema::SE_B2)?);
+            (self.number(&schema::se_ln_a)?, self.number(&schema::se_b1)?, second(&schema::se_b2)?);
         let [ab1, ab2, b1b2] =
-            [self.number(&schema::COV_LN_A_B1)?, second(&schema::COV_LN_A_B2)?, second(&schema::COV_B1_B2)?];
+            [self.number(&schema::cov_ln_a_b1)?, second(&schema::cov_ln_a_b2)?, second(&schema::cov_b1_b2)?];
         let ln_median = self.predictor(
-            [self.number(&schema::LN_A)?, self.number(&schema::B1)?, second(&schema::B2)?],
+            [self.number(&schema::ln_a)?, self.number(&schema::b1)?, second(&schema::b2)?],
             [[a * a, ab1, ab2], [ab1, b1 * b1, b1b2], [ab2, b1b2, b2 * b2]],
         )?;
         let coefficients = 1.0 + ln_median.measures().count() as f64;
-        let degrees = self.number(&schema::N)? - coefficients;
-        Ok(DemandLaw { ln_median, beta: self.number(&schema::BETA)?, degrees })
+        let degrees = self.number(&schema::n)? - coefficients;
+        Ok(DemandLaw { ln_median, beta: self.number(&schema::beta)?, degrees })
     }
 
     /// The probit index in a row of a pro file: b0 + b1 ln IMx + b2 ln IMy.
@@ -140,28 +142,28 @@ impl FitRow {
     /// # Errors
     /// If the row lacks a number, or the curve has another link.
     pub fn probit(&self) -> Result<Predictor, TableError> {
-        let link = self.text(&schema::LINK).unwrap_or_default();
+        let link = self.text(&schema::link).unwrap_or_default();
         if link != Link::Probit.as_str() {
-            return Err(self.error(&schema::LINK, format!("{link}; expected probit: fit with --link probit")));
+            return Err(self.error(&schema::link, format!("{link}; expected probit: fit with --link probit")));
         }
-        let second = |column| if self.text(&schema::IM_Y).is_some() { self.number(column) } else { Ok(0.0) };
+        let second = |column| if self.text(&schema::im_y).is_some() { self.number(column) } else { Ok(0.0) };
         let [se_0, se_1, se_2] =
-            [self.number(&schema::SE_B0)?, self.number(&schema::SE_B1)?, second(&schema::SE_B2)?];
+            [self.number(&schema::se_b0)?, self.number(&schema::se_b1)?, second(&schema::se_b2)?];
         let [b01, b02, b12] =
-            [self.number(&schema::COV_B0_B1)?, second(&schema::COV_B0_B2)?, second(&schema::COV_B1_B2)?];
+            [self.number(&schema::cov_b0_b1)?, second(&schema::cov_b0_b2)?, second(&schema::cov_b1_b2)?];
         self.predictor(
-            [self.number(&schema::B0)?, self.number(&schema::INDEX_B1)?, second(&schema::INDEX_B2)?],
+            [self.number(&schema::b0)?, self.number(&schema::index_b1)?, second(&schema::index_b2)?],
             [[se_0 * se_0, b01, b02], [b01, se_1 * se_1, b12], [b02, b12, se_2 * se_2]],
         )
     }
 
     fn predictor(&self, coefficients: [f64; 3], covariance: [[f64; 3]; 3]) -> Result<Predictor, TableError> {
-        let missing = || self.error(&schema::IM_X, "null; expected a measure".to_string());
-        let im_x = self.measure(&schema::IM_X)?.ok_or_else(missing)?;
-        let im_y = self.measure(&schema::IM_Y)?;
-        let range_x = [self.number(&schema::IM_X_LOW)?, self.number(&schema::IM_X_HIGH)?];
+        let missing = || self.error(&schema::im_x, "null; expected a measure".to_string());
+        let im_x = self.measure(&schema::im_x)?.ok_or_else(missing)?;
+        let im_y = self.measure(&schema::im_y)?;
+        let range_x = [self.number(&schema::im_x_low)?, self.number(&schema::im_x_high)?];
         let range_y = match im_y {
-            Some(_) => [self.number(&schema::IM_Y_LOW)?, self.number(&schema::IM_Y_HIGH)?],
+            Some(_) => [self.number(&schema::im_y_low)?, self.number(&schema::im_y_high)?],
             None => [0.0; 2],
         };
         Ok(Predictor { im_x, im_y, coefficients, covariance, ranges: [range_x, range_y] })

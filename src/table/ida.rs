@@ -1,21 +1,104 @@
 //! The files of an incremental dynamic analysis: capacities, safe windows, stripes, shares and fragility.
 
 use std::path::Path;
-use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
+use arrow_array::RecordBatch;
 use arrow_schema::ArrowError;
 
-use super::motions::{MotionId, id_column, schema_of};
+use super::motions::MotionId;
 use super::reader::{Batch, Batches};
-use super::responses::{self, ResponseRow};
-use super::schema::{IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
+use super::responses::{RESPONSES, ResponseRow};
+use super::row::{WriteRow, schema_of, table};
+use super::schema::{Column, Table, joined};
 use super::text;
 use crate::fragility::CapacityFit;
-use crate::keyword::Keyword;
-use crate::rocking::{Capacity, CapacityStatus, SafeWindow, Structure};
+use crate::rocking::{Capacity, CapacityStatus, Structure};
 use crate::statistics::FitStatus;
 use crate::studies::wilson_limits;
+
+table! {
+    /// Whether and from which intensity on each structure overturns under each motion.
+    pub struct IdaRow<'a> as IDA = "capacities" by "ida" {
+        motion_id: &'a MotionId,
+        suite: Option<&'a str>,
+        structure: &'a str,
+        p_rad_s: f64,
+        alpha_rad: f64,
+        eta: f64,
+        measure: &'a str,
+        unscaled: f64,
+        capacity: CapacityStatus,
+        safe_below: Option<f64>,
+        overturning_intensity: Option<f64>,
+        safe_windows: usize,
+        safe_up_to: Option<f64>,
+    }
+}
+
+table! {
+    /// Intensities that a structure survives, above one that overturns it.
+    pub struct WindowRow<'a> as IDA_WINDOWS = "windows" by "ida" {
+        motion_id: &'a MotionId,
+        suite: Option<&'a str>,
+        structure: &'a str,
+        measure: &'a str,
+        window: usize,
+        window_low: f64,
+        window_high: Option<f64>,
+    }
+}
+
+table! {
+    /// A level of the scan, beside the response there.
+    pub struct LevelRow<'a> as IDA_LEVELS = "levels" by "ida" {
+        measure: &'a str,
+        intensity: f64,
+        scale: f64,
+    }
+}
+
+const STRIPE_COLUMNS: [Column; RESPONSES.columns.len() + IDA_LEVELS.columns.len()] =
+    joined(RESPONSES.columns, IDA_LEVELS.columns);
+
+/// Responses at each level of the scan: those of simulate to scaled motions, and the scale.
+pub const IDA_STRIPES: Table = Table { name: "stripes", stage: IDA.stage, columns: &STRIPE_COLUMNS };
+
+table! {
+    /// How many motions overturn a structure at each level.
+    pub struct ShareRow<'a> as IDA_SHARES = "shares" by "ida" {
+        suite: Option<&'a str>,
+        structure: &'a str,
+        measure: &'a str,
+        intensity: f64,
+        n: usize,
+        overturned: usize,
+        share: f64,
+        share_low: f64,
+        share_high: f64,
+        overturned_up_to: usize,
+        lognormal: Option<f64>,
+    }
+}
+
+table! {
+    /// The lognormal distribution of the overturning intensities.
+    pub struct LognormalRow<'a> as IDA_FRAGILITY = "fragility" by "ida" {
+        suite: Option<&'a str>,
+        structure: &'a str,
+        measure: &'a str,
+        n: usize,
+        n_safe: usize,
+        n_below: usize,
+        n_with_windows: usize,
+        theta: Option<f64>,
+        theta_low: Option<f64>,
+        theta_high: Option<f64>,
+        beta: Option<f64>,
+        beta_low: Option<f64>,
+        beta_high: Option<f64>,
+        status: FitStatus,
+    }
+}
 
 /// What a scan says of a structure under a motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +120,6 @@ pub struct CapacityRow<'a> {
 /// A response at a level of the scan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StripeRow<'a> {
-    /// The response to the scaled motion.
     pub response: ResponseRow<'a>,
     /// What is scaled.
     pub measure: &'static str,
@@ -96,130 +178,111 @@ impl CapacityRow<'_> {
 /// The rows of the file of capacities, of a scan up to `top`.
 ///
 /// # Errors
-/// If a row cannot be represented, which the schema rules out.
+/// If a motion without a number stands among those that have one.
 pub fn capacities(rows: &[CapacityRow], top: f64, by_name: bool) -> Result<RecordBatch, ArrowError> {
-    let number = |value: &dyn Fn(&CapacityRow) -> f64| -> ArrayRef {
-        Arc::new(Float64Array::from_iter_values(rows.iter().map(value)))
-    };
-    let optional = |value: &dyn Fn(&CapacityRow) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(value)))
-    };
-    let columns: Vec<ArrayRef> = vec![
-        id_column(rows.iter().map(|row| row.motion_id), by_name),
-        Arc::new(rows.iter().map(|row| row.suite).collect::<StringArray>()),
-        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| &row.structure.name))),
-        number(&|row| row.structure.p_rad_s),
-        number(&|row| row.structure.alpha_rad),
-        number(&|row| row.structure.eta),
-        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| row.measure))),
-        number(&|row| row.unscaled),
-        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| row.capacity.status.as_str()))),
-        optional(&|row| row.capacity.safe_below),
-        optional(&|row| row.capacity.overturning),
-        Arc::new(Int64Array::from_iter_values(rows.iter().map(|row| row.capacity.windows.len() as i64))),
-        optional(&|row| row.safe_up_to(top)),
-    ];
-    RecordBatch::try_new(schema_of(&IDA, by_name), columns)
+    let rows = rows.iter().map(|row| IdaRow {
+        motion_id: row.motion_id,
+        suite: row.suite,
+        structure: &row.structure.name,
+        p_rad_s: row.structure.p_rad_s,
+        alpha_rad: row.structure.alpha_rad,
+        eta: row.structure.eta,
+        measure: row.measure,
+        unscaled: row.unscaled,
+        capacity: row.capacity.status,
+        safe_below: row.capacity.safe_below,
+        overturning_intensity: row.capacity.overturning,
+        safe_windows: row.capacity.windows.len(),
+        safe_up_to: row.safe_up_to(top),
+    });
+    IdaRow::batch_in(&rows.collect::<Vec<_>>(), &schema_of(&IDA, by_name))
 }
 
 /// The windows of these rows.
 ///
 /// # Errors
-/// If a row cannot be represented, which the schema rules out.
+/// As [`capacities`].
 pub fn windows(rows: &[CapacityRow], by_name: bool) -> Result<RecordBatch, ArrowError> {
-    let mut windows: Vec<(&CapacityRow, i64, &SafeWindow)> = Vec::new();
-    for row in rows {
-        windows.extend((1..).zip(&row.capacity.windows).map(|(number, window)| (row, number, window)));
-    }
-    let rows = || windows.iter().map(|(row, ..)| row);
-    let columns: Vec<ArrayRef> = vec![
-        id_column(rows().map(|row| row.motion_id), by_name),
-        Arc::new(rows().map(|row| row.suite).collect::<StringArray>()),
-        Arc::new(StringArray::from_iter_values(rows().map(|row| &row.structure.name))),
-        Arc::new(StringArray::from_iter_values(rows().map(|row| row.measure))),
-        Arc::new(Int64Array::from_iter_values(windows.iter().map(|(_, number, _)| *number))),
-        Arc::new(Float64Array::from_iter_values(windows.iter().map(|(.., window)| window.low))),
-        Arc::new(Float64Array::from_iter(windows.iter().map(|(.., window)| window.high))),
-    ];
-    RecordBatch::try_new(schema_of(&IDA_WINDOWS, by_name), columns)
+    let rows = rows.iter().flat_map(|row| {
+        (1..).zip(&row.capacity.windows).map(|(number, window)| WindowRow {
+            motion_id: row.motion_id,
+            suite: row.suite,
+            structure: &row.structure.name,
+            measure: row.measure,
+            window: number,
+            window_low: window.low,
+            window_high: window.high,
+        })
+    });
+    WindowRow::batch_in(&rows.collect::<Vec<_>>(), &schema_of(&IDA_WINDOWS, by_name))
 }
 
 /// The rows of the file of stripes.
 ///
 /// # Errors
-/// If a row cannot be represented, which the schema rules out.
+/// As [`capacities`].
 pub fn stripes(rows: &[StripeRow], by_name: bool) -> Result<RecordBatch, ArrowError> {
-    let of_responses: Vec<ResponseRow> = rows.iter().map(|row| row.response).collect();
-    let mut columns = responses::batch(&of_responses, by_name)?.columns().to_vec();
-    columns.push(Arc::new(StringArray::from_iter_values(rows.iter().map(|row| row.measure))));
-    columns.push(Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.intensity))));
-    columns.push(Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.scale))));
+    let mut columns = ResponseRow::arrays(rows.iter().map(|row| &row.response), by_name);
+    let level =
+        |row: &StripeRow| LevelRow { measure: row.measure, intensity: row.intensity, scale: row.scale };
+    columns.extend(LevelRow::arrays(rows.iter().map(level).collect::<Vec<_>>().iter(), by_name));
     RecordBatch::try_new(schema_of(&IDA_STRIPES, by_name), columns)
 }
 
 /// The rows of the file of shares: each level of each row.
 ///
 /// # Errors
-/// If a row cannot be represented, which the schema rules out.
+/// If memory runs out.
 pub fn shares(rows: &[FragilityRow]) -> Result<RecordBatch, ArrowError> {
-    let levels: Vec<(&FragilityRow, &LevelCount)> =
-        rows.iter().flat_map(|row| row.levels.iter().map(move |level| (row, level))).collect();
-    let text = |value: &dyn Fn(&FragilityRow) -> Option<String>| -> ArrayRef {
-        Arc::new(levels.iter().map(|(row, _)| value(row)).collect::<StringArray>())
+    let of_row = |row| {
+        let FragilityRow { suite, structure, measure, n, levels, fit, .. }: &FragilityRow = row;
+        levels.iter().map(move |level| {
+            let limits = wilson_limits(level.overturned, *n);
+            ShareRow {
+                suite: suite.as_deref(),
+                structure,
+                measure,
+                intensity: level.intensity,
+                n: *n,
+                overturned: level.overturned,
+                share: level.overturned as f64 / *n as f64,
+                share_low: limits.low,
+                share_high: limits.high,
+                overturned_up_to: level.overturned_up_to,
+                lognormal: fit.as_ref().ok().map(|fit| fit.lognormal.p_up_to(level.intensity)),
+            }
+        })
     };
-    let number = |value: &dyn Fn(&FragilityRow, &LevelCount) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(levels.iter().map(|(row, level)| value(row, level))))
-    };
-    let count = |value: &dyn Fn(&FragilityRow, &LevelCount) -> usize| -> ArrayRef {
-        let values = levels.iter().map(|(row, level)| value(row, level) as i64);
-        Arc::new(Int64Array::from_iter_values(values))
-    };
-    let limits = |row: &FragilityRow, level: &LevelCount| wilson_limits(level.overturned, row.n);
-    let columns: Vec<ArrayRef> = vec![
-        text(&|row| row.suite.clone()),
-        text(&|row| Some(row.structure.clone())),
-        text(&|row| Some(row.measure.to_string())),
-        number(&|_, level| Some(level.intensity)),
-        count(&|row, _| row.n),
-        count(&|_, level| level.overturned),
-        number(&|row, level| Some(level.overturned as f64 / row.n as f64)),
-        number(&|row, level| Some(limits(row, level).low)),
-        number(&|row, level| Some(limits(row, level).high)),
-        count(&|_, level| level.overturned_up_to),
-        number(&|row, level| Some(row.fit.as_ref().ok()?.lognormal.p_up_to(level.intensity))),
-    ];
-    RecordBatch::try_new(IDA_SHARES.schema(), columns)
+    ShareRow::batch(&rows.iter().flat_map(of_row).collect::<Vec<_>>())
 }
 
 /// The rows of the fragility file.
 ///
 /// # Errors
-/// If a row cannot be represented, which the schema rules out.
+/// If memory runs out.
 pub fn fragility(rows: &[FragilityRow]) -> Result<RecordBatch, ArrowError> {
-    let number = |value: fn(&CapacityFit) -> f64| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(|row| row.fit.as_ref().ok().map(value))))
+    let of_row = |row| {
+        let FragilityRow { suite, structure, measure, n, n_safe, n_below, n_with_windows, fit, .. }: &FragilityRow =
+            row;
+        let of_fit = |value: fn(&CapacityFit) -> f64| fit.as_ref().ok().map(value);
+        LognormalRow {
+            suite: suite.as_deref(),
+            structure,
+            measure,
+            n: *n,
+            n_safe: *n_safe,
+            n_below: *n_below,
+            n_with_windows: *n_with_windows,
+            theta: of_fit(|fit| fit.lognormal.theta),
+            theta_low: of_fit(|fit| fit.theta_limits.low),
+            theta_high: of_fit(|fit| fit.theta_limits.high),
+            beta: of_fit(|fit| fit.lognormal.beta),
+            beta_low: of_fit(|fit| fit.beta_limits.low),
+            beta_high: of_fit(|fit| fit.beta_limits.high),
+            status: fit.as_ref().map_or_else(|&status| status, |_| FitStatus::Ok),
+        }
     };
-    let count = |value: fn(&FragilityRow) -> usize| -> ArrayRef {
-        Arc::new(Int64Array::from_iter_values(rows.iter().map(|row| value(row) as i64)))
-    };
-    let status = |row: &FragilityRow| row.fit.as_ref().map_or_else(|&status| status, |_| FitStatus::Ok);
-    let columns: Vec<ArrayRef> = vec![
-        Arc::new(rows.iter().map(|row| row.suite.as_deref()).collect::<StringArray>()),
-        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| &row.structure))),
-        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| row.measure))),
-        count(|row| row.n),
-        count(|row| row.n_safe),
-        count(|row| row.n_below),
-        count(|row| row.n_with_windows),
-        number(|fit| fit.lognormal.theta),
-        number(|fit| fit.theta_limits.low),
-        number(|fit| fit.theta_limits.high),
-        number(|fit| fit.lognormal.beta),
-        number(|fit| fit.beta_limits.low),
-        number(|fit| fit.beta_limits.high),
-        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| status(row).as_str()))),
-    ];
-    RecordBatch::try_new(IDA_FRAGILITY.schema(), columns)
+    LognormalRow::batch(&rows.iter().map(of_row).collect::<Vec<_>>())
 }
 
 /// A fragility file as a table to read.

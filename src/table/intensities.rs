@@ -17,17 +17,10 @@ const STAGES: [&str; 4] = ["synthesize-motions", "import-motions", "simulate", "
 /// than a byte a row.
 const FEW_ROWS: u64 = 1 << 24;
 
-const PEAKS: [Column; 2] = [schema::PGA_M_S2, schema::PGV_M_S];
-const STRUCTURE: [Column; 2] = [schema::P_RAD_S, schema::ALPHA_RAD];
-const READ: [Column; 7] = [
-    schema::PGA_M_S2,
-    schema::PGV_M_S,
-    schema::P_RAD_S,
-    schema::ALPHA_RAD,
-    schema::ETA,
-    schema::TP_S,
-    schema::TM_S,
-];
+const PEAKS: &[Column] = &[schema::pga_m_s2, schema::pgv_m_s];
+const PERIODS: &[Column] = &[schema::tp_s.or_null(), schema::tm_s.or_null()];
+const STRUCTURE: &[Column] = &[schema::p_rad_s, schema::alpha_rad, schema::eta.or_null()];
+const READ: [&[Column]; 3] = [PEAKS, STRUCTURE, PERIODS];
 
 /// A structure and the motion that it meets.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,9 +54,8 @@ impl IntensityBatches {
         eta: f64,
         batch_size: usize,
     ) -> Result<IntensityBatches, TableError> {
-        let structure_columns = if structure.is_none() { &STRUCTURE[..] } else { &[] };
-        let required = [&PEAKS, structure_columns].concat();
-        let batches = Batches::open(source, &STAGES, &READ, &required, FEW_ROWS, batch_size)?;
+        let columns = if structure.is_none() { READ.concat() } else { [PEAKS, PERIODS].concat() };
+        let batches = Batches::open(source, &STAGES, &columns, FEW_ROWS, batch_size)?;
         Ok(IntensityBatches { batches, structure, eta })
     }
 
@@ -75,9 +67,9 @@ impl IntensityBatches {
     fn intensities(&self, batch: &Batch) -> Result<Vec<Intensity>, TableError> {
         let columns = batch.columns();
         let not_negative = "0 or more";
-        let pga = within(&columns, &schema::PGA_M_S2, |pga| pga >= 0.0, not_negative)?;
-        let pgv = within(&columns, &schema::PGV_M_S, |pgv| pgv >= 0.0, not_negative)?;
-        let (tp, tm) = (columns.optional_numbers(&schema::TP_S)?, columns.optional_numbers(&schema::TM_S)?);
+        let pga = within(&columns, &schema::pga_m_s2, |pga| pga >= 0.0, not_negative)?;
+        let pgv = within(&columns, &schema::pgv_m_s, |pgv| pgv >= 0.0, not_negative)?;
+        let (tp, tm) = (columns.optional_numbers(&schema::tp_s)?, columns.optional_numbers(&schema::tm_s)?);
         let structures = self.structures(&columns)?;
         let intensity = |(row, structure): (usize, Structure)| Intensity {
             measures: IntensityMeasures::new(&structure, pga[row], pgv[row], tp[row], tm[row]),
@@ -92,10 +84,10 @@ impl IntensityBatches {
         if let Some(structure) = &self.structure {
             return Ok(vec![structure.clone(); columns.rows()]);
         }
-        let p = within(columns, &schema::P_RAD_S, |p| p > 0.0, "a frequency parameter above 0 rad/s")?;
+        let p = within(columns, &schema::p_rad_s, |p| p > 0.0, "a frequency parameter above 0 rad/s")?;
         let slender = "a slenderness between 0 and pi/2 rad";
-        let alpha = within(columns, &schema::ALPHA_RAD, |alpha| alpha > 0.0 && alpha < FRAC_PI_2, slender)?;
-        let eta = columns.optional_numbers(&schema::ETA)?;
+        let alpha = within(columns, &schema::alpha_rad, |alpha| alpha > 0.0 && alpha < FRAC_PI_2, slender)?;
+        let eta = columns.optional_numbers(&schema::eta)?;
         let structure = |((p_rad_s, alpha_rad), eta): ((f64, f64), Option<f64>)| Structure {
             name: String::new(),
             p_rad_s,

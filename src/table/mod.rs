@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! schema       every column once: name, type, unit, words; every table as a list of columns (one file a subject)
+//! row          a table as the struct of its rows; cell the values of a field
 //! columns      the columns of one batch, by name, checked
 //! source       where a table is read from and written to: a path, or memory
 //! folder       a folder of files as one table; partition one of its parts
@@ -18,11 +19,10 @@
 //! fingerprint  the hash of what a file holds
 //! provenance   what made a file, in its metadata
 //! motion_table a motions file that several threads read; synthetic_motions what synthesize-motions writes
-//! scenarios, motions, records, responses, trace, pex, pex_scan, pro, replicates, paper
+//! scenarios, motions, records, responses, trace, pex, pro, paper
 //!              one file a table: its rows as Rust structs
 //! ranking      sets of intensity measures by how well they predict; ranking_verdict the same in words
 //! motion_measures  the measures of a motions file, without its samples
-//! measures     the columns of intensity measures, which motions and records share
 //! fits         the rows of pex and pro files as the fits they hold
 //! intensities  any table with PGA and PGV, as evaluate takes it
 //! hazard       hazard curves and joint hazards, in CSV files
@@ -33,6 +33,7 @@
 //! text         any table as aligned text, CSV or JSON; text_file text files whole
 //! ```
 
+mod cell;
 pub mod columns;
 mod compact;
 mod description;
@@ -48,14 +49,12 @@ pub mod ida;
 pub mod intensities;
 mod limits;
 mod lists;
-mod measures;
 pub mod motion_measures;
 pub mod motion_table;
 pub mod motions;
 pub mod paper;
 pub mod partition;
 pub mod pex;
-pub mod pex_scan;
 mod piece;
 pub mod pro;
 pub mod provenance;
@@ -63,8 +62,8 @@ pub mod ranking;
 pub mod ranking_verdict;
 pub mod reader;
 pub mod records;
-pub mod replicates;
 pub mod responses;
+pub mod row;
 mod row_group;
 pub mod scenarios;
 pub mod schema;

@@ -12,12 +12,12 @@ use crate::motion::Quantity;
 
 /// The measures besides the peaks and periods of Eq. 13, and what they are.
 const FURTHER: [(Column, Quantity); 6] = [
-    (schema::PGD_M, Quantity::Length),
-    (schema::ARIAS_M_S, Quantity::AriasIntensity),
-    (schema::CAV_M_S, Quantity::Velocity),
-    (schema::D5_75_S, Quantity::Duration),
-    (schema::D5_95_S, Quantity::Duration),
-    (schema::HOUSNER_M, Quantity::Length),
+    (schema::pgd_m, Quantity::Length),
+    (schema::arias_m_s, Quantity::AriasIntensity),
+    (schema::cav_m_s, Quantity::Velocity),
+    (schema::d5_75_s, Quantity::Duration),
+    (schema::d5_95_s, Quantity::Duration),
+    (schema::housner_m, Quantity::Length),
 ];
 
 /// The units at the end of the names of their columns, the longer ones first.
@@ -50,7 +50,7 @@ impl MotionMeasures {
     /// # Errors
     /// If the file is missing, unreadable, empty, of another stage, lacks motion_id or holds a value that it must not.
     pub fn read(path: &Path) -> Result<MotionMeasures, TableError> {
-        let narrow = [schema::MOTION_ID, schema::PGA_M_S2];
+        let narrow = [schema::motion_id, schema::pga_m_s2];
         let is_wanted = |name: &str| {
             let mut known = narrow.iter().chain(FURTHER.iter().map(|(column, _)| column));
             known.any(|column| column.name == name) || schema::is_spectral_acceleration(name)
@@ -69,10 +69,10 @@ impl MotionMeasures {
     }
 
     fn append(&mut self, columns: &Columns) -> Result<(), TableError> {
-        for (row, id) in columns.labels(&schema::MOTION_ID)?.into_iter().enumerate() {
+        for (row, id) in columns.labels(&schema::motion_id)?.into_iter().enumerate() {
             self.rows.insert(id, self.pga_m_s2.len() + row);
         }
-        self.pga_m_s2.extend(columns.optional_numbers(&schema::PGA_M_S2)?);
+        self.pga_m_s2.extend(columns.optional_numbers(&schema::pga_m_s2)?);
         let mut measures = Vec::new();
         for (column, quantity) in &FURTHER {
             measures.push((column.name.to_string(), *quantity, columns.optional_numbers(column)?));
@@ -103,7 +103,7 @@ impl MotionMeasures {
             Some(pga) if (pga - pga_m_s2).abs() > SAME_PGA * pga_m_s2 => anyhow::bail!(
                 "{file}: row {row}, column '{}': motion '{motion_id}' has {pga}, its responses {pga_m_s2}; expected the \
                  motions that the responses are to",
-                schema::PGA_M_S2.name
+                schema::pga_m_s2.name
             ),
             _ => Ok(row),
         }

@@ -7,9 +7,10 @@ use std::sync::Arc;
 use arrow_schema::SchemaRef;
 
 use super::TableError;
-use super::motions::{Motion, READ, REQUIRED, STAGES, ids_are_names, motions_of};
+use super::motions::{Motion, MotionRow, STAGES, motions_of};
 use super::partition::Partition;
 use super::reader::{Batch, OpenTable, Run, expect_columns};
+use super::row::{Row, ids_are_names};
 use super::schema;
 use super::source::Source;
 
@@ -37,20 +38,22 @@ impl MotionTable {
     /// # Errors
     /// As [`MotionBatches::open`], or if motions go by name in one file and by number in another.
     pub fn open(source: impl Into<Source>, partition: Option<Partition>) -> Result<MotionTable, TableError> {
-        let table = OpenTable::open(source, &STAGES, &READ)?;
+        let table = OpenTable::open(source, &STAGES, MotionRow::TABLE.columns)?;
         table.expect_rows(0)?;
         let schemas = table.schemas()?;
-        schemas.iter().try_for_each(|(path, schema)| expect_columns(path, schema, &REQUIRED))?;
+        schemas
+            .iter()
+            .try_for_each(|(path, schema)| expect_columns(path, schema, MotionRow::TABLE.columns))?;
         let by_name = ids_are_names(&schemas[0].1);
         if let Some((path, schema)) = schemas.iter().find(|(_, schema)| ids_are_names(schema) != by_name) {
             let type_of = |schema: &SchemaRef| {
                 schema
-                    .field_with_name(schema::MOTION_ID.name)
+                    .field_with_name(schema::motion_id.name)
                     .map_or(String::new(), |f| f.data_type().to_string())
             };
             return Err(TableError::WrongType {
                 path: path.to_path_buf(),
-                column: schema::MOTION_ID.name.to_string(),
+                column: schema::motion_id.name.to_string(),
                 found: type_of(schema),
                 expected: format!("{} as in {}", type_of(&schemas[0].1), schemas[0].0.display()),
             });

@@ -2,16 +2,11 @@
 
 use std::fmt::Write;
 use std::path::Path;
-use std::sync::Arc;
 
 use anyhow::Context;
-use arrow_array::{ArrayRef, Float64Array, Int32Array, RecordBatch, StringArray};
-use arrow_schema::ArrowError;
-use polars::prelude::DataFrame;
 use serde::{Deserialize, Serialize};
 
-use super::frame::read_frame;
-use super::schema::{self, Column, PAPER};
+use super::row::{ReadRow, table};
 use super::text_file;
 
 /// The published transition between the two planes.
@@ -83,68 +78,47 @@ pub fn spread(path: Option<&Path>) -> anyhow::Result<Vec<SpreadRow>> {
     rows.collect::<Result<_, _>>().context(name)
 }
 
-/// A published number beside ours.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PaperRow {
-    /// The published number.
-    pub published: Published,
-    /// Ours, from the files at hand.
-    pub ours: Option<f64>,
-    /// Mean of ours over seeds.
-    pub mean: Option<f64>,
-    /// Standard deviation of ours over seeds.
-    pub sd: Option<f64>,
-    /// How many seeds.
-    pub seeds: i32,
+table! {
+    /// Each published number beside ours.
+    pub struct PaperRow as PAPER = "paper comparison" by "compare-paper" {
+        quantity: String,
+        place: String,
+        suite: Option<String>,
+        structure: Option<String>,
+        published: Option<f64>,
+        ours: Option<f64>,
+        spread_mean: Option<f64>,
+        spread_sd: Option<f64>,
+        seeds: i32,
+        z: Option<f64>,
+    }
 }
 
 impl PaperRow {
-    /// With the mean and the standard deviation of `values`, ours over seeds.
-    pub fn new(published: Published, ours: Option<f64>, values: &[f64]) -> PaperRow {
+    /// Ours beside a published number, with the mean and the standard deviation of `values`, ours over seeds.
+    pub fn new(number: &Published, ours: Option<f64>, values: &[f64]) -> PaperRow {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
         let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0);
         let enough = values.len() > 1;
+        let (spread_mean, spread_sd) = (enough.then_some(mean), enough.then_some(variance.sqrt()));
+        let z = || {
+            let sd = spread_sd.filter(|&sd| sd > 0.0)?;
+            Some((number.published? - spread_mean?) / sd)
+        };
         PaperRow {
-            published,
+            quantity: number.quantity.clone(),
+            place: number.place.clone(),
+            suite: Some(number.suite.clone()),
+            structure: Some(number.structure.clone()),
+            published: number.published,
             ours,
-            mean: enough.then_some(mean),
-            sd: enough.then_some(variance.sqrt()),
+            spread_mean,
+            spread_sd,
             seeds: values.len() as i32,
+            z: z(),
         }
     }
-
-    /// (published - mean) / standard deviation.
-    fn z(&self) -> Option<f64> {
-        let sd = self.sd.filter(|&sd| sd > 0.0)?;
-        Some((self.published.published? - self.mean?) / sd)
-    }
-}
-
-/// The rows of the paper file.
-///
-/// # Errors
-/// If a row cannot be represented, which the schema rules out.
-pub fn batch(rows: &[PaperRow]) -> Result<RecordBatch, ArrowError> {
-    let text = |value: fn(&Published) -> &str| -> ArrayRef {
-        Arc::new(StringArray::from_iter_values(rows.iter().map(|row| value(&row.published))))
-    };
-    let number = |value: fn(&PaperRow) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(value)))
-    };
-    let columns: Vec<ArrayRef> = vec![
-        text(|p| &p.quantity),
-        text(|p| &p.place),
-        text(|p| &p.suite),
-        text(|p| &p.structure),
-        number(|row| row.published.published),
-        number(|row| row.ours),
-        number(|row| row.mean),
-        number(|row| row.sd),
-        Arc::new(Int32Array::from_iter_values(rows.iter().map(|row| row.seeds))),
-        number(PaperRow::z),
-    ];
-    RecordBatch::try_new(PAPER.schema(), columns)
 }
 
 /// Our values in a paper file, for the spread over seeds.
@@ -152,18 +126,12 @@ pub fn batch(rows: &[PaperRow]) -> Result<RecordBatch, ArrowError> {
 /// # Errors
 /// If the file is no comparison with the paper.
 pub fn ours(path: &Path, seed: u64) -> anyhow::Result<Vec<SpreadRow>> {
-    let frame = read_frame(path, &PAPER)?;
-    let cells = Cells { frame: &frame };
-    let row = |row| {
-        Some(SpreadRow {
-            quantity: cells.text(&schema::QUANTITY, row),
-            suite: cells.text(&schema::SUITE, row),
-            structure: cells.text(&schema::STRUCTURE, row),
-            seed,
-            value: cells.number(&schema::OURS, row)?,
-        })
+    let row = |row: PaperRow| {
+        let PaperRow { quantity, suite, structure, ours, .. } = row;
+        let (suite, structure) = (suite.unwrap_or_default(), structure.unwrap_or_default());
+        Some(SpreadRow { quantity, suite, structure, seed, value: ours? })
     };
-    Ok((0..frame.height()).filter_map(row).collect())
+    Ok(PaperRow::read(path)?.into_iter().filter_map(row).collect())
 }
 
 /// The comparison as a table to read; rows that we have no number for are left out.
@@ -171,45 +139,27 @@ pub fn ours(path: &Path, seed: u64) -> anyhow::Result<Vec<SpreadRow>> {
 /// # Errors
 /// If the file is no comparison with the paper.
 pub fn show(path: &Path) -> anyhow::Result<String> {
-    let frame = read_frame(path, &PAPER)?;
-    let cells = Cells { frame: &frame };
     let mut table = format!(
         "{:20} {:6} {:21} {:>10} {:>10} {:>10} {:>9} {:>7}  {}\n",
         "quantity", "suite", "structure", "published", "ours", "mean", "sd", "z", "place"
     );
-    for row in (0..frame.height()).filter(|&row| cells.number(&schema::OURS, row).is_some()) {
-        let number = |column, decimals: usize| {
-            cells.number(column, row).map_or("-".to_string(), |value| format!("{value:.decimals$}"))
+    for row in PaperRow::read(path)?.iter().filter(|row| row.ours.is_some()) {
+        let number = |value: Option<f64>, decimals: usize| {
+            value.map_or("-".to_string(), |value| format!("{value:.decimals$}"))
         };
         writeln!(
             table,
             "{:20} {:6} {:21} {:>10} {:>10} {:>10} {:>9} {:>7}  {}",
-            cells.text(&schema::QUANTITY, row),
-            cells.text(&schema::SUITE, row),
-            cells.text(&schema::STRUCTURE, row),
-            number(&schema::PUBLISHED, 3),
-            number(&schema::OURS, 3),
-            number(&schema::SPREAD_MEAN, 3),
-            number(&schema::SPREAD_SD, 3),
-            number(&schema::Z, 2),
-            cells.text(&schema::PLACE, row),
+            row.quantity,
+            row.suite.as_deref().unwrap_or_default(),
+            row.structure.as_deref().unwrap_or_default(),
+            number(row.published, 3),
+            number(row.ours, 3),
+            number(row.spread_mean, 3),
+            number(row.spread_sd, 3),
+            number(row.z, 2),
+            row.place,
         )?;
     }
     Ok(table)
-}
-
-/// Single values of a frame.
-struct Cells<'a> {
-    frame: &'a DataFrame,
-}
-
-impl Cells<'_> {
-    fn text(&self, column: &Column, row: usize) -> String {
-        let cell = || self.frame.column(column.name).ok()?.str().ok()?.get(row);
-        cell().unwrap_or_default().to_string()
-    }
-
-    fn number(&self, column: &Column, row: usize) -> Option<f64> {
-        self.frame.column(column.name).ok()?.f64().ok()?.get(row)
-    }
 }

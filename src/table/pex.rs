@@ -1,100 +1,235 @@
-//! The pex file: one row a regression of the demand in safe rocking.
+//! The files of fit-pex: one row a regression of the demand in safe rocking, one a regression and resample, and one a place
+//! that was tried for the transition.
 
 use std::path::Path;
-use std::sync::Arc;
-
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
-use arrow_schema::ArrowError;
 
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
 use super::frame::read_frame;
-use super::schema::{self, Column, PEX};
+use super::row::table;
+use super::schema::{self, Column};
+use crate::fragility::Measure;
 use crate::fragility::demand::{Form, Regression};
 use crate::keyword::Keyword;
 use crate::resampling::BootstrapLimits;
-use crate::statistics::{Estimate, LinearFit};
+use crate::statistics::FitStatus;
 
-/// One regression.
+table! {
+    /// Regressions of the demand in safe rocking; what is no finite number is null.
+    pub struct PexRow as PEX = "pex" by "fit-pex" {
+        suite: Option<String>,
+        structure: String,
+        model: Form,
+        im_x: Measure,
+        im_y: Option<Measure>,
+        range_low: Option<f64>,
+        range_high: Option<f64>,
+        limit_state: f64,
+        ln_a: Option<f64>,
+        b1: Option<f64>,
+        b2: Option<f64>,
+        r2: Option<f64>,
+        r2_pooled: Option<f64>,
+        r2_overall: Option<f64>,
+        transition_found: Option<f64>,
+        beta: Option<f64>,
+        zeta: Option<f64>,
+        n: usize,
+        se_ln_a: Option<f64>,
+        se_b1: Option<f64>,
+        se_b2: Option<f64>,
+        ln_a_low: Option<f64>,
+        ln_a_high: Option<f64>,
+        b1_low: Option<f64>,
+        b1_high: Option<f64>,
+        b2_low: Option<f64>,
+        b2_high: Option<f64>,
+        cov_ln_a_b1: Option<f64>,
+        cov_ln_a_b2: Option<f64>,
+        cov_b1_b2: Option<f64>,
+        se_ln_a_clustered: Option<f64>,
+        se_b1_clustered: Option<f64>,
+        se_b2_clustered: Option<f64>,
+        confidence: f64,
+        replicates: usize,
+        ln_a_percentile_low: Option<f64>,
+        ln_a_percentile_high: Option<f64>,
+        ln_a_bca_low: Option<f64>,
+        ln_a_bca_high: Option<f64>,
+        b1_percentile_low: Option<f64>,
+        b1_percentile_high: Option<f64>,
+        b1_bca_low: Option<f64>,
+        b1_bca_high: Option<f64>,
+        b2_percentile_low: Option<f64>,
+        b2_percentile_high: Option<f64>,
+        b2_bca_low: Option<f64>,
+        b2_bca_high: Option<f64>,
+        beta_percentile_low: Option<f64>,
+        beta_percentile_high: Option<f64>,
+        beta_bca_low: Option<f64>,
+        beta_bca_high: Option<f64>,
+        transition_low: Option<f64>,
+        transition_high: Option<f64>,
+        transition_percentile_low: Option<f64>,
+        transition_percentile_high: Option<f64>,
+        transition_width: Option<f64>,
+        se_transition_width: Option<f64>,
+        reset: Option<f64>,
+        reset_p: Option<f64>,
+        im_x_low: Option<f64>,
+        im_x_high: Option<f64>,
+        im_y_low: Option<f64>,
+        im_y_high: Option<f64>,
+        eta: Option<f64>,
+        status: FitStatus,
+    }
+}
+
+table! {
+    /// The regressions of resampled cases, null where a resample has no fit.
+    pub struct PexReplicateRow<'a> as PEX_BOOTSTRAP = "bootstrap replicates of pex" by "fit-pex" {
+        suite: Option<&'a str>,
+        structure: &'a str,
+        model: Form,
+        im_x: Measure,
+        im_y: Option<Measure>,
+        replicate: usize,
+        range_low: Option<f64>,
+        range_high: Option<f64>,
+        ln_a: Option<f64>,
+        b1: Option<f64>,
+        b2: Option<f64>,
+        beta: Option<f64>,
+    }
+}
+
+table! {
+    /// The search for the transition between the two planes.
+    pub struct ScanRow as PEX_SCAN = "transition scan" by "fit-pex" {
+        suite: Option<String>,
+        structure: String,
+        transition: f64,
+        pooled_rss: f64,
+        n_low: usize,
+        n_high: usize,
+    }
+}
+
+/// A regression of a suite and structure.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PexRow {
+pub struct GroupRegression {
     /// Suite of the responses, if known.
     pub suite: Option<String>,
-    /// Name of the structure.
     pub structure: String,
-    /// Its coefficient of restitution.
+    /// Coefficient of restitution of the structure.
     pub eta: f64,
     /// The demand that P_ex is about.
     pub limit_state: f64,
-    /// What was fitted.
     pub regression: Regression,
 }
 
-/// The rows of the pex file; what is no finite number is null.
-///
-/// # Errors
-/// If a row cannot be represented, which the schema rules out.
-pub fn batch(rows: &[PexRow]) -> Result<RecordBatch, ArrowError> {
-    let of_row = |value: &dyn Fn(&PexRow) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(|row| value(row).filter(|v| v.is_finite()))))
-    };
-    let number = |value: &dyn Fn(&Regression) -> Option<f64>| of_row(&|row| value(&row.regression));
-    let fitted = |value: fn(&LinearFit) -> f64| number(&|row| row.fit.as_ref().ok().map(value));
-    let estimate = |index: usize, part: fn(Estimate) -> f64| number(&|row| row.coefficient(index).map(part));
-    let text = |value: fn(&PexRow) -> Option<&str>| -> ArrayRef {
-        Arc::new(rows.iter().map(value).collect::<StringArray>())
-    };
-    let mut columns: Vec<ArrayRef> = vec![
-        text(|row| row.suite.as_deref()),
-        text(|row| Some(&row.structure)),
-        text(|row| Some(row.regression.form.as_str())),
-        text(|row| Some(row.regression.im_x.as_str())),
-        text(|row| row.regression.im_y.map(Keyword::as_str)),
-        number(&|row| Some(row.range.start).filter(|start| *start > 0.0)),
-        number(&|row| Some(row.range.end)),
-        of_row(&|row| Some(row.limit_state)),
-    ];
-    columns.extend((0..3).map(|index| estimate(index, |e| e.value)));
-    columns.extend([
-        fitted(|fit| fit.r2),
-        number(&|row| row.r2_pooled),
-        number(&|row| row.r2_overall),
-        number(&|row| row.transition_found),
-        fitted(|fit| fit.residual_sd),
-        number(&Regression::zeta),
-        Arc::new(Int64Array::from_iter_values(
-            rows.iter().map(|row| row.regression.fit.as_ref().map_or(0, |fit| fit.n as i64)),
-        )),
-    ]);
-    columns.extend((0..3).map(|index| estimate(index, |e| e.standard_error)));
-    columns.extend((0..3).flat_map(|index| [estimate(index, |e| e.low), estimate(index, |e| e.high)]));
-    columns.extend([(0, 1), (0, 2), (1, 2)].map(|place| number(&|row| row.covariance(place))));
-    columns.extend((0..3).map(|k| number(&|row| row.clustered_errors.get(k).copied())));
-    columns.push(number(&|row| Some(row.confidence)));
-    columns.push(Arc::new(Int64Array::from_iter_values(
-        rows.iter().map(|row| row.regression.replicates.iter().flatten().count() as i64),
-    )));
-    let limits = |of: &dyn Fn(&Regression) -> Option<BootstrapLimits>| {
-        [0, 1, 2, 3].map(|k| number(&|row| of(row)?.in_order()[k]))
-    };
-    columns.extend((0..3).flat_map(|index| limits(&|row| row.coefficient_limits(index))));
-    columns.extend(limits(&Regression::beta_limits));
-    columns.extend([
-        number(&|row| Some(row.transition_limits?.low)),
-        number(&|row| Some(row.transition_limits?.high)),
-        number(&|row| Some(row.transition_percentile?.low)),
-        number(&|row| Some(row.transition_percentile?.high)),
-        number(&|row| Some(row.transition_width?.value)),
-        number(&|row| Some(row.transition_width?.standard_error)),
-        number(&|row| Some(row.reset?.statistic)),
-        number(&|row| Some(row.reset?.p)),
-    ]);
-    let end = |(measure, end): (usize, usize)| number(&|row| Some(row.data_ranges.get(measure)?[end]));
-    columns.extend([(0, 0), (0, 1), (1, 0), (1, 1)].map(end));
-    columns.push(of_row(&|row| Some(row.eta)));
-    columns.push(text(|row| Some(row.regression.status().as_str())));
-    RecordBatch::try_new(PEX.schema(), columns)
+impl From<&GroupRegression> for PexRow {
+    fn from(row: &GroupRegression) -> PexRow {
+        let regression = &row.regression;
+        let fit = regression.fit.as_ref().ok();
+        let [ln_a, b1, b2] = [0, 1, 2].map(|index| regression.coefficient(index));
+        let limits = |limits: Option<BootstrapLimits>| limits.map_or([None; 4], |limits| limits.in_order());
+        let [ln_a_limits, b1_limits, b2_limits] =
+            [0, 1, 2].map(|index| limits(regression.coefficient_limits(index)));
+        let beta_limits = limits(regression.beta_limits());
+        let ends = |measure: usize| regression.data_ranges.get(measure).copied();
+        PexRow {
+            suite: row.suite.clone(),
+            structure: row.structure.clone(),
+            model: regression.form,
+            im_x: regression.im_x,
+            im_y: regression.im_y,
+            range_low: Some(regression.range.start).filter(|start| *start > 0.0),
+            range_high: Some(regression.range.end),
+            limit_state: row.limit_state,
+            ln_a: ln_a.map(|estimate| estimate.value),
+            b1: b1.map(|estimate| estimate.value),
+            b2: b2.map(|estimate| estimate.value),
+            r2: fit.map(|fit| fit.r2),
+            r2_pooled: regression.r2_pooled,
+            r2_overall: regression.r2_overall,
+            transition_found: regression.transition_found,
+            beta: fit.map(|fit| fit.residual_sd),
+            zeta: regression.zeta(),
+            n: fit.map_or(0, |fit| fit.n),
+            se_ln_a: ln_a.map(|estimate| estimate.standard_error),
+            se_b1: b1.map(|estimate| estimate.standard_error),
+            se_b2: b2.map(|estimate| estimate.standard_error),
+            ln_a_low: ln_a.map(|estimate| estimate.low),
+            ln_a_high: ln_a.map(|estimate| estimate.high),
+            b1_low: b1.map(|estimate| estimate.low),
+            b1_high: b1.map(|estimate| estimate.high),
+            b2_low: b2.map(|estimate| estimate.low),
+            b2_high: b2.map(|estimate| estimate.high),
+            cov_ln_a_b1: regression.covariance((0, 1)),
+            cov_ln_a_b2: regression.covariance((0, 2)),
+            cov_b1_b2: regression.covariance((1, 2)),
+            se_ln_a_clustered: regression.clustered_errors.get(0).copied(),
+            se_b1_clustered: regression.clustered_errors.get(1).copied(),
+            se_b2_clustered: regression.clustered_errors.get(2).copied(),
+            confidence: regression.confidence,
+            replicates: regression.replicates.iter().flatten().count(),
+            ln_a_percentile_low: ln_a_limits[0],
+            ln_a_percentile_high: ln_a_limits[1],
+            ln_a_bca_low: ln_a_limits[2],
+            ln_a_bca_high: ln_a_limits[3],
+            b1_percentile_low: b1_limits[0],
+            b1_percentile_high: b1_limits[1],
+            b1_bca_low: b1_limits[2],
+            b1_bca_high: b1_limits[3],
+            b2_percentile_low: b2_limits[0],
+            b2_percentile_high: b2_limits[1],
+            b2_bca_low: b2_limits[2],
+            b2_bca_high: b2_limits[3],
+            beta_percentile_low: beta_limits[0],
+            beta_percentile_high: beta_limits[1],
+            beta_bca_low: beta_limits[2],
+            beta_bca_high: beta_limits[3],
+            transition_low: regression.transition_limits.map(|limits| limits.low),
+            transition_high: regression.transition_limits.map(|limits| limits.high),
+            transition_percentile_low: regression.transition_percentile.map(|limits| limits.low),
+            transition_percentile_high: regression.transition_percentile.map(|limits| limits.high),
+            transition_width: regression.transition_width.map(|width| width.value),
+            se_transition_width: regression.transition_width.map(|width| width.standard_error),
+            reset: regression.reset.map(|test| test.statistic),
+            reset_p: regression.reset.map(|test| test.p),
+            im_x_low: ends(0).map(|[low, _]| low),
+            im_x_high: ends(0).map(|[_, high]| high),
+            im_y_low: ends(1).map(|[low, _]| low),
+            im_y_high: ends(1).map(|[_, high]| high),
+            eta: Some(row.eta),
+            status: regression.status(),
+        }
+    }
+}
+
+impl GroupRegression {
+    /// The regressions of its resamples.
+    pub fn replicates(&self) -> impl Iterator<Item = PexReplicateRow<'_>> {
+        self.regression.replicates.iter().enumerate().map(|(replicate, fit)| {
+            let coefficient = |k: usize| fit.as_ref()?.fit.coefficients.get(k).copied();
+            PexReplicateRow {
+                suite: self.suite.as_deref(),
+                structure: &self.structure,
+                model: self.regression.form,
+                im_x: self.regression.im_x,
+                im_y: self.regression.im_y,
+                replicate,
+                range_low: fit.as_ref().map(|fit| fit.range.start),
+                range_high: fit.as_ref().map(|fit| fit.range.end),
+                ln_a: coefficient(0),
+                b1: coefficient(1),
+                b2: coefficient(2),
+                beta: fit.as_ref().map(|fit| fit.fit.residual_sd),
+            }
+        })
+    }
 }
 
 /// The regressions of a pex file.
@@ -113,11 +248,11 @@ impl PexFrame {
     pub fn plane_number(&self, suite: &str, structure: &str, low: bool, column: &str) -> Option<f64> {
         let equal =
             |column: Column, word: &str| Some(self.0.column(column.name).ok()?.str().ok()?.equal(word));
-        let open_above = self.0.column(schema::RANGE_HIGH.name).ok()?.is_null();
+        let open_above = self.0.column(schema::range_high.name).ok()?.is_null();
         let side = if low { !&open_above } else { open_above };
-        let rows = equal(schema::SUITE, suite)?
-            & equal(schema::STRUCTURE, structure)?
-            & equal(schema::MODEL, Form::Biplanar.as_str())?
+        let rows = equal(schema::suite, suite)?
+            & equal(schema::structure, structure)?
+            & equal(schema::model, Form::Biplanar.as_str())?
             & side;
         self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.iter().next().flatten()
     }

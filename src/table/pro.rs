@@ -1,115 +1,231 @@
-//! The pro file: one row a fragility curve.
+//! The files of fit-pro: one row a fragility curve, and one a curve and resample.
 
 use std::path::Path;
-use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
-use arrow_schema::ArrowError;
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
 use super::frame::read_frame;
-use super::schema::{self, Column, PRO};
-use crate::fragility::overturning::{Curve, ParameterInference};
-use crate::fragility::{CurveParameter, OverturningFit};
-use crate::keyword::{self, Keyword};
-use crate::statistics::{Estimate, Link, Test};
+use super::row::table;
+use super::schema::{self, Column};
+use crate::fragility::overturning::Curve;
+use crate::fragility::{CurveParameter, Event, Measure};
+use crate::keyword;
+use crate::statistics::{Estimator, FitStatus, Link};
 
-/// One curve.
+table! {
+    /// Maximum-likelihood fits of overturning; a limit beyond all numbers is null.
+    pub struct ProRow as PRO = "pro" by "fit-pro" {
+        suite: Option<String>,
+        structure: String,
+        event: Event = fitted_event,
+        im_x: Measure,
+        im_y: Option<Measure>,
+        lambda: Option<f64>,
+        mu: Option<f64>,
+        beta: Option<f64>,
+        theta: Option<f64>,
+        log_likelihood: Option<f64>,
+        aic: Option<f64>,
+        bic: Option<f64>,
+        auc: Option<f64>,
+        brier: Option<f64>,
+        n: usize,
+        n_events: usize,
+        se_lambda: Option<f64>,
+        se_mu: Option<f64>,
+        se_beta: Option<f64>,
+        se_theta: Option<f64>,
+        lambda_low: Option<f64>,
+        lambda_high: Option<f64>,
+        mu_low: Option<f64>,
+        mu_high: Option<f64>,
+        beta_low: Option<f64>,
+        beta_high: Option<f64>,
+        theta_low: Option<f64>,
+        theta_high: Option<f64>,
+        link: Link,
+        estimator: Estimator,
+        b0: Option<f64>,
+        b1: Option<f64> = index_b1,
+        b2: Option<f64> = index_b2,
+        se_b0: Option<f64>,
+        se_b1: Option<f64>,
+        se_b2: Option<f64>,
+        cov_b0_b1: Option<f64>,
+        cov_b0_b2: Option<f64>,
+        cov_b1_b2: Option<f64>,
+        se_lambda_clustered: Option<f64>,
+        se_mu_clustered: Option<f64>,
+        se_beta_clustered: Option<f64>,
+        lambda_profile_low: Option<f64>,
+        lambda_profile_high: Option<f64>,
+        mu_profile_low: Option<f64>,
+        mu_profile_high: Option<f64>,
+        beta_profile_low: Option<f64>,
+        beta_profile_high: Option<f64>,
+        confidence: f64,
+        replicates: usize,
+        lambda_percentile_low: Option<f64>,
+        lambda_percentile_high: Option<f64>,
+        lambda_bca_low: Option<f64>,
+        lambda_bca_high: Option<f64>,
+        mu_percentile_low: Option<f64>,
+        mu_percentile_high: Option<f64>,
+        mu_bca_low: Option<f64>,
+        mu_bca_high: Option<f64>,
+        beta_percentile_low: Option<f64>,
+        beta_percentile_high: Option<f64>,
+        beta_bca_low: Option<f64>,
+        beta_bca_high: Option<f64>,
+        hosmer_lemeshow: Option<f64>,
+        hosmer_lemeshow_p: Option<f64>,
+        spline_p: Option<f64>,
+        interaction_p: Option<f64>,
+        im_x_low: Option<f64>,
+        im_x_high: Option<f64>,
+        im_y_low: Option<f64>,
+        im_y_high: Option<f64>,
+        eta: Option<f64>,
+        status: FitStatus,
+    }
+}
+
+table! {
+    /// The curves of resampled cases, null where a resample has no fit.
+    pub struct ProReplicateRow<'a> as PRO_BOOTSTRAP = "bootstrap replicates of pro" by "fit-pro" {
+        suite: Option<&'a str>,
+        structure: &'a str,
+        event: Event = fitted_event,
+        im_x: Measure,
+        im_y: Option<Measure>,
+        replicate: usize,
+        b0: Option<f64>,
+        b1: Option<f64> = index_b1,
+        b2: Option<f64> = index_b2,
+    }
+}
+
+/// A curve of a suite and structure.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ProRow {
+pub struct GroupCurve {
     /// Suite of the responses, if known.
     pub suite: Option<String>,
-    /// Name of the structure.
     pub structure: String,
-    /// Its coefficient of restitution.
+    /// Coefficient of restitution of the structure.
     pub eta: f64,
-    /// What was fitted.
     pub curve: Curve,
 }
 
-/// The rows of the pro file; a limit beyond all numbers is null.
-///
-/// # Errors
-/// If a row cannot be represented, which the schema rules out.
-pub fn batch(rows: &[ProRow]) -> Result<RecordBatch, ArrowError> {
-    let number = |value: &dyn Fn(&OverturningFit) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(
-            rows.iter().map(|row| row.curve.fit.as_ref().ok().and_then(value).filter(|v| v.is_finite())),
-        ))
-    };
-    let text = |value: fn(&ProRow) -> Option<&str>| -> ArrayRef {
-        Arc::new(rows.iter().map(value).collect::<StringArray>())
-    };
-    let count = |value: fn(&ProRow) -> usize| -> ArrayRef {
-        Arc::new(Int64Array::from_iter_values(rows.iter().map(|row| value(row) as i64)))
-    };
-    let estimates: [fn(&OverturningFit) -> Option<Estimate>; 4] =
-        [|fit| fit.lambda, |fit| Some(fit.mu), |fit| Some(fit.beta), |fit| Some(fit.theta)];
-    let part = |estimate: fn(&OverturningFit) -> Option<Estimate>, part: fn(Estimate) -> f64| {
-        number(&|fit| estimate(fit).map(part))
-    };
-    let mut columns: Vec<ArrayRef> = vec![
-        text(|row| row.suite.as_deref()),
-        text(|row| Some(&row.structure)),
-        text(|row| Some(row.curve.event.as_str())),
-        text(|row| Some(row.curve.im_x.as_str())),
-        text(|row| row.curve.im_y.map(Keyword::as_str)),
-    ];
-    columns.extend(estimates.map(|estimate| part(estimate, |e| e.value)));
-    columns.extend([
-        number(&|fit| Some(fit.regression.log_likelihood)),
-        number(&|fit| Some(fit.aic)),
-        number(&|fit| Some(fit.bic)),
-        number(&|fit| Some(fit.auc)),
-        number(&|fit| Some(fit.brier)),
-        count(|row| row.curve.n),
-        count(|row| row.curve.events),
-    ]);
-    columns.extend(estimates.map(|estimate| part(estimate, |e| e.standard_error)));
-    for estimate in estimates {
-        columns.extend([part(estimate, |e| e.low), part(estimate, |e| e.high)]);
+impl From<&GroupCurve> for ProRow {
+    fn from(row: &GroupCurve) -> ProRow {
+        let curve = &row.curve;
+        let fit = curve.fit.as_ref().ok();
+        let (lambda, mu) = (fit.and_then(|fit| fit.lambda), fit.map(|fit| fit.mu));
+        let (beta, theta) = (fit.map(|fit| fit.beta), fit.map(|fit| fit.theta));
+        let coefficient = |k: usize| fit?.regression.coefficients.get(k).copied();
+        let covariance = |i: usize, j: usize| fit?.regression.covariance.get((i, j)).copied();
+        let [of_lambda, of_mu, of_beta] = CurveParameter::ALL.map(|parameter| curve.inference_of(parameter));
+        let [lambda_limits, mu_limits, beta_limits] = [of_lambda, of_mu, of_beta].map(|parameter| {
+            parameter.and_then(|parameter| parameter.bootstrap).map_or([None; 4], |limits| limits.in_order())
+        });
+        let hosmer_lemeshow = fit.and_then(|fit| fit.hosmer_lemeshow);
+        let ends = |measure: usize| curve.data_ranges.get(measure).copied();
+        ProRow {
+            suite: row.suite.clone(),
+            structure: row.structure.clone(),
+            event: curve.event,
+            im_x: curve.im_x,
+            im_y: curve.im_y,
+            lambda: lambda.map(|estimate| estimate.value),
+            mu: mu.map(|estimate| estimate.value),
+            beta: beta.map(|estimate| estimate.value),
+            theta: theta.map(|estimate| estimate.value),
+            log_likelihood: fit.map(|fit| fit.regression.log_likelihood),
+            aic: fit.map(|fit| fit.aic),
+            bic: fit.map(|fit| fit.bic),
+            auc: fit.map(|fit| fit.auc),
+            brier: fit.map(|fit| fit.brier),
+            n: curve.n,
+            n_events: curve.events,
+            se_lambda: lambda.map(|estimate| estimate.standard_error),
+            se_mu: mu.map(|estimate| estimate.standard_error),
+            se_beta: beta.map(|estimate| estimate.standard_error),
+            se_theta: theta.map(|estimate| estimate.standard_error),
+            lambda_low: lambda.map(|estimate| estimate.low),
+            lambda_high: lambda.map(|estimate| estimate.high),
+            mu_low: mu.map(|estimate| estimate.low),
+            mu_high: mu.map(|estimate| estimate.high),
+            beta_low: beta.map(|estimate| estimate.low),
+            beta_high: beta.map(|estimate| estimate.high),
+            theta_low: theta.map(|estimate| estimate.low),
+            theta_high: theta.map(|estimate| estimate.high),
+            link: curve.model.link,
+            estimator: curve.model.estimator,
+            b0: coefficient(0),
+            b1: coefficient(1),
+            b2: coefficient(2),
+            se_b0: covariance(0, 0).map(f64::sqrt),
+            se_b1: covariance(1, 1).map(f64::sqrt),
+            se_b2: covariance(2, 2).map(f64::sqrt),
+            cov_b0_b1: covariance(0, 1),
+            cov_b0_b2: covariance(0, 2),
+            cov_b1_b2: covariance(1, 2),
+            se_lambda_clustered: of_lambda.map(|parameter| parameter.clustered_error),
+            se_mu_clustered: of_mu.map(|parameter| parameter.clustered_error),
+            se_beta_clustered: of_beta.map(|parameter| parameter.clustered_error),
+            lambda_profile_low: of_lambda.map(|parameter| parameter.profile.low),
+            lambda_profile_high: of_lambda.map(|parameter| parameter.profile.high),
+            mu_profile_low: of_mu.map(|parameter| parameter.profile.low),
+            mu_profile_high: of_mu.map(|parameter| parameter.profile.high),
+            beta_profile_low: of_beta.map(|parameter| parameter.profile.low),
+            beta_profile_high: of_beta.map(|parameter| parameter.profile.high),
+            confidence: curve.model.confidence,
+            replicates: curve.replicates.iter().flatten().count(),
+            lambda_percentile_low: lambda_limits[0],
+            lambda_percentile_high: lambda_limits[1],
+            lambda_bca_low: lambda_limits[2],
+            lambda_bca_high: lambda_limits[3],
+            mu_percentile_low: mu_limits[0],
+            mu_percentile_high: mu_limits[1],
+            mu_bca_low: mu_limits[2],
+            mu_bca_high: mu_limits[3],
+            beta_percentile_low: beta_limits[0],
+            beta_percentile_high: beta_limits[1],
+            beta_bca_low: beta_limits[2],
+            beta_bca_high: beta_limits[3],
+            hosmer_lemeshow: hosmer_lemeshow.map(|test| test.statistic),
+            hosmer_lemeshow_p: hosmer_lemeshow.map(|test| test.p),
+            spline_p: curve.spline.map(|test| test.p),
+            interaction_p: curve.interaction.map(|test| test.p),
+            im_x_low: ends(0).map(|[low, _]| low),
+            im_x_high: ends(0).map(|[_, high]| high),
+            im_y_low: ends(1).map(|[low, _]| low),
+            im_y_high: ends(1).map(|[_, high]| high),
+            eta: Some(row.eta),
+            status: curve.status(),
+        }
     }
-    columns.push(text(|row| Some(row.curve.model.link.as_str())));
-    columns.push(text(|row| Some(row.curve.model.estimator.as_str())));
-    columns.extend((0..3).map(|k| number(&|fit| fit.regression.coefficients.get(k).copied())));
-    let covariance = |place: (usize, usize)| number(&|fit| fit.regression.covariance.get(place).copied());
-    columns.extend((0..3).map(|k| number(&|fit| Some(fit.regression.covariance.get((k, k))?.sqrt()))));
-    columns.extend([(0, 1), (0, 2), (1, 2)].map(covariance));
-    let inferred =
-        |parameter: CurveParameter, value: &dyn Fn(&ParameterInference) -> Option<f64>| -> ArrayRef {
-            let value =
-                |row: &ProRow| row.curve.inference_of(parameter).and_then(value).filter(|v| v.is_finite());
-            Arc::new(Float64Array::from_iter(rows.iter().map(value)))
-        };
-    columns.extend(CurveParameter::ALL.map(|parameter| inferred(parameter, &|i| Some(i.clustered_error))));
-    for parameter in CurveParameter::ALL {
-        columns.push(inferred(parameter, &|i| Some(i.profile.low)));
-        columns.push(inferred(parameter, &|i| Some(i.profile.high)));
+}
+
+impl GroupCurve {
+    /// The curves of its resamples.
+    pub fn replicates(&self) -> impl Iterator<Item = ProReplicateRow<'_>> {
+        self.curve.replicates.iter().enumerate().map(|(replicate, coefficients)| {
+            let coefficient = |k: usize| coefficients.as_ref()?.get(k).copied();
+            ProReplicateRow {
+                suite: self.suite.as_deref(),
+                structure: &self.structure,
+                event: self.curve.event,
+                im_x: self.curve.im_x,
+                im_y: self.curve.im_y,
+                replicate,
+                b0: coefficient(0),
+                b1: coefficient(1),
+                b2: coefficient(2),
+            }
+        })
     }
-    columns.push(Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.curve.model.confidence))));
-    columns.push(count(|row| row.curve.replicates.iter().flatten().count()));
-    for parameter in CurveParameter::ALL {
-        columns.extend((0..4).map(|k| inferred(parameter, &|i| i.bootstrap?.in_order()[k])));
-    }
-    let test = |test: fn(&ProRow) -> Option<Test>, part: fn(Test) -> f64| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(|row| test(row).map(part))))
-    };
-    let hosmer_lemeshow = |row: &ProRow| row.curve.fit.as_ref().ok()?.hosmer_lemeshow;
-    columns.extend([
-        test(hosmer_lemeshow, |test| test.statistic),
-        test(hosmer_lemeshow, |test| test.p),
-        test(|row| row.curve.spline, |test| test.p),
-        test(|row| row.curve.interaction, |test| test.p),
-    ]);
-    let of_row = |value: &dyn Fn(&ProRow) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(|row| value(row).filter(|v| v.is_finite()))))
-    };
-    let end = |(measure, end): (usize, usize)| of_row(&|row| Some(row.curve.data_ranges.get(measure)?[end]));
-    columns.extend([(0, 0), (0, 1), (1, 0), (1, 1)].map(end));
-    columns.push(of_row(&|row| Some(row.eta)));
-    columns.push(text(|row| Some(row.curve.status().as_str())));
-    RecordBatch::try_new(PRO.schema(), columns)
 }
 
 /// The curves of a pro file.
@@ -136,18 +252,18 @@ impl ProFrame {
         let equal =
             |column: Column, word: &str| Some(self.0.column(column.name).ok()?.str().ok()?.equal(word));
         let second = match im_y {
-            Some(im_y) => equal(schema::IM_Y, im_y)?,
-            None => self.0.column(schema::IM_Y.name).ok()?.is_null(),
+            Some(im_y) => equal(schema::im_y, im_y)?,
+            None => self.0.column(schema::im_y.name).ok()?.is_null(),
         };
-        let rows = equal(schema::SUITE, suite)?
-            & equal(schema::STRUCTURE, structure)?
-            & equal(schema::IM_X, im_x)?
+        let rows = equal(schema::suite, suite)?
+            & equal(schema::structure, structure)?
+            & equal(schema::im_x, im_x)?
             & second;
         self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.iter().next().flatten()
     }
 
     /// The link of all curves.
     pub fn link(&self) -> Option<Link> {
-        keyword::parse(self.0.column(schema::LINK.name).ok()?.str().ok()?.get(0)?).ok()
+        keyword::parse(self.0.column(schema::link.name).ok()?.str().ok()?.get(0)?).ok()
     }
 }

@@ -1,50 +1,92 @@
 //! The ranking file of rank-ims, one row a candidate; and the reliability of their forecasts, one row a group of cases.
 
-use std::sync::Arc;
-
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
-use arrow_schema::ArrowError;
-
-use super::schema::{RANKING, RANKING_RELIABILITY};
-use crate::keyword::Keyword;
+use super::row::table;
 use crate::statistics::FitStatus;
-use crate::studies::{OfPaper, Ranked, Rating, ReliabilityGroup, Target, Unseen, wilson_limits};
+use crate::studies::{Form, OfPaper, Ranked, Rating, Target, Unseen, wilson_limits};
 
-/// One candidate.
+table! {
+    /// Sets of intensity measures, the best first.
+    pub struct RankingRow as RANKING = "ranking" by "rank-ims" {
+        suite: Option<String>,
+        structure: String,
+        target: Target,
+        measures: String,
+        terms: usize,
+        form: Form,
+        choice: Option<String>,
+        rank: Option<usize>,
+        same_as: Option<String>,
+        log_score: Option<f64> = rank_log_score,
+        over_paper: Option<f64>,
+        se_over_paper: Option<f64>,
+        over_best: Option<f64>,
+        se_over_best: Option<f64>,
+        step: Option<usize>,
+        over_step: Option<f64>,
+        se_over_step: Option<f64>,
+        event_log_score: Option<f64>,
+        auc_unseen: Option<f64>,
+        brier_unseen: Option<f64>,
+        calibration_intercept: Option<f64>,
+        calibration_slope: Option<f64>,
+        log_likelihood: Option<f64>,
+        aic: Option<f64>,
+        bic: Option<f64>,
+        auc: Option<f64>,
+        brier: Option<f64>,
+        beta: Option<f64>,
+        zeta: Option<f64>,
+        b0: Option<f64> = rank_b0,
+        b1: Option<f64> = rank_b1,
+        b2: Option<f64> = rank_b2,
+        b3: Option<f64> = rank_b3,
+        n: usize,
+        n_events: usize,
+        clustered_by: String,
+        status: FitStatus,
+    }
+}
+
+table! {
+    /// Whether events are as frequent as foretold.
+    pub struct ReliabilityRow as RANKING_RELIABILITY = "reliability" by "rank-ims" {
+        suite: Option<String>,
+        structure: String,
+        target: Target,
+        measures: String,
+        form: Form,
+        group: usize,
+        forecast: f64,
+        n: usize,
+        seen: usize,
+        share: f64,
+        share_low: f64,
+        share_high: f64,
+    }
+}
+
+/// A candidate for a target, in the cases of a suite and structure.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RankingRow {
-    /// Of which suite.
+pub struct RankedCandidate {
     pub suite: Option<String>,
-    /// Of which structure.
     pub structure: String,
-    /// What is predicted.
     pub target: Target,
-    /// In so many cases.
+    /// Cases.
     pub n: usize,
-    /// The event happened in so many of them.
+    /// Those in which the event happened.
     pub events: usize,
     /// What the cases of a cluster share.
     pub clustered_by: &'static str,
-    /// How it does.
     pub ranked: Ranked,
 }
 
-impl RankingRow {
+impl RankedCandidate {
     fn rating(&self) -> Option<&Rating> {
         self.ranked.rating.as_ref().ok()
     }
 
     fn unseen(&self) -> Option<&Unseen> {
         self.rating()?.unseen.as_ref()
-    }
-
-    /// Of forecasts that are not one constant, which differs from fold to fold by what is left out alone.
-    fn told_apart(&self) -> Option<&Unseen> {
-        self.unseen().filter(|_| !self.ranked.measures.is_empty())
-    }
-
-    fn status(&self) -> FitStatus {
-        self.ranked.rating.as_ref().err().copied().unwrap_or(FitStatus::Ok)
     }
 
     fn choice(&self) -> Option<String> {
@@ -58,103 +100,80 @@ impl RankingRow {
         let choices: Vec<String> = [of_paper, best, step].into_iter().flatten().collect();
         (!choices.is_empty()).then(|| choices.join(", "))
     }
+
+    /// How reliable its forecasts are, in each group of cases.
+    pub fn reliability(&self) -> impl Iterator<Item = ReliabilityRow> {
+        let groups = self.unseen().map_or(&[][..], |unseen| &unseen.reliability);
+        groups.iter().zip(1..).map(|(cases, group)| {
+            let limits = wilson_limits(cases.seen, cases.n);
+            ReliabilityRow {
+                suite: self.suite.clone(),
+                structure: self.structure.clone(),
+                target: self.target,
+                measures: words(&self.ranked.measures),
+                form: self.ranked.form,
+                group,
+                forecast: cases.forecast,
+                n: cases.n,
+                seen: cases.seen,
+                share: cases.seen as f64 / cases.n as f64,
+                share_low: limits.low,
+                share_high: limits.high,
+            }
+        })
+    }
+}
+
+impl From<&RankedCandidate> for RankingRow {
+    fn from(candidate: &RankedCandidate) -> RankingRow {
+        let (ranked, rating, unseen) = (&candidate.ranked, candidate.rating(), candidate.unseen());
+        // Forecasts of a constant differ from fold to fold by what is left out alone, and tell no cases apart.
+        let told_apart = unseen.filter(|_| !ranked.measures.is_empty());
+        let calibration = told_apart.and_then(|unseen| unseen.calibration);
+        let coefficient = |k: usize| rating?.coefficients.get(k).copied();
+        RankingRow {
+            suite: candidate.suite.clone(),
+            structure: candidate.structure.clone(),
+            target: candidate.target,
+            measures: words(&ranked.measures),
+            terms: ranked.measures.len(),
+            form: ranked.form,
+            choice: candidate.choice(),
+            rank: ranked.rank,
+            same_as: ranked.same_as.as_deref().map(words),
+            log_score: unseen.map(Unseen::log_score),
+            over_paper: ranked.over_paper.map(|gain| gain.value),
+            se_over_paper: ranked.over_paper.map(|gain| gain.standard_error),
+            over_best: ranked.over_best.map(|gain| gain.value),
+            se_over_best: ranked.over_best.map(|gain| gain.standard_error),
+            step: ranked.step,
+            over_step: ranked.over_step.map(|gain| gain.value),
+            se_over_step: ranked.over_step.map(|gain| gain.standard_error),
+            event_log_score: unseen.map(|unseen| unseen.event_log_score),
+            auc_unseen: told_apart.map(|unseen| unseen.skill.auc),
+            brier_unseen: unseen.map(|unseen| unseen.skill.brier),
+            calibration_intercept: calibration.map(|[intercept, _]| intercept),
+            calibration_slope: calibration.map(|[_, slope]| slope),
+            log_likelihood: rating.map(|rating| rating.log_likelihood),
+            aic: rating.map(|rating| rating.aic),
+            bic: rating.map(|rating| rating.bic),
+            auc: rating.map(|rating| rating.fitted.auc),
+            brier: rating.map(|rating| rating.fitted.brier),
+            beta: rating.map(|rating| rating.beta).filter(|beta| *beta > 0.0),
+            zeta: rating.and_then(|rating| rating.zeta),
+            b0: coefficient(0),
+            b1: coefficient(1),
+            b2: coefficient(2),
+            b3: coefficient(3),
+            n: candidate.n,
+            n_events: candidate.events,
+            clustered_by: candidate.clustered_by.to_string(),
+            status: ranked.rating.as_ref().err().copied().unwrap_or(FitStatus::Ok),
+        }
+    }
 }
 
 /// Measures as options name them: `im4:im3_inv`; of none, `none`.
 fn words(measures: &[String]) -> String {
     if measures.is_empty() { "none".to_string() } else { measures.join(":") }
-}
-
-/// The rows of the ranking file.
-///
-/// # Errors
-/// If a row cannot be represented, which the schema rules out.
-pub fn batch(rows: &[RankingRow]) -> Result<RecordBatch, ArrowError> {
-    let number = |value: &dyn Fn(&RankingRow) -> Option<f64>| -> ArrayRef {
-        let finite = |row| value(row).filter(|number| number.is_finite());
-        Arc::new(Float64Array::from_iter(rows.iter().map(finite)))
-    };
-    let count = |value: fn(&RankingRow) -> Option<usize>| -> ArrayRef {
-        Arc::new(Int64Array::from_iter(rows.iter().map(|row| value(row).map(|count| count as i64))))
-    };
-    let text = |value: fn(&RankingRow) -> Option<String>| -> ArrayRef {
-        Arc::new(rows.iter().map(value).collect::<StringArray>())
-    };
-    let coefficient = |k: usize| number(&move |row| row.rating()?.coefficients.get(k).copied());
-    let columns: Vec<ArrayRef> = vec![
-        text(|row| row.suite.clone()),
-        text(|row| Some(row.structure.clone())),
-        text(|row| Some(row.target.as_str().to_string())),
-        text(|row| Some(words(&row.ranked.measures))),
-        count(|row| Some(row.ranked.measures.len())),
-        text(|row| Some(row.ranked.form.as_str().to_string())),
-        text(RankingRow::choice),
-        count(|row| row.ranked.rank),
-        text(|row| row.ranked.same_as.as_deref().map(words)),
-        number(&|row| Some(row.unseen()?.log_score())),
-        number(&|row| Some(row.ranked.over_paper?.value)),
-        number(&|row| Some(row.ranked.over_paper?.standard_error)),
-        number(&|row| Some(row.ranked.over_best?.value)),
-        number(&|row| Some(row.ranked.over_best?.standard_error)),
-        count(|row| row.ranked.step),
-        number(&|row| Some(row.ranked.over_step?.value)),
-        number(&|row| Some(row.ranked.over_step?.standard_error)),
-        number(&|row| Some(row.unseen()?.event_log_score)),
-        number(&|row| Some(row.told_apart()?.skill.auc)),
-        number(&|row| Some(row.unseen()?.skill.brier)),
-        number(&|row| Some(row.told_apart()?.calibration?[0])),
-        number(&|row| Some(row.told_apart()?.calibration?[1])),
-        number(&|row| Some(row.rating()?.log_likelihood)),
-        number(&|row| Some(row.rating()?.aic)),
-        number(&|row| Some(row.rating()?.bic)),
-        number(&|row| Some(row.rating()?.fitted.auc)),
-        number(&|row| Some(row.rating()?.fitted.brier)),
-        number(&|row| Some(row.rating()?.beta).filter(|beta| *beta > 0.0)),
-        number(&|row| row.rating()?.zeta),
-        coefficient(0),
-        coefficient(1),
-        coefficient(2),
-        coefficient(3),
-        count(|row| Some(row.n)),
-        count(|row| Some(row.events)),
-        text(|row| Some(row.clustered_by.to_string())),
-        text(|row| Some(row.status().as_str().to_string())),
-    ];
-    RecordBatch::try_new(RANKING.schema(), columns)
-}
-
-/// The rows of the reliability file.
-///
-/// # Errors
-/// As [`batch`].
-pub fn reliability_batch(rows: &[RankingRow]) -> Result<RecordBatch, ArrowError> {
-    let groups = |row| {
-        let groups = RankingRow::unseen(row).map_or(&[][..], |unseen| &unseen.reliability);
-        groups.iter().zip(1..).map(move |(group, number)| (row, group, number))
-    };
-    let all: Vec<(&RankingRow, &ReliabilityGroup, i64)> = rows.iter().flat_map(groups).collect();
-    let number = |value: fn(&ReliabilityGroup) -> f64| -> ArrayRef {
-        Arc::new(Float64Array::from_iter_values(all.iter().map(|(_, group, _)| value(group))))
-    };
-    let count = |value: fn(&ReliabilityGroup) -> usize| -> ArrayRef {
-        Arc::new(Int64Array::from_iter_values(all.iter().map(|(_, group, _)| value(group) as i64)))
-    };
-    let text = |value: fn(&RankingRow) -> Option<String>| -> ArrayRef {
-        Arc::new(all.iter().map(|(row, ..)| value(row)).collect::<StringArray>())
-    };
-    let columns: Vec<ArrayRef> = vec![
-        text(|row| row.suite.clone()),
-        text(|row| Some(row.structure.clone())),
-        text(|row| Some(row.target.as_str().to_string())),
-        text(|row| Some(words(&row.ranked.measures))),
-        text(|row| Some(row.ranked.form.as_str().to_string())),
-        Arc::new(Int64Array::from_iter_values(all.iter().map(|(.., number)| *number))),
-        number(|group| group.forecast),
-        count(|group| group.n),
-        count(|group| group.seen),
-        number(|group| group.seen as f64 / group.n as f64),
-        number(|group| wilson_limits(group.seen, group.n).low),
-        number(|group| wilson_limits(group.seen, group.n).high),
-    ];
-    RecordBatch::try_new(RANKING_RELIABILITY.schema(), columns)
 }

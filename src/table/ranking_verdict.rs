@@ -2,133 +2,104 @@
 
 use std::fmt::Write;
 use std::path::Path;
-use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
-
-use super::TableError;
-use super::reader::Batches;
-use super::schema::{self, Column, RANKING};
+use super::ranking::RankingRow;
+use super::row::{ReadRow, WriteRow, table};
 use super::text;
+use crate::keyword::Keyword;
+use crate::studies::{Form, Target};
 
 /// A difference beyond so many standard errors is called clear.
 const CLEAR: f64 = 2.0;
-
-/// The numbers that a reader looks at first; the file holds the rest.
-const SHOWN: [Column; 8] = [
-    schema::RANK_LOG_SCORE,
-    schema::OVER_PAPER,
-    schema::SE_OVER_PAPER,
-    schema::OVER_STEP,
-    schema::SE_OVER_STEP,
-    schema::AUC_UNSEEN,
-    schema::BRIER_UNSEEN,
-    schema::CALIBRATION_SLOPE,
-];
-
-/// A row that was chosen, or that without measures, which every structure has.
-struct Chosen {
-    /// Suite, structure, target.
-    of: [String; 3],
-    choice: String,
-    measures: String,
-    form: String,
-    terms: usize,
-    /// Events and cases.
-    counts: [i64; 2],
-    beta: Option<f64>,
-    over_best: [Option<f64>; 2],
-    shown: Vec<Option<f64>>,
-}
 
 /// A ranking file as a table and a verdict to read.
 ///
 /// # Errors
 /// If it is none.
 pub fn show(path: &Path) -> anyhow::Result<String> {
-    let chosen = chosen(path)?;
-    let mut shown = text::aligned(&table(&chosen)?);
-    shown += "\n";
-    for group in chosen.chunk_by(|a, b| a.of == b.of) {
-        shown += &verdict(group)?;
+    // The rows that were chosen, and those without measures, which every structure has.
+    let mut chosen = RankingRow::read(path)?;
+    chosen.retain(|row| row.choice.is_some() || row.terms == 0);
+    let shown: Vec<ShownRow> = chosen.iter().map(ShownRow::of).collect();
+    let mut text = text::aligned(&ShownRow::batch(&shown)?);
+    text += "\n";
+    let of = |row: &RankingRow| (row.suite.clone(), row.structure.clone(), row.target);
+    for group in chosen.chunk_by(|a, b| of(a) == of(b)) {
+        text += &verdict(group)?;
     }
-    Ok(shown)
+    Ok(text)
 }
 
-fn chosen(path: &Path) -> Result<Vec<Chosen>, TableError> {
-    let mut rows = Vec::new();
-    for batch in Batches::open_whole(path, &RANKING, &[RANKING.stage])? {
-        let batch = batch?;
-        let columns = batch.columns();
-        let suites = columns.optional_text(&schema::SUITE)?;
-        let [structures, targets, measures, forms] =
-            [schema::STRUCTURE, schema::TARGET, schema::MEASURES, schema::FORM]
-                .map(|column| columns.text(&column));
-        let (structures, targets, measures, forms) = (structures?, targets?, measures?, forms?);
-        let (choices, terms) = (columns.optional_text(&schema::CHOICE)?, columns.integers(&schema::TERMS)?);
-        let counts = [columns.integers(&schema::N_EVENTS)?, columns.integers(&schema::N)?];
-        let number = |column: &Column| columns.optional_numbers(column);
-        let (beta, over_best) = (number(&schema::BETA)?, number(&schema::OVER_BEST)?);
-        let se_over_best = number(&schema::SE_OVER_BEST)?;
-        let shown = SHOWN.iter().map(number).collect::<Result<Vec<_>, _>>()?;
-        let row = |row: usize| {
-            Some(Chosen {
-                of: [suites[row].clone().unwrap_or_default(), structures[row].clone(), targets[row].clone()],
-                choice: choices[row].clone().or((terms[row] == 0).then(String::new))?,
-                measures: measures[row].clone(),
-                form: forms[row].clone(),
-                terms: terms[row].unsigned_abs() as usize,
-                counts: [counts[0][row], counts[1][row]],
-                beta: beta[row],
-                over_best: [over_best[row], se_over_best[row]],
-                shown: shown.iter().map(|column| column[row]).collect(),
-            })
-        };
-        rows.extend((0..columns.rows()).filter_map(row));
+table! {
+    /// What a reader looks at first; the file holds the rest.
+    pub struct ShownRow<'a> as SHOWN = "ranking" by "rank-ims" {
+        suite: Option<&'a str>,
+        structure: &'a str,
+        target: Target,
+        choice: Option<&'a str>,
+        measures: &'a str,
+        form: Form,
+        log_score: Option<f64> = rank_log_score,
+        over_paper: Option<f64>,
+        se_over_paper: Option<f64>,
+        over_step: Option<f64>,
+        se_over_step: Option<f64>,
+        auc_unseen: Option<f64>,
+        brier_unseen: Option<f64>,
+        calibration_slope: Option<f64>,
+        beta: Option<f64>,
     }
-    Ok(rows)
 }
 
-fn table(chosen: &[Chosen]) -> anyhow::Result<RecordBatch> {
-    let text = |value: fn(&Chosen) -> &String| -> ArrayRef {
-        Arc::new(StringArray::from_iter_values(chosen.iter().map(value)))
-    };
-    let number = |value: &dyn Fn(&Chosen) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(chosen.iter().map(value)))
-    };
-    let mut columns = vec![
-        (schema::SUITE, text(|row| &row.of[0])),
-        (schema::STRUCTURE, text(|row| &row.of[1])),
-        (schema::TARGET, text(|row| &row.of[2])),
-        (schema::CHOICE, text(|row| &row.choice)),
-        (schema::MEASURES, text(|row| &row.measures)),
-        (schema::FORM, text(|row| &row.form)),
-    ];
-    columns.extend(SHOWN.iter().enumerate().map(|(k, column)| (*column, number(&move |row| row.shown[k]))));
-    columns.push((schema::BETA, number(&|row| row.beta)));
-    Ok(RecordBatch::try_from_iter(columns.into_iter().map(|(column, array)| (column.name, array)))?)
+impl<'a> ShownRow<'a> {
+    fn of(row: &'a RankingRow) -> ShownRow<'a> {
+        ShownRow {
+            suite: Some(row.suite.as_deref().unwrap_or_default()),
+            structure: &row.structure,
+            target: row.target,
+            choice: Some(row.choice.as_deref().unwrap_or_default()),
+            measures: &row.measures,
+            form: row.form,
+            log_score: row.log_score,
+            over_paper: row.over_paper,
+            se_over_paper: row.se_over_paper,
+            over_step: row.over_step,
+            se_over_step: row.se_over_step,
+            auc_unseen: row.auc_unseen,
+            brier_unseen: row.brier_unseen,
+            calibration_slope: row.calibration_slope,
+            beta: row.beta,
+        }
+    }
 }
 
 /// One structure under one suite, in words.
-fn verdict(group: &[Chosen]) -> Result<String, std::fmt::Error> {
-    let has = |row: &Chosen, choice: &str| row.choice.split(", ").any(|word| word == choice);
+fn verdict(group: &[RankingRow]) -> Result<String, std::fmt::Error> {
+    let has = |row: &RankingRow, choice: &str| {
+        row.choice.as_deref().unwrap_or_default().split(", ").any(|word| word == choice)
+    };
     let find = |choice: &str, terms: Option<usize>| {
         group.iter().find(|row| has(row, choice) && terms.is_none_or(|terms| row.terms == terms))
     };
-    let [suite, structure, target] = &group[0].of;
-    let mut line = [target, suite, structure].map(String::as_str).join(" ").replace("  ", " ");
-    let [events, cases] = group[0].counts;
-    write!(line, " ({events} events in {cases} cases):")?;
+    let RankingRow { suite, structure, target, n, n_events, .. } = &group[0];
+    let suite = suite.as_deref().unwrap_or_default();
+    let mut line = [target.as_str(), suite, structure.as_str()].join(" ").replace("  ", " ");
+    write!(line, " ({n_events} events in {n} cases):")?;
     let Some(paper) = find("paper", None) else {
         return Ok(line + " no forecasts by the model of the paper to hold others against\n");
     };
-    let against = |row: &Chosen| comparison(row.shown[1], row.shown[2]);
-    write!(line, " the paper takes {} ({})", paper.measures, paper.form)?;
+    let against = |row: &RankingRow| comparison(row.over_paper, row.se_over_paper);
+    write!(line, " the paper takes {} ({})", paper.measures, paper.form.as_str())?;
     if let Some(best) = find("best", Some(1)) {
-        write!(line, "\n    the best scalar, {} ({}), is {}", best.measures, best.form, against(best))?;
+        write!(
+            line,
+            "\n    the best scalar, {} ({}), is {}",
+            best.measures,
+            best.form.as_str(),
+            against(best)
+        )?;
         if let Some(scalar) = find("scalar of paper", None).filter(|row| !has(row, "best")) {
-            let [value, error] = scalar.over_best;
-            let against = comparison(value, error);
+            let against = comparison(scalar.over_best, scalar.se_over_best);
             write!(
                 line,
                 "\n    the best of the six of Eq. 13 as one power law, {}, is {against} beside it",
@@ -145,7 +116,7 @@ fn verdict(group: &[Chosen]) -> Result<String, std::fmt::Error> {
                     line,
                     "\n    the best {name}, {} ({}), is {}",
                     best.measures,
-                    best.form,
+                    best.form.as_str(),
                     against(best)
                 )?;
             }

@@ -177,8 +177,8 @@ fn is_partition(source: &Source) -> Result<bool, TableError> {
 }
 
 impl Batches {
-    /// Opens a table: those of `columns` that it has, `batch_size` rows at a time; all of its files must have those of
-    /// `required`, and no more rows than bytes or `few`.
+    /// Opens a table: those of `columns` that it has, `batch_size` rows at a time; all of its files must have those that may not
+    /// be null, and no more rows than bytes or `few`.
     ///
     /// # Errors
     /// As [`OpenTable::open`] and [`OpenTable::expect_rows`], or if a column is missing.
@@ -186,14 +186,13 @@ impl Batches {
         source: impl Into<Source>,
         stages: &[&str],
         columns: &[Column],
-        required: &[Column],
         few: u64,
         batch_size: usize,
     ) -> Result<Batches, TableError> {
         let table = OpenTable::open(source, stages, columns)?;
         table.expect_rows(few)?;
         let schemas = table.schemas()?;
-        schemas.iter().try_for_each(|(path, schema)| expect_columns(path, schema, required))?;
+        schemas.iter().try_for_each(|(path, schema)| expect_columns(path, schema, columns))?;
         table.batches(batch_size)
     }
 
@@ -237,12 +236,13 @@ pub fn read_any(source: impl Into<Source>) -> Result<Vec<RecordBatch>, TableErro
     table.whole()?.map(|batch| Ok(batch?.rows)).collect()
 }
 
-/// That a schema has the columns a stage cannot do without.
+/// That a schema has those of the columns that may not be null.
 ///
 /// # Errors
 /// With the first one that is missing.
 pub fn expect_columns(path: &Path, schema: &SchemaRef, columns: &[Column]) -> Result<(), TableError> {
-    match columns.iter().find(|column| schema.field_with_name(column.name).is_err()) {
+    let is_missing = |column: &&Column| !column.nullable && schema.field_with_name(column.name).is_err();
+    match columns.iter().find(is_missing) {
         Some(column) => Err(missing(path, column)),
         None => Ok(()),
     }

@@ -1,51 +1,40 @@
 //! The scenarios file: one row a scenario.
 
-use std::sync::Arc;
-
-use arrow_array::{ArrayRef, Float64Array, Int32Array, Int64Array, RecordBatch};
-use arrow_schema::ArrowError;
-
 use super::TableError;
 use super::columns::Columns;
 use super::reader::Batches;
-use super::schema::{self, SCENARIOS};
+use super::row::{ReadRow, table};
+use super::schema;
 use super::source::Source;
 use crate::motion::Scenario;
+
+table! {
+    /// Earthquake scenarios.
+    pub struct ScenarioRow as SCENARIOS = "scenarios" by "sample-scenarios" {
+        scenario_id: i64,
+        cell: i32,
+        sample: i32,
+        mw: f64,
+        re_km: f64,
+        vp_m_s: f64,
+        tp_s: f64 = pulse_tp_s,
+        gamma: f64,
+        nu_rad: f64,
+    }
+}
+
+impl From<&Scenario> for ScenarioRow {
+    fn from(scenario: &Scenario) -> ScenarioRow {
+        let &Scenario { scenario_id, cell, sample, mw, re_km, vp_m_s, tp_s, gamma, nu_rad } = scenario;
+        ScenarioRow { scenario_id, cell, sample, mw, re_km, vp_m_s, tp_s, gamma, nu_rad }
+    }
+}
 
 /// Half-way round the globe, km.
 const FARTHEST_KM: f64 = 20_000.0;
 const FASTEST_M_S: f64 = 100.0;
 /// What a synthetic motion is long, s, at most: it is held in memory.
 const LONGEST_PULSE_S: f64 = 3600.0;
-
-/// The rows of the scenarios file.
-///
-/// # Errors
-/// If a row cannot be represented, which the schema rules out.
-pub fn batch(scenarios: &[Scenario]) -> Result<RecordBatch, ArrowError> {
-    RecordBatch::try_new(SCENARIOS.schema(), columns(scenarios))
-}
-
-/// In the order of the schema.
-pub(super) fn columns(scenarios: &[Scenario]) -> Vec<ArrayRef> {
-    let int32 = |value: fn(&Scenario) -> i32| -> ArrayRef {
-        Arc::new(Int32Array::from_iter_values(scenarios.iter().map(value)))
-    };
-    let number = |value: fn(&Scenario) -> f64| -> ArrayRef {
-        Arc::new(Float64Array::from_iter_values(scenarios.iter().map(value)))
-    };
-    vec![
-        Arc::new(Int64Array::from_iter_values(scenarios.iter().map(|scenario| scenario.scenario_id))),
-        int32(|scenario| scenario.cell),
-        int32(|scenario| scenario.sample),
-        number(|scenario| scenario.mw),
-        number(|scenario| scenario.re_km),
-        number(|scenario| scenario.vp_m_s),
-        number(|scenario| scenario.tp_s),
-        number(|scenario| scenario.gamma),
-        number(|scenario| scenario.nu_rad),
-    ]
-}
 
 /// The scenarios of a table, checked: positive amplitude and period, gamma of 1 or more.
 ///
@@ -60,66 +49,22 @@ pub fn read(source: impl Into<Source>) -> Result<Vec<Scenario>, TableError> {
 }
 
 fn rows_of(columns: &Columns) -> Result<Vec<Scenario>, TableError> {
-    let scenario_id = columns.integers(&schema::SCENARIO_ID)?;
-    let cell = columns.integers(&schema::CELL)?;
-    let sample = columns.integers(&schema::SAMPLE)?;
-    let mw = columns.numbers(&schema::MW)?;
-    let re_km = columns.numbers(&schema::RE_KM)?;
-    let vp_m_s = columns.numbers(&schema::VP_M_S)?;
-    let tp_s = columns.numbers(&schema::PULSE_TP_S)?;
-    let gamma = columns.numbers(&schema::GAMMA)?;
-    let nu_rad = columns.numbers(&schema::NU_RAD)?;
-    let each = |row: usize| {
-        let least = [(&schema::RE_KM, re_km[row], 0.0), (&schema::GAMMA, gamma[row], 1.0)];
-        if let Some((column, value, least)) = least.into_iter().find(|(_, value, least)| value < least) {
-            return Err(columns.value_error(row, column, &format!("{value}; expected {least} or more")));
-        }
-        let positive = [(&schema::VP_M_S, vp_m_s[row]), (&schema::PULSE_TP_S, tp_s[row])];
-        if let Some((column, value)) = positive.into_iter().find(|(_, value)| *value <= 0.0) {
-            return Err(columns.value_error(row, column, &format!("{value}; expected a number above 0")));
-        }
-        let duration_s = gamma[row] * tp_s[row];
-        let most = [
-            (&schema::RE_KM, re_km[row], re_km[row], FARTHEST_KM, "a distance on the globe, km"),
-            (
-                &schema::VP_M_S,
-                vp_m_s[row],
-                vp_m_s[row],
-                FASTEST_M_S,
-                "a velocity of the ground up to 100 m/s",
-            ),
-            (
-                &schema::GAMMA,
-                gamma[row],
-                duration_s,
-                LONGEST_PULSE_S,
-                "a pulse (gamma tp_s) of an hour at most",
-            ),
-        ];
-        if let Some((column, value, _, _, expected)) = most.into_iter().find(|(_, _, is, most, _)| is > most)
-        {
-            return Err(columns.value_error(row, column, &format!("{value}; expected {expected}")));
-        }
-        if !(3.0..=10.0).contains(&mw[row]) {
-            let problem = format!("{}; expected a moment magnitude from 3 to 10", mw[row]);
-            return Err(columns.value_error(row, &schema::MW, &problem));
-        }
-        Ok(Scenario {
-            scenario_id: scenario_id[row],
-            cell: narrow(columns, row, &schema::CELL, cell[row])?,
-            sample: narrow(columns, row, &schema::SAMPLE, sample[row])?,
-            mw: mw[row],
-            re_km: re_km[row],
-            vp_m_s: vp_m_s[row],
-            tp_s: tp_s[row],
-            gamma: gamma[row],
-            nu_rad: nu_rad[row],
-        })
+    let each = |(row, scenario)| {
+        let ScenarioRow { scenario_id, cell, sample, mw, re_km, vp_m_s, tp_s, gamma, nu_rad } = scenario;
+        let check = |possible: bool, column: &schema::Column, value: f64, expected: &str| match possible {
+            true => Ok(()),
+            false => Err(columns.value_error(row, column, &format!("{value}; expected {expected}"))),
+        };
+        check(re_km >= 0.0, &schema::re_km, re_km, "0 or more")?;
+        check(gamma >= 1.0, &schema::gamma, gamma, "1 or more")?;
+        check(vp_m_s > 0.0, &schema::vp_m_s, vp_m_s, "a number above 0")?;
+        check(tp_s > 0.0, &schema::pulse_tp_s, tp_s, "a number above 0")?;
+        check(re_km <= FARTHEST_KM, &schema::re_km, re_km, "a distance on the globe, km")?;
+        check(vp_m_s <= FASTEST_M_S, &schema::vp_m_s, vp_m_s, "a velocity of the ground up to 100 m/s")?;
+        let is_short = gamma * tp_s <= LONGEST_PULSE_S;
+        check(is_short, &schema::gamma, gamma, "a pulse (gamma tp_s) of an hour at most")?;
+        check((3.0..=10.0).contains(&mw), &schema::mw, mw, "a moment magnitude from 3 to 10")?;
+        Ok(Scenario { scenario_id, cell, sample, mw, re_km, vp_m_s, tp_s, gamma, nu_rad })
     };
-    (0..columns.rows()).map(each).collect()
-}
-
-fn narrow(columns: &Columns, row: usize, column: &schema::Column, value: i64) -> Result<i32, TableError> {
-    i32::try_from(value)
-        .map_err(|_| columns.value_error(row, column, &format!("{value}; expected a 32-bit integer")))
+    ScenarioRow::of(columns)?.into_iter().enumerate().map(each).collect()
 }

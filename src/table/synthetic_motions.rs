@@ -2,13 +2,10 @@
 
 use std::sync::Arc;
 
-use arrow_array::builder::{Float32Builder, ListBuilder};
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
-use arrow_schema::{ArrowError, DataType, Field, SchemaRef};
+use arrow_array::{ArrayRef, Float64Array, RecordBatch};
+use arrow_schema::{ArrowError, SchemaRef};
 
-use super::measures;
-use super::scenarios;
-use crate::keyword::Keyword;
+use super::row::{WriteRow, table};
 use crate::motion::{Measured, Scenario, Suite};
 
 /// A synthetic motion on its way into a file.
@@ -28,30 +25,80 @@ pub struct SyntheticMotion {
     pub measured: Measured,
 }
 
+table! {
+    /// Synthetic ground motions with their measures and the scenario they belong to.
+    pub struct SyntheticRow<'a> as MOTIONS = "motions" by "synthesize-motions" {
+        motion_id: i64,
+        suite: Suite,
+        scenario_id: i64,
+        cell: i32,
+        sample: i32,
+        mw: f64,
+        re_km: f64,
+        vp_m_s: f64,
+        tp_s: f64 = pulse_tp_s,
+        gamma: f64,
+        nu_rad: f64,
+        dt_s: f64,
+        pga_m_s2: f64,
+        pgv_m_s: f64,
+        pgd_m: f64,
+        tm_s: Option<f64>,
+        arias_m_s: f64,
+        cav_m_s: f64,
+        d5_75_s: f64,
+        d5_95_s: f64,
+        housner_m: Option<f64>,
+        acceleration_m_s2: &'a [f32],
+    }
+}
+
+impl<'a> From<&'a SyntheticMotion> for SyntheticRow<'a> {
+    fn from(motion: &'a SyntheticMotion) -> SyntheticRow<'a> {
+        let (scenario, measured) = (&motion.scenario, &motion.measured);
+        SyntheticRow {
+            motion_id: motion.motion_id,
+            suite: motion.suite,
+            scenario_id: scenario.scenario_id,
+            cell: scenario.cell,
+            sample: scenario.sample,
+            mw: scenario.mw,
+            re_km: scenario.re_km,
+            vp_m_s: scenario.vp_m_s,
+            tp_s: scenario.tp_s,
+            gamma: scenario.gamma,
+            nu_rad: scenario.nu_rad,
+            dt_s: motion.dt_s,
+            pga_m_s2: measured.measures.pga_m_s2,
+            pgv_m_s: measured.measures.pgv_m_s,
+            pgd_m: measured.measures.pgd_m,
+            tm_s: measured.measures.tm_s,
+            arias_m_s: measured.measures.arias_m_s,
+            cav_m_s: measured.measures.cav_m_s,
+            d5_75_s: measured.measures.d5_75_s,
+            d5_95_s: measured.measures.d5_95_s,
+            housner_m: measured.housner_m,
+            acceleration_m_s2: &motion.acceleration_m_s2,
+        }
+    }
+}
+
 /// The rows of the motions file in its schema, which has the spectral accelerations at its end.
 ///
 /// # Errors
-/// If a row cannot be represented, which the schema rules out.
+/// If memory runs out.
 pub fn batch(motions: &[SyntheticMotion], schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
-    let mut columns: Vec<ArrayRef> = vec![
-        Arc::new(Int64Array::from_iter_values(motions.iter().map(|motion| motion.motion_id))),
-        Arc::new(StringArray::from_iter_values(motions.iter().map(|motion| motion.suite.as_str()))),
-    ];
-    columns.extend(scenarios::columns(&motions.iter().map(|motion| motion.scenario).collect::<Vec<_>>()));
-    columns.push(Arc::new(Float64Array::from_iter_values(motions.iter().map(|motion| motion.dt_s))));
-    columns.extend(measures::columns(motions.iter().map(|motion| &motion.measured)));
-    columns.push(samples(motions.iter().map(|motion| motion.acceleration_m_s2.as_slice())));
-    columns.extend(measures::spectrum(motions.iter().map(|motion| &motion.measured)));
+    let rows: Vec<SyntheticRow> = motions.iter().map(SyntheticRow::from).collect();
+    let mut columns = SyntheticRow::arrays(rows.iter(), false);
+    columns.extend(spectrum(motions.iter().map(|motion| &motion.measured)));
     RecordBatch::try_new(schema.clone(), columns)
 }
 
-/// The column of samples.
-pub(super) fn samples<'a>(motions: impl Iterator<Item = &'a [f32]>) -> ArrayRef {
-    let item = Field::new("item", DataType::Float32, false);
-    let mut list = ListBuilder::new(Float32Builder::new()).with_field(item);
-    for motion in motions {
-        list.values().append_slice(motion);
-        list.append(true);
-    }
-    Arc::new(list.finish())
+/// The columns of spectral accelerations, as many as all motions have.
+pub(super) fn spectrum<'a>(motions: impl Iterator<Item = &'a Measured> + Clone) -> Vec<ArrayRef> {
+    let periods = motions.clone().map(|motion| motion.sa_m_s2.len()).min().unwrap_or(0);
+    let column = |period: usize| -> ArrayRef {
+        Arc::new(Float64Array::from_iter(motions.clone().map(|motion| motion.sa_m_s2.get(period).copied())))
+    };
+    (0..periods).map(column).collect()
 }

@@ -1,126 +1,113 @@
 //! The files of universality: one row an event of one structure, and one a coefficient of a pooled curve.
 
-use std::sync::Arc;
-
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
-use arrow_schema::ArrowError;
-
-use super::schema::{POOLED, UNIVERSALITY};
+use super::row::table;
 use crate::fragility::Event;
-use crate::keyword::Keyword;
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
-use crate::studies::{BesideOwn, PooledPart, PooledTerm, PooledTerms, Transfer, Validation};
+use crate::studies::{PooledTerms, Transfer, Verdict};
 
-/// The curve of one structure on another.
-#[derive(Debug, Clone, PartialEq)]
-pub struct UniversalityRow {
-    /// Suite of the motions.
-    pub suite: Option<String>,
-    /// The structure that it is held against.
-    pub structure: Structure,
-    /// The structure whose curve it is.
-    pub reference: String,
-    /// What is foretold.
-    pub event: Event,
-    /// The demand that P_ex is about.
-    pub limit_state: f64,
-    /// How it fares.
-    pub transfer: Transfer,
-    /// Log score by the curve of all other structures, of each of [`PooledTerms::ALL`]; none without such a curve.
-    pub pooled: [Option<f64>; 4],
+table! {
+    /// The curve of one structure held against the responses of others.
+    pub struct UniversalityRow as UNIVERSALITY = "universality" by "universality" {
+        suite: Option<String>,
+        structure: String,
+        p_rad_s: f64,
+        alpha_rad: f64,
+        eta: f64,
+        reference: String,
+        event: Event = foretold,
+        limit_state: f64,
+        n: usize = n_foretold,
+        seen: usize,
+        expected: f64,
+        chance_low: usize,
+        chance_high: usize,
+        chance_p: f64,
+        calibration: Option<f64>,
+        calibration_slope: Option<f64> = transferred_slope,
+        log_score_own: Option<f64>,
+        log_score_transferred: Option<f64>,
+        loss: Option<f64>,
+        se_loss: Option<f64>,
+        log_score_share: f64,
+        share_lost: Option<f64>,
+        mean_error: Option<f64>,
+        worst_over: Option<f64>,
+        worst_under: Option<f64>,
+        log_score_line: Option<f64>,
+        log_score_curved: Option<f64>,
+        log_score_restitution: Option<f64>,
+        log_score_structure: Option<f64>,
+        extrapolated: usize,
+        status: FitStatus,
+        verdict: Verdict,
+    }
 }
 
-/// A coefficient of a curve of all structures.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PooledRow {
-    /// Suite of the motions.
-    pub suite: Option<String>,
-    /// What is foretold.
-    pub event: Event,
-    /// What the curve consists of.
-    pub terms: PooledTerms,
-    /// The curve where it holds.
-    pub part: PooledPart,
-    /// The coefficient.
-    pub term: PooledTerm,
+table! {
+    /// One curve for all structures.
+    pub struct PooledRow as POOLED = "pooled curves" by "universality" {
+        suite: Option<String>,
+        event: Event = foretold,
+        terms: PooledTerms = pooled_terms,
+        range_low: Option<f64>,
+        range_high: Option<f64>,
+        term: String,
+        coefficient: f64,
+        standard_error: f64,
+        beta: Option<f64>,
+        n: usize,
+    }
 }
 
-/// The rows of a universality file.
-///
-/// # Errors
-/// If a row cannot be represented, which the schema rules out.
-pub fn batch(rows: &[UniversalityRow]) -> Result<RecordBatch, ArrowError> {
-    let text = |value: fn(&UniversalityRow) -> Option<&str>| -> ArrayRef {
-        Arc::new(rows.iter().map(value).collect::<StringArray>())
-    };
-    let number = |value: &dyn Fn(&UniversalityRow) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(value)))
-    };
-    let count = |value: fn(&Validation) -> usize| -> ArrayRef {
-        let counts = rows.iter().map(|row| value(&row.transfer.validation) as i64);
-        Arc::new(Int64Array::from_iter_values(counts))
-    };
-    let own = |value: fn(&BesideOwn) -> f64| number(&|row| row.transfer.own.as_ref().ok().map(value));
-    let columns: Vec<ArrayRef> = vec![
-        text(|row| row.suite.as_deref()),
-        text(|row| Some(&row.structure.name)),
-        number(&|row| Some(row.structure.p_rad_s)),
-        number(&|row| Some(row.structure.alpha_rad)),
-        number(&|row| Some(row.structure.eta)),
-        text(|row| Some(&row.reference)),
-        text(|row| Some(row.event.as_str())),
-        number(&|row| Some(row.limit_state)),
-        count(|validation| validation.n),
-        count(|validation| validation.seen),
-        number(&|row| Some(row.transfer.validation.expected)),
-        count(|validation| validation.chance_limits[0]),
-        count(|validation| validation.chance_limits[1]),
-        number(&|row| Some(row.transfer.validation.chance_p)),
-        number(&|row| row.transfer.validation.calibration),
-        number(&|row| row.transfer.slope),
-        own(|own| own.log_score),
-        own(|own| own.transferred),
-        own(|own| own.loss.value),
-        own(|own| own.loss.standard_error),
-        number(&|row| Some(row.transfer.share_log_score)),
-        number(&|row| row.transfer.share_lost()),
-        own(|own| own.mean_error),
-        own(|own| own.worst_over),
-        own(|own| own.worst_under),
-        number(&|row| row.pooled[0]),
-        number(&|row| row.pooled[1]),
-        number(&|row| row.pooled[2]),
-        number(&|row| row.pooled[3]),
-        count(|validation| validation.extrapolated),
-        text(|row| Some(row.transfer.own.as_ref().err().copied().unwrap_or(FitStatus::Ok).as_str())),
-        text(|row| Some(row.transfer.verdict().as_str())),
-    ];
-    RecordBatch::try_new(UNIVERSALITY.schema(), columns)
-}
-
-/// The rows of a file of pooled curves.
-///
-/// # Errors
-/// If a row cannot be represented, which the schema rules out.
-pub fn pooled_batch(rows: &[PooledRow]) -> Result<RecordBatch, ArrowError> {
-    let text = |value: fn(&PooledRow) -> Option<&str>| -> ArrayRef {
-        Arc::new(rows.iter().map(value).collect::<StringArray>())
-    };
-    let number = |value: fn(&PooledRow) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(value)))
-    };
-    let columns: Vec<ArrayRef> = vec![
-        text(|row| row.suite.as_deref()),
-        text(|row| Some(row.event.as_str())),
-        text(|row| Some(row.terms.as_str())),
-        number(|row| Some(row.part.range.start)),
-        number(|row| Some(row.part.range.end).filter(|end| end.is_finite())),
-        text(|row| Some(&row.term.name)),
-        number(|row| Some(row.term.coefficient)),
-        number(|row| Some(row.term.standard_error)),
-        number(|row| row.part.residual_sd),
-        Arc::new(Int64Array::from_iter_values(rows.iter().map(|row| row.part.n as i64))),
-    ];
-    RecordBatch::try_new(POOLED.schema(), columns)
+impl UniversalityRow {
+    /// The curve of `reference` on a structure; `pooled` are the log scores by the curve of all other structures, of each of
+    /// [`PooledTerms`].
+    pub fn new(
+        suite: Option<&str>,
+        structure: &Structure,
+        reference: &str,
+        event: Event,
+        limit_state: f64,
+        transfer: &Transfer,
+        pooled: [Option<f64>; 4],
+    ) -> UniversalityRow {
+        let (validation, own) = (&transfer.validation, transfer.own.as_ref().ok());
+        let [chance_low, chance_high] = validation.chance_limits;
+        let [log_score_line, log_score_curved, log_score_restitution, log_score_structure] = pooled;
+        UniversalityRow {
+            suite: suite.map(str::to_string),
+            structure: structure.name.clone(),
+            p_rad_s: structure.p_rad_s,
+            alpha_rad: structure.alpha_rad,
+            eta: structure.eta,
+            reference: reference.to_string(),
+            event,
+            limit_state,
+            n: validation.n,
+            seen: validation.seen,
+            expected: validation.expected,
+            chance_low,
+            chance_high,
+            chance_p: validation.chance_p,
+            calibration: validation.calibration,
+            calibration_slope: transfer.slope,
+            log_score_own: own.map(|own| own.log_score),
+            log_score_transferred: own.map(|own| own.transferred),
+            loss: own.map(|own| own.loss.value),
+            se_loss: own.map(|own| own.loss.standard_error),
+            log_score_share: transfer.share_log_score,
+            share_lost: transfer.share_lost(),
+            mean_error: own.map(|own| own.mean_error),
+            worst_over: own.map(|own| own.worst_over),
+            worst_under: own.map(|own| own.worst_under),
+            log_score_line,
+            log_score_curved,
+            log_score_restitution,
+            log_score_structure,
+            extrapolated: validation.extrapolated,
+            status: transfer.own.as_ref().err().copied().unwrap_or(FitStatus::Ok),
+            verdict: transfer.verdict(),
+        }
+    }
 }

@@ -1,100 +1,103 @@
 //! The validation file: one row an event of one structure under one suite, by the curves of one suite.
 
 use std::path::Path;
-use std::sync::Arc;
-
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
-use arrow_schema::ArrowError;
 
 use super::reader::{Batch, Batches, expect_columns};
-use super::schema::{self, VALIDATION};
+use super::row::table;
+use super::schema::{self, Column};
 use super::text;
 use crate::fragility::Event;
-use crate::keyword::Keyword;
 use crate::studies::Validation;
 
-/// One event, foretold and seen.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ValidationRow {
-    /// Suite of the responses.
-    pub suite: Option<String>,
-    /// Structure of responses and fits.
-    pub structure: String,
-    /// Suite of the fits.
-    pub fits_suite: Option<String>,
-    /// What is foretold.
-    pub event: Event,
-    /// The demand that P_ex is about.
-    pub limit_state: f64,
-    /// How the forecasts fared.
-    pub validation: Validation,
-    /// Cases without a forecast.
-    pub without_measure: usize,
+table! {
+    /// Curves held against responses that they were not fitted to.
+    pub struct ValidationRow as VALIDATION = "validation" by "validate" {
+        suite: Option<String>,
+        structure: String,
+        fits_suite: Option<String>,
+        event: Event = foretold,
+        limit_state: f64,
+        n: usize = n_foretold,
+        seen: usize,
+        expected: f64,
+        expected_low: f64,
+        expected_high: f64,
+        chance_low: usize,
+        chance_high: usize,
+        chance_p: f64,
+        share: f64,
+        share_low: f64,
+        share_high: f64,
+        log_score: Option<f64>,
+        log_score_expected: f64,
+        brier: f64,
+        auc: Option<f64>,
+        calibration: Option<f64>,
+        extrapolated: usize,
+        impossible: usize,
+        without_measure: usize,
+    }
 }
 
-/// The rows of a validation file.
-///
-/// # Errors
-/// If a row cannot be represented, which the schema rules out.
-pub fn batch(rows: &[ValidationRow]) -> Result<RecordBatch, ArrowError> {
-    let text = |value: fn(&ValidationRow) -> Option<&str>| -> ArrayRef {
-        Arc::new(rows.iter().map(value).collect::<StringArray>())
-    };
-    let number = |value: fn(&Validation) -> Option<f64>| -> ArrayRef {
-        Arc::new(Float64Array::from_iter(rows.iter().map(|row| value(&row.validation))))
-    };
-    let count = |value: fn(&ValidationRow) -> usize| -> ArrayRef {
-        Arc::new(Int64Array::from_iter_values(rows.iter().map(|row| value(row) as i64)))
-    };
-    RecordBatch::try_new(
-        VALIDATION.schema(),
-        vec![
-            text(|row| row.suite.as_deref()),
-            text(|row| Some(&row.structure)),
-            text(|row| row.fits_suite.as_deref()),
-            text(|row| Some(row.event.as_str())),
-            Arc::new(Float64Array::from_iter_values(rows.iter().map(|row| row.limit_state))),
-            count(|row| row.validation.n),
-            count(|row| row.validation.seen),
-            number(|validation| Some(validation.expected)),
-            number(|validation| Some(validation.expected_limits.low)),
-            number(|validation| Some(validation.expected_limits.high)),
-            count(|row| row.validation.chance_limits[0]),
-            count(|row| row.validation.chance_limits[1]),
-            number(|validation| Some(validation.chance_p)),
-            number(|validation| Some(validation.share)),
-            number(|validation| Some(validation.share_limits.low)),
-            number(|validation| Some(validation.share_limits.high)),
-            number(|validation| validation.log_score),
-            number(|validation| Some(validation.log_score_expected)),
-            number(|validation| Some(validation.brier)),
-            number(|validation| validation.auc),
-            number(|validation| validation.calibration),
-            count(|row| row.validation.extrapolated),
-            count(|row| row.validation.impossible),
-            count(|row| row.without_measure),
-        ],
-    )
+impl ValidationRow {
+    /// The forecasts of an event of a structure under a suite, by fits to another suite; `without_measure` cases have none.
+    pub fn new(
+        suite: Option<&str>,
+        structure: &str,
+        fits_suite: Option<&str>,
+        event: Event,
+        limit_state: f64,
+        validation: &Validation,
+        without_measure: usize,
+    ) -> ValidationRow {
+        let [chance_low, chance_high] = validation.chance_limits;
+        ValidationRow {
+            suite: suite.map(str::to_string),
+            structure: structure.to_string(),
+            fits_suite: fits_suite.map(str::to_string),
+            event,
+            limit_state,
+            n: validation.n,
+            seen: validation.seen,
+            expected: validation.expected,
+            expected_low: validation.expected_limits.low,
+            expected_high: validation.expected_limits.high,
+            chance_low,
+            chance_high,
+            chance_p: validation.chance_p,
+            share: validation.share,
+            share_low: validation.share_limits.low,
+            share_high: validation.share_limits.high,
+            log_score: validation.log_score,
+            log_score_expected: validation.log_score_expected,
+            brier: validation.brier,
+            auc: validation.auc,
+            calibration: validation.calibration,
+            extrapolated: validation.extrapolated,
+            impossible: validation.impossible,
+            without_measure,
+        }
+    }
 }
 
 /// What a reader looks at first; the file holds the rest.
-const SHOWN: [schema::Column; 16] = [
-    schema::SUITE,
-    schema::STRUCTURE,
-    schema::FITS_SUITE,
-    schema::FORETOLD,
-    schema::N_FORETOLD,
-    schema::SEEN,
-    schema::EXPECTED,
-    schema::CHANCE_LOW,
-    schema::CHANCE_HIGH,
-    schema::CHANCE_P,
-    schema::SHARE_LOW,
-    schema::SHARE_HIGH,
-    schema::LOG_SCORE,
-    schema::BRIER,
-    schema::CALIBRATION,
-    schema::N_EXTRAPOLATED,
+const SHOWN: [Column; 16] = [
+    schema::suite,
+    schema::structure,
+    schema::fits_suite,
+    schema::foretold,
+    schema::n_foretold,
+    schema::seen,
+    schema::expected,
+    schema::chance_low,
+    schema::chance_high,
+    schema::chance_p,
+    schema::share_low,
+    schema::share_high,
+    schema::log_score,
+    schema::brier,
+    schema::calibration,
+    schema::extrapolated,
 ];
 
 /// A validation file as a table to read.

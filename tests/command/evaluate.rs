@@ -59,15 +59,15 @@ fn quantity(answer: &str, name: &str) -> Option<f64> {
 #[test]
 fn the_worked_example_of_section_3_is_answered() {
     let (folder, fits) = fitted();
-    let hybrid = |row: &FitRow| row.text(&schema::IM_Y) == Some("im3_inv");
+    let hybrid = |row: &FitRow| row.text(&schema::im_y) == Some("im3_inv");
     let of = |row: &FitRow| {
-        row.text(&schema::SUITE) == Some("csgm")
-            && row.text(&schema::STRUCTURE) == Some("electrical-equipment")
+        row.text(&schema::suite) == Some("csgm")
+            && row.text(&schema::structure) == Some("electrical-equipment")
     };
     let rows = curves(run_folder().join("pro.parquet")).unwrap();
     let row = rows.iter().find(|row| hybrid(row) && of(row)).unwrap();
     let [lambda, mu, beta] =
-        [schema::LAMBDA, schema::MU, schema::BETA].map(|column| row.number(&column).unwrap());
+        [schema::lambda, schema::mu, schema::beta].map(|column| row.number(&column).unwrap());
     for im in [1.55f64, 1.88] {
         // Where p PGV / PGA is 0.3, the PGA that makes the hybrid measure (Eq. 22) this.
         let im4 = (im.powf(1.0 + lambda) / 0.3).powf(1.0 / lambda);

@@ -48,7 +48,7 @@ fn folders_are_walked_and_simulate_reads_what_comes() {
     // What was imported can be imported again.
     succeed(folder.path(), "import-motions motions.parquet --out again.parquet");
     let (first, second) = ("motions.parquet", "again.parquet");
-    let samples = |name: &str| imported(&folder.path().join(name)).remove(1).acceleration_m_s2;
+    let samples = |name: &str| imported(&folder.path().join(name)).remove(1).columns.acceleration_m_s2;
     assert_eq!(samples(first), samples(second));
     assert_eq!(ids(&folder.path().join(second))[1], "motions:b");
 }

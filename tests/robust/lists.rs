@@ -14,7 +14,7 @@ use parquet::file::properties::{WriterProperties, WriterVersion};
 use parquet::schema::types::ColumnPath;
 use proptest::prelude::*;
 use rockfrag::table::reader::OpenTable;
-use rockfrag::table::schema::{ACCELERATION_M_S2, MOTION_ID, TM_S};
+use rockfrag::table::schema::{acceleration_m_s2, motion_id, tm_s};
 
 /// How a file holds its lists.
 #[derive(Debug, Clone)]
@@ -55,16 +55,16 @@ impl Layout {
         let numbers = Int64Array::from_iter_values(0..lengths.len() as i64);
         let periods = Float64Array::from_iter_values((0..lengths.len()).map(|row| row as f64));
         let schema = Schema::new(vec![
-            Field::new(MOTION_ID.name, DataType::Int64, false),
-            Field::new(ACCELERATION_M_S2.name, lists.data_type().clone(), self.nullable),
-            Field::new(TM_S.name, DataType::Float64, true),
+            Field::new(motion_id.name, DataType::Int64, false),
+            Field::new(acceleration_m_s2.name, lists.data_type().clone(), self.nullable),
+            Field::new(tm_s.name, DataType::Float64, true),
         ]);
         let columns: Vec<Arc<dyn Array>> = vec![Arc::new(numbers), Arc::new(lists), Arc::new(periods)];
         RecordBatch::try_new(Arc::new(schema), columns).unwrap()
     }
 
     fn write(&self, path: &Path, rows: &RecordBatch) {
-        let samples = ColumnPath::new([ACCELERATION_M_S2.name, "list", "item"].map(String::from).to_vec());
+        let samples = ColumnPath::new([acceleration_m_s2.name, "list", "item"].map(String::from).to_vec());
         let zstd = Compression::ZSTD(ZstdLevel::try_new(1).unwrap());
         let encoding = if self.split { Encoding::BYTE_STREAM_SPLIT } else { Encoding::PLAIN };
         let version = if self.later_pages { WriterVersion::PARQUET_2_0 } else { WriterVersion::PARQUET_1_0 };
@@ -106,7 +106,7 @@ proptest! {
         let [whole] = &whole[..] else { panic!("{} batches", whole.len()) };
         let whole = whole.slice(first, rows);
 
-        let table = OpenTable::open(&path, &[], &[MOTION_ID, ACCELERATION_M_S2, TM_S]).unwrap();
+        let table = OpenTable::open(&path, &[], &[motion_id, acceleration_m_s2, tm_s]).unwrap();
         let mut next = 0;
         for run in table.runs(first as u64..(first + rows) as u64) {
             for batch in table.batches_of(run, at_once).unwrap() {

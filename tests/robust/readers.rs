@@ -9,7 +9,8 @@ use rockfrag::table::intensities::IntensityBatches;
 use rockfrag::table::motion_measures::MotionMeasures;
 use rockfrag::table::motion_table::MotionTable;
 use rockfrag::table::motions::{Motion, MotionBatches};
-use rockfrag::table::schema::{POOLED, UNIVERSALITY};
+use rockfrag::table::row::ReadRow;
+use rockfrag::table::universality::{PooledRow, UniversalityRow};
 use rockfrag::table::{
     TableError, fits, ida, paper, provenance, ranking_verdict, reader, scenarios, validation,
 };
@@ -32,8 +33,8 @@ pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)
         ("validation", words(validation::show(path))),
         ("capacities", words(ida::show(path))),
         ("ranking", words(ranking_verdict::show(path))),
-        ("universality", words(fits::rows(path, &UNIVERSALITY))),
-        ("pooled curves", words(fits::rows(path, &POOLED))),
+        ("universality", words(UniversalityRow::read(path))),
+        ("pooled curves", words(PooledRow::read(path))),
         ("any table", words(reader::read_any(path))),
     ]
 }

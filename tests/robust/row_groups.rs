@@ -9,12 +9,12 @@ use arrow_schema::DataType;
 use rockfrag::table::footer::footer;
 use rockfrag::table::provenance::Provenance;
 use rockfrag::table::reader::{OpenTable, read_any};
-use rockfrag::table::schema::{ACCELERATION_M_S2, SCENARIO_ID, Table};
+use rockfrag::table::schema::{Table, acceleration_m_s2, scenario_id};
 use rockfrag::table::writer::TableWriter;
 
-const NARROW: Table = Table { name: "scenarios", stage: "sample-scenarios", columns: &[SCENARIO_ID] };
+const NARROW: Table = Table { name: "scenarios", stage: "sample-scenarios", columns: &[scenario_id] };
 
-const SAMPLES: Table = Table { name: "motions", stage: "synthesize-motions", columns: &[ACCELERATION_M_S2] };
+const SAMPLES: Table = Table { name: "motions", stage: "synthesize-motions", columns: &[acceleration_m_s2] };
 
 /// The most samples of a motion, and the most motions of that length in a row group.
 const LONGEST: usize = 1 << 24;
@@ -82,7 +82,7 @@ fn no_row_group_has_more_samples_than_are_read_of_one() {
     let runs = table.runs(0..u64::MAX);
     assert_eq!(runs.iter().map(|run| run.rows).collect::<Vec<_>>(), [MOST as u64, 1]);
     let last = table.batches_of(runs[1], 1).unwrap().next().unwrap().unwrap();
-    assert_eq!(last.columns().samples(&ACCELERATION_M_S2).unwrap()[0].to_vec().len(), LONGEST);
+    assert_eq!(last.columns().samples(&acceleration_m_s2).unwrap()[0].to_vec().len(), LONGEST);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use rockfrag::keyword::Keyword;
 use rockfrag::rocking::{Outcome, Path as SolverPath, Problem, Record, Response, Structure, simulate_all};
-use rockfrag::table::motions::{Motion, MotionBatches};
+use rockfrag::table::motions::MotionBatches;
 
 #[derive(Debug, serde::Deserialize)]
 struct Answer {
@@ -48,9 +48,7 @@ fn on_each_path(motions: &Path, answers: &str, check: impl Fn(SolverPath, &[Comp
     let motions: HashMap<String, (Vec<f64>, f64)> = MotionBatches::open(motions, 64)
         .unwrap()
         .flat_map(Result::unwrap)
-        .map(|Motion { motion_id, acceleration_m_s2, dt_s, .. }| {
-            (motion_id.to_string(), (acceleration_m_s2.to_vec(), dt_s))
-        })
+        .map(|motion| (motion.motion_id.to_string(), (motion.acceleration_m_s2.to_vec(), motion.dt_s)))
         .collect();
     let answers = csv::Reader::from_path(in_repository(answers)).unwrap().into_deserialize();
     let answers: Vec<Answer> = answers.map(Result::unwrap).collect();

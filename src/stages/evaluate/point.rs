@@ -10,10 +10,8 @@ use crate::pipeline::options::check;
 use crate::rocking::Structure;
 use crate::stages::chosen_fits::ChosenFits;
 use crate::stages::structures::words;
-use crate::table::evaluated::{self, AnswerRow};
-use crate::table::schema::{
-    ANSWER, Column, HYBRID, IM1, IM2, IM3, IM4, IM5, IM6, P_EX, P_F, P_F_R, P_NR, P_RO,
-};
+use crate::table::evaluated::{self, ANSWER, AnswerRow};
+use crate::table::schema::{self, Column};
 use crate::units::G_M_S2;
 
 /// All probabilities at one intensity.
@@ -45,21 +43,21 @@ pub fn answer(
     };
     let given = probabilities.given_rocking;
     let mut rows = vec![
-        row(P_NR, Some(probabilities.p_nr), None),
-        row(P_EX, None, given.map(|given| given.p_ex)),
-        row(P_RO, None, given.map(|given| given.p_ro)),
-        row(P_F_R, None, given.map(|given| given.p_failure)),
-        row(P_F, None, failure),
+        row(schema::p_nr, Some(probabilities.p_nr), None),
+        row(schema::p_ex, None, given.map(|given| given.p_ex)),
+        row(schema::p_ro, None, given.map(|given| given.p_ro)),
+        row(schema::p_f_r, None, given.map(|given| given.p_failure)),
+        row(schema::p_f, None, failure),
     ];
     let hybrid = fits.model.overturning.im_y.and_then(|_| fits.model.overturning.hybrid_measure(&measures));
     let measured = [
-        (IM1, measures.im1),
-        (IM2, measures.im2),
-        (IM3, measures.im3),
-        (IM4, Some(measures.im4)),
-        (IM5, Some(measures.im5)),
-        (IM6, measures.im6),
-        (HYBRID, hybrid),
+        (schema::im1, measures.im1),
+        (schema::im2, measures.im2),
+        (schema::im3, measures.im3),
+        (schema::im4, Some(measures.im4)),
+        (schema::im5, Some(measures.im5)),
+        (schema::im6, measures.im6),
+        (schema::im_hybrid, hybrid),
     ];
     rows.extend(
         measured.into_iter().filter(|(_, value)| value.is_some()).map(|(im, value)| row(im, value, None)),

@@ -15,9 +15,8 @@ use crate::pipeline::options::check;
 use crate::rocking::Structure;
 use crate::stages::chosen_fits::ChosenFits;
 use crate::stages::structures::words;
-use crate::table::evaluated::{self, RateRow};
+use crate::table::evaluated::{self, RATES, RateRow};
 use crate::table::hazard::{self, Hazard};
-use crate::table::schema::RATES;
 
 /// Value, lower and upper limit of each limit state in turn.
 type Rates = [f64; 9];

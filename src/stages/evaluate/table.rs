@@ -9,10 +9,9 @@ use crate::rocking::Structure;
 use crate::stages::chosen_fits::ChosenFits;
 use crate::stages::fits::FitsOptions;
 use crate::stages::structure_options::StructureOptions;
-use crate::table::evaluated::{self, EvaluatedRow};
+use crate::table::evaluated::{self, EVALUATED, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
 use crate::table::provenance::Provenance;
-use crate::table::schema::EVALUATED;
 use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 

@@ -28,11 +28,10 @@ use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Path as SolverPath, Scan, Structure};
-use crate::table::ida;
+use crate::table::ida::{self, IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
 use crate::table::provenance::Provenance;
-use crate::table::schema::{IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
 use crate::table::source::{Source, Target, with_part};
 use crate::table::writer::TableWriter;
 

@@ -137,6 +137,6 @@ fn block(lengths: impl Iterator<Item = usize>) -> usize {
 }
 
 fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
-    let column = schema::ACCELERATION_M_S2.name.to_string();
+    let column = schema::acceleration_m_s2.name.to_string();
     TableError::Value { path: path.to_path_buf(), row: motion.row, column, problem }
 }

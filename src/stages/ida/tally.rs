@@ -54,7 +54,7 @@ impl Tally {
 impl Group {
     /// Of one motion.
     fn of(scan: &Scan, row: &CapacityRow, stripes: &[StripeRow]) -> Group {
-        let overturns = |stripe: &StripeRow| stripe.response.response.outcome == Outcome::Overturning;
+        let overturns = |stripe: &StripeRow| stripe.response.outcome == Outcome::Overturning;
         let capacity = match (row.capacity.status, row.capacity.overturning) {
             (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
             (CapacityStatus::Below, _) => KnownCapacity::Below(scan.foot()),

@@ -31,8 +31,7 @@ use crate::records::processing::{Processing, Refusal, Scratch};
 use crate::records::signal::Scaling;
 use crate::table::TableError;
 use crate::table::provenance::Provenance;
-use crate::table::records;
-use crate::table::schema::RECORDS;
+use crate::table::records::{self, RECORDS};
 use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 

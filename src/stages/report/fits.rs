@@ -13,8 +13,8 @@ use crate::table::schema;
 
 /// The row, if it is of this group.
 fn is_of(row: &FitRow, group: &Group) -> bool {
-    row.text(&schema::SUITE) == group.suite.as_deref()
-        && row.text(&schema::STRUCTURE) == Some(group.structure.name.as_str())
+    row.text(&schema::suite) == group.suite.as_deref()
+        && row.text(&schema::structure) == Some(group.structure.name.as_str())
 }
 
 /// Gives each group its regressions; the demand that P_ex is about.
@@ -23,32 +23,32 @@ pub fn add_regressions(path: &Path, groups: &mut [Group]) -> anyhow::Result<Opti
     for group in groups {
         let of_group = |model: Form| {
             let rows = rows.iter().filter(|row| is_of(row, group));
-            rows.filter(move |row| row.text(&schema::MODEL) == Some(model.as_str())).collect::<Vec<_>>()
+            rows.filter(move |row| row.text(&schema::model) == Some(model.as_str())).collect::<Vec<_>>()
         };
         let univariate = of_group(Form::Univariate);
         let planes = of_group(Form::Biplanar);
         group.planes = match &planes[..] {
             [low, high] => regression(low).zip(regression(high)).and_then(|(below, above)| {
-                let transition = high.optional_number(&schema::RANGE_LOW)?;
+                let transition = high.optional_number(&schema::range_low)?;
                 Some(Planes { transition, sides: [below, above] })
             }),
             _ => None,
         };
         group.univariate = univariate.into_iter().filter_map(regression).collect();
     }
-    Ok(rows.iter().find_map(|row| row.optional_number(&schema::LIMIT_STATE)))
+    Ok(rows.iter().find_map(|row| row.optional_number(&schema::limit_state)))
 }
 
 /// A row that holds a regression, whether it rises or falls.
 fn regression(row: &FitRow) -> Option<Regression> {
-    let r2 = row.optional_number(&schema::R2)?;
+    let r2 = row.optional_number(&schema::r2)?;
     row.demand().ok().map(|law| Regression { law, r2, rises: row.is_ok() })
 }
 
 /// Gives each group its curves of overturning.
 pub fn add_curves(path: &Path, groups: &mut [Group], console: &Console) -> anyhow::Result<()> {
     let rows = fits::curves(path)?;
-    let overturning = |row: &&FitRow| row.text(&schema::FITTED_EVENT) == Some(Event::Overturning.as_str());
+    let overturning = |row: &&FitRow| row.text(&schema::fitted_event) == Some(Event::Overturning.as_str());
     let rows: Vec<&FitRow> = rows.iter().filter(overturning).filter(|row| row.is_ok()).collect();
     if let Some(Err(why)) = rows.first().map(|row| row.probit()) {
         console.note(&format!("warning: no curves of overturning in the figures: {why}"));

@@ -2,7 +2,6 @@
 
 mod options;
 
-use std::collections::HashSet;
 use std::path::Path;
 
 use anyhow::bail;
@@ -20,18 +19,16 @@ use crate::pipeline::console::Console;
 use crate::pipeline::options::{Parsed, Several};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
-use crate::rocking::{
-    Path as SolverPath, Problem, Record, RecordError, Structure, simulate_all, trace, with_tail,
-};
+use crate::rocking::{Path as SolverPath, Problem, Record, Structure, simulate_all, trace, with_tail};
 use crate::table::TableError;
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
 use crate::table::partition::Partition;
 use crate::table::provenance::Provenance;
-use crate::table::responses;
-use crate::table::schema::{RESPONSES, TRACE};
+use crate::table::responses::{RESPONSES, ResponseRow};
+use crate::table::row::{WriteRow, schema_of};
 use crate::table::source::{Source, Target};
-use crate::table::trace::{self as trace_table, TraceRow};
+use crate::table::trace::{TRACE, TraceRow};
 
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;
@@ -97,39 +94,42 @@ impl Simulate {
         }
         let traced = motions.iter().zip(&records);
         let traced = traced.filter(|(motion, _)| self.traced.contains(&motion.motion_id.to_string()));
-        let traces = traced.map(|(motion, record)| self.trace(&motion.motion_id, record));
-        let traces = traces.collect::<Result<Vec<_>, _>>()?;
+        let traces = traced.map(|(motion, record)| self.trace(&motion.motion_id, record, by_name));
         Ok(Responded {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
-            rows: responses::batch(&rows, by_name)?,
-            traces: traces.concat(),
+            rows: ResponseRow::batch_in(&rows, &schema_of(&RESPONSES, by_name))?,
+            traces: traces.collect::<anyhow::Result<_>>()?,
         })
     }
 
-    fn trace(&self, motion_id: &MotionId, record: &Record) -> Result<Vec<TraceRow>, RecordError> {
+    /// Traces all structures under a motion.
+    fn trace(&self, motion_id: &MotionId, record: &Record, by_name: bool) -> anyhow::Result<Trace> {
         let ended = with_tail(record, TRACE_TAIL_S);
         let record = Record::new(&ended, record.dt_s())?;
-        let rows = |structure: &Structure| {
+        let mut rows = Vec::new();
+        for structure in &self.structures {
             let (_, points) = trace(structure, &record);
-            let row = |point| TraceRow {
-                motion_id: motion_id.clone(),
-                structure: structure.name.clone(),
-                alpha_rad: structure.alpha_rad,
-                point,
+            rows.extend(points.into_iter().map(|point| TraceRow {
+                motion_id,
+                structure: &structure.name,
+                time_s: point.time_s,
+                theta_rad: point.theta_rad,
+                theta_dot_rad_s: point.theta_dot_rad_s,
+                theta_over_alpha: point.theta_rad / structure.alpha_rad,
                 ground_m_s2: record.acceleration_at(point.time_s),
-            };
-            points.into_iter().map(row).collect::<Vec<_>>()
-        };
-        Ok(self.structures.iter().flat_map(rows).collect())
+                solver_event: point.event,
+            }));
+        }
+        let rows = TraceRow::batch_in(&rows, &schema_of(&TRACE, by_name))?;
+        Ok(Trace { motion_id: motion_id.to_string(), rows })
     }
 
     fn trace_target(&self) -> Target {
         self.out.part("trace")
     }
 
-    fn expect_traced(&self, traces: &[TraceRow]) -> anyhow::Result<()> {
-        let seen: HashSet<String> = traces.iter().map(|row| row.motion_id.to_string()).collect();
-        match self.traced.iter().find(|id| !seen.contains(*id)) {
+    fn expect_traced(&self, traces: &[Trace]) -> anyhow::Result<()> {
+        match self.traced.iter().find(|id| traces.iter().all(|trace| trace.motion_id != **id)) {
             Some(id) => {
                 bail!(
                     "{}: no motion '{id}' to trace; expected one of its motion_id",
@@ -163,7 +163,13 @@ fn records<'a>(
 struct Responded {
     motion_ids: Vec<MotionId>,
     rows: RecordBatch,
-    traces: Vec<TraceRow>,
+    traces: Vec<Trace>,
+}
+
+/// The trace of a motion.
+struct Trace {
+    motion_id: String,
+    rows: RecordBatch,
 }
 
 /// What a thread keeps from some motions to the next.
@@ -202,7 +208,7 @@ impl Stage for Simulate {
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
         let mut writer = motions::writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
         let mut seen = SeenIds::default();
-        let mut traces: Vec<TraceRow> = Vec::new();
+        let mut traces: Vec<Trace> = Vec::new();
         let pool = Pool::new(Scratch::default);
         let bar = console.bar(self.subcommand(), total);
         pipelined(
@@ -237,7 +243,7 @@ impl Stage for Simulate {
         if !self.traced.is_empty() {
             self.expect_traced(&traces)?;
             let mut trace_writer = motions::writer(self.trace_target(), &TRACE, by_name, provenance)?;
-            trace_writer.append(&trace_table::batch(&traces, by_name)?)?;
+            traces.iter().try_for_each(|trace| trace_writer.append(&trace.rows))?;
             trace_writer.finish()?;
         }
         writer.finish()?;

@@ -18,9 +18,8 @@ use crate::pipeline::stream::{Pool, pipelined};
 use crate::table::partition::Partition;
 use crate::table::provenance::Provenance;
 use crate::table::scenarios;
-use crate::table::schema::MOTIONS;
 use crate::table::source::{Source, Target};
-use crate::table::synthetic_motions::{self, SyntheticMotion};
+use crate::table::synthetic_motions::{self, MOTIONS, SyntheticMotion};
 use crate::table::writer::TableWriter;
 
 /// The stage, ready to run.

@@ -25,9 +25,9 @@ use crate::studies::{
     CurveForm, CurveSubject, PooledFit, PooledStructure, PooledTerms, Transfer, fit_pooled,
 };
 use crate::table::provenance::Provenance;
-use crate::table::schema::{POOLED, UNIVERSALITY};
+use crate::table::row::WriteRow;
 use crate::table::source::{Source, Target, with_part};
-use crate::table::universality::{self, PooledRow, UniversalityRow};
+use crate::table::universality::{POOLED, PooledRow, UNIVERSALITY, UniversalityRow};
 use crate::table::writer::TableWriter;
 
 /// Whose curves, and which.
@@ -157,14 +157,11 @@ impl Universality {
                     )
                 })?;
             let log_score = |fit: &Result<PooledFit, FitStatus>| fit.as_ref().ok()?.log_scores[k];
-            Ok(transfer.map(|transfer| UniversalityRow {
-                suite: group.suite.clone(),
-                structure: group.structure_of(0),
-                reference: reference.structure.clone(),
-                event,
-                limit_state: subject.limit,
-                transfer,
-                pooled: [0, 1, 2, 3].map(|terms: usize| log_score(&pooled[terms])),
+            let log_scores = [0, 1, 2, 3].map(|terms: usize| log_score(&pooled[terms]));
+            let (suite, structure) = (group.suite.as_deref(), group.structure_of(0));
+            Ok(transfer.map(|transfer| {
+                let (reference, limit) = (&reference.structure, subject.limit);
+                UniversalityRow::new(suite, &structure, reference, event, limit, &transfer, log_scores)
             }))
         };
         let rows: Vec<Option<UniversalityRow>> =
@@ -177,8 +174,13 @@ impl Universality {
                         suite: reference.suite.clone(),
                         event,
                         terms,
-                        part: part.clone(),
-                        term: term.clone(),
+                        range_low: Some(part.range.start),
+                        range_high: Some(part.range.end),
+                        term: term.name.clone(),
+                        coefficient: term.coefficient,
+                        standard_error: term.standard_error,
+                        beta: part.residual_sd,
+                        n: part.n,
                     })
                 })),
                 Err(status) => missing.push((
@@ -238,8 +240,8 @@ impl Stage for Universality {
             for event in Event::BRANCHES {
                 let Judgement { rows, coefficients, missing } = self.judge(suite, event)?;
                 console.warn_each(missing.into_iter());
-                writer.append(&universality::batch(&rows)?)?;
-                pooled_writer.append(&universality::pooled_batch(&coefficients)?)?;
+                writer.append(&UniversalityRow::batch(&rows)?)?;
+                pooled_writer.append(&PooledRow::batch(&coefficients)?)?;
             }
         }
         pooled_writer.finish()?;

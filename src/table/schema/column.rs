@@ -87,14 +87,19 @@ impl Column {
     }
 }
 
-/// Columns as constants: name, type, unit, words.
+/// Columns as constants, named as in files or, where several columns have one name, otherwise: `name: type, unit, meaning` or
+/// `constant = "name": type, unit, meaning`.
 macro_rules! columns {
-    ($($constant:ident = $name:literal, $kind:ident, $unit:literal, $description:literal;)*) => {
+    ($($constant:ident $(= $name:literal)?: $kind:ident, $unit:literal, $description:literal;)*) => {
         $(
             #[doc = $description]
-            pub const $constant: Column = Column::new($name, Kind::$kind, $unit, $description);
+            #[allow(non_upper_case_globals, reason = "the fields of rows name their columns")]
+            pub const $constant: Column =
+                Column::new(columns!(@name $constant $($name)?), Kind::$kind, $unit, $description);
         )*
     };
+    (@name $constant:ident) => { stringify!($constant) };
+    (@name $constant:ident $name:literal) => { $name };
 }
 
 pub(super) use columns;

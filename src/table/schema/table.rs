@@ -31,6 +31,57 @@ impl Table {
     }
 }
 
+impl Table {
+    /// Whether each of these columns is in one of the tables, while the program is compiled.
+    pub const fn have_all(tables: &[Table], columns: &[Column]) -> bool {
+        let mut at = 0;
+        while at < columns.len() {
+            let mut table = 0;
+            while table < tables.len() && !tables[table].has(columns[at].name) {
+                table += 1;
+            }
+            if table == tables.len() {
+                return false;
+            }
+            at += 1;
+        }
+        true
+    }
+
+    const fn has(&self, name: &str) -> bool {
+        let mut at = 0;
+        while at < self.columns.len() {
+            if same(self.columns[at].name, name) {
+                return true;
+            }
+            at += 1;
+        }
+        false
+    }
+}
+
+/// The columns of two tables, as those of one.
+pub const fn joined<const N: usize>(first: &[Column], second: &[Column]) -> [Column; N] {
+    assert!(first.len() + second.len() == N);
+    let mut all = [if first.is_empty() { second[0] } else { first[0] }; N];
+    let mut at = 0;
+    while at < N {
+        all[at] = if at < first.len() { first[at] } else { second[at - first.len()] };
+        at += 1;
+    }
+    all
+}
+
+/// Whether two texts are the same; `==` does not run while the program is compiled.
+pub const fn same(one: &str, other: &str) -> bool {
+    let (one, other) = (one.as_bytes(), other.as_bytes());
+    let mut at = 0;
+    while at < one.len() && at < other.len() && one[at] == other[at] {
+        at += 1;
+    }
+    at == one.len() && at == other.len()
+}
+
 /// The name of the column of spectral accelerations at a period: `sa_0p20_m_s2` at 0.2 s.
 pub fn spectral_acceleration_name(period_s: f64) -> String {
     let text = format!("{period_s:.4}");
