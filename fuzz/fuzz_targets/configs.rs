@@ -4,8 +4,7 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use rockfrag::stages::config::Config;
-use rockfrag::stages::run::{Files, stages};
+use rockfrag::stages::registry::Config;
 use rockfrag::stages::structures::Structures;
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 use rockfrag::table::{hazard, paper};
@@ -24,7 +23,7 @@ fuzz_target!(|bytes: &[u8]| {
             if let Ok(mut config) = Config::read(&file("pipeline.yaml")) {
                 // Its files would be searched for all over the machine.
                 config.import_motions = None;
-                let _ = stages(&config, &Files::in_folder(&folder));
+                let _ = config.stages(&folder);
             }
         }
         1 => drop(Structures::File(file("structures.yaml")).resolve()),

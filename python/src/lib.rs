@@ -1,7 +1,7 @@
 //! The Python package: the stages of rockfrag with tables that come and go as Arrow.
 //!
 //! ```text
-//! stages    a function a stage: options as JSON, tables or paths in, a table or a path out
+//! stages    any stage: options as JSON, tables or paths in, a table or a path out
 //! response  one structure and one motion, as NumPy arrays
 //! table     tables between Python and the stages, without a copy
 //! run       the GIL released, threads, progress, Ctrl-C
@@ -24,10 +24,7 @@ mod _rockfrag {
     #[pymodule_export]
     use crate::response::response;
     #[pymodule_export]
-    use crate::stages::{
-        evaluate, fit_pex, fit_pro, import_motions, partition_file, sample_scenarios, simulate,
-        synthesize_motions,
-    };
+    use crate::stages::{call, partition_file, stages};
     #[pymodule_export]
     use crate::table::PyTable;
 

@@ -7,16 +7,16 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use rockfrag::pipeline::console::{Console, Follower};
+use rockfrag::pipeline::console::{Console, Listener};
 
 use crate::error::to_python;
 
-/// Between two looks at signals and progress.
-const LOOK: Duration = Duration::from_millis(50);
+/// The time between two checks of signals and progress.
+const CHECK_EVERY: Duration = Duration::from_millis(50);
 
-/// How a call is run.
+/// The settings of a call.
 #[derive(FromPyObject)]
-pub struct Manner {
+pub struct Settings {
     /// Threads; all cores if none.
     #[pyo3(item)]
     threads: Option<usize>,
@@ -30,18 +30,33 @@ pub struct Manner {
 
 /// What the stage says, for the thread that waits for it.
 #[derive(Default)]
-struct Followed {
+struct Heard {
     done: AtomicU64,
     total: AtomicU64,
     stop: AtomicBool,
-    notes: Mutex<Vec<String>>,
+    lines: Mutex<Vec<Line>>,
 }
 
-impl Follower for Followed {
-    fn note(&self, line: &str) {
-        if let Ok(mut notes) = self.notes.lock() {
-            notes.push(line.to_string());
+enum Line {
+    Note(String),
+    Warning(String),
+}
+
+impl Heard {
+    fn push(&self, line: Line) {
+        if let Ok(mut lines) = self.lines.lock() {
+            lines.push(line);
         }
+    }
+}
+
+impl Listener for Heard {
+    fn note(&self, line: &str) {
+        self.push(Line::Note(line.to_string()));
+    }
+
+    fn warn(&self, warning: &str) {
+        self.push(Line::Warning(warning.to_string()));
     }
 
     fn begin(&self, steps: u64) {
@@ -55,31 +70,31 @@ impl Follower for Followed {
     }
 }
 
-/// Runs `work` on a thread of its own, with as many threads as `manner` says, until it is done or Python interrupts it.
+/// Runs `work` on a thread of its own, with as many threads as `settings` says, until it is done or Python interrupts it.
 pub fn run<T: Send>(
     py: Python,
-    manner: &Manner,
+    settings: &Settings,
     work: impl FnOnce(&Console) -> anyhow::Result<T> + Send,
 ) -> PyResult<T> {
-    let followed = Arc::new(Followed::default());
-    let console = Console { follower: Some(followed.clone()), ..Console::default() };
+    let heard = Arc::new(Heard::default());
+    let console = Console { listener: Some(heard.clone()), ..Console::default() };
     let (finished, wait) = sync_channel(1);
-    let (watched, console) = (&followed, &console);
+    let (watched, console) = (&heard, &console);
     let (result, interrupted) = py.detach(move || {
         thread::scope(|scope| {
             let worker = scope.spawn(move || {
-                let result = on_threads(manner.threads, || work(console));
+                let result = on_threads(settings.threads, || work(console));
                 // Whoever waits is there until this is said.
                 let _ = finished.send(());
                 result
             });
             let mut interrupted = None;
             let mut told = 0;
-            while wait.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+            while wait.recv_timeout(CHECK_EVERY) == Err(RecvTimeoutError::Timeout) {
                 if interrupted.is_some() {
                     continue;
                 }
-                if let Err(error) = Python::attach(|py| look(py, manner, watched, &mut told)) {
+                if let Err(error) = Python::attach(|py| check(py, settings, watched, &mut told)) {
                     watched.stop.store(true, Ordering::Relaxed);
                     interrupted = Some(error);
                 }
@@ -91,9 +106,9 @@ pub fn run<T: Send>(
         return Err(error);
     }
     let result = result.unwrap_or_else(|_| Err(anyhow::anyhow!("the stage stopped unexpectedly")));
-    tell(py, &followed)?;
+    tell(py, &heard)?;
     let result = result.map_err(|error| to_python(py, &error))?;
-    look(py, manner, &followed, &mut 0)?;
+    check(py, settings, &heard, &mut 0)?;
     Ok(result)
 }
 
@@ -108,27 +123,27 @@ fn on_threads<T: Send>(
 }
 
 /// Lets Python interrupt, and tells it what is done if that is more than was `told`.
-fn look(py: Python, manner: &Manner, followed: &Followed, told: &mut u64) -> PyResult<()> {
+fn check(py: Python, settings: &Settings, heard: &Heard, told: &mut u64) -> PyResult<()> {
     py.check_signals()?;
-    let done = followed.done.load(Ordering::Relaxed);
-    if let Some(progress) = manner.progress.as_ref().filter(|_| done > *told) {
+    let done = heard.done.load(Ordering::Relaxed);
+    if let Some(progress) = settings.progress.as_ref().filter(|_| done > *told) {
         *told = done;
-        progress.call1(py, (done, followed.total.load(Ordering::Relaxed)))?;
+        progress.call1(py, (done, heard.total.load(Ordering::Relaxed)))?;
     }
     Ok(())
 }
 
 /// Warnings as Python's, what was done as a line of its log.
-fn tell(py: Python, followed: &Followed) -> PyResult<()> {
-    let notes = followed.notes.lock().map(|mut notes| std::mem::take(&mut *notes)).unwrap_or_default();
-    for note in notes {
-        match note.strip_prefix("warning: ") {
-            Some(warning) => {
+fn tell(py: Python, heard: &Heard) -> PyResult<()> {
+    let lines = heard.lines.lock().map(|mut lines| std::mem::take(&mut *lines)).unwrap_or_default();
+    for line in lines {
+        match line {
+            Line::Warning(warning) => {
                 let class = py.import("rockfrag.errors")?.getattr("RockfragWarning")?;
                 // The line of whoever called the package's function.
                 py.import("warnings")?.call_method1("warn", (warning, class, 2))?;
             }
-            None => {
+            Line::Note(note) => {
                 let log = py.import("logging")?.call_method1("getLogger", ("rockfrag",))?;
                 log.call_method1("info", (note,))?;
             }

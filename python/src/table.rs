@@ -18,16 +18,16 @@ use rockfrag::table::source::{MemoryTable, Shelf, Source};
 #[pyclass(frozen, module = "rockfrag", name = "Table")]
 pub struct PyTable {
     table: MemoryTable,
-    parts: Vec<(&'static str, Py<PyTable>)>,
+    parts: Vec<(String, Py<PyTable>)>,
 }
 
 impl PyTable {
     /// What a stage has left on a shelf under `main`, and under the names of `parts` what else there is.
-    pub fn take(py: Python, shelf: &Shelf, main: &str, parts: &[&'static str]) -> PyResult<Option<PyTable>> {
+    pub fn take(py: Python, shelf: &Shelf, main: &str, parts: &[String]) -> PyResult<Option<PyTable>> {
         let Some(table) = shelf.take(main) else { return Ok(None) };
-        let part = |&name: &&'static str| {
+        let part = |name: &String| {
             let table = shelf.take(name)?;
-            Some(Py::new(py, PyTable { table, parts: Vec::new() }).map(|part| (name, part)))
+            Some(Py::new(py, PyTable { table, parts: Vec::new() }).map(|part| (name.clone(), part)))
         };
         let parts = parts.iter().filter_map(part).collect::<PyResult<_>>()?;
         Ok(Some(PyTable { table, parts }))

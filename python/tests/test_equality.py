@@ -57,7 +57,7 @@ def test_evaluation(out, tmp_path):
     files = ["--pex", out / "pex.parquet", "--pro", out / "pro.parquet"]
     univariate = ["--model", "univariate", "--measure", "im5", "--p", "2.0", "--alpha", "0.25"]
     command(tmp_path, "evaluate", "--in", out / "motions.parquet", "--out", "e.parquet", *files, *options, *univariate)
-    tables = [pq.read_table(out / f"{name}.parquet") for name in ["motions", "pex", "pro"]]
+    tables = [pq.read_table(out / f"{name}.parquet") for name in ["pex", "pro", "motions"]]
     with pytest.warns(rockfrag.RockfragWarning):
         answers = rockfrag.evaluate(*tables, **fits, model="univariate", measure="im5", p=2.0, alpha=0.25)
     same(answers, tmp_path / "e.parquet")
@@ -70,10 +70,10 @@ def test_limits_from_resamples(out, tmp_path):
     pro = rockfrag.fit_pro(out / "responses.parquet", out=tmp_path / "pro.parquet", **options)
     call = [f"--{name}={value}" for name, value in (fits | {"limits": "percentile", "p": 2.5, "alpha": 0.2}).items()]
     command(tmp_path, "evaluate", "--in", out / "motions.parquet", "--out", "e.parquet", *call)
-    answers = rockfrag.evaluate(out / "motions.parquet", pex, pro, **fits, limits="percentile", p=2.5, alpha=0.2)
+    answers = rockfrag.evaluate(pex, pro, out / "motions.parquet", **fits, limits="percentile", p=2.5, alpha=0.2)
     same(answers, tmp_path / "e.parquet")
     with pytest.raises(rockfrag.OptionError, match="limits by resamples need the files"):
-        rockfrag.evaluate(out / "motions.parquet", pq.read_table(pex), pro, **fits, limits="percentile")
+        rockfrag.evaluate(pq.read_table(pex), pro, out / "motions.parquet", **fits, limits="percentile")
 
 
 def test_imported_records(out, tmp_path):

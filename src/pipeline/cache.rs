@@ -1,10 +1,10 @@
 //! Whether a stage is up to date: the plan recorded in its files equals the plan of what it would do.
 
+use std::fs::{File, TryLockError};
 use std::path::Path;
 
 use serde_json::Value;
 
-use super::claim::{Claim, Claimed, claim};
 use super::console::Console;
 use super::stage::{Stage, folder_of};
 use super::terminal::Weight;
@@ -22,11 +22,17 @@ pub enum Freshness {
 
 /// Compares the files of a stage with what it would write.
 pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
-    for path in stage.outputs() {
+    let outputs = stage.outputs();
+    if outputs.is_empty() {
+        return Freshness::Stale("it writes no file".to_string());
+    }
+    for path in outputs {
         match stage.recorded(&path) {
             Ok(Some(stamp)) if stamp.plan == planned.plan() => {}
             Ok(Some(stamp)) => return Freshness::Stale(difference(&stamp.provenance, planned)),
-            Ok(None) => return Freshness::Stale(format!("{} was not made by rockfrag", path.display())),
+            Ok(None) => {
+                return Freshness::Stale(format!("{} does not say how it was made", file_name(&path)));
+            }
             Err(TableError::Missing { .. }) => {
                 return Freshness::Stale(format!("{} is not there", file_name(&path)));
             }
@@ -41,19 +47,42 @@ pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
 /// # Errors
 /// Those of the stage.
 pub fn run_alone(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<()> {
-    let _claimed = claim_folder(stage, Claim::Shared, console)?;
+    let _lock = lock_folder(stage, Access::Shared, console)?;
     run(stage, force, console)
 }
 
-/// Claims the folder of the files of a stage, which is made if need be.
+/// What else may happen in a folder while a run writes into it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Access {
+    /// Nothing: the run reads again what it has written.
+    Exclusive,
+    /// Other runs whose files are whole by themselves.
+    Shared,
+}
+
+/// Locks the folder of the files of a stage, which is made if need be, until what is returned is dropped. Waits for other runs
+/// that may not write there meanwhile. A file system that knows no locks locks nothing.
 ///
 /// # Errors
-/// If it cannot be made.
-pub fn claim_folder(stage: &dyn Stage, kind: Claim, console: &Console) -> anyhow::Result<Option<Claimed>> {
+/// If the folder cannot be made.
+pub fn lock_folder(stage: &dyn Stage, access: Access, console: &Console) -> anyhow::Result<Option<File>> {
     let outputs = stage.outputs();
     let Some(folder) = outputs.last().map(|path| folder_of(path)) else { return Ok(None) };
     std::fs::create_dir_all(folder).map_err(|source| TableError::io(folder, source))?;
-    Ok(Some(claim(folder, kind, console)))
+    let Ok(file) = File::open(folder) else { return Ok(None) };
+    let tried = match access {
+        Access::Exclusive => file.try_lock(),
+        Access::Shared => file.try_lock_shared(),
+    };
+    if let Err(TryLockError::WouldBlock) = tried {
+        console.note(&format!("waiting for another run in {}", folder.display()));
+        let waited = match access {
+            Access::Exclusive => file.lock(),
+            Access::Shared => file.lock_shared(),
+        };
+        return Ok(waited.is_ok().then_some(file));
+    }
+    Ok(Some(file))
 }
 
 /// Runs a stage unless it is up to date, and says which.
@@ -62,7 +91,7 @@ pub fn claim_folder(stage: &dyn Stage, kind: Claim, console: &Console) -> anyhow
 /// Those of the stage.
 pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<()> {
     let planned = stage.provenance()?;
-    let name = stage.subcommand();
+    let name = stage.name();
     if !force && freshness(stage, &planned) == Freshness::UpToDate {
         console.stage(name, "up to date", Weight::Faint);
         return Ok(());
@@ -74,7 +103,9 @@ pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<
     let start = std::time::Instant::now();
     let summary = stage.execute(&planned, console)?;
     let took_s = start.elapsed().as_secs_f64();
-    console.stage(name, &format!("{summary} in {took_s:.2} s"), Weight::Plain);
+    if !summary.is_empty() {
+        console.stage(name, &format!("{summary} in {took_s:.2} s"), Weight::Plain);
+    }
     Ok(())
 }
 

@@ -9,9 +9,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use super::terminal::{Terminal, Weight};
 
 /// A program that calls a stage and wants to know how it goes, in place of a terminal.
-pub trait Follower: Send + Sync {
-    /// Takes a line that tells what was done, or a warning.
+pub trait Listener: Send + Sync {
+    /// Takes a line that tells what was done.
     fn note(&self, line: &str);
+
+    /// Takes a warning.
+    fn warn(&self, warning: &str);
 
     /// Takes that a stage begins, of so many steps.
     fn begin(&self, steps: u64);
@@ -31,23 +34,23 @@ pub struct Console {
     /// Progress bars, where stderr is a terminal.
     pub progress: bool,
     /// Who hears it, if not whoever reads stderr.
-    pub follower: Option<Arc<dyn Follower>>,
+    pub listener: Option<Arc<dyn Listener>>,
 }
 
 /// Progress through the steps of a stage.
 pub struct Progress {
     bar: ProgressBar,
-    follower: Option<Arc<dyn Follower>>,
+    listener: Option<Arc<dyn Listener>>,
 }
 
 impl Progress {
     /// So many further steps are done.
     ///
     /// # Errors
-    /// If whoever follows wants the stage to stop.
+    /// If whoever listens wants the stage to stop.
     pub fn inc(&self, steps: u64) -> anyhow::Result<()> {
         self.bar.inc(steps);
-        self.follower.as_ref().map_or(Ok(()), |follower| follower.advance(steps))
+        self.listener.as_ref().map_or(Ok(()), |listener| listener.advance(steps))
     }
 
     /// Removes the bar.
@@ -59,16 +62,24 @@ impl Progress {
 impl Console {
     /// A line that tells what was done.
     pub fn note(&self, line: &str) {
-        match &self.follower {
-            Some(follower) => follower.note(line),
+        match &self.listener {
+            Some(listener) => listener.note(line),
             None if self.quiet => {}
             None => eprintln!("{line}"),
         }
     }
 
+    /// A warning: a result to be looked at twice.
+    pub fn warn(&self, warning: &str) {
+        match &self.listener {
+            Some(listener) => listener.warn(warning),
+            None => self.note(&format!("warning: {warning}")),
+        }
+    }
+
     /// A line that tells what a stage did.
     pub fn stage(&self, name: &str, summary: &str, weight: Weight) {
-        let terminal = if self.follower.is_some() { Terminal::PLAIN } else { Terminal::stderr() };
+        let terminal = if self.listener.is_some() { Terminal::PLAIN } else { Terminal::stderr() };
         let name = format!("{name:20}");
         self.note(&format!("{} {}", terminal.set(&name, Weight::Strong), terminal.set(summary, weight)));
     }
@@ -80,20 +91,20 @@ impl Console {
             by_reason.entry(reason).or_default().push(what);
         }
         for (reason, what) in by_reason {
-            self.note(&format!("warning: {reason}: {}", what.join(", ")));
+            self.warn(&format!("{reason}: {}", what.join(", ")));
         }
     }
 
     /// Progress over `total` steps.
     pub fn bar(&self, what: &str, total: u64) -> Progress {
-        if let Some(follower) = &self.follower {
-            follower.begin(total);
+        if let Some(listener) = &self.listener {
+            listener.begin(total);
         }
-        Progress { bar: self.terminal_bar(what, total), follower: self.follower.clone() }
+        Progress { bar: self.terminal_bar(what, total), listener: self.listener.clone() }
     }
 
     fn terminal_bar(&self, what: &str, total: u64) -> ProgressBar {
-        if self.follower.is_some() || self.quiet || !self.progress || !std::io::stderr().is_terminal() {
+        if self.listener.is_some() || self.quiet || !self.progress || !std::io::stderr().is_terminal() {
             return ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
         }
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");

@@ -1,11 +1,10 @@
 //! What must run, and running it.
 //!
 //! ```text
-//! options  words, lists and ranges as they stand in options; flags over file over defaults
-//! yaml     what is wrong with a YAML file
+//! options  words, lists and ranges as they stand in options, and what is wrong with a YAML file
 //! stage    what every stage has: inputs, parameters, outputs, work
-//! cache    whether a stage is up to date, and if not, why
-//! claim    two runs in one folder
+//! declare  what a stage says of itself, from which its command and its section of pipeline.yaml follow
+//! cache    whether a stage is up to date, and if not, why; two runs in one folder
 //! files    files and folders that a user names
 //! stream   read, work and write at the same time, in order
 //! console  progress, notes and warnings on stderr
@@ -13,14 +12,13 @@
 //! ```
 
 pub mod cache;
-pub mod claim;
 pub mod console;
+pub mod declare;
 pub mod files;
 pub mod options;
 pub mod stage;
 pub mod stream;
 pub mod terminal;
-pub mod yaml;
 
 /// A mistake in how rockfrag was called or configured: exit code 2.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

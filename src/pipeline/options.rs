@@ -3,14 +3,12 @@
 use std::fmt;
 use std::str::FromStr;
 
-use clap::parser::ValueSource;
-use clap::{ArgMatches, Args, Command};
-use serde::de::{DeserializeOwned, Error as _};
+use clap::{Args, Command};
+use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use serde_json::Value;
 
 use super::UsageError;
-use crate::keyword::{self, Keyword, UnknownKeyword};
+use crate::keyword::{self, Keyword, UnknownKeyword, nearest};
 
 /// The defaults of an options struct: what an empty command line gives.
 pub fn defaults<T: Args>() -> T {
@@ -18,31 +16,8 @@ pub fn defaults<T: Args>() -> T {
     T::from_arg_matches(&matches).expect("every option has a default or is optional")
 }
 
-/// Options as resolved: a flag wins over `file`, the file over the default.
-///
-/// # Errors
-/// If flag and file do not fit together into the options.
-pub fn resolve<T>(matches: &ArgMatches, file: Option<&T>) -> anyhow::Result<T>
-where
-    T: Args + Serialize + DeserializeOwned + Default,
-{
-    let to_object = |options: &T| match serde_json::to_value(options) {
-        Ok(Value::Object(object)) => Ok(object),
-        _ => Err(UsageError::because("options that are no list of names and values")),
-    };
-    let flags = to_object(&T::from_arg_matches(matches)?)?;
-    let mut resolved = to_object(file.unwrap_or(&T::default()))?;
-    for (name, value) in flags {
-        if matches.value_source(&name.replace('-', "_")) != Some(ValueSource::CommandLine) {
-            continue;
-        }
-        if value.is_null() {
-            return Err(UsageError::because(format!("{name} is no finite number")));
-        }
-        resolved.insert(name, value);
-    }
-    serde_json::from_value(Value::Object(resolved)).map_err(|error| UsageError::because(error.to_string()))
-}
+/// The seed where none is given.
+pub const DEFAULT_SEED: u64 = 42;
 
 /// A word of a fixed list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -137,23 +112,30 @@ impl fmt::Display for Steps {
     }
 }
 
-/// A value that the file may give as a number or as text.
+/// A value that the file may give as a number, as text, or as a list of them.
 #[derive(Deserialize)]
 #[serde(untagged)]
-enum Scalar {
+enum Plain {
     Number(f64),
     Text(String),
+    List(Vec<Plain>),
 }
 
-/// Reads what [`FromStr`] understands, from text or from a bare number.
+impl Plain {
+    fn text(self) -> String {
+        match self {
+            Plain::Number(number) => number.to_string(),
+            Plain::Text(text) => text,
+            Plain::List(parts) => parts.into_iter().map(Plain::text).collect::<Vec<_>>().join(","),
+        }
+    }
+}
+
+/// Reads what [`FromStr`] understands, from text, from a bare number, or from a list as parted by commas.
 pub fn from_scalar<'de, D: Deserializer<'de>, T: FromStr<Err: fmt::Display>>(
     deserializer: D,
 ) -> Result<T, D::Error> {
-    let text = match Scalar::deserialize(deserializer)? {
-        Scalar::Number(number) => number.to_string(),
-        Scalar::Text(text) => text,
-    };
-    text.parse().map_err(D::Error::custom)
+    Plain::deserialize(deserializer)?.text().parse().map_err(D::Error::custom)
 }
 
 macro_rules! as_text {
@@ -203,4 +185,23 @@ impl<'de, T: Deserialize<'de> + FromStr<Err: fmt::Display>> Deserialize<'de> for
 /// With the name of the option and what was expected.
 pub fn check(ok: bool, option: &str, value: impl fmt::Display, expected: &str) -> anyhow::Result<()> {
     if ok { Ok(()) } else { Err(UsageError::because(format!("{option} is {value}; expected {expected}"))) }
+}
+
+/// What is wrong with a YAML file, in one line: where, what, and for an unknown key the nearest known one.
+pub fn explain(error: &serde_saphyr::Error) -> String {
+    let error = error.without_snippet();
+    let place = error
+        .location()
+        .map(|at| format!("line {}, column {}: ", at.line(), at.column()))
+        .unwrap_or_default();
+    if let serde_saphyr::Error::SerdeUnknownField { field, expected, .. } = error {
+        let hint = match nearest(field, expected) {
+            Some(near) => format!("did you mean '{near}'?"),
+            None => format!("expected one of {}", expected.join(", ")),
+        };
+        return format!("{place}unknown key '{field}'; {hint}");
+    }
+    let message = error.to_string();
+    let mut lines = message.lines();
+    format!("{place}{}", lines.next().unwrap_or_default())
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::console::Console;
+use super::terminal::Terminal;
 use crate::table::TableError;
 use crate::table::provenance::{Provenance, Stamp, content_of, stamp};
 use crate::table::source::{Source, Target};
@@ -13,7 +14,7 @@ use crate::table::source::{Source, Target};
 /// A stage about to run: files in, parameters, files out.
 pub trait Stage {
     /// The subcommand.
-    fn subcommand(&self) -> &'static str;
+    fn name(&self) -> &'static str;
 
     /// The tables it reads, by the role each plays.
     fn inputs(&self) -> Vec<(&'static str, Source)>;
@@ -24,11 +25,19 @@ pub trait Stage {
     /// All that its rows depend on besides the inputs.
     fn parameters(&self) -> Value;
 
-    /// Does the work and says in a few words what came of it.
+    /// Does the work and says in a few words what came of it, or nothing where [`Stage::show`] says all.
     ///
     /// # Errors
     /// If an input cannot be used or an output not be written.
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String>;
+
+    /// Words for whoever called, after the work is done or found up to date.
+    ///
+    /// # Errors
+    /// If an output cannot be read.
+    fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
+        Ok(String::new())
+    }
 
     /// The files it writes.
     fn outputs(&self) -> Vec<PathBuf> {
@@ -47,13 +56,13 @@ pub trait Stage {
     ///
     /// # Errors
     /// If an input is missing or unreadable.
-    fn provenance(&self) -> Result<Provenance, TableError> {
+    fn provenance(&self) -> anyhow::Result<Provenance> {
         let content = |(role, source): &(&str, Source)| Ok((role.to_string(), content_of(source)?));
         let sources = self.inputs();
         let inputs = sources.iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
         let sources =
             sources.into_iter().map(|(role, source)| (role.to_string(), source.name().into())).collect();
-        Ok(Provenance::new(self.subcommand(), self.parameters(), inputs).of_sources(sources))
+        Ok(Provenance::new(self.name(), self.parameters(), inputs).of_sources(sources))
     }
 }
 

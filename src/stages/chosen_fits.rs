@@ -52,7 +52,7 @@ impl ChosenFits {
     /// That the limits come from resamples of too few events.
     pub fn warn_of_few_events(&self, console: &Console) {
         if self.resampled.is_some() && self.few_events {
-            console.note("warning: P_ro comes from fewer than 10 events, or non-events, for each coefficient: where it is small, limits by resamples are too narrow, those of --limits delta are not");
+            console.warn("P_ro comes from fewer than 10 events, or non-events, for each coefficient: where it is small, limits by resamples are too narrow, those of --limits delta are not");
         }
     }
 
@@ -86,8 +86,8 @@ impl ChosenFits {
     /// That the structure is not of the kind that was simulated.
     pub fn warn_of_eta(&self, structure: &Structure, console: &Console) {
         if self.is_other_eta(structure.eta) {
-            console.note(&format!(
-                "warning: eta is {:.4}, but the fits are of eta {:.4}, on which the curves depend: simulate and fit with this eta",
+            console.warn(&format!(
+                "eta is {:.4}, but the fits are of eta {:.4}, on which the curves depend: simulate and fit with this eta",
                 structure.eta, self.model.eta
             ));
         }
@@ -98,8 +98,8 @@ impl ChosenFits {
         let mut outside: Vec<OutOfRange> = self.model.out_of_range(measures).collect();
         outside.dedup_by_key(|out| out.measure);
         for OutOfRange { measure, value, range: [least, largest] } in outside {
-            console.note(&format!(
-                "warning: {subject}{} is {value:.4}, outside of {least:.4} to {largest:.4} in the data: extrapolated",
+            console.warn(&format!(
+                "{subject}{} is {value:.4}, outside of {least:.4} to {largest:.4} in the data: extrapolated",
                 measure.as_str()
             ));
         }
@@ -111,8 +111,8 @@ impl ChosenFits {
         self.warn_of_range(&slice.measures(strong), subject, console);
         let (largest, (unit, size)) = (slice.largest_in_data(&self.model), slice.peak.usual_unit());
         if to > largest * (1.0 + 1e-9) {
-            console.note(&format!(
-                "warning: {subject}up to {:.4} {unit}, but the data only to {:.4} {unit}: extrapolated",
+            console.warn(&format!(
+                "{subject}up to {:.4} {unit}, but the data only to {:.4} {unit}: extrapolated",
                 to / size,
                 largest / size
             ));

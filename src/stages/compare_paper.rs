@@ -1,17 +1,22 @@
 //! compare-paper: each number that the paper publishes beside ours.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use super::fit_pex::FitPex;
+use super::fit_pro::FitPro;
 use super::groups::{self, Group};
+use super::simulate::Simulate;
 use crate::fragility::{Plane, p_overturning, rms_difference};
 use crate::pipeline::console::Console;
+use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::defaults;
 use crate::pipeline::stage::Stage;
+use crate::pipeline::terminal::Terminal;
 use crate::table::paper::{self, PAPER, PaperRow, Published, SpreadRow};
 use crate::table::provenance::Provenance;
 use crate::table::row::WriteRow;
@@ -33,14 +38,22 @@ impl Default for ComparePaperOptions {
     }
 }
 
+impl StageOptions for ComparePaperOptions {
+    fn resolve_paths(&mut self, folder: &Path) {
+        if let Some(spread) = &mut self.spread {
+            *spread = folder.join(&*spread);
+        }
+    }
+}
+
 /// The stage, ready to run.
 pub struct ComparePaper {
     published: Vec<Published>,
     spread: Vec<SpreadRow>,
-    pex: PathBuf,
-    pro: PathBuf,
-    responses: PathBuf,
-    out: PathBuf,
+    pex: Source,
+    pro: Source,
+    responses: Source,
+    out: Target,
 }
 
 impl ComparePaper {
@@ -50,9 +63,10 @@ impl ComparePaper {
     /// If the spread cannot be read.
     pub fn new(
         options: &ComparePaperOptions,
-        [pex, pro, responses]: [PathBuf; 3],
-        out: PathBuf,
+        [pex, pro, responses]: [Source; 3],
+        out: impl Into<Target>,
     ) -> anyhow::Result<ComparePaper> {
+        let out = out.into();
         let spread = paper::spread(options.spread.as_deref())?;
         Ok(ComparePaper { published: paper::published()?, spread, pex, pro, responses, out })
     }
@@ -149,26 +163,46 @@ fn by_quantity(spread: &[SpreadRow]) -> BTreeMap<(&str, &str, &str), Vec<f64>> {
     values
 }
 
+impl Declare for ComparePaper {
+    type Options = ComparePaperOptions;
+    const NAME: &'static str = PAPER.stage;
+    const ABOUT: &'static str = "Hold our numbers against the published ones";
+    const INPUTS: &'static [Input] = &[
+        Input::file("pex", "pex", FitPex::OUTPUT.file, "Regressions of fit-pex"),
+        Input::file("pro", "pro", FitPro::OUTPUT.file, "Curves of fit-pro"),
+        Input::file("responses", "responses", Simulate::OUTPUT.file, "Responses that both were fitted to"),
+    ];
+    const OUTPUT: Output = Output::file(
+        "paper.parquet",
+        "Comparison file to write [default: paper.parquet beside the regressions]",
+    );
+
+    fn create(options: &ComparePaperOptions, files: &Files) -> anyhow::Result<ComparePaper> {
+        let inputs = [files.input("pex")?, files.input("pro")?, files.input("responses")?];
+        ComparePaper::new(options, inputs, files.out(Self::OUTPUT.file))
+    }
+}
+
 impl Stage for ComparePaper {
-    fn subcommand(&self) -> &'static str {
-        PAPER.stage
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        vec![
-            ("pex", (&self.pex).into()),
-            ("pro", (&self.pro).into()),
-            ("responses", (&self.responses).into()),
-        ]
+        vec![("pex", self.pex.clone()), ("pro", self.pro.clone()), ("responses", self.responses.clone())]
     }
 
     fn targets(&self) -> Vec<Target> {
-        vec![(&self.out).into()]
+        vec![self.out.clone()]
     }
 
     fn parameters(&self) -> Value {
         let hash = |rows: Value| blake3::hash(rows.to_string().as_bytes()).to_hex().to_string();
         json!({ "published": hash(json!(self.published)), "spread": hash(json!(self.spread)) })
+    }
+
+    fn show(&self, terminal: &Terminal) -> anyhow::Result<String> {
+        self.out.path().map_or(Ok(String::new()), |out| Ok(terminal.table(&paper::show(out)?)))
     }
 
     fn execute(&self, provenance: &Provenance, _console: &Console) -> anyhow::Result<String> {
@@ -185,7 +219,7 @@ impl Stage for ComparePaper {
             PaperRow::new(published, ours.value(published), values)
         };
         let rows: Vec<PaperRow> = self.published.iter().map(row).collect();
-        PaperRow::write(&rows, &self.out, provenance)?;
+        PaperRow::write(&rows, self.out.clone(), provenance)?;
         Ok(format!("{} published numbers", rows.iter().filter(|row| row.published.is_some()).count()))
     }
 }

@@ -1,50 +1,68 @@
 //! export: the fits of a structure in the files of other risk programs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use super::chosen_fits::ChosenFits;
-use super::fits::FitsOptions;
+use super::fits::{FIT_INPUTS, FitFiles, FitsOptions};
 use super::structure_options::StructureOptions;
-use super::structures::words;
+use super::structures::{StructureSpec, words};
 use crate::export::{self, Function, Model, plain_id};
 use crate::fragility::{LimitState, Peak, Slice};
 use crate::keyword::keywords;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{Steps, Word, check};
-use crate::table::text_file;
+use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
+use crate::pipeline::options::{Steps, Word, check, defaults};
+use crate::pipeline::stage::Stage;
+use crate::table::provenance::{Provenance, Stamp};
+use crate::table::source::{Source, Target};
+use crate::table::{TableError, text_file};
 
-/// To whom, and at which intensities.
-#[derive(Debug, Clone, Args)]
+/// For which program, and at which intensities.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", default)]
 pub struct ExportOptions {
-    #[command(flatten, next_help_heading = "Fits")]
-    fits: FitsOptions,
-    #[command(flatten, next_help_heading = "Structure")]
-    structure: StructureOptions,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub fits: FitsOptions,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub structure: StructureOptions,
     /// openquake (NRML 0.5), openquake-continuous (the same, overturning alone as a lognormal curve) or pelicun (CSV, and
     /// JSON beside it)
     #[arg(long, help_heading = "Export")]
-    to: Word<Program>,
+    pub to: Option<Word<Program>>,
     /// Intensity: pga or pgv
     #[arg(long, default_value = "pga", help_heading = "Export")]
-    im: Word<Peak>,
+    pub im: Word<Peak>,
     /// p PGV / PGA of the motions: one function for each of these numbers
     #[arg(long, value_name = "RATIO,...", help_heading = "Export")]
-    ratio: Steps,
+    pub ratio: Option<Steps>,
     /// Intensities of the table, g or m/s, as numbers or first:last:step [default: as many as the tolerance needs]
     #[arg(long, value_name = "IM,...", conflicts_with_all = ["upto", "tolerance"], help_heading = "Export")]
-    levels: Option<Steps>,
+    pub levels: Option<Steps>,
     /// Largest intensity, g or m/s [default: that of the data; of pelicun, where all probabilities are 1]
     #[arg(long, value_name = "IM", help_heading = "Export")]
-    upto: Option<f64>,
+    pub upto: Option<f64>,
     /// Largest error of straight lines between the levels
     #[arg(long, default_value = "1e-6", help_heading = "Export")]
-    tolerance: f64,
-    /// File to write [default: fragility.xml or fragility.csv]
-    #[arg(long, value_name = "FILE", help_heading = "Export")]
-    out: Option<PathBuf>,
+    pub tolerance: f64,
+}
+
+impl Default for ExportOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+impl StageOptions for ExportOptions {
+    fn resolve_paths(&mut self, folder: &Path) {
+        self.structure.resolve_paths(folder);
+    }
 }
 
 /// A program that reads fragility.
@@ -64,59 +82,128 @@ keywords!(Program {
     Pelicun = "pelicun",
 });
 
-/// Writes the fits of the options for the program that they name.
-///
-/// # Errors
-/// If the fits or the structure cannot be used, an option is out of range, or a file cannot be written.
-pub fn export(options: &ExportOptions, console: &Console) -> anyhow::Result<()> {
-    let fits = options.fits.choose()?;
-    let structure = options.structure.structure(fits.model.eta)?;
-    fits.warn_of_eta(&structure, console);
-    let (tolerance, upto) = (options.tolerance, options.upto);
-    check(tolerance > 0.0 && tolerance < 0.1, "tolerance", tolerance, "an error above 0 and below 0.1")?;
-    check(upto.is_none_or(f64::is_finite), "upto", upto.unwrap_or_default(), "a finite intensity")?;
-    let functions = options.ratio.values.iter().map(|&ratio| {
-        check(ratio > 0.0, "ratio", ratio, "a p PGV / PGA above 0")?;
-        let slice = Slice { structure: structure.clone(), peak: options.im.0, ratio };
-        options.function(&slice, &fits, console)
-    });
-    let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
-    let model = Model {
-        id: format!("rockfrag_{}", plain_id(&structure.name)),
-        description: format!(
-            "rockfrag {}: fits of {}; structure of {}",
-            env!("CARGO_PKG_VERSION"),
-            fits.words(),
-            words(&structure)
-        ),
-        limit_states: [LimitState::Rocking, LimitState::Failure, LimitState::Overturning]
-            .map(|state| fits.meaning(state)),
-    };
-    let out = |default: &str| options.out.clone().unwrap_or_else(|| PathBuf::from(default));
-    let files = match options.to.0 {
-        Program::OpenQuake => vec![(out("fragility.xml"), export::discrete(&model, &functions))],
-        Program::OpenQuakeContinuous => vec![(out("fragility.xml"), export::continuous(&model, &functions))],
-        Program::Pelicun => {
-            let (rows, words) = (out("fragility.csv"), export::metadata(&model, &functions));
-            let words = serde_json::to_string_pretty(&words)? + "\n";
-            vec![(rows.with_extension("json"), words), (rows, export::parameters(&functions)?)]
-        }
-    };
-    for (path, content) in &files {
-        text_file::write(path, content)?;
-    }
-    let paths: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
-    let levels = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
-    console.note(&format!(
-        "{:20} {} functions, up to {levels} levels: {}",
-        "export",
-        functions.len(),
-        paths.join(", ")
-    ));
-    Ok(())
+/// The stage, ready to run.
+pub struct Export {
+    options: ExportOptions,
+    program: Program,
+    ratios: Vec<f64>,
+    fits: FitFiles,
+    structure: StructureSpec,
+    out: PathBuf,
 }
 
-impl ExportOptions {
+impl Declare for Export {
+    type Options = ExportOptions;
+    const NAME: &'static str = "export";
+    const ABOUT: &'static str = "Write the fragility of a structure for OpenQuake or pelicun";
+    const INPUTS: &'static [Input] = &FIT_INPUTS;
+    const OUTPUT: Output =
+        Output::file("fragility.xml", "File to write [default: fragility.xml or fragility.csv]")
+            .under("Export");
+
+    fn create(options: &ExportOptions, files: &Files) -> anyhow::Result<Export> {
+        let Some(Word(program)) = options.to else {
+            return Err(UsageError::because(
+                "expected the program that reads the file: --to openquake, openquake-continuous or pelicun",
+            ));
+        };
+        let Some(ratio) = &options.ratio else {
+            return Err(UsageError::because("expected the p PGV / PGA of the motions: --ratio RATIO,..."));
+        };
+        for &ratio in &ratio.values {
+            check(ratio > 0.0, "ratio", ratio, "a p PGV / PGA above 0")?;
+        }
+        let (tolerance, upto) = (options.tolerance, options.upto);
+        check(tolerance > 0.0 && tolerance < 0.1, "tolerance", tolerance, "an error above 0 and below 0.1")?;
+        check(upto.is_none_or(f64::is_finite), "upto", upto.unwrap_or_default(), "a finite intensity")?;
+        let file = if program == Program::Pelicun { "fragility.csv" } else { Self::OUTPUT.file };
+        let Target::Path(out) = files.asked(file).unwrap_or_else(|| file.into()) else {
+            return Err(UsageError::because("export writes text; expected the name of a file"));
+        };
+        Ok(Export {
+            options: options.clone(),
+            program,
+            ratios: ratio.values.clone(),
+            fits: FitFiles::new(&options.fits, files)?,
+            structure: options.structure.spec()?,
+            out,
+        })
+    }
+}
+
+impl Export {
+    /// The description of pelicun's functions, beside them.
+    fn metadata(&self) -> Option<PathBuf> {
+        (self.program == Program::Pelicun).then(|| self.out.with_extension("json"))
+    }
+}
+
+impl Stage for Export {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        vec![("pex", self.fits.pex.clone()), ("pro", self.fits.pro.clone())]
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        self.metadata().into_iter().chain([self.out.clone()]).map(Target::Path).collect()
+    }
+
+    fn parameters(&self) -> Value {
+        let ExportOptions { fits, to, im, ratio, levels, upto, tolerance, .. } = &self.options;
+        json!({
+            "fits": fits, "structure": self.structure, "to": to, "im": im, "ratio": ratio, "levels": levels,
+            "upto": upto, "tolerance": tolerance
+        })
+    }
+
+    /// Nothing: these files have no place for it.
+    fn recorded(&self, output: &Path) -> Result<Option<Stamp>, TableError> {
+        if output.exists() {
+            return Ok(None);
+        }
+        Err(TableError::Missing { path: output.to_path_buf(), hint: "run export".to_string() })
+    }
+
+    fn execute(&self, _provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        let fits = self.fits.choose()?;
+        let structure = self.structure.structure_with_eta(fits.model.eta)?;
+        fits.warn_of_eta(&structure, console);
+        let functions = self.ratios.iter().map(|&ratio| {
+            let slice = Slice { structure: structure.clone(), peak: self.options.im.0, ratio };
+            self.function(&slice, &fits, console)
+        });
+        let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
+        let model = Model {
+            id: format!("rockfrag_{}", plain_id(&structure.name)),
+            description: format!(
+                "rockfrag {}: fits of {}; structure of {}",
+                env!("CARGO_PKG_VERSION"),
+                fits.words(),
+                words(&structure)
+            ),
+            limit_states: [LimitState::Rocking, LimitState::Failure, LimitState::Overturning]
+                .map(|state| fits.meaning(state)),
+        };
+        let content = match self.program {
+            Program::OpenQuake => export::discrete(&model, &functions),
+            Program::OpenQuakeContinuous => export::continuous(&model, &functions),
+            Program::Pelicun => export::parameters(&functions)?,
+        };
+        if let Some(path) = self.metadata() {
+            let metadata = serde_json::to_string_pretty(&export::metadata(&model, &functions))? + "\n";
+            text_file::write(&path, metadata)?;
+        }
+        text_file::write(&self.out, content)?;
+        let paths: Vec<String> = self.outputs().iter().map(|path| path.display().to_string()).collect();
+        let levels = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
+        Ok(format!("{} functions, up to {levels} levels: {}", functions.len(), paths.join(", ")))
+    }
+}
+
+impl Export {
     /// One slice, tabulated.
     fn function(&self, slice: &Slice, fits: &ChosenFits, console: &Console) -> anyhow::Result<Function> {
         let model = &fits.model;
@@ -147,10 +234,10 @@ impl ExportOptions {
         reaching: impl Fn(f64) -> [f64; 3],
     ) -> anyhow::Result<Vec<f64>> {
         // pelicun knows a whole distribution or none.
-        let whole = (self.to.0 == Program::Pelicun)
-            .then(|| export::whole_curve_end(jumps[0], self.tolerance, &reaching));
-        let end = self.upto.map_or(whole.unwrap_or(largest_in_data), |upto| upto * self.unit());
-        let mut levels = match &self.levels {
+        let whole = (self.program == Program::Pelicun)
+            .then(|| export::whole_curve_end(jumps[0], self.options.tolerance, &reaching));
+        let end = self.options.upto.map_or(whole.unwrap_or(largest_in_data), |upto| upto * self.unit());
+        let mut levels = match &self.options.levels {
             Some(steps) => {
                 let given = steps.values.iter().map(|level| level * self.unit());
                 std::iter::once(jumps[0]).chain(given.filter(|&level| level > jumps[0])).collect()
@@ -158,7 +245,7 @@ impl ExportOptions {
             None => {
                 let inner = jumps.iter().copied().filter(|&jump| jump < end);
                 let edges: Vec<f64> = inner.chain([end]).collect();
-                export::levels(&edges, self.tolerance, &reaching)
+                export::levels(&edges, self.options.tolerance, &reaching)
             }
         };
         let last = levels.last().copied().unwrap_or(end);
@@ -170,6 +257,6 @@ impl ExportOptions {
 
     /// The unit of the options, in m/s2 or m/s.
     fn unit(&self) -> f64 {
-        self.im.0.usual_unit().1
+        self.options.im.0.usual_unit().1
     }
 }

@@ -7,11 +7,13 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::groups::{self, Group};
+use super::simulate::Simulate;
 use super::uncertainty::uncertainty;
 use crate::fragility::CaseGroup;
 use crate::fragility::demand::{Regression, RegressionOptions, ScanPoint};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
+use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{check, defaults, from_scalar};
 use crate::pipeline::stage::Stage;
 use crate::statistics::FitStatus;
@@ -45,6 +47,12 @@ pub struct FitPexOptions {
 impl Default for FitPexOptions {
     fn default() -> Self {
         defaults()
+    }
+}
+
+impl StageOptions for FitPexOptions {
+    fn seed(&mut self) -> Option<&mut Option<u64>> {
+        Some(&mut self.seed)
     }
 }
 
@@ -130,9 +138,24 @@ impl FitPex {
     }
 }
 
+impl Declare for FitPex {
+    type Options = FitPexOptions;
+    const NAME: &'static str = PEX.stage;
+    const ABOUT: &'static str = "Fit the demand in safe rocking: P_ex";
+    const INPUTS: &'static [Input] =
+        &[Input::file("responses", "in", Simulate::OUTPUT.file, "Responses to read")];
+    const OUTPUT: Output =
+        Output::file("pex.parquet", "Fits to write [default: pex.parquet beside the input]")
+            .with_parts(&["scan", "bootstrap"]);
+
+    fn create(options: &FitPexOptions, files: &Files) -> anyhow::Result<FitPex> {
+        FitPex::new(options, files.input("responses")?, files.out(Self::OUTPUT.file))
+    }
+}
+
 impl Stage for FitPex {
-    fn subcommand(&self) -> &'static str {
-        PEX.stage
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
@@ -150,7 +173,7 @@ impl Stage for FitPex {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
         let steps = groups.len() as u64 * self.regressions.uncertainty.steps();
-        let bar = console.bar(self.subcommand(), steps);
+        let bar = console.bar(self.name(), steps);
         let to_fit: Vec<CaseGroup> = groups.iter().map(Group::to_fit).collect();
         let fitted = self.regressions.fit(&to_fit, &|steps| bar.inc(steps))?;
         bar.finish();

@@ -5,11 +5,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::groups::{self, Group};
+use super::simulate::Simulate;
 use super::uncertainty::uncertainty;
 use crate::fragility::overturning::{Curve, CurveOptions, Pair};
 use crate::fragility::{CaseGroup, CurveModel, Event};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
+use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::statistics::{Estimator, FitStatus, Link};
@@ -52,6 +54,12 @@ impl Default for FitProOptions {
     }
 }
 
+impl StageOptions for FitProOptions {
+    fn seed(&mut self) -> Option<&mut Option<u64>> {
+        Some(&mut self.seed)
+    }
+}
+
 /// The stage, ready to run.
 pub struct FitPro {
     options: FitProOptions,
@@ -89,9 +97,24 @@ impl FitPro {
     }
 }
 
+impl Declare for FitPro {
+    type Options = FitProOptions;
+    const NAME: &'static str = PRO.stage;
+    const ABOUT: &'static str = "Fit the probability of overturning: P_ro";
+    const INPUTS: &'static [Input] =
+        &[Input::file("responses", "in", Simulate::OUTPUT.file, "Responses to read")];
+    const OUTPUT: Output =
+        Output::file("pro.parquet", "Fits to write [default: pro.parquet beside the input]")
+            .with_parts(&["bootstrap"]);
+
+    fn create(options: &FitProOptions, files: &Files) -> anyhow::Result<FitPro> {
+        FitPro::new(options, files.input("responses")?, files.out(Self::OUTPUT.file))
+    }
+}
+
 impl Stage for FitPro {
-    fn subcommand(&self) -> &'static str {
-        PRO.stage
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
@@ -108,7 +131,7 @@ impl Stage for FitPro {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let bar = console.bar(self.subcommand(), groups.len() as u64 * self.curves.uncertainty.steps());
+        let bar = console.bar(self.name(), groups.len() as u64 * self.curves.uncertainty.steps());
         let to_fit: Vec<CaseGroup> = groups.iter().map(Group::to_fit).collect();
         let fitted = self.curves.fit(&to_fit, &|steps| bar.inc(steps))?;
         bar.finish();

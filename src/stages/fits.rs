@@ -3,27 +3,33 @@
 use std::path::Path;
 
 use clap::Args;
+use serde::{Deserialize, Serialize};
 
 use super::chosen_fits::ChosenFits;
+use super::fit_pex::FitPex;
+use super::fit_pro::FitPro;
 use crate::fragility::Event;
 use crate::fragility::demand::Form;
 use crate::fragility::{DemandModel, FragilityModel, Measure, has_few_events};
 use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
-use crate::pipeline::options::Word;
+use crate::pipeline::declare::{Declare, Files, Input, StageOptions};
+use crate::pipeline::options::{Word, defaults};
 use crate::table::fits::{self, FitRow};
 use crate::table::schema;
 use crate::table::source::Source;
 
-/// Which fits.
-#[derive(Debug, Clone, Args)]
+/// The inputs of stages that start from fits.
+pub const FIT_INPUTS: [Input; 2] = [
+    Input::file("pex", "pex", FitPex::OUTPUT.file, "Regressions of fit-pex").under("Fits"),
+    Input::file("pro", "pro", FitPro::OUTPUT.file, "Curves of fit-pro").under("Fits"),
+];
+
+/// Which fits of the files of fit-pex and fit-pro are asked for.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+#[command(next_help_heading = "Fits")]
 pub struct FitsOptions {
-    /// Regressions of fit-pex
-    #[arg(long, value_name = "FILE", default_value = "pex.parquet")]
-    pub pex: Source,
-    /// Curves of fit-pro
-    #[arg(long, value_name = "FILE", default_value = "pro.parquet")]
-    pub pro: Source,
     /// Suite of the fits [default: the only one; of validate, all]
     #[arg(long)]
     pub suite: Option<String>,
@@ -47,9 +53,33 @@ pub enum ModelForm {
     Bivariate,
 }
 
+/// The files of fit-pex and fit-pro, and which of their fits are asked for.
+#[derive(Debug, Clone)]
+pub struct FitFiles {
+    pub pex: Source,
+    pub pro: Source,
+    pub options: FitsOptions,
+}
+
 keywords!(ModelForm { Univariate = "univariate", Bivariate = "bivariate" });
 
-impl FitsOptions {
+impl Default for FitsOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+impl StageOptions for FitsOptions {}
+
+impl FitFiles {
+    /// Joins the options and the files of a stage.
+    ///
+    /// # Errors
+    /// If there are no such files.
+    pub fn new(options: &FitsOptions, files: &Files) -> anyhow::Result<FitFiles> {
+        Ok(FitFiles { pex: files.input("pex")?, pro: files.input("pro")?, options: options.clone() })
+    }
+
     /// Reads the files and chooses.
     ///
     /// # Errors
@@ -81,8 +111,8 @@ impl FitsOptions {
     /// The suites and structures that the options leave.
     fn asked(&self, files: &FitRows) -> Vec<Group> {
         let asked = |(suite, structure): &Group| {
-            (self.suite.is_none() || self.suite == *suite)
-                && self.structure.as_ref().is_none_or(|asked| asked == structure)
+            (self.options.suite.is_none() || self.options.suite == *suite)
+                && self.options.structure.as_ref().is_none_or(|asked| asked == structure)
         };
         files.groups().into_iter().filter(asked).collect()
     }
@@ -102,7 +132,7 @@ impl FitsOptions {
         let of_group = |row: &&FitRow| group_of(row) == *group;
         let regressions: Vec<&FitRow> = files.regressions.iter().filter(of_group).collect();
         let curves: Vec<&FitRow> = files.curves.iter().filter(of_group).collect();
-        let (demand, pair) = match (self.model.0, self.measure) {
+        let (demand, pair) = match (self.options.model.0, self.options.measure) {
             (ModelForm::Bivariate, Some(measure)) => {
                 return Err(UsageError::because(format!("measure {measure} needs --model univariate")));
             }

@@ -1,7 +1,7 @@
 //! One subcommand a file, or a folder with its options beside it: read, call the domain, write. Besides these:
 //!
 //! ```text
-//! config             pipeline.yaml, the options of all
+//! registry           all stages in order: the subcommands, pipeline.yaml
 //! structures         structures as a user names them; structure_options one of them on the command line
 //! motions            records and peaks of motions, under distinct names
 //! measures           which intensity measures are taken
@@ -14,7 +14,6 @@
 
 pub mod chosen_fits;
 pub mod compare_paper;
-pub mod config;
 pub mod evaluate;
 pub mod export;
 pub mod fit_pex;
@@ -28,6 +27,7 @@ pub mod measures;
 pub mod motions;
 pub mod partitions;
 pub mod rank_ims;
+pub mod registry;
 pub mod report;
 pub mod resampled_fits;
 pub mod run;

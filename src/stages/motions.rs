@@ -90,19 +90,19 @@ impl Peaks {
     }
 }
 
-/// The motions so far; numbers take little room, as there may be millions.
+/// The names of all motions so far, which must differ; numbers take little room, as there may be millions.
 #[derive(Default)]
-pub struct SeenIds {
+pub struct DistinctIds {
     numbers: HashSet<i64>,
     names: HashSet<String>,
 }
 
-impl SeenIds {
-    /// Takes note of those of the file at `path`.
+impl DistinctIds {
+    /// Adds those of the file at `path`.
     ///
     /// # Errors
     /// If one is there already.
-    pub fn note(&mut self, path: &Path, ids: &[MotionId]) -> anyhow::Result<()> {
+    pub fn add(&mut self, path: &Path, ids: &[MotionId]) -> anyhow::Result<()> {
         match ids.iter().find(|id| !self.insert(id)) {
             Some(id) => anyhow::bail!(
                 "{}: two motions are called '{id}'; expected distinct motion_id",

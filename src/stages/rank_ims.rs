@@ -1,7 +1,5 @@
 //! rank-ims: which intensity measures, alone and together, predict best.
 
-use std::path::PathBuf;
-
 use anyhow::Context;
 use clap::Args;
 use rayon::prelude::*;
@@ -10,16 +8,21 @@ use serde_json::{Value, json};
 
 use super::fit_pex::TransitionAt;
 use super::groups::{self, Group};
+use super::simulate::Simulate;
+use super::synthesize_motions::SynthesizeMotions;
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
+use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{check, defaults};
 use crate::pipeline::stage::Stage;
+use crate::pipeline::terminal::Terminal;
 use crate::studies::{FurtherMeasure, MeasureRanking, RankingRules, RankingSample, Target};
 use crate::table::motion_measures::MotionMeasures;
 use crate::table::provenance::Provenance;
 use crate::table::ranking::{RANKING, RankedCandidate, RankingRow, ReliabilityRow};
+use crate::table::ranking_verdict;
 use crate::table::row::WriteRow;
-use crate::table::source::{self, Source, with_part};
+use crate::table::source::{self, Source};
 
 /// How measures are ranked.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -46,13 +49,15 @@ impl Default for RankImsOptions {
     }
 }
 
+impl StageOptions for RankImsOptions {}
+
 /// The stage, ready to run.
 pub struct RankIms {
     options: RankImsOptions,
     rules: RankingRules,
-    input: PathBuf,
-    motions: Option<PathBuf>,
-    out: PathBuf,
+    input: Source,
+    motions: Option<Source>,
+    out: source::Target,
 }
 
 impl RankIms {
@@ -62,9 +67,9 @@ impl RankIms {
     /// If an option is out of range.
     pub fn new(
         options: &RankImsOptions,
-        input: PathBuf,
-        motions: Option<PathBuf>,
-        out: PathBuf,
+        input: impl Into<Source>,
+        motions: Option<Source>,
+        out: impl Into<source::Target>,
     ) -> anyhow::Result<RankIms> {
         let RankImsOptions { limit_state, transition, terms, folds } = options.clone();
         let possible = limit_state > 0.0 && limit_state.is_finite();
@@ -72,11 +77,11 @@ impl RankIms {
         check((1..=3).contains(&terms), "terms", terms, "1, 2 or 3 measures")?;
         check((2..=1000).contains(&folds), "folds", folds, "2 to 1000 folds")?;
         let rules = RankingRules { folds, terms, transition: transition.im4() };
-        Ok(RankIms { options: options.clone(), rules, input, motions, out })
+        Ok(RankIms { options: options.clone(), rules, input: input.into(), motions, out: out.into() })
     }
 
-    fn reliability_path(&self) -> PathBuf {
-        with_part(&self.out, "reliability")
+    fn reliability_target(&self) -> source::Target {
+        self.out.part("reliability")
     }
 }
 
@@ -117,27 +122,60 @@ fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<Ranke
     ranking.rank(ratings).into_iter().map(row).collect()
 }
 
+impl Declare for RankIms {
+    type Options = RankImsOptions;
+    const NAME: &'static str = RANKING.stage;
+    const ABOUT: &'static str = "Rank intensity measures, alone, in pairs and triples, by how well they predict unseen cells or earthquakes
+
+Besides im1 to im6 of the paper, the measures of --motions, made dimensionless with p and g tan alpha: p D of the \
+significant durations (d5_75, d5_95); p^2 PGD / (g tan alpha) (pgd), the same of the Housner intensity (housner); \
+p CAV / (g tan alpha) (cav); p times the integral of a^2 / (g tan alpha)^2 (arias); Sa / (g tan alpha) (sa_0p50 is that at \
+0.5 s). Measures enter as a product, each to a power that the fit finds. PGA, PGV, Tm and Tp are those of im1 to im6.";
+    const INPUTS: &'static [Input] = &[
+        Input::file("responses", "in", Simulate::OUTPUT.file, "Responses to read"),
+        Input::file(
+            "motions",
+            "motions",
+            SynthesizeMotions::OUTPUT.file,
+            "Motions that the responses are to, for their further measures",
+        )
+        .if_in_run(),
+    ];
+    const OUTPUT: Output =
+        Output::file("ranking.parquet", "Ranking to write [default: ranking.parquet beside the input]")
+            .with_parts(&["reliability"]);
+
+    fn create(options: &RankImsOptions, files: &Files) -> anyhow::Result<RankIms> {
+        let out = files.out(Self::OUTPUT.file);
+        RankIms::new(options, files.input("responses")?, files.optional("motions"), out)
+    }
+}
+
 impl Stage for RankIms {
-    fn subcommand(&self) -> &'static str {
-        RANKING.stage
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        let motions = self.motions.iter().map(|path| ("motions", path.into()));
-        [("responses", (&self.input).into())].into_iter().chain(motions).collect()
+        let motions = self.motions.iter().map(|motions| ("motions", motions.clone()));
+        [("responses", self.input.clone())].into_iter().chain(motions).collect()
     }
 
     fn targets(&self) -> Vec<source::Target> {
-        vec![self.reliability_path().into(), (&self.out).into()]
+        vec![self.reliability_target(), self.out.clone()]
     }
 
     fn parameters(&self) -> Value {
         json!(self.options)
     }
 
+    fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
+        self.out.path().map_or(Ok(String::new()), ranking_verdict::show)
+    }
+
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let motions = self.motions.as_deref().map(MotionMeasures::read).transpose()?;
+        let motions = self.motions.as_ref().map(MotionMeasures::read).transpose()?;
         let mut samples: Vec<(&Group, RankingSample)> = Vec::new();
         for group in &groups {
             let further = motions.as_ref().map_or(Ok(Vec::new()), |motions| further(group, motions));
@@ -155,9 +193,9 @@ impl Stage for RankIms {
             samples.into_par_iter().map(|(group, sample)| rows(group, sample, &self.rules)).collect();
         let reliability: Vec<ReliabilityRow> =
             ranked.iter().flatten().flat_map(RankedCandidate::reliability).collect();
-        ReliabilityRow::write(&reliability, self.reliability_path(), provenance)?;
+        ReliabilityRow::write(&reliability, self.reliability_target(), provenance)?;
         let rows: Vec<RankingRow> = ranked.iter().flatten().map(RankingRow::from).collect();
-        RankingRow::write(&rows, &self.out, provenance)?;
+        RankingRow::write(&rows, self.out.clone(), provenance)?;
         Ok(format!("{} models for {} targets", rows.len(), targets))
     }
 }

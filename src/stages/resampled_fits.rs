@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::chosen_fits::ChosenFits;
-use super::fits::FitsOptions;
+use super::fits::FitFiles;
 use crate::fragility::Event;
 use crate::fragility::demand::Form;
 use crate::fragility::{DemandLaw, DemandModel, FragilityModel, Predictor};
@@ -20,9 +20,9 @@ use crate::table::source::{Source, with_part};
 ///
 /// # Errors
 /// If the fits are in memory.
-pub fn files(options: &FitsOptions) -> anyhow::Result<[PathBuf; 2]> {
-    let file = |fits| -> anyhow::Result<PathBuf> { Ok(with_part(path_of(fits)?, "bootstrap")) };
-    Ok([file(&options.pex)?, file(&options.pro)?])
+pub fn files(fits: &FitFiles) -> anyhow::Result<[PathBuf; 2]> {
+    let file = |source| -> anyhow::Result<PathBuf> { Ok(with_part(path_of(source)?, "bootstrap")) };
+    Ok([file(&fits.pex)?, file(&fits.pro)?])
 }
 
 fn path_of(fits: &Source) -> anyhow::Result<&Path> {
@@ -35,14 +35,28 @@ fn path_of(fits: &Source) -> anyhow::Result<&Path> {
     }
 }
 
+/// Checks that the bootstrap files are there.
+///
+/// # Errors
+/// If one is missing.
+pub fn expect_files(fits: &FitFiles) -> anyhow::Result<()> {
+    match files(fits)?.iter().find(|bootstrap| !bootstrap.exists()) {
+        Some(missing) => Err(UsageError::because(format!(
+            "{}: no such file; limits by replicates need fit-pex and fit-pro with --bootstrap 2000",
+            missing.display()
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// The chosen fits in each resample.
 ///
 /// # Errors
 /// If there are no such files, or they are not of the same resamples as the fits and each other.
-pub fn read(options: &FitsOptions, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<FragilityModel>>> {
-    let [pex, pro] = files(options)?;
-    same_plan(path_of(&options.pex)?, &pex)?;
-    same_plan(path_of(&options.pro)?, &pro)?;
+pub fn read(fits: &FitFiles, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<FragilityModel>>> {
+    let [pex, pro] = files(fits)?;
+    same_plan(path_of(&fits.pex)?, &pex)?;
+    same_plan(path_of(&fits.pro)?, &pro)?;
     let seed =
         |path: &Path| anyhow::Ok(stamp(path)?.map(|stamp| stamp.provenance.parameters["seed"].clone()));
     if seed(&pex)? != seed(&pro)? {
@@ -72,12 +86,6 @@ pub fn read(options: &FitsOptions, chosen: &ChosenFits) -> anyhow::Result<Vec<Op
 /// That a bootstrap file was made together with the fits.
 fn same_plan(fits: &Path, bootstrap: &Path) -> anyhow::Result<()> {
     let plan = |path: &Path| anyhow::Ok(stamp(path)?.map(|stamp| stamp.plan));
-    if !bootstrap.exists() {
-        return Err(UsageError::because(format!(
-            "{}: no such file; limits by replicates need fit-pex and fit-pro with --bootstrap 2000",
-            bootstrap.display()
-        )));
-    }
     if plan(fits)? != plan(bootstrap)? {
         return Err(UsageError::because(format!(
             "{} was not made together with {}; fit again with --bootstrap",

@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 
 use crate::motion::{Design, Grid};
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{Steps, Word, check, defaults};
+use crate::pipeline::declare::{Declare, Files, Output, StageOptions};
+use crate::pipeline::options::{DEFAULT_SEED, Steps, Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::table::provenance::Provenance;
 use crate::table::row::WriteRow;
@@ -19,8 +20,6 @@ use crate::table::writer::TableWriter;
 const CELLS_AT_ONCE: usize = 64;
 /// More than this is a slip of the finger.
 const MOST_SAMPLES: usize = 10_000_000;
-/// The seed where none is given.
-pub const DEFAULT_SEED: u64 = 42;
 
 /// Which scenarios.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -46,6 +45,12 @@ pub struct SampleScenariosOptions {
 impl Default for SampleScenariosOptions {
     fn default() -> Self {
         defaults()
+    }
+}
+
+impl StageOptions for SampleScenariosOptions {
+    fn seed(&mut self) -> Option<&mut Option<u64>> {
+        Some(&mut self.seed)
     }
 }
 
@@ -82,9 +87,21 @@ impl SampleScenarios {
     }
 }
 
+impl Declare for SampleScenarios {
+    type Options = SampleScenariosOptions;
+    const NAME: &'static str = SCENARIOS.stage;
+    const ABOUT: &'static str = "Sample earthquake scenarios on a magnitude-distance grid";
+    const OUTPUT: Output =
+        Output::file("scenarios.parquet", "Scenarios file to write [default: scenarios.parquet]");
+
+    fn create(options: &SampleScenariosOptions, files: &Files) -> anyhow::Result<SampleScenarios> {
+        SampleScenarios::new(options, files.out(Self::OUTPUT.file))
+    }
+}
+
 impl Stage for SampleScenarios {
-    fn subcommand(&self) -> &'static str {
-        SCENARIOS.stage
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
@@ -103,7 +120,7 @@ impl Stage for SampleScenarios {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let mut writer = TableWriter::create(self.out.clone(), &SCENARIOS, provenance.clone())?;
         let cells: Vec<usize> = (0..self.grid.cells()).collect();
-        let bar = console.bar(self.subcommand(), cells.len() as u64);
+        let bar = console.bar(self.name(), cells.len() as u64);
         for cells in cells.chunks(CELLS_AT_ONCE) {
             let scenarios: Vec<_> = cells.par_iter().map(|&cell| self.grid.scenarios_of_cell(cell)).collect();
             let rows: Vec<ScenarioRow> = scenarios.iter().flatten().map(ScenarioRow::from).collect();

@@ -1,14 +1,16 @@
 //! seed-spread: the whole pipeline with one seed after the other, to see how far its numbers move by chance.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::Args;
 
-use super::config::Config;
-use super::run::{Files, run, stages};
+use super::compare_paper::ComparePaper;
+use super::registry::Config;
+use super::run::run;
 use crate::pipeline::console::Console;
-use crate::pipeline::stage::folder_of;
+use crate::pipeline::declare::Declare;
+use crate::pipeline::stage::{Stage, folder_of};
 use crate::table::paper::{self, SpreadRow};
 
 /// How many seeds, and where to.
@@ -32,10 +34,10 @@ pub fn seed_spread(config: &Config, options: &SeedSpreadOptions, console: &Conso
     for seed in 1..=options.seeds {
         console.note(&format!("seed {seed} of {}", options.seeds));
         let scratch = tempfile::Builder::new().prefix(".seed-spread.").tempdir_in(folder)?;
-        let files = Files::in_folder(scratch.path());
-        let numbers_only = Config { report: None, ..config.with_seed(seed) };
-        run(&stages(&numbers_only, &files)?, true, console)?;
-        rows.extend(paper::ours(&files.paper, seed)?);
+        let numbers = scratch.path().join(ComparePaper::OUTPUT.file);
+        let stages = config.clone().with_seed(seed).stages(scratch.path())?;
+        run(&needed_for(&numbers, stages), true, console)?;
+        rows.extend(paper::ours(&numbers, seed)?);
     }
     let mut partial = tempfile::NamedTempFile::new_in(folder)?;
     {
@@ -45,4 +47,18 @@ pub fn seed_spread(config: &Config, options: &SeedSpreadOptions, console: &Conso
     }
     partial.persist(&options.out).with_context(|| options.out.display().to_string())?;
     Ok(())
+}
+
+/// Those of the stages of a run, in order, on which a file depends.
+fn needed_for(file: &Path, stages: Vec<Box<dyn Stage>>) -> Vec<Box<dyn Stage>> {
+    let mut files = vec![file.to_path_buf()];
+    let mut needed = Vec::new();
+    for stage in stages.into_iter().rev() {
+        if stage.outputs().iter().any(|output| files.contains(output)) {
+            files.extend(stage.inputs().iter().map(|(_, source)| source.name().to_path_buf()));
+            needed.push(stage);
+        }
+    }
+    needed.reverse();
+    needed
 }

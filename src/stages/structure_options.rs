@@ -3,13 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use serde::{Deserialize, Serialize};
 
 use super::structures::{StructureSpec, Structures};
 use crate::pipeline::UsageError;
-use crate::rocking::Structure;
 
 /// One structure on the command line.
-#[derive(Debug, Clone, Default, Args)]
+#[derive(Debug, Clone, PartialEq, Default, Args, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", default)]
+#[command(next_help_heading = "Structure")]
 pub struct StructureOptions {
     /// Frequency parameter of the structure, rad/s
     #[arg(long)]
@@ -46,39 +48,42 @@ impl StructureOptions {
             || self.structures.is_some()
     }
 
-    /// The structure; `eta` of the fits holds where neither an option nor dimensions give it.
-    ///
-    /// # Errors
-    /// If it is impossible, not given, or not in the file.
-    pub fn structure(&self, eta: f64) -> anyhow::Result<Structure> {
-        if let Some(path) = &self.structures {
-            return self.named(Structures::File(path.clone()).resolve()?, path);
+    /// Makes the path of a structures file relative to `folder`, that of the pipeline file.
+    pub fn resolve_paths(&mut self, folder: &Path) {
+        if let Some(structures) = &mut self.structures {
+            *structures = folder.join(&*structures);
         }
-        let spec = StructureSpec {
-            name: None,
-            p: self.p,
-            alpha: self.alpha,
-            eta: self.eta.or_else(|| self.width.is_none().then_some(eta)),
-            width: self.width,
-            height: self.height,
-            beam_mass_ratio: self.beam_mass_ratio,
-        };
-        spec.structure()
     }
 
-    fn named(&self, mut structures: Vec<Structure>, path: &Path) -> anyhow::Result<Structure> {
+    /// The structure as it is given, or as it is in the file.
+    ///
+    /// # Errors
+    /// If it is not in the file, or the file cannot be read.
+    pub fn spec(&self) -> anyhow::Result<StructureSpec> {
+        let Some(path) = &self.structures else {
+            return Ok(StructureSpec {
+                name: None,
+                p: self.p,
+                alpha: self.alpha,
+                eta: self.eta,
+                width: self.width,
+                height: self.height,
+                beam_mass_ratio: self.beam_mass_ratio,
+            });
+        };
+        let mut structures = Structures::File(path.clone()).resolve()?;
         let names: Vec<String> = structures.iter().map(|structure| structure.name.clone()).collect();
         let place = match &self.name {
             Some(name) => names.iter().position(|known| known == name),
             None => (names.len() == 1).then_some(0),
         };
-        let known = || {
-            UsageError::because(format!(
+        let Some(place) = place else {
+            return Err(UsageError::because(format!(
                 "{}: expected --name with one of {}",
                 path.display(),
                 names.join(", ")
-            ))
+            )));
         };
-        place.map(|place| structures.swap_remove(place)).ok_or_else(known)
+        Ok(StructureSpec::from(structures.swap_remove(place)))
     }
 }

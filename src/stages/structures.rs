@@ -1,13 +1,16 @@
 //! Structures as a user names them: by p, alpha and eta, as a block, or as a frame.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use serde::{Deserialize, Serialize};
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{self, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Value, json};
 
 use crate::pipeline::UsageError;
-use crate::pipeline::yaml::explain;
+use crate::pipeline::options::explain;
 use crate::rocking::Structure;
 use crate::table::text_file;
 
@@ -59,6 +62,15 @@ impl StructureSpec {
         structure.map_err(|error| UsageError::because(error.to_string()))
     }
 
+    /// The structure; `eta` of the fits holds where neither it nor dimensions are given.
+    ///
+    /// # Errors
+    /// As [`StructureSpec::structure`].
+    pub fn structure_with_eta(&self, eta: f64) -> anyhow::Result<Structure> {
+        let eta = self.eta.or_else(|| self.width.is_none().then_some(eta));
+        StructureSpec { eta, ..self.clone() }.structure()
+    }
+
     fn generic_name(&self) -> String {
         let parts = [
             ("p", self.p),
@@ -70,6 +82,19 @@ impl StructureSpec {
         ];
         let given = parts.iter().filter_map(|(name, value)| value.map(|value| format!("{name}{value}")));
         given.collect::<Vec<_>>().join("-")
+    }
+}
+
+impl From<Structure> for StructureSpec {
+    fn from(structure: Structure) -> StructureSpec {
+        let Structure { name, p_rad_s, alpha_rad, eta } = structure;
+        StructureSpec {
+            name: Some(name),
+            p: Some(p_rad_s),
+            alpha: Some(alpha_rad),
+            eta: Some(eta),
+            ..StructureSpec::default()
+        }
     }
 }
 
@@ -87,7 +112,7 @@ pub fn parameters(structures: &[Structure]) -> Value {
 }
 
 /// Where structures come from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Structures {
     /// From a YAML or CSV file.
@@ -101,6 +126,31 @@ impl FromStr for Structures {
 
     fn from_str(path: &str) -> Result<Structures, Self::Err> {
         Ok(Structures::File(PathBuf::from(path)))
+    }
+}
+
+impl<'de> Deserialize<'de> for Structures {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Structures, D::Error> {
+        deserializer.deserialize_any(FileOrList)
+    }
+}
+
+/// Tells a file from a list, so that what is wrong with a structure of the list is said of it.
+struct FileOrList;
+
+impl<'de> Visitor<'de> for FileOrList {
+    type Value = Structures;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("the name of a file, or a list of structures")
+    }
+
+    fn visit_str<E: de::Error>(self, path: &str) -> Result<Structures, E> {
+        Ok(Structures::File(PathBuf::from(path)))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Structures, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(list)).map(Structures::List)
     }
 }
 

@@ -1,8 +1,7 @@
 //! The options on uncertainty that fit-pex and fit-pro share, checked.
 
-use super::sample_scenarios::DEFAULT_SEED;
 use crate::fragility::Uncertainty;
-use crate::pipeline::options::check;
+use crate::pipeline::options::{DEFAULT_SEED, check};
 
 /// Upper bound that catches typing errors.
 const MOST_REPLICATES: usize = 1_000_000;

@@ -1,13 +1,14 @@
 //! The measures of a motions file by motion, without its samples.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::TableError;
 use super::columns::Columns;
 use super::motions::STAGES;
 use super::reader::OpenTable;
 use super::schema::{self, Column};
+use super::source::Source;
 use crate::motion::Quantity;
 
 /// The measures besides the peaks and periods of Eq. 13, and what they are.
@@ -49,19 +50,20 @@ impl MotionMeasures {
     ///
     /// # Errors
     /// If the file is missing, unreadable, empty, of another stage, lacks motion_id or holds a value that it must not.
-    pub fn read(path: &Path) -> Result<MotionMeasures, TableError> {
+    pub fn read(source: impl Into<Source>) -> Result<MotionMeasures, TableError> {
+        let source = source.into();
         let narrow = [schema::motion_id, schema::pga_m_s2];
         let is_wanted = |name: &str| {
             let mut known = narrow.iter().chain(FURTHER.iter().map(|(column, _)| column));
             known.any(|column| column.name == name) || schema::is_spectral_acceleration(name)
         };
         let mut all = MotionMeasures {
-            path: path.to_path_buf(),
+            path: source.name().to_path_buf(),
             rows: HashMap::new(),
             pga_m_s2: Vec::new(),
             further: Vec::new(),
         };
-        for batch in OpenTable::open_at(path, &STAGES, is_wanted)?.whole()? {
+        for batch in OpenTable::open_at(source, &STAGES, is_wanted)?.whole()? {
             all.append(&batch?.columns())?;
         }
         all.further.retain(|measure| measure.values.iter().any(Option::is_some));

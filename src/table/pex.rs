@@ -1,14 +1,13 @@
 //! The files of fit-pex: one row a regression of the demand in safe rocking, one a regression and resample, and one a place
 //! that was tried for the transition.
 
-use std::path::Path;
-
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
 use super::frame::read_frame;
 use super::row::table;
 use super::schema::{self, Column};
+use super::source::Source;
 use crate::fragility::Measure;
 use crate::fragility::demand::{Form, Regression};
 use crate::keyword::Keyword;
@@ -240,8 +239,8 @@ impl PexFrame {
     ///
     /// # Errors
     /// If it is none of regressions.
-    pub fn read(path: &Path) -> Result<PexFrame, TableError> {
-        read_frame(path, &PEX).map(PexFrame)
+    pub fn read(source: impl Into<Source>) -> Result<PexFrame, TableError> {
+        read_frame(source, &PEX).map(PexFrame)
     }
 
     /// A number of one of the two planes, below the transition or above it.

@@ -1,13 +1,12 @@
 //! The files of fit-pro: one row a fragility curve, and one a curve and resample.
 
-use std::path::Path;
-
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
 use super::frame::read_frame;
 use super::row::table;
 use super::schema::{self, Column};
+use super::source::Source;
 use crate::fragility::overturning::Curve;
 use crate::fragility::{CurveParameter, Event, Measure};
 use crate::keyword;
@@ -236,8 +235,8 @@ impl ProFrame {
     ///
     /// # Errors
     /// If it is none of curves.
-    pub fn read(path: &Path) -> Result<ProFrame, TableError> {
-        read_frame(path, &PRO).map(ProFrame)
+    pub fn read(source: impl Into<Source>) -> Result<ProFrame, TableError> {
+        read_frame(source, &PRO).map(ProFrame)
     }
 
     /// A number of the curve of one measure, or of a hybrid of two.

@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use proptest::prelude::*;
-use rockfrag::stages::config::Config;
-use rockfrag::stages::run::{Files, stages};
+use rockfrag::stages::registry::Config;
 use rockfrag::stages::structures::Structures;
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 use rockfrag::table::{hazard, paper};
@@ -56,7 +55,7 @@ proptest! {
             ("hazard.csv", hazard::read(&file("hazard.csv")).map(drop)),
         ];
         let config = Config::read(&file("pipeline.yaml"));
-        let checked = config.and_then(|config| stages(&config, &Files::in_folder(folder.path())).map(drop));
+        let checked = config.and_then(|config| config.stages(folder.path()).map(drop));
         outcomes.push(("pipeline", checked));
         for (_, outcome) in outcomes {
             let words = outcome.err().map(|error| format!("{error:#}"));

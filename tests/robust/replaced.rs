@@ -8,7 +8,7 @@ use rockfrag::stages::report::{Report, ReportOptions};
 use rockfrag::stages::sample_scenarios::{SampleScenarios, SampleScenariosOptions};
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 
-const QUIET: Console = Console { quiet: true, progress: false, follower: None };
+const QUIET: Console = Console { quiet: true, progress: false, listener: None };
 
 fn copy(name: &str, to: &Path) {
     std::fs::copy(Path::new("tests/reference/files").join(name), to).unwrap();

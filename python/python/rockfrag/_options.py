@@ -5,47 +5,23 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from typing import Any
 
-from ._types import PathLike, Progress, Steps
+from ._types import PathLike, Progress
 
 
-def to_json(**options: Any) -> str:
+def to_json(options: Mapping[str, Any]) -> str:
     """Options that are given, under the names that they have on the command line."""
-    given = {name.replace("_", "-"): value for name, value in options.items() if value is not None}
-    return json.dumps(given, default=_plain)
-
-
-def steps(values: Steps | None) -> str | None:
-    """Numbers as the command line has them."""
-    if values is None or isinstance(values, str):
-        return values
-    each = values if isinstance(values, Iterable) else [values]
-    return ",".join(repr(float(value)) for value in each)
-
-
-def several(values: str | Iterable[Any]) -> list[str]:
-    """Words, or text of words parted by commas."""
-    return values.split(",") if isinstance(values, str) else [str(value) for value in values]
-
-
-def structures(given: PathLike | Mapping[str, Any] | Iterable[Mapping[str, Any]] | None) -> Any:
-    """Structures as a file, or as a list of their parameters."""
-    if given is None:
-        return None
-    if isinstance(given, (str, os.PathLike)):
-        return os.fspath(given)
-    return [structure(one) for one in ([given] if isinstance(given, Mapping) else given)]
+    return json.dumps({_kebab(name): _plain(value) for name, value in options.items()})
 
 
 def structure(given: Mapping[str, Any]) -> dict[str, Any]:
     """One structure by the names of the command line."""
-    return {name.replace("_", "-"): value for name, value in given.items() if value is not None}
+    return {_kebab(name): _plain(value) for name, value in given.items() if value is not None}
 
 
-def manner(threads: int | None, progress: Progress | None, force: bool) -> dict[str, Any]:
-    """How a call is run."""
+def settings(threads: int | None, progress: Progress | None, force: bool) -> dict[str, Any]:
+    """The settings of a call."""
     if threads is not None and threads < 1:
         from .errors import OptionError
 
@@ -58,9 +34,20 @@ def path(out: PathLike | None) -> str | None:
     return None if out is None else os.fspath(out)
 
 
+def _kebab(name: str) -> str:
+    return name.replace("_", "-")
+
+
 def _plain(value: Any) -> Any:
-    if isinstance(value, Path):
-        return str(value)
-    if hasattr(value, "item"):
+    """What JSON knows: text, numbers, lists of text, and structures, of which one is a list too."""
+    if value is None or isinstance(value, (str, bool, int, float)):
+        return value
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, Mapping):
+        return [structure(value)]
+    if hasattr(value, "item") and getattr(value, "ndim", 0) == 0:
         return value.item()
+    if isinstance(value, Iterable):
+        return [structure(one) if isinstance(one, Mapping) else str(_plain(one)) for one in value]
     raise TypeError(f"{value!r} is no option; expected text, numbers or lists of them")

@@ -3,19 +3,7 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
-__all__ = [
-    "Table",
-    "__version__",
-    "evaluate",
-    "fit_pex",
-    "fit_pro",
-    "import_motions",
-    "partition_file",
-    "response",
-    "sample_scenarios",
-    "simulate",
-    "synthesize_motions",
-]
+__all__ = ["Table", "__version__", "call", "partition_file", "response", "stages"]
 __version__: str
 
 @final
@@ -34,14 +22,9 @@ class Table:
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
 
 def partition_file(partition: str) -> str: ...
-def sample_scenarios(options: str, out: str | None, manner: dict[str, Any]) -> Any: ...
-def synthesize_motions(scenarios: Any, options: str, out: str | None, manner: dict[str, Any]) -> Any: ...
-def import_motions(options: str, out: str | None, manner: dict[str, Any]) -> Any: ...
-def simulate(motions: Any, options: str, out: str | None, manner: dict[str, Any]) -> Any: ...
-def fit_pex(responses: Any, options: str, out: str | None, manner: dict[str, Any]) -> Any: ...
-def fit_pro(responses: Any, options: str, out: str | None, manner: dict[str, Any]) -> Any: ...
-def evaluate(
-    intensities: Any, pex: Any, pro: Any, options: str, out: str | None, manner: dict[str, Any]
+def stages() -> str: ...
+def call(
+    stage: str, inputs: dict[str, Any], options: str, out: str | None, settings: dict[str, Any]
 ) -> Any: ...
 def response(
     acceleration_m_s2: npt.NDArray[np.float64], dt_s: float, structure: str, tail_s: float

@@ -1,9 +1,9 @@
-"""The rocking response: of structures to motions, and of one to one over time."""
+"""The rocking response of one structure to one motion over time."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,53 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _options, _rockfrag
-from ._types import PathLike, Progress, TableLike
-
-
-def simulate(
-    motions: TableLike,
-    *,
-    p: float = 2.5,
-    alpha: float = 0.20,
-    eta: float = 0.92,
-    structures: PathLike | Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = None,
-    path: str | None = None,
-    trace: Iterable[Any] | str | None = None,
-    partition: str | None = None,
-    out: PathLike | None = None,
-    threads: int | None = None,
-    progress: Progress | None = None,
-    force: bool = False,
-) -> Any:
-    """Simulates the rocking response of structures to motions (section 2.2).
-
-    Args:
-        motions: What :func:`synthesize_motions` or :func:`import_motions` made, or any table of ``motion_id`` (integer or text), ``dt_s``
-            (s) and ``acceleration_m_s2`` (a list of samples, m/s2).
-        p: Frequency parameter of the structure, rad/s.
-        alpha: Its slenderness, rad.
-        eta: Its coefficient of restitution.
-        structures: In place of these: a YAML or CSV file, or one or more mappings such as
-            ``{"name": "frame", "p": 1.0, "alpha": 0.15, "eta": 0.92}`` or ``{"width": 0.5, "height": 2.0}`` (m).
-        path: How the solver works: ``scalar``, ``avx2`` or ``avx512``; the fastest if not given.
-        trace: Names of motions whose rotation over time becomes ``parts["trace"]`` of the result.
-        partition: ``"i/n"``: of a folder of motions its file i, of a table an equal share; ``out`` is then a folder.
-
-    Returns:
-        One row a motion and structure: outcome, demand and dimensionless measures (Eqs. 7 and 13).
-    """
-    options = _options.to_json(
-        p=p,
-        alpha=alpha,
-        eta=eta,
-        structures=_options.structures(structures),
-        path=path,
-        trace=None if trace is None else _options.several(trace),
-        partition=partition,
-    )
-    return _rockfrag.simulate(
-        motions, options, _options.path(out), _options.manner(threads, progress, force)
-    )
 
 
 @dataclass(frozen=True)

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any, Union
 
 #: A path, or a table that speaks Arrow.
 TableLike = Any
 PathLike = Union[str, "os.PathLike[str]"]
-#: Numbers: one, several, or ``"first:last:step"``.
-Steps = Union[float, str, Iterable[float]]
 #: Takes the number of steps done and of all.
 Progress = Callable[[int, int], Any]

@@ -5,82 +5,115 @@ mod point;
 mod rates;
 mod table;
 
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
+use anyhow::Context;
 use clap::Args;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
-pub use self::table::EvaluateTable;
-
+use self::answer::Answer;
+use self::table::EvaluatedTable;
 use super::chosen_fits::ChosenFits;
-use super::fits::FitsOptions;
+use super::fits::{FIT_INPUTS, FitFiles, FitsOptions};
 use super::resampled_fits;
 use super::structure_options::StructureOptions;
+use super::structures::StructureSpec;
 use crate::fragility::{ReplicateLimits, ResampledModel};
-use crate::keyword::keywords;
-use crate::pipeline::cache;
+use crate::keyword::{self, Keyword, keywords};
+use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::Word;
-use crate::pipeline::stage::beside;
-use crate::table::source::Source;
+use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
+use crate::pipeline::files::hash;
+use crate::pipeline::options::{Word, defaults};
+use crate::pipeline::stage::{Stage, beside};
+use crate::pipeline::terminal::Terminal;
+use crate::table::evaluated::EVALUATED;
+use crate::table::provenance::{Provenance, content_of};
+use crate::table::source::{Source, Target};
+use crate::table::writer::TableWriter;
+use crate::table::{TableError, text_file};
 
 /// What is asked, of which fits and structure.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", default)]
 pub struct EvaluateOptions {
-    #[command(flatten, next_help_heading = "Fits")]
-    fits: FitsOptions,
-    #[command(flatten, next_help_heading = "Structure")]
-    structure: StructureOptions,
-    #[command(flatten, next_help_heading = "One intensity")]
-    point: PointOptions,
-    #[command(flatten, next_help_heading = "Many intensities")]
-    table: TableOptions,
-    #[command(flatten, next_help_heading = "Hazard of a site")]
-    hazard: HazardOptions,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub fits: FitsOptions,
     /// delta (of the standard errors), or from the resamples of fit-pex and fit-pro --bootstrap: percentile, or bc (bias-corrected)
     #[arg(long, default_value = "delta", help_heading = "Fits")]
-    limits: Word<LimitsBy>,
-    /// File to write [default: stdout; of a table: evaluated.parquet beside it]
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    out: Option<PathBuf>,
-    /// table (to read), csv, json, or parquet (with --out)
-    #[arg(long, default_value = "table", help_heading = "Output")]
-    format: Word<Format>,
+    pub limits: Word<LimitsBy>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub structure: StructureOptions,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub point: PointOptions,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub hazard: HazardOptions,
+    /// table (to read), csv, json, or parquet (with --out) [default: as --out ends, or table]
+    #[arg(long, help_heading = "Output")]
+    pub format: Option<Word<Format>>,
 }
 
-#[derive(Debug, Clone, Args)]
-struct PointOptions {
+impl Default for EvaluateOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+impl StageOptions for EvaluateOptions {
+    fn resolve_paths(&mut self, folder: &Path) {
+        self.structure.resolve_paths(folder);
+        if let Some(hazard) = &mut self.hazard.hazard {
+            *hazard = folder.join(&*hazard);
+        }
+    }
+}
+
+/// One intensity.
+#[derive(Debug, Clone, PartialEq, Default, Args, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", default)]
+#[command(next_help_heading = "One intensity")]
+pub struct PointOptions {
     /// Peak ground acceleration, g
-    #[arg(long, value_name = "G")]
-    pga: Option<f64>,
+    #[arg(long, value_name = "G", conflicts_with = "hazard")]
+    pub pga: Option<f64>,
     /// Peak ground velocity, m/s
-    #[arg(long, value_name = "M/S")]
-    pgv: Option<f64>,
+    #[arg(long, value_name = "M/S", conflicts_with = "hazard")]
+    pub pgv: Option<f64>,
     /// Period of the velocity pulse, s, where the measure needs it
-    #[arg(long, value_name = "S")]
-    tp: Option<f64>,
+    #[arg(long, value_name = "S", conflicts_with = "hazard")]
+    pub tp: Option<f64>,
     /// Mean period, s, where the measure needs it
-    #[arg(long, value_name = "S")]
-    tm: Option<f64>,
+    #[arg(long, value_name = "S", conflicts_with = "hazard")]
+    pub tm: Option<f64>,
 }
 
-#[derive(Debug, Clone, Args)]
-struct TableOptions {
-    /// Parquet table with pga_m_s2 and pgv_m_s, and where they differ p_rad_s, alpha_rad, eta, tp_s, tm_s
-    #[arg(long = "in", value_name = "FILE", conflicts_with_all = ["pga", "pgv", "tp", "tm", "format"])]
-    input: Option<PathBuf>,
-}
-
-#[derive(Debug, Clone, Args)]
-struct HazardOptions {
+/// The hazard of a site.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", default)]
+#[command(next_help_heading = "Hazard of a site")]
+pub struct HazardOptions {
     /// CSV file: pga_g or pgv_m_s with annual_rate_of_exceedance, or both with annual_rate_of_occurrence
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["pga", "pgv", "tp", "tm", "input"])]
-    hazard: Option<PathBuf>,
+    #[arg(long, value_name = "FILE")]
+    pub hazard: Option<PathBuf>,
     /// p PGV / PGA of the motions, where the hazard knows one peak only
-    #[arg(long, requires = "hazard")]
-    ratio: Option<f64>,
+    #[arg(long)]
+    pub ratio: Option<f64>,
     /// Time of exposure, years
     #[arg(long, default_value = "50")]
-    years: f64,
+    pub years: f64,
+}
+
+impl Default for HazardOptions {
+    fn default() -> Self {
+        defaults()
+    }
 }
 
 /// Where limits come from.
@@ -111,47 +144,192 @@ pub enum Format {
 
 keywords!(Format { Table = "table", Csv = "csv", Json = "json", Parquet = "parquet" });
 
+impl Format {
+    /// The format of a file by how its name ends.
+    fn of(target: &Target) -> Format {
+        let ending = target.path().and_then(Path::extension).unwrap_or_default().to_string_lossy();
+        keyword::parse(&ending).unwrap_or(Format::Table)
+    }
+
+    fn ending(self) -> &'static str {
+        match self {
+            Format::Table => "txt",
+            other => other.as_str(),
+        }
+    }
+}
+
+/// The role of a table of intensities.
+const INTENSITIES: &str = "intensities";
+
 impl LimitsBy {
     /// The fits, with their resamples where limits need them.
-    fn choose(self, options: &FitsOptions) -> anyhow::Result<ChosenFits> {
-        let chosen = options.choose()?;
+    fn choose(self, files: &FitFiles) -> anyhow::Result<ChosenFits> {
+        let chosen = files.choose()?;
         let limits = match self {
             LimitsBy::Delta => return Ok(chosen),
             LimitsBy::Percentile => ReplicateLimits::Percentile,
             LimitsBy::BiasCorrected => ReplicateLimits::BiasCorrected,
         };
-        let replicates = resampled_fits::read(options, &chosen)?;
+        let replicates = resampled_fits::read(files, &chosen)?;
         Ok(ChosenFits { resampled: Some(ResampledModel { replicates, limits }), ..chosen })
     }
 
     /// The files that the fits come from, by the role each plays.
-    fn fit_files(self, options: &FitsOptions) -> anyhow::Result<Vec<(&'static str, Source)>> {
-        let mut files = vec![("pex", options.pex.clone()), ("pro", options.pro.clone())];
+    fn fit_files(self, files: &FitFiles) -> anyhow::Result<Vec<(&'static str, Source)>> {
+        let mut sources = vec![("pex", files.pex.clone()), ("pro", files.pro.clone())];
         if self != LimitsBy::Delta {
-            let [pex, pro] = resampled_fits::files(options)?;
-            files.extend([("pex bootstrap", pex.into()), ("pro bootstrap", pro.into())]);
+            let [pex, pro] = resampled_fits::files(files)?;
+            sources.extend([("pex bootstrap", pex.into()), ("pro bootstrap", pro.into())]);
         }
-        Ok(files)
+        Ok(sources)
     }
 }
 
-/// Answers what the options ask: into a file, or as text that is to be printed.
-///
-/// # Errors
-/// If an input cannot be used, an option is out of range, or the output cannot be written.
-pub fn evaluate(options: &EvaluateOptions, force: bool, console: &Console) -> anyhow::Result<String> {
-    if let Some(input) = &options.table.input {
-        let out = options.out.clone().unwrap_or_else(|| beside(input, "evaluated.parquet"));
-        let stage = EvaluateTable::new(&options.fits, options.limits.0, &options.structure, input, out)?;
-        return cache::run_alone(&stage, force, console).map(|()| String::new());
+/// The stage, ready to run.
+pub struct Evaluate {
+    options: EvaluateOptions,
+    fits: FitFiles,
+    fit_files: Vec<(&'static str, Source)>,
+    structure: StructureSpec,
+    /// A table of intensities, if it is asked at each of them.
+    intensities: Option<Source>,
+    format: Format,
+    /// Where the answer goes, if it is not printed.
+    out: Option<Target>,
+    printed: OnceLock<String>,
+}
+
+impl Declare for Evaluate {
+    type Options = EvaluateOptions;
+    const NAME: &'static str = EVALUATED.stage;
+    const ABOUT: &'static str = "Probabilities of rocking, failure and overturning: at one intensity, at each of a table, or a \
+         year at a site";
+    const INPUTS: &'static [Input] = &[
+        FIT_INPUTS[0],
+        FIT_INPUTS[1],
+        Input::file(
+            INTENSITIES,
+            "in",
+            "",
+            "Parquet table with pga_m_s2 and pgv_m_s, and where they differ p_rad_s, alpha_rad, eta, tp_s, tm_s",
+        )
+        .if_named()
+        .under("Many intensities")
+        .without(&["pga", "pgv", "tp", "tm", "hazard", "format"]),
+    ];
+    const OUTPUT: Output = Output::file(
+        "evaluated.parquet",
+        "File to write [default: stdout; of a table: evaluated.parquet beside it]",
+    )
+    .under("Output");
+
+    fn create(options: &EvaluateOptions, files: &Files) -> anyhow::Result<Evaluate> {
+        let fits = FitFiles::new(&options.fits, files)?;
+        let intensities = files.optional(INTENSITIES);
+        let beside_table = || Some(beside(intensities.as_ref()?.name(), Self::OUTPUT.file).into());
+        let format = options.format.map(|Word(format)| format);
+        let file =
+            format.map_or(Self::OUTPUT.file.to_string(), |format| format!("evaluated.{}", format.ending()));
+        let out = files.asked(&file).or_else(beside_table);
+        let format = format.unwrap_or_else(|| out.as_ref().map_or(Format::Table, Format::of));
+        if format == Format::Parquet && out.is_none() {
+            return Err(UsageError::because("format parquet needs --out FILE"));
+        }
+        Ok(Evaluate {
+            fit_files: options.limits.0.fit_files(&fits)?,
+            structure: options.structure.spec()?,
+            options: options.clone(),
+            fits,
+            intensities,
+            format,
+            out,
+            printed: OnceLock::new(),
+        })
     }
-    let fits = options.limits.0.choose(&options.fits)?;
-    fits.warn_of_few_events(console);
-    let structure = options.structure.structure(fits.model.eta)?;
-    fits.warn_of_eta(&structure, console);
-    let answer = match &options.hazard.hazard {
-        Some(path) => rates::answer(&options.hazard, path, &fits, &structure, console)?,
-        None => point::answer(&options.point, &fits, &structure, console)?,
-    };
-    answer.deliver(options)
+}
+
+impl Evaluate {
+    /// Answers for one intensity or one site.
+    fn answer(&self, fits: &ChosenFits, console: &Console) -> anyhow::Result<Answer> {
+        fits.warn_of_few_events(console);
+        let structure = self.structure.structure_with_eta(fits.model.eta)?;
+        fits.warn_of_eta(&structure, console);
+        match &self.options.hazard.hazard {
+            Some(path) => rates::answer(&self.options.hazard, path, fits, &structure, console),
+            None => point::answer(&self.options.point, fits, &structure, console),
+        }
+    }
+
+    /// Writes an answer, or keeps it to be printed.
+    fn deliver(&self, answer: &Answer, provenance: &Provenance) -> anyhow::Result<()> {
+        let Some(out) = &self.out else {
+            let _ = self.printed.set(answer.text(self.format)?);
+            return Ok(());
+        };
+        match (self.format, out) {
+            (Format::Parquet, _) | (_, Target::Memory(..)) => {
+                let mut writer = TableWriter::create(out.clone(), &answer.table, provenance.clone())?;
+                writer.append(&answer.rows)?;
+                Ok(writer.finish()?)
+            }
+            (format, Target::Path(path)) => Ok(text_file::write(path, answer.text(format)?)?),
+        }
+    }
+}
+
+impl Stage for Evaluate {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn inputs(&self) -> Vec<(&'static str, Source)> {
+        let intensities = self.intensities.iter().map(|source| (INTENSITIES, source.clone()));
+        self.fit_files.iter().cloned().chain(intensities).collect()
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        self.out.iter().cloned().collect()
+    }
+
+    fn parameters(&self) -> Value {
+        let EvaluateOptions { fits, limits, point, hazard, .. } = &self.options;
+        let question = match (&self.intensities, &hazard.hazard) {
+            (Some(_), _) => Value::Null,
+            (None, Some(_)) => json!({ "ratio": hazard.ratio, "years": hazard.years }),
+            (None, None) => json!(point),
+        };
+        json!({ "fits": fits, "limits": limits, "structure": self.structure, "question": question })
+    }
+
+    fn provenance(&self) -> anyhow::Result<Provenance> {
+        if self.options.limits.0 != LimitsBy::Delta {
+            resampled_fits::expect_files(&self.fits)?;
+        }
+        let sources = self.inputs();
+        let content = |(role, source): &(&str, Source)| Ok((role.to_string(), content_of(source)?));
+        let mut inputs = sources.iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
+        if let Some(hazard) = &self.options.hazard.hazard {
+            let content = hash(hazard).with_context(|| hazard.display().to_string())?;
+            inputs.insert("hazard".to_string(), content);
+        }
+        let places = sources.into_iter().map(|(role, source)| (role.to_string(), source.name().into()));
+        Ok(Provenance::new(Self::NAME, self.parameters(), inputs).of_sources(places.collect()))
+    }
+
+    fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
+        Ok(self.printed.get().cloned().unwrap_or_default())
+    }
+
+    fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        let fits = self.options.limits.0.choose(&self.fits)?;
+        if let (Some(input), Some(out)) = (&self.intensities, &self.out) {
+            let given = self.options.structure.is_given();
+            let structure = given.then(|| self.structure.structure_with_eta(fits.model.eta)).transpose()?;
+            let table = EvaluatedTable { fits, structure };
+            return table.write(input, out, provenance, console);
+        }
+        self.deliver(&self.answer(&fits, console)?, provenance)?;
+        Ok(String::new())
+    }
 }

@@ -1,5 +1,3 @@
-use serde_json::json;
-
 use super::PointOptions;
 use super::answer::Answer;
 use crate::fragility::Probability;
@@ -32,7 +30,7 @@ pub fn answer(
     let probabilities = fits.probabilities(&measures);
     let failure = probabilities.limit_states().map(|[_, failure, _]| failure);
     if failure.is_none() {
-        console.note("warning: the fits need a measure that is missing: give --pgv above 0, --tp or --tm");
+        console.warn("the fits need a measure that is missing: give --pgv above 0, --tp or --tm");
     }
     fits.warn_of_range(&measures, "", console);
     let row = |column: Column, value: Option<f64>, p: Option<Probability>| AnswerRow {
@@ -62,7 +60,6 @@ pub fn answer(
     rows.extend(
         measured.into_iter().filter(|(_, value)| value.is_some()).map(|(im, value)| row(im, value, None)),
     );
-    let Structure { p_rad_s, alpha_rad, eta, .. } = structure;
     Ok(Answer {
         table: ANSWER,
         rows: evaluated::answer(&rows)?,
@@ -73,8 +70,5 @@ pub fn answer(
             fits.model.limit,
             fits.words_of_limits(),
         ),
-        parameters: json!({ "p": p_rad_s, "alpha": alpha_rad, "eta": eta, "pga": pga_g, "pgv": pgv_m_s,
-            "tp": options.tp, "tm": options.tm, "fits": fits.words(), "limits": fits.words_of_limits() }),
-        input: None,
     })
 }

@@ -1,8 +1,5 @@
 use std::path::Path;
 
-use rayon::prelude::*;
-use serde_json::json;
-
 use super::HazardOptions;
 use super::answer::Answer;
 use crate::fragility::{FragilityModel, LimitState, Probability, Slice};
@@ -17,6 +14,7 @@ use crate::stages::chosen_fits::ChosenFits;
 use crate::stages::structures::words;
 use crate::table::evaluated::{self, RATES, RateRow};
 use crate::table::hazard::{self, Hazard};
+use rayon::prelude::*;
 
 /// Value, lower and upper limit of each limit state in turn.
 type Rates = [f64; 9];
@@ -56,7 +54,6 @@ pub fn answer(
         RateRow { state, annual_rate, years, probability, meaning: fits.meaning(state) }
     };
     let rows: Vec<RateRow> = LimitState::ALL.iter().enumerate().map(row).collect();
-    let Structure { p_rad_s, alpha_rad, eta, .. } = structure;
     Ok(Answer {
         table: RATES,
         rows: evaluated::rates(&rows)?,
@@ -66,9 +63,6 @@ pub fn answer(
             words(structure),
             path.display()
         ),
-        parameters: json!({ "p": p_rad_s, "alpha": alpha_rad, "eta": eta, "ratio": options.ratio,
-            "years": years, "fits": fits.words(), "limits": fits.words_of_limits() }),
-        input: Some(("hazard", path.into())),
     })
 }
 
@@ -84,8 +78,8 @@ fn along_slice(
     fits.warn_of_slice(slice, last, "the hazard: ", console);
     let (uplift, (unit, size)) = (slice.intensity_at_im4(1.0), slice.peak.usual_unit());
     if first > uplift {
-        console.note(&format!(
-            "warning: the hazard begins at {:.4} {unit}, above uplift at {:.4} {unit}: motions between are not counted",
+        console.warn(&format!(
+            "the hazard begins at {:.4} {unit}, above uplift at {:.4} {unit}: motions between are not counted",
             first / size,
             uplift / size
         ));
@@ -93,8 +87,8 @@ fn along_slice(
     let [.., overturning, _, _] = rates;
     let uncounted = rate_beyond * (1.0 - at_last[2].value);
     if uncounted > 0.01 * overturning {
-        console.note(&format!(
-            "warning: the hazard ends at {:.4} {unit}; stronger motions count as this one, and could add {uncounted:.1e} a year",
+        console.warn(&format!(
+            "the hazard ends at {:.4} {unit}; stronger motions count as this one, and could add {uncounted:.1e} a year",
             last / size
         ));
     }
@@ -117,7 +111,7 @@ fn over_pairs(
     let outside = joint.bins.iter().filter(is_outside).count();
     if outside > 0 {
         let all = joint.bins.len();
-        console.note(&format!("warning: {outside} of {all} bins lie outside of the data: extrapolated"));
+        console.warn(&format!("{outside} of {all} bins lie outside of the data: extrapolated"));
     }
     Ok(over_bins(structure, joint, model))
 }

@@ -1,14 +1,9 @@
 use rayon::prelude::*;
-use serde_json::{Value, json};
 
-use super::LimitsBy;
 use crate::pipeline::console::Console;
-use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
 use crate::stages::chosen_fits::ChosenFits;
-use crate::stages::fits::FitsOptions;
-use crate::stages::structure_options::StructureOptions;
 use crate::table::evaluated::{self, EVALUATED, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
 use crate::table::provenance::Provenance;
@@ -18,32 +13,49 @@ use crate::table::writer::TableWriter;
 /// Rows that are read at once, and written as a row group.
 const BATCH: usize = 16_384;
 
-/// Probabilities at each intensity of a table, ready to run.
-pub struct EvaluateTable {
-    fits: ChosenFits,
-    fit_files: Vec<(&'static str, Source)>,
+/// Probabilities at each intensity of a table.
+pub struct EvaluatedTable {
+    pub fits: ChosenFits,
     /// Of all rows; without it each row has its own.
-    structure: Option<Structure>,
-    input: Source,
-    out: Target,
+    pub structure: Option<Structure>,
 }
 
-impl EvaluateTable {
-    /// At the intensities in `input`, into `out`.
+impl EvaluatedTable {
+    /// Reads intensities from `input` and writes their probabilities to `out`.
     ///
     /// # Errors
-    /// If the fits cannot be read or chosen, or the structure in the options is impossible.
-    pub fn new(
-        fits: &FitsOptions,
-        limits: LimitsBy,
-        structure: &StructureOptions,
-        input: impl Into<Source>,
-        out: impl Into<Target>,
-    ) -> anyhow::Result<EvaluateTable> {
-        let fit_files = limits.fit_files(fits)?;
-        let fits = limits.choose(fits)?;
-        let structure = structure.is_given().then(|| structure.structure(fits.model.eta)).transpose()?;
-        Ok(EvaluateTable { fits, fit_files, structure, input: input.into(), out: out.into() })
+    /// If the table lacks a column or holds a value that cannot be used, or `out` cannot be written.
+    pub fn write(
+        &self,
+        input: &Source,
+        out: &Target,
+        provenance: &Provenance,
+        console: &Console,
+    ) -> anyhow::Result<String> {
+        let nameless = self.structure.clone().map(|structure| Structure { name: String::new(), ..structure });
+        let intensities = IntensityBatches::open(input, nameless, self.fits.model.eta, BATCH)?;
+        let total = intensities.rows();
+        self.fits.warn_of_few_events(console);
+        let mut writer = TableWriter::create(out.clone(), &EVALUATED, provenance.clone())?;
+        let mut suspect = Suspect::default();
+        let bar = console.bar(&provenance.stage, total);
+        pipelined(
+            intensities.map(|batch| Ok(batch?)),
+            |intensities| {
+                let rows: Vec<EvaluatedRow> = intensities.par_iter().map(|one| self.row(one)).collect();
+                let suspect = Suspect::among(&rows, &intensities, &self.fits);
+                bar.inc(rows.len() as u64)?;
+                Ok((evaluated::batch(&rows)?, suspect))
+            },
+            |(batch, more)| {
+                suspect.add(&more);
+                Ok(writer.write_row_group(&batch)?)
+            },
+        )?;
+        writer.finish()?;
+        bar.finish();
+        suspect.warn(&self.fits, console);
+        Ok(format!("{total} rows"))
     }
 
     fn row(&self, intensity: &Intensity) -> EvaluatedRow {
@@ -60,27 +72,27 @@ impl EvaluateTable {
     }
 }
 
-/// Rows that need a word of warning.
+/// Counts of rows that need a word of warning.
 #[derive(Default)]
-struct Doubtful {
+struct Suspect {
     out_of_range: usize,
     other_eta: usize,
     without_measure: usize,
 }
 
-impl Doubtful {
-    fn among(rows: &[EvaluatedRow], intensities: &[Intensity], fits: &ChosenFits) -> Doubtful {
+impl Suspect {
+    fn among(rows: &[EvaluatedRow], intensities: &[Intensity], fits: &ChosenFits) -> Suspect {
         let has_no_measure =
             |row: &&EvaluatedRow| row.probabilities.p_nr == 0.0 && row.probabilities.given_rocking.is_none();
         let has_other_eta = |intensity: &&Intensity| fits.is_other_eta(intensity.structure.eta);
-        Doubtful {
+        Suspect {
             out_of_range: rows.iter().filter(|row| row.out_of_range.is_some()).count(),
             other_eta: intensities.iter().filter(has_other_eta).count(),
             without_measure: rows.iter().filter(has_no_measure).count(),
         }
     }
 
-    fn add(&mut self, more: &Doubtful) {
+    fn add(&mut self, more: &Suspect) {
         self.out_of_range += more.out_of_range;
         self.other_eta += more.other_eta;
         self.without_measure += more.without_measure;
@@ -94,55 +106,8 @@ impl Doubtful {
             (self.without_measure, "no value of a measure that the fits need: their probabilities are null"),
         ] {
             if rows > 0 {
-                console.note(&format!("warning: {rows} rows have {reason}"));
+                console.warn(&format!("{rows} rows have {reason}"));
             }
         }
-    }
-}
-
-impl Stage for EvaluateTable {
-    fn subcommand(&self) -> &'static str {
-        EVALUATED.stage
-    }
-
-    fn inputs(&self) -> Vec<(&'static str, Source)> {
-        self.fit_files.iter().cloned().chain([("intensities", self.input.clone())]).collect()
-    }
-
-    fn targets(&self) -> Vec<Target> {
-        vec![self.out.clone()]
-    }
-
-    fn parameters(&self) -> Value {
-        let structure = self.structure.as_ref();
-        let structure = structure.map(|s| json!({ "p": s.p_rad_s, "alpha": s.alpha_rad, "eta": s.eta }));
-        json!({ "fits": self.fits.words(), "limits": self.fits.words_of_limits(), "structure": structure })
-    }
-
-    fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let nameless = self.structure.clone().map(|structure| Structure { name: String::new(), ..structure });
-        let intensities = IntensityBatches::open(&self.input, nameless, self.fits.model.eta, BATCH)?;
-        let total = intensities.rows();
-        self.fits.warn_of_few_events(console);
-        let mut writer = TableWriter::create(self.out.clone(), &EVALUATED, provenance.clone())?;
-        let mut doubtful = Doubtful::default();
-        let bar = console.bar(self.subcommand(), total);
-        pipelined(
-            intensities.map(|batch| Ok(batch?)),
-            |intensities| {
-                let rows: Vec<EvaluatedRow> = intensities.par_iter().map(|one| self.row(one)).collect();
-                let doubtful = Doubtful::among(&rows, &intensities, &self.fits);
-                bar.inc(rows.len() as u64)?;
-                Ok((evaluated::batch(&rows)?, doubtful))
-            },
-            |(batch, more)| {
-                doubtful.add(&more);
-                Ok(writer.write_row_group(&batch)?)
-            },
-        )?;
-        writer.finish()?;
-        bar.finish();
-        doubtful.warn(&self.fits, console);
-        Ok(format!("{total} rows"))
     }
 }

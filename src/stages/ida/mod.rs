@@ -4,35 +4,39 @@
 //! options  which structures, which intensities
 //! measure  what is scaled
 //! scaled   the looks at some motions
-//! tally    what they come to for each suite and structure
+//! counts   what they come to for each suite and structure
 //! ```
 
+mod counts;
 mod measure;
 mod options;
 mod scaled;
-mod tally;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
+use self::counts::Counts;
 pub use self::options::IdaOptions;
-use self::tally::Tally;
-use super::motions::SeenIds;
+use super::motions::DistinctIds;
 use super::structures::parameters;
+use super::synthesize_motions::SynthesizeMotions;
 use crate::keyword::Keyword;
 use crate::motion::IntensityScratch;
 use crate::pipeline::console::Console;
+use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
+use crate::pipeline::terminal::Terminal;
 use crate::rocking::{Path as SolverPath, Scan, Structure};
 use crate::table::ida::{self, IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
 use crate::table::provenance::Provenance;
-use crate::table::source::{Source, Target, with_part};
+use crate::table::schema::Table;
+use crate::table::source::{Source, Target};
 use crate::table::writer::TableWriter;
 
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are bisected.
@@ -44,8 +48,8 @@ pub struct Ida {
     structures: Vec<Structure>,
     path: SolverPath,
     scan: Scan,
-    input: PathBuf,
-    out: PathBuf,
+    input: Source,
+    out: Target,
 }
 
 /// What came of some motions.
@@ -54,7 +58,7 @@ struct Analysed {
     stripes: RecordBatch,
     capacities: RecordBatch,
     windows: RecordBatch,
-    tally: Tally,
+    counts: Counts,
 }
 
 impl Ida {
@@ -62,15 +66,15 @@ impl Ida {
     ///
     /// # Errors
     /// If an option is out of range, or the structures cannot be read or are impossible.
-    pub fn new(options: &IdaOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<Ida> {
+    pub fn new(
+        options: &IdaOptions,
+        input: impl Into<Source>,
+        out: impl Into<Target>,
+    ) -> anyhow::Result<Ida> {
+        let (input, out) = (input.into(), out.into());
         let scan = options.scan()?;
         let (structures, path) = options.structures()?;
         Ok(Ida { options: options.clone(), structures, path, scan, input, out })
-    }
-
-    /// The file of fragility beside the file of capacities `out`.
-    pub fn fragility_path(out: &Path) -> PathBuf {
-        with_part(out, IDA_FRAGILITY.name)
     }
 
     fn measure(&self) -> &'static str {
@@ -87,7 +91,7 @@ impl Ida {
         let (stripes, capacities) = self.looks(path, motions, scratch)?;
         Ok(Analysed {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
-            tally: Tally::of(&self.scan, &stripes, &capacities),
+            counts: Counts::of(&self.scan, &stripes, &capacities),
             stripes: ida::stripes(&stripes, by_name)?,
             windows: ida::windows(&capacities, by_name)?,
             capacities: ida::capacities(&capacities, self.scan.top(), by_name)?,
@@ -95,19 +99,35 @@ impl Ida {
     }
 }
 
+impl Declare for Ida {
+    type Options = IdaOptions;
+    const NAME: &'static str = IDA.stage;
+    const ABOUT: &'static str = "Incremental dynamic analysis: at which intensities of each motion each structure overturns, and \
+         which larger ones it survives";
+    const INPUTS: &'static [Input] =
+        &[Input::file("motions", "in", SynthesizeMotions::OUTPUT.file, "Motions to read, as simulate does")];
+    const OUTPUT: Output = Output::file(
+        "ida.parquet",
+        "File of overturning intensities to write; NAME.stripes, NAME.windows, NAME.shares and NAME.fragility stand beside it [default: ida.parquet beside the input]",
+    )
+    .with_parts(&[IDA_STRIPES.name, IDA_WINDOWS.name, IDA_SHARES.name, IDA_FRAGILITY.name]);
+
+    fn create(options: &IdaOptions, files: &Files) -> anyhow::Result<Ida> {
+        Ida::new(options, files.input("motions")?, files.out(Self::OUTPUT.file))
+    }
+}
+
 impl Stage for Ida {
-    fn subcommand(&self) -> &'static str {
-        IDA.stage
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        vec![("motions", (&self.input).into())]
+        vec![("motions", self.input.clone())]
     }
 
     fn targets(&self) -> Vec<Target> {
-        let beside = [IDA_STRIPES, IDA_WINDOWS, IDA_SHARES, IDA_FRAGILITY];
-        let beside = beside.iter().map(|table| with_part(&self.out, table.name).into());
-        beside.chain([(&self.out).into()]).collect()
+        Self::OUTPUT.parts.iter().map(|part| self.out.part(part)).chain([self.out.clone()]).collect()
     }
 
     fn parameters(&self) -> Value {
@@ -118,52 +138,56 @@ impl Stage for Ida {
         })
     }
 
+    fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
+        match self.out.part(IDA_FRAGILITY.name) {
+            Target::Path(path) => ida::show(&path),
+            Target::Memory(..) => Ok(String::new()),
+        }
+    }
+
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let file = MotionTable::open(&self.input, None)?;
         let (total, by_name) = (file.rows(), file.ids_are_names());
-        let paths = self.outputs();
-        let [stripes_path, windows_path, shares_path, fragility_path, out] = &paths[..] else {
-            unreachable!("five files")
-        };
-        let mut stripes = motions::writer(stripes_path, &IDA_STRIPES, by_name, provenance)?;
-        let mut windows = motions::writer(windows_path, &IDA_WINDOWS, by_name, provenance)?;
-        let mut capacities = motions::writer(out, &IDA, by_name, provenance)?;
-        let (mut seen, mut tally) = (SeenIds::default(), Tally::default());
+        let part = |table: &Table| self.out.part(table.name);
+        let mut stripes = motions::writer(part(&IDA_STRIPES), &IDA_STRIPES, by_name, provenance)?;
+        let mut windows = motions::writer(part(&IDA_WINDOWS), &IDA_WINDOWS, by_name, provenance)?;
+        let mut capacities = motions::writer(self.out.clone(), &IDA, by_name, provenance)?;
+        let (mut ids, mut counts) = (DistinctIds::default(), Counts::default());
         let pool = Pool::new(IntensityScratch::default);
-        let bar = console.bar(self.subcommand(), total);
+        let bar = console.bar(self.name(), total);
         pipelined(
             batches(file.parts(), rayon::current_num_threads()),
             |parts| {
-                let analyse = |part: &Part| -> anyhow::Result<Vec<Analysed>> {
+                let analyse_part = |part: &Part| -> anyhow::Result<Vec<Analysed>> {
                     let path = file.path_of(part);
-                    let analyse = |motions: Vec<Motion>| {
+                    let analyse_chunk = |motions: Vec<Motion>| {
                         let analysed =
                             pool.lend(|scratch| self.analyse(&path, &motions, by_name, scratch))?;
                         bar.inc(motions.len() as u64)?;
                         Ok(analysed)
                     };
                     let motions = file.chunks(part, CHUNK)?.collect::<Result<Vec<_>, _>>()?;
-                    motions.into_par_iter().map(analyse).collect()
+                    motions.into_par_iter().map(analyse_chunk).collect()
                 };
                 let analysed: Vec<Vec<Analysed>> =
-                    parts.par_iter().map(analyse).collect::<anyhow::Result<_>>()?;
+                    parts.par_iter().map(analyse_part).collect::<anyhow::Result<_>>()?;
                 Ok(analysed.into_iter().flatten())
             },
             |analysed| {
                 for analysed in analysed {
-                    seen.note(&self.input, &analysed.motion_ids)?;
+                    ids.add(self.input.name(), &analysed.motion_ids)?;
                     stripes.append(&analysed.stripes)?;
                     windows.append(&analysed.windows)?;
                     capacities.append(&analysed.capacities)?;
-                    tally.append(analysed.tally);
+                    counts.append(analysed.counts);
                 }
                 Ok(())
             },
         )?;
-        let rows = tally.rows(&self.scan);
-        let mut shares = TableWriter::create(shares_path, &IDA_SHARES, provenance.clone())?;
+        let rows = counts.rows(&self.scan);
+        let mut shares = TableWriter::create(part(&IDA_SHARES), &IDA_SHARES, provenance.clone())?;
         shares.append(&ida::shares(&rows)?)?;
-        let mut fragility = TableWriter::create(fragility_path, &IDA_FRAGILITY, provenance.clone())?;
+        let mut fragility = TableWriter::create(part(&IDA_FRAGILITY), &IDA_FRAGILITY, provenance.clone())?;
         fragility.append(&ida::fragility(&rows)?)?;
         [stripes, windows, shares, fragility, capacities].into_iter().try_for_each(TableWriter::finish)?;
         bar.finish();

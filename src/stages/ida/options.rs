@@ -6,6 +6,7 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use super::measure::ScaledMeasure;
+use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{Word, check, defaults};
 use crate::rocking::{Path as SolverPath, Scan, Structure};
 use crate::stages::simulate::SimulateOptions;
@@ -60,14 +61,15 @@ impl Default for IdaOptions {
     }
 }
 
-impl IdaOptions {
-    /// Makes the path of a structures file relative to `folder`, that of the pipeline file.
-    pub fn resolve_paths(&mut self, folder: &Path) {
+impl StageOptions for IdaOptions {
+    fn resolve_paths(&mut self, folder: &Path) {
         if let Some(structures) = &mut self.structures {
             structures.resolve_path(folder);
         }
     }
+}
 
+impl IdaOptions {
     pub(super) fn scan(&self) -> anyhow::Result<Scan> {
         let IdaOptions { from, to, steps, halvings, tolerance, .. } = *self;
         check(from > 0.0 && from.is_finite(), "from", from, "an intensity above 0")?;

@@ -23,13 +23,13 @@ use self::work::{Importer, Plan, summary};
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
+use crate::pipeline::declare::{Declare, Files, Output};
 use crate::pipeline::files::{content_of_all, expand};
 use crate::pipeline::options::Word;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::records::processing::{Processing, Refusal, Scratch};
 use crate::records::signal::Scaling;
-use crate::table::TableError;
 use crate::table::provenance::Provenance;
 use crate::table::records::{self, RECORDS};
 use crate::table::source::{Source, Target};
@@ -83,9 +83,22 @@ impl ImportMotions {
     }
 }
 
+impl Declare for ImportMotions {
+    type Options = ImportMotionsOptions;
+    const NAME: &'static str = RECORDS.stage;
+    const ABOUT: &'static str =
+        "Import recorded ground motions from the files of strong-motion networks, CSV or Parquet";
+    const OUTPUT: Output =
+        Output::file("motions.parquet", "Motions file to write [default: motions.parquet]");
+
+    fn create(options: &ImportMotionsOptions, files: &Files) -> anyhow::Result<ImportMotions> {
+        ImportMotions::new(options, files.out(Self::OUTPUT.file))
+    }
+}
+
 impl Stage for ImportMotions {
-    fn subcommand(&self) -> &'static str {
-        RECORDS.stage
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
@@ -117,9 +130,9 @@ impl Stage for ImportMotions {
         })
     }
 
-    fn provenance(&self) -> Result<Provenance, TableError> {
+    fn provenance(&self) -> anyhow::Result<Provenance> {
         let inputs = BTreeMap::from([("files".to_string(), content_of_all(&self.importer.files))]);
-        Ok(Provenance::new(self.subcommand(), self.parameters(), inputs))
+        Ok(Provenance::new(self.name(), self.parameters(), inputs))
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
@@ -128,7 +141,7 @@ impl Stage for ImportMotions {
             TableWriter::with_schema(self.out.clone(), &RECORDS, schema.clone(), provenance.clone())?;
         let pool = Pool::new(Scratch::default);
         let Plan { work, mut refused } = self.importer.plan(console);
-        let bar = console.bar(self.subcommand(), self.importer.files.len() as u64);
+        let bar = console.bar(self.name(), self.importer.files.len() as u64);
         let mut seen = HashSet::new();
         pipelined(
             work.map(Ok),
@@ -162,7 +175,7 @@ impl Stage for ImportMotions {
         if refused.is_empty() || self.keep_going {
             writer.finish()?;
             if !refused.is_empty() {
-                console.note(&format!("warning: {}", summary(&refused, self.importer.files.len())));
+                console.warn(&summary(&refused, self.importer.files.len()));
             }
             return Ok(format!("{} motions of {} files", seen.len(), self.importer.files.len()));
         }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::inputs::Reading;
 use crate::keyword::{self, Keyword};
 use crate::pipeline::UsageError;
+use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{Parsed, Steps, Word, check, defaults};
 use crate::records::processing::{Processing, PulseSearch};
 use crate::records::rotation::Direction;
@@ -85,14 +86,15 @@ impl Default for ImportMotionsOptions {
     }
 }
 
-impl ImportMotionsOptions {
-    /// Makes the paths of files relative to `folder`, that of the pipeline file.
-    pub fn resolve_paths(&mut self, folder: &Path) {
+impl StageOptions for ImportMotionsOptions {
+    fn resolve_paths(&mut self, folder: &Path) {
         for file in &mut self.files {
             *file = folder.join(&*file);
         }
     }
+}
 
+impl ImportMotionsOptions {
     /// What is done to records.
     ///
     /// # Errors

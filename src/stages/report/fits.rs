@@ -7,7 +7,7 @@ use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
 use crate::report::material::{Curve, Group, Model, Planes, Regression};
-use crate::stages::fits::{FitsOptions, ModelForm};
+use crate::stages::fits::{FitFiles, FitsOptions, ModelForm};
 use crate::table::fits::{self, FitRow};
 use crate::table::schema;
 
@@ -51,7 +51,7 @@ pub fn add_curves(path: &Path, groups: &mut [Group], console: &Console) -> anyho
     let overturning = |row: &&FitRow| row.text(&schema::fitted_event) == Some(Event::Overturning.as_str());
     let rows: Vec<&FitRow> = rows.iter().filter(overturning).filter(|row| row.is_ok()).collect();
     if let Some(Err(why)) = rows.first().map(|row| row.probit()) {
-        console.note(&format!("warning: no curves of overturning in the figures: {why}"));
+        console.warn(&format!("no curves of overturning in the figures: {why}"));
     }
     for group in groups {
         let of_group = rows.iter().filter(|row| is_of(row, group));
@@ -67,16 +67,11 @@ pub fn models(pex: &Path, pro: &Path, groups: &[Group]) -> Vec<Model> {
     };
     let forms = std::iter::once(None).chain(Measure::SCALAR.map(Some));
     let models = forms.flat_map(|measure| {
-        let options = FitsOptions {
-            pex: pex.into(),
-            pro: pro.into(),
-            suite: None,
-            structure: None,
-            model: Word(if measure.is_some() { ModelForm::Univariate } else { ModelForm::Bivariate }),
-            measure: measure.map(Word),
-        };
+        let model = Word(if measure.is_some() { ModelForm::Univariate } else { ModelForm::Bivariate });
+        let options = FitsOptions { suite: None, structure: None, model, measure: measure.map(Word) };
+        let files = FitFiles { pex: pex.into(), pro: pro.into(), options };
         let form = measure.map_or(ModelForm::Bivariate.as_str(), Keyword::as_str).to_string();
-        let chosen = options.choose_each().unwrap_or_default().into_iter().flatten();
+        let chosen = files.choose_each().unwrap_or_default().into_iter().flatten();
         chosen.map(move |fits| Model {
             suite: fits.suite,
             structure: fits.structure,

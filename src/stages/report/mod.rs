@@ -14,8 +14,18 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::run::Files;
+use super::compare_paper::ComparePaper;
+use super::fit_pex::FitPex;
+use super::fit_pro::FitPro;
+use super::rank_ims::RankIms;
+use super::sample_scenarios::SampleScenarios;
+use super::simulate::Simulate;
+use super::synthesize_motions::SynthesizeMotions;
+use super::universality::Universality;
+use super::validate::Validate;
+use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
+use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::report::material::{File, Material};
@@ -25,9 +35,6 @@ use crate::table::footer::footer;
 use crate::table::provenance::{self, Provenance, Stamp};
 use crate::table::source::{Source, Target};
 use crate::table::text_file;
-
-/// The stage's name.
-const NAME: &str = "report";
 
 /// What the report shows.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -56,10 +63,15 @@ impl Default for ReportOptions {
     }
 }
 
+impl StageOptions for ReportOptions {}
+
+/// The role of the responses, which must be there.
+const RESPONSES: &str = "responses";
+
 /// The stage, ready to run.
 pub struct Report {
     options: ReportOptions,
-    files: Files,
+    folder: PathBuf,
     out: PathBuf,
 }
 
@@ -79,34 +91,33 @@ impl Report {
         let ending = out.extension().unwrap_or_default().to_string_lossy();
         check(ending == "html", "out", out.display(), "the name of a page that ends in .html")?;
         check((36.0..=1200.0).contains(&options.dpi), "dpi", options.dpi, "36 to 1200 dots per inch")?;
-        Ok(Report { options: options.clone(), files: Files::in_folder(&folder), out })
+        Ok(Report { options: options.clone(), folder, out })
     }
 
     /// The responses, and of the other files that a report can show those that are there, in the order of the pipeline, by the
     /// role each plays.
     fn there(&self) -> Vec<(&'static str, PathBuf)> {
-        let Files { scenarios, motions, responses, pex, pro, paper, ranking, universality, folder, .. } =
-            self.files.clone();
-        let mut known = vec![
-            ("scenarios", scenarios),
-            ("motions", motions),
-            ("responses", responses),
-            ("pex", pex),
-            ("pro", pro),
-            ("paper", paper),
-            ("validation", folder.join("validation.parquet")),
-            ("ranking", ranking),
-            ("universality", universality),
+        let known = [
+            ("scenarios", SampleScenarios::OUTPUT),
+            ("motions", SynthesizeMotions::OUTPUT),
+            (RESPONSES, Simulate::OUTPUT),
+            ("pex", FitPex::OUTPUT),
+            ("pro", FitPro::OUTPUT),
+            ("paper", ComparePaper::OUTPUT),
+            ("validation", Validate::OUTPUT),
+            ("ranking", RankIms::OUTPUT),
+            ("universality", Universality::OUTPUT),
         ];
-        known.retain(|(role, path)| *role == "responses" || path.is_file());
-        known
+        let places = known.map(|(role, output)| (role, self.folder.join(output.file)));
+        places.into_iter().filter(|(role, path)| *role == RESPONSES || path.is_file()).collect()
     }
 
     fn material(&self, console: &Console) -> anyhow::Result<Material> {
         let inputs = self.there();
         let there =
             |role: &str| inputs.iter().find(|(other, _)| *other == role).map(|(_, path)| path.as_path());
-        let (mut groups, left_out) = responses::read(&self.files.responses, &self.options)?;
+        let (mut groups, left_out) =
+            responses::read(&self.folder.join(Simulate::OUTPUT.file), &self.options)?;
         let mut material = Material { left_out, ..Material::default() };
         if let Some(pex) = there("pex") {
             material.limit = fits::add_regressions(pex, &mut groups)?;
@@ -170,9 +181,38 @@ fn file(path: &Path) -> Result<File, TableError> {
     })
 }
 
+impl Declare for Report {
+    type Options = ReportOptions;
+    const NAME: &'static str = "report";
+    const ABOUT: &'static str = "Draw all that a folder of files holds: one page to open in a browser, and each figure as SVG and PNG";
+    const INPUTS: &'static [Input] = &[Input::file(
+        "files",
+        "in",
+        "",
+        "Folder of the files: responses.parquet, and what else there is of them",
+    )
+    .folder("out")];
+    const OUTPUT: Output = Output::file(
+        "report.html",
+        "Page to write; its figures go into a folder of the same name [default: report.html in the input]",
+    );
+
+    fn create(options: &ReportOptions, files: &Files) -> anyhow::Result<Report> {
+        let Source::Path(folder) = files.input("files")? else {
+            return Err(UsageError::because("files: a table in memory; expected a folder of files"));
+        };
+        let Target::Path(out) =
+            files.asked(Self::OUTPUT.file).unwrap_or(folder.join(Self::OUTPUT.file).into())
+        else {
+            return Err(UsageError::because("report writes a page; expected the name of a file"));
+        };
+        Report::new(options, folder, out)
+    }
+}
+
 impl Stage for Report {
-    fn subcommand(&self) -> &'static str {
-        NAME
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {

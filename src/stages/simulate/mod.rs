@@ -2,7 +2,7 @@
 
 mod options;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use arrow_array::RecordBatch;
@@ -10,17 +10,20 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 pub use self::options::SimulateOptions;
-use super::motions::{Peaks, SeenIds, record};
-use super::partitions::Share;
+use super::motions::{DistinctIds, Peaks, record};
+use super::partitions::{PartitionedInput, is_folder, out_of_partition};
 use super::structures::parameters;
+use super::synthesize_motions::SynthesizeMotions;
 use crate::motion::IntensityScratch;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
+use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::options::{Parsed, Several};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Path as SolverPath, Problem, Record, Structure, simulate_all, trace, with_tail};
 use crate::table::TableError;
+use crate::table::folder;
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
 use crate::table::partition::Partition;
@@ -42,7 +45,7 @@ pub struct Simulate {
     structures: Vec<Structure>,
     path: SolverPath,
     traced: Vec<String>,
-    share: Share,
+    input: PartitionedInput,
     out: Target,
 }
 
@@ -66,7 +69,7 @@ impl Simulate {
             structures: options.structures()?,
             path: options.path()?,
             traced: options.trace.clone().map_or(Vec::new(), |Several(ids)| ids),
-            share: Share::of(input.into(), partition)?,
+            input: PartitionedInput::new(input.into(), partition)?,
             out: out.into(),
         })
     }
@@ -133,7 +136,7 @@ impl Simulate {
             Some(id) => {
                 bail!(
                     "{}: no motion '{id}' to trace; expected one of its motion_id",
-                    self.share.input.name().display()
+                    self.input.source.name().display()
                 )
             }
             None => Ok(()),
@@ -179,13 +182,62 @@ struct Scratch {
     intensity: IntensityScratch,
 }
 
+impl Declare for Simulate {
+    type Options = SimulateOptions;
+    const NAME: &'static str = RESPONSES.stage;
+    const ABOUT: &'static str = "Simulate the rocking response of structures to motions";
+    const INPUTS: &'static [Input] = &[Input::file(
+        "motions",
+        "in",
+        SynthesizeMotions::OUTPUT.file,
+        "Motions to read, a file or a folder: ours, or anyone's with motion_id, dt_s and acceleration_m_s2",
+    )];
+    const OUTPUT: Output = Output::file(
+        "responses.parquet",
+        "Responses file to write, or folder of partitions [default: responses.parquet beside the input, responses of partitions]",
+    )
+    .with_parts(&["trace"]);
+
+    fn create(options: &SimulateOptions, files: &Files) -> anyhow::Result<Simulate> {
+        let partition = options.partition.map(|Parsed(partition)| partition);
+        let out = out_of_partition(files, Self::OUTPUT.file, partition);
+        Simulate::new(options, files.input("motions")?, out)
+    }
+
+    fn create_all(options: &SimulateOptions, files: &Files) -> anyhow::Result<Vec<Box<dyn Stage>>> {
+        if let (Source::Path(input), Some(Target::Path(out))) =
+            (files.input("motions")?, files.asked(Self::OUTPUT.file))
+            && input.is_dir()
+            && (is_folder(&out) || out.extension().is_none())
+            && options.partition.is_none()
+        {
+            return each_file(options, &input, &out);
+        }
+        Ok(vec![Box::new(Simulate::create(options, files)?)])
+    }
+}
+
+/// From a folder into a folder: a stage for each file.
+fn each_file(options: &SimulateOptions, input: &Path, out: &Path) -> anyhow::Result<Vec<Box<dyn Stage>>> {
+    if options.trace.is_some() {
+        return Err(UsageError::because("trace needs one file; name it with --in or --out"));
+    }
+    let stage = |file: &PathBuf| -> anyhow::Result<Box<dyn Stage>> {
+        let partition = folder::partition_of(file)?.map(Parsed);
+        let options = SimulateOptions { partition, ..options.clone() };
+        let out = out.join(file.file_name().unwrap_or_default());
+        Ok(Box::new(Simulate::new(&options, file, out)?))
+    };
+    folder::files(input)?.iter().map(stage).collect()
+}
+
 impl Stage for Simulate {
-    fn subcommand(&self) -> &'static str {
-        RESPONSES.stage
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        vec![("motions", self.share.input.clone())]
+        vec![("motions", self.input.source.clone())]
     }
 
     fn targets(&self) -> Vec<Target> {
@@ -200,38 +252,37 @@ impl Stage for Simulate {
         let parameters = json!({
             "structures": parameters(&self.structures), "trace": self.traced, "path": self.path.arithmetic()
         });
-        Partition::add_to(self.share.partition, parameters)
+        Partition::add_to(self.input.partition, parameters)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let motions = MotionTable::open(&self.share.input, self.share.rows)?;
+        let motions = MotionTable::open(&self.input.source, self.input.rows)?;
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
         let mut writer = motions::writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
-        let mut seen = SeenIds::default();
+        let mut ids = DistinctIds::default();
         let mut traces: Vec<Trace> = Vec::new();
         let pool = Pool::new(Scratch::default);
-        let bar = console.bar(self.subcommand(), total);
+        let bar = console.bar(self.name(), total);
         pipelined(
             batches(motions.parts(), PARTS_A_THREAD * rayon::current_num_threads()),
             |parts| {
-                let respond = |part: &Part| -> anyhow::Result<Vec<Responded>> {
+                let simulate_part = |part: &Part| -> anyhow::Result<Vec<Responded>> {
                     let path = motions.path_of(part);
-                    let respond = |motions: Result<Vec<Motion>, TableError>| {
-                        let motions = motions?;
-                        let responded =
-                            pool.lend(|scratch| self.respond(&path, &motions, by_name, scratch))?;
-                        bar.inc(motions.len() as u64)?;
+                    let simulate_chunk = |chunk: Result<Vec<Motion>, TableError>| {
+                        let chunk = chunk?;
+                        let responded = pool.lend(|scratch| self.respond(&path, &chunk, by_name, scratch))?;
+                        bar.inc(chunk.len() as u64)?;
                         Ok(responded)
                     };
-                    motions.chunks(part, CHUNK)?.map(respond).collect()
+                    motions.chunks(part, CHUNK)?.map(simulate_chunk).collect()
                 };
                 let responded: Vec<Vec<Responded>> =
-                    parts.par_iter().map(respond).collect::<anyhow::Result<_>>()?;
+                    parts.par_iter().map(simulate_part).collect::<anyhow::Result<_>>()?;
                 Ok(responded.into_iter().flatten())
             },
             |responded| {
                 for Responded { motion_ids, rows, traces: traced } in responded {
-                    seen.note(self.share.input.name(), &motion_ids)?;
+                    ids.add(self.input.source.name(), &motion_ids)?;
                     traces.extend(traced);
                     writer.append(&rows)?;
                 }

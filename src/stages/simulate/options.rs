@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
+use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
 use crate::rocking::{Path as SolverPath, Structure};
 use crate::stages::structures::{StructureSpec, Structures};
@@ -46,14 +47,15 @@ impl Default for SimulateOptions {
     }
 }
 
-impl SimulateOptions {
-    /// Makes the path of a structures file relative to `folder`, that of the pipeline file.
-    pub fn resolve_paths(&mut self, folder: &Path) {
+impl StageOptions for SimulateOptions {
+    fn resolve_paths(&mut self, folder: &Path) {
         if let Some(structures) = &mut self.structures {
             structures.resolve_path(folder);
         }
     }
+}
 
+impl SimulateOptions {
     pub(in crate::stages) fn path(&self) -> anyhow::Result<SolverPath> {
         let Some(Word(path)) = self.path else { return Ok(SolverPath::fastest()) };
         check(path.is_available(), "path", Word(path), "one that this processor has")?;

@@ -7,11 +7,14 @@ use serde_json::{Value, json};
 
 pub use self::options::SynthesizeMotionsOptions;
 use super::measures::measure_plan;
+use super::partitions::out_of_partition;
+use super::sample_scenarios::SampleScenarios;
 use crate::motion::Site;
 use crate::motion::{
     IntensityScratch, MeasurePlan, MotionModel, Scenario, StochasticModel, Suite, Synthesizer,
 };
 use crate::pipeline::console::Console;
+use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::options::{Parsed, Word};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
@@ -81,9 +84,28 @@ struct Scratch {
     intensity: IntensityScratch,
 }
 
+impl Declare for SynthesizeMotions {
+    type Options = SynthesizeMotionsOptions;
+    const NAME: &'static str = MOTIONS.stage;
+    const ABOUT: &'static str =
+        "Synthesize near-fault ground motions: coherent pulse and stochastic high frequencies";
+    const INPUTS: &'static [Input] =
+        &[Input::file("scenarios", "in", SampleScenarios::OUTPUT.file, "Scenarios to read")];
+    const OUTPUT: Output = Output::file(
+        "motions.parquet",
+        "Motions file to write, or folder of partitions [default: motions.parquet beside the input, motions of partitions]",
+    );
+
+    fn create(options: &SynthesizeMotionsOptions, files: &Files) -> anyhow::Result<SynthesizeMotions> {
+        let partition = options.partition.map(|Parsed(partition)| partition);
+        let out = out_of_partition(files, Self::OUTPUT.file, partition);
+        SynthesizeMotions::new(options, files.input("scenarios")?, out)
+    }
+}
+
 impl Stage for SynthesizeMotions {
-    fn subcommand(&self) -> &'static str {
-        MOTIONS.stage
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
@@ -124,7 +146,7 @@ impl Stage for SynthesizeMotions {
         let schema = MOTIONS.schema_with_spectrum(&self.plan.sa_periods_s);
         let mut writer =
             TableWriter::with_schema(self.out.clone(), &MOTIONS, schema.clone(), provenance.clone())?;
-        let bar = console.bar(self.subcommand(), scenarios.len() as u64);
+        let bar = console.bar(self.name(), scenarios.len() as u64);
         pipelined(
             scenarios.chunks(self.row_group).map(Ok),
             |scenarios| {

@@ -10,13 +10,16 @@ use crate::motion::Site;
 use crate::motion::stochastic::LowCut;
 use crate::motion::{Difference, Epoch, MotionModel, StochasticModel, Suite};
 use crate::pipeline::UsageError;
-use crate::pipeline::options::{Parsed, Several, Steps, Word, check, defaults};
-use crate::stages::sample_scenarios::DEFAULT_SEED;
+use crate::pipeline::declare::StageOptions;
+use crate::pipeline::options::{DEFAULT_SEED, Parsed, Several, Steps, Word, check, defaults};
 use crate::table::partition::Partition;
 use crate::table::text_file;
 
 /// The largest table of site amplification.
 const MOST_SITE_MIB: u64 = 1;
+
+/// Site amplifications that are no file.
+const SITES: [&str; 3] = ["rock", "soil", "none"];
 
 /// How motions are made.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -72,6 +75,18 @@ pub struct SynthesizeMotionsOptions {
 impl Default for SynthesizeMotionsOptions {
     fn default() -> Self {
         defaults()
+    }
+}
+
+impl StageOptions for SynthesizeMotionsOptions {
+    fn seed(&mut self) -> Option<&mut Option<u64>> {
+        Some(&mut self.seed)
+    }
+
+    fn resolve_paths(&mut self, folder: &Path) {
+        if !SITES.contains(&self.site.as_str()) {
+            self.site = folder.join(&self.site).display().to_string();
+        }
     }
 }
 

@@ -2,31 +2,30 @@
 
 mod words;
 
-use std::path::PathBuf;
-
 use clap::Args;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-pub use words::show;
-
 use super::fits::ModelForm;
 use super::groups::{self, Group};
+use super::simulate::Simulate;
 use crate::fragility::Event;
 use crate::fragility::Measure;
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
+use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{Word, check, defaults};
 use crate::pipeline::stage::Stage;
+use crate::pipeline::terminal::Terminal;
 use crate::statistics::FitStatus;
 use crate::studies::{
     CurveForm, CurveSubject, PooledFit, PooledStructure, PooledTerms, Transfer, fit_pooled,
 };
 use crate::table::provenance::Provenance;
 use crate::table::row::WriteRow;
-use crate::table::source::{Source, Target, with_part};
+use crate::table::source::{Source, Target};
 use crate::table::universality::{POOLED, PooledRow, UNIVERSALITY, UniversalityRow};
 use crate::table::writer::TableWriter;
 
@@ -57,12 +56,14 @@ impl Default for UniversalityOptions {
     }
 }
 
+impl StageOptions for UniversalityOptions {}
+
 /// The stage, ready to run.
 pub struct Universality {
     options: UniversalityOptions,
     form: CurveForm,
-    input: PathBuf,
-    out: PathBuf,
+    input: Source,
+    out: Target,
 }
 
 /// All structures under one suite, and where the reference stands among them.
@@ -84,7 +85,11 @@ impl Universality {
     ///
     /// # Errors
     /// If an option is out of range, or two do not fit together.
-    pub fn new(options: &UniversalityOptions, input: PathBuf, out: PathBuf) -> anyhow::Result<Universality> {
+    pub fn new(
+        options: &UniversalityOptions,
+        input: impl Into<Source>,
+        out: impl Into<Target>,
+    ) -> anyhow::Result<Universality> {
         let (limit, transition) = (options.limit_state, options.transition);
         check(limit > 0.0 && limit.is_finite(), "limit-state", limit, "a demand |theta|max / alpha above 0")?;
         check(transition > 1.0 && transition < 100.0, "transition", transition, "an IM4 above 1")?;
@@ -97,11 +102,11 @@ impl Universality {
                 CurveForm::Scalar(measure.map_or(Measure::Im5, |word| word.0))
             }
         };
-        Ok(Universality { options: options.clone(), form, input, out })
+        Ok(Universality { options: options.clone(), form, input: input.into(), out: out.into() })
     }
 
-    fn pooled_path(&self) -> PathBuf {
-        with_part(&self.out, "pooled")
+    fn pooled_target(&self) -> Target {
+        self.out.part("pooled")
     }
 
     fn subject(&self, event: Event) -> CurveSubject {
@@ -119,7 +124,7 @@ impl Universality {
         let of = |name: &Option<String>| {
             let groups: Vec<&Group> = groups.iter().filter(|group| group.suite == *name).collect();
             let place = groups.iter().position(|group| group.structure == self.options.reference);
-            let file = self.input.display();
+            let file = self.input.name().display();
             let Some(reference) = place else {
                 let known: Vec<&str> = groups.iter().map(|group| group.structure.as_str()).collect();
                 return Err(UsageError::because(format!(
@@ -150,7 +155,7 @@ impl Universality {
                 Transfer::new(&subject, &reference.cases, &group.cases, &cells).map_err(|status| {
                     anyhow::anyhow!(
                         "{}: the curve of {} of '{}' is {}; choose another --reference",
-                        self.input.display(),
+                        self.input.name().display(),
                         event.as_str(),
                         reference.structure,
                         status.as_str()
@@ -212,29 +217,51 @@ fn pooled<'a>(subject: &CurveSubject, suite: &SuiteOfGroups<'a>) -> Vec<Result<P
     PooledTerms::ALL.par_iter().map(|&terms| fit_pooled(subject, &structures, terms)).collect()
 }
 
+impl Declare for Universality {
+    type Options = UniversalityOptions;
+    const NAME: &'static str = UNIVERSALITY.stage;
+    const ABOUT: &'static str = "How universal the curves of one structure are: held against the responses of all others to the \
+         same motions";
+    const INPUTS: &'static [Input] =
+        &[Input::file("responses", "in", Simulate::OUTPUT.file, "Responses of all structures to read")];
+    const OUTPUT: Output = Output::file(
+        "universality.parquet",
+        "File to write [default: universality.parquet beside the input]",
+    )
+    .with_parts(&["pooled"]);
+
+    fn create(options: &UniversalityOptions, files: &Files) -> anyhow::Result<Universality> {
+        Universality::new(options, files.input("responses")?, files.out(Self::OUTPUT.file))
+    }
+}
+
 impl Stage for Universality {
-    fn subcommand(&self) -> &'static str {
-        UNIVERSALITY.stage
+    fn name(&self) -> &'static str {
+        Self::NAME
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        vec![("responses", (&self.input).into())]
+        vec![("responses", self.input.clone())]
     }
 
     fn targets(&self) -> Vec<Target> {
-        vec![self.pooled_path().into(), (&self.out).into()]
+        vec![self.pooled_target(), self.out.clone()]
     }
 
     fn parameters(&self) -> Value {
         json!(self.options)
     }
 
+    fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
+        self.out.path().map_or(Ok(String::new()), words::show)
+    }
+
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
         let suites = self.suites(&groups)?;
         let mut structures = 0;
-        let mut writer = TableWriter::create(&self.out, &UNIVERSALITY, provenance.clone())?;
-        let mut pooled_writer = TableWriter::create(self.pooled_path(), &POOLED, provenance.clone())?;
+        let mut writer = TableWriter::create(self.out.clone(), &UNIVERSALITY, provenance.clone())?;
+        let mut pooled_writer = TableWriter::create(self.pooled_target(), &POOLED, provenance.clone())?;
         for suite in &suites {
             structures = structures.max(suite.groups.len());
             for event in Event::BRANCHES {

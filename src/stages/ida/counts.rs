@@ -6,7 +6,7 @@ use crate::table::ida::{CapacityRow, FragilityRow, LevelCount, StripeRow};
 
 /// What has come so far, of each suite and structure in the order of their first.
 #[derive(Debug, Default)]
-pub struct Tally {
+pub struct Counts {
     groups: Vec<Group>,
 }
 
@@ -22,18 +22,18 @@ struct Group {
     with_windows: usize,
 }
 
-impl Tally {
+impl Counts {
     /// Of the stripes and the capacities of some motions.
-    pub fn of(scan: &Scan, stripes: &[StripeRow], capacities: &[CapacityRow]) -> Tally {
-        let mut tally = Tally::default();
+    pub fn of(scan: &Scan, stripes: &[StripeRow], capacities: &[CapacityRow]) -> Counts {
+        let mut counts = Counts::default();
         for (row, stripes) in capacities.iter().zip(stripes.chunks(scan.levels().len())) {
-            tally.add(Group::of(scan, row, stripes));
+            counts.add(Group::of(scan, row, stripes));
         }
-        tally
+        counts
     }
 
     /// With what came later.
-    pub fn append(&mut self, later: Tally) {
+    pub fn append(&mut self, later: Counts) {
         later.groups.into_iter().for_each(|group| self.add(group));
     }
 

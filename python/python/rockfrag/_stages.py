@@ -1,0 +1,129 @@
+"""A function for each stage, made of what the library says of it: names, defaults and words are those of the command line.
+
+``python -m rockfrag._stages`` prints the stub ``_stages.pyi``.
+"""
+
+from __future__ import annotations
+
+import inspect
+import json
+import os
+import textwrap
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from . import _options, _rockfrag
+
+_TYPES = {
+    "float": "float",
+    "int": "int",
+    "bool": "bool",
+    "str": "str",
+    "paths": "PathLike | Iterable[PathLike]",
+    "any": "Any",
+}
+_COMMON = {
+    "out": ("PathLike | None", None, "Path to write; it is returned. A file that is up to date is left as it is."),
+    "threads": ("int | None", None, "All cores if not given."),
+    "progress": ("Progress | None", None, "Called with the number of steps done and of all."),
+    "force": ("bool", False, "Make even a file that is up to date."),
+}
+
+
+def _default(option: Mapping[str, Any]) -> Any:
+    """The default as Python's value; it is shown and never sent, so that the library's own one holds."""
+    text, kind = option["default"], option["type"]
+    if kind == "bool":
+        return False
+    return {"float": float, "int": int}.get(kind, str)(text) if text is not None else None
+
+
+def _parameter(name: str, annotation: str, default: Any = inspect.Parameter.empty, keyword: bool = False) -> inspect.Parameter:
+    kind = inspect.Parameter.KEYWORD_ONLY if keyword else inspect.Parameter.POSITIONAL_OR_KEYWORD
+    return inspect.Parameter(name, kind, default=default, annotation=annotation)
+
+
+def _signature(stage: Mapping[str, Any]) -> inspect.Signature:
+    tables = [_parameter(table["role"], "TableLike") for table in stage["inputs"] if table["required"]]
+    first = [_parameter(_python(option), _TYPES[option["type"]]) for option in stage["options"] if option["positional"]]
+    optional = [_parameter(table["role"], "TableLike | None", None) for table in stage["inputs"] if not table["required"]]
+    keywords = []
+    for option in stage["options"]:
+        if not option["positional"]:
+            default = _default(option)
+            annotation = _TYPES[option["type"]]
+            annotation += " | None" if default is None and annotation != "Any" else ""
+            keywords.append(_parameter(_python(option), annotation, default, keyword=True))
+    common = [_parameter(name, kind, default, keyword=True) for name, (kind, default, _) in _COMMON.items()]
+    return inspect.Signature([*tables, *first, *optional, *keywords, *common], return_annotation="Any")
+
+
+def _python(option: Mapping[str, Any]) -> str:
+    return str(option["name"]).replace("-", "_")
+
+
+def _docstring(stage: Mapping[str, Any]) -> str:
+    words = [(table["role"], table["help"]) for table in stage["inputs"]]
+    words += [(_python(option), option["help"]) for option in stage["options"]]
+    words += [(name, help) for name, (_, _, help) in _COMMON.items()]
+    lines = [textwrap.fill(f"{name}: {help}", 110, initial_indent="    ", subsequent_indent="        ") for name, help in words]
+    parts = ", ".join(f'``parts["{part}"]``' for part in stage["output"]["parts"])
+    returns = "A table, or the path of ``out``" + (f"; with {parts} where there are such." if parts else ".")
+    return "\n".join([stage["about"] + ".", "", "Args:", *lines, "", "Returns:", f"    {returns}"])
+
+
+def _function(stage: Mapping[str, Any]) -> Callable[..., Any]:
+    signature = _signature(stage)
+    roles = {table["role"] for table in stage["inputs"]}
+    kinds = {_python(option): option["type"] for option in stage["options"]}
+
+    def call(*arguments: Any, **keywords: Any) -> Any:
+        given = {name: value for name, value in signature.bind(*arguments, **keywords).arguments.items() if value is not None}
+        settings = _options.settings(given.pop("threads", None), given.pop("progress", None), given.pop("force", False))
+        out = _options.path(given.pop("out", None))
+        inputs = {role: given.pop(role) for role in roles & given.keys()}
+        for name, value in given.items():
+            if kinds[name] == "paths" and isinstance(value, (str, os.PathLike)):
+                given[name] = [value]
+        return _rockfrag.call(stage["name"], inputs, _options.to_json(given), out, settings)
+
+    call.__name__ = call.__qualname__ = stage["name"].replace("-", "_")
+    call.__module__ = __name__
+    call.__doc__ = _docstring(stage)
+    call.__signature__ = signature  # type: ignore[attr-defined]
+    return call
+
+
+_FUNCTIONS = {function.__name__: function for function in map(_function, json.loads(_rockfrag.stages()))}
+globals().update(_FUNCTIONS)
+__all__ = sorted(_FUNCTIONS)
+
+
+def stub() -> str:
+    """The stub of this module."""
+    lines = [
+        "# Made by `python -m rockfrag._stages`.",
+        "from collections.abc import Iterable",
+        "from typing import Any",
+        "",
+        "from ._types import PathLike, Progress, TableLike",
+        "",
+        f"__all__ = {json.dumps(__all__)}",
+        "",
+        "def stub() -> str: ...",
+    ]
+    for name, function in _FUNCTIONS.items():
+        parameters = []
+        starred = False
+        for parameter in inspect.signature(function).parameters.values():
+            if parameter.kind is parameter.KEYWORD_ONLY and not starred:
+                parameters.append("*")
+                starred = True
+            default = "" if parameter.default is parameter.empty else f" = {parameter.default!r}"
+            parameters.append(f"{parameter.name}: {parameter.annotation}{default}")
+        lines += [f"def {name}(", *(f"    {parameter}," for parameter in parameters), ") -> Any: ..."]
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    print(stub(), end="")
