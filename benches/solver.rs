@@ -1,10 +1,10 @@
-//! The solver on each of its paths, the processor's own limit, and many structures on each motion.
+//! The solver with each of its vector instructions, the processor's own limit, and many structures on each motion.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Arch, WithSimd};
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::{Design, Grid, MotionModel, Scenario, Suite, Synthesizer};
-use rockfrag::rocking::{Path, Problem, Record, Response, Structure, simulate_all};
+use rockfrag::rocking::{Problem, Record, Response, Simd, Structure, simulate_all};
 use rockfrag::table::motions::MotionBatches;
 
 /// The motions to run: a file that ROCKFRAG_MOTIONS names, or some made here.
@@ -65,8 +65,8 @@ fn paths(c: &mut Criterion) {
     let problems: Vec<Problem> = motions.iter().map(problem).collect();
     let mut group = c.benchmark_group("solver");
     group.throughput(Throughput::Elements(problems.len() as u64)).sample_size(20);
-    for path in Path::ALL.iter().copied().filter(|path| path.is_available()) {
-        group.bench_function(path.as_str(), |b| b.iter(|| simulate_all(&problems, path)));
+    for simd in Simd::ALL.iter().copied().filter(|simd| simd.is_available()) {
+        group.bench_function(simd.as_str(), |b| b.iter(|| simulate_all(&problems, simd)));
     }
     group.finish();
 }
@@ -90,7 +90,7 @@ fn structures(c: &mut Criterion) {
         let record = motion.record();
         let problems: Vec<Problem> =
             structures.iter().map(|structure| Problem { structure, record }).collect();
-        simulate_all(&problems, Path::fastest())
+        simulate_all(&problems, Simd::fastest())
     };
     let mut group = c.benchmark_group("structures");
     let analyses = (motions.len() * structures.len()) as u64;
@@ -101,7 +101,7 @@ fn structures(c: &mut Criterion) {
             for structure in &structures {
                 let problem = |motion| Problem { structure, record: Motion::record(motion) };
                 let problems: Vec<Problem> = motions.iter().map(problem).collect();
-                std::hint::black_box(simulate_all(&problems, Path::fastest()));
+                std::hint::black_box(simulate_all(&problems, Simd::fastest()));
             }
         })
     });
@@ -119,7 +119,7 @@ impl WithSimd for MultiplyAdds {
     type Output = f64;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+    fn with_simd<S: pulp::Simd>(self, simd: S) -> f64 {
         let (factor, addend) = (simd.splat_f64s(std::hint::black_box(0.999)), simd.splat_f64s(0.001));
         let mut chains = [simd.splat_f64s(1.0); CHAINS];
         for _ in 0..LENGTH {
@@ -133,10 +133,10 @@ impl WithSimd for MultiplyAdds {
 
 fn peak(c: &mut Criterion) {
     let mut group = c.benchmark_group("processor");
-    let lanes = match Path::fastest() {
-        Path::Avx512 => 8,
-        Path::Avx2 => 4,
-        Path::Scalar => 1,
+    let lanes = match Simd::fastest() {
+        Simd::Avx512 => 8,
+        Simd::Avx2 => 4,
+        Simd::Scalar => 1,
     };
     group.throughput(Throughput::Elements((LENGTH * CHAINS * lanes) as u64)).sample_size(20);
     group.bench_function("multiply-adds", |b| b.iter(|| Arch::new().dispatch(MultiplyAdds)));

@@ -2,7 +2,7 @@
 
     python scripts/peers/flops.py motions.parquet --rockfrag target/release/rockfrag
 
-Of the path for AVX2, which valgrind knows; that for AVX-512 gives the same bits by the same operations. What is not
+With AVX2, which valgrind knows; AVX-512 gives the same bits by the same operations. What is not
 the solver's is the reading of the motions, where hardly any is done.
 """
 
@@ -78,7 +78,7 @@ def main():
         pq.write_table(motions.take(few), folder / "motions.parquet")
         grid(folder / "structures.csv")
         files = ("--in", folder / "motions.parquet", "--structures", folder / "structures.csv", "--out", folder / "out.parquet")
-        command = (options.rockfrag, "--quiet", "--threads", 1, "simulate", *files, "--path", "avx2")
+        command = (options.rockfrag, "--quiet", "--threads", 1, "simulate", *files, "--simd", "avx2")
         counts, of_place = executed(command, options.rockfrag, folder), operations(options.rockfrag)
         analyses = pq.read_metadata(folder / "out.parquet").num_rows
     total = sum(count * of_place.get(place, 0) for place, count in counts.items())

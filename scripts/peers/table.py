@@ -156,7 +156,7 @@ def compare(folder, rockfrag, repeat):
             table.add(
                 f"solver alone, {path}",
                 f"{ms[path]:.4f} ms",
-                "its scalar path",
+                "its scalar code",
                 f"{ms['scalar']:.4f} ms",
                 asked,
                 ratio,

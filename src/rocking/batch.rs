@@ -1,6 +1,6 @@
 //! Many rocking problems at once, one in each lane of the processor's vector registers.
 
-use pulp::{Simd, WithSimd};
+use pulp::WithSimd;
 
 use super::lane_step::Events;
 use super::lanes::{Lanes, each};
@@ -24,7 +24,7 @@ pub struct Problem<'a> {
 /// How problems are worked on: one after the other, or one in each lane of registers of 256 or 512 bits. The last two
 /// give the same bits; the first one differs from them by rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Path {
+pub enum Simd {
     /// One at a time.
     Scalar,
     /// Four in a register.
@@ -33,50 +33,50 @@ pub enum Path {
     Avx512,
 }
 
-keywords!(Path { Scalar = "scalar", Avx2 = "avx2", Avx512 = "avx512" });
+keywords!(Simd { Scalar = "scalar", Avx2 = "avx2", Avx512 = "avx512" });
 
-impl Path {
+impl Simd {
     /// The fastest one of this processor.
-    pub fn fastest() -> Path {
-        [Path::Avx512, Path::Avx2].into_iter().find(|path| path.is_available()).unwrap_or(Path::Scalar)
+    pub fn fastest() -> Simd {
+        [Simd::Avx512, Simd::Avx2].into_iter().find(|simd| simd.is_available()).unwrap_or(Simd::Scalar)
     }
 
     /// Whether this processor has the registers.
     pub fn is_available(self) -> bool {
         match self {
-            Path::Scalar => true,
+            Simd::Scalar => true,
             #[cfg(target_arch = "x86_64")]
-            Path::Avx2 => pulp::x86::V3::try_new().is_some(),
+            Simd::Avx2 => pulp::x86::V3::try_new().is_some(),
             #[cfg(target_arch = "x86_64")]
-            Path::Avx512 => pulp::x86::V4::try_new().is_some(),
+            Simd::Avx512 => pulp::x86::V4::try_new().is_some(),
             #[cfg(not(target_arch = "x86_64"))]
-            Path::Avx2 | Path::Avx512 => false,
+            Simd::Avx2 | Simd::Avx512 => false,
         }
     }
 
     /// Whose bits the results have: `scalar` or `vector`.
     pub fn arithmetic(self) -> &'static str {
         match self {
-            Path::Scalar => "scalar",
-            Path::Avx2 | Path::Avx512 => "vector",
+            Simd::Scalar => "scalar",
+            Simd::Avx2 | Simd::Avx512 => "vector",
         }
     }
 }
 
-/// The response to each problem, in order: as [`simulate`] has it. Where `path` is not available, the scalar one is taken.
-pub fn simulate_all(problems: &[Problem], path: Path) -> Vec<Response> {
+/// The response to each problem, in order: as [`simulate`] has it. Where `simd` is not available, the scalar one is taken.
+pub fn simulate_all(problems: &[Problem], simd: Simd) -> Vec<Response> {
     let batch = Batch { problems };
     #[cfg(target_arch = "x86_64")]
-    match path {
-        Path::Scalar => {}
-        Path::Avx2 => {
+    match simd {
+        Simd::Scalar => {}
+        Simd::Avx2 => {
             if let Some(machine) = pulp::x86::V3::try_new() {
-                return Simd::vectorize(machine, batch);
+                return pulp::Simd::vectorize(machine, batch);
             }
         }
-        Path::Avx512 => {
+        Simd::Avx512 => {
             if let Some(machine) = pulp::x86::V4::try_new() {
-                return Simd::vectorize(machine, batch);
+                return pulp::Simd::vectorize(machine, batch);
             }
         }
     }
@@ -91,13 +91,13 @@ impl WithSimd for Batch<'_> {
     type Output = Vec<Response>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Vec<Response> {
+    fn with_simd<S: pulp::Simd>(self, registers: S) -> Vec<Response> {
         let mut queue = Queue {
             problems: self.problems,
             next: 0,
             responses: vec![Response::NO_ROCKING; self.problems.len()],
         };
-        let mut lanes = Lanes::new(simd);
+        let mut lanes = Lanes::new(registers);
         (0..Vector::<S>::LANES).for_each(|lane| queue.refill(lane, &mut lanes));
         while !lanes.are_idle() {
             let step = lanes.step();
@@ -120,7 +120,7 @@ struct Queue<'a> {
 impl<'a> Queue<'a> {
     /// Sees to the lanes that cannot go on by themselves.
     #[inline(never)]
-    fn attend<S: Simd>(&mut self, events: Events, lanes: &mut Lanes<'a, S>) {
+    fn attend<S: pulp::Simd>(&mut self, events: Events, lanes: &mut Lanes<'a, S>) {
         for lane in each(events.overturned) {
             self.conclude(lane, Tail::Overturns, lanes);
         }
@@ -136,7 +136,7 @@ impl<'a> Queue<'a> {
         }
     }
 
-    fn conclude<S: Simd>(&mut self, lane: usize, tail: Tail, lanes: &mut Lanes<'a, S>) {
+    fn conclude<S: pulp::Simd>(&mut self, lane: usize, tail: Tail, lanes: &mut Lanes<'a, S>) {
         let problem = lanes.problem(lane);
         let alpha = self.problems[problem].structure.alpha_rad;
         self.responses[problem] = Response::of_rocking(tail, lanes.peak(lane), alpha, lanes.impacts(lane));
@@ -144,7 +144,7 @@ impl<'a> Queue<'a> {
     }
 
     /// Gives a lane the next problem in which the structure rocks.
-    fn refill<S: Simd>(&mut self, lane: usize, lanes: &mut Lanes<'a, S>) {
+    fn refill<S: pulp::Simd>(&mut self, lane: usize, lanes: &mut Lanes<'a, S>) {
         while let Some(Problem { structure, record }) = self.problems.get(self.next) {
             self.next += 1;
             if lanes.occupy(lane, self.next - 1, structure, record) {

@@ -35,7 +35,7 @@ mod trace;
 mod uplift;
 mod vector;
 
-pub use batch::{Path, Problem, simulate_all};
+pub use batch::{Problem, Simd, simulate_all};
 pub use incremental::{Capacity, CapacityStatus, Look, SafeWindow, Scan, ScanResponse};
 pub use march::simulate;
 pub use record::{Record, RecordError};

@@ -102,10 +102,15 @@ impl Structure {
         Structure::new(name, frame_p(column.p_rad_s, beam_mass_ratio), column.alpha_rad, eta)
     }
 
-    /// The ground acceleration g tan(alpha) that makes the structure uplift, m/s2.
+    /// The ground acceleration g tan(alpha) that makes the structure uplift, m/s2: the unit of IM4 to IM6.
     pub fn uplift_acceleration_m_s2(&self) -> f64 {
-        G_M_S2 * self.alpha_rad.tan()
+        G_M_S2 * tan(self.alpha_rad)
     }
+}
+
+/// Tangent of the slenderness. The solver's uplift and IM4 to IM6 both take it from here: they cannot disagree, on any platform.
+pub(super) fn tan(alpha_rad: f64) -> f64 {
+    libm::tan(alpha_rad)
 }
 
 /// Frequency parameter of a solid rectangular block: p = sqrt(3 g / (4 R)), rad/s, of its semi-diagonal R, m.

@@ -13,6 +13,7 @@
 
 use super::polynomial::{ORDER, Polynomial};
 use super::real::{Real, unrolled};
+use super::structure::tan;
 
 /// What depends on the slenderness alone.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +28,7 @@ pub struct Slenderness<T = f64> {
 impl Slenderness {
     pub fn new(alpha_rad: f64) -> Slenderness {
         let (sin, cos) = libm::sincos(alpha_rad);
-        Slenderness { tan: libm::tan(alpha_rad), sin, cos, secant: 1.0 / cos }
+        Slenderness { tan: tan(alpha_rad), sin, cos, secant: 1.0 / cos }
     }
 }
 

@@ -17,7 +17,7 @@ seed: 42
 out: out
 sample-scenarios: { mw: \"6,7\", re: \"5,12\", samples: 60 }
 synthesize-motions: { suite: [pulse, csgm], dt: 0.01, housner: true, sa: \"0.2,1\" }
-simulate: { path: scalar, structures: structures.csv }
+simulate: { simd: scalar, structures: structures.csv }
 fit-pex: { transition: 1.3, bootstrap: 40 }
 fit-pro: { pairs: [\"im4:im3_inv\", \"im5:im1\"], bootstrap: 40 }
 universality: { reference: electrical-equipment }
@@ -42,7 +42,7 @@ const BLOCKS: &str = "\
 const SPREAD: &str = "\
 sample-scenarios: { mw: 7, re: 5, samples: 40 }
 synthesize-motions: { suite: csgm, dt: 0.02 }
-simulate: { path: scalar, structures: structures.csv }
+simulate: { simd: scalar, structures: structures.csv }
 fit-pex: { transition: 1.3 }
 fit-pro: {}
 compare-paper: {}
@@ -65,14 +65,14 @@ const CALLS: [(&str, &str); 38] = [
         "synthesize-motions --in out/scenarios.parquet --out more/soil.parquet --suite csgm,hfc --dt 0.02 \
          --difference signed --epoch pga --site soil --kappa 0.02 --fmax 20 --low-cut 0.1",
     ),
-    ("simulate_one", "simulate --in more/soil.parquet --out more/soil.responses.parquet --path scalar"),
+    ("simulate_one", "simulate --in more/soil.parquet --out more/soil.responses.parquet --simd scalar"),
     (
         "simulate_trace",
-        "simulate --in out/motions.parquet --out traced.parquet --path scalar --p 1 --alpha 0.15 --trace 0,1",
+        "simulate --in out/motions.parquet --out traced.parquet --simd scalar --p 1 --alpha 0.15 --trace 0,1",
     ),
     (
         "simulate_blocks",
-        "simulate --in out/motions.parquet --out more/blocks.parquet --path scalar --structures blocks.yaml",
+        "simulate --in out/motions.parquet --out more/blocks.parquet --simd scalar --structures blocks.yaml",
     ),
     ("fit_pex_found", "fit-pex --in out/responses.parquet --out more/found.parquet --limit-state 0.2"),
     (
@@ -103,11 +103,11 @@ const CALLS: [(&str, &str); 38] = [
     ),
     (
         "simulate_records",
-        "simulate --in imported.parquet --out more/imported.responses.parquet --path scalar --structures structures.csv",
+        "simulate --in imported.parquet --out more/imported.responses.parquet --simd scalar --structures structures.csv",
     ),
     (
         "ida",
-        "ida --in imported.parquet --measure im5 --steps 15 --halvings 2 --path scalar --structures structures.csv",
+        "ida --in imported.parquet --measure im5 --steps 15 --halvings 2 --simd scalar --structures structures.csv",
     ),
     ("fit_pro_stripes", "fit-pro --in ida.stripes.parquet --out more/stripes.parquet"),
     (
@@ -279,9 +279,9 @@ fn numbers_of_the_vector_solver() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("structures.csv"), STRUCTURES).unwrap();
     let made = made().folder.display();
-    let motions = format!("--in {made}/out/motions.parquet --path avx2 --structures structures.csv");
+    let motions = format!("--in {made}/out/motions.parquet --simd avx2 --structures structures.csv");
     say(folder.path(), &format!("simulate {motions} --out responses.parquet"));
-    let records = format!("--in {made}/imported.parquet --path avx2 --structures structures.csv");
+    let records = format!("--in {made}/imported.parquet --simd avx2 --structures structures.csv");
     say(folder.path(), &format!("ida {records} --measure im5 --steps 15 --halvings 2 --out ida.parquet"));
     let texts = files(folder.path(), "parquet").into_iter();
     check_each("fingerprints", texts.map(|(name, path)| (format!("vector.{name}"), fingerprints(&path))));

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use rockfrag::fragility::{KnownCapacity, fit_capacities};
 use rockfrag::rocking::{
-    Capacity, CapacityStatus, Look, Outcome, Path, Problem, Record, Response, SafeWindow, Scan, Structure,
+    Capacity, CapacityStatus, Look, Outcome, Problem, Record, Response, SafeWindow, Scan, Simd, Structure,
     simulate_all,
 };
 use rockfrag::statistics::FitStatus;
@@ -20,7 +20,7 @@ fn capacity(scan: &Scan, structure: &Structure, samples: &[f64], dt: f64) -> Cap
         let scaled = |look: &Look| samples.iter().map(|a| look.intensity * unit * a).collect::<Vec<f64>>();
         let scaled: Vec<Vec<f64>> = looks.iter().map(scaled).collect();
         let problem = |samples| Problem { structure, record: Record::new(samples, dt).unwrap() };
-        Ok(simulate_all(&scaled.iter().map(|samples| problem(samples)).collect::<Vec<_>>(), Path::fastest()))
+        Ok(simulate_all(&scaled.iter().map(|samples| problem(samples)).collect::<Vec<_>>(), Simd::fastest()))
     };
     Capacity::of(&scan.run(1, respond).unwrap()[0])
 }

@@ -3,7 +3,7 @@
 mod incremental;
 mod noise;
 mod numbers;
-mod paths;
 mod rocking;
+mod simd;
 #[cfg(feature = "pipeline")]
 mod truth;

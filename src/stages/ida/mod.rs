@@ -30,7 +30,7 @@ use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::pipeline::terminal::Terminal;
-use crate::rocking::{Path as SolverPath, Scan, Structure};
+use crate::rocking::{Scan, Simd, Structure};
 use crate::table::ida::{self, IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
@@ -46,7 +46,7 @@ const CHUNK: usize = 8;
 pub struct Ida {
     options: IdaOptions,
     structures: Vec<Structure>,
-    path: SolverPath,
+    simd: Simd,
     scan: Scan,
     input: Source,
     out: Target,
@@ -73,8 +73,8 @@ impl Ida {
     ) -> anyhow::Result<Ida> {
         let (input, out) = (input.into(), out.into());
         let scan = options.scan()?;
-        let (structures, path) = options.structures()?;
-        Ok(Ida { options: options.clone(), structures, path, scan, input, out })
+        let (structures, simd) = options.structures()?;
+        Ok(Ida { options: options.clone(), structures, simd, scan, input, out })
     }
 
     fn measure(&self) -> &'static str {
@@ -134,7 +134,7 @@ impl Stage for Ida {
         let IdaOptions { from, to, steps, halvings, tolerance, .. } = self.options;
         json!({
             "measure": self.measure(), "from": from, "to": to, "steps": steps, "halvings": halvings,
-            "tolerance": tolerance, "structures": parameters(&self.structures), "path": self.path.arithmetic()
+            "tolerance": tolerance, "structures": parameters(&self.structures), "simd": self.simd.arithmetic()
         })
     }
 

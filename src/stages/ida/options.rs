@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::measure::ScaledMeasure;
 use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{Word, check, defaults};
-use crate::rocking::{Path as SolverPath, Scan, Structure};
+use crate::rocking::{Scan, Simd, Structure};
 use crate::stages::simulate::SimulateOptions;
 use crate::stages::structures::Structures;
 
@@ -46,9 +46,9 @@ pub struct IdaOptions {
     /// Structures from a YAML or CSV file, as simulate takes them
     #[arg(long, conflicts_with_all = ["p", "alpha", "eta"])]
     pub structures: Option<Structures>,
-    /// How the solver works: scalar, avx2 or avx512, as in simulate [default: the fastest of this processor]
+    /// Vector instructions of the solver: scalar, avx2 or avx512, as in simulate [default: the fastest of this processor]
     #[arg(long)]
-    pub path: Option<Word<SolverPath>>,
+    pub simd: Option<Word<Simd>>,
 }
 
 /// More looks than any scan needs.
@@ -80,9 +80,9 @@ impl IdaOptions {
         Ok(Scan::new(from, to, steps, halvings, tolerance))
     }
 
-    pub(super) fn structures(&self) -> anyhow::Result<(Vec<Structure>, SolverPath)> {
-        let IdaOptions { p, alpha, eta, structures, path, .. } = self.clone();
-        let simulate = SimulateOptions { p, alpha, eta, structures, path, trace: None, partition: None };
-        Ok((simulate.structures()?, simulate.path()?))
+    pub(super) fn structures(&self) -> anyhow::Result<(Vec<Structure>, Simd)> {
+        let IdaOptions { p, alpha, eta, structures, simd, .. } = self.clone();
+        let simulate = SimulateOptions { p, alpha, eta, structures, simd, trace: None, partition: None };
+        Ok((simulate.structures()?, simulate.simd()?))
     }
 }

@@ -101,7 +101,7 @@ impl Ida {
                 Ok(Problem { structure, record: Record::new(samples, motion.dt_s).map_err(refused)? })
             });
             let problems = problems.collect::<Result<Vec<Problem>, TableError>>()?;
-            responses.extend(simulate_all(&problems, self.path));
+            responses.extend(simulate_all(&problems, self.simd));
             rest = later;
         }
         Ok(responses)

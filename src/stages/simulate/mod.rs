@@ -21,7 +21,7 @@ use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::options::{Parsed, Several};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
-use crate::rocking::{Path as SolverPath, Problem, Record, Structure, simulate_all, trace, with_tail};
+use crate::rocking::{Problem, Record, Simd, Structure, simulate_all, trace, with_tail};
 use crate::table::TableError;
 use crate::table::folder;
 use crate::table::motion_table::{MotionTable, Part};
@@ -43,7 +43,7 @@ const TRACE_TAIL_S: f64 = 10.0;
 /// The stage, ready to run.
 pub struct Simulate {
     structures: Vec<Structure>,
-    path: SolverPath,
+    simd: Simd,
     traced: Vec<String>,
     input: PartitionedInput,
     out: Target,
@@ -67,7 +67,7 @@ impl Simulate {
         }
         Ok(Simulate {
             structures: options.structures()?,
-            path: options.path()?,
+            simd: options.simd()?,
             traced: options.trace.clone().map_or(Vec::new(), |Several(ids)| ids),
             input: PartitionedInput::new(input.into(), partition)?,
             out: out.into(),
@@ -88,7 +88,7 @@ impl Simulate {
             .iter()
             .flat_map(|&record| self.structures.iter().map(move |structure| Problem { structure, record }))
             .collect();
-        let mut responses = simulate_all(&problems, self.path).into_iter();
+        let mut responses = simulate_all(&problems, self.simd).into_iter();
         let mut rows = Vec::with_capacity(problems.len());
         for (motion, record) in motions.iter().zip(&records) {
             let peaks = Peaks::of(motion, record, intensity);
@@ -250,7 +250,7 @@ impl Stage for Simulate {
 
     fn parameters(&self) -> Value {
         let parameters = json!({
-            "structures": parameters(&self.structures), "trace": self.traced, "path": self.path.arithmetic()
+            "structures": parameters(&self.structures), "trace": self.traced, "simd": self.simd.arithmetic()
         });
         Partition::add_to(self.input.partition, parameters)
     }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
-use crate::rocking::{Path as SolverPath, Structure};
+use crate::rocking::{Simd, Structure};
 use crate::stages::structures::{StructureSpec, Structures};
 use crate::table::partition::Partition;
 
@@ -28,10 +28,10 @@ pub struct SimulateOptions {
     /// a frame
     #[arg(long, conflicts_with_all = ["p", "alpha", "eta"])]
     pub structures: Option<Structures>,
-    /// How the solver works: scalar, or several motions at once with avx2 or avx512, which give the same bits and differ from
-    /// scalar by rounding [default: the fastest of this processor]
+    /// Vector instructions of the solver: scalar (one motion at a time), or avx2 or avx512 (several at once), which give the same
+    /// bits and differ from scalar by rounding [default: the fastest of this processor]
     #[arg(long)]
-    pub path: Option<Word<SolverPath>>,
+    pub simd: Option<Word<Simd>>,
     /// Motions whose response over time is written too, beside the output as NAME.trace.parquet
     #[arg(long, value_name = "ID,...")]
     pub trace: Option<Several<String>>,
@@ -56,10 +56,10 @@ impl StageOptions for SimulateOptions {
 }
 
 impl SimulateOptions {
-    pub(in crate::stages) fn path(&self) -> anyhow::Result<SolverPath> {
-        let Some(Word(path)) = self.path else { return Ok(SolverPath::fastest()) };
-        check(path.is_available(), "path", Word(path), "one that this processor has")?;
-        Ok(path)
+    pub(in crate::stages) fn simd(&self) -> anyhow::Result<Simd> {
+        let Some(Word(simd)) = self.simd else { return Ok(Simd::fastest()) };
+        check(simd.is_available(), "simd", Word(simd), "one that this processor has")?;
+        Ok(simd)
     }
 
     pub(in crate::stages) fn structures(&self) -> anyhow::Result<Vec<Structure>> {

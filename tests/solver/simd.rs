@@ -3,16 +3,16 @@
 use crate::noise::synthetic_motion;
 use proptest::prelude::*;
 use rockfrag::keyword::Keyword;
-use rockfrag::rocking::{Outcome, Path, Problem, Record, Response, Structure, simulate, simulate_all};
+use rockfrag::rocking::{Outcome, Problem, Record, Response, Simd, Structure, simulate, simulate_all};
 
-/// The paths with several problems at once that this processor has.
-fn vector_paths() -> Vec<Path> {
-    let paths = Path::ALL.iter().copied().filter(|path| *path != Path::Scalar && path.is_available());
-    let paths: Vec<Path> = paths.collect();
-    if paths.is_empty() {
+/// The registers for several problems at once that this processor has.
+fn vector_registers() -> Vec<Simd> {
+    let choices = Simd::ALL.iter().copied().filter(|simd| *simd != Simd::Scalar && simd.is_available());
+    let choices: Vec<Simd> = choices.collect();
+    if choices.is_empty() {
         eprintln!("nothing to compare: this processor has no registers of 256 or 512 bits");
     }
-    paths
+    choices
 }
 
 /// Structures from hardly rocking to overturning.
@@ -38,17 +38,17 @@ fn one_by_one(problems: &[Problem]) -> Vec<Response> {
 }
 
 #[test]
-fn the_scalar_path_is_the_plain_solver() {
+fn scalar_is_the_plain_solver() {
     let (motions, structures) = (motions(4), structures());
     let problems = problems(&motions, &structures, 0.02);
-    assert_eq!(simulate_all(&problems, Path::Scalar), one_by_one(&problems));
+    assert_eq!(simulate_all(&problems, Simd::Scalar), one_by_one(&problems));
 }
 
 #[test]
 fn registers_of_any_width_give_the_same_bits() {
     let (motions, structures) = (motions(40), structures());
     let problems = problems(&motions, &structures, 0.02);
-    let answers: Vec<_> = vector_paths().iter().map(|&path| simulate_all(&problems, path)).collect();
+    let answers: Vec<_> = vector_registers().iter().map(|&simd| simulate_all(&problems, simd)).collect();
     assert!(answers.windows(2).all(|pair| pair[0] == pair[1]));
 }
 
@@ -56,38 +56,38 @@ fn registers_of_any_width_give_the_same_bits() {
 fn an_answer_does_not_depend_on_the_company() {
     let (motions, structures) = (motions(12), structures());
     let problems = problems(&motions, &structures, 0.02);
-    for path in vector_paths() {
-        let together = simulate_all(&problems, path);
+    for simd in vector_registers() {
+        let together = simulate_all(&problems, simd);
         for size in [1, 3, 17] {
             let apart: Vec<Response> =
-                problems.chunks(size).flat_map(|some| simulate_all(some, path)).collect();
-            assert_eq!(apart, together, "{path:?}, {size} at a time");
+                problems.chunks(size).flat_map(|some| simulate_all(some, simd)).collect();
+            assert_eq!(apart, together, "{simd:?}, {size} at a time");
         }
         let backwards: Vec<Problem> = problems.iter().rev().copied().collect();
-        let mut backwards = simulate_all(&backwards, path);
+        let mut backwards = simulate_all(&backwards, simd);
         backwards.reverse();
-        assert_eq!(backwards, together, "{path:?}");
+        assert_eq!(backwards, together, "{simd:?}");
     }
 }
 
 #[test]
-fn outcomes_and_peaks_agree_with_the_scalar_path() {
+fn outcomes_and_peaks_agree_with_those_of_scalar() {
     let (motions, structures) = (motions(60), structures());
     for dt_s in [0.005, 0.02, 0.1] {
         let problems = problems(&motions, &structures, dt_s);
         let scalar = one_by_one(&problems);
         let of = |outcome| scalar.iter().filter(|response| response.outcome == outcome).count();
         println!("dt {dt_s}: {} safe, {} overturned", of(Outcome::SafeRocking), of(Outcome::Overturning));
-        for path in vector_paths() {
-            let vector = simulate_all(&problems, path);
+        for simd in vector_registers() {
+            let vector = simulate_all(&problems, simd);
             let beyond = |limit: f64| {
                 let differ = |(a, b): &(&Response, &Response)| (a.edp - b.edp).abs() > limit * a.edp;
                 scalar.iter().zip(&vector).filter(differ).count()
             };
             let (fine, coarse) = (beyond(1e-9), beyond(1e-6));
-            println!("dt {dt_s}, {path:?}: {fine} differ by more than 1e-9, {coarse} by more than 1e-6");
+            println!("dt {dt_s}, {simd:?}: {fine} differ by more than 1e-9, {coarse} by more than 1e-6");
             // Those near a separatrix amplify rounding without bound.
-            assert!(fine * 25 <= scalar.len() && coarse * 50 <= scalar.len(), "{path:?}: {fine}, {coarse}");
+            assert!(fine * 25 <= scalar.len() && coarse * 50 <= scalar.len(), "{simd:?}: {fine}, {coarse}");
         }
     }
 }
@@ -117,25 +117,25 @@ fn a_record_of_few_samples_says_what_many_say() {
         let problem =
             |samples, dt_s| Problem { structure: &structure, record: Record::new(samples, dt_s).unwrap() };
         let problems = [problem(&samples, 0.1), problem(&fine, 0.1 / parts as f64)];
-        for path in vector_paths().into_iter().chain([Path::Scalar]) {
-            let [few, many] = simulate_all(&problems, path)[..] else { panic!("two answers") };
-            assert_eq!(few.outcome, Outcome::SafeRocking, "{path:?} {p}");
-            assert_eq!((few.outcome, few.impacts), (many.outcome, many.impacts), "{path:?} {p}");
-            assert!((few.edp / many.edp - 1.0).abs() < 1e-10, "{path:?} {p}: {few:?} {many:?}");
+        for simd in vector_registers().into_iter().chain([Simd::Scalar]) {
+            let [few, many] = simulate_all(&problems, simd)[..] else { panic!("two answers") };
+            assert_eq!(few.outcome, Outcome::SafeRocking, "{simd:?} {p}");
+            assert_eq!((few.outcome, few.impacts), (many.outcome, many.impacts), "{simd:?} {p}");
+            assert!((few.edp / many.edp - 1.0).abs() < 1e-10, "{simd:?} {p}: {few:?} {many:?}");
         }
     }
 }
 
 #[test]
 fn results_are_named_after_their_bits() {
-    assert_eq!(Path::Scalar.arithmetic(), "scalar");
-    assert!(vector_paths().iter().all(|path| path.arithmetic() == "vector"));
+    assert_eq!(Simd::Scalar.arithmetic(), "scalar");
+    assert!(vector_registers().iter().all(|simd| simd.arithmetic() == "vector"));
 }
 
 #[test]
 fn no_problems_give_no_answers() {
-    for path in vector_paths() {
-        assert_eq!(simulate_all(&[], path), []);
+    for simd in vector_registers() {
+        assert_eq!(simulate_all(&[], simd), []);
     }
 }
 
@@ -145,8 +145,8 @@ fn an_uplift_between_the_last_two_samples_is_answered() {
     let uplift = s.uplift_acceleration_m_s2();
     for samples in [vec![0.0, 1.5 * uplift], vec![2.0 * uplift, 0.0], vec![uplift, uplift, uplift]] {
         let problem = Problem { structure: &s, record: Record::new(&samples, 0.01).unwrap() };
-        for path in vector_paths() {
-            let [vector] = simulate_all(&[problem], path)[..] else { panic!("one answer") };
+        for simd in vector_registers() {
+            let [vector] = simulate_all(&[problem], simd)[..] else { panic!("one answer") };
             let scalar = simulate(&s, &problem.record);
             assert_eq!((vector.outcome, vector.impacts), (scalar.outcome, scalar.impacts), "{samples:?}");
             assert!((vector.edp - scalar.edp).abs() <= 1e-12 * scalar.edp, "{samples:?}");
@@ -158,7 +158,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(150))]
 
     #[test]
-    fn every_record_has_the_same_answer_on_all_paths(
+    fn every_record_has_the_same_answer_with_each_simd(
         samples in prop::collection::vec(
             prop_oneof![Just(0.0), -100.0..100.0f64, -3.0..3.0f64, Just(1e-310), Just(1.5)], 2..60,
         ),
@@ -168,8 +168,8 @@ proptest! {
         let structure = Structure::new("s", p, alpha, eta).unwrap();
         let problem = Problem { structure: &structure, record: Record::new(&samples, dt).unwrap() };
         let scalar = simulate(&structure, &problem.record);
-        for path in vector_paths() {
-            let vector = simulate_all(&[problem], path)[0];
+        for simd in vector_registers() {
+            let vector = simulate_all(&[problem], simd)[0];
             prop_assert_eq!(vector.outcome, scalar.outcome);
             prop_assert!((vector.edp - scalar.edp).abs() <= 1e-6 * scalar.edp, "{:?} {:?}", vector, scalar);
         }
@@ -181,8 +181,8 @@ proptest! {
         let samples = synthetic_motion(seed, 200);
         let mirrored: Vec<f64> = samples.iter().map(|a| -a).collect();
         let problem = |samples| Problem { structure: &structure, record: Record::new(samples, 0.02).unwrap() };
-        for path in vector_paths() {
-            let answers = simulate_all(&[problem(&samples), problem(&mirrored)], path);
+        for simd in vector_registers() {
+            let answers = simulate_all(&[problem(&samples), problem(&mirrored)], simd);
             prop_assert_eq!(answers[0], answers[1]);
         }
     }
