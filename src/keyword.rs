@@ -4,10 +4,8 @@ use std::fmt;
 
 /// An enum whose variants each have one word.
 pub trait Keyword: Copy + PartialEq + 'static {
-    /// All variants.
     const ALL: &'static [Self];
 
-    /// The word of a variant.
     fn as_str(self) -> &'static str;
 }
 
@@ -46,7 +44,7 @@ impl fmt::Display for UnknownKeyword {
 
 impl std::error::Error for UnknownKeyword {}
 
-/// The variant of a word.
+/// Finds the variant of a word.
 ///
 /// # Errors
 /// If no variant has it, naming the nearest one.
@@ -56,7 +54,7 @@ pub fn parse<T: Keyword>(word: &str) -> Result<T, UnknownKeyword> {
     found.copied().ok_or_else(|| UnknownKeyword { word: word.to_string(), known: known().collect() })
 }
 
-/// The known word that looks most like this one, if any does.
+/// Finds the known word that is most like this one, if any is.
 pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let similarity = |candidate: &str| strsim::jaro_winkler(word, candidate);
     let best = known.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;

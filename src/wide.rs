@@ -1,4 +1,4 @@
-//! Plain loops in the widest registers of the processor.
+//! Plain loops, compiled for the widest vector registers of the processor.
 
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
@@ -11,7 +11,7 @@ pub fn widest<T>(work: impl NullaryFnOnce<Output = T>) -> T {
     widest_registers(Plain(work))
 }
 
-/// The same for work that names the registers itself.
+/// Does the same for work that names the registers itself.
 pub fn widest_registers<T>(work: impl WithSimd<Output = T>) -> T {
     #[cfg(target_arch = "x86_64")]
     if let Some(machine) = V4::try_new() {

@@ -40,7 +40,7 @@ pub fn response<'py>(
     result.set_item("time_s", column(|point| point.time_s))?;
     result.set_item("theta_rad", column(|point| point.theta_rad))?;
     result.set_item("theta_dot_rad_s", column(|point| point.theta_dot_rad_s))?;
-    let events = points.iter().filter_map(|point| Some((point.time_s, point.event?.as_str())));
+    let events = points.iter().filter_map(|point| Some((point.time_s, point.solver_event?.as_str())));
     result.set_item("events", events.collect::<Vec<_>>())?;
     result.set_item("outcome", response.outcome.as_str())?;
     result.set_item("edp", response.edp)?;

@@ -1,17 +1,19 @@
+//! Intensities at which a curve is tabulated.
+
 use super::GAP;
 
-/// Every stretch between two edges begins with this many steps, equal in logarithm, so that no bend hides in one.
+/// Number of steps, equal in logarithm, with which every interval between two edges begins, so that no bend hides in one.
 const FIRST_STEPS: i32 = 16;
-/// A step is halved no more often than this.
+/// Upper bound of the halvings of a step.
 const MOST_HALVINGS: u32 = 20;
 
-/// Intensities between the first edge and the last at which `f` must be tabulated so that straight lines between them
+/// Chooses intensities between the first edge and the last at which to tabulate `f`, so that straight lines between them
 /// err by no more than about `tolerance`. `f` may jump at the inner edges: each is a level, and has one just below.
 pub fn levels<const N: usize>(edges: &[f64], tolerance: f64, f: impl Fn(f64) -> [f64; N]) -> Vec<f64> {
     let mut levels = Vec::new();
-    for (index, stretch) in edges.windows(2).enumerate() {
+    for (index, interval) in edges.windows(2).enumerate() {
         let is_last = index + 2 == edges.len();
-        let (from, to) = (stretch[0], if is_last { stretch[1] } else { stretch[1] * (1.0 - GAP) });
+        let (from, to) = (interval[0], if is_last { interval[1] } else { interval[1] * (1.0 - GAP) });
         let step = |k: i32| from * (to / from).powf(f64::from(k) / f64::from(FIRST_STEPS));
         for k in 0..FIRST_STEPS {
             let start = if k == 0 { from } else { step(k) };
@@ -30,7 +32,7 @@ pub fn levels<const N: usize>(edges: &[f64], tolerance: f64, f: impl Fn(f64) -> 
     levels
 }
 
-/// Adds the levels needed strictly between two.
+/// Adds the levels that are needed strictly between two.
 fn refine<const N: usize>(
     low: (f64, [f64; N]),
     high: (f64, [f64; N]),
@@ -50,7 +52,8 @@ fn refine<const N: usize>(
     refine(middle, high, tolerance, halvings - 1, f, levels);
 }
 
-/// The least intensity above `from` at which all of `f`, which rise to 1, are within `tolerance` of it.
+/// Finds the least intensity above `from` at which all of `f`, which rise to 1, are within `tolerance` of it. By bisection: the
+/// condition is on several curves at once, and its answer is a yes or no.
 pub fn whole_curve_end<const N: usize>(from: f64, tolerance: f64, f: impl Fn(f64) -> [f64; N]) -> f64 {
     let is_whole = |intensity: f64| f(intensity).iter().all(|&p| p >= 1.0 - tolerance);
     let mut high = from;

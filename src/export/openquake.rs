@@ -7,7 +7,7 @@ use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
 use crate::units::{CM_PER_M, G_M_S2};
 
-/// The name of a peak in NRML, and the size of its unit in m/s2 or m/s.
+/// Returns the name of a peak in NRML, and the size of its unit in m/s2 or m/s.
 fn measure(peak: Peak) -> (&'static str, f64) {
     match peak {
         Peak::Pga => ("PGA", G_M_S2),
@@ -15,7 +15,7 @@ fn measure(peak: Peak) -> (&'static str, f64) {
     }
 }
 
-/// All limit states as tables, between whose levels OpenQuake draws straight lines. Below the first level, uplift, the
+/// Writes all limit states as tables, between whose levels OpenQuake draws straight lines. Below the first level, uplift, the
 /// no-damage limit makes each probability 0; above the last OpenQuake keeps it.
 pub fn discrete(model: &Model, functions: &[Function]) -> String {
     let states = LimitState::ALL;
@@ -38,7 +38,7 @@ pub fn discrete(model: &Model, functions: &[Function]) -> String {
     })
 }
 
-/// Overturning alone, the one limit state that is lognormal, by the arithmetic mean and standard deviation of the
+/// Writes overturning alone, the one limit state that is lognormal, by the arithmetic mean and standard deviation of the
 /// capacity, as NRML has it. At and below uplift the no-damage limit makes the probability 0; above `maxIML`, the largest
 /// intensity of the table, OpenQuake keeps it.
 pub fn continuous(model: &Model, functions: &[Function]) -> String {
@@ -87,12 +87,12 @@ fn document(
     text + "  </fragilityModel>\n</nrml>\n"
 }
 
-/// In full, parted by spaces.
+/// Writes numbers in full, separated by spaces.
 fn numbers(values: impl Iterator<Item = f64>) -> String {
     values.map(|value| value.to_string()).collect::<Vec<_>>().join(" ")
 }
 
-/// Text without signs that mean something in XML.
+/// Escapes the signs that mean something in XML.
 fn escaped(text: &str) -> String {
     let sign = |sign: char| match sign {
         '&' => "&amp;".to_string(),

@@ -8,10 +8,10 @@ use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
 use crate::units::G_M_S2;
 
-/// Probabilities must rise by so much that pelicun, which keeps six digits, sees it.
+/// Least rise of a probability from one level to the next: pelicun keeps six digits.
 const LEAST_RISE: f64 = 2e-6;
 
-/// The name of a peak in pelicun, its unit there, and the size of that unit in m/s2 or m/s.
+/// Returns the name of a peak in pelicun, its unit there, and the size of that unit in m/s2 or m/s.
 fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
     match peak {
         Peak::Pga => ("Peak Ground Acceleration", "g", G_M_S2),
@@ -19,7 +19,7 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
     }
 }
 
-/// The rows: rocking has a capacity that is known, uplift; the others have tables of their cumulative distribution, which
+/// Writes the rows: rocking has a capacity that is known, uplift; the others have tables of their cumulative distribution, which
 /// must rise from 0 (just below uplift) to 1 (at the last level).
 ///
 /// # Errors
@@ -47,7 +47,7 @@ pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
     Ok(String::from_utf8(writer.into_inner()?)?)
 }
 
-/// Levels, a bar, and the probabilities at them.
+/// Writes the levels, a bar, and the probabilities at them.
 fn cumulative_distribution(function: &Function, state: usize, unit: f64) -> String {
     let below_uplift = (function.range_of_data[0] * (1.0 - GAP), 0.0);
     let mut points = vec![below_uplift];
@@ -68,7 +68,7 @@ fn cumulative_distribution(function: &Function, state: usize, unit: f64) -> Stri
     format!("{}|{}", join(|point| point.0, unit), join(|point| point.1, 1.0))
 }
 
-/// What the rows mean, as the JSON file beside them.
+/// Describes the rows, for the JSON file beside them.
 pub fn metadata(model: &Model, functions: &[Function]) -> Value {
     let mut all = Map::new();
     all.insert(

@@ -1,3 +1,5 @@
+//! Hazard curve of one intensity, and its convolution with a fragility.
+
 /// The widest step of the quadrature, in ln IM: less than the narrowest dispersion of a fragility that we know, the zeta of
 /// 0.03 of the lower plane under pulses.
 const WIDEST_PANEL: f64 = 0.02;
@@ -17,36 +19,23 @@ const GAUSS_LEGENDRE: [(f64, f64); 8] = [
 /// Annual rates at which intensities are exceeded; between its points ln rate is linear in ln IM.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HazardCurve {
-    /// Intensity, and annual rate of exceedance.
+    /// Intensity and annual rate of exceedance.
     points: Vec<(f64, f64)>,
 }
 
-/// Why points are no hazard curve. `point` counts from 0.
+/// Why points make no hazard curve. `point` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum HazardError {
-    /// Fewer than two.
     #[error("{0} point(s); expected 2 or more")]
     TooFewPoints(usize),
-    /// An intensity or a rate without a logarithm.
     #[error("point {point}: intensity {im}, rate {rate}; expected both above 0")]
-    NotPositive {
-        /// Which point.
-        point: usize,
-        /// Its intensity.
-        im: f64,
-        /// Its annual rate.
-        rate: f64,
-    },
-    /// Out of order.
+    NotPositive { point: usize, im: f64, rate: f64 },
     #[error("point {point}: expected a larger intensity than before, and no larger rate")]
-    Unordered {
-        /// Which point.
-        point: usize,
-    },
+    Unordered { point: usize },
 }
 
 impl HazardCurve {
-    /// Of intensities and their annual rates of exceedance.
+    /// Checks intensities and their annual rates of exceedance.
     ///
     /// # Errors
     /// If there are fewer than two points, or one is not positive or not in order: intensities rise, rates do not.
@@ -65,12 +54,12 @@ impl HazardCurve {
         }
     }
 
-    /// The first intensity and the last, each with its rate.
+    /// Returns the first intensity and the last, each with its rate.
     pub fn ends(&self) -> [(f64, f64); 2] {
         [self.points[0], self.points[self.points.len() - 1]]
     }
 
-    /// Mean annual rates of events that have these probabilities at an intensity: the integral of P(im) |dH(im)|.
+    /// Integrates the mean annual rates of events that have these probabilities at an intensity: P(im) |dH(im)|.
     ///
     /// Gauss-Legendre on short panels in ln IM, none across a point of the curve or one of `breaks`, where a probability
     /// jumps. Motions above the last intensity count with the probability at it; those below the first are not counted.
@@ -98,7 +87,7 @@ impl HazardCurve {
     }
 }
 
-/// Nodes and weights of the quadrature between two values of ln IM.
+/// Returns nodes and weights of the quadrature between two values of ln IM.
 fn nodes(from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
     let panels = ((to - from) / WIDEST_PANEL).ceil().max(1.0);
     let width = (to - from) / panels;

@@ -1,3 +1,5 @@
+//! Joint hazard of PGA and PGV.
+
 /// Motions of one bin of PGA and PGV.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairOfPeaks {
@@ -5,7 +7,7 @@ pub struct PairOfPeaks {
     pub pga_m_s2: f64,
     /// Peak ground velocity that stands for the bin, m/s.
     pub pgv_m_s: f64,
-    /// How many motions of the bin occur in a year, on average.
+    /// Mean number of motions of the bin in a year.
     pub annual_rate: f64,
 }
 
@@ -17,7 +19,7 @@ pub struct JointHazard {
 }
 
 impl JointHazard {
-    /// Mean annual rates of events that have these probabilities at a PGA and PGV: the sum over the bins of rate times
+    /// Sums the mean annual rates of events that have these probabilities at a PGA and PGV: the sum over the bins of rate times
     /// probability.
     pub fn mean_annual_rates<const N: usize>(
         &self,

@@ -11,7 +11,7 @@ mod joint;
 pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
 
-/// Probability of one or more events in `years`, of events that come at this annual rate independently of each other
+/// Computes the probability of one or more events in `years`, of events that come at this annual rate independently of each other
 /// (Poisson): 1 - exp(-rate years).
 pub fn probability_in_years(annual_rate: f64, years: f64) -> f64 {
     -(-annual_rate * years).exp_m1()

@@ -1,6 +1,8 @@
+//! Quantiles of the standard normal distribution.
+
 #![expect(clippy::excessive_precision, reason = "the coefficients as Wichura published them")]
 
-/// The `x` whose cumulative probability is `p` in (0, 1), by Wichura's algorithm AS 241 (relative error 1e-16).
+/// Finds the `x` whose cumulative probability is `p` in (0, 1), by Wichura's algorithm AS 241 (relative error 1e-16).
 /// Infinite at 0 and 1, NaN outside.
 pub fn quantile(p: f64) -> f64 {
     let q = p - 0.5;

@@ -1,17 +1,16 @@
-//! Axes: from values to shares of a length, and where the ticks stand.
+//! Axes: from values to fractions of a length, and the places of ticks.
 
-use super::label::Label;
-use super::number;
+use super::text::{Label, number};
 
 /// An axis of a panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     scale: Scale,
-    /// The value at its beginning.
+    /// Value at its beginning.
     pub low: f64,
-    /// The value at its end.
+    /// Value at its end.
     pub high: f64,
-    /// What it measures, and in which unit.
+    /// Name and unit of what it measures.
     pub label: Label,
 }
 
@@ -24,59 +23,57 @@ enum Scale {
 /// A mark on an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
-    /// Where.
     pub value: f64,
-    /// What it says; nothing at a minor one.
+    /// Text; none at a minor tick.
     pub label: Option<Label>,
 }
 
 impl Axis {
-    /// In equal steps.
+    /// Makes an axis in equal steps.
     pub fn linear([low, high]: [f64; 2], label: Label) -> Axis {
         let high = if high > low { high } else { low + 1.0 };
         Axis { scale: Scale::Linear, low, high, label }
     }
 
-    /// In equal ratios.
+    /// Makes an axis in equal ratios.
     pub fn log([low, high]: [f64; 2], label: Label) -> Axis {
         let low = if low > 0.0 && low.is_finite() { low } else { 0.1 };
         let high = if high > low && high.is_finite() { high } else { 10.0 * low };
         Axis { scale: Scale::Log, low, high, label }
     }
 
-    /// In equal ratios over all values that have a logarithm, with a margin.
+    /// Makes an axis in equal ratios over all values that have a logarithm, with a margin.
     pub fn log_over(values: impl Iterator<Item = f64>, label: Label) -> Axis {
         let [low, high] = range(values.filter(|value| *value > 0.0));
         Axis::log([low / LOG_MARGIN, high * LOG_MARGIN], label)
     }
 
-    /// The share of the axis at a value; not finite where there is none.
-    pub fn share(&self, value: f64) -> f64 {
+    /// Returns the fraction of the axis at a value; not finite where there is none.
+    pub fn fraction(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => (value - self.low) / (self.high - self.low),
             Scale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
         }
     }
 
-    /// The value at a share of the axis.
-    pub fn value(&self, share: f64) -> f64 {
+    /// Returns the value at a fraction of the axis.
+    pub fn value(&self, fraction: f64) -> f64 {
         match self.scale {
-            Scale::Linear => self.low + share * (self.high - self.low),
-            Scale::Log => self.low * (self.high / self.low).powf(share),
+            Scale::Linear => self.low + fraction * (self.high - self.low),
+            Scale::Log => self.low * (self.high / self.low).powf(fraction),
         }
     }
 
-    /// So many values from end to end.
+    /// Iterates over `count` values from end to end.
     pub fn steps(&self, count: usize) -> impl Iterator<Item = f64> {
         (0..count).map(move |step| self.value(step as f64 / (count - 1) as f64))
     }
 
-    /// Whether it holds a value.
     pub fn holds(&self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }
 
-    /// Its marks, of which `most` or fewer have labels.
+    /// Places the ticks, of which `most` or fewer have labels.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         match self.scale {
             Scale::Linear => linear_ticks(self.low, self.high, most),
@@ -85,10 +82,10 @@ impl Axis {
     }
 }
 
-/// The margin beyond the data on either side.
+/// Margin beyond the data on either side, as a ratio.
 const LOG_MARGIN: f64 = 1.08;
 
-/// Least and largest finite value.
+/// Finds the least and the largest finite value.
 pub fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let finite = values.filter(|value| value.is_finite());
     finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
@@ -106,14 +103,14 @@ fn linear_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
     (first..=last).map(tick).collect()
 }
 
-/// The least of 1, 2 and 5 times a power of ten that is at least this.
+/// Rounds up to 1, 2 or 5 times a power of ten.
 fn nice_step(least: f64) -> f64 {
     let power = 10_f64.powf(least.log10().floor());
     let step = [1.0, 2.0, 5.0].into_iter().find(|factor| factor * power >= least * (1.0 - 1e-9));
     step.unwrap_or(10.0) * power
 }
 
-/// Labels at 1, 2 and 5 in each decade, at 1 only, or at every so many decades, whichever are the most that fit.
+/// Labels as many ticks as fit: several in each decade, one, or one in so many decades.
 fn log_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
     let inside = |value: &f64| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(value);
@@ -133,7 +130,7 @@ fn log_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
         at(&[1.0], 3),
         at(&[1.0], 5),
     ];
-    // Powers of ten alone, where numbers would be long.
+    // Written as powers of ten, where numbers would be long.
     let as_powers = low < 0.0099 || high > 10_010.0;
     let choices = &choices[if as_powers { 4 } else { 0 }..];
     let labelled = choices.iter().find(|values| values.len() <= most).cloned().unwrap_or_default();

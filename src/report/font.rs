@@ -25,19 +25,17 @@ const FILES: [&[u8]; 3] = [
 static FACES: LazyLock<[Option<ttf_parser::Face<'static>>; 3]> =
     LazyLock::new(|| FILES.map(|file| ttf_parser::Face::parse(file, 0).ok()));
 
-/// What stands in for a letter that the font does not have.
+/// Drawn in place of a letter that the font does not have.
 const UNKNOWN: char = '?';
 
 impl Face {
-    /// All of them.
     pub const ALL: [Face; 3] = [Face::Regular, Face::Italic, Face::SemiBold];
 
-    /// The file.
     pub fn file(self) -> &'static [u8] {
         FILES[self as usize]
     }
 
-    /// Width of words in this size.
+    /// Measures words in a size, points.
     pub fn width(self, words: &str, size: f64) -> f64 {
         let Some(face) = &FACES[self as usize] else { return 0.0 };
         let scale = size / f64::from(face.units_per_em());
@@ -66,15 +64,15 @@ fn advance(face: &ttf_parser::Face, letter: char) -> f64 {
     glyph(face, letter).and_then(|glyph| face.glyph_hor_advance(glyph)).map_or(0.0, f64::from)
 }
 
-/// What draws outlines.
+/// Callbacks that draw outlines.
 pub trait Pen {
     /// Begins a contour.
     fn start(&mut self, to: [f64; 2]);
-    /// Straight on.
+    /// Draws a straight line.
     fn line(&mut self, to: [f64; 2]);
-    /// By a quadratic curve.
+    /// Draws a quadratic curve.
     fn quadratic(&mut self, control: [f64; 2], to: [f64; 2]);
-    /// By a cubic curve.
+    /// Draws a cubic curve.
     fn cubic(&mut self, controls: [[f64; 2]; 2], to: [f64; 2]);
     /// Ends a contour.
     fn close(&mut self);

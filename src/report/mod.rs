@@ -1,32 +1,28 @@
-//! The report that people look at: figures and one page that holds all.
+//! The report: figures, and one HTML page that holds all.
 //!
 //! ```text
-//! material  what a report is made of
-//! figures   one file a figure: material -> drawing and caption
-//! figure    a figure and what stands under it; the places of its panels
-//! panel     axes, and data within them; axis, legend
-//! bins      values gathered; envelope: long series cut down to what can be seen
-//! label     words with italics and subscripts; number: numbers in words
-//! drawing   paths, dots and text
-//! svg, png  a drawing as a picture; font: the letters
-//! page      all of it in one HTML page
+//! data       the data of a report
+//! figures    one file a figure: data -> drawing and caption
+//! figure     a figure, the places of its panels, and long series cut to what can be seen
+//! panel      axes (axis), data within them, and the legend
+//! text       labels with italics and subscripts; numbers as text
+//! drawing    paths, dots and text
+//! svg, png   a drawing as a picture; font: the letters
+//! page       the HTML page; page_data: what its scripts work on
 //! ```
 
 mod axis;
-mod bins;
+pub mod data;
 mod drawing;
-mod envelope;
 mod figure;
 mod figures;
 mod font;
-mod label;
-mod legend;
-pub mod material;
-mod number;
 mod page;
+mod page_data;
 mod panel;
 mod png;
 mod svg;
+mod text;
 
 pub use drawing::Drawing;
 pub use figure::Figure;

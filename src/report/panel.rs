@@ -1,8 +1,8 @@
-//! A panel of a figure: axes, and data within them.
+//! A panel of a figure: axes, data within them, and the legend above.
 
 use super::axis::Axis;
 use super::drawing::{Anchor, Drawing, Ink, Paint, Point, Step, Stroke, rectangle};
-use super::label::Label;
+use super::text::Label;
 
 /// Height of the letters of axes and legends, points.
 pub const LETTERS: f64 = 8.0;
@@ -12,35 +12,33 @@ const TICK_LETTERS: f64 = 7.0;
 const TICK: f64 = 3.0;
 /// Width of axes.
 const AXIS_WIDTH: f64 = 0.6;
-/// More points than this are drawn as a density.
+/// Upper bound of the points that are drawn one by one; more are drawn as a density.
 pub const MOST_POINTS: usize = 5000;
-/// Fewer points than this are drawn larger.
+/// Number of points below which they are drawn larger.
 const FEW_POINTS: usize = 400;
 /// Side of a square of a density, points.
 const SQUARE: f64 = 2.4;
-/// Shades of a density.
+/// Number of shades of a density.
 const SHADES: usize = 6;
 
-/// A panel.
+/// Axes and the area of the data between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
     /// Upper left corner of the area of the data.
     pub corner: Point,
-    /// Its width, points.
+    /// Width, points.
     pub width: f64,
-    /// Its height, points.
+    /// Height, points.
     pub height: f64,
-    /// The horizontal axis.
     pub x: Axis,
-    /// The vertical axis.
     pub y: Axis,
 }
 
 impl Panel {
-    /// Where a pair of values stands.
+    /// Returns the place of a pair of values.
     pub fn at(&self, [x, y]: [f64; 2]) -> Point {
         let [left, top] = self.corner;
-        [left + self.width * self.x.share(x), top + self.height * (1.0 - self.y.share(y))]
+        [left + self.width * self.x.fraction(x), top + self.height * (1.0 - self.y.fraction(y))]
     }
 
     fn holds(&self, [x, y]: [f64; 2]) -> bool {
@@ -55,7 +53,7 @@ impl Panel {
         self.corner[1] + self.height
     }
 
-    /// Axes with ticks, labels and a title above; a horizontal axis without a label is that of the panel below.
+    /// Draws axes with ticks, labels and a title above. A horizontal axis without a label is that of the panel below.
     pub fn frame(&self, drawing: &mut Drawing, title: Label) {
         let [left, top] = self.corner;
         let (right, bottom) = (self.right(), self.bottom());
@@ -84,7 +82,7 @@ impl Panel {
         drawing.text([left, top - 5.0], Anchor::Start, LETTERS, Ink::Text, title);
     }
 
-    /// A curve, as far as it lies within.
+    /// Draws a curve, as far as it lies within.
     pub fn line(&self, drawing: &mut Drawing, values: &[[f64; 2]], stroke: Stroke) {
         let mut piece: Vec<Point> = Vec::new();
         for pair in values.windows(2) {
@@ -101,25 +99,25 @@ impl Panel {
     }
 
     fn shares(&self, [x, y]: [f64; 2]) -> Point {
-        [self.x.share(x), self.y.share(y)]
+        [self.x.fraction(x), self.y.fraction(y)]
     }
 
     fn place(&self, [x, y]: Point) -> Point {
         [self.corner[0] + self.width * x, self.corner[1] + self.height * (1.0 - y)]
     }
 
-    /// The area between two curves over the same x: `[x, low, high]`.
+    /// Fills the area between two curves over the same x: `[x, low, high]`.
     pub fn band(&self, drawing: &mut Drawing, values: &[[f64; 3]], paint: Paint) {
-        let inside = |value: f64| self.y.share(value).clamp(0.0, 1.0);
+        let inside = |value: f64| self.y.fraction(value).clamp(0.0, 1.0);
         let values =
             values.iter().filter(|[x, low, high]| self.x.holds(*x) && low.is_finite() && high.is_finite());
         let values: Vec<&[f64; 3]> = values.collect();
-        let upper = values.iter().map(|[x, _, high]| self.place([self.x.share(*x), inside(*high)]));
-        let lower = values.iter().rev().map(|[x, low, _]| self.place([self.x.share(*x), inside(*low)]));
+        let upper = values.iter().map(|[x, _, high]| self.place([self.x.fraction(*x), inside(*high)]));
+        let lower = values.iter().rev().map(|[x, low, _]| self.place([self.x.fraction(*x), inside(*low)]));
         drawing.area(&upper.chain(lower).collect::<Vec<_>>(), paint);
     }
 
-    /// Points; squares as dark as they are full where there are too many of them.
+    /// Draws points, or their density where there are too many of them.
     pub fn scatter(&self, drawing: &mut Drawing, values: &[[f64; 2]], radius: f64, paint: Paint) {
         if values.len() > MOST_POINTS {
             return self.density(drawing, values, paint.ink);
@@ -128,7 +126,7 @@ impl Panel {
         drawing.dots(inside.map(|&value| self.at(value)).collect(), radius, paint);
     }
 
-    /// Squares as dark as they are full of points.
+    /// Draws squares as dark as they are full of points.
     pub fn density(&self, drawing: &mut Drawing, values: &[[f64; 2]], ink: Ink) {
         let points = values.iter().filter(|&&value| self.holds(value)).map(|&value| self.at(value));
         let [left, top] = self.corner;
@@ -159,14 +157,14 @@ impl Panel {
         }
     }
 
-    /// Discs with an outline: `(value, radius)`.
+    /// Draws discs with an outline: `(value, radius)`.
     pub fn circles(&self, drawing: &mut Drawing, circles: &[([f64; 2], f64)], ink: Ink) {
         let steps = circles.iter().filter(|(value, _)| self.holds(*value));
         let steps = steps.map(|&(value, radius)| Step::Circle(self.at(value), radius)).collect();
         drawing.path(steps, Some(ink.thin(0.25)), Some(ink.line(0.6)));
     }
 
-    /// Vertical bars with a point in the middle: `(value, low, high)`.
+    /// Draws vertical bars with a point in the middle: `(value, low, high)`.
     pub fn bars(&self, drawing: &mut Drawing, bars: &[([f64; 2], f64, f64)], ink: Ink) {
         for &([x, y], low, high) in bars.iter().filter(|(value, ..)| self.holds(*value)) {
             let ends = [low, high].map(|end| self.at([x, end.clamp(self.y.low, self.y.high)]));
@@ -175,7 +173,7 @@ impl Panel {
         }
     }
 
-    /// Words in a corner: at shares of width and height.
+    /// Writes words at fractions of width and height.
     pub fn note(&self, drawing: &mut Drawing, [x, y]: [f64; 2], anchor: Anchor, label: Label) {
         let [left, top] = self.corner;
         drawing.text([left + x * self.width, top + y * self.height], anchor, TICK_LETTERS, Ink::Muted, label);
@@ -211,4 +209,41 @@ fn clipped([from, to]: [Point; 2]) -> Option<[Point; 2]> {
         _ => [from[0] + share * run[0], from[1] + share * run[1]],
     };
     (enters <= leaves).then(|| [along(enters), along(leaves)])
+}
+
+/// The mark of an entry of a legend.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Mark {
+    Dot(Paint),
+    Line(Stroke),
+    Area(Paint),
+    /// Circles sized by count.
+    Circle(Ink),
+}
+
+const MARK_WIDTH: f64 = 14.0;
+const BETWEEN: f64 = 12.0;
+
+/// Draws a legend, a line of marks and words that begins at `at`.
+pub fn legend(drawing: &mut Drawing, at: Point, entries: &[(Mark, Label)]) {
+    let [mut x, y] = at;
+    for (mark, label) in entries {
+        let (left, middle) = (x, [x + 0.5 * MARK_WIDTH, y - 2.6]);
+        match *mark {
+            Mark::Dot(paint) => drawing.dots(vec![middle], 2.0, Paint { opacity: 1.0, ..paint }),
+            Mark::Line(stroke) => drawing.line(&[[left, middle[1]], [left + MARK_WIDTH, middle[1]]], stroke),
+            Mark::Area(paint) => {
+                let corner = [left, middle[1] - 3.0];
+                let steps = rectangle(corner, MARK_WIDTH, 6.0);
+                drawing.path(steps.to_vec(), Some(paint), None);
+            }
+            Mark::Circle(ink) => {
+                let circle = vec![Step::Circle(middle, 3.0)];
+                drawing.path(circle, Some(ink.thin(0.25)), Some(ink.line(0.6)));
+            }
+        }
+        x += MARK_WIDTH + 3.0;
+        drawing.text([x, y], Anchor::Start, LETTERS, Ink::Text, label.clone());
+        x += label.width(LETTERS) + BETWEEN;
+    }
 }

@@ -14,7 +14,7 @@ const POINTS_PER_INCH: f64 = 72.0;
 /// Inches in a metre.
 const INCHES_PER_METRE: f64 = 39.370_078_74;
 
-/// The PNG of a figure at so many dots per inch.
+/// Draws a figure as PNG at so many dots per inch.
 ///
 /// # Errors
 /// If the picture is too large to hold.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::drawing::{Anchor, Drawing, Ink, Item, Paint, Point, Step, Stroke, Text};
 use super::figure::Figure;
 use super::font::{Face, Pen};
-use super::label::{Level, escape};
+use super::text::{Level, escape};
 
 /// Where the SVG stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub enum Place {
     File,
 }
 
-/// The SVG of a figure.
+/// Draws a figure as SVG.
 pub fn svg(figure: &Figure, place: Place) -> String {
     let Figure { title, caption, drawing: Drawing { width, height, items }, .. } = figure;
     let mut text = String::new();
@@ -224,7 +224,7 @@ fn write_step(text: &mut String, step: &Step) -> std::fmt::Result {
     }
 }
 
-/// Rounded to a hundredth of a point, so that numbers are short.
+/// Rounds to a hundredth of a point, so that numbers are short.
 fn r(number: f64) -> f64 {
     // Adding 0 turns -0 into 0.
     (number * 100.0).round() / 100.0 + 0.0

@@ -1,42 +1,38 @@
-//! Many rocking problems at once, one in each lane of the processor's vector registers.
+//! Simulates many structures and records at once, one in each lane of the processor's vector registers.
 
 use pulp::WithSimd;
 
 use super::lane_step::Events;
 use super::lanes::{Lanes, each};
 use super::march::simulate;
+use super::real::Vector;
 use super::record::Record;
-use super::response::Response;
+use super::response::{Response, Tail, free_rocking};
 use super::structure::Structure;
-use super::tail::{Tail, free_rocking};
-use super::vector::Vector;
 use crate::keyword::keywords;
 
-/// A structure and the record that shakes it.
+/// A structure, at rest at first, and the ground motion that shakes it.
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
-    /// The structure, at rest at first.
     pub structure: &'a Structure,
-    /// The ground motion.
     pub record: Record<'a>,
 }
 
-/// How problems are worked on: one after the other, or one in each lane of registers of 256 or 512 bits. The last two
-/// give the same bits; the first one differs from them by rounding.
+/// The vector instructions of the solver. AVX2 and AVX-512 give the same bits; the scalar code differs from them by rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Simd {
-    /// One at a time.
+    /// One problem at a time.
     Scalar,
-    /// Four in a register.
+    /// Four problems in a register of 256 bits.
     Avx2,
-    /// Eight in a register.
+    /// Eight problems in a register of 512 bits.
     Avx512,
 }
 
 keywords!(Simd { Scalar = "scalar", Avx2 = "avx2", Avx512 = "avx512" });
 
 impl Simd {
-    /// The fastest one of this processor.
+    /// Returns the widest that this processor has.
     pub fn fastest() -> Simd {
         [Simd::Avx512, Simd::Avx2].into_iter().find(|simd| simd.is_available()).unwrap_or(Simd::Scalar)
     }
@@ -54,7 +50,7 @@ impl Simd {
         }
     }
 
-    /// Whose bits the results have: `scalar` or `vector`.
+    /// Names what decides the bits of the results: `scalar` or `vector`.
     pub fn arithmetic(self) -> &'static str {
         match self {
             Simd::Scalar => "scalar",
@@ -63,7 +59,7 @@ impl Simd {
     }
 }
 
-/// The response to each problem, in order: as [`simulate`] has it. Where `simd` is not available, the scalar one is taken.
+/// Simulates each problem, in order, as [`simulate`] does. Falls back to the scalar code where the processor lacks `simd`.
 pub fn simulate_all(problems: &[Problem], simd: Simd) -> Vec<Response> {
     let batch = Batch { problems };
     #[cfg(target_arch = "x86_64")]
@@ -103,14 +99,14 @@ impl WithSimd for Batch<'_> {
             let step = lanes.step();
             let events = lanes.advance(&step);
             if events.any() {
-                queue.attend(events, &mut lanes);
+                queue.handle(events, &mut lanes);
             }
         }
         queue.responses
     }
 }
 
-/// Problems that wait for a lane, and the responses so far.
+/// The problems that wait for a lane, and the responses so far.
 struct Queue<'a> {
     problems: &'a [Problem<'a>],
     next: usize,
@@ -118,25 +114,25 @@ struct Queue<'a> {
 }
 
 impl<'a> Queue<'a> {
-    /// Sees to the lanes that cannot go on by themselves.
+    /// Finishes or restarts the lanes that cannot go on by themselves.
     #[inline(never)]
-    fn attend<S: pulp::Simd>(&mut self, events: Events, lanes: &mut Lanes<'a, S>) {
+    fn handle<S: pulp::Simd>(&mut self, events: Events, lanes: &mut Lanes<'a, S>) {
         for lane in each(events.overturned) {
-            self.conclude(lane, Tail::Overturns, lanes);
+            self.finish(lane, Tail::Overturns, lanes);
         }
         for lane in each(events.ended) {
             let structure = self.problems[lanes.problem(lane)].structure;
             let tail = free_rocking(lanes.state(lane), structure.alpha_rad, structure.eta);
-            self.conclude(lane, tail, lanes);
+            self.finish(lane, tail, lanes);
         }
         for lane in each(events.rested) {
             if !lanes.leave_rest(lane) {
-                self.conclude(lane, Tail::Settles { peak: 0.0 }, lanes);
+                self.finish(lane, Tail::Settles { peak: 0.0 }, lanes);
             }
         }
     }
 
-    fn conclude<S: pulp::Simd>(&mut self, lane: usize, tail: Tail, lanes: &mut Lanes<'a, S>) {
+    fn finish<S: pulp::Simd>(&mut self, lane: usize, tail: Tail, lanes: &mut Lanes<'a, S>) {
         let problem = lanes.problem(lane);
         let alpha = self.problems[problem].structure.alpha_rad;
         self.responses[problem] = Response::of_rocking(tail, lanes.peak(lane), alpha, lanes.impacts(lane));

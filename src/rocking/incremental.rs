@@ -10,8 +10,8 @@ use crate::keyword::keywords;
 /// The demand |theta|max / alpha from which a structure that survives may have a neighbour that does not.
 const NEAR_OVERTURNING: f64 = 0.2;
 
-/// The intensities at which a structure is looked at: levels in equal ratios, and more between them where the outcome changes
-/// or may change twice.
+/// The intensities of an incremental dynamic analysis: levels in equal ratios, and more between them where the outcome changes or
+/// may change twice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
     levels: Vec<f64>,
@@ -23,24 +23,21 @@ pub struct Scan {
 /// A response at an intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScanResponse {
-    /// The intensity.
     pub intensity: f64,
-    /// What came of it.
     pub response: Response,
 }
 
-/// One of several structures under motions, at an intensity.
+/// A case (a structure under a motion) and the intensity at which to simulate it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Look {
-    /// Its number.
+pub struct ScanPoint {
+    /// Index of the case.
     pub case: usize,
-    /// The intensity.
     pub intensity: f64,
 }
 
 impl Scan {
-    /// From one intensity to another in `steps` equal ratios, which are halved up to `halvings` times where the outcome may
-    /// change twice within them. Where it changes, its place is found to the relative `tolerance`.
+    /// Divides the intensities between two in `steps` equal ratios, which are halved up to `halvings` times where the outcome may
+    /// change twice within them. Where it changes, the intensity is found to the relative `tolerance`.
     pub fn new(from: f64, to: f64, steps: usize, halvings: u32, tolerance: f64) -> Scan {
         let parts = |parts: f64| libm::pow(to / from, 1.0 / parts);
         let level = |k: usize| from * libm::pow(to / from, k as f64 / steps as f64);
@@ -52,60 +49,58 @@ impl Scan {
         }
     }
 
-    /// The least intensity.
-    pub fn foot(&self) -> f64 {
+    pub fn lowest(&self) -> f64 {
         self.levels.first().copied().unwrap_or(f64::NAN)
     }
 
-    /// The largest intensity.
-    pub fn top(&self) -> f64 {
+    pub fn highest(&self) -> f64 {
         self.levels.last().copied().unwrap_or(f64::NAN)
     }
 
-    /// The ratio of two levels.
+    /// Ratio of neighbouring levels.
     pub fn ratio(&self) -> f64 {
         self.ratio
     }
 
-    /// The ratio of two intensities between which nothing more is searched: safe windows, or overturning ranges, that are
-    /// narrower may be missed.
+    /// Ratio of two intensities between which nothing more is searched: narrower safe windows, or overturning ranges, may be
+    /// missed.
     pub fn finest_ratio(&self) -> f64 {
         self.finest_ratio
     }
 
-    /// The levels at which all structures are looked at, rising.
+    /// Intensities at which every case is simulated, rising.
     pub fn levels(&self) -> &[f64] {
         &self.levels
     }
 
-    /// All cases looked at as often as the scan asks for, in rounds: `respond` gives the responses to all looks of a round, in
-    /// order. Of each case the responses come at rising intensity.
+    /// Simulates all cases at as many intensities as the scan needs, in rounds: `respond` gives the responses to all points of a
+    /// round, in order. Returns the responses of each case at rising intensity.
     ///
     /// # Errors
     /// Those of `respond`.
     pub fn run<E>(
         &self,
         cases: usize,
-        respond: impl Fn(&[Look]) -> Result<Vec<Response>, E>,
+        respond: impl Fn(&[ScanPoint]) -> Result<Vec<Response>, E>,
     ) -> Result<Vec<Vec<ScanResponse>>, E> {
         let mut found: Vec<Vec<ScanResponse>> = vec![Vec::new(); cases];
-        let levels = |case| self.levels.iter().map(move |&intensity| Look { case, intensity });
-        let mut looks: Vec<Look> = (0..cases).flat_map(levels).collect();
-        while !looks.is_empty() {
-            for (&Look { case, intensity }, response) in looks.iter().zip(respond(&looks)?) {
+        let levels = |case| self.levels.iter().map(move |&intensity| ScanPoint { case, intensity });
+        let mut points: Vec<ScanPoint> = (0..cases).flat_map(levels).collect();
+        while !points.is_empty() {
+            for (&ScanPoint { case, intensity }, response) in points.iter().zip(respond(&points)?) {
                 found[case].push(ScanResponse { intensity, response });
             }
-            looks.clear();
+            points.clear();
             for (case, found) in found.iter_mut().enumerate() {
                 found.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
                 let missing = found.windows(2).filter_map(|pair| self.between(&pair[0], &pair[1]));
-                looks.extend(missing.map(|intensity| Look { case, intensity }));
+                points.extend(missing.map(|intensity| ScanPoint { case, intensity }));
             }
         }
         Ok(found)
     }
 
-    /// The intensity between two neighbours at which the scan must look too, if any.
+    /// Returns the intensity between two neighbours that must be simulated too, if any.
     fn between(&self, below: &ScanResponse, above: &ScanResponse) -> Option<f64> {
         let widest = if below.overturns() != above.overturns() {
             1.0 + self.tolerance
@@ -119,7 +114,7 @@ impl Scan {
     }
 }
 
-/// Whether the outcome may change twice between two responses of the same outcome: between overturnings in another mode, after
+/// Tells whether the outcome may change twice between two responses of the same outcome: between overturnings in another mode, after
 /// more or fewer impacts (Zhang & Makris 2001, Rocking response of free-standing blocks under cycloidal pulses, Journal of
 /// Engineering Mechanics 127, 473-483), and near overturning.
 fn may_hide_a_change(below: &Response, above: &Response) -> bool {
@@ -138,41 +133,40 @@ impl ScanResponse {
 /// Whether and where a structure overturns in a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CapacityStatus {
-    /// From an intensity within the scan on.
+    /// It overturns from an intensity within the scan on.
     Overturns,
-    /// Nowhere.
+    /// It overturns nowhere in the scan.
     Safe,
-    /// Already at the foot of the scan.
+    /// It overturns already at the lowest intensity of the scan.
     Below,
 }
 
 keywords!(CapacityStatus { Overturns = "overturns", Safe = "safe", Below = "below" });
 
-/// What a scan says of the capacity of a structure against overturning. Each change of outcome lies between two neighbouring
-/// looks.
+/// The capacity of a structure against overturning, as a scan finds it. Each change of outcome lies between two neighbouring
+/// intensities.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Capacity {
-    /// Whether and where it overturns.
     pub status: CapacityStatus,
-    /// The largest intensity below all that overturn it.
+    /// Largest simulated intensity below all that overturn it.
     pub safe_below: Option<f64>,
-    /// The least intensity that overturns it.
+    /// Least simulated intensity that overturns it.
     pub overturning: Option<f64>,
-    /// The intensities above that it survives.
+    /// Ranges of intensity above that it survives.
     pub windows: Vec<SafeWindow>,
 }
 
 /// A range of intensities that a structure survives, above one that overturns it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SafeWindow {
-    /// The least of them.
+    /// Least intensity of the window.
     pub low: f64,
-    /// The largest of them; none where the scan ends within the window.
+    /// Largest intensity of the window; none where the scan ends within it.
     pub high: Option<f64>,
 }
 
 impl Capacity {
-    /// Of responses at rising intensity.
+    /// Finds the capacity in responses at rising intensity.
     pub fn of(responses: &[ScanResponse]) -> Capacity {
         let mut runs = responses.chunk_by(|a, b| a.overturns() == b.overturns()).peekable();
         let safe = runs.next_if(|run| !run[0].overturns());

@@ -1,22 +1,21 @@
-//! Roots and tops of several polynomials at once.
+//! Roots and maxima of several polynomials at once.
 
 use pulp::Simd;
 
 use super::polynomial::{ORDER, Polynomial};
-use super::real::Real;
-use super::vector::{Mask, Vector};
+use super::real::{Mask, Real, Vector};
 
-/// Halley's step is this small, relative to the root, when the next one would be below rounding.
+/// When Halley's step is this small, relative to the root, the next one is below rounding.
 const CONVERGED: f64 = 4e-6;
 
-/// Newton's step is this small, relative to the place of a top, when the next one would move the value there, which hardly
-/// changes, by less than rounding.
-const TOP_CONVERGED: f64 = 1e-5;
+/// When Newton's step is this small, relative to the place of a maximum, the next one changes the value there by less than
+/// rounding.
+const MAXIMUM_CONVERGED: f64 = 1e-5;
 
 /// More iterations than any root takes: bisection alone would have narrowed the bracket to rounding.
 const MOST_ITERATIONS: usize = 64;
 
-/// The root of each lane of `wanted`, which falls through zero once in (0, 1), and may start at zero: Halley's iterations,
+/// Finds the root of each lane of `wanted`, which falls through zero once in (0, 1) and may start at zero: Halley's iterations,
 /// kept inside the shrinking bracket by bisection. A lane's iterations do not depend on the other lanes.
 #[inline(always)]
 pub fn falling_root<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Vector<S> {
@@ -31,7 +30,7 @@ pub fn falling_root<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Vect
     bracket.x
 }
 
-/// The falling root of the parabola that begins as the polynomial does, and from there one iteration on the cubic.
+/// Guesses by the falling root of the parabola that begins as the polynomial does, and one iteration from there on the cubic.
 #[inline(always)]
 fn first_guess<S: Simd>(c: &Polynomial<Vector<S>>) -> Vector<S> {
     let (zero, one) = (c[0].like(0.0), c[0].like(1.0));
@@ -46,13 +45,13 @@ fn first_guess<S: Simd>(c: &Polynomial<Vector<S>>) -> Vector<S> {
     (zero.lt(closer) & closer.lt(one)).select(closer, x)
 }
 
-/// Halley's step from x, by value, slope and half the curvature there.
+/// Takes Halley's step from x, by value, slope and half the curvature there.
 #[inline(always)]
 fn halley<S: Simd>(x: Vector<S>, value: Vector<S>, slope: Vector<S>, bend: Vector<S>) -> Vector<S> {
     x - value * slope / slope.mul_add(slope, -(value * bend))
 }
 
-/// Where a root lies, and the best guess at it.
+/// The bounds of a root, and the best guess at it.
 struct Bracket<S: Simd> {
     low: Vector<S>,
     high: Vector<S>,
@@ -60,7 +59,7 @@ struct Bracket<S: Simd> {
 }
 
 impl<S: Simd> Bracket<S> {
-    /// One iteration in the lanes of `active`; those that need another one.
+    /// Iterates once in the lanes of `active`; returns those that need another iteration.
     #[inline(always)]
     fn refine(&mut self, c: &Polynomial<Vector<S>>, active: Mask<S>) -> Mask<S> {
         let x = self.x;
@@ -85,16 +84,16 @@ impl<S: Simd> Bracket<S> {
 }
 
 /// Where polynomials are largest.
-pub struct Tops<S: Simd> {
+pub struct Maxima<S: Simd> {
     pub x: Vector<S>,
-    /// The lanes of which it was found.
+    /// The lanes that converged.
     pub found: Mask<S>,
 }
 
-/// The tops, in [0, 1], of the lanes of `wanted`, which rise, are concave and fall in the end: Newton's iterations from the top
-/// of the parabola that begins as they do. A lane's iterations do not depend on the other lanes.
+/// Finds the maxima, in [0, 1], of the lanes of `wanted`, which rise, are concave and fall in the end: Newton's iterations from
+/// the maximum of the parabola that begins as they do. A lane's iterations do not depend on the other lanes.
 #[inline(always)]
-pub fn tops<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Tops<S> {
+pub fn maxima<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Maxima<S> {
     let (zero, one) = (c[0].like(0.0), c[0].like(1.0));
     let mut x = (c[1] / (c[2] * -2.0)).min(one);
     let mut active = wanted;
@@ -105,12 +104,12 @@ pub fn tops<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Tops<S> {
             slope = slope.mul_add(x, c[k] * k as f64);
         }
         let next = (x - slope / curvature).max(zero).min(one);
-        let close = (next - x).abs().le(next * TOP_CONVERGED);
+        let close = (next - x).abs().le(next * MAXIMUM_CONVERGED);
         x = active.select(next, x);
         active = active & !close;
         if !active.any() {
             break;
         }
     }
-    Tops { x, found: wanted & !active }
+    Maxima { x, found: wanted & !active }
 }

@@ -1,28 +1,29 @@
-//! A step of all lanes at once: what [`super::march`] does for one structure. The Taylor polynomial to the next sample, its
+//! A step of all lanes at once: what [`march`](super::march) does for one structure. The Taylor polynomial to the next sample, its
 //! first root if it strikes before, the peak. Where the curvature or the slope keeps its sign over the step, which is nearly
 //! always, the ends tell all; what is rare is left to the scalar code for the lane that needs it.
+//!
+//! The event rules of `march` stand here a second time; `tests/solver/simd.rs` and `tests/solver/numbers.rs` hold the two together.
 
 use std::f64::consts::FRAC_PI_2;
 
 use pulp::Simd;
 
-use super::lane_roots::{falling_root, tops};
+use super::lane_roots::{falling_root, maxima};
 use super::lanes::{Lanes, each};
 use super::march::{REST_VELOCITY, first_impact, first_overturning, largest};
 use super::polynomial::{self, Polynomial};
-use super::real::Real;
+use super::real::{Mask, Real, Vector};
 use super::taylor::{Excess, State, series};
-use super::vector::{Mask, Vector};
 use crate::units::PER_G;
 
-/// What happened in the lanes during a step, a bit for each.
+/// The lanes to which something happened during a step, a bit for each.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Events {
     /// The record is over while the structure rocks.
     pub ended: u32,
-    /// It came to rest after an impact.
+    /// The structure came to rest after an impact.
     pub rested: u32,
-    /// It overturned.
+    /// The structure overturned.
     pub overturned: u32,
 }
 
@@ -32,16 +33,18 @@ impl Events {
     }
 }
 
-/// A Taylor step from where the lanes stand.
+/// The Taylor steps from where the lanes stand.
 pub struct Step<S: Simd> {
     rotation: Polynomial<Vector<S>>,
-    /// The inverse of its length in p t, and its share of the time to the next sample.
+    /// Inverse of the length in p t.
     per_h: Vector<S>,
-    share: Vector<S>,
-    /// Where it leads if nothing is struck: the rotation of the polynomial, and the state of the structure.
+    /// Fraction of the time to the next sample.
+    fraction: Vector<S>,
+    /// Rotation at the end of the polynomial: below 0 if the structure strikes its base before.
     last: Vector<S>,
+    /// State at the end, if there is no impact.
     end: State<Vector<S>>,
-    /// Bounds of the rotation.
+    /// Bounds of the rotation over the step.
     low: Vector<S>,
     high: Vector<S>,
     /// The lanes whose curvature is negative, or nowhere negative, over the whole step.
@@ -50,15 +53,15 @@ pub struct Step<S: Simd> {
 }
 
 impl<S: Simd> Step<S> {
-    /// The lanes, of those `asked` for, whose curvature or slope keeps its sign over the whole step; the second of these is only
-    /// looked at where the first does not.
+    /// Finds the lanes of `asked` whose curvature or slope keeps its sign over the whole step. Asks for the slope only where the
+    /// curvature does not.
     #[inline(always)]
     fn keeps_a_sign(&self, asked: Mask<S>) -> Mask<S> {
         let curvature = self.concave | self.convex;
         if !(asked & !curvature).any() {
             return curvature;
         }
-        // By how much the slope changes at most.
+        // Upper bound of the change of the slope.
         let r = &self.rotation;
         let mut change = r[0].like(0.0);
         for (k, coefficient) in r.iter().enumerate().skip(2) {
@@ -69,18 +72,19 @@ impl<S: Simd> Step<S> {
 }
 
 impl<S: Simd> Lanes<'_, S> {
-    /// The Taylor polynomials from where the lanes stand to their next samples, or as far as the series holds.
+    /// Expands the rotation from where the lanes stand to their next samples, or as far as the series converges (section 2.2, Eqs. 8
+    /// to 11).
     #[inline(always)]
     pub fn step(&self) -> Step<S> {
         let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
         let next = self.next * PER_G;
-        let (mut share, mut h, mut per_h, mut ground) = (one, self.left, self.per_left, next);
+        let (mut fraction, mut h, mut per_h, mut ground) = (one, self.left, self.per_left, next);
         let far = self.longest.lt(self.left);
         if far.any() {
-            share = far.select(self.longest * self.per_left, one);
+            fraction = far.select(self.longest * self.per_left, one);
             h = far.select(self.longest, self.left);
             per_h = far.select(one / self.longest, self.per_left);
-            ground = far.select(share.mul_add(next - self.now, self.now), next);
+            ground = far.select(fraction.mul_add(next - self.now, self.now), next);
         }
         let tan = self.slenderness.tan;
         let excess = Excess { start: self.side.mul_add(self.now, tan), end: self.side.mul_add(ground, tan) };
@@ -90,7 +94,7 @@ impl<S: Simd> Lanes<'_, S> {
         for coefficient in &r[2..] {
             rise = rise + coefficient.max(zero);
         }
-        // By how much half the curvature changes at most.
+        // Upper bound of the change of half the curvature.
         let mut change = zero;
         for (k, coefficient) in r.iter().enumerate().skip(3) {
             change = change + coefficient.abs() * (k * (k - 1) / 2) as f64;
@@ -100,7 +104,7 @@ impl<S: Simd> Lanes<'_, S> {
         Step {
             rotation: r,
             per_h,
-            share,
+            fraction,
             last,
             end: State { rotation: last.max(zero), velocity },
             low: last - rise,
@@ -110,15 +114,15 @@ impl<S: Simd> Lanes<'_, S> {
         }
     }
 
-    /// Takes a step as far as the first impact in it.
+    /// Advances the lanes by a step, or as far as the first impact in it: `March::rock` and `March::impact` of [`super::march`].
     #[inline(always)]
     pub fn advance(&mut self, step: &Step<S>) -> Events {
         let one = Vector::splat(self.simd, 1.0);
         let mut events = Events::default();
         let zero = Vector::splat(self.simd, 0.0);
-        let doubtful = step.low.le(zero);
-        let struck = if doubtful.any() { self.impact(step, doubtful) } else { None };
-        let until = struck.as_ref().map_or(one, |struck| struck.until);
+        let candidates = step.low.le(zero);
+        let impacts = if candidates.any() { self.find_impacts(step, candidates) } else { None };
+        let until = impacts.as_ref().map_or(one, |impacts| impacts.until);
         self.state = step.end;
         if Vector::splat(self.simd, FRAC_PI_2).le(step.high).any() {
             events.overturned = self.overturned(step, until);
@@ -126,14 +130,15 @@ impl<S: Simd> Lanes<'_, S> {
         if self.peak.lt(step.high).any() {
             self.raise_peak(step, until);
         }
-        let passed = until * step.share;
+        let passed = until * step.fraction;
         let within = passed.lt(one);
         let arrived = !within.bits();
         let next = self.next * PER_G;
         self.now = within.select(passed.mul_add(next - self.now, self.now), next);
         self.left = within.select((one - passed) * self.left, self.p_dt);
         self.per_left = one / self.left;
-        if let Some(Struck { lanes, velocity, .. }) = struck {
+        // The impact, theta'+ = eta theta'-, on to the other side.
+        if let Some(Impacts { lanes, velocity, .. }) = impacts {
             let after = -(velocity * self.eta);
             self.state.rotation = lanes.select(zero, self.state.rotation);
             self.state.velocity = lanes.select(after, self.state.velocity);
@@ -146,42 +151,43 @@ impl<S: Simd> Lanes<'_, S> {
         events
     }
 
-    /// The lanes of `doubtful` that strike during a step.
+    /// Finds the first impacts of `candidates` during a step.
     #[inline(always)]
-    fn impact(&self, step: &Step<S>, doubtful: Mask<S>) -> Option<Struck<S>> {
+    fn find_impacts(&self, step: &Step<S>, candidates: Mask<S>) -> Option<Impacts<S>> {
         let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
         let c = &step.rotation;
         let below = step.last.lt(zero);
         let starts_above = zero.lt(c[0]) | zero.lt(c[1]);
         let monotone = step.end.velocity.le(zero) | zero.le(c[1]);
-        let plain = step.keeps_a_sign(doubtful);
+        let plain = step.keeps_a_sign(candidates);
         let strikes = below & starts_above & plain;
         let passes = !below & (step.concave | (plain & monotone));
-        let mut lanes = strikes & doubtful;
+        let mut lanes = strikes & candidates;
         let mut until = one;
         if lanes.any() {
             until = lanes.select(falling_root(c, lanes), one);
         }
-        for lane in each((doubtful & !strikes & !passes).bits()) {
+        for lane in each((candidates & !strikes & !passes).bits()) {
             if let Some(x) = first_impact(&of_lane(c, lane)) {
                 until.set(lane, x);
                 lanes = lanes | Mask::of_lane(self.simd, lane);
             }
         }
         let velocity = polynomial::slope(c, until) * step.per_h;
-        lanes.any().then_some(Struck { lanes, until, velocity })
+        lanes.any().then_some(Impacts { lanes, until, velocity })
     }
 
+    /// Finds the lanes that reach pi/2 up to `until`.
     #[inline(never)]
     fn overturned(&self, step: &Step<S>, until: Vector<S>) -> u32 {
         let high = Vector::splat(self.simd, FRAC_PI_2).le(step.high).bits() & self.busy;
-        let falls = |lane: &usize| {
+        let overturns = |lane: &usize| {
             first_overturning(&of_lane(&step.rotation, *lane)).is_some_and(|x| x <= until.lane(*lane))
         };
-        each(high).filter(falls).fold(0, |bits, lane| bits | 1 << lane)
+        each(high).filter(overturns).fold(0, |bits, lane| bits | 1 << lane)
     }
 
-    /// Raises the peak of the lanes that come higher than ever.
+    /// Raises the peak of the lanes that rotate further than before.
     #[inline(always)]
     fn raise_peak(&mut self, step: &Step<S>, until: Vector<S>) {
         let zero = Vector::splat(self.simd, 0.0);
@@ -192,18 +198,18 @@ impl<S: Simd> Lanes<'_, S> {
         self.peak = ends.select(self.peak.max(step.end.rotation), self.peak);
         let mut left = higher & !ends;
         if (left & turns).any() {
-            let top = tops(r, left & turns);
-            let highest = polynomial::value(r, top.x.min(until));
-            self.peak = top.found.select(self.peak.max(highest), self.peak);
-            left = left & !top.found;
+            let maxima = maxima(r, left & turns);
+            let highest = polynomial::value(r, maxima.x.min(until));
+            self.peak = maxima.found.select(self.peak.max(highest), self.peak);
+            left = left & !maxima.found;
         }
         for lane in each(left.bits()) {
-            let top = largest(&of_lane(r, lane), until.lane(lane));
-            self.peak.set(lane, self.peak.lane(lane).max(top));
+            let highest = largest(&of_lane(r, lane), until.lane(lane));
+            self.peak.set(lane, self.peak.lane(lane).max(highest));
         }
     }
 
-    /// Counts the samples at which lanes have `arrived` and looks up the next ones; the lanes at their last sample.
+    /// Moves the lanes that have `arrived` at a sample on to the next; returns those at their last one.
     #[inline(always)]
     fn pass_samples(&mut self, arrived: u32) -> u32 {
         let mut ended = 0;
@@ -218,13 +224,13 @@ impl<S: Simd> Lanes<'_, S> {
     }
 }
 
-/// Impacts during a step.
-struct Struck<S: Simd> {
+/// The first impacts of lanes during a step.
+struct Impacts<S: Simd> {
     /// The lanes that strike.
     lanes: Mask<S>,
-    /// The share of the step that passes before, 1 in the other lanes.
+    /// Fraction of the step that passes before the impact; 1 in the other lanes.
     until: Vector<S>,
-    /// The velocity at that moment.
+    /// Velocity at that moment.
     velocity: Vector<S>,
 }
 

@@ -1,16 +1,14 @@
-//! Structures side by side, one in each lane of a vector, each on its own way through its own record.
-//!
-//! No lane's arithmetic depends on what is in the others.
+//! The states of many structures, one in each lane of a vector, each at its own moment of its own record. Rest and uplift are as in
+//! [`march`](super::march). No lane's arithmetic depends on what is in the others.
 
 use pulp::Simd;
 
-use super::march::{MOST_IMPACTS, longest_step};
+use super::march::{MOST_IMPACTS, Uplift, longest_step, next_uplift};
 use super::observer::Side;
+use super::real::{MOST_LANES, Vector};
 use super::record::Record;
 use super::structure::Structure;
 use super::taylor::{Slenderness, State};
-use super::uplift::{Uplift, next_uplift};
-use super::vector::{MOST_LANES, Vector};
 use crate::units::PER_G;
 
 /// A structure in each lane, somewhere between two samples of its record.
@@ -18,31 +16,31 @@ pub struct Lanes<'a, S: Simd> {
     pub(super) simd: S,
     /// The lanes in use, a bit for each.
     pub(super) busy: u32,
-    /// The number of the problem.
+    /// Index of the problem.
     pub(super) problem: [usize; MOST_LANES],
     pub(super) samples: [&'a [f64]; MOST_LANES],
-    /// The last sample that has passed.
+    /// Index of the last sample that has passed.
     pub(super) index: [usize; MOST_LANES],
     pub(super) slenderness: Slenderness<Vector<S>>,
     pub(super) eta: Vector<S>,
-    /// p times the time between samples.
+    /// p times the time step of the record.
     pub(super) p_dt: Vector<S>,
-    /// The longest step.
+    /// Longest Taylor step, p dt.
     pub(super) longest: Vector<S>,
     pub(super) state: State<Vector<S>>,
     /// The sign of theta.
     pub(super) side: Vector<S>,
-    /// Ground acceleration over g.
+    /// Ground acceleration over g now.
     pub(super) now: Vector<S>,
     /// Ground acceleration at the next sample, m/s2.
     pub(super) next: Vector<S>,
     /// p times the time to the next sample, and its inverse.
     pub(super) left: Vector<S>,
     pub(super) per_left: Vector<S>,
-    /// The largest |theta| so far, rad.
+    /// Largest |theta| so far, rad.
     pub(super) peak: Vector<S>,
     pub(super) impacts: Vector<S>,
-    /// The sample before the last impact, and the impacts since.
+    /// Index of the sample before the last impact, and the number of impacts since.
     impacts_after: [(usize, u32); MOST_LANES],
 }
 
@@ -77,27 +75,23 @@ impl<'a, S: Simd> Lanes<'a, S> {
         self.busy == 0
     }
 
-    /// The number of the problem in a lane.
     pub fn problem(&self, lane: usize) -> usize {
         self.problem[lane]
     }
 
-    /// The largest |theta| of a lane so far, rad.
     pub fn peak(&self, lane: usize) -> f64 {
         self.peak.lane(lane)
     }
 
-    /// The impacts of a lane so far.
     pub fn impacts(&self, lane: usize) -> u32 {
         self.impacts.lane(lane) as u32
     }
 
-    /// The rotation and velocity of a lane.
     pub fn state(&self, lane: usize) -> State {
         State { rotation: self.state.rotation.lane(lane), velocity: self.state.velocity.lane(lane) }
     }
 
-    /// Puts a problem into a lane, where its structure first uplifts; false if it never does.
+    /// Puts a problem into a lane, at the first uplift of its structure. Returns false if it never uplifts.
     #[inline(never)]
     pub fn occupy(
         &mut self,
@@ -120,10 +114,10 @@ impl<'a, S: Simd> Lanes<'a, S> {
         self.impacts_after[lane] = (0, 0);
         self.samples[lane] = record.acceleration_m_s2();
         self.busy |= 1 << lane;
-        self.rise(lane, next_uplift(record.acceleration_m_s2(), 0, slenderness.tan))
+        self.start_at(lane, next_uplift(record.acceleration_m_s2(), 0, slenderness.tan))
     }
 
-    /// From rest on; false if the lane rests to the end.
+    /// Advances a lane from rest to the next uplift. Returns false if there is none.
     #[inline(never)]
     pub fn leave_rest(&mut self, lane: usize) -> bool {
         let (samples, index, tan) = (self.samples[lane], self.index[lane], self.slenderness.tan.lane(lane));
@@ -133,53 +127,53 @@ impl<'a, S: Simd> Lanes<'a, S> {
         }
         if self.impacts_after[lane].1 >= MOST_IMPACTS {
             self.impacts_after[lane] = (index, 0);
-            return self.rise(lane, next_uplift(samples, index + 1, tan));
+            return self.start_at(lane, next_uplift(samples, index + 1, tan));
         }
         let (now, next) = (self.now.lane(lane), self.next.lane(lane) * PER_G);
         match Uplift::between(now, next, tan) {
             Some(uplift) => {
-                let left = self.left.lane(lane) * (1.0 - uplift.share);
-                self.rise(lane, Some(Uplift { index, ..uplift }));
+                let left = self.left.lane(lane) * (1.0 - uplift.fraction);
+                self.start_at(lane, Some(Uplift { index, ..uplift }));
                 self.set_left(lane, left);
                 true
             }
-            None => self.rise(lane, next_uplift(samples, index + 1, tan)),
+            None => self.start_at(lane, next_uplift(samples, index + 1, tan)),
         }
     }
 
-    /// Counts an impact in some lanes; those that have had too many since the last sample.
+    /// Counts an impact in some lanes. Returns those that have had [`MOST_IMPACTS`] since the last sample.
     #[inline(always)]
     pub(super) fn count_impacts(&mut self, struck: u32) -> u32 {
-        each(struck).fold(0, |tired, lane| {
+        each(struck).fold(0, |exhausted, lane| {
             let (after, count) = self.impacts_after[lane];
             let count = if after == self.index[lane] { count + 1 } else { 1 };
             self.impacts_after[lane] = (self.index[lane], count);
-            tired | u32::from(count >= MOST_IMPACTS) << lane
+            exhausted | u32::from(count >= MOST_IMPACTS) << lane
         })
     }
 
-    /// At rest at the moment of an uplift after a sample, if there is one.
-    fn rise(&mut self, lane: usize, uplift: Option<Uplift>) -> bool {
-        let Some(Uplift { index, share, ground }) = uplift else { return false };
+    /// Puts a lane at the moment of an uplift, if there is one.
+    fn start_at(&mut self, lane: usize, uplift: Option<Uplift>) -> bool {
+        let Some(Uplift { index, fraction, ground }) = uplift else { return false };
         self.index[lane] = index;
         self.side.set(lane, Side::opposing(ground).sign());
         self.now.set(lane, ground);
         self.next.set(lane, self.samples[lane][index + 1]);
-        self.set_left(lane, self.p_dt.lane(lane) * (1.0 - share));
+        self.set_left(lane, self.p_dt.lane(lane) * (1.0 - fraction));
         self.state.rotation.set(lane, 0.0);
         self.state.velocity.set(lane, 0.0);
         true
     }
 
-    /// A little is always left, since an uplift so near to the next sample that nothing is left in floating-point numbers has
-    /// yet to come to it.
+    /// Sets the time left to the next sample, never to 0: an uplift so near to that sample that rounding leaves nothing has yet to
+    /// reach it.
     fn set_left(&mut self, lane: usize, left: f64) {
         let left = left.max(self.p_dt.lane(lane) * f64::EPSILON);
         self.left.set(lane, left);
         self.per_left.set(lane, 1.0 / left);
     }
 
-    /// Leaves a lane idle: it holds still and meets no event.
+    /// Leaves a lane idle: it stands still and meets no event.
     pub fn vacate(&mut self, lane: usize) {
         self.busy &= !(1 << lane);
         self.samples[lane] = &[];
@@ -192,7 +186,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
     }
 }
 
-/// The lanes whose bits are set.
+/// Iterates over the lanes whose bits are set.
 pub fn each(bits: u32) -> impl Iterator<Item = usize> {
     let mut left = bits;
     std::iter::from_fn(move || {

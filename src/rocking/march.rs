@@ -1,31 +1,34 @@
-//! The march through a record: rest, uplift, rocking, impacts, overturning.
+//! One structure through one record: rest, uplift, rocking, impacts, overturning.
+//!
+//! The rules stand here for one structure, and in [`lanes`](super::lanes) and [`lane_step`](super::lane_step) for a vector of them:
+//! uplift in [`Uplift`] (shared), the impact in `March::impact` and `Lanes::advance`, overturning in `March::rock` and
+//! `Lanes::overturned`. `tests/solver/simd.rs` and `tests/solver/numbers.rs` hold the two together, `tests/solver/truth.rs` each of
+//! them against quadruple precision.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
 
-use super::observer::{Observer, Side, Unobserved};
+use super::observer::{NoObserver, Observer, Side};
 use super::polynomial::{self, Polynomial};
 use super::record::Record;
-use super::response::Response;
+use super::response::{Response, Tail, free_rocking};
 use super::structure::Structure;
-use super::tail::{Tail, free_rocking};
 use super::taylor::{Excess, Slenderness, State, series};
-use super::uplift::Uplift;
 use crate::units::{G_M_S2, PER_G};
 
-/// After an impact, a velocity eta |theta'| below this share of p counts as none: the structure rests, or uplifts at
-/// once if the ground demands it.
+/// After an impact, a velocity eta |theta'| below this fraction of p counts as none: the structure rests, or uplifts at once if the
+/// ground demands it.
 pub const REST_VELOCITY: f64 = 1e-6;
 
-/// After this many impacts between two samples the structure rests until the next one. It takes a coefficient of restitution
-/// near 1 to come to this, and a velocity of some 1e-6 p.
+/// After this many impacts between two samples the structure rests until the next one: a bound of the work. It takes a coefficient
+/// of restitution near 1 to come to this, and a velocity of some 1e-6 p.
 pub const MOST_IMPACTS: u32 = 10_000;
 
 /// The longest Taylor step, as p dt sqrt(1 + PGA/g). What order 8 leaves out of steps this long moves the peak of a
 /// structure in white noise of 0.6 g by some 1e-12 of itself.
 const LONGEST_STEP: f64 = 0.03;
 
-/// The longest step p dt through a record.
+/// Returns the longest Taylor step, p dt, through a record.
 pub(super) fn longest_step(record: &Record) -> f64 {
     LONGEST_STEP / (1.0 + record.peak_m_s2() * PER_G).sqrt()
 }
@@ -41,20 +44,20 @@ enum Phase {
 #[derive(Clone, Copy)]
 struct Remainder {
     index: usize,
-    /// The share of the time between the samples that has passed.
+    /// Fraction of the time between the samples that has passed.
     elapsed: f64,
     start: f64,
     end: f64,
 }
 
 impl Remainder {
-    fn ground(&self, share: f64) -> f64 {
-        self.start + share * (self.end - self.start)
+    fn ground(&self, fraction: f64) -> f64 {
+        self.start + fraction * (self.end - self.start)
     }
 
-    /// What is left after a share of it has passed, with the ground acceleration at that moment.
-    fn after(&self, share: f64, ground: f64) -> Remainder {
-        let elapsed = if share < 1.0 { self.elapsed + share * (1.0 - self.elapsed) } else { 1.0 };
+    /// Returns what is left after a fraction of it has passed, with the ground acceleration at that moment.
+    fn after(&self, fraction: f64, ground: f64) -> Remainder {
+        let elapsed = if fraction < 1.0 { self.elapsed + fraction * (1.0 - self.elapsed) } else { 1.0 };
         Remainder { elapsed, start: ground, ..*self }
     }
 }
@@ -67,16 +70,16 @@ struct March<'a, O> {
     observer: &'a mut O,
     rocked: bool,
     impacts: u32,
-    /// The largest |theta| so far, rad.
+    /// Largest |theta| so far, rad.
     peak: f64,
 }
 
 /// Simulates a structure, at rest at first, through a record and the free rocking that follows it.
 pub fn simulate(structure: &Structure, record: &Record) -> Response {
-    march(structure, record, &mut Unobserved)
+    march(structure, record, &mut NoObserver)
 }
 
-/// Marches `structure` through `record` from rest, telling `observer` what happens on the way.
+/// Simulates as [`simulate`] does, and tells `observer` what happens on the way.
 pub fn march(structure: &Structure, record: &Record, observer: &mut impl Observer) -> Response {
     let mut march = March {
         slenderness: Slenderness::new(structure.alpha_rad),
@@ -100,6 +103,7 @@ impl<O: Observer> March<'_, O> {
         let mut index = 0;
         self.observer.sample(0, None);
         while index + 1 < samples.len() {
+            // Most of a record is too weak to uplift the structure.
             if let Phase::Rest = phase
                 && samples[index].abs() < uplift
                 && samples[index + 1].abs() < uplift
@@ -120,7 +124,7 @@ impl<O: Observer> March<'_, O> {
         phase
     }
 
-    /// To the next sample, through all that happens before it.
+    /// Advances to the next sample, through all that happens before it.
     fn between_samples(&mut self, mut phase: Phase, mut remainder: Remainder) -> Phase {
         let most = self.impacts.saturating_add(MOST_IMPACTS);
         while remainder.elapsed < 1.0 {
@@ -140,34 +144,35 @@ impl<O: Observer> March<'_, O> {
     /// Rests until |a| = g tan(alpha), at the root of the linear acceleration, or to the next sample.
     fn rest(&mut self, remainder: Remainder) -> (Phase, Remainder) {
         let Remainder { start, end, .. } = remainder;
-        let Some(Uplift { share, ground, .. }) = Uplift::between(start, end, self.slenderness.tan) else {
+        let Some(Uplift { fraction, ground, .. }) = Uplift::between(start, end, self.slenderness.tan) else {
             return (Phase::Rest, remainder.after(1.0, end));
         };
         let side = Side::opposing(ground);
-        let remainder = remainder.after(share, ground);
+        let remainder = remainder.after(fraction, ground);
         self.rocked = true;
         self.observer.uplift(self.time_s(&remainder), side);
         (Phase::Rocking(side, State { rotation: 0.0, velocity: 0.0 }), remainder)
     }
 
-    /// Rocks on one side until the first impact, overturning, or the end of the Taylor step.
+    /// Rocks on one side until the first impact, overturning, or the end of the Taylor step (section 2.2, Eqs. 8 to 11).
     fn rock(&mut self, side: Side, state: State, remainder: Remainder) -> (Phase, Remainder) {
         let left = self.structure.p_rad_s * self.dt_s * (1.0 - remainder.elapsed);
-        let share = (self.longest_step / left).min(1.0);
-        let h = left * share;
+        let fraction = (self.longest_step / left).min(1.0);
+        let h = left * fraction;
         let excess = Excess {
             start: side.sign() * remainder.start + self.slenderness.tan,
-            end: side.sign() * remainder.ground(share) + self.slenderness.tan,
+            end: side.sign() * remainder.ground(fraction) + self.slenderness.tan,
         };
         let rotation = series(&self.slenderness, excess, state, h);
 
+        // Bounds of the rotation spare the search for roots in nearly all steps.
         let (low, high) = polynomial::bounds(&rotation);
         let impact = if low > 0.0 { None } else { first_impact(&rotation) };
         let until = impact.unwrap_or(1.0);
         if high >= FRAC_PI_2
             && let Some(x) = first_overturning(&rotation).filter(|&x| x <= until)
         {
-            let remainder = remainder.after(share * x, remainder.ground(share * x));
+            let remainder = remainder.after(fraction * x, remainder.ground(fraction * x));
             let velocity = polynomial::slope(&rotation, x) / h;
             self.observer.overturn(self.time_s(&remainder), side, velocity);
             return (Phase::Overturned, remainder);
@@ -175,18 +180,19 @@ impl<O: Observer> March<'_, O> {
         if high > self.peak {
             self.peak = self.peak.max(largest(&rotation, until));
         }
-        let remainder = remainder.after(share * until, remainder.ground(share * until));
+        let remainder = remainder.after(fraction * until, remainder.ground(fraction * until));
         let velocity = polynomial::slope(&rotation, until) / h;
         if impact.is_some() {
-            (self.strike(side, -velocity, &remainder), remainder)
+            (self.impact(side, -velocity, &remainder), remainder)
         } else {
             let rotation = polynomial::value(&rotation, 1.0).max(0.0);
             (Phase::Rocking(side, State { rotation, velocity }), remainder)
         }
     }
 
-    /// An impact: the velocity eta times as large on the other side, or rest.
-    fn strike(&mut self, side: Side, before: f64, remainder: &Remainder) -> Phase {
+    /// Strikes the base (section 2.2): goes on with the velocity eta |theta'| on the other side, or rests. `Lanes::advance` does the
+    /// same.
+    fn impact(&mut self, side: Side, before: f64, remainder: &Remainder) -> Phase {
         let after = self.structure.eta * before;
         let time_s = self.time_s(remainder);
         self.impacts += 1;
@@ -202,7 +208,7 @@ impl<O: Observer> March<'_, O> {
         (remainder.index as f64 + remainder.elapsed) * self.dt_s
     }
 
-    /// The response, once what follows the record is known.
+    /// Makes the response, with the free rocking that follows the record.
     fn response(&self, phase: Phase) -> Response {
         let alpha = self.structure.alpha_rad;
         let tail = match phase {
@@ -215,19 +221,20 @@ impl<O: Observer> March<'_, O> {
     }
 }
 
-/// The first return to the base. A rotation that starts downwards from 0 strikes at once.
+/// Finds the first return to the base. A rotation that starts downwards from 0 strikes at once.
 pub(super) fn first_impact(rotation: &Polynomial) -> Option<f64> {
     let leading = rotation.iter().find(|&&coefficient| coefficient != 0.0)?;
     if *leading < 0.0 { Some(0.0) } else { polynomial::first_root(rotation) }
 }
 
+/// Finds where the rotation first reaches pi/2.
 pub(super) fn first_overturning(rotation: &Polynomial) -> Option<f64> {
     let mut margin = rotation.map(|coefficient| -coefficient);
     margin[0] += FRAC_PI_2;
     polynomial::first_root(&margin)
 }
 
-/// The largest rotation from the start of the step to `until`.
+/// Finds the largest rotation from the start of the step to `until`.
 pub(super) fn largest(rotation: &Polynomial, until: f64) -> f64 {
     let mut largest = rotation[0].max(polynomial::value(rotation, until));
     let _ = polynomial::visit_roots(&polynomial::derivative(rotation), |x| {
@@ -238,4 +245,55 @@ pub(super) fn largest(rotation: &Polynomial, until: f64) -> f64 {
         ControlFlow::Continue(())
     });
     largest
+}
+
+/// The moment at which a structure at rest leaves its base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Uplift {
+    /// Index of the sample before it.
+    pub index: usize,
+    /// Fraction that has passed of the time from that sample, or from where the structure stands, to the next.
+    pub fraction: f64,
+    /// Ground acceleration over g.
+    pub ground: f64,
+}
+
+impl Uplift {
+    /// Finds the uplift, |a| = g tan(alpha), while the ground acceleration over g goes linearly from `start` to `end` (section 2.2).
+    pub fn between(start: f64, end: f64, tan: f64) -> Option<Uplift> {
+        if start.abs() > tan {
+            return Some(Uplift { index: 0, fraction: 0.0, ground: start });
+        }
+        let threshold = tan.copysign(end);
+        let fraction = (threshold - start) / (end - start);
+        (end.abs() > tan).then_some(Uplift { index: 0, fraction, ground: threshold })
+    }
+}
+
+/// Finds the first uplift from sample `from` on of a structure that rests there, in `samples` of m/s2.
+pub fn next_uplift(samples: &[f64], from: usize, tan: f64) -> Option<Uplift> {
+    // Rounding may let a sample pass here that is no larger than the threshold over g.
+    let threshold = G_M_S2 * tan * (1.0 - f64::EPSILON);
+    let mut index = from;
+    loop {
+        index += first_as_large(samples.get(index..)?, threshold)?;
+        let before = index.saturating_sub(1).max(from);
+        for index in before..=index {
+            let start = samples[index] * PER_G;
+            let end = samples.get(index + 1)? * PER_G;
+            if let Some(uplift) = Uplift::between(start, end, tan) {
+                return Some(Uplift { index, ..uplift });
+            }
+        }
+        index += 1;
+    }
+}
+
+/// Finds the first value of at least this size: by blocks, whose comparisons the compiler puts into vector registers.
+fn first_as_large(values: &[f64], size: f64) -> Option<usize> {
+    const BLOCK: usize = 16;
+    let loud = |block: &[f64]| block.iter().fold(false, |loud, value| loud | (value.abs() >= size));
+    let quiet = values.chunks(BLOCK).take_while(|block| !loud(block)).count() * BLOCK;
+    let rest = values.get(quiet..)?;
+    rest.iter().position(|value| value.abs() >= size).map(|at| quiet + at)
 }

@@ -1,20 +1,17 @@
 //! The response of a free-standing rocking block or frame to a ground motion (section 2.2).
 //!
 //! ```text
-//! structure  p, alpha, eta and where they come from
-//! record     the ground acceleration as a piecewise-linear function of time
-//! taylor     the rotation over one step, as the polynomial of its Taylor series
-//! polynomial roots of such polynomials: impacts, peaks and overturning are found as these
-//! observer   who looks on while a structure rocks, and the side to which it leans
-//! uplift     when a structure at rest leaves its base
-//! march      from rest to uplift, impact, re-uplift, overturning: one record, one structure
-//! tail       what happens after the record has ended, in closed form
-//! response   the outcome and the engineering demand parameter
-//! batch      many structures and records at once, one in each lane of a vector register
-//! lanes      where each lane stands; lane_step what march does, for all of them; real, vector and lane_roots their numbers
-//!            and roots
+//! structure    p, alpha, eta and where they come from
+//! record       the ground acceleration as a piecewise-linear function of time
+//! taylor       the equation of motion (Eqs. 8 to 11): the rotation over one step as a Taylor polynomial
+//! polynomial   roots of such polynomials: impacts, peaks and overturning are found as these
+//! march        one structure through one record: uplift, impact, rest, overturning
+//! response     the outcome, the demand (Eq. 7), and free rocking after the record in closed form
+//! observer     callbacks for the events of a simulation; trace: rotation, velocity and events over time
+//! batch        many structures and records at once, one in each lane of a vector register
+//! lanes        the states of the lanes; lane_step: what march does, for all of them; lane_roots: their roots
+//! real         the numbers in which all of this is written: f64, or a vector of lanes
 //! incremental  one motion at rising intensity: where a structure overturns, and which stronger motions it survives
-//! trace      the same march, observed: rotation, velocity and events over time
 //! ```
 
 mod batch;
@@ -29,16 +26,13 @@ mod real;
 mod record;
 mod response;
 mod structure;
-mod tail;
 mod taylor;
 mod trace;
-mod uplift;
-mod vector;
 
 pub use batch::{Problem, Simd, simulate_all};
-pub use incremental::{Capacity, CapacityStatus, Look, SafeWindow, Scan, ScanResponse};
+pub use incremental::{Capacity, CapacityStatus, SafeWindow, Scan, ScanPoint, ScanResponse};
 pub use march::simulate;
 pub use record::{Record, RecordError};
 pub use response::{Outcome, Response};
 pub use structure::{Structure, StructureError, frame_eta, frame_p, housner_eta, rectangular_p};
-pub use trace::{Event, TracePoint, trace, with_tail};
+pub use trace::{SolverEvent, TracePoint, trace, with_tail};

@@ -1,16 +1,18 @@
+//! Callbacks for the events of a simulation, and the side to which a structure leans.
+
 use super::taylor::State;
 
-/// Someone who looks on while a structure rocks. Times in s from the start of the record, angles in rad.
+/// Callbacks for the events of a simulation. Times are in s from the start of the record, angles in rad.
 pub trait Observer {
-    /// A structure at rest uplifts towards `side`.
+    /// Called when a structure at rest uplifts towards `side`.
     fn uplift(&mut self, _time_s: f64, _side: Side) {}
-    /// It strikes its base with the velocity `before` (rad, per unit of p t) and leaves it with `after`.
+    /// Called when it strikes its base with the velocity `before` (rad, per unit of p t) and leaves it with `after`.
     fn impact(&mut self, _time_s: f64, _side: Side, _before: f64, _after: f64) {}
-    /// It stays on its base after an impact.
+    /// Called when it stays on its base after an impact.
     fn rest(&mut self, _time_s: f64) {}
-    /// It has turned by pi/2, at `velocity`.
+    /// Called when it has turned by pi/2, at `velocity`.
     fn overturn(&mut self, _time_s: f64, _side: Side, _velocity: f64) {}
-    /// The state at a sample of the record; `None` is rest.
+    /// Called with the state at each sample of the record; `None` is rest.
     fn sample(&mut self, _index: usize, _rocking: Option<(Side, State)>) {}
 }
 
@@ -24,7 +26,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// +1 or -1, the sign of theta.
+    /// Returns +1 or -1, the sign of theta.
     pub fn sign(self) -> f64 {
         match self {
             Side::Positive => 1.0,
@@ -32,7 +34,6 @@ impl Side {
         }
     }
 
-    /// That of the next rocking.
     pub fn other(self) -> Side {
         match self {
             Side::Positive => Side::Negative,
@@ -40,13 +41,13 @@ impl Side {
         }
     }
 
-    /// The ground throws the structure to the side it does not accelerate to.
+    /// Returns the side to which a structure uplifts: opposite to the acceleration `ground`.
     pub fn opposing(ground: f64) -> Side {
         if ground > 0.0 { Side::Negative } else { Side::Positive }
     }
 }
 
-/// Nobody looks on: only the response counts.
-pub struct Unobserved;
+/// The observer of a simulation of which only the response counts.
+pub struct NoObserver;
 
-impl Observer for Unobserved {}
+impl Observer for NoObserver {}

@@ -13,10 +13,10 @@ pub type Polynomial<T = f64> = [T; ORDER + 1];
 /// A bracket this narrow that still shows several sign changes holds a multiple root.
 const NARROWEST_BRACKET: f64 = 1e-12;
 
-/// Newton's iterations before bisection alone, which ends in any case.
+/// After so many of Newton's iterations bisection goes on alone, which ends in any case.
 const MOST_NEWTON_STEPS: usize = 64;
 
-/// Value at `x` (Horner).
+/// Evaluates the polynomial at `x` (Horner).
 #[inline(always)]
 pub fn value<T: Real>(c: &Polynomial<T>, x: T) -> T {
     let mut sum = c[ORDER];
@@ -26,7 +26,7 @@ pub fn value<T: Real>(c: &Polynomial<T>, x: T) -> T {
     sum
 }
 
-/// Slope at `x` (Horner).
+/// Evaluates the slope at `x` (Horner).
 #[inline(always)]
 pub fn slope<T: Real>(c: &Polynomial<T>, x: T) -> T {
     let mut sum = c[ORDER] * ORDER as f64;
@@ -36,13 +36,13 @@ pub fn slope<T: Real>(c: &Polynomial<T>, x: T) -> T {
     sum
 }
 
-/// The derivative, as a polynomial of the same length.
+/// Differentiates, into a polynomial of the same length.
 #[inline]
 pub fn derivative(c: &Polynomial) -> Polynomial {
     std::array::from_fn(|k| if k < ORDER { (k + 1) as f64 * c[k + 1] } else { 0.0 })
 }
 
-/// Bounds of the values on [0, 1]: cheap, wide and certain.
+/// Bounds the values on [0, 1]: cheaply, widely and certainly.
 #[inline]
 pub fn bounds(c: &Polynomial) -> (f64, f64) {
     c[1..].iter().fold((c[0], c[0]), |(low, high), &coefficient| {
@@ -50,7 +50,7 @@ pub fn bounds(c: &Polynomial) -> (f64, f64) {
     })
 }
 
-/// The first root in (0, 1), where the leading zero coefficients (the roots at 0 itself) do not count.
+/// Finds the first root in (0, 1). Roots at 0 do not count.
 pub fn first_root(c: &Polynomial) -> Option<f64> {
     let mut first = None;
     let _ = visit_roots(c, |root| {
@@ -69,7 +69,7 @@ pub fn visit_roots(c: &Polynomial, mut visit: impl FnMut(f64) -> ControlFlow<()>
     visit_between(&deflated, &bernstein(&deflated), 0.0, 1.0, &mut visit)
 }
 
-/// Left half first, so that the roots come in order. By Descartes' rule the roots between `low` and `high` are at
+/// Visits the roots between `low` and `high`, the left half first, so that they come in order. By Descartes' rule they are at
 /// most as many as the sign changes of the Bernstein coefficients `b`, and of the same parity.
 fn visit_between(
     c: &Polynomial,
@@ -94,7 +94,7 @@ fn visit_between(
     }
 }
 
-/// `b[j] = sum over i <= j of binomial(j, i) / binomial(ORDER, i) c[i]`, in place by repeated sums.
+/// Converts to Bernstein coefficients: `b[j] = sum over i <= j of binomial(j, i) / binomial(ORDER, i) c[i]`, in place by repeated sums.
 #[inline(always)]
 pub fn bernstein(c: &Polynomial) -> Polynomial {
     const INVERSE_BINOMIAL: Polynomial =
@@ -111,7 +111,7 @@ pub fn bernstein(c: &Polynomial) -> Polynomial {
     b
 }
 
-/// De Casteljau's subdivision at the middle.
+/// Divides at the middle by de Casteljau's algorithm: the Bernstein coefficients of both halves.
 fn halves(b: &Polynomial) -> (Polynomial, Polynomial) {
     let mut right = *b;
     let mut left = *b;
@@ -134,8 +134,8 @@ fn starts_positive(b: &Polynomial) -> bool {
     b.iter().find(|&&coefficient| coefficient != 0.0).is_some_and(|&first| first > 0.0)
 }
 
-/// The one root between `low` and `high`: Newton's iterations, kept inside the shrinking bracket by bisection.
-/// `falling` tells whether the values left of the root are positive.
+/// Finds the one root between `low` and `high`: Newton's iterations, kept inside the shrinking bracket by bisection. `falling`
+/// tells whether the values left of the root are positive.
 fn root_in_bracket(c: &Polynomial, low: f64, high: f64, falling: bool) -> f64 {
     let slope = derivative(c);
     let (mut low, mut high) = (low, high);

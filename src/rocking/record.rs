@@ -1,10 +1,12 @@
+//! The ground motion of a simulation.
+
 use std::ops::RangeInclusive;
 
 use crate::wide::widest;
 
-/// Time steps that are simulated, s.
+/// Accepted time steps, s.
 const TIME_STEPS_S: RangeInclusive<f64> = 1e-6..=10.0;
-/// The largest acceleration that is simulated, m/s2: a thousand times that of gravity.
+/// Upper bound of the acceleration, m/s2, a thousand times that of gravity: it catches wrong units.
 const LARGEST_M_S2: f64 = 1e4;
 
 /// A ground acceleration sampled at a constant step: linear between its samples and zero after its last one.
@@ -15,37 +17,23 @@ pub struct Record<'a> {
     peak_m_s2: f64,
 }
 
-/// Why a series of samples is no record. `sample` counts from 0.
+/// Why samples make no record. `sample` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RecordError {
-    /// The time step is none of a record of shaking.
     #[error("dt_s is {0}; expected a time step above 0 s, from 1e-6 to 10")]
     TimeStep(f64),
-    /// Fewer than two samples span no time.
     #[error("{0} sample(s) of acceleration; expected 2 or more")]
     TooShort(usize),
-    /// A sample is NaN or infinite.
     #[error("sample {sample} of the acceleration is {value}; expected a finite number in m/s2")]
-    NotFinite {
-        /// Where it stands.
-        sample: usize,
-        /// What stands there.
-        value: f64,
-    },
-    /// A sample is larger than any that shakes a structure.
+    NotFinite { sample: usize, value: f64 },
     #[error(
         "sample {sample} of the acceleration is {value} m/s2; expected 10000 at most: is the unit right?"
     )]
-    TooLarge {
-        /// Where it stands.
-        sample: usize,
-        /// What stands there.
-        value: f64,
-    },
+    TooLarge { sample: usize, value: f64 },
 }
 
 impl<'a> Record<'a> {
-    /// The record of these samples (m/s2), `dt_s` seconds apart.
+    /// Checks samples (m/s2), `dt_s` seconds apart.
     ///
     /// # Errors
     /// If the time step is not in [1e-6, 10] s, a sample not finite or larger than 1e4 m/s2, or there are fewer than two
@@ -70,22 +58,20 @@ impl<'a> Record<'a> {
         Ok(Record { acceleration_m_s2, dt_s, peak_m_s2 })
     }
 
-    /// The largest absolute value of the samples, m/s2.
+    /// Peak ground acceleration, m/s2.
     pub fn peak_m_s2(&self) -> f64 {
         self.peak_m_s2
     }
 
-    /// The samples, m/s2.
     pub fn acceleration_m_s2(&self) -> &'a [f64] {
         self.acceleration_m_s2
     }
 
-    /// The time between samples, s.
     pub fn dt_s(&self) -> f64 {
         self.dt_s
     }
 
-    /// The acceleration (m/s2) at a time from the first sample, s: linear between samples, zero outside.
+    /// Interpolates the acceleration (m/s2) at a time from the first sample, s: linear between samples, zero outside.
     pub fn acceleration_at(&self, time_s: f64) -> f64 {
         let position = time_s / self.dt_s;
         let before = position.floor().max(0.0) as usize;
@@ -97,7 +83,7 @@ impl<'a> Record<'a> {
     }
 }
 
-/// The largest absolute value; not finite if one of them is not, since the bits of infinity and NaN are above all others.
+/// Finds the largest absolute value; not finite if one of them is not, since the bits of infinity and NaN are above all others.
 fn largest(values: &[f64]) -> f64 {
     widest(
         #[inline(always)]

@@ -1,12 +1,14 @@
+//! Structures by their three parameters, and where these come from.
+
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
 
 use crate::units::G_M_S2;
 
-/// A rigid rocking structure, reduced to the three numbers that govern its response.
+/// A rigid rocking structure, reduced to the three parameters that govern its response.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Structure {
-    /// What the structure is called in tables.
+    /// Name in tables.
     pub name: String,
     /// Frequency parameter p, rad/s.
     pub p_rad_s: f64,
@@ -16,10 +18,10 @@ pub struct Structure {
     pub eta: f64,
 }
 
-/// Frequency parameters that are simulated, rad/s: of blocks from 0.7 mm to 7000 km. With the bounds of a record they bound the
-/// steps between two of its samples to some million.
+/// Accepted frequency parameters, rad/s: of blocks from 0.7 mm to 7000 km. With the bounds of a record they bound the Taylor steps
+/// between two of its samples to some million.
 const FREQUENCIES_RAD_S: RangeInclusive<f64> = 1e-3..=100.0;
-/// The least slenderness, rad.
+/// Lower bound of the slenderness, rad.
 const LEAST_SLENDERNESS_RAD: f64 = 1e-6;
 
 /// A parameter outside the range in which a rocking structure exists.
@@ -33,8 +35,7 @@ pub struct StructureError {
 }
 
 impl Structure {
-    /// A structure of frequency parameter `p_rad_s` (rad/s), slenderness `alpha_rad` (rad) and coefficient of
-    /// restitution `eta`.
+    /// Checks the frequency parameter p (rad/s), slenderness alpha (rad) and coefficient of restitution eta of a structure.
     ///
     /// # Errors
     /// If `p` is not in [0.001, 100] rad/s, `alpha` not in [1e-6, pi/2) rad or `eta` not in (0, 1].
@@ -54,7 +55,7 @@ impl Structure {
         Ok(Structure { name: name.to_string(), p_rad_s, alpha_rad, eta })
     }
 
-    /// A solid rectangular block of width 2b and height 2h (m); `eta` as given, or Housner's.
+    /// Makes a solid rectangular block of width 2b and height 2h (m); `eta` as given, or Housner's.
     ///
     /// # Errors
     /// If a dimension is not positive or finite, or `eta` is out of range: a block so stocky that Housner's
@@ -77,7 +78,7 @@ impl Structure {
         Structure::new(name, rectangular_p(semi_diagonal_m), alpha_rad, eta)
     }
 
-    /// A frame of rocking columns (each a solid rectangle of width 2b and height 2h, m) that carry a rigid beam;
+    /// Makes a frame of rocking columns (each a solid rectangle of width 2b and height 2h, m) that carry a rigid beam;
     /// `beam_mass_ratio` is the mass of the beam over that of all columns. `eta` as given, or the frame's own.
     ///
     /// # Errors
@@ -102,7 +103,7 @@ impl Structure {
         Structure::new(name, frame_p(column.p_rad_s, beam_mass_ratio), column.alpha_rad, eta)
     }
 
-    /// The ground acceleration g tan(alpha) that makes the structure uplift, m/s2: the unit of IM4 to IM6.
+    /// Ground acceleration g tan(alpha) from which the structure uplifts, m/s2: the unit of IM4 to IM6.
     pub fn uplift_acceleration_m_s2(&self) -> f64 {
         G_M_S2 * tan(self.alpha_rad)
     }

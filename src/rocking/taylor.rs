@@ -1,7 +1,11 @@
-//! One Taylor step of the equation of motion.
+//! One Taylor step of the equation of motion (section 2.2, Eqs. 8 to 11),
 //!
-//! With r = |theta|, x = p t, and w the ground acceleration over g, positive where it presses the structure back
-//! onto its base, section 2.2 reads on either side of the rest position
+//! ```text
+//! theta'' = -p^2 [ sin(alpha sgn(theta) - theta) + a/g cos(alpha sgn(theta) - theta) ]
+//! ```
+//!
+//! With r = |theta|, x = p t, and w the ground acceleration a over g, positive where it presses the structure back onto its base,
+//! this is on either side of the rest position
 //!
 //! ```text
 //! r'' = -[ sin(alpha - r) + w cos(alpha - r) ] = -[ A cos r + B sin r ]
@@ -15,13 +19,12 @@ use super::polynomial::{ORDER, Polynomial};
 use super::real::{Real, unrolled};
 use super::structure::tan;
 
-/// What depends on the slenderness alone.
+/// Functions of the slenderness alpha.
 #[derive(Debug, Clone, Copy)]
 pub struct Slenderness<T = f64> {
     pub tan: T,
     pub sin: T,
     pub cos: T,
-    /// 1 / cos(alpha).
     pub secant: T,
 }
 
@@ -32,7 +35,7 @@ impl Slenderness {
     }
 }
 
-/// The excess e over a step: linear from its start to its end.
+/// The excess e of the ground acceleration over the uplift threshold, linear from the start of a step to its end.
 #[derive(Debug, Clone, Copy)]
 pub struct Excess<T = f64> {
     pub start: T,
@@ -46,7 +49,7 @@ pub struct State<T = f64> {
     pub velocity: T,
 }
 
-/// The Taylor polynomial of r over a step of `h` = p dt, in powers of the fraction of the step.
+/// Expands r over a step of `h` = p dt, in powers of the fraction of the step.
 ///
 /// The series of sin r and cos r follow from s' = r' c and c' = -r' s, term by term.
 #[inline(always)]
@@ -56,6 +59,7 @@ pub fn series<T: Real>(
     state: State<T>,
     h: T,
 ) -> Polynomial<T> {
+    // -h^2 A and -h^2 B, linear in the fraction of the step.
     let Slenderness { sin, cos, secant, .. } = *slenderness;
     let minus_h2 = -(h * h);
     let slope = (excess.end - excess.start) * minus_h2;
@@ -68,7 +72,7 @@ pub fn series<T: Real>(
     let mut r = [state.rotation; ORDER + 1];
     r[1] = state.velocity * h;
     r[2] = a0.mul_add(c0, b0 * s0) * 0.5;
-    // j r[j], the coefficients of r'.
+    // j r[j], the coefficients of x r'.
     let mut rate = [r[1]; ORDER - 1];
     unrolled!(k in [1 2 3 4 5 6] {
         rate[k] = r[k] * k as f64;
@@ -81,7 +85,7 @@ pub fn series<T: Real>(
     r
 }
 
-/// Term k of x r' f, of the terms of x r' and of f up to k. The newest term of f comes last: it is the one to wait for.
+/// Returns term k of x r' f, from the terms of x r' and of f up to k. The newest term of f comes last: it is the one to wait for.
 #[inline(always)]
 fn product<T: Real>(rate: &[T; ORDER - 1], f: &[T; ORDER - 1], k: usize) -> T {
     let mut sum = rate[k] * f[0];

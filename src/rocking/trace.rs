@@ -1,3 +1,5 @@
+//! The rotation of a structure over time: what [`simulate`](super::simulate) computes, at every sample and event.
+
 use super::march::march;
 use super::observer::{Observer, Side};
 use super::record::Record;
@@ -6,20 +8,20 @@ use super::structure::Structure;
 use super::taylor::State;
 use crate::keyword::keywords;
 
-/// What happens to a rocking structure at a moment.
+/// What happens to a rocking structure at a moment, as the solver finds it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Event {
+pub enum SolverEvent {
     /// It leaves its base.
     Uplift,
     /// It strikes its base and goes over to the other side.
     Impact,
     /// It stays on its base.
     Rest,
-    /// It has turned by pi/2.
+    /// Its rotation reaches pi/2.
     Overturn,
 }
 
-keywords!(Event { Uplift = "uplift", Impact = "impact", Rest = "rest", Overturn = "overturn" });
+keywords!(SolverEvent { Uplift = "uplift", Impact = "impact", Rest = "rest", Overturn = "overturn" });
 
 /// A moment of a traced response: a sample of the record, or an event between two of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,8 +32,8 @@ pub struct TracePoint {
     pub theta_rad: f64,
     /// Angular velocity, rad/s; at an impact, that after it.
     pub theta_dot_rad_s: f64,
-    /// What happens here, if it is not a mere sample.
-    pub event: Option<Event>,
+    /// What happens here; none at a sample of the record.
+    pub solver_event: Option<SolverEvent>,
 }
 
 /// Simulates as [`super::simulate`] does and keeps the response at every sample and event. The record ends with its
@@ -46,7 +48,7 @@ pub fn trace(structure: &Structure, record: &Record) -> (Response, Vec<TracePoin
     (response, recorder.points)
 }
 
-/// The samples of a record and `tail_s` (s, 0 or more) of quiet after it, in which free rocking shows.
+/// Appends `tail_s` (s, 0 or more) of zeros to a record, in which free rocking shows.
 pub fn with_tail(record: &Record, tail_s: f64) -> Vec<f64> {
     let quiet = (tail_s / record.dt_s()).ceil() as usize;
     [record.acceleration_m_s2(), &vec![0.0; quiet]].concat()
@@ -59,32 +61,32 @@ struct Recorder {
 }
 
 impl Recorder {
-    fn push(&mut self, time_s: f64, side: Side, rotation: f64, velocity: f64, event: Option<Event>) {
+    fn push(&mut self, time_s: f64, side: Side, rotation: f64, velocity: f64, event: Option<SolverEvent>) {
         self.points.push(TracePoint {
             time_s,
             theta_rad: side.sign() * rotation,
             theta_dot_rad_s: side.sign() * velocity * self.p_rad_s,
-            event,
+            solver_event: event,
         });
     }
 }
 
 impl Observer for Recorder {
     fn uplift(&mut self, time_s: f64, side: Side) {
-        self.push(time_s, side, 0.0, 0.0, Some(Event::Uplift));
+        self.push(time_s, side, 0.0, 0.0, Some(SolverEvent::Uplift));
     }
 
     fn impact(&mut self, time_s: f64, side: Side, _before: f64, after: f64) {
         // Leaving for the other side, the structure keeps the direction in which it turns.
-        self.push(time_s, side, 0.0, -after, Some(Event::Impact));
+        self.push(time_s, side, 0.0, -after, Some(SolverEvent::Impact));
     }
 
     fn rest(&mut self, time_s: f64) {
-        self.push(time_s, Side::Positive, 0.0, 0.0, Some(Event::Rest));
+        self.push(time_s, Side::Positive, 0.0, 0.0, Some(SolverEvent::Rest));
     }
 
     fn overturn(&mut self, time_s: f64, side: Side, velocity: f64) {
-        self.push(time_s, side, std::f64::consts::FRAC_PI_2, velocity, Some(Event::Overturn));
+        self.push(time_s, side, std::f64::consts::FRAC_PI_2, velocity, Some(SolverEvent::Overturn));
     }
 
     fn sample(&mut self, index: usize, rocking: Option<(Side, State)>) {

@@ -46,8 +46,11 @@ impl Estimate {
     }
 }
 
-/// The value with this share below it, linear between those of the sample.
+/// Finds the value below which a fraction of a sorted sample lies, linear between its values; NaN of an empty one.
 pub fn quantile(sorted: &[f64], share: f64) -> f64 {
+    if sorted.is_empty() {
+        return f64::NAN;
+    }
     let place = share.clamp(0.0, 1.0) * (sorted.len() - 1) as f64;
     let (below, above) = (place.floor() as usize, place.ceil() as usize);
     sorted[below] + (place - place.floor()) * (sorted[above] - sorted[below])

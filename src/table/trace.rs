@@ -2,7 +2,7 @@
 
 use super::motions::MotionId;
 use super::row::table;
-use crate::rocking::Event;
+use crate::rocking::SolverEvent;
 
 table! {
     /// Responses over time.
@@ -14,6 +14,6 @@ table! {
         theta_dot_rad_s: f64,
         theta_over_alpha: f64,
         ground_m_s2: f64,
-        solver_event: Option<Event>,
+        solver_event: Option<SolverEvent>,
     }
 }

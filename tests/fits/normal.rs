@@ -1,6 +1,6 @@
 //! The normal distribution against scipy.special.
 
-use rockfrag::normal::{cdf, inverse_mills, ln_cdf, pdf, quantile};
+use rockfrag::normal::{cdf, inverse_mills, ln_cdf, quantile};
 
 fn close(value: f64, expected: f64, tolerance: f64) {
     assert!((value / expected - 1.0).abs() < tolerance, "{value:e}, expected {expected:e}");
@@ -11,9 +11,6 @@ fn cumulative_probabilities_equal_scipys() {
     close(cdf(0.5), 0.691_462_461_274_013_1, 1e-15);
     close(cdf(-10.0), 7.619_853_024_160_525e-24, 1e-13);
     close(cdf(2.0), 0.977_249_868_051_820_8, 1e-15);
-    close(pdf(1.0), 0.241_970_724_519_143_37, 1e-15);
-    close(pdf(-3.5), 0.000_872_682_695_045_760_2, 1e-14);
-    close(pdf(0.25), 0.386_668_116_802_849_3, 1e-15);
 }
 
 #[test]

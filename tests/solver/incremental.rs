@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use rockfrag::fragility::{KnownCapacity, fit_capacities};
 use rockfrag::rocking::{
-    Capacity, CapacityStatus, Look, Outcome, Problem, Record, Response, SafeWindow, Scan, Simd, Structure,
-    simulate_all,
+    Capacity, CapacityStatus, Outcome, Problem, Record, Response, SafeWindow, Scan, ScanPoint, Simd,
+    Structure, simulate_all,
 };
 use rockfrag::statistics::FitStatus;
 use rockfrag::units::G_M_S2;
@@ -16,9 +16,10 @@ const ALPHA: f64 = 1e-5;
 /// The capacity over PGA/(g tan alpha) of a block under samples whose largest is 1.
 fn capacity(scan: &Scan, structure: &Structure, samples: &[f64], dt: f64) -> Capacity {
     let unit = G_M_S2 * structure.alpha_rad.tan();
-    let respond = |looks: &[Look]| -> Result<Vec<Response>, std::convert::Infallible> {
-        let scaled = |look: &Look| samples.iter().map(|a| look.intensity * unit * a).collect::<Vec<f64>>();
-        let scaled: Vec<Vec<f64>> = looks.iter().map(scaled).collect();
+    let respond = |points: &[ScanPoint]| -> Result<Vec<Response>, std::convert::Infallible> {
+        let scaled =
+            |point: &ScanPoint| samples.iter().map(|a| point.intensity * unit * a).collect::<Vec<f64>>();
+        let scaled: Vec<Vec<f64>> = points.iter().map(scaled).collect();
         let problem = |samples| Problem { structure, record: Record::new(samples, dt).unwrap() };
         Ok(simulate_all(&scaled.iter().map(|samples| problem(samples)).collect::<Vec<_>>(), Simd::fastest()))
     };
@@ -128,9 +129,9 @@ fn similar_blocks_have_the_same_capacity() {
 
 /// A scan of a structure that overturns in these ranges, after as many impacts.
 fn scan_of(scan: &Scan, ranges: &[(f64, f64, u32)]) -> Capacity {
-    let respond = |looks: &[Look]| -> Result<Vec<Response>, std::convert::Infallible> {
-        let of = |look: &Look| {
-            let range = ranges.iter().find(|(low, high, _)| (*low..*high).contains(&look.intensity));
+    let respond = |points: &[ScanPoint]| -> Result<Vec<Response>, std::convert::Infallible> {
+        let of = |point: &ScanPoint| {
+            let range = ranges.iter().find(|(low, high, _)| (*low..*high).contains(&point.intensity));
             match range {
                 Some((_, _, impacts)) => {
                     Response { outcome: Outcome::Overturning, edp: 7.0, impacts: *impacts }
@@ -138,7 +139,7 @@ fn scan_of(scan: &Scan, ranges: &[(f64, f64, u32)]) -> Capacity {
                 None => Response { outcome: Outcome::SafeRocking, edp: 0.9, impacts: 2 },
             }
         };
-        Ok(looks.iter().map(of).collect())
+        Ok(points.iter().map(of).collect())
     };
     Capacity::of(&scan.run(1, respond).unwrap()[0])
 }
@@ -148,7 +149,7 @@ fn all_windows_that_are_wide_enough_are_found() {
     let scan = Scan::new(1.0, 100.0, 8, 4, 1e-4);
     close(scan.ratio(), 100.0_f64.powf(1.0 / 8.0), 1e-12);
     close(scan.finest_ratio(), 100.0_f64.powf(1.0 / 128.0), 1e-12);
-    assert_eq!((scan.levels().len(), scan.foot(), scan.top()), (9, 1.0, 100.0));
+    assert_eq!((scan.levels().len(), scan.lowest(), scan.highest()), (9, 1.0, 100.0));
     // A narrow overturning range, a window between two modes, and one that the scan ends in.
     let found = scan_of(&scan, &[(2.0, 2.1, 1), (3.0, 5.0, 1), (5.2, 50.0, 0)]);
     close(found.overturning.unwrap(), 2.0, 1e-4);
@@ -166,29 +167,29 @@ fn all_windows_that_are_wide_enough_are_found() {
 fn a_scan_looks_closer_only_where_it_must() {
     let scan = Scan::new(1.0, 16.0, 4, 2, 1e-3);
     assert_eq!(scan.levels(), [1.0, 2.0, 4.0, 8.0, 16.0]);
-    let looks = |respond: fn(f64) -> (Outcome, f64, u32)| {
-        let response = |look: &Look| {
-            let (outcome, edp, impacts) = respond(look.intensity);
+    let simulated = |respond: fn(f64) -> (Outcome, f64, u32)| {
+        let response = |point: &ScanPoint| {
+            let (outcome, edp, impacts) = respond(point.intensity);
             Response { outcome, edp, impacts }
         };
         let respond =
-            |looks: &[Look]| Ok::<_, std::convert::Infallible>(looks.iter().map(response).collect());
+            |points: &[ScanPoint]| Ok::<_, std::convert::Infallible>(points.iter().map(response).collect());
         let found = scan.run(2, respond).unwrap();
         assert!(found.iter().all(|case| case.windows(2).all(|pair| pair[0].intensity < pair[1].intensity)));
         assert_eq!(found[0], found[1]);
         found[0].len()
     };
     // Far from overturning, or overturning all in the same way: the levels alone.
-    assert_eq!(looks(|_| (Outcome::SafeRocking, 0.1, 0)), 5);
-    assert_eq!(looks(|_| (Outcome::Overturning, 7.0, 3)), 5);
+    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.1, 0)), 5);
+    assert_eq!(simulated(|_| (Outcome::Overturning, 7.0, 3)), 5);
     // Near overturning: each step is halved twice. From level 4 on: two steps of four.
-    assert_eq!(looks(|_| (Outcome::SafeRocking, 0.9, 0)), 4 * 4 + 1);
-    assert_eq!(looks(|at| (Outcome::SafeRocking, if at >= 4.0 { 0.9 } else { 0.1 }, 0)), 5 + 3 + 3 + 2);
+    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.9, 0)), 4 * 4 + 1);
+    assert_eq!(simulated(|at| (Outcome::SafeRocking, if at >= 4.0 { 0.9 } else { 0.1 }, 0)), 5 + 3 + 3 + 2);
     // Between two ways of overturning, twice a halving of the step in which it changes.
-    assert_eq!(looks(|at| (Outcome::Overturning, 7.0, u32::from(at < 3.0))), 5 + 2);
+    assert_eq!(simulated(|at| (Outcome::Overturning, 7.0, u32::from(at < 3.0))), 5 + 2);
     // Where overturning begins, halvings of ln 2 until it is known to a thousandth: ln 2 / 1e-3 < 2^10.
     assert_eq!(
-        looks(|at| (if at > 3.0 { Outcome::Overturning } else { Outcome::SafeRocking }, 0.1, 0)),
+        simulated(|at| (if at > 3.0 { Outcome::Overturning } else { Outcome::SafeRocking }, 0.1, 0)),
         5 + 10
     );
 }
@@ -196,7 +197,7 @@ fn a_scan_looks_closer_only_where_it_must() {
 #[test]
 fn the_ends_of_a_scan_are_told_apart() {
     let scan = Scan::new(0.5, 2.0, 6, 2, 1e-3);
-    assert_eq!((scan.foot(), scan.top()), (0.5, 2.0));
+    assert_eq!((scan.lowest(), scan.highest()), (0.5, 2.0));
     let safe = scan_of(&scan, &[]);
     assert_eq!((safe.status, safe.overturning, safe.safe_below), (CapacityStatus::Safe, None, Some(2.0)));
     let below = scan_of(&scan, &[(0.0, 9.0, 0)]);

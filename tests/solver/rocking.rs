@@ -6,7 +6,7 @@ use crate::noise::synthetic_motion;
 use proptest::prelude::*;
 use rockfrag::motion::Pulse;
 use rockfrag::rocking::{
-    Event, Outcome, Record, RecordError, Structure, StructureError, frame_eta, frame_p, housner_eta,
+    Outcome, Record, RecordError, SolverEvent, Structure, StructureError, frame_eta, frame_p, housner_eta,
     rectangular_p, simulate, trace, with_tail,
 };
 use rockfrag::units::G_M_S2;
@@ -34,7 +34,7 @@ fn free_rocking_has_housners_period_and_decay() {
     let (response, points) = trace(&s, &Record::new(&samples, dt).unwrap());
     assert_eq!(response.outcome, Outcome::SafeRocking);
     let impacts: Vec<f64> =
-        points.iter().filter(|q| q.event == Some(Event::Impact)).map(|q| q.time_s).collect();
+        points.iter().filter(|q| q.solver_event == Some(SolverEvent::Impact)).map(|q| q.time_s).collect();
     let peak_between = |from: f64, to: f64| {
         let inside = points.iter().filter(|q| q.time_s > from && q.time_s < to);
         inside.map(|q| q.theta_rad.abs()).fold(0.0, f64::max)
@@ -50,7 +50,8 @@ fn free_rocking_has_housners_period_and_decay() {
         let half_period = 2.0 / p * (1.0 / (1.0 - peak / alpha)).acosh();
         let measured = pair[1] - pair[0];
         assert!((measured / half_period - 1.0).abs() < 2e-3, "{measured} for {half_period} at {peak}");
-        let after = points.iter().find(|q| q.event == Some(Event::Impact) && q.time_s == pair[0]);
+        let after =
+            points.iter().find(|q| q.solver_event == Some(SolverEvent::Impact) && q.time_s == pair[0]);
         let velocity = after.unwrap().theta_dot_rad_s.abs();
         if let Some(last) = last_velocity {
             assert!((velocity / last - eta).abs() < 1e-9, "decay {}", velocity / last);
@@ -92,7 +93,7 @@ fn energy_is_conserved_between_impacts() {
     let mut level: Option<f64> = None;
     let mut compared = 0;
     for point in free {
-        match point.event {
+        match point.solver_event {
             Some(_) => level = None,
             None if point.theta_rad == 0.0 => {}
             None => {
@@ -256,12 +257,12 @@ fn a_trace_tells_what_happens_when() {
     samples.resize(1200, 0.0);
     let (response, points) = trace(&s, &Record::new(&samples, dt).unwrap());
     assert_eq!(response.outcome, Outcome::SafeRocking);
-    let of = |event| points.iter().filter(move |point| point.event == Some(event));
-    let [first, ..] = of(Event::Uplift).collect::<Vec<_>>()[..] else { panic!("no uplift") };
+    let of = |event| points.iter().filter(move |point| point.solver_event == Some(event));
+    let [first, ..] = of(SolverEvent::Uplift).collect::<Vec<_>>()[..] else { panic!("no uplift") };
     assert!(
         (first.time_s - 0.5 * dt).abs() < 1e-12 && first.theta_rad == 0.0 && first.theta_dot_rad_s == 0.0
     );
-    let sampled: Vec<_> = points.iter().filter(|point| point.event.is_none()).collect();
+    let sampled: Vec<_> = points.iter().filter(|point| point.solver_event.is_none()).collect();
     assert_eq!(sampled.len(), samples.len());
     assert!((0..).zip(&sampled).all(|(k, point)| (point.time_s - f64::from(k) * dt).abs() < 1e-9));
     assert!(sampled[5].theta_rad < 0.0 && sampled[5].theta_dot_rad_s < 0.0);
@@ -271,7 +272,7 @@ fn a_trace_tells_what_happens_when() {
     // The velocity is the slope of the rotation, in rad/s, wherever nothing happens in between.
     let fastest = points.iter().map(|point| point.theta_dot_rad_s.abs()).fold(0.0, f64::max);
     let mut compared = 0;
-    for around in points.windows(3).filter(|around| around.iter().all(|point| point.event.is_none())) {
+    for around in points.windows(3).filter(|around| around.iter().all(|point| point.solver_event.is_none())) {
         let slope = (around[2].theta_rad - around[0].theta_rad) / (2.0 * dt);
         assert!((slope - around[1].theta_dot_rad_s).abs() < 2e-2 * fastest, "{around:?}");
         compared += 1;
@@ -279,17 +280,17 @@ fn a_trace_tells_what_happens_when() {
     assert!(compared > 100);
 
     // An impact takes the share 1 - eta of the velocity and goes on to the other side; the last one is followed by rest.
-    assert_eq!(of(Event::Impact).count(), response.impacts as usize);
-    for around in points.windows(3).filter(|around| around[1].event == Some(Event::Impact)) {
+    assert_eq!(of(SolverEvent::Impact).count(), response.impacts as usize);
+    for around in points.windows(3).filter(|around| around[1].solver_event == Some(SolverEvent::Impact)) {
         let [before, impact, after] = [around[0], around[1], around[2]];
-        if before.event.is_none() && after.event.is_none() && before.theta_rad.abs() > 1e-3 {
+        if before.solver_event.is_none() && after.solver_event.is_none() && before.theta_rad.abs() > 1e-3 {
             assert!(before.theta_rad * after.theta_rad < 0.0, "{around:?}");
             assert!(impact.theta_dot_rad_s * after.theta_rad > 0.0, "{around:?}");
             assert_eq!(impact.theta_rad, 0.0);
         }
     }
-    let rest = of(Event::Rest).next_back().unwrap();
-    let last_impact = of(Event::Impact).next_back().unwrap();
+    let rest = of(SolverEvent::Rest).next_back().unwrap();
+    let last_impact = of(SolverEvent::Impact).next_back().unwrap();
     assert!(rest.time_s == last_impact.time_s && rest.time_s < samples.len() as f64 * dt);
     assert!((rest.theta_rad, rest.theta_dot_rad_s) == (0.0, 0.0));
     let after = sampled.iter().filter(|point| point.time_s > rest.time_s);
@@ -316,7 +317,7 @@ fn a_trace_ends_where_the_structure_lies_flat() {
     let (response, points) = trace(&s, &Record::new(&samples, dt).unwrap());
     assert_eq!(response.outcome, Outcome::Overturning);
     let [.., before, last] = points[..] else { panic!("no points") };
-    assert_eq!((last.event, last.theta_rad), (Some(Event::Overturn), FRAC_PI_2));
+    assert_eq!((last.solver_event, last.theta_rad), (Some(SolverEvent::Overturn), FRAC_PI_2));
     assert!(last.time_s > before.time_s && last.time_s <= before.time_s + dt && before.time_s > 0.61);
     // The ground is still by then, and theta'^2 / (2 p^2) + cos(alpha - theta) stays what it is.
     let energy = |theta: f64, velocity: f64| 0.5 * (velocity / p).powi(2) + (alpha - theta).cos();

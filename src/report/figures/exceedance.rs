@@ -1,31 +1,30 @@
 //! Figure 10: P_ex of two measures against P_ex of one.
 
+use super::sorted;
 use crate::fragility::{DemandLaw, DemandModel, Measure, Probability};
 use crate::motion::IntensityMeasures;
 use crate::report::axis::Axis;
-use crate::report::bins::{quantile, sorted};
+use crate::report::data::{Group, Planes, ReportData, measure_label};
 use crate::report::drawing::{Dash, Ink, Stroke};
 use crate::report::figure::{Figure, Grid};
-use crate::report::label::Label;
-use crate::report::legend::{Mark, legend};
-use crate::report::material::{Group, Material, Planes, measure_label};
-use crate::report::number;
-use crate::report::panel::Panel;
+use crate::report::panel::{Mark, Panel, legend};
+use crate::report::text::{Label, number};
+use crate::statistics::estimate::quantile;
 
-/// Points of a curve from end to end.
+/// Number of points of a curve.
 const STEPS: usize = 160;
-/// Shares of the cases below the IM3 of the curves.
+/// Quantiles of IM3 at which curves are drawn.
 const SHARES: [f64; 3] = [0.1, 0.5, 0.9];
 const DASHES: [Dash; 3] = [Dash::Solid, Dash::Long, Dash::Short];
 
-/// One figure, one panel a group that has both models.
-pub fn figures(material: &Material) -> Vec<Figure> {
-    let Some(limit) = material.limit else { return Vec::new() };
+/// Draws one figure, one panel a group that has both models.
+pub fn figures(data: &ReportData) -> Vec<Figure> {
+    let Some(limit) = data.limit else { return Vec::new() };
     let both = |group| -> Option<(&Group, Planes, DemandLaw)> {
         let group: &Group = group;
         Some((group, group.planes?, group.on(Measure::Im4)?.law))
     };
-    let groups: Vec<(&Group, Planes, DemandLaw)> = material.groups.iter().filter_map(both).collect();
+    let groups: Vec<(&Group, Planes, DemandLaw)> = data.groups.iter().filter_map(both).collect();
     if groups.is_empty() {
         return Vec::new();
     }
@@ -49,11 +48,11 @@ pub fn figures(material: &Material) -> Vec<Figure> {
     legend(&mut drawing, grid.legend_at(), &entries);
     for (index, (group, planes, alone)) in groups.iter().enumerate() {
         let (corner, width) = grid.place(index);
-        let largest = group.safe().map(|seen| seen.case.measures.im4).fold(1.5, f64::max);
+        let largest = group.safe().map(|response| response.case.measures.im4).fold(1.5, f64::max);
         let x = Axis::log([1.0, largest], measure_label(Measure::Im4));
         let y = Axis::linear([0.0, 1.0], Label::marked("*P*_{ex}"));
         let panel = Panel { corner, width, height: grid.panel_height, x, y };
-        let im3 = sorted(group.safe().filter_map(|seen| seen.case.measures.im3));
+        let im3 = sorted(group.safe().filter_map(|response| response.case.measures.im3));
         let model = DemandModel::Biplanar {
             transition: planes.transition,
             low: planes.sides[0].law,
@@ -79,7 +78,7 @@ pub fn figures(material: &Material) -> Vec<Figure> {
         panel.frame(&mut drawing, Label::plain(group.name()).bold());
     }
     let quantiles = groups.iter().map(|(group, ..)| {
-        let im3 = sorted(group.safe().filter_map(|seen| seen.case.measures.im3));
+        let im3 = sorted(group.safe().filter_map(|response| response.case.measures.im3));
         let values = SHARES.map(|share| number::short(quantile(&im3, share))).join(", ");
         format!("{}: {values}", group.name())
     });

@@ -1,4 +1,4 @@
-//! One file a figure; each a function of the material to the figures that can be made of it.
+//! One file a figure; each makes of the data the figures that they suffice for.
 
 mod exceedance;
 mod motion;
@@ -11,19 +11,19 @@ mod reliability;
 mod similarity;
 mod tree;
 
+use super::data::{Group, ReportData};
 use super::drawing::{Drawing, Stroke};
 use super::figure::Figure;
-use super::material::{Group, Material};
-use super::number;
 use super::panel::Panel;
+use super::text::number;
 use crate::fragility::{Measure, Probability};
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 
-/// What draws figures.
-pub type Draw = fn(&Material) -> Vec<Figure>;
+/// Draws the figures of one kind that the data suffice for.
+pub type Draw = fn(&ReportData) -> Vec<Figure>;
 
-/// All of them, in the order of the page, which is that of the paper.
+/// All kinds of figures, in the order of the page, which is that of the paper.
 pub const ALL: [Draw; 10] = [
     motion::figures,
     outcomes::figures,
@@ -37,11 +37,11 @@ pub const ALL: [Draw; 10] = [
     reliability::figures,
 ];
 
-/// No measure known.
+/// Measures of which none is known.
 const NOTHING: IntensityMeasures =
     IntensityMeasures { im1: None, im2: None, im3: None, im4: f64::NAN, im5: f64::NAN, im6: None };
 
-/// With one more measure known.
+/// Sets one more measure.
 fn with(measures: IntensityMeasures, measure: Measure, value: f64) -> IntensityMeasures {
     match measure {
         Measure::Im1 => IntensityMeasures { im1: Some(value), ..measures },
@@ -54,7 +54,7 @@ fn with(measures: IntensityMeasures, measure: Measure, value: f64) -> IntensityM
     }
 }
 
-/// Probabilities over a measure, with their limits as a band.
+/// Draws probabilities over a measure, with their limits as a band.
 fn draw_curve(drawing: &mut Drawing, panel: &Panel, curve: &[(f64, Probability)], stroke: Stroke) {
     let band: Vec<[f64; 3]> = curve.iter().map(|(x, p)| [*x, p.low, p.high]).collect();
     panel.band(drawing, &band, stroke.paint.ink.thin(0.2));
@@ -62,7 +62,7 @@ fn draw_curve(drawing: &mut Drawing, panel: &Panel, curve: &[(f64, Probability)]
     panel.line(drawing, &line, stroke);
 }
 
-/// p, alpha and eta in words.
+/// Names p, alpha and eta.
 fn structure_words(structure: &Structure) -> String {
     format!(
         "p = {} rad/s, α = {} rad, η = {}",
@@ -72,7 +72,7 @@ fn structure_words(structure: &Structure) -> String {
     )
 }
 
-/// A name that a file may have.
+/// Makes a name safe for a file.
 fn file_words(name: &str) -> String {
     let letter =
         |letter: char| if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '-' };
@@ -84,4 +84,27 @@ fn group_file_words(group: &Group) -> String {
         Some(suite) => format!("{}-{}", file_words(&group.structure.name), file_words(suite)),
         None => file_words(&group.structure.name),
     }
+}
+
+/// Sorts the finite values.
+fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    values.sort_unstable_by(f64::total_cmp);
+    values
+}
+
+/// Puts values of x and y into bins of equal ratio of x: for each its middle, and the y in it.
+fn by_ratio(values: &[[f64; 2]], [low, high]: [f64; 2], count: usize) -> Vec<(f64, Vec<f64>)> {
+    let ratio = (high / low).powf(1.0 / count as f64);
+    let middle = |bin: usize| low * ratio.powf(bin as f64 + 0.5);
+    let mut bins: Vec<(f64, Vec<f64>)> = (0..count).map(|bin| (middle(bin), Vec::new())).collect();
+    for &[x, y] in values {
+        let bin = ((x / low).ln() / ratio.ln()).floor();
+        if bin >= 0.0
+            && let Some((_, inside)) = bins.get_mut(bin as usize)
+        {
+            inside.push(y);
+        }
+    }
+    bins
 }

@@ -2,13 +2,11 @@
 
 use crate::motion::intensity::velocity;
 use crate::report::axis::{Axis, range};
+use crate::report::data::{Parts, ReportData};
 use crate::report::drawing::{Drawing, Ink, ONE_COLUMN, Stroke};
-use crate::report::envelope::envelope;
-use crate::report::figure::Figure;
-use crate::report::label::Label;
-use crate::report::legend::{Mark, legend};
-use crate::report::material::{Material, Parts};
-use crate::report::panel::Panel;
+use crate::report::figure::{Figure, envelope};
+use crate::report::panel::{Mark, Panel, legend};
+use crate::report::text::Label;
 
 /// Height of a panel, points.
 const HEIGHT: f64 = 46.0;
@@ -20,8 +18,8 @@ const MOST_VALUES: usize = 1200;
 const LINE: f64 = 0.6;
 
 /// One motion, if the files hold any.
-pub fn figures(material: &Material) -> Vec<Figure> {
-    material.parts.iter().map(figure).collect()
+pub fn figures(data: &ReportData) -> Vec<Figure> {
+    data.parts.iter().map(figure).collect()
 }
 
 /// A series of a panel.

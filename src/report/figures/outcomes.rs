@@ -2,13 +2,11 @@
 
 use crate::keyword::Keyword;
 use crate::report::axis::Axis;
+use crate::report::data::{Group, ReportData, ReportResponse};
 use crate::report::drawing::{Ink, Paint};
 use crate::report::figure::{Figure, Grid};
-use crate::report::label::Label;
-use crate::report::legend::{Mark, legend};
-use crate::report::material::{Group, Material, Seen};
-use crate::report::number;
-use crate::report::panel::{MOST_POINTS, Panel, dot_scale};
+use crate::report::panel::{MOST_POINTS, Mark, Panel, dot_scale, legend};
+use crate::report::text::{Label, number};
 use crate::rocking::Outcome;
 
 /// Each outcome, its words, colour and size of dots.
@@ -18,17 +16,16 @@ const CLASSES: [(Outcome, &str, Paint, f64); 3] = [
     (Outcome::Overturning, "overturning", Paint { ink: Ink::Data(1), opacity: 0.9 }, 1.2),
 ];
 
-/// One figure a structure, one panel a suite.
-pub fn figures(material: &Material) -> Vec<Figure> {
+/// Draws one figure a structure, one panel a suite.
+pub fn figures(data: &ReportData) -> Vec<Figure> {
     let mut names: Vec<&str> = Vec::new();
-    for group in &material.groups {
+    for group in &data.groups {
         if !names.contains(&group.structure.name.as_str()) {
             names.push(&group.structure.name);
         }
     }
     let of = |name: &&str| {
-        let groups =
-            material.groups.iter().filter(|group| group.structure.name == **name).collect::<Vec<_>>();
+        let groups = data.groups.iter().filter(|group| group.structure.name == **name).collect::<Vec<_>>();
         figure(&groups)
     };
     names.iter().map(of).collect()
@@ -36,14 +33,15 @@ pub fn figures(material: &Material) -> Vec<Figure> {
 
 fn figure(groups: &[&Group]) -> Figure {
     let structure = &groups[0].structure;
-    let with_period = groups.iter().all(|group| group.responses.iter().any(|seen| seen.tp_s.is_some()));
+    let with_period =
+        groups.iter().all(|group| group.responses.iter().any(|response| response.tp_s.is_some()));
     let grid = Grid::of(groups.len(), 130.0).with_legend();
     let mut drawing = grid.drawing();
     let entries = CLASSES.map(|(_, words, paint, _)| (Mark::Dot(paint), Label::plain(words)));
     legend(&mut drawing, grid.legend_at(), &entries);
-    let place = |seen: &Seen| match with_period {
-        true => [seen.tp_s.unwrap_or(f64::NAN), seen.pgv_m_s],
-        false => [seen.pga_m_s2, seen.pgv_m_s],
+    let place = |response: &ReportResponse| match with_period {
+        true => [response.tp_s.unwrap_or(f64::NAN), response.pgv_m_s],
+        false => [response.pga_m_s2, response.pgv_m_s],
     };
     let all = || groups.iter().flat_map(|group| group.responses.iter().map(place));
     let x_label = Label::marked(if with_period { "pulse period *T*_{p} (s)" } else { "PGA (m/s^{2})" });
@@ -54,7 +52,8 @@ fn figure(groups: &[&Group]) -> Figure {
         let panel = Panel { corner, width, height: grid.panel_height, x: x.clone(), y: y.clone() };
         let crowded = group.responses.len() > MOST_POINTS;
         for (outcome, _, paint, radius) in CLASSES {
-            let of_class = group.responses.iter().filter(|seen| seen.case.outcome == outcome).map(place);
+            let of_class =
+                group.responses.iter().filter(|response| response.case.outcome == outcome).map(place);
             let mut points: Vec<[f64; 2]> = of_class.collect();
             if crowded && !points.is_empty() {
                 // All classes of a panel are drawn in the same way.

@@ -1,29 +1,27 @@
 //! Figures 11 and 12: the probability of overturning, with the data in bins.
 
+use super::{by_ratio, sorted};
 use crate::fragility::{Measure, Predictor, Probability, ProbitIndex};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::report::axis::Axis;
-use crate::report::bins::{by_ratio, quantile, sorted};
+use crate::report::data::{Group, ReportData, ReportResponse, measure_label};
 use crate::report::drawing::{Anchor, Drawing, Ink};
 use crate::report::figure::{Figure, Grid};
-use crate::report::label::Label;
-use crate::report::legend::{Mark, legend};
-use crate::report::material::{Group, Material, Seen, measure_label};
-use crate::report::number;
-use crate::report::panel::Panel;
+use crate::report::panel::{Mark, Panel, legend};
+use crate::report::text::{Label, number};
+use crate::statistics::estimate::quantile;
 
-/// Points of a curve.
+/// Number of points of a curve.
 const STEPS: usize = 160;
-/// Bins of the data.
+/// Number of bins of the data.
 const BINS: usize = 14;
 /// Radius of the circle of the fullest bin, points.
 const LARGEST: f64 = 8.0;
 
-/// The figure over one measure, and that over two if there is a curve of two.
-pub fn figures(material: &Material) -> Vec<Figure> {
-    let groups: Vec<&Group> =
-        material.groups.iter().filter(|group| group.rocked().next().is_some()).collect();
+/// Draws the figure over one measure, and that over two if there is a curve of two.
+pub fn figures(data: &ReportData) -> Vec<Figure> {
+    let groups: Vec<&Group> = data.groups.iter().filter(|group| group.rocked().next().is_some()).collect();
     if groups.is_empty() {
         return Vec::new();
     }
@@ -87,14 +85,14 @@ fn draw(
     height: f64,
 ) {
     let index = group.curve(im_x, im_y).map(|curve| curve.index);
-    let over = |seen: &Seen| match (index, im_y) {
-        (Some(index), Some(_)) => index.hybrid_measure(&seen.case.measures),
+    let over = |response: &ReportResponse| match (index, im_y) {
+        (Some(index), Some(_)) => index.hybrid_measure(&response.case.measures),
         (None, Some(_)) => None,
-        _ => im_x.of(&seen.case),
+        _ => im_x.of(&response.case),
     };
     let values: Vec<[f64; 2]> = group
         .rocked()
-        .filter_map(|(seen, over_turned)| Some([over(seen)?, f64::from(u8::from(over_turned))]))
+        .filter_map(|(response, overturned)| Some([over(response)?, f64::from(u8::from(overturned))]))
         .collect();
     let label = if im_y.is_some() { Label::plain("hybrid measure") } else { measure_label(im_x) };
     let x = Axis::log_over(values.iter().map(|[x, _]| *x), label);
@@ -102,7 +100,7 @@ fn draw(
     let panel = Panel { corner, width, height, x, y };
     if let Some(index) = index {
         let second = im_y.map(|im_y| {
-            let values = sorted(group.rocked().filter_map(|(seen, _)| im_y.of(&seen.case)));
+            let values = sorted(group.rocked().filter_map(|(response, _)| im_y.of(&response.case)));
             (im_y, quantile(&values, 0.5))
         });
         let curve: Vec<(f64, Probability)> = panel
@@ -137,7 +135,7 @@ fn draw(
     panel.note(drawing, [0.04, 0.24], Anchor::Start, Label::plain(words));
 }
 
-/// At a value of the measure, or of the hybrid measure where the second one is this.
+/// Predicts the probability at a value of the measure, or of the hybrid measure where the second measure is this.
 fn probability(index: &Predictor, value: f64, second: Option<(Measure, f64)>) -> Option<Probability> {
     let measures: IntensityMeasures = match second {
         None => super::with(super::NOTHING, index.im_x, value),

@@ -1,21 +1,19 @@
-//! Figure 9: the two planes of the demand, seen from where both are edge-on.
+//! Figure 9: the two planes of the demand, both edge-on.
 
 use crate::fragility::Measure;
 use crate::report::axis::{Axis, range};
+use crate::report::data::{Group, Planes, ReportData, ReportResponse};
 use crate::report::drawing::Ink;
 use crate::report::figure::{Figure, Grid};
-use crate::report::label::Label;
-use crate::report::legend::{Mark, legend};
-use crate::report::material::{Group, Material, Planes, Seen};
-use crate::report::number;
-use crate::report::panel::Panel;
+use crate::report::panel::{Mark, Panel, legend};
+use crate::report::text::{Label, number};
 
 type Vector = [f64; 3];
 
-/// One figure, one panel a group that has both planes.
-pub fn figures(material: &Material) -> Vec<Figure> {
+/// Draws one figure, one panel a group that has both planes.
+pub fn figures(data: &ReportData) -> Vec<Figure> {
     let groups: Vec<(&Group, Planes)> =
-        material.groups.iter().filter_map(|group| Some((group, group.planes?))).collect();
+        data.groups.iter().filter_map(|group| Some((group, group.planes?))).collect();
     if groups.is_empty() {
         return Vec::new();
     }
@@ -70,11 +68,15 @@ pub fn figures(material: &Material) -> Vec<Figure> {
     }]
 }
 
-/// ln IM4, ln IM3 and ln EDP of the cases on one side of the transition.
+/// Collects ln IM4, ln IM3 and ln EDP of the cases on one side of the transition.
 fn points(group: &Group, planes: &Planes, below: bool) -> Vec<Vector> {
-    let on_side = group.safe().filter(|seen| (seen.case.measures.im4 < planes.transition) == below);
-    let point = |seen: &Seen| {
-        Some([Measure::Im4.of(&seen.case)?.ln(), Measure::Im3.of(&seen.case)?.ln(), seen.case.edp.ln()])
+    let on_side = group.safe().filter(|response| (response.case.measures.im4 < planes.transition) == below);
+    let point = |response: &ReportResponse| {
+        Some([
+            Measure::Im4.of(&response.case)?.ln(),
+            Measure::Im3.of(&response.case)?.ln(),
+            response.case.edp.ln(),
+        ])
     };
     on_side.filter_map(point).collect()
 }
@@ -86,7 +88,7 @@ struct View {
 }
 
 impl View {
-    /// Along the line in which the planes meet.
+    /// Looks along the line in which the planes meet.
     fn edge_on(planes: &Planes) -> View {
         let normal = |side: usize| {
             let [_, b1, b2] = planes.sides[side].law.ln_median.coefficients;
@@ -113,13 +115,13 @@ fn dot(a: &Vector, b: &Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Of length 1; parallel planes meet nowhere and are seen along ln IM3.
+/// Scales to length 1. Parallel planes meet nowhere: then the view is along ln IM3.
 fn unit(vector: Vector) -> Vector {
     let length = dot(&vector, &vector).sqrt();
     if length > 1e-12 { vector.map(|part| part / length) } else { [0.0, 1.0, 0.0] }
 }
 
-/// A direction as a sum without what hardly counts: `0.85 ln IM4 - 0.52 ln IM3`.
+/// Writes a direction as a sum without small terms: `0.85 ln IM4 - 0.52 ln IM3`.
 fn words_of(direction: &Vector) -> Label {
     let names = ["ln IM4", "ln IM3", "ln EDP"];
     let parts = direction.iter().zip(names).filter(|(part, _)| part.abs() >= 0.03);

@@ -1,31 +1,30 @@
-//! Figure 8: how well each measure foretells the demand, as R2, beta and zeta around a circle.
+//! Figure 8: how well each measure predicts the demand, as R2, beta and zeta around a circle.
 
 use std::f64::consts::PI;
 
 use crate::fragility::Measure;
+use crate::report::data::{Group, Regression, ReportData};
 use crate::report::drawing::{Anchor, Dash, Drawing, Ink, Point, Step, Stroke, TWO_COLUMNS};
 use crate::report::figure::Figure;
-use crate::report::label::Label;
-use crate::report::legend::{Mark, legend};
-use crate::report::material::{Group, Material, Regression};
-use crate::report::number;
+use crate::report::panel::{Mark, legend};
+use crate::report::text::{Label, number};
 
 const RADIUS: f64 = 52.0;
 const RINGS: usize = 4;
 const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
-/// The rim of zeta over its least value: what lies beyond is no use anyway.
+/// Value of zeta at the rim over the least zeta: what lies beyond predicts nothing.
 const RIM_OF_ZETA: f64 = 5.0;
 
-/// What is drawn around one circle.
+/// A measure of quality, drawn around one circle.
 struct Quality {
     title: &'static str,
     of: fn(&Regression) -> Option<f64>,
     rim: f64,
 }
 
-/// One figure of three circles, if there are regressions on the measures.
-pub fn figures(material: &Material) -> Vec<Figure> {
-    let groups: Vec<&Group> = material.groups.iter().filter(|group| !group.univariate.is_empty()).collect();
+/// Draws one figure of three circles, if there are regressions on the measures.
+pub fn figures(data: &ReportData) -> Vec<Figure> {
+    let groups: Vec<&Group> = data.groups.iter().filter(|group| !group.univariate.is_empty()).collect();
     if groups.is_empty() {
         return Vec::new();
     }
@@ -80,7 +79,7 @@ fn stroke(index: usize) -> Stroke {
     Ink::Data(index).dashed(1.2, DASHES[index % DASHES.len()])
 }
 
-/// The next number upwards of one digit, or of one and a half.
+/// Rounds up to one digit, or one and a half.
 fn nice(value: f64) -> f64 {
     let power = 10_f64.powf(value.log10().floor());
     (2.0 * value / power).ceil() / 2.0 * power

@@ -2,21 +2,20 @@
 
 use crate::fragility::Measure;
 use crate::report::axis::Axis;
+use crate::report::data::{Group, ReportData, demand_label, measure_label};
 use crate::report::drawing::{Ink, TWO_COLUMNS};
 use crate::report::figure::{Figure, Grid};
-use crate::report::label::Label;
-use crate::report::material::{Group, Material, demand_label, measure_label};
-use crate::report::number;
 use crate::report::panel::{Panel, dot_scale};
+use crate::report::text::{Label, number};
 
-/// One figure a group, one panel a measure.
-pub fn figures(material: &Material) -> Vec<Figure> {
-    material.groups.iter().filter(|group| group.safe().next().is_some()).map(figure).collect()
+/// Draws one figure a group, one panel a measure.
+pub fn figures(data: &ReportData) -> Vec<Figure> {
+    data.groups.iter().filter(|group| group.safe().next().is_some()).map(figure).collect()
 }
 
 fn figure(group: &Group) -> Figure {
     let values = |measure: Measure| -> Vec<[f64; 2]> {
-        group.safe().filter_map(|seen| Some([measure.of(&seen.case)?, seen.case.edp])).collect()
+        group.safe().filter_map(|response| Some([measure.of(&response.case)?, response.case.edp])).collect()
     };
     let with_values: Vec<(Measure, Vec<[f64; 2]>)> = Measure::SCALAR
         .map(|measure| (measure, values(measure)))

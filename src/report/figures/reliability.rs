@@ -1,28 +1,27 @@
-//! Reliability: what was foretold against what was seen.
+//! Reliability: predicted probabilities against observed shares.
 
 use crate::fragility::{DemandModel, Measure};
 use crate::normal;
 use crate::report::axis::Axis;
+use crate::report::data::{Group, ReportData, ReportResponse};
 use crate::report::drawing::{Dash, Ink};
 use crate::report::figure::{Figure, Grid};
-use crate::report::label::Label;
-use crate::report::legend::{Mark, legend};
-use crate::report::material::{Group, Material, Seen};
-use crate::report::panel::Panel;
+use crate::report::panel::{Mark, Panel, legend};
+use crate::report::text::Label;
 use crate::studies::wilson_limits;
 
-/// The probability of an event in each case, and whether it happened.
+/// The predicted probability of an event in each case, and whether it happened.
 type Forecasts = Vec<(f64, bool)>;
 
-/// Classes of probability.
+/// Number of classes of probability.
 const CLASSES: usize = 10;
 
-/// One figure, one panel a group that has fits.
-pub fn figures(material: &Material) -> Vec<Figure> {
-    let panels: Vec<(&Group, [Forecasts; 2])> = material
+/// Draws one figure, one panel a group that has fits.
+pub fn figures(data: &ReportData) -> Vec<Figure> {
+    let panels: Vec<(&Group, [Forecasts; 2])> = data
         .groups
         .iter()
-        .map(|group| (group, [overturning(group), exceeding(group, material.limit)]))
+        .map(|group| (group, [overturning(group), exceeding(group, data.limit)]))
         .filter(|(_, forecasts)| forecasts.iter().any(|forecasts| !forecasts.is_empty()))
         .collect();
     if panels.is_empty() {
@@ -61,37 +60,37 @@ pub fn figures(material: &Material) -> Vec<Figure> {
     }]
 }
 
-/// Probability of overturning of each case that rocked, and whether it did.
+/// Predicts the probability of overturning of each case that rocked, and tells whether it did.
 fn overturning(group: &Group) -> Forecasts {
     let curve = group.curve(Measure::Im4, Some(Measure::Im3Inverse)).or(group.curve(Measure::Im5, None));
     let Some(curve) = curve else { return Vec::new() };
-    let forecast = |(seen, overturned): (&Seen, bool)| {
-        Some((normal::cdf(curve.index.at(&seen.case.measures)?.value), overturned))
+    let forecast = |(response, overturned): (&ReportResponse, bool)| {
+        Some((normal::cdf(curve.index.at(&response.case.measures)?.value), overturned))
     };
     group.rocked().filter_map(forecast).collect()
 }
 
-/// Probability of exceeding the limit state of each case in safe rocking, and whether it did.
+/// Predicts the probability of exceeding the limit state of each case in safe rocking, and tells whether it did.
 fn exceeding(group: &Group, limit: Option<f64>) -> Forecasts {
     let (Some(limit), Some(planes)) = (limit, group.planes) else { return Vec::new() };
     let [low, high] = planes.sides.map(|side| side.law);
     let model = DemandModel::Biplanar { transition: planes.transition, low, high };
-    let forecast = |seen: &Seen| {
-        let measures = &seen.case.measures;
-        Some((normal::cdf(model.law(measures).exceeding(measures, limit)?.value), seen.case.edp > limit))
+    let forecast = |response: &ReportResponse| {
+        let measures = &response.case.measures;
+        Some((normal::cdf(model.law(measures).exceeding(measures, limit)?.value), response.case.edp > limit))
     };
     group.safe().filter_map(forecast).collect()
 }
 
-/// Of each class: mean forecast and share seen, with the limits of the share.
+/// Gathers forecasts by class: mean probability and observed share, with the limits of the share.
 fn shares(forecasts: &[(f64, bool)]) -> Vec<([f64; 2], f64, f64)> {
     let class = |probability: f64| ((probability * CLASSES as f64) as usize).min(CLASSES - 1);
     let of = |wanted: usize| {
         let inside: Vec<&(f64, bool)> = forecasts.iter().filter(|(p, _)| class(*p) == wanted).collect();
-        let (count, seen) = (inside.len(), inside.iter().filter(|(_, event)| *event).count());
+        let (count, events) = (inside.len(), inside.iter().filter(|(_, event)| *event).count());
         let mean = inside.iter().map(|(p, _)| p).sum::<f64>() / count as f64;
-        let limits = wilson_limits(seen, count);
-        (count > 0).then(|| ([mean, seen as f64 / count as f64], limits.low, limits.high))
+        let limits = wilson_limits(events, count);
+        (count > 0).then(|| ([mean, events as f64 / count as f64], limits.low, limits.high))
     };
     (0..CLASSES).filter_map(of).collect()
 }

@@ -1,46 +1,46 @@
 //! Figure 5: structures that differ in their own units, and hardly in dimensionless ones.
 
+use super::{by_ratio, sorted};
 use crate::fragility::Measure;
 use crate::report::axis::Axis;
-use crate::report::bins::{by_ratio, quantile, sorted};
+use crate::report::data::{Group, ReportData, ReportResponse, demand_label, measure_label};
 use crate::report::drawing::{Dash, Ink};
 use crate::report::figure::{Figure, Grid};
-use crate::report::label::Label;
-use crate::report::legend::{Mark, legend};
-use crate::report::material::{Group, Material, Seen, demand_label, measure_label};
-use crate::report::panel::Panel;
+use crate::report::panel::{Mark, Panel, legend};
+use crate::report::text::Label;
+use crate::statistics::estimate::quantile;
 
-/// Bins of the medians.
+/// Number of bins of the medians.
 const BINS: usize = 14;
-/// Cases that a median needs.
+/// Number of cases that a median needs.
 const LEAST: usize = 12;
-/// The share of the cases at either end that the axis of demand leaves out.
+/// Fraction of the cases below the axis of demand.
 const TAIL: f64 = 0.03;
 const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
 
-/// The structures of the first suite that moves two or more.
-pub fn figures(material: &Material) -> Vec<Figure> {
+/// Draws the structures of the first suite under which two or more rock.
+pub fn figures(data: &ReportData) -> Vec<Figure> {
     let of_suite = |suite: &Option<String>| {
         let groups =
-            material.groups.iter().filter(|group| group.suite == *suite && strong(group).count() >= LEAST);
+            data.groups.iter().filter(|group| group.suite == *suite && strong(group).count() >= LEAST);
         groups.collect::<Vec<&Group>>()
     };
-    let suites = material.groups.iter().map(|group| of_suite(&group.suite));
+    let suites = data.groups.iter().map(|group| of_suite(&group.suite));
     suites.filter(|groups| groups.len() >= 2).take(1).map(|groups| figure(&groups)).collect()
 }
 
-/// The cases in safe rocking above the transition: those just above uplift hardly rotate.
-fn strong(group: &Group) -> impl Iterator<Item = &Seen> {
+/// Iterates over the cases in safe rocking above the transition: those just above uplift hardly rotate.
+fn strong(group: &Group) -> impl Iterator<Item = &ReportResponse> {
     let transition = group.planes.map_or(1.0, |planes| planes.transition);
-    group.safe().filter(move |seen| seen.case.measures.im4 >= transition)
+    group.safe().filter(move |response| response.case.measures.im4 >= transition)
 }
 
-/// A way of looking at the same responses.
+/// One of the panels: a choice of axes for the same responses.
 struct View {
     title: &'static str,
     x: Label,
     y: Label,
-    of: fn(&Group, &Seen) -> [f64; 2],
+    of: fn(&Group, &ReportResponse) -> [f64; 2],
 }
 
 fn figure(groups: &[&Group]) -> Figure {
@@ -49,13 +49,13 @@ fn figure(groups: &[&Group]) -> Figure {
             title: "in their own units",
             x: Label::plain("PGV (m/s)"),
             y: Label::marked("|*θ*|_{max} (rad)"),
-            of: |group, seen| [seen.pgv_m_s, seen.case.edp * group.structure.alpha_rad],
+            of: |group, response| [response.pgv_m_s, response.case.edp * group.structure.alpha_rad],
         },
         View {
             title: "dimensionless",
             x: measure_label(Measure::Im5),
             y: demand_label(),
-            of: |_, seen| [seen.case.measures.im5, seen.case.edp],
+            of: |_, response| [response.case.measures.im5, response.case.edp],
         },
     ];
     let grid = Grid::of(views.len(), 130.0).with_legend();
@@ -70,7 +70,7 @@ fn figure(groups: &[&Group]) -> Figure {
     for (index, View { title, x, y, of }) in views.into_iter().enumerate() {
         let (corner, width) = grid.place(index);
         let clouds: Vec<Vec<[f64; 2]>> =
-            groups.iter().map(|group| strong(group).map(|seen| of(group, seen)).collect()).collect();
+            groups.iter().map(|group| strong(group).map(|response| of(group, response)).collect()).collect();
         let ends = |axis: usize| {
             let values = sorted(clouds.iter().flatten().map(|value| value[axis]));
             [quantile(&values, TAIL), values.last().copied().unwrap_or(1.0) * 1.1]

@@ -1,22 +1,21 @@
 //! Figure 6: the tree of outcomes with its numbers.
 
+use crate::report::data::{Group, ReportData};
 use crate::report::drawing::{Anchor, Drawing, Ink, Point, rectangle};
 use crate::report::figure::{Figure, Grid};
-use crate::report::label::Label;
-use crate::report::material::{Group, Material};
-use crate::report::number;
+use crate::report::text::{Label, number};
 use crate::rocking::Outcome;
 
 const HEIGHT: f64 = 112.0;
 const BOX: Point = [50.0, 24.0];
 
-/// One tree a group.
-pub fn figures(material: &Material) -> Vec<Figure> {
-    let grid = Grid::of(material.groups.len(), HEIGHT - 28.0);
+/// Draws one tree a group.
+pub fn figures(data: &ReportData) -> Vec<Figure> {
+    let grid = Grid::of(data.groups.len(), HEIGHT - 28.0);
     let mut drawing = grid.drawing();
-    for (index, group) in material.groups.iter().enumerate() {
+    for (index, group) in data.groups.iter().enumerate() {
         let ([left, top], width) = grid.place(index);
-        tree(&mut drawing, group, material.limit, [left - 30.0, top], width + 30.0);
+        tree(&mut drawing, group, data.limit, [left - 30.0, top], width + 30.0);
     }
     let caption = "Motions, and the share of those of the box before. The share of failure is of those that rock: they overturn or exceed the limit state (Eq. 12). As Figure 6 of the paper.";
     vec![Figure {
@@ -29,11 +28,11 @@ pub fn figures(material: &Material) -> Vec<Figure> {
 
 /// A box of the tree.
 struct Node {
-    /// Column and height, as shares.
+    /// Column, and height as a fraction of the tree's.
     at: Point,
     words: Label,
     count: usize,
-    /// The box before it.
+    /// Index of the box before it.
     parent: Option<usize>,
     ink: Ink,
 }
@@ -52,7 +51,7 @@ fn tree(drawing: &mut Drawing, group: &Group, limit: Option<f64>, [left, top]: P
         node([2.0, 0.36], "safe rocking", safe, Some(2), Ink::Data(0)),
     ];
     if let Some(limit) = limit {
-        let above = group.safe().filter(|seen| seen.case.edp > limit).count();
+        let above = group.safe().filter(|response| response.case.edp > limit).count();
         let limit = number::plain(limit);
         nodes.push(node([3.0, 0.12], &format!("up to {limit} *α*"), safe - above, Some(4), Ink::Data(0)));
         nodes.push(node([3.0, 0.5], &format!("above {limit} *α*"), above, Some(4), Ink::Data(1)));

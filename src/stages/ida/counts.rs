@@ -57,8 +57,8 @@ impl Group {
         let overturns = |stripe: &StripeRow| stripe.response.outcome == Outcome::Overturning;
         let capacity = match (row.capacity.status, row.capacity.overturning) {
             (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
-            (CapacityStatus::Below, _) => KnownCapacity::Below(scan.foot()),
-            _ => KnownCapacity::Above(scan.top()),
+            (CapacityStatus::Below, _) => KnownCapacity::Below(scan.lowest()),
+            _ => KnownCapacity::Above(scan.highest()),
         };
         Group {
             suite: row.suite.map(str::to_string),

@@ -3,7 +3,7 @@
 //! ```text
 //! options  which structures, which intensities
 //! measure  what is scaled
-//! scaled   the looks at some motions
+//! scaled   all structures under some motions
 //! counts   what they come to for each suite and structure
 //! ```
 
@@ -88,13 +88,13 @@ impl Ida {
         by_name: bool,
         scratch: &mut IntensityScratch,
     ) -> anyhow::Result<Analysed> {
-        let (stripes, capacities) = self.looks(path, motions, scratch)?;
+        let (stripes, capacities) = self.stripes_and_capacities(path, motions, scratch)?;
         Ok(Analysed {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             counts: Counts::of(&self.scan, &stripes, &capacities),
             stripes: ida::stripes(&stripes, by_name)?,
             windows: ida::windows(&capacities, by_name)?,
-            capacities: ida::capacities(&capacities, self.scan.top(), by_name)?,
+            capacities: ida::capacities(&capacities, self.scan.highest(), by_name)?,
         })
     }
 }

@@ -12,7 +12,7 @@ use crate::rocking::{Scan, Simd, Structure};
 use crate::stages::simulate::SimulateOptions;
 use crate::stages::structures::Structures;
 
-/// Which structures, and at which intensities they are looked at.
+/// Which structures, and the intensities at which they are simulated.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct IdaOptions {
@@ -51,7 +51,7 @@ pub struct IdaOptions {
     pub simd: Option<Word<Simd>>,
 }
 
-/// More looks than any scan needs.
+/// Upper bounds that no scan needs to exceed.
 const MOST_STEPS: usize = 10_000;
 const MOST_HALVINGS: u32 = 12;
 

@@ -1,11 +1,11 @@
-//! All structures under some motions, from the foot of the scan to its top.
+//! All structures under some motions, at all intensities of the scan.
 
 use std::path::Path;
 
 use super::Ida;
 use crate::motion::{IntensityMeasures, IntensityScratch};
 use crate::rocking::{
-    Capacity, Look, Problem, Record, RecordError, Response, ScanResponse, Structure, simulate_all,
+    Capacity, Problem, Record, RecordError, Response, ScanPoint, ScanResponse, Structure, simulate_all,
 };
 use crate::stages::motions::{Peaks, record};
 use crate::table::TableError;
@@ -30,7 +30,7 @@ struct Case<'m, 's> {
 
 impl Ida {
     /// The stripes and the capacity of each structure under each of some motions, in order.
-    pub(super) fn looks<'a>(
+    pub(super) fn stripes_and_capacities<'a>(
         &'a self,
         path: &'a Path,
         motions: &'a [Motion],
@@ -45,7 +45,7 @@ impl Ida {
                 cases.push(Case { path, motion, samples, peaks, structure, unscaled });
             }
         }
-        let scans = self.scan.run(cases.len(), |looks| self.respond(&cases, looks))?;
+        let scans = self.scan.run(cases.len(), |points| self.respond(&cases, points))?;
         let (mut stripes, mut capacities) = (Vec::new(), Vec::new());
         for (case, responses) in cases.iter().zip(&scans) {
             let is_level = |response: &&ScanResponse| {
@@ -83,15 +83,16 @@ impl Ida {
         })
     }
 
-    /// The responses to scaled copies of the samples, as many at once as fit.
-    fn respond(&self, cases: &[Case], looks: &[Look]) -> Result<Vec<Response>, TableError> {
-        let mut responses = Vec::with_capacity(looks.len());
-        let mut rest = looks;
+    /// Simulates scaled copies of the samples, as many at once as fit.
+    fn respond(&self, cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableError> {
+        let mut responses = Vec::with_capacity(points.len());
+        let mut rest = points;
         while !rest.is_empty() {
-            let (block, later) = rest.split_at(block(rest.iter().map(|look| cases[look.case].samples.len())));
-            let scaled: Vec<Vec<f64>> = block.iter().map(|look| cases[look.case].scaled(look)).collect();
-            let problems = block.iter().zip(&scaled).map(|(look, samples)| {
-                let Case { path, structure, motion, .. } = &cases[look.case];
+            let (block, later) =
+                rest.split_at(block(rest.iter().map(|point| cases[point.case].samples.len())));
+            let scaled: Vec<Vec<f64>> = block.iter().map(|point| cases[point.case].scaled(point)).collect();
+            let problems = block.iter().zip(&scaled).map(|(point, samples)| {
+                let Case { path, structure, motion, .. } = &cases[point.case];
                 let refused = |problem: RecordError| {
                     let id = &motion.motion_id;
                     let problem =
@@ -120,8 +121,8 @@ impl Ida {
 }
 
 impl Case<'_, '_> {
-    fn scaled(&self, look: &Look) -> Vec<f64> {
-        let factor = look.intensity / self.unscaled;
+    fn scaled(&self, point: &ScanPoint) -> Vec<f64> {
+        let factor = point.intensity / self.unscaled;
         self.samples.iter().map(|sample| factor * sample).collect()
     }
 }

@@ -6,7 +6,7 @@ use crate::fragility::demand::Form;
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
-use crate::report::material::{Curve, Group, Model, Planes, Regression};
+use crate::report::data::{Curve, Group, Model, Planes, Regression};
 use crate::stages::fits::{FitFiles, FitsOptions, ModelForm};
 use crate::table::fits::{self, FitRow};
 use crate::table::schema;

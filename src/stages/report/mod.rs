@@ -28,7 +28,7 @@ use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{check, defaults};
 use crate::pipeline::stage::Stage;
-use crate::report::material::{File, Material};
+use crate::report::data::{File, ReportData};
 use crate::report::{ALL, Draw, Figure, Page, Place, page, png, svg};
 use crate::table::TableError;
 use crate::table::footer::footer;
@@ -112,30 +112,30 @@ impl Report {
         places.into_iter().filter(|(role, path)| *role == RESPONSES || path.is_file()).collect()
     }
 
-    fn material(&self, console: &Console) -> anyhow::Result<Material> {
+    fn read_data(&self, console: &Console) -> anyhow::Result<ReportData> {
         let inputs = self.there();
         let there =
             |role: &str| inputs.iter().find(|(other, _)| *other == role).map(|(_, path)| path.as_path());
         let (mut groups, left_out) =
             responses::read(&self.folder.join(Simulate::OUTPUT.file), &self.options)?;
-        let mut material = Material { left_out, ..Material::default() };
+        let mut data = ReportData { left_out, ..ReportData::default() };
         if let Some(pex) = there("pex") {
-            material.limit = fits::add_regressions(pex, &mut groups)?;
+            data.limit = fits::add_regressions(pex, &mut groups)?;
         }
         if let Some(pro) = there("pro") {
             fits::add_curves(pro, &mut groups, console)?;
         }
         if let (Some(pex), Some(pro)) = (there("pex"), there("pro")) {
-            material.models = fits::models(pex, pro, &groups);
+            data.models = fits::models(pex, pro, &groups);
         }
         if let Some(path) = there("motions") {
             let structures = motions::structures(&groups);
-            (material.motions, material.parts) = motions::read(path, &structures, self.options.motions)?;
+            (data.motions, data.parts) = motions::read(path, &structures, self.options.motions)?;
         }
-        material.tables = tables::read(&inputs)?;
-        material.files = inputs.iter().map(|(_, path)| file(path)).collect::<Result<_, TableError>>()?;
-        material.groups = groups;
-        Ok(material)
+        data.tables = tables::read(&inputs)?;
+        data.files = inputs.iter().map(|(_, path)| file(path)).collect::<Result<_, TableError>>()?;
+        data.groups = groups;
+        Ok(data)
     }
 
     /// The folder of the figures.
@@ -233,10 +233,10 @@ impl Stage for Report {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let material = self.material(console)?;
+        let data = self.read_data(console)?;
         provenance.expect_unchanged()?;
-        let mut figures: Vec<Figure> = ALL.par_iter().flat_map_iter(|draw: &Draw| draw(&material)).collect();
-        finish(&mut figures, &material.made());
+        let mut figures: Vec<Figure> = ALL.par_iter().flat_map_iter(|draw: &Draw| draw(&data)).collect();
+        finish(&mut figures, &data.made());
         let folder = self.figures();
         std::fs::create_dir_all(&folder).map_err(|source| TableError::io(&folder, source))?;
         figures.par_iter().try_for_each(|figure| -> anyhow::Result<()> {
@@ -246,7 +246,7 @@ impl Stage for Report {
         })?;
         let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let stamp = stamp::words(provenance);
-        let html = page(&material, Page { figures: &figures, folder: &name, stamp: &stamp });
+        let html = page(&data, Page { figures: &figures, folder: &name, provenance: &stamp });
         text_file::write(&self.out, &html)?;
         let (count, megabytes) = (figures.len(), html.len() as f64 / 1e6);
         Ok(format!("{count} figures, and a page of {megabytes:.1} MB to open: {}", self.out.display()))

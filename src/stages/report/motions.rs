@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::keyword::Keyword;
 use crate::motion::Suite;
-use crate::report::material::{Group, Motion, Parts, Trace};
+use crate::report::data::{Group, Motion, Parts, Trace};
 use crate::rocking::{Record, Structure, trace};
 use crate::table::TableError;
 use crate::table::motion_table::MotionTable;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use super::ReportOptions;
 use crate::fragility::Case;
 use crate::pipeline::UsageError;
-use crate::report::material::{Group, Seen};
+use crate::report::data::{Group, ReportResponse};
 use crate::table::reader::Batches;
 use crate::table::responses::{RESPONSES, ResponseCase};
 use crate::table::row::{ReadRow, Row};
@@ -47,7 +47,12 @@ impl Sorted {
     fn add(&mut self, row: &ResponseCase, options: &ReportOptions) {
         let Some(group) = self.group(row, options) else { return };
         let case = Case { outcome: row.outcome, edp: row.edp, measures: row.measures() };
-        group.responses.push(Seen { case, pga_m_s2: row.pga_m_s2, pgv_m_s: row.pgv_m_s, tp_s: row.tp_s });
+        group.responses.push(ReportResponse {
+            case,
+            pga_m_s2: row.pga_m_s2,
+            pgv_m_s: row.pgv_m_s,
+            tp_s: row.tp_s,
+        });
     }
 
     /// The group of a response, if it is to be shown.

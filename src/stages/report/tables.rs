@@ -6,7 +6,7 @@ use arrow_schema::DataType;
 
 use crate::fragility::demand::Form;
 use crate::keyword::Keyword;
-use crate::report::material::{Column, Table};
+use crate::report::data::{Column, Table};
 use crate::table::TableError;
 use crate::table::reader::read_any;
 use crate::table::schema;

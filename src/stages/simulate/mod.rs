@@ -120,7 +120,7 @@ impl Simulate {
                 theta_dot_rad_s: point.theta_dot_rad_s,
                 theta_over_alpha: point.theta_rad / structure.alpha_rad,
                 ground_m_s2: record.acceleration_at(point.time_s),
-                solver_event: point.event,
+                solver_event: point.solver_event,
             }));
         }
         let rows = TraceRow::batch_in(&rows, &schema_of(&TRACE, by_name))?;

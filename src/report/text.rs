@@ -1,43 +1,38 @@
-//! Words of figures and pages: italics, subscripts and superscripts.
+//! Text of figures and pages: labels with italics and subscripts, escapes, and numbers.
 
 use super::font::Face;
 
-/// A text of runs in one style each.
+/// A text in several styles.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Label {
-    /// The runs in order.
     pub runs: Vec<Run>,
 }
 
 /// Words in one style.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// The words.
     pub words: String,
-    /// The font.
     pub face: Face,
-    /// Where they stand.
     pub level: Level,
 }
 
-/// Where a run stands.
+/// The height of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Level {
-    /// On the line.
     Line,
-    /// Small, below it.
+    /// Small, below the line.
     Sub,
-    /// Small, above it.
+    /// Small, above the line.
     Super,
 }
 
 impl Level {
-    /// Size over that of the line.
+    /// Returns the size over that of the line.
     pub fn scale(self) -> f64 {
         if self == Level::Line { 1.0 } else { 0.72 }
     }
 
-    /// How far the baseline lies below that of the line, over the size of the line.
+    /// Returns how far the baseline lies below that of the line, over the size of the line.
     pub fn drop(self) -> f64 {
         match self {
             Level::Line => 0.0,
@@ -48,12 +43,12 @@ impl Level {
 }
 
 impl Label {
-    /// Words as they stand, such as names out of a file.
+    /// Takes words as they are, such as names out of a file.
     pub fn plain(words: impl Into<String>) -> Label {
         Label { runs: vec![Run { words: words.into(), face: Face::Regular, level: Level::Line }] }
     }
 
-    /// Marked text: `*p* PGV`, `*P*_{ex}`, `10^{-3}`. For what stands in the source, not for names out of files.
+    /// Parses marked text: `*p* PGV`, `*P*_{ex}`, `10^{-3}`. For what stands in the source, not for names out of files.
     pub fn marked(text: &str) -> Label {
         let (mut runs, mut face, mut level) = (Vec::new(), Face::Regular, Level::Line);
         let mut words = String::new();
@@ -81,13 +76,13 @@ impl Label {
         Label { runs }
     }
 
-    /// With another label after it.
+    /// Appends another label.
     pub fn then(mut self, other: Label) -> Label {
         self.runs.extend(other.runs);
         self
     }
 
-    /// In bold type, but for italics.
+    /// Sets all but italics in bold type.
     pub fn bold(mut self) -> Label {
         for run in self.runs.iter_mut().filter(|run| run.face == Face::Regular) {
             run.face = Face::SemiBold;
@@ -95,18 +90,17 @@ impl Label {
         self
     }
 
-    /// Whether it says nothing.
     pub fn is_empty(&self) -> bool {
         self.runs.iter().all(|run| run.words.is_empty())
     }
 
-    /// Width in this size.
+    /// Measures the width, points.
     pub fn width(&self, size: f64) -> f64 {
         self.runs.iter().map(|run| run.face.width(&run.words, size * run.level.scale())).sum()
     }
 }
 
-/// Text that stands in HTML, SVG or their attributes.
+/// Escapes text for HTML, SVG and their attributes.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -119,4 +113,61 @@ pub fn escape(text: &str) -> String {
         }
     }
     escaped
+}
+
+/// Writes numbers as short as a reader needs them.
+pub mod number {
+    /// Puts a true minus sign in place of the hyphen.
+    fn minus(text: String) -> String {
+        text.replace('-', "\u{2212}")
+    }
+
+    /// Writes a number with so many decimals.
+    pub fn fixed(value: f64, decimals: usize) -> String {
+        // Adding 0 turns -0 into 0.
+        minus(format!("{:.decimals$}", value + 0.0))
+    }
+
+    /// Writes a number without trailing zeros.
+    pub fn plain(value: f64) -> String {
+        let text = format!("{value:.6}");
+        minus(text.trim_end_matches('0').trim_end_matches('.').to_string())
+    }
+
+    /// Writes a power of ten, marked for a label.
+    pub fn power(value: f64) -> String {
+        format!("10^{{{}}}", fixed(value.log10().round(), 0))
+    }
+
+    /// Writes a number with three significant digits.
+    pub fn short(value: f64) -> String {
+        significant(value, 3)
+    }
+
+    /// Writes a number with so many significant digits.
+    pub fn significant(value: f64, digits: i32) -> String {
+        if value == 0.0 {
+            return "0".to_string();
+        }
+        if !value.is_finite() {
+            return "\u{2013}".to_string();
+        }
+        match value.abs().log10().floor() as i32 {
+            magnitude @ -4..6 => fixed(value, (digits - 1 - magnitude).max(0) as usize),
+            _ => minus(format!("{value:.*e}", (digits - 1).max(0) as usize)),
+        }
+    }
+
+    /// Writes a count, its thousands apart.
+    pub fn count(value: usize) -> String {
+        let digits = value.to_string();
+        let mut text = String::new();
+        for (place, digit) in digits.chars().enumerate() {
+            if place > 0 && digits.len() > 4 && (digits.len() - place).is_multiple_of(3) {
+                text.push('\u{a0}');
+            }
+            text.push(digit);
+        }
+        text
+    }
 }

@@ -1,27 +1,26 @@
-//! What a report is made of: responses, the fits to them, motions and where they all come from.
+//! The data of a report: responses, the fits to them, motions, and the files they come from.
 
 use serde_json::Value;
 
-use super::label::Label;
+use super::text::Label;
 use crate::fragility::{Case, DemandLaw, FragilityModel, Measure, Predictor};
 use crate::rocking::{Outcome, Structure, TracePoint};
 
-/// All of it.
+/// The data of a report.
 #[derive(Debug, Clone, Default)]
-pub struct Material {
+pub struct ReportData {
     /// The responses that the figures show, by suite and structure.
     pub groups: Vec<Group>,
-    /// How many further suites and structures the file holds.
+    /// Number of further pairs of suite and structure in the file.
     pub left_out: usize,
-    /// The demand |theta|max / alpha that P_ex is about, if there are regressions.
+    /// Limit state of P_ex, |theta|max / alpha, if there are regressions.
     pub limit: Option<f64>,
     /// Joined fits, for the calculator.
     pub models: Vec<Model>,
-    /// Some motions, and what structures do in them.
+    /// Some motions, and the responses to them over time.
     pub motions: Vec<Motion>,
-    /// A motion with its parts.
+    /// A combined motion and its pulse.
     pub parts: Option<Parts>,
-    /// Tables as they stand in files.
     pub tables: Vec<Table>,
     /// The files, in the order of the pipeline.
     pub files: Vec<File>,
@@ -30,24 +29,19 @@ pub struct Material {
 /// The responses of one structure to one suite.
 #[derive(Debug, Clone)]
 pub struct Group {
-    /// The suite, if it has a name.
     pub suite: Option<String>,
-    /// The structure.
     pub structure: Structure,
-    /// Its responses.
-    pub responses: Vec<Seen>,
-    /// Regressions of the demand on one measure, of those of Eq. 13 that have one.
+    pub responses: Vec<ReportResponse>,
+    /// Regressions of the demand on one measure of Eq. 13 each.
     pub univariate: Vec<Regression>,
     /// The two planes: below the transition and from there on.
     pub planes: Option<Planes>,
-    /// Curves of overturning.
     pub curves: Vec<Curve>,
 }
 
-/// A response and the peaks of its motion.
+/// A response with the peaks of its motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seen {
-    /// Outcome, demand and measures.
+pub struct ReportResponse {
     pub case: Case,
     /// Peak ground acceleration, m/s2.
     pub pga_m_s2: f64,
@@ -60,47 +54,40 @@ pub struct Seen {
 /// A regression of the demand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Regression {
-    /// ln EDP on ln IM.
     pub law: DemandLaw,
-    /// Coefficient of determination.
     pub r2: f64,
     /// Whether the demand rises with the measure.
     pub rises: bool,
 }
 
-/// Two regressions that meet.
+/// The two planes of the demand (Eqs. 17 and 18).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Planes {
-    /// The IM4 at which they meet.
+    /// IM4 at which they meet.
     pub transition: f64,
-    /// Below and from there on.
+    /// Planes below the transition and above it.
     pub sides: [Regression; 2],
 }
 
 /// A fragility curve of overturning, by the probit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curve {
-    /// Its index.
     pub index: Predictor,
 }
 
 /// Fits joined into the tree of Eq. 12.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
-    /// Suite, if it has a name.
     pub suite: Option<String>,
-    /// Structure that was simulated.
     pub structure: String,
-    /// `bivariate`, or the one measure.
+    /// `bivariate`, or the name of the one measure.
     pub form: String,
-    /// The fits.
     pub fits: FragilityModel,
 }
 
-/// A motion and what structures do in it.
+/// A motion and the responses of structures to it over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    /// What it is called.
     pub name: String,
     /// Magnitude, distance and period in words, as far as known.
     pub words: String,
@@ -108,27 +95,22 @@ pub struct Motion {
     pub dt_s: f64,
     /// Ground acceleration, m/s2.
     pub acceleration_m_s2: Vec<f64>,
-    /// What the structures do.
     pub traces: Vec<Trace>,
 }
 
 /// The response of a structure over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// Which structure.
     pub structure: String,
-    /// Its slenderness, rad.
     pub alpha_rad: f64,
-    /// How it ends.
     pub outcome: Outcome,
-    /// Samples and events.
     pub points: Vec<TracePoint>,
 }
 
 /// A combined motion and the pulse in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parts {
-    /// What is known of the earthquake.
+    /// Magnitude, distance and period in words, as far as known.
     pub words: String,
     /// Time between samples, s.
     pub dt_s: f64,
@@ -141,48 +123,40 @@ pub struct Parts {
 /// A table out of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// What it is about.
     pub title: String,
-    /// Name and description of each column, and whether it holds numbers.
     pub columns: Vec<Column>,
-    /// The cells of each row.
     pub rows: Vec<Vec<String>>,
-    /// How many further rows the file has.
+    /// Number of further rows in the file.
     pub left_out: usize,
 }
 
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Its name in the file.
     pub name: String,
-    /// What it holds.
     pub description: String,
-    /// Whether it holds numbers.
     pub numeric: bool,
 }
 
 /// A file of the run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct File {
-    /// Its name.
     pub name: String,
-    /// The stage that made it; another program's have none.
+    /// Stage that made it; none of another program.
     pub stage: Option<String>,
     /// Version of rockfrag that made it.
     pub version: String,
     /// Options of the stage.
     pub parameters: Value,
-    /// Fingerprint of what it holds.
+    /// Fingerprint of its content.
     pub content: String,
-    /// Its rows.
     pub rows: usize,
 }
 
-/// Letters of a name that fit above a panel.
+/// Number of letters of a name that fit above a panel.
 const LONGEST_NAME: usize = 44;
 
-/// Options that a caption names where a file has them.
+/// Options that a caption names.
 const NAMED: [&str; 12] = [
     "seed",
     "design",
@@ -198,8 +172,8 @@ const NAMED: [&str; 12] = [
     "estimator",
 ];
 
-impl Material {
-    /// What was run, in a sentence: version, seed and options.
+impl ReportData {
+    /// Says in a sentence what made the files: version, seed and options.
     pub fn made(&self) -> String {
         let mut versions: Vec<&str> = self.files.iter().map(|file| file.version.as_str()).collect();
         versions.retain(|version| !version.is_empty());
@@ -228,7 +202,7 @@ impl Material {
 }
 
 impl Group {
-    /// Its name in titles, cut where it is too long for them.
+    /// Names the group in titles, cut to their width.
     pub fn name(&self) -> String {
         let name = match &self.suite {
             Some(suite) => format!("{}, {suite}", self.structure.name),
@@ -240,34 +214,34 @@ impl Group {
         name.chars().take(LONGEST_NAME - 1).chain(['\u{2026}']).collect()
     }
 
-    /// Responses that rocked, and whether they overturned.
-    pub fn rocked(&self) -> impl Iterator<Item = (&Seen, bool)> {
-        let rocked = self.responses.iter().filter(|seen| seen.case.outcome != Outcome::NoRocking);
-        rocked.map(|seen| (seen, seen.case.outcome == Outcome::Overturning))
+    /// Iterates over the responses that rocked, and whether they overturned.
+    pub fn rocked(&self) -> impl Iterator<Item = (&ReportResponse, bool)> {
+        let rocked = self.responses.iter().filter(|response| response.case.outcome != Outcome::NoRocking);
+        rocked.map(|response| (response, response.case.outcome == Outcome::Overturning))
     }
 
-    /// Responses that rocked and came back, with a demand that has a logarithm.
-    pub fn safe(&self) -> impl Iterator<Item = &Seen> {
-        self.responses.iter().filter(|seen| seen.case.has_demand())
+    /// Iterates over the responses that rocked and came back, with a demand that has a logarithm.
+    pub fn safe(&self) -> impl Iterator<Item = &ReportResponse> {
+        self.responses.iter().filter(|response| response.case.has_demand())
     }
 
-    /// How many responses have this outcome.
+    /// Counts the responses of an outcome.
     pub fn count(&self, outcome: Outcome) -> usize {
-        self.responses.iter().filter(|seen| seen.case.outcome == outcome).count()
+        self.responses.iter().filter(|response| response.case.outcome == outcome).count()
     }
 
-    /// The regression on one measure.
+    /// Finds the regression on one measure.
     pub fn on(&self, measure: Measure) -> Option<&Regression> {
         self.univariate.iter().find(|regression| regression.law.ln_median.im_x == measure)
     }
 
-    /// The curve over these measures.
+    /// Finds the curve over these measures.
     pub fn curve(&self, im_x: Measure, im_y: Option<Measure>) -> Option<&Curve> {
         self.curves.iter().find(|curve| (curve.index.im_x, curve.index.im_y) == (im_x, im_y))
     }
 }
 
-/// A measure on an axis or in a legend.
+/// Labels a measure on an axis or in a legend.
 pub fn measure_label(measure: Measure) -> Label {
     Label::marked(match measure {
         Measure::Im1 => "*ω*_{p} / *p*",
@@ -280,7 +254,7 @@ pub fn measure_label(measure: Measure) -> Label {
     })
 }
 
-/// The demand on an axis.
+/// Labels the demand on an axis.
 pub fn demand_label() -> Label {
     Label::marked("|*θ*|_{max} / *α*")
 }

@@ -1,33 +1,33 @@
-//! What the scripts of the page work on, as JSON.
+//! The data of the page's scripts, as JSON.
 
+use base64::prelude::{BASE64_STANDARD, Engine};
 use serde_json::{Value, json};
 
-use super::base64::base64;
 use crate::fragility::{DemandLaw, DemandModel, Measure, Predictor};
 use crate::keyword::Keyword;
 use crate::motion::intensity::velocity;
-use crate::report::envelope::{Envelope, envelope};
-use crate::report::material::{Group, Material, Model, Motion, Planes, Trace};
-use crate::rocking::{Event, Structure};
+use crate::report::data::{Group, Model, Motion, Planes, ReportData, Trace};
+use crate::report::figure::{Envelope, envelope};
+use crate::rocking::{SolverEvent, Structure};
 use crate::units::G_M_S2;
 
-/// The largest whole number of sixteen bits.
+/// Largest integer of sixteen bits.
 const LARGEST: f64 = 32767.0;
-/// The most values that a series is drawn with.
+/// Upper bound of the values of a series.
 const MOST_VALUES: usize = 3000;
-/// The most points of a cloud in space.
+/// Upper bound of the points of a cloud in space.
 const MOST_IN_SPACE: usize = 2500;
 
-/// All of it. `<` is escaped, so that no name can end the script.
-pub fn json(material: &Material) -> String {
-    let data = json!({
+/// Writes all data. `<` is escaped, so that no name can end the script.
+pub fn json(data: &ReportData) -> String {
+    let all = json!({
         "g": G_M_S2,
-        "structures": material.groups.iter().map(structure).collect::<Vec<_>>(),
-        "models": material.models.iter().map(model).collect::<Vec<_>>(),
-        "planes": material.groups.iter().filter_map(in_space).collect::<Vec<_>>(),
-        "motions": material.motions.iter().map(motion).collect::<Vec<_>>(),
+        "structures": data.groups.iter().map(structure).collect::<Vec<_>>(),
+        "models": data.models.iter().map(model).collect::<Vec<_>>(),
+        "planes": data.groups.iter().filter_map(in_space).collect::<Vec<_>>(),
+        "motions": data.motions.iter().map(motion).collect::<Vec<_>>(),
     });
-    data.to_string().replace('<', "\\u003c")
+    all.to_string().replace('<', "\\u003c")
 }
 
 fn structure(Group { structure, .. }: &Group) -> Value {
@@ -55,13 +55,15 @@ fn predictor(of: &Predictor) -> Value {
         "covariance": of.covariance, "ranges": of.ranges })
 }
 
-/// The cloud of a group in ln IM4, ln IM3 and ln EDP, and its two planes.
+/// Writes the cloud of a group in ln IM4, ln IM3 and ln EDP, and its two planes.
 fn in_space(group: &Group) -> Option<Value> {
     let Planes { transition, sides } = group.planes?;
     let [im_x, im_y] = [Measure::Im4, Measure::Im3];
     let points: Vec<[f64; 3]> = group
         .safe()
-        .filter_map(|seen| Some([im_x.of(&seen.case)?.ln(), im_y.of(&seen.case)?.ln(), seen.case.edp.ln()]))
+        .filter_map(|response| {
+            Some([im_x.of(&response.case)?.ln(), im_y.of(&response.case)?.ln(), response.case.edp.ln()])
+        })
         .collect();
     let every = points.len().div_ceil(MOST_IN_SPACE).max(1);
     let rounded = |number: f64| (number * 1000.0).round() / 1000.0;
@@ -81,21 +83,21 @@ fn motion(motion: &Motion) -> Value {
 fn trace(Trace { structure, alpha_rad, outcome, points }: &Trace, dt_s: f64) -> Value {
     let samples: Vec<f64> = points
         .iter()
-        .filter(|point| point.event.is_none())
+        .filter(|point| point.solver_event.is_none())
         .map(|point| point.theta_rad / alpha_rad)
         .collect();
-    let impacts = points.iter().filter(|point| point.event == Some(Event::Impact));
+    let impacts = points.iter().filter(|point| point.solver_event == Some(SolverEvent::Impact));
     let impacts: Vec<f64> = impacts.map(|point| (point.time_s * 1000.0).round() / 1000.0).collect();
     json!({ "structure": structure, "outcome": outcome.as_str().replace('_', " "),
         "theta": series(&samples, dt_s), "impacts": impacts })
 }
 
-/// A series in sixteen bits a value, cut down where it is long.
+/// Encodes a series in sixteen bits a value, cut down where it is long.
 fn series(values: &[f64], dt_s: f64) -> Value {
     let Envelope { each, values } = envelope(values, MOST_VALUES);
     let peak = values.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));
     let unit = if peak > 0.0 { peak / LARGEST } else { 1.0 };
     let bytes: Vec<u8> =
         values.iter().flat_map(|value| ((value / unit).round() as i16).to_le_bytes()).collect();
-    json!({ "step": each as f64 * dt_s, "unit": unit, "values": base64(&bytes) })
+    json!({ "step": each as f64 * dt_s, "unit": unit, "values": BASE64_STANDARD.encode(&bytes) })
 }

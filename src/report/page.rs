@@ -1,48 +1,44 @@
 //! One HTML page that needs nothing else: style, fonts, scripts, figures and data stand in it.
 
-mod base64;
-mod data;
-mod tables;
-
 use std::fmt::Write;
 
+use base64::prelude::{BASE64_STANDARD, Engine};
+
+use super::data::{File, ReportData, Table};
 use super::figure::Figure;
 use super::font::Face;
-use super::label::escape;
-use super::material::{File, Material};
-use super::number;
+use super::page_data;
 use super::svg::{Place, svg};
-use base64::base64;
+use super::text::{escape, number};
 
-const STYLE: &str = include_str!("../assets/page.css");
-const PLOT_STYLE: &str = include_str!("../assets/uPlot.min.css");
-const PLOT_LICENSE: &str = include_str!("../assets/uPlot.LICENSE");
+const STYLE: &str = include_str!("assets/page.css");
+const PLOT_STYLE: &str = include_str!("assets/uPlot.min.css");
+const PLOT_LICENSE: &str = include_str!("assets/uPlot.LICENSE");
 const SCRIPTS: [&str; 6] = [
-    include_str!("../assets/uPlot.iife.min.js"),
-    include_str!("../assets/normal.js"),
-    include_str!("../assets/fragility.js"),
-    include_str!("../assets/calculator.js"),
-    include_str!("../assets/planes.js"),
-    include_str!("../assets/motions.js"),
+    include_str!("assets/uPlot.iife.min.js"),
+    include_str!("assets/normal.js"),
+    include_str!("assets/fragility.js"),
+    include_str!("assets/calculator.js"),
+    include_str!("assets/planes.js"),
+    include_str!("assets/motions.js"),
 ];
 
-/// What a page says of itself besides the material.
+/// What a page holds besides the data of the report.
 #[derive(Debug, Clone, Copy)]
 pub struct Page<'a> {
-    /// The figures in order.
     pub figures: &'a [Figure],
-    /// The folder of their files, as a link from the page.
+    /// Folder of the figures' files, as a link from the page.
     pub folder: &'a str,
-    /// What made the page, for whoever asks whether it is up to date: a JSON object.
-    pub stamp: &'a str,
+    /// Provenance as a JSON object: tells whether the page is up to date.
+    pub provenance: &'a str,
 }
 
-/// The page.
-pub fn page(material: &Material, Page { figures, folder, stamp }: Page) -> String {
+/// Writes the page.
+pub fn page(data: &ReportData, Page { figures, folder, provenance }: Page) -> String {
     let mut html = String::with_capacity(1 << 20);
     html.push_str("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
     // Read back by the stage: it must stay near the start.
-    let _ = writeln!(html, "<meta name=\"rockfrag\" content=\"{}\">", escape(stamp));
+    let _ = writeln!(html, "<meta name=\"rockfrag\" content=\"{}\">", escape(provenance));
     html.push_str("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
     html.push_str(
         "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Rocking fragility report</title>\n",
@@ -52,28 +48,29 @@ pub fn page(material: &Material, Page { figures, folder, stamp }: Page) -> Strin
         let _ = writeln!(
             html,
             "@font-face{{font-family:\"Fira Sans\";font-weight:{style};src:url(data:font/ttf;base64,{})}}",
-            base64(face.file())
+            BASE64_STANDARD.encode(face.file())
         );
     }
     html.push_str(PLOT_STYLE);
     html.push_str(STYLE);
     html.push_str("</style>\n</head>\n<body>\n");
-    header(&mut html, material);
+    header(&mut html, data);
     html.push_str("<main>\n");
-    if !material.models.is_empty() {
-        html.push_str(include_str!("../assets/calculator.html"));
+    if !data.models.is_empty() {
+        html.push_str(include_str!("assets/calculator.html"));
     }
     section_of_figures(&mut html, figures, folder);
-    if material.groups.iter().any(|group| group.planes.is_some()) {
-        html.push_str(include_str!("../assets/planes.html"));
+    if data.groups.iter().any(|group| group.planes.is_some()) {
+        html.push_str(include_str!("assets/planes.html"));
     }
-    if !material.motions.is_empty() {
-        html.push_str(include_str!("../assets/motions.html"));
+    if !data.motions.is_empty() {
+        html.push_str(include_str!("assets/motions.html"));
     }
-    tables::section(&mut html, &material.tables);
-    section_of_files(&mut html, &material.files);
+    section_of_tables(&mut html, &data.tables);
+    section_of_files(&mut html, &data.files);
     html.push_str("</main>\n");
-    let _ = writeln!(html, "<script type=\"application/json\" id=\"data\">{}</script>", data::json(material));
+    let _ =
+        writeln!(html, "<script type=\"application/json\" id=\"data\">{}</script>", page_data::json(data));
     let _ = writeln!(html, "<!-- uPlot:\n{PLOT_LICENSE}-->");
     for script in SCRIPTS {
         let _ = writeln!(html, "<script>\n{script}</script>");
@@ -82,16 +79,15 @@ pub fn page(material: &Material, Page { figures, folder, stamp }: Page) -> Strin
     html
 }
 
-fn header(html: &mut String, material: &Material) {
+fn header(html: &mut String, data: &ReportData) {
     html.push_str(
         "<a class=\"skip\" href=\"#figures\">Skip to the figures</a>\n<header>\n<h1>Rocking fragility</h1>\n",
     );
-    let responses: usize = material.groups.iter().map(|group| group.responses.len()).sum();
-    let mut suites: Vec<&str> = material.groups.iter().filter_map(|group| group.suite.as_deref()).collect();
+    let responses: usize = data.groups.iter().map(|group| group.responses.len()).sum();
+    let mut suites: Vec<&str> = data.groups.iter().filter_map(|group| group.suite.as_deref()).collect();
     suites.sort_unstable();
     suites.dedup();
-    let mut structures: Vec<&str> =
-        material.groups.iter().map(|group| group.structure.name.as_str()).collect();
+    let mut structures: Vec<&str> = data.groups.iter().map(|group| group.structure.name.as_str()).collect();
     structures.dedup();
     let of_suites =
         if suites.is_empty() { String::new() } else { format!(" to motions of {}", suites.join(", ")) };
@@ -102,20 +98,20 @@ fn header(html: &mut String, material: &Material) {
         escape(&structures.join(", ")),
         escape(&of_suites)
     );
-    if material.left_out > 0 {
+    if data.left_out > 0 {
         let _ = writeln!(
             html,
             "<p>{} further pairs of suite and structure in the file are not shown; --suite and --structure choose others.</p>",
-            number::count(material.left_out)
+            number::count(data.left_out)
         );
     }
     html.push_str("<nav aria-label=\"Sections\"><ul>");
     let sections = [
-        ("calculator", "Calculator", !material.models.is_empty()),
+        ("calculator", "Calculator", !data.models.is_empty()),
         ("figures", "Figures", true),
-        ("planes", "Planes in space", material.groups.iter().any(|group| group.planes.is_some())),
-        ("motions", "Motions", !material.motions.is_empty()),
-        ("tables", "Tables", !material.tables.is_empty()),
+        ("planes", "Planes in space", data.groups.iter().any(|group| group.planes.is_some())),
+        ("motions", "Motions", !data.motions.is_empty()),
+        ("tables", "Tables", !data.tables.is_empty()),
         ("files", "Files", true),
     ];
     for (id, words, _) in sections.into_iter().filter(|(.., there)| *there) {
@@ -169,4 +165,41 @@ fn section_of_files(html: &mut String, files: &[File]) {
         html.push_str("</dl></details>\n");
     }
     html.push_str("</section>\n");
+}
+
+fn section_of_tables(html: &mut String, tables: &[Table]) {
+    if tables.is_empty() {
+        return;
+    }
+    html.push_str("<section id=\"tables\"><h2>Tables</h2>\n");
+    for table in tables {
+        write_table(html, table);
+    }
+    html.push_str("</section>\n");
+}
+
+fn write_table(html: &mut String, Table { title, columns, rows, left_out }: &Table) {
+    let title = escape(title);
+    let _ = write!(
+        html,
+        "<h3>{title}</h3>\n<div class=\"table\" tabindex=\"0\" role=\"group\" aria-label=\"{title}\"><table><thead><tr>"
+    );
+    let class = |numeric: bool| if numeric { " class=\"number\"" } else { "" };
+    for column in columns {
+        let (name, description) = (escape(&column.name), escape(&column.description));
+        let _ =
+            write!(html, "<th scope=\"col\" title=\"{description}\"{}>{name}</th>", class(column.numeric));
+    }
+    html.push_str("</tr></thead><tbody>\n");
+    for row in rows {
+        html.push_str("<tr>");
+        for (cell, column) in row.iter().zip(columns) {
+            let _ = write!(html, "<td{}>{}</td>", class(column.numeric), escape(cell));
+        }
+        html.push_str("</tr>\n");
+    }
+    html.push_str("</tbody></table></div>\n");
+    if *left_out > 0 {
+        let _ = writeln!(html, "<p>{} further rows are in the file.</p>", number::count(*left_out));
+    }
 }
