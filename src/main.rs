@@ -5,7 +5,7 @@ mod allocator;
 use std::process::ExitCode;
 
 use rockfrag::pipeline::UsageError;
-use rockfrag::table::guarded::quiet_damage;
+use rockfrag::table::store::guarded::quiet_damage;
 
 fn main() -> ExitCode {
     allocator::keep_freed_buffers();

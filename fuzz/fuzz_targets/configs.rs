@@ -5,9 +5,10 @@ use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
 use rockfrag::stages::registry::Config;
-use rockfrag::stages::structures::Structures;
+use rockfrag::stages::shared::structures::Structures;
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
-use rockfrag::table::{hazard, paper};
+use rockfrag::stages::evaluate::hazard;
+use rockfrag::table::paper;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&first, text)) = bytes.split_first() else { return };

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Once;
 
 use libfuzzer_sys::fuzz_target;
-use rockfrag::table::guarded::quiet_damage;
+use rockfrag::table::store::guarded::quiet_damage;
 
 static START: Once = Once::new();
 

@@ -9,7 +9,7 @@
 //! ```
 
 use pyo3::prelude::*;
-use rockfrag::table::guarded::quiet_damage;
+use rockfrag::table::store::guarded::quiet_damage;
 
 mod error;
 mod response;

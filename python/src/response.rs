@@ -7,7 +7,7 @@ use rockfrag::keyword::Keyword;
 use rockfrag::pipeline::UsageError;
 use rockfrag::pipeline::options::check;
 use rockfrag::rocking::{Record, RecordError, TracePoint, simulate, trace, with_tail};
-use rockfrag::stages::structures::StructureSpec;
+use rockfrag::stages::shared::structures::StructureSpec;
 
 use crate::error::to_python;
 

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use rockfrag::pipeline::{UsageError, cache};
 use rockfrag::stages::registry;
-use rockfrag::table::partition::Partition;
-use rockfrag::table::provenance::Provenance;
-use rockfrag::table::source::{Shelf, Source, Target};
+use rockfrag::table::store::partition::Partition;
+use rockfrag::table::store::provenance::Provenance;
+use rockfrag::table::store::source::{Shelf, Source, Target};
 
 use crate::error::to_python;
 use crate::run::{Settings, run};

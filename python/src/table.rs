@@ -11,7 +11,7 @@ use pyo3::types::{PyCapsule, PyDict};
 use pyo3_arrow::error::PyArrowResult;
 use pyo3_arrow::ffi::{ArrayIterator, to_schema_pycapsule, to_stream_pycapsule};
 use pyo3_arrow::input::AnyRecordBatch;
-use rockfrag::table::source::{MemoryTable, Shelf, Source};
+use rockfrag::table::store::source::{MemoryTable, Shelf, Source};
 
 /// A table that a stage has made. Any library that speaks the Arrow PyCapsule interface takes it without a copy:
 /// ``polars.DataFrame(table)``, ``pyarrow.table(table)``, ``duckdb.sql("from table_name")``.

@@ -9,7 +9,7 @@ use super::console::Console;
 use super::stage::{Stage, folder_of};
 use super::terminal::Weight;
 use crate::table::TableError;
-use crate::table::provenance::Provenance;
+use crate::table::store::provenance::Provenance;
 
 /// Whether a stage must run.
 #[derive(Debug, Clone, PartialEq, Eq)]

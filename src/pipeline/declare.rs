@@ -17,7 +17,7 @@ use serde_json::{Map, Value, json};
 
 use super::UsageError;
 use super::stage::{Stage, beside};
-use crate::table::source::{Source, Target};
+use crate::table::store::source::{Source, Target};
 
 /// Options of a stage: one struct serves the command line, pipeline.yaml and Python.
 pub trait StageOptions: Args + Serialize + DeserializeOwned + Default + Clone + fmt::Debug {

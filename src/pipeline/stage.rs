@@ -8,8 +8,9 @@ use serde_json::Value;
 use super::console::Console;
 use super::terminal::Terminal;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, Stamp, content_of, stamp};
-use crate::table::source::{Source, Target};
+use crate::table::store::contents::{content_of, stamp};
+use crate::table::store::provenance::{Provenance, Stamp};
+use crate::table::store::source::{Source, Target};
 
 /// A stage about to run: files in, parameters, files out.
 pub trait Stage {

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
-use super::groups::{self, Group};
+use super::shared::groups::{self, Group};
 use super::simulate::Simulate;
 use crate::fragility::{Plane, p_overturning, rms_difference};
 use crate::pipeline::console::Console;
@@ -18,9 +18,9 @@ use crate::pipeline::options::defaults;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
 use crate::table::paper::{self, PAPER, PaperRow, Published, SpreadRow};
-use crate::table::provenance::Provenance;
 use crate::table::row::WriteRow;
-use crate::table::source::{Source, Target};
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
 use crate::table::{pex::PexFrame, pro::ProFrame};
 
 /// Against which spread over seeds our numbers are held.

@@ -6,10 +6,10 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::chosen_fits::ChosenFits;
-use super::fits::{FIT_INPUTS, FitFiles, FitsOptions};
-use super::structure_options::StructureOptions;
-use super::structures::{StructureSpec, words};
+use super::shared::chosen_fits::ChosenFits;
+use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions};
+use super::shared::structure_options::StructureOptions;
+use super::shared::structures::{StructureSpec, words};
 use crate::export::{self, Function, Model, plain_id};
 use crate::fragility::{LimitState, Peak, Slice};
 use crate::keyword::keywords;
@@ -18,9 +18,10 @@ use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{Steps, Word, check, defaults};
 use crate::pipeline::stage::Stage;
-use crate::table::provenance::{Provenance, Stamp};
-use crate::table::source::{Source, Target};
-use crate::table::{TableError, text_file};
+use crate::table::TableError;
+use crate::table::store::provenance::{Provenance, Stamp};
+use crate::table::store::source::{Source, Target};
+use crate::table::store::text_file;
 
 /// For which program, and at which intensities.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]

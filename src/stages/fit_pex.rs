@@ -6,9 +6,9 @@ use clap::Args;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
-use super::groups::{self, Group};
+use super::shared::groups::{self, Group};
+use super::shared::uncertainty::uncertainty;
 use super::simulate::Simulate;
-use super::uncertainty::uncertainty;
 use crate::fragility::CaseGroup;
 use crate::fragility::demand::{Regression, RegressionOptions, ScanPoint};
 use crate::keyword::Keyword;
@@ -18,10 +18,10 @@ use crate::pipeline::options::{check, defaults, from_scalar};
 use crate::pipeline::stage::Stage;
 use crate::statistics::FitStatus;
 use crate::table::pex::{GroupRegression, PEX, PEX_BOOTSTRAP, PexReplicateRow, PexRow, ScanRow};
-use crate::table::provenance::Provenance;
 use crate::table::row::WriteRow;
-use crate::table::source::{Source, Target};
-use crate::table::writer::TableWriter;
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
+use crate::table::store::writer::TableWriter;
 
 /// How the demand is fitted.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]

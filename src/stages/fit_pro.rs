@@ -4,9 +4,9 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::groups::{self, Group};
+use super::shared::groups::{self, Group};
+use super::shared::uncertainty::uncertainty;
 use super::simulate::Simulate;
-use super::uncertainty::uncertainty;
 use crate::fragility::overturning::{Curve, CurveOptions, Pair};
 use crate::fragility::{CaseGroup, CurveModel, Event};
 use crate::keyword::Keyword;
@@ -16,10 +16,10 @@ use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::statistics::{Estimator, FitStatus, Link};
 use crate::table::pro::{GroupCurve, PRO, PRO_BOOTSTRAP, ProReplicateRow, ProRow};
-use crate::table::provenance::Provenance;
 use crate::table::row::WriteRow;
-use crate::table::source::{Source, Target};
-use crate::table::writer::TableWriter;
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
+use crate::table::store::writer::TableWriter;
 
 /// Which curves.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]

@@ -5,8 +5,10 @@ use std::path::Path;
 use arrow_schema::DataType;
 
 use crate::pipeline::terminal::{Terminal, Weight};
-use crate::table::footer::{Footer, footer};
-use crate::table::provenance::{Stamp, stamp};
+use crate::table::store::contents::footer;
+use crate::table::store::contents::stamp;
+use crate::table::store::footer::Footer;
+use crate::table::store::provenance::Stamp;
 
 /// A description of a Parquet file, ours or another's, as wide as the terminal.
 ///

@@ -12,31 +12,22 @@
 //! resampled_fits     the same in each resample
 //! ```
 
-pub mod chosen_fits;
 pub mod compare_paper;
 pub mod evaluate;
 pub mod export;
 pub mod fit_pex;
 pub mod fit_pro;
-pub mod fits;
-pub mod groups;
 pub mod ida;
 pub mod import_motions;
 pub mod inspect;
-pub mod measures;
-pub mod motions;
-pub mod partitions;
 pub mod rank_ims;
 pub mod registry;
 pub mod report;
-pub mod resampled_fits;
 pub mod run;
 pub mod sample_scenarios;
 pub mod seed_spread;
+pub mod shared;
 pub mod simulate;
-pub mod structure_options;
-pub mod structures;
 pub mod synthesize_motions;
-pub mod uncertainty;
 pub mod universality;
 pub mod validate;

@@ -25,8 +25,8 @@ use crate::pipeline::UsageError;
 use crate::pipeline::declare::{AnySection, Declare, Files, OUT, Section, command, description};
 use crate::pipeline::options::explain;
 use crate::pipeline::stage::{Stage, beside};
-use crate::table::source::{Source, Target};
-use crate::table::text_file;
+use crate::table::store::source::{Source, Target};
+use crate::table::store::text_file;
 
 macro_rules! stages {
     ($($key:ident: $stage:ty,)*) => {

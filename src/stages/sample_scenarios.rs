@@ -10,11 +10,11 @@ use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Output, StageOptions};
 use crate::pipeline::options::{DEFAULT_SEED, Steps, Word, check, defaults};
 use crate::pipeline::stage::Stage;
-use crate::table::provenance::Provenance;
 use crate::table::row::WriteRow;
 use crate::table::scenarios::{SCENARIOS, ScenarioRow};
-use crate::table::source::{Source, Target};
-use crate::table::writer::TableWriter;
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
+use crate::table::store::writer::TableWriter;
 
 /// Cells in a row group.
 const CELLS_AT_ONCE: usize = 64;

@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::chosen_fits::ChosenFits;
-use super::fits::{FIT_INPUTS, FitFiles, FitsOptions};
-use super::groups::{self, Group};
+use super::shared::chosen_fits::ChosenFits;
+use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions};
+use super::shared::groups::{self, Group};
 use super::simulate::Simulate;
 use crate::fragility::Event;
 use crate::keyword::Keyword;
@@ -13,9 +13,10 @@ use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
 use crate::studies::{Forecasts, Validation};
-use crate::table::provenance::{Provenance, stamp};
 use crate::table::row::WriteRow;
-use crate::table::source::{Source, Target};
+use crate::table::store::contents::stamp;
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
 use crate::table::validation::{self, VALIDATION, ValidationRow};
 
 /// The role that responses play here as in the fits.

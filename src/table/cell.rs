@@ -8,8 +8,8 @@ use arrow_array::{ArrayRef, Float64Array, Int32Array, Int64Array, StringArray};
 use arrow_schema::{DataType, Field};
 
 use super::TableError;
-use super::columns::{Columns, Samples};
 use super::schema::{Column, Kind, same};
+use super::store::columns::{Columns, Samples};
 use crate::keyword::{self, Keyword};
 
 /// The type of a field of a row: a value, or an `Option` of one where it may be missing.

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 
 use super::TableError;
-use super::columns::Columns;
 use super::pex::PEX;
 use super::pro::PRO;
-use super::reader::Batches;
 use super::schema::{self, Column, Kind, Table};
-use super::source::Source;
+use super::store::columns::Columns;
+use super::store::reader::Batches;
+use super::store::source::Source;
 use crate::fragility::{DemandLaw, Measure, Predictor};
 use crate::keyword::{self, Keyword};
 use crate::statistics::{FitStatus, Link};

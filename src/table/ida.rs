@@ -6,11 +6,11 @@ use arrow_array::RecordBatch;
 use arrow_schema::ArrowError;
 
 use super::motions::MotionId;
-use super::reader::{Batch, Batches};
 use super::responses::{RESPONSES, ResponseRow};
 use super::row::{WriteRow, schema_of, table};
 use super::schema::{Column, Table, joined};
-use super::text;
+use super::store::reader::{Batch, Batches};
+use super::store::text;
 use crate::fragility::CapacityFit;
 use crate::rocking::{Capacity, CapacityStatus, Structure};
 use crate::statistics::FitStatus;

@@ -3,10 +3,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::TableError;
-use super::columns::Columns;
-use super::reader::{Batch, Batches};
 use super::schema::{self, Column};
-use super::source::Source;
+use super::store::columns::Columns;
+use super::store::reader::{Batch, Batches};
+use super::store::source::Source;
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 

@@ -1,82 +1,33 @@
-//! The Parquet files that the stages hand on.
+//! The Parquet files that stages hand on: each table is declared once, as the struct of its rows.
 //!
 //! ```text
-//! schema       every column once: name, type, unit, words; every table as a list of columns (one file a subject)
-//! row          a table as the struct of its rows; cell the values of a field
-//! columns      the columns of one batch, by name, checked
-//! source       where a table is read from and written to: a path, or memory
-//! folder       a folder of files as one table; partition one of its parts
-//! footer       the end of a file, which says what is in it
-//! limits       what a file may ask of memory
-//! compact      the protocol in which files describe themselves; description the fields of which they do
-//! guarded      damage that stops the decoder
-//! table_file   one file, open at some columns; piece that or a table in memory
-//! row_group    some rows of one, column by column; lists the samples of them
-//! reader       batches from a table
-//! frame        narrow tables whole, as polars frames
-//! shared_file  a file that several threads read at once
-//! writer       batches to a file, written beside its name and renamed when whole
-//! fingerprint  the hash of what a file holds
-//! provenance   what made a file, in its metadata
-//! motion_table a motions file that several threads read; synthetic_motions what synthesize-motions writes
-//! scenarios, motions, records, responses, trace, pex, pro, paper
-//!              one file a table: its rows as Rust structs
-//! ranking      sets of intensity measures by how well they predict; ranking_verdict the same in words
-//! motion_measures  the measures of a motions file, without its samples
-//! fits         the rows of pex and pro files as the fits they hold
-//! intensities  any table with PGA and PGV, as evaluate takes it
-//! hazard       hazard curves and joint hazards, in CSV files
-//! evaluated    probabilities and annual rates: what evaluate answers
-//! ida          the same motions at rising intensity
-//! validation   forecasts beside what happened
-//! universality the curve of one structure on others, and curves of all
-//! text         any table as aligned text, CSV or JSON; text_file text files whole
+//! schema       the dictionary: every column once, with name, type, unit and meaning
+//! row          a table as the struct of its rows; cell what a field can hold
+//! store        reads and writes any table
+//! the others   one file a subject: its tables, and how the results of the science become rows
 //! ```
 
-mod cell;
-pub mod columns;
-mod compact;
-mod description;
+pub mod cell;
 pub mod evaluated;
-pub mod fingerprint;
 pub mod fits;
-pub mod folder;
-pub mod footer;
-pub mod frame;
-pub mod guarded;
-pub mod hazard;
 pub mod ida;
 pub mod intensities;
-mod limits;
-mod lists;
 pub mod motion_measures;
 pub mod motion_table;
 pub mod motions;
 pub mod paper;
-pub mod partition;
 pub mod pex;
-mod piece;
 pub mod pro;
-pub mod provenance;
 pub mod ranking;
-pub mod ranking_verdict;
-pub mod reader;
 pub mod records;
 pub mod responses;
 pub mod row;
-mod row_group;
 pub mod scenarios;
 pub mod schema;
-mod shared_file;
-pub mod source;
+pub mod store;
 pub mod synthetic_motions;
-mod table_file;
-pub mod text;
-pub mod text_file;
-pub mod trace;
 pub mod universality;
 pub mod validation;
-pub mod writer;
 
 use std::path::{Path, PathBuf};
 

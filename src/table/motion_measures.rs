@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 
 use super::TableError;
-use super::columns::Columns;
 use super::motions::STAGES;
-use super::reader::OpenTable;
 use super::schema::{self, Column};
-use super::source::Source;
+use super::store::columns::Columns;
+use super::store::reader::OpenTable;
+use super::store::source::Source;
 use crate::motion::Quantity;
 
 /// The measures besides the peaks and periods of Eq. 13, and what they are.

@@ -8,11 +8,11 @@ use arrow_schema::SchemaRef;
 
 use super::TableError;
 use super::motions::{Motion, MotionRow, STAGES, motions_of};
-use super::partition::Partition;
-use super::reader::{Batch, OpenTable, Run, expect_columns};
 use super::row::{Row, ids_are_names};
 use super::schema;
-use super::source::Source;
+use super::store::partition::Partition;
+use super::store::reader::{Batch, OpenTable, Run, expect_columns};
+use super::store::source::Source;
 
 /// The most motions of a part.
 const LARGEST_PART: usize = 128;

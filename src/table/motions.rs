@@ -7,15 +7,15 @@ use arrow_array::{ArrayRef, Int64Array, StringArray};
 
 use super::TableError;
 use super::cell::{Label, ReadValue, Value, WriteValue};
-use super::columns::{Columns, Samples};
-use super::provenance::Provenance;
-use super::reader::{Batch, Batches};
 use super::records::RECORDS;
 use super::row::{ReadRow, Row, schema_of, table};
 use super::schema::{self, Column, Kind};
-use super::source::{Source, Target};
+use super::store::columns::{Columns, Samples};
+use super::store::provenance::Provenance;
+use super::store::reader::{Batch, Batches};
+use super::store::source::{Source, Target};
+use super::store::writer::TableWriter;
 use super::synthetic_motions::MOTIONS;
-use super::writer::TableWriter;
 
 /// The stages whose output can stand as a motions file.
 pub(super) const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];

@@ -7,7 +7,7 @@ use anyhow::Context;
 use serde::{Deserialize, Serialize};
 
 use super::row::{ReadRow, table};
-use super::text_file;
+use super::store::text_file;
 
 /// The published transition between the two planes.
 pub const TRANSITION: f64 = 1.30;

@@ -4,10 +4,10 @@
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use super::TableError;
-use super::frame::read_frame;
 use super::row::table;
 use super::schema::{self, Column};
-use super::source::Source;
+use super::store::frame::read_frame;
+use super::store::source::Source;
 use crate::fragility::Measure;
 use crate::fragility::demand::{Form, Regression};
 use crate::keyword::Keyword;

@@ -1,11 +1,11 @@
-//! The responses file: one row a motion and structure.
+//! The files of simulate: one row a motion and structure, and one a moment of a traced response.
 
 use std::sync::Arc;
 
 use super::motions::MotionId;
 use super::row::table;
 use crate::motion::IntensityMeasures;
-use crate::rocking::{Outcome, Structure};
+use crate::rocking::{Outcome, SolverEvent, Structure};
 
 table! {
     /// Responses of structures to motions.
@@ -71,5 +71,19 @@ impl ResponseCase {
     pub fn structure(&self) -> Structure {
         let &ResponseCase { p_rad_s, alpha_rad, eta, .. } = self;
         Structure { name: self.structure.to_string(), p_rad_s, alpha_rad, eta }
+    }
+}
+
+table! {
+    /// Responses over time: one row a moment of a traced response.
+    pub struct TraceRow<'a> as TRACE = "trace" by "simulate" {
+        motion_id: &'a MotionId,
+        structure: &'a str,
+        time_s: f64,
+        theta_rad: f64,
+        theta_dot_rad_s: f64,
+        theta_over_alpha: f64,
+        ground_m_s2: f64,
+        solver_event: Option<SolverEvent>,
     }
 }

@@ -6,12 +6,12 @@ use arrow_array::{ArrayRef, RecordBatch};
 use arrow_schema::{ArrowError, Schema, SchemaRef};
 
 use super::TableError;
-use super::columns::Columns;
-use super::provenance::Provenance;
-use super::reader::Batches;
 use super::schema::{self, Table};
-use super::source::{Source, Target};
-use super::writer::TableWriter;
+use super::store::columns::Columns;
+use super::store::provenance::Provenance;
+use super::store::reader::Batches;
+use super::store::source::{Source, Target};
+use super::store::writer::TableWriter;
 
 /// The row of a table.
 pub trait Row: Sized {
@@ -166,7 +166,7 @@ macro_rules! table {
     };
     (@read $row:ident { $($(#[$about:meta])* $field:ident: $type:ty $(= $column:ident)?,)* }) => {
         impl $crate::table::row::ReadRow for $row {
-            fn of(columns: &$crate::table::columns::Columns) -> Result<Vec<Self>, $crate::table::TableError> {
+            fn of(columns: &$crate::table::store::columns::Columns) -> Result<Vec<Self>, $crate::table::TableError> {
                 use $crate::table::cell::ReadCell;
                 $(
                     let mut $field = <$type as ReadCell>::read(

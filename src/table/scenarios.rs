@@ -1,11 +1,11 @@
 //! The scenarios file: one row a scenario.
 
 use super::TableError;
-use super::columns::Columns;
-use super::reader::Batches;
 use super::row::{ReadRow, table};
 use super::schema;
-use super::source::Source;
+use super::store::columns::Columns;
+use super::store::reader::Batches;
+use super::store::source::Source;
 use crate::motion::Scenario;
 
 table! {

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use super::reader::{Batch, Batches, expect_columns};
 use super::row::table;
 use super::schema::{self, Column};
-use super::text;
+use super::store::reader::{Batch, Batches, expect_columns};
+use super::store::text;
 use crate::fragility::Event;
 use crate::studies::Validation;
 

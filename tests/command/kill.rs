@@ -26,7 +26,10 @@ fn a_killed_run_is_simply_run_again() {
         run.wait().unwrap();
         for name in ["scenarios", "motions", "responses", "pex", "pro", "paper"] {
             let path = folder.path().join(format!("out/{name}.parquet"));
-            assert!(!path.exists() || rockfrag::table::provenance::stamp(&path).unwrap().is_some(), "{name}");
+            assert!(
+                !path.exists() || rockfrag::table::store::contents::stamp(&path).unwrap().is_some(),
+                "{name}"
+            );
         }
     }
     succeed(folder.path(), "run");

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use rockfrag::table::fingerprint::Fingerprint;
+use rockfrag::table::store::fingerprint::Fingerprint;
 
 use crate::common::{content, fail, rockfrag, small_pipeline, succeed};
 

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use proptest::prelude::*;
+use rockfrag::stages::evaluate::hazard;
 use rockfrag::stages::registry::Config;
-use rockfrag::stages::structures::Structures;
+use rockfrag::stages::shared::structures::Structures;
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
-use rockfrag::table::{hazard, paper};
+use rockfrag::table::paper;
 
 const PIECES: [&str; 28] = [
     "seed: 1",

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
-use rockfrag::table::guarded::quiet_damage;
+use rockfrag::table::store::guarded::quiet_damage;
 
 use crate::readers::read_as_everything;
 

@@ -13,8 +13,8 @@ use parquet::basic::{Compression, Encoding, ZstdLevel};
 use parquet::file::properties::{WriterProperties, WriterVersion};
 use parquet::schema::types::ColumnPath;
 use proptest::prelude::*;
-use rockfrag::table::reader::OpenTable;
 use rockfrag::table::schema::{acceleration_m_s2, motion_id, tm_s};
+use rockfrag::table::store::reader::OpenTable;
 
 /// How a file holds its lists.
 #[derive(Debug, Clone)]

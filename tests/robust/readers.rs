@@ -4,22 +4,23 @@ use std::path::Path;
 
 use rockfrag::pipeline::terminal::Terminal;
 use rockfrag::rocking::Record;
-use rockfrag::stages::{groups, inspect::inspect};
+use rockfrag::stages::inspect::inspect;
+use rockfrag::stages::rank_ims::verdict as ranking_verdict;
+use rockfrag::stages::shared::groups;
 use rockfrag::table::intensities::IntensityBatches;
 use rockfrag::table::motion_measures::MotionMeasures;
 use rockfrag::table::motion_table::MotionTable;
 use rockfrag::table::motions::{Motion, MotionBatches};
 use rockfrag::table::row::ReadRow;
+use rockfrag::table::store::{contents, reader};
 use rockfrag::table::universality::{PooledRow, UniversalityRow};
-use rockfrag::table::{
-    TableError, fits, ida, paper, provenance, ranking_verdict, reader, scenarios, validation,
-};
+use rockfrag::table::{TableError, fits, ida, paper, scenarios, validation};
 
 /// Reads a file as each stage would, and gives what each made of it.
 pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)> {
     vec![
-        ("stamp", words(provenance::stamp(path))),
-        ("content", words(provenance::content_of(path))),
+        ("stamp", words(contents::stamp(path))),
+        ("content", words(contents::content_of(path))),
         ("inspect", words(inspect(path, &Terminal::PLAIN))),
         ("scenarios", words(scenarios::read(path))),
         ("motions", words(motions(path))),

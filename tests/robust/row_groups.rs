@@ -6,11 +6,11 @@ use std::sync::Arc;
 use arrow_array::{Float32Array, Int64Array, ListArray, RecordBatch};
 use arrow_buffer::OffsetBuffer;
 use arrow_schema::DataType;
-use rockfrag::table::footer::footer;
-use rockfrag::table::provenance::Provenance;
-use rockfrag::table::reader::{OpenTable, read_any};
 use rockfrag::table::schema::{Table, acceleration_m_s2, scenario_id};
-use rockfrag::table::writer::TableWriter;
+use rockfrag::table::store::contents::footer;
+use rockfrag::table::store::provenance::Provenance;
+use rockfrag::table::store::reader::{OpenTable, read_any};
+use rockfrag::table::store::writer::TableWriter;
 
 const NARROW: Table = Table { name: "scenarios", stage: "sample-scenarios", columns: &[scenario_id] };
 

@@ -1,8 +1,8 @@
 use arrow_array::RecordBatch;
 
-use super::Format;
+use super::options::Format;
 use crate::table::schema::Table;
-use crate::table::text;
+use crate::table::store::text;
 
 /// A short answer.
 pub struct Answer {

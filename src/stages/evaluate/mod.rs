@@ -1,163 +1,41 @@
 //! evaluate: probabilities at one intensity, at each of a table, or over the hazard of a site.
 
 mod answer;
+pub mod hazard;
+mod options;
 mod point;
 mod rates;
 mod table;
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use anyhow::Context;
-use clap::Args;
-use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use self::answer::Answer;
+use self::options::Format;
+pub use self::options::{EvaluateOptions, HazardOptions, LimitsBy, PointOptions};
 use self::table::EvaluatedTable;
-use super::chosen_fits::ChosenFits;
-use super::fits::{FIT_INPUTS, FitFiles, FitsOptions};
-use super::resampled_fits;
-use super::structure_options::StructureOptions;
-use super::structures::StructureSpec;
+use super::shared::chosen_fits::ChosenFits;
+use super::shared::fits::{FIT_INPUTS, FitFiles};
+use super::shared::resampled_fits;
+use super::shared::structures::StructureSpec;
 use crate::fragility::{ReplicateLimits, ResampledModel};
-use crate::keyword::{self, Keyword, keywords};
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
+use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::files::hash;
-use crate::pipeline::options::{Word, defaults};
+use crate::pipeline::options::Word;
 use crate::pipeline::stage::{Stage, beside};
 use crate::pipeline::terminal::Terminal;
+use crate::table::TableError;
 use crate::table::evaluated::EVALUATED;
-use crate::table::provenance::{Provenance, content_of};
-use crate::table::source::{Source, Target};
-use crate::table::writer::TableWriter;
-use crate::table::{TableError, text_file};
-
-/// What is asked, of which fits and structure.
-#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", default)]
-pub struct EvaluateOptions {
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub fits: FitsOptions,
-    /// delta (of the standard errors), or from the resamples of fit-pex and fit-pro --bootstrap: percentile, or bc (bias-corrected)
-    #[arg(long, default_value = "delta", help_heading = "Fits")]
-    pub limits: Word<LimitsBy>,
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub structure: StructureOptions,
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub point: PointOptions,
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub hazard: HazardOptions,
-    /// table (to read), csv, json, or parquet (with --out) [default: as --out ends, or table]
-    #[arg(long, help_heading = "Output")]
-    pub format: Option<Word<Format>>,
-}
-
-impl Default for EvaluateOptions {
-    fn default() -> Self {
-        defaults()
-    }
-}
-
-impl StageOptions for EvaluateOptions {
-    fn resolve_paths(&mut self, folder: &Path) {
-        self.structure.resolve_paths(folder);
-        if let Some(hazard) = &mut self.hazard.hazard {
-            *hazard = folder.join(&*hazard);
-        }
-    }
-}
-
-/// One intensity.
-#[derive(Debug, Clone, PartialEq, Default, Args, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", default)]
-#[command(next_help_heading = "One intensity")]
-pub struct PointOptions {
-    /// Peak ground acceleration, g
-    #[arg(long, value_name = "G", conflicts_with = "hazard")]
-    pub pga: Option<f64>,
-    /// Peak ground velocity, m/s
-    #[arg(long, value_name = "M/S", conflicts_with = "hazard")]
-    pub pgv: Option<f64>,
-    /// Period of the velocity pulse, s, where the measure needs it
-    #[arg(long, value_name = "S", conflicts_with = "hazard")]
-    pub tp: Option<f64>,
-    /// Mean period, s, where the measure needs it
-    #[arg(long, value_name = "S", conflicts_with = "hazard")]
-    pub tm: Option<f64>,
-}
-
-/// The hazard of a site.
-#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", default)]
-#[command(next_help_heading = "Hazard of a site")]
-pub struct HazardOptions {
-    /// CSV file: pga_g or pgv_m_s with annual_rate_of_exceedance, or both with annual_rate_of_occurrence
-    #[arg(long, value_name = "FILE")]
-    pub hazard: Option<PathBuf>,
-    /// p PGV / PGA of the motions, where the hazard knows one peak only
-    #[arg(long)]
-    pub ratio: Option<f64>,
-    /// Time of exposure, years
-    #[arg(long, default_value = "50")]
-    pub years: f64,
-}
-
-impl Default for HazardOptions {
-    fn default() -> Self {
-        defaults()
-    }
-}
-
-/// Where limits come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LimitsBy {
-    /// The standard errors of the fits.
-    Delta,
-    /// The fits of resampled cases.
-    Percentile,
-    /// The same, corrected for their bias.
-    BiasCorrected,
-}
-
-keywords!(LimitsBy { Delta = "delta", Percentile = "percentile", BiasCorrected = "bc" });
-
-/// How an answer is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// To read.
-    Table,
-    /// Comma-separated values.
-    Csv,
-    /// A list of objects.
-    Json,
-    /// As all files of the pipeline.
-    Parquet,
-}
-
-keywords!(Format { Table = "table", Csv = "csv", Json = "json", Parquet = "parquet" });
-
-impl Format {
-    /// The format of a file by how its name ends.
-    fn of(target: &Target) -> Format {
-        let ending = target.path().and_then(Path::extension).unwrap_or_default().to_string_lossy();
-        keyword::parse(&ending).unwrap_or(Format::Table)
-    }
-
-    fn ending(self) -> &'static str {
-        match self {
-            Format::Table => "txt",
-            other => other.as_str(),
-        }
-    }
-}
+use crate::table::store::contents::content_of;
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
+use crate::table::store::text_file;
+use crate::table::store::writer::TableWriter;
 
 /// The role of a table of intensities.
 const INTENSITIES: &str = "intensities";

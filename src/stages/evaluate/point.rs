@@ -1,13 +1,13 @@
-use super::PointOptions;
 use super::answer::Answer;
+use super::options::PointOptions;
 use crate::fragility::Probability;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::check;
 use crate::rocking::Structure;
-use crate::stages::chosen_fits::ChosenFits;
-use crate::stages::structures::words;
+use crate::stages::shared::chosen_fits::ChosenFits;
+use crate::stages::shared::structures::words;
 use crate::table::evaluated::{self, ANSWER, AnswerRow};
 use crate::table::schema::{self, Column};
 use crate::units::G_M_S2;

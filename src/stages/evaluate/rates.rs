@@ -1,7 +1,7 @@
 use std::path::Path;
 
-use super::HazardOptions;
 use super::answer::Answer;
+use super::options::HazardOptions;
 use crate::fragility::{FragilityModel, LimitState, Probability, Slice};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
@@ -10,10 +10,10 @@ use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::check;
 use crate::rocking::Structure;
-use crate::stages::chosen_fits::ChosenFits;
-use crate::stages::structures::words;
+use crate::stages::evaluate::hazard::{self, Hazard};
+use crate::stages::shared::chosen_fits::ChosenFits;
+use crate::stages::shared::structures::words;
 use crate::table::evaluated::{self, RATES, RateRow};
-use crate::table::hazard::{self, Hazard};
 use rayon::prelude::*;
 
 /// Value, lower and upper limit of each limit state in turn.

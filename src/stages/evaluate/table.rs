@@ -3,12 +3,12 @@ use rayon::prelude::*;
 use crate::pipeline::console::Console;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
-use crate::stages::chosen_fits::ChosenFits;
+use crate::stages::shared::chosen_fits::ChosenFits;
 use crate::table::evaluated::{self, EVALUATED, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
-use crate::table::provenance::Provenance;
-use crate::table::source::{Source, Target};
-use crate::table::writer::TableWriter;
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
+use crate::table::store::writer::TableWriter;
 
 /// Rows that are read at once, and written as a row group.
 const BATCH: usize = 16_384;

@@ -2,7 +2,7 @@
 
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
-use crate::stages::motions::Peaks;
+use crate::stages::shared::motions::Peaks;
 use crate::units::G_M_S2;
 
 /// A measure that grows with a motion in proportion.

@@ -20,8 +20,8 @@ use serde_json::{Value, json};
 
 use self::counts::Counts;
 pub use self::options::IdaOptions;
-use super::motions::DistinctIds;
-use super::structures::parameters;
+use super::shared::motions::DistinctIds;
+use super::shared::structures::parameters;
 use super::synthesize_motions::SynthesizeMotions;
 use crate::keyword::Keyword;
 use crate::motion::IntensityScratch;
@@ -34,10 +34,10 @@ use crate::rocking::{Scan, Simd, Structure};
 use crate::table::ida::{self, IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
-use crate::table::provenance::Provenance;
 use crate::table::schema::Table;
-use crate::table::source::{Source, Target};
-use crate::table::writer::TableWriter;
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
+use crate::table::store::writer::TableWriter;
 
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are bisected.
 const CHUNK: usize = 8;

@@ -9,8 +9,8 @@ use super::measure::ScaledMeasure;
 use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{Word, check, defaults};
 use crate::rocking::{Scan, Simd, Structure};
+use crate::stages::shared::structures::Structures;
 use crate::stages::simulate::SimulateOptions;
-use crate::stages::structures::Structures;
 
 /// Which structures, and the intensities at which they are simulated.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]

@@ -7,7 +7,7 @@ use crate::motion::{IntensityMeasures, IntensityScratch};
 use crate::rocking::{
     Capacity, Problem, Record, RecordError, Response, ScanPoint, ScanResponse, Structure, simulate_all,
 };
-use crate::stages::motions::{Peaks, record};
+use crate::stages::shared::motions::{Peaks, record};
 use crate::table::TableError;
 use crate::table::ida::{CapacityRow, StripeRow};
 use crate::table::motions::Motion;

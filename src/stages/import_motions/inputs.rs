@@ -12,7 +12,7 @@ use crate::records::processing::{NamedRecord, Refusal, SourceFile};
 use crate::records::{Format, Given, RecordedMotion, read};
 use crate::rocking::Record;
 use crate::table::motions::{Motion, MotionBatches};
-use crate::table::text_file;
+use crate::table::store::text_file;
 
 /// The largest text file that is read: ten million samples and more.
 const MOST_MIB: u64 = 512;

@@ -30,10 +30,10 @@ use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::records::processing::{Processing, Refusal, Scratch};
 use crate::records::signal::Scaling;
-use crate::table::provenance::Provenance;
 use crate::table::records::{self, RECORDS};
-use crate::table::source::{Source, Target};
-use crate::table::writer::TableWriter;
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
+use crate::table::store::writer::TableWriter;
 
 /// Motions in a row group.
 const ROW_GROUP: usize = 64;

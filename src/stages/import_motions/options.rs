@@ -14,7 +14,7 @@ use crate::records::processing::{Processing, PulseSearch};
 use crate::records::rotation::Direction;
 use crate::records::signal::{Baseline, HighPass, Scaling};
 use crate::records::{AccelerationUnit, ColumnChoice, Format, Given};
-use crate::stages::measures::measure_plan;
+use crate::stages::shared::measures::measure_plan;
 use crate::units::G_M_S2;
 
 /// Which records, and how they are read.

@@ -7,7 +7,7 @@ use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
 use crate::report::data::{Curve, Group, Model, Planes, Regression};
-use crate::stages::fits::{FitFiles, FitsOptions, ModelForm};
+use crate::stages::shared::fits::{FitFiles, FitsOptions, ModelForm};
 use crate::table::fits::{self, FitRow};
 use crate::table::schema;
 

@@ -31,10 +31,11 @@ use crate::pipeline::stage::Stage;
 use crate::report::data::{File, ReportData};
 use crate::report::{ALL, Draw, Figure, Page, Place, page, png, svg};
 use crate::table::TableError;
-use crate::table::footer::footer;
-use crate::table::provenance::{self, Provenance, Stamp};
-use crate::table::source::{Source, Target};
-use crate::table::text_file;
+use crate::table::store::contents;
+use crate::table::store::contents::footer;
+use crate::table::store::provenance::{Provenance, Stamp};
+use crate::table::store::source::{Source, Target};
+use crate::table::store::text_file;
 
 /// What the report shows.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -158,7 +159,7 @@ fn finish(figures: &mut [Figure], made: &str) {
 /// What is known of a file.
 fn file(path: &Path) -> Result<File, TableError> {
     let footer = footer(path)?;
-    let stamp = provenance::stamp(path)?;
+    let stamp = contents::stamp(path)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let rows = usize::try_from(footer.rows).unwrap_or(0);
     Ok(match stamp {
@@ -175,7 +176,7 @@ fn file(path: &Path) -> Result<File, TableError> {
             stage: None,
             version: String::new(),
             parameters: Value::Null,
-            content: provenance::content_of(path)?,
+            content: contents::content_of(path)?,
             rows,
         },
     })
@@ -234,7 +235,7 @@ impl Stage for Report {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let data = self.read_data(console)?;
-        provenance.expect_unchanged()?;
+        contents::expect_unchanged(provenance)?;
         let mut figures: Vec<Figure> = ALL.par_iter().flat_map_iter(|draw: &Draw| draw(&data)).collect();
         finish(&mut figures, &data.made());
         let folder = self.figures();

@@ -5,9 +5,9 @@ use super::ReportOptions;
 use crate::fragility::Case;
 use crate::pipeline::UsageError;
 use crate::report::data::{Group, ReportResponse};
-use crate::table::reader::Batches;
 use crate::table::responses::{RESPONSES, ResponseCase};
 use crate::table::row::{ReadRow, Row};
+use crate::table::store::reader::Batches;
 
 /// The responses of the suites and structures that are to be shown, and how many others there are.
 pub fn read(path: &Path, options: &ReportOptions) -> anyhow::Result<(Vec<Group>, usize)> {

@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, Stamp};
+use crate::table::store::provenance::{Provenance, Stamp};
 
 /// Lines at the start of a page among which the stamp is.
 const LINES: usize = 8;

@@ -8,9 +8,9 @@ use crate::fragility::demand::Form;
 use crate::keyword::Keyword;
 use crate::report::data::{Column, Table};
 use crate::table::TableError;
-use crate::table::reader::read_any;
 use crate::table::schema;
-use crate::table::text;
+use crate::table::store::reader::read_any;
+use crate::table::store::text;
 
 /// The most rows of a table in the page.
 const MOST_ROWS: usize = 300;

@@ -10,9 +10,9 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 pub use self::options::SimulateOptions;
-use super::motions::{DistinctIds, Peaks, record};
-use super::partitions::{PartitionedInput, is_folder, out_of_partition};
-use super::structures::parameters;
+use super::shared::motions::{DistinctIds, Peaks, record};
+use super::shared::partitions::{PartitionedInput, is_folder, out_of_partition};
+use super::shared::structures::parameters;
 use super::synthesize_motions::SynthesizeMotions;
 use crate::motion::IntensityScratch;
 use crate::pipeline::UsageError;
@@ -23,15 +23,15 @@ use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Problem, Record, Simd, Structure, simulate_all, trace, with_tail};
 use crate::table::TableError;
-use crate::table::folder;
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
-use crate::table::partition::Partition;
-use crate::table::provenance::Provenance;
 use crate::table::responses::{RESPONSES, ResponseRow};
+use crate::table::responses::{TRACE, TraceRow};
 use crate::table::row::{WriteRow, schema_of};
-use crate::table::source::{Source, Target};
-use crate::table::trace::{TRACE, TraceRow};
+use crate::table::store::folder;
+use crate::table::store::partition::Partition;
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
 
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;

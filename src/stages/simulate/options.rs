@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
 use crate::rocking::{Simd, Structure};
-use crate::stages::structures::{StructureSpec, Structures};
-use crate::table::partition::Partition;
+use crate::stages::shared::structures::{StructureSpec, Structures};
+use crate::table::store::partition::Partition;
 
 /// Which structures, and which motions to look at.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 pub use self::options::SynthesizeMotionsOptions;
-use super::measures::measure_plan;
-use super::partitions::out_of_partition;
 use super::sample_scenarios::SampleScenarios;
+use super::shared::measures::measure_plan;
+use super::shared::partitions::out_of_partition;
 use crate::motion::Site;
 use crate::motion::{
     IntensityScratch, MeasurePlan, MotionModel, Scenario, StochasticModel, Suite, Synthesizer,
@@ -18,12 +18,12 @@ use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::options::{Parsed, Word};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
-use crate::table::partition::Partition;
-use crate::table::provenance::Provenance;
 use crate::table::scenarios;
-use crate::table::source::{Source, Target};
+use crate::table::store::partition::Partition;
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
+use crate::table::store::writer::TableWriter;
 use crate::table::synthetic_motions::{self, MOTIONS, SyntheticMotion};
-use crate::table::writer::TableWriter;
 
 /// The stage, ready to run.
 pub struct SynthesizeMotions {

@@ -12,8 +12,8 @@ use crate::motion::{Difference, Epoch, MotionModel, StochasticModel, Suite};
 use crate::pipeline::UsageError;
 use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{DEFAULT_SEED, Parsed, Several, Steps, Word, check, defaults};
-use crate::table::partition::Partition;
-use crate::table::text_file;
+use crate::table::store::partition::Partition;
+use crate::table::store::text_file;
 
 /// The largest table of site amplification.
 const MOST_SITE_MIB: u64 = 1;

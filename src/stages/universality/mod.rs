@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::fits::ModelForm;
-use super::groups::{self, Group};
+use super::shared::fits::ModelForm;
+use super::shared::groups::{self, Group};
 use super::simulate::Simulate;
 use crate::fragility::Event;
 use crate::fragility::Measure;
@@ -23,11 +23,11 @@ use crate::statistics::FitStatus;
 use crate::studies::{
     CurveForm, CurveSubject, PooledFit, PooledStructure, PooledTerms, Transfer, fit_pooled,
 };
-use crate::table::provenance::Provenance;
 use crate::table::row::WriteRow;
-use crate::table::source::{Source, Target};
+use crate::table::store::provenance::Provenance;
+use crate::table::store::source::{Source, Target};
+use crate::table::store::writer::TableWriter;
 use crate::table::universality::{POOLED, PooledRow, UNIVERSALITY, UniversalityRow};
-use crate::table::writer::TableWriter;
 
 /// Whose curves, and which.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]

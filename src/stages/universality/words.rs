@@ -8,7 +8,7 @@ use crate::keyword::Keyword;
 use crate::statistics::{FitStatus, least_squares};
 use crate::studies::{PooledTerms, Verdict};
 use crate::table::row::ReadRow;
-use crate::table::source::with_part;
+use crate::table::store::source::with_part;
 use crate::table::universality::{PooledRow, UniversalityRow};
 
 /// More levels of a parameter than this are no grid.

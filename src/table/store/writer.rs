@@ -14,13 +14,14 @@ use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::schema::types::ColumnPath;
 use tempfile::NamedTempFile;
 
-use super::TableError;
+use super::contents::expect_unchanged;
 use super::fingerprint::Fingerprint;
 use super::limits::MOST_SAMPLES;
 use super::provenance::Provenance;
-use super::schema::{Kind, Table};
 use super::source::{MemoryTable, Shelf, Target};
 use crate::motion::LONGEST_MOTION;
+use crate::table::TableError;
+use crate::table::schema::{Kind, Table};
 
 /// The end of the name of a file that is still being written.
 const PARTIAL: &str = ".partial";
@@ -214,7 +215,7 @@ impl FileWriter {
     }
 
     fn finish(mut self) -> Result<(), TableError> {
-        self.provenance.expect_unchanged()?;
+        expect_unchanged(&self.provenance)?;
         for pair in self.provenance.key_values(&self.fingerprint.finish()) {
             self.writer.append_key_value_metadata(pair);
         }

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::TableError;
 use super::partition::Partition;
 use super::provenance::stamp_of_file;
+use crate::table::TableError;
 
 /// The Parquet files that a path stands for: itself, or those in the folder.
 ///

@@ -7,14 +7,14 @@ use std::sync::Arc;
 use arrow_array::RecordBatch;
 use arrow_schema::SchemaRef;
 
-use super::TableError;
 use super::columns::missing;
 use super::folder;
 use super::piece::Piece;
 pub use super::piece::{Batch, Run};
-use super::schema::{Column, Table};
 use super::source::Source;
 use super::table_file::TableFile;
+use crate::table::TableError;
+use crate::table::schema::{Column, Table};
 
 /// Rows of a narrow table that are decoded at once.
 const NARROW_BATCH: usize = 8192;

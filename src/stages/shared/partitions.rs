@@ -4,9 +4,9 @@ use std::path::Path;
 
 use crate::pipeline::UsageError;
 use crate::pipeline::declare::Files;
-use crate::table::folder;
-use crate::table::partition::Partition;
-use crate::table::source::{Source, Target};
+use crate::table::store::folder;
+use crate::table::store::partition::Partition;
+use crate::table::store::source::{Source, Target};
 
 /// The input of a stage that may work on a partition only.
 pub struct PartitionedInput {

@@ -12,9 +12,9 @@ use crate::pipeline::UsageError;
 use crate::table::fits::{self, FitRow};
 use crate::table::pex::PEX_BOOTSTRAP;
 use crate::table::pro::PRO_BOOTSTRAP;
-use crate::table::provenance::stamp;
 use crate::table::schema::{self, Column, Table};
-use crate::table::source::{Source, with_part};
+use crate::table::store::contents::stamp;
+use crate::table::store::source::{Source, with_part};
 
 /// The bootstrap files beside those of the fits, of P_ex and of P_ro.
 ///

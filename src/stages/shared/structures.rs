@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::explain;
 use crate::rocking::Structure;
-use crate::table::text_file;
+use crate::table::store::text_file;
 
 /// The largest file: hundreds of thousands of structures.
 const MOST_MIB: u64 = 16;

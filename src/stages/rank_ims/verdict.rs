@@ -3,11 +3,11 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::ranking::RankingRow;
-use super::row::{ReadRow, WriteRow, table};
-use super::text;
 use crate::keyword::Keyword;
 use crate::studies::{Form, Target};
+use crate::table::ranking::RankingRow;
+use crate::table::row::{ReadRow, WriteRow, table};
+use crate::table::store::text;
 
 /// A difference beyond so many standard errors is called clear.
 const CLEAR: f64 = 2.0;

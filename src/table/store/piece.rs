@@ -7,11 +7,11 @@ use arrow_array::RecordBatch;
 use arrow_schema::{ArrowError, SchemaRef};
 use parquet::errors::ParquetError;
 
-use super::TableError;
 use super::columns::Columns;
 use super::footer::not_parquet;
 use super::source::MemoryTable;
 use super::table_file::TableFile;
+use crate::table::TableError;
 
 /// A file, or a table in memory with the places of the columns that are wanted.
 pub(super) enum Piece {

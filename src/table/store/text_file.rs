@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::path::Path;
 
-use super::TableError;
 use super::writer::temporary_beside;
+use crate::table::TableError;
 
 /// The bytes of a file that may have `most_mib` MiB, and of anything else that can be read, up to that.
 ///

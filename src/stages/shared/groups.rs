@@ -6,10 +6,10 @@ use std::sync::Arc;
 use crate::fragility::{Case, CaseGroup, Clusters, cells};
 use crate::rocking::Structure;
 use crate::table::ida::IDA_STRIPES;
-use crate::table::reader::Batches;
 use crate::table::responses::{RESPONSES, ResponseCase};
 use crate::table::row::{ReadRow, Row};
-use crate::table::source::Source;
+use crate::table::store::reader::Batches;
+use crate::table::store::source::Source;
 
 /// All responses of one structure to one suite.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,5 +1,7 @@
 //! rank-ims: which intensity measures, alone and together, predict best.
 
+pub mod verdict;
+
 use anyhow::Context;
 use clap::Args;
 use rayon::prelude::*;
@@ -7,7 +9,6 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::fit_pex::TransitionAt;
-use super::groups::{self, Group};
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
 use crate::keyword::Keyword;
@@ -16,13 +17,14 @@ use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
+use crate::stages::shared::groups::{self, Group};
 use crate::studies::{FurtherMeasure, MeasureRanking, RankingRules, RankingSample, Target};
 use crate::table::motion_measures::MotionMeasures;
-use crate::table::provenance::Provenance;
 use crate::table::ranking::{RANKING, RankedCandidate, RankingRow, ReliabilityRow};
-use crate::table::ranking_verdict;
+use crate::table::store::provenance::Provenance;
+
 use crate::table::row::WriteRow;
-use crate::table::source::{self, Source};
+use crate::table::store::source::{self, Source};
 
 /// How measures are ranked.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -170,7 +172,7 @@ impl Stage for RankIms {
     }
 
     fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
-        self.out.path().map_or(Ok(String::new()), ranking_verdict::show)
+        self.out.path().map_or(Ok(String::new()), verdict::show)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

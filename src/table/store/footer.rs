@@ -13,11 +13,10 @@ use parquet::file::metadata::{
 use parquet::file::reader::{ChunkReader, Length};
 use parquet::file::statistics::Statistics;
 
-use super::TableError;
-use super::folder;
 use super::guarded::guarded;
 use super::limits::{MOST_FOOTER_BYTES, check_footer, check_rows};
 use super::shared_file::SharedFile;
+use crate::table::TableError;
 
 /// The length of the footer and the magic number, with which a file ends.
 const END_BYTES: u64 = 8;
@@ -68,7 +67,7 @@ impl Range {
 
 impl Footer {
     /// What two files hold together, of the same columns.
-    fn add(&mut self, other: Footer) {
+    pub(super) fn add(&mut self, other: Footer) {
         self.rows += other.rows;
         self.row_groups += other.row_groups;
         self.bytes += other.bytes;
@@ -78,20 +77,7 @@ impl Footer {
     }
 }
 
-/// Reads only the end of a Parquet file, or of each in a folder.
-///
-/// # Errors
-/// If it is missing or no Parquet file.
-pub fn footer(path: &Path) -> Result<Footer, TableError> {
-    let files = folder::files(path)?;
-    let mut whole = of_file(&files[0])?;
-    for file in &files[1..] {
-        whole.add(of_file(file)?);
-    }
-    Ok(whole)
-}
-
-fn of_file(path: &Path) -> Result<Footer, TableError> {
+pub(super) fn of_file(path: &Path) -> Result<Footer, TableError> {
     let Opened { file, metadata } = open_keeping(path, ParquetStatisticsPolicy::KeepAll)?;
     let schema = metadata.schema().clone();
     let metadata = metadata.metadata();

@@ -6,8 +6,6 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use super::chosen_fits::ChosenFits;
-use super::fit_pex::FitPex;
-use super::fit_pro::FitPro;
 use crate::fragility::Event;
 use crate::fragility::demand::Form;
 use crate::fragility::{DemandModel, FragilityModel, Measure, has_few_events};
@@ -15,9 +13,11 @@ use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
 use crate::pipeline::declare::{Declare, Files, Input, StageOptions};
 use crate::pipeline::options::{Word, defaults};
+use crate::stages::fit_pex::FitPex;
+use crate::stages::fit_pro::FitPro;
 use crate::table::fits::{self, FitRow};
 use crate::table::schema;
-use crate::table::source::Source;
+use crate::table::store::source::Source;
 
 /// The inputs of stages that start from fits.
 pub const FIT_INPUTS: [Input; 2] = [

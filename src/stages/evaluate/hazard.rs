@@ -4,9 +4,9 @@ use std::path::Path;
 
 use anyhow::{Context, anyhow, bail};
 
-use super::text_file;
 use crate::fragility::Peak;
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks};
+use crate::table::store::text_file;
 use crate::units::G_M_S2;
 
 /// What the file may call an intensity: the peak, and the size of its unit in m/s2 or m/s.

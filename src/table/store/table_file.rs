@@ -3,23 +3,24 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow_array::RecordBatch;
+use arrow_array::{ArrayRef, RecordBatch, RecordBatchOptions};
 use arrow_schema::{FieldRef, SchemaRef};
 use parquet::arrow::ProjectionMask;
-use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ParquetRecordBatchReaderBuilder};
+use parquet::arrow::arrow_reader::{
+    ArrowReaderMetadata, ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder,
+};
 use parquet::errors::{ParquetError, Result as ParquetResult};
 use parquet::file::metadata::ParquetMetaData;
 use parquet::file::reader::Length;
 use parquet::file::serialized_reader::SerializedPageReader;
 
-use super::TableError;
 use super::footer::{self, Opened, not_parquet};
 use super::guarded::guarded;
 use super::limits::check_pages;
 use super::lists::Lists;
 use super::provenance::stamp_in;
-use super::row_group::RowGroup;
 use super::shared_file::SharedFile;
+use crate::table::TableError;
 
 /// The file, its description, and the columns.
 pub(super) struct TableFile {
@@ -168,5 +169,34 @@ fn expect_stage(path: &Path, metadata: &ParquetMetaData, stages: &[&str]) -> Res
             expected: stages.join(" or "),
         }),
         _ => Ok(()),
+    }
+}
+
+/// Reads some rows of a row group: samples straight from their pages, all else by the library.
+struct RowGroup {
+    /// All columns, in order.
+    schema: SchemaRef,
+    /// What reads those that are no lists.
+    narrow: ParquetRecordBatchReader,
+    /// What reads the others, each with its place among all, ascending.
+    lists: Vec<(usize, Lists)>,
+}
+
+impl RowGroup {
+    /// The next batch, or nothing at the end.
+    ///
+    /// # Errors
+    /// If the pages are damaged, or some columns end before others.
+    fn next(&mut self) -> ParquetResult<Option<RecordBatch>> {
+        let narrow = self.narrow.next().transpose();
+        let Some(narrow) = narrow.map_err(|source| ParquetError::ArrowError(source.to_string()))? else {
+            return Ok(None);
+        };
+        let mut columns: Vec<ArrayRef> = narrow.columns().to_vec();
+        for (place, lists) in &mut self.lists {
+            columns.insert(*place, Arc::new(lists.next(narrow.num_rows())?));
+        }
+        let rows = RecordBatchOptions::new().with_row_count(Some(narrow.num_rows()));
+        Ok(Some(RecordBatch::try_new_with_options(self.schema.clone(), columns, &rows)?))
     }
 }

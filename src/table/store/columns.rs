@@ -7,9 +7,9 @@ use arrow_array::types::{Float32Type, Float64Type, Int32Type, Int64Type};
 use arrow_array::{Array, ArrayRef, Float32Array, Float64Array, RecordBatch};
 use arrow_schema::DataType;
 
-use super::TableError;
-use super::schema::{Column, is_spectral_acceleration, spectral_acceleration};
 use crate::motion::LONGEST_MOTION;
+use crate::table::TableError;
+use crate::table::schema::{Column, is_spectral_acceleration, spectral_acceleration};
 
 /// The longest name of anything, bytes: that of a path.
 const LONGEST_TEXT: usize = 4096;

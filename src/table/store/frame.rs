@@ -4,11 +4,11 @@ use std::path::Path;
 
 use polars::prelude::{DataFrame, IntoColumn, NamedFrom, PolarsError, PolarsResult, Series};
 
-use super::TableError;
 use super::columns::Columns;
 use super::reader::Batches;
-use super::schema::{Column, Kind, Table};
 use super::source::Source;
+use crate::table::TableError;
+use crate::table::schema::{Column, Kind, Table};
 
 /// A narrow table whole. Columns that may be null and are missing in the file become nulls.
 ///
