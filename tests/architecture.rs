@@ -69,6 +69,20 @@ fn no_folder_is_crowded() {
     assert!(crowded.is_empty(), "{}", crowded.join("\n"));
 }
 
+#[test]
+fn what_the_page_on_architecture_names_is_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = std::fs::read_to_string(root.join("docs/architecture.md")).unwrap();
+    let named = page.split('`').skip(1).step_by(2).filter(|name| name.contains('/') && !name.contains(' '));
+    let missing: Vec<&str> = named
+        .filter(|name| ![root.to_path_buf(), root.join("src")].iter().any(|base| base.join(name).exists()))
+        .collect();
+    assert!(missing.is_empty(), "docs/architecture.md names what is not there: {missing:?}");
+    for room in LAYERS.iter().flat_map(|rooms| rooms.iter()).filter(|room| **room != "allocator") {
+        assert!(page.contains(room), "docs/architecture.md does not name src/{room}");
+    }
+}
+
 /// The place of a file's room in the order of layers.
 fn layer(file: &Path) -> usize {
     let room = room(file);
