@@ -202,6 +202,7 @@ pub fn explain(error: &serde_saphyr::Error) -> String {
         return format!("{place}unknown key '{field}'; {hint}");
     }
     let message = error.to_string();
-    let mut lines = message.lines();
-    format!("{place}{}", lines.next().unwrap_or_default())
+    let line = message.lines().next().unwrap_or_default();
+    // What it says of the place stands in front already.
+    format!("{place}{}", line.rsplit_once(" at line ").map_or(line, |(said, _)| said))
 }

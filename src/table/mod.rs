@@ -66,6 +66,14 @@ pub enum TableError {
         /// What the reader said.
         message: String,
     },
+    /// The table cannot be read as a frame.
+    #[error("{}: cannot read: {message}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said.
+        message: String,
+    },
     /// The file cannot be written.
     #[error("{}: cannot write: {message}", path.display())]
     Write {

@@ -47,7 +47,7 @@ pub fn responses(path: &Path, with_earthquakes: bool) {
         ("im5", number(|_| 1.0)),
     ];
     if with_earthquakes {
-        columns.push(("event", text(&|row| format!("earthquake {}", row / 20))));
+        columns.push(("earthquake", text(&|row| format!("earthquake {}", row / 20))));
     }
     write(path, columns);
 }
@@ -82,14 +82,14 @@ fn simulate_carries_the_earthquake_by_name_or_number() {
         }
         let columns: Vec<(&str, ArrayRef)> = vec![
             ("motion_id", Arc::new(StringArray::from(vec!["a", "b"]))),
-            ("event", events),
+            ("earthquake", events),
             ("dt_s", Arc::new(Float64Array::from(vec![0.1, 0.1]))),
             ("acceleration_m_s2", Arc::new(list.finish())),
         ];
         write(&folder.path().join("motions.parquet"), columns);
         succeed(folder.path(), "simulate --force");
         let responses = rows(&folder.path().join("responses.parquet"));
-        let events: Vec<Option<&str>> = responses["event"].as_string::<i32>().iter().collect();
+        let events: Vec<Option<&str>> = responses["earthquake"].as_string::<i32>().iter().collect();
         assert_eq!(events, [Some(expected), None]);
     }
 }

@@ -61,5 +61,5 @@ fn series(columns: &Columns, column: &Column) -> Result<Series, TableError> {
 }
 
 fn polars_error(path: &Path, source: &PolarsError) -> TableError {
-    TableError::Write { path: path.to_path_buf(), message: source.to_string() }
+    TableError::Read { path: path.to_path_buf(), message: source.to_string() }
 }
