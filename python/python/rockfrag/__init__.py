@@ -12,9 +12,10 @@ A table is anything that speaks Arrow (polars, pyarrow, pandas, DuckDB, :class:`
 folder of them, which is then read as it is needed. A result is a :class:`Table`, or with ``out`` a file, which is left as it is
 where it is up to date. The rows are those of the command line, on any number of threads.
 
-Each stage of the command line is a function with its options, in the words of ``rockfrag STAGE --help``. Common to all: ``out`` (path to write; the path is returned), ``threads`` (all cores), ``progress`` (called with the
-number of steps done and of all, a few times a second), ``force`` (make even a file that is up to date). Ctrl-C ends a call at the next
-batch, and what was being written is removed. Names of columns end in their units.
+Each stage of the command line is a function with its options, in the words of ``rockfrag STAGE --help``. Common to all are ``out``
+(path to write; the path is returned), ``threads`` (all cores unless given), ``progress`` (called with the number of steps done and
+of all, a few times a second) and ``force`` (make even a file that is up to date). Ctrl-C ends a call at the next batch, and what was
+being written is removed. Names of columns end in their units.
 """
 
 from ._rocking import Response, response

@@ -1,6 +1,6 @@
 """A function for each stage, made of what the library says of it: names, defaults and words are those of the command line.
 
-``python -m rockfrag._stages`` prints the stub ``_stages.pyi``.
+What type checkers and editors see of them is ``_stages.pyi``, which ``python -m rockfrag._stub`` prints.
 """
 
 from __future__ import annotations
@@ -97,33 +97,3 @@ def _function(stage: Mapping[str, Any]) -> Callable[..., Any]:
 _FUNCTIONS = {function.__name__: function for function in map(_function, json.loads(_rockfrag.stages()))}
 globals().update(_FUNCTIONS)
 __all__ = sorted(_FUNCTIONS)
-
-
-def stub() -> str:
-    """The stub of this module."""
-    lines = [
-        "# Made by `python -m rockfrag._stages`.",
-        "from collections.abc import Iterable",
-        "from typing import Any",
-        "",
-        "from ._types import PathLike, Progress, TableLike",
-        "",
-        f"__all__ = {json.dumps(__all__)}",
-        "",
-        "def stub() -> str: ...",
-    ]
-    for name, function in _FUNCTIONS.items():
-        parameters = []
-        starred = False
-        for parameter in inspect.signature(function).parameters.values():
-            if parameter.kind is parameter.KEYWORD_ONLY and not starred:
-                parameters.append("*")
-                starred = True
-            default = "" if parameter.default is parameter.empty else f" = {parameter.default!r}"
-            parameters.append(f"{parameter.name}: {parameter.annotation}{default}")
-        lines += [f"def {name}(", *(f"    {parameter}," for parameter in parameters), ") -> Any: ..."]
-    return "\n".join(lines) + "\n"
-
-
-if __name__ == "__main__":
-    print(stub(), end="")
