@@ -54,8 +54,15 @@ def _signature(stage: Mapping[str, Any]) -> inspect.Signature:
             annotation = _TYPES[option["type"]]
             annotation += " | None" if default is None and annotation != "Any" else ""
             keywords.append(_parameter(_python(option), annotation, default, keyword=True))
-    common = [_parameter(name, kind, default, keyword=True) for name, (kind, default, _) in _COMMON.items()]
-    return inspect.Signature([*tables, *first, *optional, *keywords, *common], return_annotation="Any")
+    common = {name: _parameter(name, kind, default, keyword=True) for name, (kind, default, _) in _COMMON.items()}
+    if not _makes_table(stage):
+        common["out"] = _parameter("out", "PathLike", keyword=True)
+    return inspect.Signature([*tables, *first, *optional, *keywords, *common.values()], return_annotation="Any")
+
+
+def _makes_table(stage: Mapping[str, Any]) -> bool:
+    """Whether a stage makes a table, which memory can hold, or pages and texts, which need a path."""
+    return str(stage["output"]["file"]).endswith(".parquet")
 
 
 def _python(option: Mapping[str, Any]) -> str:
@@ -68,7 +75,8 @@ def _docstring(stage: Mapping[str, Any]) -> str:
     words += [(name, help) for name, (_, _, help) in _COMMON.items()]
     lines = [textwrap.fill(f"{name}: {help}", 110, initial_indent="    ", subsequent_indent="        ") for name, help in words]
     parts = ", ".join(f'``parts["{part}"]``' for part in stage["output"]["parts"])
-    returns = "A table, or the path of ``out``" + (f"; with {parts} where there are such." if parts else ".")
+    returns = "A table, or the path of ``out``" if _makes_table(stage) else "The path of ``out``"
+    returns += f"; with {parts} where there are such." if parts else "."
     return "\n".join([stage["about"] + ".", "", "Args:", *lines, "", "Returns:", f"    {returns}"])
 
 
