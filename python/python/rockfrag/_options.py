@@ -35,7 +35,7 @@ def path(out: PathLike | None) -> str | None:
 
 
 def _kebab(name: str) -> str:
-    return name.replace("_", "-")
+    return name.rstrip("_").replace("_", "-")
 
 
 def _plain(value: Any) -> Any:

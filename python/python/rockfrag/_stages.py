@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import inspect
 import json
+import keyword
 import os
 import textwrap
 from collections.abc import Callable, Iterable, Mapping
@@ -38,8 +39,8 @@ def _default(option: Mapping[str, Any]) -> Any:
     return {"float": float, "int": int}.get(kind, str)(text) if text is not None else None
 
 
-def _parameter(name: str, annotation: str, default: Any = inspect.Parameter.empty, keyword: bool = False) -> inspect.Parameter:
-    kind = inspect.Parameter.KEYWORD_ONLY if keyword else inspect.Parameter.POSITIONAL_OR_KEYWORD
+def _parameter(name: str, annotation: str, default: Any = inspect.Parameter.empty, only_by_name: bool = False) -> inspect.Parameter:
+    kind = inspect.Parameter.KEYWORD_ONLY if only_by_name else inspect.Parameter.POSITIONAL_OR_KEYWORD
     return inspect.Parameter(name, kind, default=default, annotation=annotation)
 
 
@@ -53,10 +54,10 @@ def _signature(stage: Mapping[str, Any]) -> inspect.Signature:
             default = _default(option)
             annotation = _TYPES[option["type"]]
             annotation += " | None" if default is None and annotation != "Any" else ""
-            keywords.append(_parameter(_python(option), annotation, default, keyword=True))
-    common = {name: _parameter(name, kind, default, keyword=True) for name, (kind, default, _) in _COMMON.items()}
+            keywords.append(_parameter(_python(option), annotation, default, only_by_name=True))
+    common = {name: _parameter(name, kind, default, only_by_name=True) for name, (kind, default, _) in _COMMON.items()}
     if not _makes_table(stage):
-        common["out"] = _parameter("out", "PathLike", keyword=True)
+        common["out"] = _parameter("out", "PathLike", only_by_name=True)
     return inspect.Signature([*tables, *first, *optional, *keywords, *common.values()], return_annotation="Any")
 
 
@@ -66,7 +67,9 @@ def _makes_table(stage: Mapping[str, Any]) -> bool:
 
 
 def _python(option: Mapping[str, Any]) -> str:
-    return str(option["name"]).replace("-", "_")
+    """The name of an option as Python takes it: ``from`` is a word of the language, so it is ``from_``."""
+    name = str(option["name"]).replace("-", "_")
+    return f"{name}_" if keyword.iskeyword(name) else name
 
 
 def _docstring(stage: Mapping[str, Any]) -> str:
