@@ -169,7 +169,7 @@ impl From<&GroupRegression> for PexRow {
             cov_ln_a_b1: regression.covariance((0, 1)),
             cov_ln_a_b2: regression.covariance((0, 2)),
             cov_b1_b2: regression.covariance((1, 2)),
-            se_ln_a_clustered: regression.clustered_errors.get(0).copied(),
+            se_ln_a_clustered: regression.clustered_errors.first().copied(),
             se_b1_clustered: regression.clustered_errors.get(1).copied(),
             se_b2_clustered: regression.clustered_errors.get(2).copied(),
             confidence: regression.confidence,

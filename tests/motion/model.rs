@@ -186,7 +186,7 @@ fn amplitudes_fall_with_distance_and_filters_as_their_equations_say() {
     assert!((a1 * r1 / (a3 * (40.0 * r3).sqrt()) - 1.0).abs() < 1e-12);
     let source = Source::new(6.0, 10.0);
     let ratio = |model: &StochasticModel, f: f64| {
-        fourier_amplitude_cm_s(&model, &source, f) / fourier_amplitude_cm_s(&near, &source, f)
+        fourier_amplitude_cm_s(model, &source, f) / fourier_amplitude_cm_s(&near, &source, f)
     };
     let fmax = StochasticModel { fmax_hz: Some(15.0), ..near.clone() };
     assert!((ratio(&fmax, 15.0) - FRAC_1_SQRT_2).abs() < 1e-14);

@@ -15,8 +15,10 @@ use crate::table::universality::{PooledRow, UniversalityRow};
 const MOST_LEVELS: usize = 8;
 /// More names than this are no help.
 const MOST_NAMES: usize = 20;
+/// A number of each row, under its name.
+type Named<T> = (&'static str, fn(&UniversalityRow) -> T);
 /// The parameters of a structure, in the order of all tables here.
-const PARAMETERS: [(&str, fn(&UniversalityRow) -> f64); 3] =
+const PARAMETERS: [Named<f64>; 3] =
     [("p", |row| row.p_rad_s), ("alpha", |row| row.alpha_rad), ("eta", |row| row.eta)];
 
 /// A universality file in words: under each suite and for each event, how many structures the transferred curve does for, where
@@ -170,7 +172,7 @@ impl Judged<'_> {
             (own > 0.0).then_some(theirs / own)
         };
         writeln!(text, "  of what own curves tell beyond the share of events, over all cases:")?;
-        let curves: [(&str, fn(&UniversalityRow) -> Option<f64>); 5] = [
+        let curves: [Named<Option<f64>>; 5] = [
             ("the transferred curve", |row| row.log_score_transferred),
             ("one line for all structures", |row| row.log_score_line),
             ("one curved surface for all", |row| row.log_score_curved),
