@@ -22,10 +22,12 @@
 //! | sections 2.3 and 3, Eqs. 12 and 14 to 24: fragility | [`fragility`] |
 //! | beyond it: recorded motions | [`records`] |
 //! | beyond it: annual rates at a site | [`hazard`] |
+//! | beyond it: ranking of measures, universality, validation | [`studies`] |
+//! | what the fits rest on | [`statistics`], [`resampling`] |
 //!
-//! These five know no files, threads or command line, nor do [`export`], which words fragility for other programs, and
+//! These know no files, threads or command line, nor do [`export`], which words fragility for other programs, and
 //! [`report`], which draws it. [`table`] reads and writes the files, [`pipeline`] decides what must run, [`stages`] joins
-//! them: one file a subcommand.
+//! them: a file or folder a subcommand. `docs/architecture.md` has the picture.
 
 #[cfg(feature = "pipeline")]
 pub mod cli;
