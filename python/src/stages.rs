@@ -8,13 +8,13 @@ use rockfrag::pipeline::{UsageError, cache};
 use rockfrag::stages::registry;
 use rockfrag::table::store::partition::Partition;
 use rockfrag::table::store::provenance::Provenance;
-use rockfrag::table::store::source::{Shelf, Source, Target};
+use rockfrag::table::store::source::{MemoryTables, Source, Target};
 
 use crate::error::to_python;
 use crate::run::{Settings, run};
 use crate::table::{PyTable, source};
 
-/// The place on a shelf of what a stage is for.
+/// The place among the tables in memory, of what a stage is for.
 const MAIN: &str = "";
 
 /// All stages as JSON: names, inputs, options with types and defaults, outputs.
@@ -44,9 +44,9 @@ pub fn call(
         })?;
         return Ok(path.into_pyobject(py)?.unbind());
     }
-    let shelf = Shelf::default();
+    let tables = MemoryTables::default();
     let parts = run(py, &settings, |console| {
-        let stages = registry::create(stage, options, &inputs, Some(shelf.place(MAIN)))?;
+        let stages = registry::create(stage, options, &inputs, Some(tables.place(MAIN)))?;
         let mut parts = Vec::new();
         for stage in stages {
             // What stays in memory has no file to say how it was made.
@@ -59,7 +59,7 @@ pub fn call(
         }
         Ok(parts)
     })?;
-    Ok(PyTable::take(py, &shelf, MAIN, &parts)?.into_pyobject(py)?.unbind())
+    Ok(PyTable::take(py, &tables, MAIN, &parts)?.into_pyobject(py)?.unbind())
 }
 
 /// What the file of a partition is called.

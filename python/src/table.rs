@@ -11,7 +11,7 @@ use pyo3::types::{PyCapsule, PyDict};
 use pyo3_arrow::error::PyArrowResult;
 use pyo3_arrow::ffi::{ArrayIterator, to_schema_pycapsule, to_stream_pycapsule};
 use pyo3_arrow::input::AnyRecordBatch;
-use rockfrag::table::store::source::{MemoryTable, Shelf, Source};
+use rockfrag::table::store::source::{MemoryTable, MemoryTables, Source};
 
 /// A table that a stage has made. Any library that speaks the Arrow PyCapsule interface takes it without a copy:
 /// ``polars.DataFrame(table)``, ``pyarrow.table(table)``, ``duckdb.sql("from table_name")``.
@@ -22,11 +22,11 @@ pub struct PyTable {
 }
 
 impl PyTable {
-    /// What a stage has left on a shelf under `main`, and under the names of `parts` what else there is.
-    pub fn take(py: Python, shelf: &Shelf, main: &str, parts: &[String]) -> PyResult<Option<PyTable>> {
-        let Some(table) = shelf.take(main) else { return Ok(None) };
+    /// What a stage has left in memory under `main`, and under the names of `parts` what else there is.
+    pub fn take(py: Python, tables: &MemoryTables, main: &str, parts: &[String]) -> PyResult<Option<PyTable>> {
+        let Some(table) = tables.take(main) else { return Ok(None) };
         let part = |name: &String| {
-            let table = shelf.take(name)?;
+            let table = tables.take(name)?;
             Some(Py::new(py, PyTable { table, parts: Vec::new() }).map(|part| (name.clone(), part)))
         };
         let parts = parts.iter().filter_map(part).collect::<PyResult<_>>()?;

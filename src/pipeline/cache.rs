@@ -1,4 +1,4 @@
-//! Whether a stage is up to date: the plan recorded in its files equals the plan of what it would do.
+//! Whether a stage is up to date: the cache key recorded in its files equals that of what it would do.
 
 use std::fs::{File, TryLockError};
 use std::path::Path;
@@ -28,8 +28,8 @@ pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
     }
     for path in outputs {
         match stage.recorded(&path) {
-            Ok(Some(stamp)) if stamp.plan == planned.plan() => {}
-            Ok(Some(stamp)) => return Freshness::Stale(difference(&stamp.provenance, planned)),
+            Ok(Some(recorded)) if recorded.cache_key == planned.cache_key() => {}
+            Ok(Some(recorded)) => return Freshness::Stale(difference(&recorded.provenance, planned)),
             Ok(None) => {
                 return Freshness::Stale(format!("{} does not say how it was made", file_name(&path)));
             }

@@ -55,7 +55,7 @@ impl<T: fmt::Display> fmt::Display for Parsed<T> {
     }
 }
 
-/// Several values, parted by commas on the command line, a list (or such text) in the file.
+/// Several values, separated by commas on the command line, a list (or such text) in the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Several<T>(pub Vec<T>);
 
@@ -67,7 +67,7 @@ impl<T: FromStr> FromStr for Several<T> {
     }
 }
 
-/// Numbers: one, some parted by commas, or first:last:step.
+/// Numbers: one, some separated by commas, or first:last:step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steps {
     text: String,
@@ -83,7 +83,7 @@ impl FromStr for Steps {
 
     fn from_str(text: &str) -> Result<Steps, String> {
         let expected =
-            || format!("'{text}': expected a number, numbers parted by commas, or first:last:step");
+            || format!("'{text}': expected a number, numbers separated by commas, or first:last:step");
         let numbers = |separator| {
             let parts = text.split(separator).map(|part| part.trim().parse::<f64>());
             let numbers = parts.collect::<Result<Vec<f64>, _>>().map_err(|_| expected())?;
@@ -131,7 +131,7 @@ impl Plain {
     }
 }
 
-/// Reads what [`FromStr`] understands, from text, from a bare number, or from a list as parted by commas.
+/// Reads what [`FromStr`] understands, from text, from a bare number, or from a list as separated by commas.
 pub fn from_scalar<'de, D: Deserializer<'de>, T: FromStr<Err: fmt::Display>>(
     deserializer: D,
 ) -> Result<T, D::Error> {

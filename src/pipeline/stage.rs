@@ -8,8 +8,8 @@ use serde_json::Value;
 use super::console::Console;
 use super::terminal::Terminal;
 use crate::table::TableError;
-use crate::table::store::contents::{content_of, stamp};
-use crate::table::store::provenance::{Provenance, Stamp};
+use crate::table::store::contents::{content_of, recorded};
+use crate::table::store::provenance::{Provenance, Recorded};
 use crate::table::store::source::{Source, Target};
 
 /// A stage about to run: files in, parameters, files out.
@@ -49,8 +49,8 @@ pub trait Stage {
     ///
     /// # Errors
     /// If it is missing or unreadable.
-    fn recorded(&self, output: &Path) -> Result<Option<Stamp>, TableError> {
-        stamp(output)
+    fn recorded(&self, output: &Path) -> Result<Option<Recorded>, TableError> {
+        recorded(output)
     }
 
     /// What its files will say of how they were made.

@@ -19,7 +19,7 @@ use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{Steps, Word, check, defaults};
 use crate::pipeline::stage::Stage;
 use crate::table::TableError;
-use crate::table::store::provenance::{Provenance, Stamp};
+use crate::table::store::provenance::{Provenance, Recorded};
 use crate::table::store::source::{Source, Target};
 use crate::table::store::text_file;
 
@@ -161,7 +161,7 @@ impl Stage for Export {
     }
 
     /// Nothing: these files have no place for it.
-    fn recorded(&self, output: &Path) -> Result<Option<Stamp>, TableError> {
+    fn recorded(&self, output: &Path) -> Result<Option<Recorded>, TableError> {
         if output.exists() {
             return Ok(None);
         }

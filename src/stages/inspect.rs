@@ -6,23 +6,23 @@ use arrow_schema::DataType;
 
 use crate::pipeline::terminal::{Terminal, Weight};
 use crate::table::store::contents::footer;
-use crate::table::store::contents::stamp;
+use crate::table::store::contents::recorded;
 use crate::table::store::footer::Footer;
-use crate::table::store::provenance::Stamp;
+use crate::table::store::provenance::Recorded;
 
 /// A description of a Parquet file, ours or another's, as wide as the terminal.
 ///
 /// # Errors
 /// If it is missing or no Parquet file.
 pub fn inspect(path: &Path, terminal: &Terminal) -> anyhow::Result<String> {
-    let stamp = stamp(path)?;
+    let recorded = recorded(path)?;
     let footer = footer(path)?;
     let mut text = terminal.line(&path.display().to_string(), Weight::Strong);
     let megabytes = footer.bytes as f64 / 1e6;
     let size = format!("  {} rows in {} row groups, {megabytes:.1} MB", footer.rows, footer.row_groups);
     text += &terminal.line(&size, Weight::Plain);
-    match &stamp {
-        Some(stamp) => text += &made(stamp, terminal),
+    match &recorded {
+        Some(recorded) => text += &made(recorded, terminal),
         None => text += &terminal.line("  not written by rockfrag", Weight::Plain),
     }
     text.push('\n');
@@ -67,7 +67,7 @@ fn rows(footer: &Footer) -> impl Iterator<Item = Row> {
 }
 
 /// What made a file.
-fn made(Stamp { provenance, content, .. }: &Stamp, terminal: &Terminal) -> String {
+fn made(Recorded { provenance, content, .. }: &Recorded, terminal: &Terminal) -> String {
     let mut pairs = vec![("content".to_string(), content.clone())];
     pairs.extend(provenance.inputs.iter().map(|(role, content)| (format!("from {role}"), content.clone())));
     if let serde_json::Value::Object(parameters) = &provenance.parameters {

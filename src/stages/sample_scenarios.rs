@@ -31,10 +31,10 @@ pub struct SampleScenariosOptions {
     /// Scenarios in each cell of the grid
     #[arg(long, default_value = "100")]
     pub samples: usize,
-    /// Moment magnitudes: first:last:step, or numbers parted by commas
+    /// Moment magnitudes: first:last:step, or numbers separated by commas
     #[arg(long, default_value = "5.5:7.5:0.5")]
     pub mw: Steps,
-    /// Distances, km: first:last:step, or numbers parted by commas
+    /// Distances, km: first:last:step, or numbers separated by commas
     #[arg(long, default_value = "5:20:2.5")]
     pub re: Steps,
     /// How cells are sampled: lhs, random or sobol

@@ -1,4 +1,4 @@
-//! validate: curves held against responses that they were not fitted to, such as those to recorded motions.
+//! validate: curves tested on responses that they were not fitted to, such as those to recorded motions.
 
 use serde_json::{Value, json};
 
@@ -14,7 +14,7 @@ use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
 use crate::studies::{Forecasts, Validation};
 use crate::table::row::WriteRow;
-use crate::table::store::contents::stamp;
+use crate::table::store::contents::recorded;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::validation::{self, VALIDATION, ValidationRow};
@@ -54,14 +54,14 @@ impl Choice {
 }
 
 impl Validate {
-    /// Warns if the curves were fitted to the responses they are held against.
+    /// Warns if the curves were fitted to the responses they are tested on.
     fn warn_of_own_responses(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<()> {
         let responses = provenance.inputs.get(RESPONSES_ROLE);
         for fits in [&self.fits.pex, &self.fits.pro] {
             // A table in memory does not say what it was made from.
             let Source::Path(path) = fits else { continue };
             let fitted_to =
-                stamp(path)?.and_then(|stamp| stamp.provenance.inputs.get(RESPONSES_ROLE).cloned());
+                recorded(path)?.and_then(|recorded| recorded.provenance.inputs.get(RESPONSES_ROLE).cloned());
             if fitted_to.as_ref() == responses {
                 console.warn(&format!(
                     "{} was fitted to the very responses of {}: that they agree proves nothing",
@@ -93,7 +93,7 @@ impl Validate {
 impl Declare for Validate {
     type Options = FitsOptions;
     const NAME: &'static str = VALIDATION.stage;
-    const ABOUT: &'static str = "Hold fits against responses they were not made from, such as those to records: counts seen and \
+    const ABOUT: &'static str = "Test fits on responses they were not made from, such as those to records: counts seen and \
          expected, scores";
     const INPUTS: &'static [Input] = &[
         Input::file(
@@ -169,7 +169,7 @@ impl Stage for Validate {
             .collect();
         if rows.is_empty() {
             anyhow::bail!(
-                "{}: nothing that the fits of {} foretell; expected rocking responses of the same structures",
+                "{}: nothing that the fits of {} predict; expected rocking responses of the same structures",
                 self.input.name().display(),
                 self.fits.pex.name().display()
             );

@@ -4,7 +4,7 @@
 //! candidate     sets of measures; ranking_sample: the cases in which they are ranked
 //! rating        how well a set predicts; folds: which clusters are left out together; ranking: the order of all sets
 //! transfer      the curve of one structure, asked about another; universality: how it does; pooled: one curve for all
-//! validation    forecasts of cases that were not fitted, held against what happened
+//! validation    forecasts of cases that were not fitted, tested on what happened
 //! ```
 
 pub(crate) mod candidate;
@@ -23,7 +23,7 @@ pub use pooled::{PooledFit, PooledPart, PooledStructure, PooledTerm, PooledTerms
 pub use ranking::{MeasureRanking, RankingRules};
 pub use ranking::{OfPaper, Ranked};
 pub use ranking_sample::{FurtherMeasure, RankingSample, Target};
-pub use rating::{Rating, ReliabilityGroup, Skill, Unseen};
+pub use rating::{Rating, ReliabilityGroup, Skill, HeldOut};
 pub use transfer::{Curve, CurveForm, CurveSubject};
 pub use universality::{BesideOwn, Transfer, Verdict};
 pub use validation::{Forecast, Forecasts};

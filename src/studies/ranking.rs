@@ -65,7 +65,7 @@ impl<'a> RankedCandidates<'a> {
     ) -> RankedCandidates<'a> {
         let models = models(candidates, &ratings);
         let key = |k: usize| match &ratings[models[k]] {
-            Ok(Rating { unseen: Some(unseen), .. }) => (0, -unseen.log_score()),
+            Ok(Rating { held_out: Some(held_out), .. }) => (0, -held_out.log_score()),
             Ok(rating) => (1, rating.aic),
             Err(_) => (2, 0.0),
         };
@@ -114,13 +114,13 @@ impl<'a> RankedCandidates<'a> {
     }
 
     fn gain(&self, k: usize, over: usize) -> Option<Gain> {
-        let log_scores = |k: usize| Some(&self.ratings[k].as_ref().ok()?.unseen.as_ref()?.log_scores);
+        let log_scores = |k: usize| Some(&self.ratings[k].as_ref().ok()?.held_out.as_ref()?.log_scores);
         // Of the models, so that no rounding tells those apart that are the same.
         Some(gain(log_scores(self.models[k])?, log_scores(self.models[over])?, &self.sample.clusters))
     }
 
     fn has_score(&self, k: usize) -> bool {
-        self.ratings[k].as_ref().is_ok_and(|rating| rating.unseen.is_some())
+        self.ratings[k].as_ref().is_ok_and(|rating| rating.held_out.is_some())
     }
 
     /// The best of the paper's measures alone.

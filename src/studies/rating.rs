@@ -28,7 +28,7 @@ const GROUPS: usize = 10;
 
 /// What a fit says of a case.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Foresight {
+pub struct Prediction {
     /// Logarithm of the probability of what happened; of a demand, of the density at ln EDP.
     pub log_score: f64,
     /// The event of overturning, or of exceeding the limit, has the probability Phi(index).
@@ -53,7 +53,7 @@ pub struct Rating {
     /// beta over the slope of a demand on one measure.
     pub zeta: Option<f64>,
     /// How well it predicts clusters that it has not seen, where they can be left out.
-    pub unseen: Option<Unseen>,
+    pub held_out: Option<HeldOut>,
 }
 
 /// How probabilities tell events apart.
@@ -67,15 +67,15 @@ pub struct Skill {
 
 impl Skill {
     /// Of forecasts with these indices.
-    pub fn of(foresights: &[Foresight], happened: &[bool]) -> Skill {
-        let (indices, probabilities) = indices_and_probabilities(foresights);
+    pub fn of(predictions: &[Prediction], happened: &[bool]) -> Skill {
+        let (indices, probabilities) = indices_and_probabilities(predictions);
         Skill { auc: auc(&indices, happened), brier: brier_score(&probabilities, happened) }
     }
 }
 
 /// Forecasts of clusters that were left out of the fit.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Unseen {
+pub struct HeldOut {
     /// Of each case.
     pub log_scores: Vec<f64>,
     /// The mean of ln P of whether the event happened; for overturning, the mean of the same scores.
@@ -101,14 +101,14 @@ pub struct ReliabilityGroup {
     pub seen: usize,
 }
 
-impl Unseen {
+impl HeldOut {
     /// Of forecasts that were made without the clusters they are of.
-    pub fn of(foresights: &[Foresight], happened: &[bool]) -> Unseen {
-        let (indices, probabilities) = indices_and_probabilities(foresights);
-        Unseen {
-            log_scores: foresights.iter().map(|foresight| foresight.log_score).collect(),
+    pub fn of(predictions: &[Prediction], happened: &[bool]) -> HeldOut {
+        let (indices, probabilities) = indices_and_probabilities(predictions);
+        HeldOut {
+            log_scores: predictions.iter().map(|prediction| prediction.log_score).collect(),
             event_log_score: log_score(&probabilities, happened),
-            skill: Skill::of(foresights, happened),
+            skill: Skill::of(predictions, happened),
             calibration: calibration(&indices, happened),
             reliability: reliability(&probabilities, happened),
         }
@@ -120,8 +120,8 @@ impl Unseen {
     }
 }
 
-fn indices_and_probabilities(foresights: &[Foresight]) -> (Vec<f64>, Vec<f64>) {
-    foresights.iter().map(|Foresight { index, .. }| (*index, Link::Probit.probability(*index))).unzip()
+fn indices_and_probabilities(predictions: &[Prediction]) -> (Vec<f64>, Vec<f64>) {
+    predictions.iter().map(|Prediction { index, .. }| (*index, Link::Probit.probability(*index))).unzip()
 }
 
 fn calibration(indices: &[f64], happened: &[bool]) -> Option<[f64; 2]> {
@@ -248,14 +248,14 @@ pub fn rate_demand(
         let DemandReplicate { coefficients, residual_sd } = law.at(ln_im4[case]);
         let mean = dot(rows[case].as_slice(), coefficients);
         let z = (sample.ln_edp[case] - mean) / residual_sd;
-        Foresight {
+        Prediction {
             log_score: -0.5 * (z * z + (2.0 * PI).ln()) - residual_sd.ln(),
             index: (mean - sample.ln_limit) / residual_sd,
         }
     };
     let whole = law(breaks.all, &vec![1.0; n]).ok_or(FitStatus::TooFewCases)?;
-    let fitted: Vec<Foresight> = (0..n).map(|case| foresee(&whole, case)).collect();
-    let unseen = folds.and_then(|folds| {
+    let fitted: Vec<Prediction> = (0..n).map(|case| foresee(&whole, case)).collect();
+    let held_out = folds.and_then(|folds| {
         folds.leave_out(|fold, weights| {
             let (law, foresee) = (law(breaks.without[fold], weights)?, &foresee);
             Some(move |case| foresee(&law, case))
@@ -279,7 +279,7 @@ pub fn rate_demand(
         beta,
         zeta: if let [_, slope] = coefficients[..] { Some(beta / slope) } else { None },
         coefficients,
-        unseen: unseen.map(|unseen| Unseen::of(&unseen, &sample.happened)),
+        held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened)),
     })
 }
 
@@ -296,14 +296,14 @@ pub fn rate_overturning(
     let fit = fit_overturning(&events, &CurveModel::default())?;
     let inference = CurveInference::new(&events, &fit.regression);
     let design = events.design();
-    let unseen = folds.and_then(|folds| {
+    let held_out = folds.and_then(|folds| {
         folds.leave_out(|_, weights| {
             let coefficients = inference.coefficients(weights)?;
             let indices = design.indices(coefficients.as_slice());
             Some(move |case: usize| {
                 let index = indices[case];
                 let log_score = Link::Probit.ln_probability(index, sample.happened[case]);
-                Foresight { log_score, index }
+                Prediction { log_score, index }
             })
         })
     });
@@ -315,6 +315,6 @@ pub fn rate_overturning(
         fitted: Skill { auc: fit.auc, brier: fit.brier },
         beta: fit.beta.value,
         zeta: None,
-        unseen: unseen.map(|unseen| Unseen::of(&unseen, &sample.happened)),
+        held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened)),
     })
 }

@@ -10,7 +10,7 @@ use crate::normal;
 use crate::statistics::FitStatus;
 use crate::statistics::goodness::expected_log_score;
 
-/// The curve of one structure held against the cases of another.
+/// The curve of one structure tested on the cases of another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transfer {
     /// Counts and calibration of the transferred curve.

@@ -1,4 +1,4 @@
-//! Forecasts of cases that were not fitted, held against what happened.
+//! Forecasts of cases that were not fitted, tested on what happened.
 
 use crate::fragility::case::{Case, Event};
 use crate::fragility::model::{FragilityModel, Probabilities};
@@ -13,7 +13,7 @@ use crate::statistics::goodness::{auc, brier_score, expected_log_score, log_scor
 use crate::statistics::link::Link;
 use crate::statistics::separation::is_separated;
 
-/// Forecasts held against what happened.
+/// Forecasts tested on what happened.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Validation {
     /// How many.

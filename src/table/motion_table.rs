@@ -130,7 +130,7 @@ impl MotionTable {
         at_once: usize,
     ) -> Result<impl Iterator<Item = Result<Vec<Motion>, TableError>>, TableError> {
         let batches: Box<dyn Iterator<Item = Result<Batch, TableError>>> = match part {
-            Part::Rows(batch) => Box::new(batch.pieces(at_once).map(Ok)),
+            Part::Rows(batch) => Box::new(batch.slices(at_once).map(Ok)),
             Part::Unread(run) => Box::new(self.table.batches_of(*run, at_once)?),
         };
         Ok(batches.map(|batch| motions_of(&batch?)))

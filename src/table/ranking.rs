@@ -2,7 +2,7 @@
 
 use super::row::table;
 use crate::statistics::FitStatus;
-use crate::studies::{Form, OfPaper, Ranked, Rating, Target, Unseen, wilson_limits};
+use crate::studies::{Form, OfPaper, Ranked, Rating, Target, HeldOut, wilson_limits};
 
 table! {
     /// Sets of intensity measures, the best first.
@@ -48,7 +48,7 @@ table! {
 }
 
 table! {
-    /// Whether events are as frequent as foretold.
+    /// Whether events are as frequent as predicted.
     pub struct ReliabilityRow as RANKING_RELIABILITY = "reliability" by "rank-ims" {
         suite: Option<String>,
         structure: String,
@@ -85,8 +85,8 @@ impl RankedCandidate {
         self.ranked.rating.as_ref().ok()
     }
 
-    fn unseen(&self) -> Option<&Unseen> {
-        self.rating()?.unseen.as_ref()
+    fn held_out(&self) -> Option<&HeldOut> {
+        self.rating()?.held_out.as_ref()
     }
 
     fn choice(&self) -> Option<String> {
@@ -103,7 +103,7 @@ impl RankedCandidate {
 
     /// How reliable its forecasts are, in each group of cases.
     pub fn reliability(&self) -> impl Iterator<Item = ReliabilityRow> {
-        let groups = self.unseen().map_or(&[][..], |unseen| &unseen.reliability);
+        let groups = self.held_out().map_or(&[][..], |held_out| &held_out.reliability);
         groups.iter().zip(1..).map(|(cases, group)| {
             let limits = wilson_limits(cases.seen, cases.n);
             ReliabilityRow {
@@ -126,10 +126,10 @@ impl RankedCandidate {
 
 impl From<&RankedCandidate> for RankingRow {
     fn from(candidate: &RankedCandidate) -> RankingRow {
-        let (ranked, rating, unseen) = (&candidate.ranked, candidate.rating(), candidate.unseen());
+        let (ranked, rating, held_out) = (&candidate.ranked, candidate.rating(), candidate.held_out());
         // Forecasts of a constant differ from fold to fold by what is left out alone, and tell no cases apart.
-        let told_apart = unseen.filter(|_| !ranked.measures.is_empty());
-        let calibration = told_apart.and_then(|unseen| unseen.calibration);
+        let told_apart = held_out.filter(|_| !ranked.measures.is_empty());
+        let calibration = told_apart.and_then(|held_out| held_out.calibration);
         let coefficient = |k: usize| rating?.coefficients.get(k).copied();
         RankingRow {
             suite: candidate.suite.clone(),
@@ -141,7 +141,7 @@ impl From<&RankedCandidate> for RankingRow {
             choice: candidate.choice(),
             rank: ranked.rank,
             same_as: ranked.same_as.as_deref().map(words),
-            log_score: unseen.map(Unseen::log_score),
+            log_score: held_out.map(HeldOut::log_score),
             over_paper: ranked.over_paper.map(|gain| gain.value),
             se_over_paper: ranked.over_paper.map(|gain| gain.standard_error),
             over_best: ranked.over_best.map(|gain| gain.value),
@@ -149,9 +149,9 @@ impl From<&RankedCandidate> for RankingRow {
             step: ranked.step,
             over_step: ranked.over_step.map(|gain| gain.value),
             se_over_step: ranked.over_step.map(|gain| gain.standard_error),
-            event_log_score: unseen.map(|unseen| unseen.event_log_score),
-            auc_unseen: told_apart.map(|unseen| unseen.skill.auc),
-            brier_unseen: unseen.map(|unseen| unseen.skill.brier),
+            event_log_score: held_out.map(|held_out| held_out.event_log_score),
+            auc_unseen: told_apart.map(|held_out| held_out.skill.auc),
+            brier_unseen: held_out.map(|held_out| held_out.skill.brier),
             calibration_intercept: calibration.map(|[intercept, _]| intercept),
             calibration_slope: calibration.map(|[_, slope]| slope),
             log_likelihood: rating.map(|rating| rating.log_likelihood),

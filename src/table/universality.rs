@@ -7,7 +7,7 @@ use crate::statistics::FitStatus;
 use crate::studies::{PooledTerms, Transfer, Verdict};
 
 table! {
-    /// The curve of one structure held against the responses of others.
+    /// The curve of one structure tested on the responses of others.
     pub struct UniversalityRow as UNIVERSALITY = "universality" by "universality" {
         suite: Option<String>,
         structure: String,
@@ -15,9 +15,9 @@ table! {
         alpha_rad: f64,
         eta: f64,
         reference: String,
-        event: Event = foretold,
+        event: Event = predicted,
         limit_state: f64,
-        n: usize = n_foretold,
+        n: usize = n_predicted,
         seen: usize,
         expected: f64,
         chance_low: usize,
@@ -48,7 +48,7 @@ table! {
     /// One curve for all structures.
     pub struct PooledRow as POOLED = "pooled curves" by "universality" {
         suite: Option<String>,
-        event: Event = foretold,
+        event: Event = predicted,
         terms: PooledTerms = pooled_terms,
         range_low: Option<f64>,
         range_high: Option<f64>,

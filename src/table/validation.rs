@@ -10,14 +10,14 @@ use crate::fragility::Event;
 use crate::studies::Validation;
 
 table! {
-    /// Curves held against responses that they were not fitted to.
+    /// Curves tested on responses that they were not fitted to.
     pub struct ValidationRow as VALIDATION = "validation" by "validate" {
         suite: Option<String>,
         structure: String,
         fits_suite: Option<String>,
-        event: Event = foretold,
+        event: Event = predicted,
         limit_state: f64,
-        n: usize = n_foretold,
+        n: usize = n_predicted,
         seen: usize,
         expected: f64,
         expected_low: f64,
@@ -85,8 +85,8 @@ const SHOWN: [Column; 16] = [
     schema::suite,
     schema::structure,
     schema::fits_suite,
-    schema::foretold,
-    schema::n_foretold,
+    schema::predicted,
+    schema::n_predicted,
     schema::seen,
     schema::expected,
     schema::chance_low,

@@ -3,7 +3,7 @@
 use super::error::RecordFileError;
 use super::text::{Line, quoted};
 
-/// The numbers of a line in order: parted by blanks, tabs, commas or semicolons, or run together where a sign or a point
+/// The numbers of a line in order: separated by blanks, tabs, commas or semicolons, or run together where a sign or a point
 /// shows that the next one begins; with exponents of E, D or Q, or as Fortran writes them when they have three digits
 /// (`0.1-101`) or a blank for the plus (`1.0E 02`).
 pub struct Numbers<'a> {

@@ -90,7 +90,7 @@ fn unit(header: &[Line], given: &Given) -> Result<AccelerationUnit, RecordFileEr
         .ok_or_else(|| RecordFileError::Unit { line: line.number, unit: quoted(unit) })
 }
 
-/// The second line: event, date, station and component, parted by commas, of which only the date is sure to have none.
+/// The second line: event, date, station and component, separated by commas, of which only the date is sure to have none.
 struct Title {
     event: Option<String>,
     station: Option<String>,

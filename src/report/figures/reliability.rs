@@ -33,7 +33,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
     let entries = [
         (Mark::Dot(inks[0].full()), Label::marked("*P*_{ro}")),
         (Mark::Dot(inks[1].full()), Label::marked("*P*_{ex}")),
-        (Mark::Line(Ink::Muted.dashed(0.7, Dash::Short)), Label::plain("foretold = seen")),
+        (Mark::Line(Ink::Muted.dashed(0.7, Dash::Short)), Label::plain("predicted = observed")),
     ];
     legend(&mut drawing, grid.legend_at(), &entries);
     for (index, (group, forecasts)) in panels.iter().enumerate() {
@@ -43,7 +43,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
             corner,
             width,
             height: grid.panel_height,
-            x: axis("foretold probability"),
+            x: axis("predicted probability"),
             y: axis("share seen"),
         };
         panel.line(&mut drawing, &[[0.0, 0.0], [1.0, 1.0]], Ink::Muted.dashed(0.7, Dash::Short));

@@ -53,7 +53,7 @@ pub struct ImportMotionsOptions {
     /// towards the strongest-pulse; with RotD50 and RotD100 of PGA and PGV. Other motions are left out
     #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
     pub rotate: Option<Parsed<Direction>>,
-    /// Factors, parted by commas or first:last:step; several make as many motions of each record
+    /// Factors, separated by commas or first:last:step; several make as many motions of each record
     #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"])]
     pub scale: Option<Steps>,
     /// Scale each motion to this PGA, g
@@ -68,7 +68,7 @@ pub struct ImportMotionsOptions {
     /// Also write each motion that holds a pulse without it, as suite residual
     #[arg(long)]
     pub residual: bool,
-    /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers parted by
+    /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers separated by
     /// commas; sa_0p20_m_s2 is that at 0.2 s
     #[arg(long)]
     pub sa: Option<Steps>,

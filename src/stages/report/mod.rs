@@ -3,7 +3,7 @@
 mod fits;
 mod motions;
 mod responses;
-mod stamp;
+mod provenance;
 mod tables;
 
 use std::collections::HashSet;
@@ -33,7 +33,7 @@ use crate::report::{ALL, Draw, Figure, Page, Place, page, png, svg};
 use crate::table::TableError;
 use crate::table::store::contents;
 use crate::table::store::contents::footer;
-use crate::table::store::provenance::{Provenance, Stamp};
+use crate::table::store::provenance::{Provenance, Recorded};
 use crate::table::store::source::{Source, Target};
 use crate::table::store::text_file;
 
@@ -159,11 +159,11 @@ fn finish(figures: &mut [Figure], made: &str) {
 /// What is known of a file.
 fn file(path: &Path) -> Result<File, TableError> {
     let footer = footer(path)?;
-    let stamp = contents::stamp(path)?;
+    let recorded = contents::recorded(path)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let rows = usize::try_from(footer.rows).unwrap_or(0);
-    Ok(match stamp {
-        Some(Stamp { provenance, content, .. }) => File {
+    Ok(match recorded {
+        Some(Recorded { provenance, content, .. }) => File {
             name,
             stage: Some(provenance.stage),
             version: provenance.version,
@@ -229,8 +229,8 @@ impl Stage for Report {
         json!({ "suite": suite, "structure": structure, "groups": groups, "motions": motions, "dpi": dpi })
     }
 
-    fn recorded(&self, output: &Path) -> Result<Option<Stamp>, TableError> {
-        stamp::read(output)
+    fn recorded(&self, output: &Path) -> Result<Option<Recorded>, TableError> {
+        provenance::read(output)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
@@ -246,8 +246,8 @@ impl Stage for Report {
             Ok(text_file::write(&path("png"), &png(figure, self.options.dpi)?)?)
         })?;
         let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let stamp = stamp::words(provenance);
-        let html = page(&data, Page { figures: &figures, folder: &name, provenance: &stamp });
+        let recorded = provenance::words(provenance);
+        let html = page(&data, Page { figures: &figures, folder: &name, provenance: &recorded });
         text_file::write(&self.out, &html)?;
         let (count, megabytes) = (figures.len(), html.len() as f64 / 1e6);
         Ok(format!("{count} figures, and a page of {megabytes:.1} MB to open: {}", self.out.display()))

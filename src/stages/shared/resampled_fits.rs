@@ -13,7 +13,7 @@ use crate::table::fits::{self, FitRow};
 use crate::table::pex::PEX_BOOTSTRAP;
 use crate::table::pro::PRO_BOOTSTRAP;
 use crate::table::schema::{self, Column, Table};
-use crate::table::store::contents::stamp;
+use crate::table::store::contents::recorded;
 use crate::table::store::source::{Source, with_part};
 
 /// The bootstrap files beside those of the fits, of P_ex and of P_ro.
@@ -55,10 +55,10 @@ pub fn expect_files(fits: &FitFiles) -> anyhow::Result<()> {
 /// If there are no such files, or they are not of the same resamples as the fits and each other.
 pub fn read(fits: &FitFiles, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<FragilityModel>>> {
     let [pex, pro] = files(fits)?;
-    same_plan(path_of(&fits.pex)?, &pex)?;
-    same_plan(path_of(&fits.pro)?, &pro)?;
+    same_cache_key(path_of(&fits.pex)?, &pex)?;
+    same_cache_key(path_of(&fits.pro)?, &pro)?;
     let seed =
-        |path: &Path| anyhow::Ok(stamp(path)?.map(|stamp| stamp.provenance.parameters["seed"].clone()));
+        |path: &Path| anyhow::Ok(recorded(path)?.map(|recorded| recorded.provenance.parameters["seed"].clone()));
     if seed(&pex)? != seed(&pro)? {
         return Err(UsageError::because(format!(
             "{} and {} have other seeds; expected the same --seed in fit-pex and fit-pro",
@@ -84,9 +84,9 @@ pub fn read(fits: &FitFiles, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<F
 }
 
 /// That a bootstrap file was made together with the fits.
-fn same_plan(fits: &Path, bootstrap: &Path) -> anyhow::Result<()> {
-    let plan = |path: &Path| anyhow::Ok(stamp(path)?.map(|stamp| stamp.plan));
-    if plan(fits)? != plan(bootstrap)? {
+fn same_cache_key(fits: &Path, bootstrap: &Path) -> anyhow::Result<()> {
+    let key = |path: &Path| anyhow::Ok(recorded(path)?.map(|recorded| recorded.cache_key));
+    if key(fits)? != key(bootstrap)? {
         return Err(UsageError::because(format!(
             "{} was not made together with {}; fit again with --bootstrap",
             bootstrap.display(),

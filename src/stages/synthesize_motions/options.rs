@@ -28,7 +28,7 @@ pub struct SynthesizeMotionsOptions {
     /// Seed of the noise [default: 42]
     #[arg(long)]
     pub seed: Option<u64>,
-    /// Suites, parted by commas: pulse, csgm (pulse and high frequencies), hfc (high frequencies alone)
+    /// Suites, separated by commas: pulse, csgm (pulse and high frequencies), hfc (high frequencies alone)
     #[arg(long, default_value = "pulse,csgm")]
     pub suite: Several<Word<Suite>>,
     /// Time between samples, s
@@ -59,7 +59,7 @@ pub struct SynthesizeMotionsOptions {
     /// Also compute the Housner intensity, which doubles the time
     #[arg(long)]
     pub housner: bool,
-    /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers parted by
+    /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers separated by
     /// commas; sa_0p20_m_s2 is that at 0.2 s
     #[arg(long)]
     pub sa: Option<Steps>,

@@ -1,4 +1,4 @@
-//! universality: the curves of one structure held against the responses of all others to the same motions.
+//! universality: the curves of one structure tested on the responses of all others to the same motions.
 
 mod words;
 
@@ -220,7 +220,7 @@ fn pooled<'a>(subject: &CurveSubject, suite: &SuiteOfGroups<'a>) -> Vec<Result<P
 impl Declare for Universality {
     type Options = UniversalityOptions;
     const NAME: &'static str = UNIVERSALITY.stage;
-    const ABOUT: &'static str = "How universal the curves of one structure are: held against the responses of all others to the \
+    const ABOUT: &'static str = "How universal the curves of one structure are: tested on the responses of all others to the \
          same motions";
     const INPUTS: &'static [Input] =
         &[Input::file("responses", "in", Simulate::OUTPUT.file, "Responses of all structures to read")];

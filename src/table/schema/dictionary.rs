@@ -234,10 +234,10 @@ columns! {
 // Forecasts beside what happened.
 columns! {
     fits_suite: Text, "1", "suite of motions that the curves were fitted to";
-    foretold = "event": Text, "1", "overturning given rocking (P_ro), exceeding the limit state given safe rocking (P_ex), or failure given rocking, the one or the other (Eq. 12)";
-    n_foretold = "n": Int64, "1", "cases with a forecast: those that rock, or rock safely";
+    predicted = "event": Text, "1", "overturning given rocking (P_ro), exceeding the limit state given safe rocking (P_ex), or failure given rocking, the one or the other (Eq. 12)";
+    n_predicted = "n": Int64, "1", "cases with a forecast: those that rock, or rock safely";
     seen: Int64, "1", "cases in which the event happened";
-    expected: Float64, "1", "the same as foretold: the sum of the probabilities";
+    expected: Float64, "1", "the same as predicted: the sum of the probabilities";
     expected_low: Float64, "1", "sum of the lower 95 % limits of the probabilities: the error of the fits";
     expected_high: Float64, "1", "sum of the upper 95 % limits of the probabilities";
     chance_low: Int64, "1", "lower 95 % limit of the count if the probabilities are right and the cases independent (Poisson-binomial)";
@@ -319,7 +319,7 @@ columns! {
     event_log_score: Float64, "1", "mean ln probability of whether the event (overturning, or a demand above the limit state) happened, in clusters left out of the fit";
     auc_unseen: Float64, "1", "area under the receiver operating characteristic of the event, in clusters left out of the fit; null without a measure";
     brier_unseen: Float64, "1", "Brier score of the event, in clusters left out of the fit";
-    calibration_intercept: Float64, "1", "intercept of the events regressed by a probit on the index foretold for clusters left out; 0 is best";
+    calibration_intercept: Float64, "1", "intercept of the events regressed by a probit on the index predicted for clusters left out; 0 is best";
     calibration_slope: Float64, "1", "slope of it; 1 is best, less: the forecasts are too sure";
     rank_b0 = "b0": Float64, "1", "intercept (of the probit index, or of ln EDP); null for a broken form";
     rank_b1 = "b1": Float64, "1", "power of the first measure; null for a broken form";
@@ -328,7 +328,7 @@ columns! {
     n_events: Int64, "1", "cases in which the event happened";
     clustered_by: Text, "1", "what the cases of a cluster share: cell (magnitude and distance), earthquake or nothing";
     group: Int64, "1", "tenth of the cases, from the least probability";
-    forecast: Float64, "1", "mean probability of the event foretold for clusters left out of the fit";
+    forecast: Float64, "1", "mean probability of the event predicted for clusters left out of the fit";
 }
 
 // Published numbers beside ours.

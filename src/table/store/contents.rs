@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::folder;
 use super::footer::{Footer, of_file};
 use super::partition::PARAMETER;
-use super::provenance::{Provenance, Stamp, stamp_of_file};
+use super::provenance::{Provenance, Recorded, recorded_in_file};
 use super::source::Source;
 use crate::table::TableError;
 
@@ -24,31 +24,31 @@ pub fn footer(path: &Path) -> Result<Footer, TableError> {
     Ok(whole)
 }
 
-/// The stamp of a Parquet file, or `None` where another program wrote it. That of a folder is of what its files have in common:
+/// The recorded of a Parquet file, or `None` where another program wrote it. That of a folder is of what its files have in common:
 /// no partition, the inputs of the first one, and the fingerprint of all.
 ///
 /// # Errors
 /// If the file is missing, not readable as Parquet, or of a later format than is known here, or the folder is incomplete.
-pub fn stamp(path: &Path) -> Result<Option<Stamp>, TableError> {
+pub fn recorded(path: &Path) -> Result<Option<Recorded>, TableError> {
     if !path.is_dir() {
-        return stamp_of_file(path);
+        return recorded_in_file(path);
     }
-    let stamps =
-        folder::files(path)?.iter().map(|file| stamp_of_file(file)).collect::<Result<Option<Vec<_>>, _>>()?;
-    let Some(stamps) = stamps else { return Ok(None) };
-    let mut provenance = stamps[0].provenance.clone();
+    let all_recorded =
+        folder::files(path)?.iter().map(|file| recorded_in_file(file)).collect::<Result<Option<Vec<_>>, _>>()?;
+    let Some(all_recorded) = all_recorded else { return Ok(None) };
+    let mut provenance = all_recorded[0].provenance.clone();
     if let Value::Object(parameters) = &mut provenance.parameters {
         parameters.remove(PARAMETER);
     }
-    let content = hash_of_all(stamps.iter().map(|stamp| stamp.content.as_str()));
-    Ok(Some(Stamp { plan: provenance.plan(), provenance, content }))
+    let content = hash_of_all(all_recorded.iter().map(|recorded| recorded.content.as_str()));
+    Ok(Some(Recorded { cache_key: provenance.cache_key(), provenance, content }))
 }
 
 /// The fingerprint of what an input holds: as recorded by rockfrag, or the hash of its bytes if another program wrote
 /// it.
 ///
 /// # Errors
-/// As [`stamp`], or if a file is unreadable; or if the table is in memory, so that no file could say of
+/// As [`recorded`], or if a file is unreadable; or if the table is in memory, so that no file could say of
 /// itself what it was made from.
 pub fn content_of(source: impl Into<Source>) -> Result<String, TableError> {
     match source.into() {
@@ -74,8 +74,8 @@ fn hash_of_all<'a>(contents: impl Iterator<Item = &'a str>) -> String {
 }
 
 fn content_of_file(path: &Path) -> Result<String, TableError> {
-    if let Some(stamp) = stamp_of_file(path)? {
-        return Ok(stamp.content);
+    if let Some(recorded) = recorded_in_file(path)? {
+        return Ok(recorded.content);
     }
     let mut hasher = blake3::Hasher::new();
     let file = std::fs::File::open(path).map_err(|source| TableError::io(path, source))?;

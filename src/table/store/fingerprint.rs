@@ -39,7 +39,7 @@ impl Fingerprint {
     }
 }
 
-/// All at once, since the hash of one long piece takes a fraction of the time of many short ones.
+/// All at once, since the hash of one long fragment takes a fraction of the time of many short ones.
 fn update_column(hasher: &mut blake3::Hasher, array: &dyn Array) {
     let mut bytes = Vec::with_capacity(16 * array.len());
     for row in 0..array.len() {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::partition::Partition;
-use super::provenance::stamp_of_file;
+use super::provenance::recorded_in_file;
 use crate::table::TableError;
 
 /// The Parquet files that a path stands for: itself, or those in the folder.
@@ -30,7 +30,7 @@ pub fn files(path: &Path) -> Result<Vec<PathBuf>, TableError> {
 /// # Errors
 /// If it is missing or unreadable.
 pub fn partition_of(file: &Path) -> Result<Option<Partition>, TableError> {
-    Ok(stamp_of_file(file)?.and_then(|stamp| Partition::among(&stamp.provenance.parameters)))
+    Ok(recorded_in_file(file)?.and_then(|recorded| Partition::among(&recorded.provenance.parameters)))
 }
 
 /// The file of a folder that is this partition, whether or not the others are there already.

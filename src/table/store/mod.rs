@@ -5,7 +5,7 @@
 //! folder       a folder of files as one table; partition one of its parts
 //! footer       the end of a file, which says what is in it; compact and description how it says it
 //! limits       how much memory a file may ask for; guarded catches panics of the decoder on damaged files
-//! table_file   one file, open at some columns; shared_file lets several threads read it; piece a file or a table in memory
+//! table_file   one file, open at some columns; shared_file lets several threads read it; fragment a file or a table in memory
 //! lists        the samples of some rows
 //! reader       batches from a table; columns the columns of a batch by name, checked; frame narrow tables as polars frames
 //! contents     what files and folders say of themselves
@@ -26,7 +26,7 @@ pub mod guarded;
 pub(crate) mod limits;
 pub(crate) mod lists;
 pub mod partition;
-pub(crate) mod piece;
+pub(crate) mod fragment;
 pub mod provenance;
 pub mod reader;
 pub(crate) mod shared_file;

@@ -18,7 +18,7 @@ const STAGE: &str = "rockfrag.stage";
 const VERSION: &str = "rockfrag.version";
 const PARAMETERS: &str = "rockfrag.parameters";
 const INPUTS: &str = "rockfrag.inputs";
-const PLAN: &str = "rockfrag.plan";
+const CACHE_KEY: &str = "rockfrag.cache_key";
 const CONTENT: &str = "rockfrag.content";
 
 /// How a file comes to be: enough to make it again, and to know that it need not be made again.
@@ -49,9 +49,9 @@ impl Provenance {
     }
 
     /// The fingerprint of what is to be done: equal plans give equal rows.
-    pub fn plan(&self) -> String {
-        let plan = serde_json::json!([self.stage, self.version, self.parameters, self.inputs]);
-        blake3::hash(plan.to_string().as_bytes()).to_hex().to_string()
+    pub fn cache_key(&self) -> String {
+        let key = serde_json::json!([self.stage, self.version, self.parameters, self.inputs]);
+        blake3::hash(key.to_string().as_bytes()).to_hex().to_string()
     }
 
     pub(super) fn key_values(&self, content: &str) -> Vec<KeyValue> {
@@ -61,7 +61,7 @@ impl Provenance {
             (VERSION, self.version.clone()),
             (PARAMETERS, self.parameters.to_string()),
             (INPUTS, serde_json::json!(self.inputs).to_string()),
-            (PLAN, self.plan()),
+            (CACHE_KEY, self.cache_key()),
             (CONTENT, content.to_string()),
         ]
         .map(|(key, value)| KeyValue::new(key.to_string(), value))
@@ -71,21 +71,21 @@ impl Provenance {
 
 /// What a file says of itself.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stamp {
+pub struct Recorded {
     /// How it was made.
     pub provenance: Provenance,
     /// The fingerprint of what was to be done.
-    pub plan: String,
+    pub cache_key: String,
     /// The fingerprint of the rows that it holds.
     pub content: String,
 }
 
-pub(super) fn stamp_of_file(path: &Path) -> Result<Option<Stamp>, TableError> {
-    stamp_in(path, footer::open(path)?.metadata.metadata())
+pub(super) fn recorded_in_file(path: &Path) -> Result<Option<Recorded>, TableError> {
+    recorded_in(path, footer::open(path)?.metadata.metadata())
 }
 
-/// The stamp in the footer of a file.
-pub(super) fn stamp_in(path: &Path, metadata: &ParquetMetaData) -> Result<Option<Stamp>, TableError> {
+/// The recorded in the footer of a file.
+pub(super) fn recorded_in(path: &Path, metadata: &ParquetMetaData) -> Result<Option<Recorded>, TableError> {
     let pairs = metadata.file_metadata().key_value_metadata().map_or(&[][..], Vec::as_slice);
     let get = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone());
     if let Some(format) = get(FORMAT)
@@ -94,8 +94,8 @@ pub(super) fn stamp_in(path: &Path, metadata: &ParquetMetaData) -> Result<Option
         let version = get(VERSION).unwrap_or_default();
         return Err(TableError::Newer { path: path.to_path_buf(), version, format, known: FORMAT_VERSION });
     }
-    let stamp = || {
-        Some(Stamp {
+    let recorded = || {
+        Some(Recorded {
             provenance: Provenance {
                 stage: get(STAGE)?,
                 version: get(VERSION)?,
@@ -103,9 +103,9 @@ pub(super) fn stamp_in(path: &Path, metadata: &ParquetMetaData) -> Result<Option
                 inputs: serde_json::from_str(&get(INPUTS)?).ok()?,
                 sources: BTreeMap::new(),
             },
-            plan: get(PLAN)?,
+            cache_key: get(CACHE_KEY)?,
             content: get(CONTENT)?,
         })
     };
-    Ok(stamp())
+    Ok(recorded())
 }

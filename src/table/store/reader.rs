@@ -9,8 +9,8 @@ use arrow_schema::SchemaRef;
 
 use super::columns::missing;
 use super::folder;
-use super::piece::Piece;
-pub use super::piece::{Batch, Run};
+use super::fragment::Fragment;
+pub use super::fragment::{Batch, Run};
 use super::source::Source;
 use super::table_file::TableFile;
 use crate::table::TableError;
@@ -21,7 +21,7 @@ const NARROW_BATCH: usize = 8192;
 
 /// A table, open at those of its columns that are wanted.
 pub struct OpenTable {
-    pieces: Vec<Piece>,
+    fragments: Vec<Fragment>,
 }
 
 /// The batches of a table in order.
@@ -69,23 +69,23 @@ impl OpenTable {
         stages: Option<&[&str]>,
         is_wanted: impl Fn(&str) -> bool,
     ) -> Result<OpenTable, TableError> {
-        let pieces = match source {
+        let fragments = match source {
             Source::Path(path) => folder::files(path)?
                 .iter()
-                .map(|file| Ok(Piece::File(TableFile::open(file, stages, &is_wanted)?)))
+                .map(|file| Ok(Fragment::File(TableFile::open(file, stages, &is_wanted)?)))
                 .collect::<Result<Vec<_>, TableError>>()?,
             Source::Memory(table) => {
                 let fields = table.schema.fields().iter().enumerate();
                 let wanted = fields.filter(|(_, field)| is_wanted(field.name())).map(|(at, _)| at).collect();
-                vec![Piece::Memory(table.clone(), wanted)]
+                vec![Fragment::Memory(table.clone(), wanted)]
             }
         };
-        Ok(OpenTable { pieces })
+        Ok(OpenTable { fragments })
     }
 
     /// How many rows it has.
     pub fn rows(&self) -> u64 {
-        self.pieces.iter().flat_map(Piece::rows_of_groups).sum()
+        self.fragments.iter().flat_map(Fragment::rows_of_groups).sum()
     }
 
     /// The columns that will be read, of each file.
@@ -93,20 +93,20 @@ impl OpenTable {
     /// # Errors
     /// If a file is damaged.
     pub fn schemas(&self) -> Result<Vec<(Arc<Path>, SchemaRef)>, TableError> {
-        self.pieces.iter().map(|piece| Ok((piece.path(), piece.schema()?))).collect()
+        self.fragments.iter().map(|fragment| Ok((fragment.path(), fragment.schema()?))).collect()
     }
 
     /// The rows of `range`, in runs: row groups, as far as they lie in it.
     pub fn runs(&self, range: Range<u64>) -> Vec<Run> {
         let mut runs = Vec::new();
         let mut before = 0;
-        for (piece, of_piece) in self.pieces.iter().enumerate() {
+        for (fragment, of_piece) in self.fragments.iter().enumerate() {
             let mut first_row = 0;
             for (group, rows) in of_piece.rows_of_groups().into_iter().enumerate() {
                 let first = range.start.clamp(before, before + rows) - before;
                 let end = range.end.clamp(before, before + rows) - before;
                 if end > first {
-                    runs.push(Run { piece, group, first, rows: end - first, first_row: first_row + first });
+                    runs.push(Run { fragment, group, first, rows: end - first, first_row: first_row + first });
                 }
                 before += rows;
                 first_row += rows;
@@ -117,7 +117,7 @@ impl OpenTable {
 
     /// The file of a run, or the name of the table in memory.
     pub fn path_of(&self, run: Run) -> Arc<Path> {
-        self.pieces[run.piece].path()
+        self.fragments[run.fragment].path()
     }
 
     /// The rows of a run, `batch_size` at a time.
@@ -129,7 +129,7 @@ impl OpenTable {
         run: Run,
         batch_size: usize,
     ) -> Result<impl Iterator<Item = Result<Batch, TableError>> + Send + use<>, TableError> {
-        self.pieces[run.piece].read(run, batch_size)
+        self.fragments[run.fragment].read(run, batch_size)
     }
 
     /// All rows, `batch_size` at a time.
@@ -137,7 +137,7 @@ impl OpenTable {
     /// # Errors
     /// If a file is damaged.
     pub fn batches(self, batch_size: usize) -> Result<Batches, TableError> {
-        let (schema, rows) = (self.pieces[0].schema()?, self.rows());
+        let (schema, rows) = (self.fragments[0].schema()?, self.rows());
         let batches = self.runs(0..rows).into_iter().flat_map(move |run| -> BatchIterator {
             match self.batches_of(run, batch_size) {
                 Ok(batches) => Box::new(batches),
@@ -161,9 +161,9 @@ impl OpenTable {
     /// # Errors
     /// With the first one that does.
     pub fn expect_rows(&self, few: u64) -> Result<(), TableError> {
-        self.pieces.iter().try_for_each(|piece| match piece {
-            Piece::File(file) => file.expect_rows(few),
-            Piece::Memory(..) => Ok(()),
+        self.fragments.iter().try_for_each(|fragment| match fragment {
+            Fragment::File(file) => file.expect_rows(few),
+            Fragment::Memory(..) => Ok(()),
         })
     }
 }

@@ -61,8 +61,8 @@ impl<P: AsRef<Path>> From<P> for Source {
 pub enum Target {
     /// A Parquet file.
     Path(PathBuf),
-    /// A place on a shelf, under a name.
-    Memory(Shelf, String),
+    /// A table in memory, by its name.
+    Memory(MemoryTables, String),
 }
 
 impl Target {
@@ -78,7 +78,7 @@ impl Target {
     pub fn part(&self, part: &str) -> Target {
         match self {
             Target::Path(path) => Target::Path(with_part(path, part)),
-            Target::Memory(shelf, _) => Target::Memory(shelf.clone(), part.to_string()),
+            Target::Memory(tables, _) => Target::Memory(tables.clone(), part.to_string()),
         }
     }
 }
@@ -97,9 +97,9 @@ impl<P: AsRef<Path>> From<P> for Target {
 
 /// Tables that a stage leaves in memory, by name.
 #[derive(Debug, Clone, Default)]
-pub struct Shelf(Arc<Mutex<BTreeMap<String, MemoryTable>>>);
+pub struct MemoryTables(Arc<Mutex<BTreeMap<String, MemoryTable>>>);
 
-impl Shelf {
+impl MemoryTables {
     /// A place on it.
     pub fn place(&self, name: &str) -> Target {
         Target::Memory(self.clone(), name.to_string())

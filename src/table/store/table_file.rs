@@ -18,7 +18,7 @@ use super::footer::{self, Opened, not_parquet};
 use super::guarded::guarded;
 use super::limits::check_pages;
 use super::lists::Lists;
-use super::provenance::stamp_in;
+use super::provenance::recorded_in;
 use super::shared_file::SharedFile;
 use crate::table::TableError;
 
@@ -162,10 +162,10 @@ fn lists_among(wanted: &[usize], metadata: &ArrowReaderMetadata) -> Vec<ListColu
 
 /// That a file which says by which stage it was made was made by one of these.
 fn expect_stage(path: &Path, metadata: &ParquetMetaData, stages: &[&str]) -> Result<(), TableError> {
-    match stamp_in(path, metadata)? {
-        Some(stamp) if !stages.contains(&stamp.provenance.stage.as_str()) => Err(TableError::OtherStage {
+    match recorded_in(path, metadata)? {
+        Some(recorded) if !stages.contains(&recorded.provenance.stage.as_str()) => Err(TableError::OtherStage {
             path: path.to_path_buf(),
-            found: stamp.provenance.stage,
+            found: recorded.provenance.stage,
             expected: stages.join(" or "),
         }),
         _ => Ok(()),

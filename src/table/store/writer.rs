@@ -18,7 +18,7 @@ use super::contents::expect_unchanged;
 use super::fingerprint::Fingerprint;
 use super::limits::MOST_SAMPLES;
 use super::provenance::Provenance;
-use super::source::{MemoryTable, Shelf, Target};
+use super::source::{MemoryTable, MemoryTables, Target};
 use crate::motion::LONGEST_MOTION;
 use crate::table::TableError;
 use crate::table::schema::{Kind, Table};
@@ -37,7 +37,7 @@ pub struct TableWriter(Destination);
 
 enum Destination {
     File(Box<FileWriter>),
-    Memory(Shelf, String, MemoryTable),
+    Memory(MemoryTables, String, MemoryTable),
 }
 
 /// A file on its way to its name.
@@ -81,9 +81,9 @@ impl TableWriter {
             Target::Path(path) => {
                 Destination::File(Box::new(FileWriter::create(&path, table, schema, provenance)?))
             }
-            Target::Memory(shelf, name) => {
+            Target::Memory(tables, name) => {
                 let empty = MemoryTable { name: table.name.into(), schema, batches: Vec::new() };
-                Destination::Memory(shelf, name, empty)
+                Destination::Memory(tables, name, empty)
             }
         }))
     }
@@ -128,8 +128,8 @@ impl TableWriter {
     pub fn finish(self) -> Result<(), TableError> {
         match self.0 {
             Destination::File(file) => file.finish(),
-            Destination::Memory(shelf, name, table) => {
-                shelf.put(&name, table);
+            Destination::Memory(tables, name, table) => {
+                tables.put(&name, table);
                 Ok(())
             }
         }

@@ -14,7 +14,7 @@ use super::table_file::TableFile;
 use crate::table::TableError;
 
 /// A file, or a table in memory with the places of the columns that are wanted.
-pub(super) enum Piece {
+pub(super) enum Fragment {
     File(TableFile),
     Memory(Arc<MemoryTable>, Vec<usize>),
 }
@@ -22,15 +22,15 @@ pub(super) enum Piece {
 /// A run of rows that one thread can read on its own: in a row group of a file, or in a batch in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Run {
-    /// Which piece of the table.
-    pub(super) piece: usize,
+    /// Which fragment of the table.
+    pub(super) fragment: usize,
     /// Which group of it.
     pub(super) group: usize,
     /// From the start of the group.
     pub(super) first: u64,
     /// How many rows.
     pub rows: u64,
-    /// Rows of the piece before this run.
+    /// Rows of the fragment before this run.
     pub first_row: u64,
 }
 
@@ -51,7 +51,7 @@ impl Batch {
     }
 
     /// Its rows in order, `size` at a time.
-    pub fn pieces(&self, size: usize) -> impl Iterator<Item = Batch> {
+    pub fn slices(&self, size: usize) -> impl Iterator<Item = Batch> {
         (0..self.rows.num_rows()).step_by(size).map(move |first| Batch {
             rows: self.rows.slice(first, size.min(self.rows.num_rows() - first)),
             path: self.path.clone(),
@@ -60,18 +60,18 @@ impl Batch {
     }
 }
 
-impl Piece {
+impl Fragment {
     pub fn path(&self) -> Arc<Path> {
         match self {
-            Piece::File(file) => file.path.clone(),
-            Piece::Memory(table, _) => table.name.as_path().into(),
+            Fragment::File(file) => file.path.clone(),
+            Fragment::Memory(table, _) => table.name.as_path().into(),
         }
     }
 
     pub fn schema(&self) -> Result<SchemaRef, TableError> {
         match self {
-            Piece::File(file) => Ok(file.schema.clone()),
-            Piece::Memory(table, columns) => {
+            Fragment::File(file) => Ok(file.schema.clone()),
+            Fragment::Memory(table, columns) => {
                 table.schema.project(columns).map(Arc::new).map_err(|source| damaged(table, &source))
             }
         }
@@ -79,15 +79,15 @@ impl Piece {
 
     pub fn rows_of_groups(&self) -> Vec<u64> {
         match self {
-            Piece::File(file) => file.rows_of_groups(),
-            Piece::Memory(table, _) => table.batches.iter().map(|batch| batch.num_rows() as u64).collect(),
+            Fragment::File(file) => file.rows_of_groups(),
+            Fragment::Memory(table, _) => table.batches.iter().map(|batch| batch.num_rows() as u64).collect(),
         }
     }
 
     pub fn read(&self, run: Run, batch_size: usize) -> Result<BatchesOfRun, TableError> {
         let rows: Rows = match self {
-            Piece::File(file) => Box::new(file.read(run.group, run.first, run.rows, batch_size)?),
-            Piece::Memory(table, columns) => {
+            Fragment::File(file) => Box::new(file.read(run.group, run.first, run.rows, batch_size)?),
+            Fragment::Memory(table, columns) => {
                 let batch = table.batches[run.group].slice(run.first as usize, run.rows as usize);
                 let batch = batch.project(columns).map_err(|source| damaged(table, &source))?;
                 let starts = (0..batch.num_rows()).step_by(batch_size);

@@ -8,24 +8,24 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::table::TableError;
-use crate::table::store::provenance::{Provenance, Stamp};
+use crate::table::store::provenance::{Provenance, Recorded};
 
-/// Lines at the start of a page among which the stamp is.
+/// Lines at the start of a page among which the recorded is.
 const LINES: usize = 8;
 const BEFORE: &str = "<meta name=\"rockfrag\" content=\"";
 const AFTER: &str = "\">";
 
-/// The stamp of a page that is made like this.
+/// The recorded of a page that is made like this.
 pub fn words(provenance: &Provenance) -> String {
     let Provenance { stage, version, parameters, inputs, .. } = provenance;
     json!({ "stage": stage, "version": version, "parameters": parameters, "inputs": inputs }).to_string()
 }
 
-/// The stamp of a page, or `None` where it has none.
+/// The recorded of a page, or `None` where it has none.
 ///
 /// # Errors
 /// If the page is missing or unreadable.
-pub fn read(path: &Path) -> Result<Option<Stamp>, TableError> {
+pub fn read(path: &Path) -> Result<Option<Recorded>, TableError> {
     let file = match File::open(path) {
         Ok(file) => file,
         Err(source) if source.kind() == std::io::ErrorKind::NotFound => {
@@ -48,7 +48,7 @@ pub fn read(path: &Path) -> Result<Option<Stamp>, TableError> {
     Ok(None)
 }
 
-fn parse(words: &str) -> Option<Stamp> {
+fn parse(words: &str) -> Option<Recorded> {
     let value: Value = serde_json::from_str(words).ok()?;
     let text = |key: &str| value[key].as_str().map(str::to_string);
     let inputs: BTreeMap<String, String> = serde_json::from_value(value["inputs"].clone()).ok()?;
@@ -59,6 +59,6 @@ fn parse(words: &str) -> Option<Stamp> {
         inputs,
         sources: BTreeMap::new(),
     };
-    let plan = provenance.plan();
-    Some(Stamp { provenance, plan, content: String::new() })
+    let cache_key = provenance.cache_key();
+    Some(Recorded { provenance, cache_key, content: String::new() })
 }
