@@ -23,7 +23,12 @@ pub struct PyTable {
 
 impl PyTable {
     /// What a stage has left in memory under `main`, and under the names of `parts` what else there is.
-    pub fn take(py: Python, tables: &MemoryTables, main: &str, parts: &[String]) -> PyResult<Option<PyTable>> {
+    pub fn take(
+        py: Python,
+        tables: &MemoryTables,
+        main: &str,
+        parts: &[String],
+    ) -> PyResult<Option<PyTable>> {
         let Some(table) = tables.take(main) else { return Ok(None) };
         let part = |name: &String| {
             let table = tables.take(name)?;

@@ -23,7 +23,7 @@ pub use pooled::{PooledFit, PooledPart, PooledStructure, PooledTerm, PooledTerms
 pub use ranking::{MeasureRanking, RankingRules};
 pub use ranking::{OfPaper, Ranked};
 pub use ranking_sample::{FurtherMeasure, RankingSample, Target};
-pub use rating::{Rating, ReliabilityGroup, Skill, HeldOut};
+pub use rating::{HeldOut, Rating, ReliabilityGroup, Skill};
 pub use transfer::{Curve, CurveForm, CurveSubject};
 pub use universality::{BesideOwn, Transfer, Verdict};
 pub use validation::{Forecast, Forecasts};

@@ -2,7 +2,7 @@
 
 use super::row::table;
 use crate::statistics::FitStatus;
-use crate::studies::{Form, OfPaper, Ranked, Rating, Target, HeldOut, wilson_limits};
+use crate::studies::{Form, HeldOut, OfPaper, Ranked, Rating, Target, wilson_limits};
 
 table! {
     /// Sets of intensity measures, the best first.

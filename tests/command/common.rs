@@ -87,5 +87,5 @@ pub fn write(path: &Path, columns: Vec<(&str, ArrayRef)>) {
 
 /// The content fingerprint of a file.
 pub fn content(path: &Path) -> String {
-    rockfrag::table::store::contents::stamp(path).unwrap().unwrap().content
+    rockfrag::table::store::contents::recorded(path).unwrap().unwrap().content
 }

@@ -27,7 +27,7 @@ fn a_killed_run_is_simply_run_again() {
         for name in ["scenarios", "motions", "responses", "pex", "pro", "paper"] {
             let path = folder.path().join(format!("out/{name}.parquet"));
             assert!(
-                !path.exists() || rockfrag::table::store::contents::stamp(&path).unwrap().is_some(),
+                !path.exists() || rockfrag::table::store::contents::recorded(&path).unwrap().is_some(),
                 "{name}"
             );
         }

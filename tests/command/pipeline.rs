@@ -112,7 +112,7 @@ fn flags_win_over_the_file_and_the_file_over_defaults() {
     succeed(folder.path(), "sample-scenarios --config pipeline.yaml --samples 3 --out b.parquet");
     succeed(folder.path(), "sample-scenarios --samples 2 --out c.parquet");
     let parameters = |name: &str| {
-        let stamp = rockfrag::table::store::contents::stamp(&folder.path().join(name)).unwrap().unwrap();
+        let stamp = rockfrag::table::store::contents::recorded(&folder.path().join(name)).unwrap().unwrap();
         let get = |key: &str| stamp.provenance.parameters[key].clone();
         (get("samples"), get("seed"), get("mw").as_array().unwrap().len())
     };

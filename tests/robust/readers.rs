@@ -19,7 +19,7 @@ use rockfrag::table::{TableError, fits, ida, paper, scenarios, validation};
 /// Reads a file as each stage would, and gives what each made of it.
 pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)> {
     vec![
-        ("stamp", words(contents::stamp(path))),
+        ("stamp", words(contents::recorded(path))),
         ("content", words(contents::content_of(path))),
         ("inspect", words(inspect(path, &Terminal::PLAIN))),
         ("scenarios", words(scenarios::read(path))),

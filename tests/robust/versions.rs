@@ -7,7 +7,7 @@ use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::metadata::KeyValue;
 use rockfrag::table::motions::MotionBatches;
-use rockfrag::table::store::contents::stamp;
+use rockfrag::table::store::contents::recorded;
 use rockfrag::table::store::provenance::FORMAT_VERSION;
 
 use crate::readers::read_as_everything;

@@ -51,7 +51,7 @@ fn every_figure_equals_that_of_statsmodels_and_scipy() {
         for &form in Form::ALL.iter().filter(|&&form| target == Target::Demand || form == Form::Single) {
             for (name, measures) in [("im4", &["im4"][..]), ("im4:im3", &["im4", second][..])] {
                 let rating = find(&ranking, measures, form).rating.as_ref().unwrap();
-                let unseen = rating.unseen.as_ref().unwrap();
+                let unseen = rating.held_out.as_ref().unwrap();
                 let [intercept, slope] = unseen.calibration.unwrap();
                 let groups = &unseen.reliability;
                 assert_eq!(groups.iter().map(|group| group.n).sum::<usize>(), unseen.log_scores.len());
@@ -101,7 +101,7 @@ fn the_best_of_as_many_measures_is_what_others_are_held_against() {
     let of_im4 = find(&ranking, &["im4"], Form::Single).rating.as_ref().unwrap();
     let residual_sd = data().demand_sample("x").fit().unwrap().residual_sd;
     assert!((of_im4.beta / residual_sd - 1.0).abs() < 1e-9, "{} for {residual_sd}", of_im4.beta);
-    let score = |of: &Ranked| of.rating.as_ref().unwrap().unseen.as_ref().unwrap().log_score();
+    let score = |of: &Ranked| of.rating.as_ref().unwrap().held_out.as_ref().unwrap().log_score();
     for ranked in &ranking {
         let rivals = ranking.iter().filter(|other| other.measures.len() == ranked.measures.len());
         let best = rivals.map(score).fold(f64::NEG_INFINITY, f64::max);
@@ -142,7 +142,7 @@ fn no_case_is_foretold_with_the_help_of_its_own_cluster() {
     let after = ranking(&data, Target::Overturning, &[]);
     let probability = |ranking: &[Ranked], k: usize, happened: bool| {
         let rating = find(ranking, &["im4"], Form::Single).rating.as_ref().unwrap();
-        let p = rating.unseen.as_ref().unwrap().log_scores[k].exp();
+        let p = rating.held_out.as_ref().unwrap().log_scores[k].exp();
         if happened { p } else { 1.0 - p }
     };
     let original = crate::data::data();
@@ -169,7 +169,7 @@ fn a_break_is_found_without_the_cases_that_it_foretells() {
         let kept = (0..data.x.len()).filter(|&case| Some(folds.of[case]) != fold);
         fit_biplanar(&cases(&data.rows(kept), Target::Demand), None).unwrap().transition
     };
-    let log_scores = |rating: &Rating| rating.unseen.as_ref().unwrap().log_scores.clone();
+    let log_scores = |rating: &Rating| rating.held_out.as_ref().unwrap().log_scores.clone();
     let (found, of_all) = (two_planes(None), break_without(None));
     let likelihood = two_planes(Some(of_all)).log_likelihood;
     assert!((found.log_likelihood - likelihood).abs() < 1e-9, "{} for {likelihood}", found.log_likelihood);
@@ -263,7 +263,7 @@ fn one_cluster_leaves_the_criteria_alone() {
     let ranking = ranking(&data, Target::Overturning, &[]);
     let pair = find(&ranking, &["im4", "im3_inv"], Form::Single);
     let rating = pair.rating.as_ref().unwrap();
-    assert!(rating.unseen.is_none() && rating.aic.is_finite());
+    assert!(rating.held_out.is_none() && rating.aic.is_finite());
     assert_eq!((pair.rank, pair.over_paper, pair.step), (None, None, None));
 }
 

@@ -2,8 +2,8 @@
 
 mod fits;
 mod motions;
-mod responses;
 mod provenance;
+mod responses;
 mod tables;
 
 use std::collections::HashSet;

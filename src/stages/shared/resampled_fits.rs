@@ -57,8 +57,9 @@ pub fn read(fits: &FitFiles, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<F
     let [pex, pro] = files(fits)?;
     same_cache_key(path_of(&fits.pex)?, &pex)?;
     same_cache_key(path_of(&fits.pro)?, &pro)?;
-    let seed =
-        |path: &Path| anyhow::Ok(recorded(path)?.map(|recorded| recorded.provenance.parameters["seed"].clone()));
+    let seed = |path: &Path| {
+        anyhow::Ok(recorded(path)?.map(|recorded| recorded.provenance.parameters["seed"].clone()))
+    };
     if seed(&pex)? != seed(&pro)? {
         return Err(UsageError::because(format!(
             "{} and {} have other seeds; expected the same --seed in fit-pex and fit-pro",

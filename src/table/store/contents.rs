@@ -33,8 +33,10 @@ pub fn recorded(path: &Path) -> Result<Option<Recorded>, TableError> {
     if !path.is_dir() {
         return recorded_in_file(path);
     }
-    let all_recorded =
-        folder::files(path)?.iter().map(|file| recorded_in_file(file)).collect::<Result<Option<Vec<_>>, _>>()?;
+    let all_recorded = folder::files(path)?
+        .iter()
+        .map(|file| recorded_in_file(file))
+        .collect::<Result<Option<Vec<_>>, _>>()?;
     let Some(all_recorded) = all_recorded else { return Ok(None) };
     let mut provenance = all_recorded[0].provenance.clone();
     if let Value::Object(parameters) = &mut provenance.parameters {

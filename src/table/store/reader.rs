@@ -106,7 +106,13 @@ impl OpenTable {
                 let first = range.start.clamp(before, before + rows) - before;
                 let end = range.end.clamp(before, before + rows) - before;
                 if end > first {
-                    runs.push(Run { fragment, group, first, rows: end - first, first_row: first_row + first });
+                    runs.push(Run {
+                        fragment,
+                        group,
+                        first,
+                        rows: end - first,
+                        first_row: first_row + first,
+                    });
                 }
                 before += rows;
                 first_row += rows;

@@ -163,11 +163,13 @@ fn lists_among(wanted: &[usize], metadata: &ArrowReaderMetadata) -> Vec<ListColu
 /// That a file which says by which stage it was made was made by one of these.
 fn expect_stage(path: &Path, metadata: &ParquetMetaData, stages: &[&str]) -> Result<(), TableError> {
     match recorded_in(path, metadata)? {
-        Some(recorded) if !stages.contains(&recorded.provenance.stage.as_str()) => Err(TableError::OtherStage {
-            path: path.to_path_buf(),
-            found: recorded.provenance.stage,
-            expected: stages.join(" or "),
-        }),
+        Some(recorded) if !stages.contains(&recorded.provenance.stage.as_str()) => {
+            Err(TableError::OtherStage {
+                path: path.to_path_buf(),
+                found: recorded.provenance.stage,
+                expected: stages.join(" or "),
+            })
+        }
         _ => Ok(()),
     }
 }
