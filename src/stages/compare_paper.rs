@@ -11,19 +11,21 @@ use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
 use super::shared::groups::{self, Group};
 use super::simulate::Simulate;
-use crate::fragility::{Plane, p_overturning, rms_difference};
+use crate::fragility::{Measure, Plane, p_overturning, rms_difference};
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::defaults;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
+use crate::table::fits;
 use crate::table::paper::{self, PAPER, PaperRow, Published, SpreadRow};
-use crate::table::row::WriteRow;
+use crate::table::pex::PexRow;
+use crate::table::pro::ProRow;
+use crate::table::row::{ReadRow, WriteRow};
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
-use crate::table::{pex::PexFrame, pro::ProFrame};
 
-/// Against which spread over seeds our numbers are held.
+/// The spread over seeds that our numbers are compared with.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct ComparePaperOptions {
@@ -75,8 +77,8 @@ impl ComparePaper {
 /// The fits and cases from which our numbers come.
 struct Ours {
     groups: Vec<Group>,
-    pex: PexFrame,
-    pro: ProFrame,
+    pex: Vec<PexRow>,
+    pro: Vec<ProRow>,
     published: Vec<Published>,
 }
 
@@ -105,50 +107,72 @@ impl Side {
 
 impl Ours {
     /// Our value of a published quantity; none where our files do not have it.
-    fn value(&self, wanted: &Published) -> Option<f64> {
-        let (suite, structure) = (wanted.suite.as_str(), wanted.structure.as_str());
+    ///
+    /// # Errors
+    /// If the quantity is unknown.
+    fn value(&self, wanted: &Published) -> anyhow::Result<Option<f64>> {
         let quantity = wanted.quantity.as_str();
         for side in [Side::Low, Side::High] {
             if let Some(rest) = quantity.strip_prefix(side.word()).and_then(|rest| rest.strip_prefix('_')) {
-                return match rest {
-                    "rms_ln_edp" => self.rms(suite, structure, side),
-                    "rms_over_beta" => {
-                        let beta = self.plane_number(suite, structure, side, "beta")?;
-                        Some(self.rms(suite, structure, side)? / beta)
-                    }
-                    column => self.plane_number(suite, structure, side, column),
-                };
+                let plane = self.plane(wanted, side);
+                return Ok(match rest {
+                    "rms_ln_edp" => self.rms(wanted, side),
+                    "rms_over_beta" => self
+                        .rms(wanted, side)
+                        .zip(plane.and_then(|plane| plane.beta))
+                        .map(|(rms, beta)| rms / beta),
+                    "ln_a" => plane.and_then(|plane| plane.ln_a),
+                    "b1" => plane.and_then(|plane| plane.b1),
+                    "b2" => plane.and_then(|plane| plane.b2),
+                    "r2" => plane.and_then(|plane| plane.r2),
+                    _ => anyhow::bail!("data/paper.csv: {quantity}: unknown quantity"),
+                });
             }
         }
+        let hybrid = || self.curve(wanted, Measure::Im4, Some(Measure::Im3Inverse));
+        let im5 = || self.curve(wanted, Measure::Im5, None);
+        let high = || self.plane(wanted, Side::High);
         if let Some(im) = quantity.strip_prefix("p_ro_at_") {
-            let curve = |column| self.pro.number(suite, structure, "im4", Some("im3_inv"), column);
-            return Some(p_overturning(im.parse().ok()?, curve("mu")?, curve("beta")?, self.pro.link()?));
+            let im = im.parse()?;
+            let at = |curve: &ProRow| Some(p_overturning(im, curve.mu?, curve.beta?, curve.link));
+            return Ok(hybrid().and_then(at));
         }
-        match quantity {
-            "transition" => self.plane_number(suite, structure, Side::High, "transition_found"),
-            "r2_pooled" => self.plane_number(suite, structure, Side::High, "r2_pooled"),
-            "hybrid_lambda" => self.pro.number(suite, structure, "im4", Some("im3_inv"), "lambda"),
-            "im5_theta" => self.pro.number(suite, structure, "im5", None, "theta"),
-            "im5_beta" => self.pro.number(suite, structure, "im5", None, "beta"),
-            _ => None,
-        }
+        Ok(match quantity {
+            "transition" => high().and_then(|plane| plane.transition_found),
+            "r2_pooled" => high().and_then(|plane| plane.r2_pooled),
+            "hybrid_lambda" => hybrid().and_then(|curve| curve.lambda),
+            "im5_theta" => im5().and_then(|curve| curve.theta),
+            "im5_beta" => im5().and_then(|curve| curve.beta),
+            _ => anyhow::bail!("data/paper.csv: {quantity}: unknown quantity"),
+        })
     }
 
-    fn plane_number(&self, suite: &str, structure: &str, side: Side, column: &str) -> Option<f64> {
-        self.pex.plane_number(suite, structure, matches!(side, Side::Low), column)
+    fn plane(&self, of: &Published, side: Side) -> Option<&PexRow> {
+        let [low, high] = fits::planes(self.pex.iter().filter(|row| of.is_of(&row.suite, &row.structure)))?;
+        Some(match side {
+            Side::Low => low,
+            Side::High => high,
+        })
+    }
+
+    fn curve(&self, of: &Published, x: Measure, y: Option<Measure>) -> Option<&ProRow> {
+        let mut curves = self.pro.iter().filter(|row| of.is_of(&row.suite, &row.structure));
+        curves.find(|row| row.is_of_overturning() && row.im_x == x && row.im_y == y)
     }
 
     /// How far the published plane lies from ours over our own cases, in ln EDP.
-    fn rms(&self, suite: &str, structure: &str, side: Side) -> Option<f64> {
+    fn rms(&self, of: &Published, side: Side) -> Option<f64> {
         let published = |coefficient: &str| {
             let quantity = format!("{}_{coefficient}", side.word());
-            self.published.iter().find(|p| p.is(&quantity, suite, structure)).and_then(|p| p.published)
+            self.published
+                .iter()
+                .find(|p| p.is(&quantity, &of.suite, &of.structure))
+                .and_then(|p| p.published)
         };
-        let ours = |coefficient| self.plane_number(suite, structure, side, coefficient);
+        let row = self.plane(of, side)?;
         let theirs = Plane { ln_a: published("ln_a")?, b1: published("b1")?, b2: published("b2")? };
-        let ours = Plane { ln_a: ours("ln_a")?, b1: ours("b1")?, b2: ours("b2")? };
-        let group =
-            self.groups.iter().find(|g| g.suite.as_deref() == Some(suite) && g.structure == structure)?;
+        let ours = Plane { ln_a: row.ln_a?, b1: row.b1?, b2: row.b2? };
+        let group = self.groups.iter().find(|group| of.is_of(&group.suite, &group.structure))?;
         rms_difference(&theirs, &ours, &group.cases, side.range())
     }
 }
@@ -166,7 +190,7 @@ fn by_quantity(spread: &[SpreadRow]) -> BTreeMap<(&str, &str, &str), Vec<f64>> {
 impl Declare for ComparePaper {
     type Options = ComparePaperOptions;
     const NAME: &'static str = PAPER.stage;
-    const ABOUT: &'static str = "Hold our numbers against the published ones";
+    const ABOUT: &'static str = "Compare our numbers with the published ones";
     const INPUTS: &'static [Input] = &[
         Input::file("pex", "pex", FitPex::OUTPUT.file, "Regressions of fit-pex"),
         Input::file("pro", "pro", FitPro::OUTPUT.file, "Curves of fit-pro"),
@@ -208,17 +232,17 @@ impl Stage for ComparePaper {
     fn execute(&self, provenance: &Provenance, _console: &Console) -> anyhow::Result<String> {
         let ours = Ours {
             groups: groups::read(&self.responses)?,
-            pex: PexFrame::read(&self.pex)?,
-            pro: ProFrame::read(&self.pro)?,
+            pex: PexRow::read(self.pex.clone())?,
+            pro: ProRow::read(self.pro.clone())?,
             published: self.published.clone(),
         };
         let spread = by_quantity(&self.spread);
         let row = |published: &Published| {
             let key = (published.quantity.as_str(), published.suite.as_str(), published.structure.as_str());
             let values = spread.get(&key).map_or(&[][..], Vec::as_slice);
-            PaperRow::new(published, ours.value(published), values)
+            Ok(PaperRow::new(published, ours.value(published)?, values))
         };
-        let rows: Vec<PaperRow> = self.published.iter().map(row).collect();
+        let rows: Vec<PaperRow> = self.published.iter().map(row).collect::<anyhow::Result<_>>()?;
         PaperRow::write(&rows, self.out.clone(), provenance)?;
         Ok(format!("{} published numbers", rows.iter().filter(|row| row.published.is_some()).count()))
     }

@@ -38,6 +38,11 @@ impl Published {
     pub fn is(&self, quantity: &str, suite: &str, structure: &str) -> bool {
         self.quantity == quantity && self.suite == suite && self.structure == structure
     }
+
+    /// Whether it is of that suite and structure.
+    pub fn is_of(&self, suite: &Option<String>, structure: &str) -> bool {
+        suite.as_deref() == Some(&self.suite) && structure == self.structure
+    }
 }
 
 /// Our value of a quantity with one seed.
