@@ -9,7 +9,7 @@ use super::motions::MotionId;
 use super::responses::{RESPONSES, ResponseRow};
 use super::row::{WriteRow, schema_of, table};
 use super::schema::{Column, Table, joined};
-use super::store::reader::{Batch, Batches};
+use super::store::frame::read_frame;
 use super::store::text;
 use crate::fragility::CapacityFit;
 use crate::rocking::{Capacity, CapacityStatus, Structure};
@@ -290,6 +290,5 @@ pub fn fragility(rows: &[FragilityRow]) -> Result<RecordBatch, ArrowError> {
 /// # Errors
 /// If it is none.
 pub fn show(path: &Path) -> anyhow::Result<String> {
-    let batches = Batches::open_whole(path, &IDA_FRAGILITY, &[IDA_FRAGILITY.stage])?;
-    batches.map(|batch| Ok(batch.map(|Batch { rows, .. }| text::aligned(&rows))?)).collect()
+    Ok(text::aligned(&read_frame(path, &IDA_FRAGILITY)?))
 }
