@@ -103,11 +103,9 @@ table! {
 /// What a scan says of a structure under a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CapacityRow<'a> {
-    /// Which motion.
     pub motion_id: &'a MotionId,
     /// Its kind, if known.
     pub suite: Option<&'a str>,
-    /// Which structure.
     pub structure: &'a Structure,
     /// What is scaled.
     pub measure: &'static str,
@@ -134,7 +132,6 @@ pub struct StripeRow<'a> {
 pub struct FragilityRow {
     /// The suite, if known.
     pub suite: Option<String>,
-    /// The structure.
     pub structure: String,
     /// What is scaled.
     pub measure: &'static str,
@@ -157,7 +154,6 @@ pub struct FragilityRow {
 pub struct LevelCount {
     /// At this intensity.
     pub intensity: f64,
-    /// So many.
     pub overturned: usize,
     /// At this intensity or a lower one.
     pub overturned_up_to: usize,

@@ -29,7 +29,6 @@ pub struct Published {
     pub suite: String,
     /// Of which structure.
     pub structure: String,
-    /// The number.
     pub published: Option<f64>,
 }
 
