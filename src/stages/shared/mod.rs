@@ -9,4 +9,5 @@ pub mod partitions;
 pub mod resampled_fits;
 pub mod structure_options;
 pub mod structures;
+pub mod transfers;
 pub mod uncertainty;
