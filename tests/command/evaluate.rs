@@ -31,7 +31,7 @@ pub fn run_folder() -> &'static Path {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("evaluate");
         std::fs::create_dir_all(&folder).unwrap();
         std::fs::write(folder.join("pipeline.yaml"), PIPELINE).unwrap();
-        succeed(&folder, "run");
+        succeed(&folder, "run --force");
         folder.join("out")
     })
 }
