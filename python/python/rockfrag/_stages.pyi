@@ -147,6 +147,7 @@ def import_motions(
     residual: bool = False,
     sa: Any = None,
     housner: bool = False,
+    accept_implausible: bool = False,
     keep_going: bool = False,
     out: PathLike | None = None,
     threads: int | None = None,

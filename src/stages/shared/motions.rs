@@ -1,9 +1,14 @@
-//! Motions as simulate and ida take them: as records, with their peaks, under distinct names.
+//! Motions as simulate and ida take them: as records, with their peaks, under distinct names; and what is doubtful about those
+//! that other programs made.
 
 use std::collections::HashSet;
 use std::path::Path;
+use std::sync::Arc;
 
-use crate::motion::{IntensityMeasures, IntensityScratch, intensity};
+use super::reasons::Case;
+use crate::keyword;
+use crate::motion::{IntensityMeasures, IntensityScratch, Suite, intensity};
+use crate::records::plausibility;
 use crate::rocking::{Record, RecordError, Response, Structure};
 use crate::table::TableError;
 use crate::table::motions::{Motion, MotionId};
@@ -87,6 +92,41 @@ impl Peaks {
     /// Of the motion scaled by a factor.
     pub fn scaled(&self, factor: f64) -> Peaks {
         Peaks { pga_m_s2: factor * self.pga_m_s2, pgv_m_s: factor * self.pgv_m_s, ..*self }
+    }
+}
+
+/// By which share the peak that a file of others gives may miss that of the samples.
+const PEAK_TOLERANCE: f64 = 0.1;
+
+/// Whether the motions of other programs can be those of earthquakes.
+pub struct Judge {
+    of_others: HashSet<Arc<Path>>,
+}
+
+impl Judge {
+    /// Of the motions in these files, but for those that say that they are synthetic.
+    pub fn new(of_others: HashSet<Arc<Path>>) -> Judge {
+        Judge { of_others }
+    }
+
+    /// What is doubtful about a motion of the file at `path`, whose samples are these (m/s2).
+    pub fn doubt(&self, path: &Path, motion: &Motion, samples: &[f64]) -> Option<Case> {
+        let suite = motion.suite.as_deref().and_then(|word| keyword::parse::<Suite>(word).ok());
+        let is_synthetic = suite.is_some_and(|suite| Suite::SYNTHETIC.contains(&suite));
+        if is_synthetic || !self.of_others.contains(path) {
+            return None;
+        }
+        let name = motion.motion_id.to_string();
+        let peak = intensity::peak(samples);
+        let other = motion.pga_m_s2.filter(|pga| (pga - peak).abs() > PEAK_TOLERANCE * peak);
+        if let Some(pga) = other {
+            let found = Some(format!("{pga:.3} m/s2 for {peak:.3} m/s2"));
+            let reason =
+                "column 'pga_m_s2' is not the peak of the samples; PGA of another unit or component?";
+            return Some(Case { name, found, reason: reason.to_string() });
+        }
+        let doubt = plausibility::doubt(samples, motion.dt_s)?;
+        Some(Case { name, found: Some(doubt.found), reason: doubt.reason.to_string() })
     }
 }
 

@@ -10,8 +10,9 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 pub use self::options::SimulateOptions;
-use super::shared::motions::{DistinctIds, Peaks, record};
+use super::shared::motions::{DistinctIds, Judge, Peaks, record};
 use super::shared::partitions::{PartitionedInput, is_folder, out_of_partition};
+use super::shared::reasons::{Case, Reasons};
 use super::shared::structures::parameters;
 use super::synthesize_motions::SynthesizeMotions;
 use crate::motion::IntensityScratch;
@@ -80,6 +81,7 @@ impl Simulate {
         path: &Path,
         motions: &[Motion],
         by_name: bool,
+        judge: &Judge,
         scratch: &mut Scratch,
     ) -> anyhow::Result<Responded> {
         let Scratch { samples, intensity } = scratch;
@@ -98,7 +100,12 @@ impl Simulate {
         let traced = motions.iter().zip(&records);
         let traced = traced.filter(|(motion, _)| self.traced.contains(&motion.motion_id.to_string()));
         let traces = traced.map(|(motion, record)| self.trace(&motion.motion_id, record, by_name));
+        let judged = motions.iter().zip(&records);
+        let doubts = judged
+            .filter_map(|(motion, record)| judge.doubt(path, motion, record.acceleration_m_s2()))
+            .collect();
         Ok(Responded {
+            doubts,
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             rows: ResponseRow::batch_in(&rows, &schema_of(&RESPONSES, by_name))?,
             traces: traces.collect::<anyhow::Result<_>>()?,
@@ -167,6 +174,7 @@ struct Responded {
     motion_ids: Vec<MotionId>,
     rows: RecordBatch,
     traces: Vec<Trace>,
+    doubts: Vec<Case>,
 }
 
 /// The trace of a motion.
@@ -259,8 +267,8 @@ impl Stage for Simulate {
         let motions = MotionTable::open(&self.input.source, self.input.rows)?;
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
         let mut writer = motions::writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
-        let mut ids = DistinctIds::default();
-        let mut traces: Vec<Trace> = Vec::new();
+        let (mut ids, judge) = (DistinctIds::default(), Judge::new(motions.of_others()));
+        let (mut traces, mut doubts): (Vec<Trace>, Reasons) = (Vec::new(), Reasons::default());
         let pool = Pool::new(Scratch::default);
         let bar = console.bar(self.name(), total);
         pipelined(
@@ -270,7 +278,8 @@ impl Stage for Simulate {
                     let path = motions.path_of(part);
                     let simulate_chunk = |chunk: Result<Vec<Motion>, TableError>| {
                         let chunk = chunk?;
-                        let responded = pool.lend(|scratch| self.respond(&path, &chunk, by_name, scratch))?;
+                        let responded =
+                            pool.lend(|scratch| self.respond(&path, &chunk, by_name, &judge, scratch))?;
                         bar.inc(chunk.len() as u64)?;
                         Ok(responded)
                     };
@@ -281,9 +290,10 @@ impl Stage for Simulate {
                 Ok(responded.into_iter().flatten())
             },
             |responded| {
-                for Responded { motion_ids, rows, traces: traced } in responded {
+                for Responded { motion_ids, rows, traces: traced, doubts: doubtful } in responded {
                     ids.add(self.input.source.name(), &motion_ids)?;
                     traces.extend(traced);
+                    doubtful.into_iter().for_each(|case| doubts.add(case));
                     writer.append(&rows)?;
                 }
                 Ok(())
@@ -299,6 +309,7 @@ impl Stage for Simulate {
         }
         writer.finish()?;
         bar.finish();
+        doubts.lines("motions").for_each(|line| console.warn(&line));
         Ok(format!(
             "{} responses of {} structure(s)",
             total * self.structures.len() as u64,
