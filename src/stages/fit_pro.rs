@@ -1,5 +1,8 @@
 //! fit-pro: fragility curves of overturning, or of rocking, by maximum likelihood.
 
+use std::collections::BTreeSet;
+
+use anyhow::ensure;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -7,7 +10,7 @@ use serde_json::{Value, json};
 use super::shared::groups::{self, Group};
 use super::shared::uncertainty::uncertainty;
 use super::simulate::Simulate;
-use crate::fragility::overturning::{Curve, CurveOptions, Pair};
+use crate::fragility::overturning::{Curve, CurveOptions, LEAST_EVENTS, Pair};
 use crate::fragility::{CaseGroup, CurveModel, Event};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
@@ -146,6 +149,8 @@ impl Stage for FitPro {
         console.warn_each(missing.map(|row| (reason(row), measures(&row.curve))));
         let few = rows.iter().filter(|row| row.curve.has_few_events());
         console.warn_each(few.map(|row| (few_events(row), measures(&row.curve))));
+        let fitted = rows.iter().filter(|row| row.curve.status() == FitStatus::Ok).count();
+        ensure!(fitted > 0, nothing_fits(&rows));
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PRO_BOOTSTRAP, provenance.clone())?;
             for row in &rows {
@@ -154,11 +159,7 @@ impl Stage for FitPro {
             writer.finish()?;
         }
         ProRow::write(&rows.iter().map(ProRow::from).collect::<Vec<_>>(), self.out.clone(), provenance)?;
-        Ok(format!(
-            "{} of {} curves ok",
-            rows.iter().filter(|row| row.curve.status() == FitStatus::Ok).count(),
-            rows.len()
-        ))
+        Ok(format!("{fitted} of {} curves ok", rows.len()))
     }
 }
 
@@ -166,6 +167,23 @@ impl Stage for FitPro {
 fn measures(curve: &Curve) -> String {
     let second = curve.im_y.map_or(String::new(), |measure| format!(":{}", measure.as_str()));
     format!("{}{second}", curve.im_x.as_str())
+}
+
+/// What to do where no curve can be fitted: no file is written, since nothing could be read from it.
+fn nothing_fits(rows: &[GroupCurve]) -> String {
+    let event = rows.first().map_or("events", |row| row.curve.event.as_str());
+    let counts: BTreeSet<String> =
+        rows.iter().map(|row| format!("{} of {}", row.curve.events, row.curve.n)).collect();
+    let counts = counts.into_iter().collect::<Vec<_>>().join(", ");
+    format!(
+        "none of {} curves can be fitted, and no file is written: {event} in {counts} cases; expected {LEAST_EVENTS} at least, and \
+         {LEAST_EVENTS} without, that overlap\n\
+         more motions, or stronger ones (import-motions --scale), answer the same question with more events\n\
+         --estimator firth answers it from one event on, and in spite of separation, with wide limits\n\
+         ida scales each motion until it overturns a structure; fit-pro reads its stripes (ida.stripes.parquet), which tell what \
+         these motions would do if they were stronger",
+        rows.len()
+    )
 }
 
 /// Which limits to take where events are few, for a message.

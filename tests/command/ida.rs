@@ -134,7 +134,10 @@ fn neither_threads_nor_other_motions_matter() {
     let folder = with_motions();
     let mut contents = Vec::new();
     for threads in [1, 2] {
-        succeed(folder.path(), &format!("ida --measure pga --to 3 --force --threads {threads}"));
+        succeed(
+            folder.path(),
+            &format!("ida --measure pga --to 3 --force --threads {threads} --p 2.5 --alpha 0.2 --eta 0.92"),
+        );
         contents.push(FILES.map(|file| content(&folder.path().join(file))));
     }
     assert_eq!(contents[0], contents[1]);
@@ -146,7 +149,12 @@ fn neither_threads_nor_other_motions_matter() {
     write_motions(&folder.path().join("all.parquet"), &motions);
     write_motions(&folder.path().join("last.parquet"), &motions[7..]);
     let of = |name: &str| {
-        succeed(folder.path(), &format!("ida --in {name}.parquet --out {name}.ida.parquet --to 4"));
+        succeed(
+            folder.path(),
+            &format!(
+                "ida --in {name}.parquet --out {name}.ida.parquet --to 4 --p 2.5 --alpha 0.2 --eta 0.92"
+            ),
+        );
         rows(&folder.path().join(format!("{name}.ida.parquet")))
     };
     let (all, last) = (of("all"), of("last"));
@@ -190,16 +198,31 @@ fn what_cannot_be_scaled_or_scanned_is_told_so() {
         fail(folder.path(), &format!("ida {flags}"), 2, &[expected]);
     }
     let dead = ["row 1", "motion '2' has no pga above 0", "--measure scale"];
-    fail(folder.path(), "ida --measure pga", 1, &dead);
-    fail(folder.path(), "ida --in none.parquet", 1, &["none.parquet: no such file"]);
-    succeed(folder.path(), "ida --steps 3");
+    fail(folder.path(), "ida --measure pga --p 2.5 --alpha 0.2 --eta 0.92", 1, &dead);
+    fail(
+        folder.path(),
+        "ida --in none.parquet --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["none.parquet: no such file"],
+    );
+    succeed(folder.path(), "ida --steps 3 --p 2.5 --alpha 0.2 --eta 0.92");
     let capacities = rows(&folder.path().join("ida.parquet"));
     assert_eq!(texts(&capacities, "capacity")[1], "safe");
     assert_eq!(numbers(&capacities, "safe_below")[1], 10.0);
     let missing = ["made by ida; expected the output of synthesize-motions or import-motions"];
-    fail(folder.path(), "ida --in ida.parquet --out other.parquet", 1, &missing);
+    fail(
+        folder.path(),
+        "ida --in ida.parquet --out other.parquet --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &missing,
+    );
     fail(folder.path(), "fit-pro --in ida.parquet", 1, &["no column"]);
     // Too large a factor is named, not simulated.
-    fail(folder.path(), "ida --from 1 --to 1e300 --steps 1", 1, &["row 0", "motion '1'", "by a lower --to"]);
+    fail(
+        folder.path(),
+        "ida --from 1 --to 1e300 --steps 1 --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["row 0", "motion '1'", "by a lower --to"],
+    );
     assert!(!folder.path().join("other.parquet").exists());
 }

@@ -60,7 +60,7 @@ fn each_file_is_read_by_the_stages_that_read_it() {
     assert_eq!(there.count(), readers().len());
     for (name, expected) in readers() {
         let path = files().join(format!("{name}.parquet"));
-        assert!(stamp(&path).unwrap().is_some(), "{name}");
+        assert!(recorded(&path).unwrap().is_some(), "{name}");
         let read = read_as_everything(&path);
         for reader in expected.into_iter().chain(["stamp", "content", "inspect"]) {
             let (_, result) = read.iter().find(|(what, _)| *what == reader).unwrap();
@@ -114,7 +114,7 @@ fn a_later_format_is_refused_and_says_so() {
     let now = FORMAT_VERSION.to_string();
     let later = (FORMAT_VERSION + 1).to_string();
     for (name, call) in [
-        ("motions.parquet", "simulate --in motions.parquet --out out.parquet"),
+        ("motions.parquet", "simulate --in motions.parquet --structures paper --out out.parquet"),
         ("responses.parquet", "fit-pro --in responses.parquet --out out.parquet"),
         ("motions.parquet", "inspect motions.parquet"),
     ] {

@@ -16,6 +16,7 @@ def compare_paper(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def evaluate(
@@ -48,6 +49,7 @@ def evaluate(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def export(
@@ -76,6 +78,7 @@ def export(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def fit_pex(
@@ -90,6 +93,7 @@ def fit_pex(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def fit_pro(
@@ -106,6 +110,7 @@ def fit_pro(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def ida(
@@ -126,6 +131,7 @@ def ida(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def import_motions(
@@ -152,6 +158,7 @@ def import_motions(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def rank_ims(
@@ -166,6 +173,7 @@ def rank_ims(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def report(
@@ -180,6 +188,7 @@ def report(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def sample_scenarios(
@@ -193,6 +202,7 @@ def sample_scenarios(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def simulate(
@@ -209,6 +219,7 @@ def simulate(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def synthesize_motions(
@@ -232,6 +243,7 @@ def synthesize_motions(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def universality(
@@ -246,6 +258,7 @@ def universality(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def validate(
@@ -261,4 +274,5 @@ def validate(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...

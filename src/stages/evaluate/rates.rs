@@ -1,8 +1,8 @@
 use std::path::Path;
 
-use super::answer::Answer;
+use super::answer::{Answer, FITS_OF};
 use super::options::HazardOptions;
-use crate::fragility::{FragilityModel, LimitState, Probability, Slice};
+use crate::fragility::{DOUBTFUL_PEAKS, FragilityModel, LimitState, Probability, Slice, are_doubtful};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -58,7 +58,7 @@ pub fn answer(
         table: RATES,
         rows: evaluated::rates(&rows)?,
         heading: format!(
-            "fits of {}\nstructure of {}, over {}\n",
+            "{FITS_OF}{}\nstructure of {}, over {}\n",
             fits.words(),
             words(structure),
             path.display()
@@ -112,6 +112,10 @@ fn over_pairs(
     if outside > 0 {
         let all = joint.bins.len();
         console.warn(&format!("{outside} of {all} bins lie outside of the data: extrapolated"));
+    }
+    let doubtful = joint.bins.iter().filter(|bin| are_doubtful(bin.pga_m_s2, bin.pgv_m_s)).count();
+    if doubtful > 0 {
+        console.warn(&format!("{doubtful} of {} bins have {DOUBTFUL_PEAKS}", joint.bins.len()));
     }
     Ok(over_bins(structure, joint, model))
 }

@@ -1,5 +1,6 @@
 use rayon::prelude::*;
 
+use crate::fragility::{DOUBTFUL_PEAKS, are_doubtful};
 use crate::pipeline::console::Console;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
@@ -78,6 +79,7 @@ struct Suspect {
     out_of_range: usize,
     other_eta: usize,
     without_measure: usize,
+    doubtful: usize,
 }
 
 impl Suspect {
@@ -88,6 +90,7 @@ impl Suspect {
         Suspect {
             out_of_range: rows.iter().filter(|row| row.out_of_range.is_some()).count(),
             other_eta: intensities.iter().filter(has_other_eta).count(),
+            doubtful: rows.iter().filter(|row| are_doubtful(row.pga_m_s2, row.pgv_m_s)).count(),
             without_measure: rows.iter().filter(has_no_measure).count(),
         }
     }
@@ -96,6 +99,7 @@ impl Suspect {
         self.out_of_range += more.out_of_range;
         self.other_eta += more.other_eta;
         self.without_measure += more.without_measure;
+        self.doubtful += more.doubtful;
     }
 
     fn warn(&self, fits: &ChosenFits, console: &Console) {
@@ -103,6 +107,7 @@ impl Suspect {
         for (rows, reason) in [
             (self.out_of_range, "a measure outside of the data (column out_of_range): extrapolated"),
             (self.other_eta, &eta),
+            (self.doubtful, DOUBTFUL_PEAKS),
             (self.without_measure, "no value of a measure that the fits need: their probabilities are null"),
         ] {
             if rows > 0 {

@@ -7,7 +7,7 @@ use crate::fragility::{Case, CaseGroup, Clusters, cells};
 use crate::rocking::Structure;
 use crate::table::ida::IDA_STRIPES;
 use crate::table::responses::{RESPONSES, ResponseCase};
-use crate::table::row::{ReadRow, Row};
+use crate::table::row::Row;
 use crate::table::store::reader::Batches;
 use crate::table::store::source::Source;
 
@@ -58,7 +58,7 @@ pub fn read(source: impl Into<Source>) -> anyhow::Result<Vec<Group>> {
     let mut groups: Vec<Builder> = Vec::new();
     let mut places: HashMap<(Option<Arc<str>>, Arc<str>), usize> = HashMap::new();
     for batch in Batches::open_whole(source, &ResponseCase::TABLE, &[RESPONSES.stage, IDA_STRIPES.stage])? {
-        for row in ResponseCase::of(&batch?.columns())? {
+        for row in ResponseCase::checked(&batch?.columns())? {
             let place = *places.entry((row.suite.clone(), row.structure.clone())).or_insert(groups.len());
             match groups.get_mut(place) {
                 Some(group) => group.add(row),
@@ -98,7 +98,7 @@ impl Builder {
 
     fn add(&mut self, row: ResponseCase) {
         let group = &mut self.group;
-        group.cases.push(Case { outcome: row.outcome, edp: row.edp, measures: row.measures() });
+        group.cases.push(row.case());
         group.p_rad_s.push(row.p_rad_s);
         group.alpha_rad.push(row.alpha_rad);
         group.motion_ids.push(row.motion_id.to_string());
