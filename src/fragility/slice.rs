@@ -55,7 +55,7 @@ impl Peak {
 
 /// What to say of peaks that are.
 pub const DOUBTFUL_PEAKS: &str =
-    "a PGV (m/s) larger than the PGA (m/s2) is not to be expected: are they exchanged, or in other units?";
+    "a PGV (m/s) larger than the PGA (m/s2): are they exchanged, or in other units?";
 
 /// Whether no motion is likely to have these peaks (m/s2 and m/s), so that they may be exchanged, or of other units.
 pub fn are_doubtful(pga_m_s2: f64, pgv_m_s: f64) -> bool {

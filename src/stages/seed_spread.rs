@@ -37,7 +37,7 @@ pub fn seed_spread(
     console: &Console,
 ) -> anyhow::Result<()> {
     let out = options.out.as_path();
-    if !may.overwrite && out.exists() && paper::spread(Some(out)).is_err() {
+    if !may.overwrite && !is_new_or_own(out) {
         return Err(replace::refusal(out, replace::FOREIGN, "seed-spread"));
     }
     let folder = folder_of(out);
@@ -58,6 +58,12 @@ pub fn seed_spread(
     }
     partial.persist(&options.out).with_context(|| options.out.display().to_string())?;
     Ok(())
+}
+
+/// Whether a file is not there, is empty, or is such a spread.
+fn is_new_or_own(out: &Path) -> bool {
+    let is_empty = std::fs::metadata(out).map_or(true, |there| there.len() == 0);
+    is_empty || paper::spread(Some(out)).is_ok_and(|rows| !rows.is_empty())
 }
 
 /// Those of the stages of a run, in order, on which a file depends.

@@ -221,14 +221,23 @@ fn mistakes_in_the_pipeline_file_are_shown_with_their_place() {
 }
 
 #[test]
-fn too_few_cases_are_a_status_and_a_warning() {
+fn a_fit_of_nothing_fails_and_says_what_would_help() {
     let folder = tempfile::tempdir().unwrap();
     write_motions(&folder.path().join("m.parquet"), 0.01, &[samples(&[0.0, 3.0, -4.0, 0.0])]);
     succeed(folder.path(), "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92");
-    let told = succeed(folder.path(), "fit-pex --in responses.parquet");
-    assert!(told.contains("too_few_cases"), "{told}");
-    let told = succeed(folder.path(), "fit-pro --in responses.parquet");
-    assert!(told.contains("too_few_events"), "{told}");
+    let regressions = ["too_few_cases", "none of 11 regressions", "no file is written", "more motions"];
+    fail(folder.path(), "fit-pex --in responses.parquet", 1, &regressions);
+    let ways = [
+        "too_few_events",
+        "none of 7 curves",
+        "overturning in 0 of",
+        "expected 5",
+        "--scale",
+        "--estimator firth",
+        "ida",
+    ];
+    fail(folder.path(), "fit-pro --in responses.parquet", 1, &ways);
+    assert!(!folder.path().join("pex.parquet").exists() && !folder.path().join("pro.parquet").exists());
 }
 
 #[test]

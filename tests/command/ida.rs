@@ -216,7 +216,12 @@ fn what_cannot_be_scaled_or_scanned_is_told_so() {
         1,
         &missing,
     );
-    fail(folder.path(), "fit-pro --in ida.parquet", 1, &["no column"]);
+    fail(
+        folder.path(),
+        "fit-pro --in ida.parquet",
+        1,
+        &["no column", "of the files of ida, ida.stripes.parquet"],
+    );
     // Too large a factor is named, not simulated.
     fail(
         folder.path(),

@@ -10,10 +10,12 @@ mod export;
 mod ida;
 mod import;
 mod kill;
+mod overwrite;
 mod partitions;
 mod pipeline;
 mod rank_ims;
 mod report;
+mod slips;
 #[path = "../guard/snapshot.rs"]
 mod snapshot;
 mod together;
