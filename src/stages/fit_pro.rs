@@ -176,8 +176,8 @@ fn nothing_fits(rows: &[GroupCurve]) -> String {
         rows.iter().map(|row| format!("{} of {}", row.curve.events, row.curve.n)).collect();
     let counts = counts.into_iter().collect::<Vec<_>>().join(", ");
     format!(
-        "none of {} curves can be fitted, and no file is written: {event} in {counts} cases; expected {LEAST_EVENTS} at least, and \
-         {LEAST_EVENTS} without, that overlap\n\
+        "none of {} curves can be fitted, and no file is written: {event} in {counts} cases; expected {LEAST_EVENTS} or more with it, \
+         and {LEAST_EVENTS} or more without\n\
          more motions, or stronger ones (import-motions --scale), answer the same question with more events\n\
          --estimator firth answers it from one event on, and in spite of separation, with wide limits\n\
          ida scales each motion until it overturns a structure; fit-pro reads its stripes (ida.stripes.parquet), which tell what \

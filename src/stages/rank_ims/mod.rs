@@ -48,7 +48,7 @@ pub struct RankImsOptions {
     pub folds: usize,
     /// Further columns of --motions that are measures; the unit at the end of the name tells how they become dimensionless, as
     /// fiv3_m_s by p v / (g tan alpha)
-    #[arg(long, value_name = "COLUMN,...", requires = "motions")]
+    #[arg(long, value_name = "COLUMN,...")]
     pub candidate: Option<Several<Parsed<OwnMeasure>>>,
 }
 
@@ -84,6 +84,9 @@ impl RankIms {
         check_bound(&LIMIT_STATE, limit_state)?;
         check((1..=3).contains(&terms), "terms", terms, "1, 2 or 3 measures")?;
         check((2..=1000).contains(&folds), "folds", folds, "2 to 1000 folds")?;
+        if options.candidate.is_some() && motions.is_none() {
+            return Err(UsageError::because("candidate needs the motions; name their file with --motions"));
+        }
         let rules = RankingRules { folds, terms, transition: transition.im4() };
         Ok(RankIms { options: options.clone(), rules, input: input.into(), motions, out: out.into() })
     }
