@@ -86,7 +86,7 @@ impl IntensityBatches {
         let p = within(columns, &schema::p_rad_s, refusal("p"))?;
         let alpha = within(columns, &schema::alpha_rad, refusal("alpha"))?;
         let eta = columns.optional_numbers(&schema::eta)?;
-        let wrong = |eta: &Option<f64>| Some(refusal("eta")((*eta)?)?);
+        let wrong = |eta: &Option<f64>| refusal("eta")((*eta)?);
         if let Some((row, expected)) = eta.iter().enumerate().find_map(|(row, eta)| Some((row, wrong(eta)?)))
         {
             let found = eta[row].unwrap_or_default();
