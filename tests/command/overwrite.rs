@@ -97,7 +97,12 @@ fn what_something_else_made_is_kept_unless_it_is_given_up() {
         &["p.scan.parquet: made by fit-pro"],
     );
     assert!(!at("p.parquet").exists());
-    fail(folder.path(), &format!("simulate --in out/motions.parquet --out out {PAPER}"), 2, &["no file"]);
+    fail(
+        folder.path(),
+        "fit-pex --in out/responses.parquet --out out",
+        2,
+        &["out: there is something that is no file"],
+    );
     // A run says so before it does anything, and does the rest as ever.
     std::fs::remove_file(at("out/scenarios.parquet")).unwrap();
     std::fs::copy(at("out/pex.parquet"), at("out/scenarios.parquet")).unwrap();

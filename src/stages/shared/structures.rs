@@ -306,13 +306,18 @@ fn paper<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
 
 fn read(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
     let failed = |what: String| UsageError::because(format!("{}: {what}", path.display()));
-    let text = text_file::text(path, MOST_MIB, "structures").map_err(|error| failed(error.to_string()))?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    match extension.as_str() {
-        "yaml" | "yml" => from_yaml(&text).map_err(failed),
-        "csv" => from_csv(&text).map_err(failed),
-        _ => Err(failed("expected a .yaml, .yml or .csv file of structures, or the word paper".to_string())),
-    }
+    let read = match extension.as_str() {
+        "yaml" | "yml" => from_yaml,
+        "csv" => from_csv,
+        _ => {
+            return Err(failed(
+                "expected a .yaml, .yml or .csv file of structures, or the word paper".to_string(),
+            ));
+        }
+    };
+    let text = text_file::text(path, MOST_MIB, "structures").map_err(|error| failed(error.to_string()))?;
+    read(&text).map_err(failed)
 }
 
 fn from_yaml(text: &str) -> Result<Vec<StructureSpec>, String> {
