@@ -34,8 +34,9 @@ impl Peak {
 /// The largest PGA (g) or PGV (m/s) that can be meant: several times what has been recorded.
 const LARGEST_PEAK: f64 = 20.0;
 
-/// PGV over PGA, s, above which they are likely exchanged or of other units: that of a record hardly passes 0.5 s.
-const LARGEST_PEAKS_RATIO_S: f64 = 1.0;
+/// PGV over PGA, s, above which they are likely exchanged or of other units: that of a record hardly passes 0.5 s,
+/// that of a pulse of 12 s alone reaches 2 s.
+const LARGEST_PEAKS_RATIO_S: f64 = 2.0;
 
 impl Peak {
     /// Where it can lie in its usual unit.
@@ -55,7 +56,7 @@ impl Peak {
 
 /// What to say of peaks that are.
 pub const DOUBTFUL_PEAKS: &str =
-    "a PGV (m/s) larger than the PGA (m/s2): are they exchanged, or in other units?";
+    "a PGV (m/s) more than twice the PGA (m/s2): are they exchanged, or in other units?";
 
 /// Whether no motion is likely to have these peaks (m/s2 and m/s), so that they may be exchanged, or of other units.
 pub fn are_doubtful(pga_m_s2: f64, pgv_m_s: f64) -> bool {

@@ -89,7 +89,7 @@ pub fn content_of_role(role: &str, source: &Source) -> Result<String, TableError
 /// Who makes what plays a role, in words.
 const MAKERS: [(&str, &str); 6] = [
     ("scenarios", "sample-scenarios makes"),
-    ("motions", "synthesize-motions or import-motions makes (the latter of records and CSV)"),
+    ("motions", "synthesize-motions makes, or import-motions of records and CSV"),
     ("responses", "simulate makes"),
     ("pex", "fit-pex makes"),
     ("pro", "fit-pro makes"),

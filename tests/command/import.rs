@@ -93,7 +93,7 @@ fn a_pipeline_may_start_from_records() {
     for k in 1..9 {
         write_csv(folder.path(), &format!("here/records/{k}.csv"), f64::from(k));
     }
-    let pipeline = "import-motions: { files: [records], unit: g, column: 2 }\nsimulate: {}\n";
+    let pipeline = "import-motions: { files: [records], unit: g, column: 2 }\nsimulate: { p: 2.5, alpha: 0.2, eta: 0.92 }\n";
     std::fs::write(folder.path().join("here/pipeline.yaml"), pipeline).unwrap();
     let told = succeed(folder.path(), "run here/pipeline.yaml");
     assert!(told.contains("8 motions of 8 files") && told.contains("8 responses"), "{told}");

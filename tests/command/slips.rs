@@ -18,7 +18,7 @@ const FILES: [(&str, &str); 15] = [
     ("percent.csv", "pga_g,annual_rate_of_exceedance\n10,0.05\n40,0.002\n"),
     ("german.csv", "PGA_g;Annual rate of exceedance\n0,1;0,05\n0,4;0,002\n"),
     ("no_bins.csv", "pga_g,pgv_m_s,annual_rate_of_occurrence\n"),
-    ("fast.csv", "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.05,0.6,0.01\n"),
+    ("fast.csv", "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.05,3,0.01\n"),
     ("table.csv", "motion_id,dt_s\n1,0.01\n"),
 ];
 

@@ -60,7 +60,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
       warnings.push(Number.isNaN(value) ? `Expected ${parameter}: ${expected}.` : `${parameter} is ${value}; expected ${expected}${value > 0 ? `; ${slip}` : "."}`);
     }
     const right = !exchanged && !refused.length;
-    if (right && motion.pgv > motion.pga) warnings.push("A PGV (m/s) larger than the PGA (m/s2): are they exchanged, or in other units?");
+    if (right && motion.pgv > 2 * motion.pga) warnings.push("A PGV (m/s) more than twice the PGA (m/s2): are they exchanged, or in other units?");
     const of = fragility.measures(data.g, { p, alpha, ...motion });
     const answers = right ? fragility.evaluate(model, of) : {};
     if (right && answers.p_f === null) warnings.push("The fits need a measure that is missing: give PGV, and the period if there is a field for it, above 0.");

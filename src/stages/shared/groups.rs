@@ -61,8 +61,8 @@ pub fn read(source: impl Into<Source>) -> anyhow::Result<Vec<Group>> {
     let mut groups: Vec<Builder> = Vec::new();
     let mut places: HashMap<(Option<Arc<str>>, Arc<str>), usize> = HashMap::new();
     let stages = [RESPONSES.stage, IDA_STRIPES.stage];
-    for batch in Batches::open_whole(source, &ResponseCase::TABLE, &stages).map_err(name_stripes)? {
-        for row in ResponseCase::checked(&batch?.columns())? {
+    for batch in Batches::open_whole(source, &ResponseCase::TABLE, &stages)? {
+        for row in ResponseCase::checked(&batch?.columns()).map_err(name_stripes)? {
             let place = *places.entry((row.suite.clone(), row.structure.clone())).or_insert(groups.len());
             match groups.get_mut(place) {
                 Some(group) => group.add(row),
