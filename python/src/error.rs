@@ -21,6 +21,7 @@ fn class_of(error: &anyhow::Error) -> &'static str {
             TableError::Io { .. }
             | TableError::NotParquet { .. }
             | TableError::OtherKind { .. }
+            | TableError::NoParquet { .. }
             | TableError::Codec { .. }
             | TableError::Write { .. },
         ) => "FileError",

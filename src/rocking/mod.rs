@@ -34,5 +34,7 @@ pub use incremental::{Capacity, CapacityStatus, SafeWindow, Scan, ScanPoint, Sca
 pub use march::simulate;
 pub use record::{Record, RecordError};
 pub use response::{Outcome, Response};
-pub use structure::{Structure, StructureError, frame_eta, frame_p, housner_eta, rectangular_p};
+pub use structure::{
+    BOUNDS, Bound, Structure, StructureError, frame_eta, frame_p, housner_eta, judge, rectangular_p,
+};
 pub use trace::{SolverEvent, TracePoint, trace, with_tail};

@@ -1,6 +1,6 @@
 //! Structures by their three parameters, and where these come from.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::ops::RangeInclusive;
 
 use crate::units::G_M_S2;
@@ -31,7 +31,102 @@ pub struct StructureError {
     structure: String,
     parameter: &'static str,
     value: f64,
-    expected: &'static str,
+    expected: String,
+}
+
+/// The range of a parameter in which there are structures, and what a number outside of it is likely to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bound {
+    /// What the parameter is called in options.
+    pub parameter: &'static str,
+    /// The least and the largest.
+    pub range: (f64, f64),
+    /// In words.
+    pub expected: &'static str,
+    /// The likely slip.
+    pub slip: &'static str,
+}
+
+/// What a user may give. The solver takes more ([`Structure::new`]), but outside of these bounds a number is a slip, most often of the
+/// unit: no structure that rocks is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or
+/// is wider than tall, for then it slides; nor is a beam 50 times as heavy as its columns.
+pub const BOUNDS: [Bound; 6] = [
+    Bound {
+        parameter: "width",
+        range: (1e-4, 200.0),
+        expected: "a length above 0 m, up to 200 m",
+        slip: "is it in mm?",
+    },
+    Bound {
+        parameter: "height",
+        range: (1e-3, 200.0),
+        expected: "a length above 0 m, up to 200 m",
+        slip: "is it in mm?",
+    },
+    Bound {
+        parameter: "beam-mass-ratio",
+        range: (0.0, 50.0),
+        expected: "a mass ratio of 0 or more, up to 50",
+        slip: "is it in percent?",
+    },
+    Bound {
+        parameter: "p",
+        range: (0.2, 50.0),
+        expected: "a frequency parameter above 0 rad/s, from 0.2 to 50",
+        slip: "is it in Hz, or of dimensions in mm?",
+    },
+    Bound {
+        parameter: "alpha",
+        range: (0.01, FRAC_PI_4),
+        expected: "a slenderness between 0 and pi/2 rad, from 0.01 to 0.7854 (45 degrees)",
+        slip: "is it in degrees, or height over width?",
+    },
+    Bound {
+        parameter: "eta",
+        range: (f64::MIN_POSITIVE, 1.0),
+        expected: "a coefficient of restitution above 0 and up to 1",
+        slip: "is it in percent?",
+    },
+];
+
+impl Bound {
+    /// That of a parameter.
+    pub fn of(parameter: &str) -> Option<&'static Bound> {
+        BOUNDS.iter().find(|bound| bound.parameter == parameter)
+    }
+
+    /// What is expected in place of a number that cannot be right, and what slip it may be.
+    pub fn refusal(&self, value: f64) -> Option<String> {
+        let Bound { range: (least, most), expected, slip, .. } = *self;
+        match value {
+            _ if value >= least && value <= most => None,
+            _ if value > 0.0 && value.is_finite() => Some(format!("{expected}; {slip}")),
+            _ => Some(expected.to_string()),
+        }
+    }
+}
+
+/// Judges the parameters of a structure as a user gives them, by name.
+///
+/// # Errors
+/// If one of them cannot be right, with the likely slip.
+pub fn judge(structure: &str, given: &[(&'static str, f64)]) -> Result<(), StructureError> {
+    let failed = |parameter, value, expected| {
+        Err(StructureError { structure: structure.to_string(), parameter, value, expected })
+    };
+    for &(parameter, value) in given {
+        if let Some(expected) = Bound::of(parameter).and_then(|bound| bound.refusal(value)) {
+            return failed(parameter, value, expected);
+        }
+    }
+    let value =
+        |wanted: &str| given.iter().find(|(parameter, _)| *parameter == wanted).map(|&(_, value)| value);
+    match (value("width"), value("height")) {
+        (Some(width), Some(height)) if width > height => {
+            failed("width", width, format!("no more than the height, {height} m; were they exchanged?"))
+        }
+        _ => Ok(()),
+    }
 }
 
 impl Structure {
@@ -40,11 +135,16 @@ impl Structure {
     /// # Errors
     /// If `p` is not in [0.001, 100] rad/s, `alpha` not in [1e-6, pi/2) rad or `eta` not in (0, 1].
     pub fn new(name: &str, p_rad_s: f64, alpha_rad: f64, eta: f64) -> Result<Structure, StructureError> {
-        let check = |ok: bool, parameter, value, expected| {
+        let check = |ok: bool, parameter, value, expected: &str| {
             if ok {
                 return Ok(());
             }
-            Err(StructureError { structure: name.to_string(), parameter, value, expected })
+            Err(StructureError {
+                structure: name.to_string(),
+                parameter,
+                value,
+                expected: expected.to_string(),
+            })
         };
         let possible_p = FREQUENCIES_RAD_S.contains(&p_rad_s);
         check(possible_p, "p", p_rad_s, "a frequency parameter above 0 rad/s, from 0.001 to 100")?;
@@ -68,7 +168,7 @@ impl Structure {
     ) -> Result<Structure, StructureError> {
         for (parameter, value) in [("width", width_m), ("height", height_m)] {
             if !(value > 0.0 && value.is_finite()) {
-                let expected = "a length above 0 m";
+                let expected = "a length above 0 m".to_string();
                 return Err(StructureError { structure: name.to_string(), parameter, value, expected });
             }
         }
@@ -95,7 +195,7 @@ impl Structure {
                 structure: name.to_string(),
                 parameter: "beam-mass-ratio",
                 value: beam_mass_ratio,
-                expected: "a mass ratio of 0 or more",
+                expected: "a mass ratio of 0 or more".to_string(),
             });
         }
         let column = Structure::rectangular_block(name, width_m, height_m, Some(1.0))?;

@@ -62,7 +62,7 @@ impl Default for ExportOptions {
 
 impl StageOptions for ExportOptions {
     fn resolve_paths(&mut self, folder: &Path) {
-        self.structure.resolve_paths(folder);
+        self.structure.structures.resolve_path(folder);
     }
 }
 
@@ -168,6 +168,10 @@ impl Stage for Export {
         Err(TableError::Missing { path: output.to_path_buf(), hint: "run export".to_string() })
     }
 
+    fn is_own_text(&self, head: &str) -> bool {
+        export::is_own(head)
+    }
+
     fn execute(&self, _provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let fits = self.fits.choose()?;
         let structure = self.structure.structure_with_eta(fits.model.eta)?;
@@ -179,7 +183,7 @@ impl Stage for Export {
         });
         let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
         let model = Model {
-            id: format!("rockfrag_{}", plain_id(&structure.name)),
+            id: format!("{}{}", export::OWN_ID, plain_id(&structure.name)),
             description: format!(
                 "rockfrag {}: fits of {}; structure of {}",
                 env!("CARGO_PKG_VERSION"),
@@ -222,7 +226,7 @@ impl Export {
         };
         let range_of_data = [jumps[0], slice.largest_in_data(model)];
         let levels = self.levels(&jumps, range_of_data[1], reaching)?;
-        let id = plain_id(&format!("{}_ratio{}", slice.structure.name, slice.ratio));
+        let id = plain_id(&format!("{}{}{}", slice.structure.name, export::OF_RATIO, slice.ratio));
         fits.warn_of_slice(slice, levels[levels.len() - 1], &format!("{id}: "), console);
         let probabilities = levels.iter().map(|&level| reaching(level)).collect();
         Ok(Function { id, peak: slice.peak, levels, probabilities, overturning, range_of_data })

@@ -2,19 +2,20 @@
 
 use std::str::FromStr;
 
+use anyhow::ensure;
 use clap::Args;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::shared::groups::{self, Group};
-use super::shared::uncertainty::uncertainty;
+use super::shared::uncertainty::{LIMIT_STATE, uncertainty};
 use super::simulate::Simulate;
 use crate::fragility::CaseGroup;
 use crate::fragility::demand::{Regression, RegressionOptions, ScanPoint};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
-use crate::pipeline::options::{check, defaults, from_scalar};
+use crate::pipeline::options::{check_bound, defaults, from_scalar};
 use crate::pipeline::stage::Stage;
 use crate::statistics::FitStatus;
 use crate::table::pex::{GroupRegression, PEX, PEX_BOOTSTRAP, PexReplicateRow, PexRow, ScanRow};
@@ -121,7 +122,7 @@ impl FitPex {
         out: impl Into<Target>,
     ) -> anyhow::Result<FitPex> {
         let limit = options.limit_state;
-        check(limit > 0.0 && limit.is_finite(), "limit-state", limit, "a demand |theta|max / alpha above 0")?;
+        check_bound(&LIMIT_STATE, limit)?;
         let transition = options.transition.im4();
         let uncertainty = uncertainty(options.bootstrap, options.confidence, options.seed)?;
         let options = FitPexOptions { seed: Some(uncertainty.seed), ..options.clone() };
@@ -200,6 +201,13 @@ impl Stage for FitPex {
         }
         let missing = rows.iter().filter(|row| row.regression.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (reason(row), measures(&row.regression))));
+        let fitted = rows.iter().filter(|row| row.regression.status() == FitStatus::Ok).count();
+        ensure!(
+            fitted > 0,
+            "none of {} regressions can be fitted, and no file is written; expected more cases that rock and do not overturn: more \
+             motions, or a structure that rocks in them",
+            rows.len()
+        );
         ScanRow::write(&scans, self.scan_target(), provenance)?;
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PEX_BOOTSTRAP, provenance.clone())?;
@@ -209,7 +217,6 @@ impl Stage for FitPex {
             writer.finish()?;
         }
         PexRow::write(&rows.iter().map(PexRow::from).collect::<Vec<_>>(), self.out.clone(), provenance)?;
-        let fitted = rows.iter().filter(|row| row.regression.status() == FitStatus::Ok).count();
         let status = FitStatus::Ok.as_str();
         Ok(format!("{fitted} of {} fits {status}", rows.len()))
     }

@@ -49,11 +49,19 @@ pub enum TableError {
         source: std::io::Error,
     },
     /// The file cannot be read as Parquet.
-    #[error("{}: not a readable Parquet file ({source}); make it again", path.display())]
+    #[error("{}: not a readable Parquet file ({cause}); make it again", path.display())]
     NotParquet {
         path: PathBuf,
         /// What the reader said.
-        source: parquet::errors::ParquetError,
+        cause: parquet::errors::ParquetError,
+    },
+    /// The file is of another kind.
+    #[error("{}: not a readable Parquet file, nor a damaged one; expected {expected}", path.display())]
+    NoParquet {
+        /// The file.
+        path: PathBuf,
+        /// What it should be.
+        expected: String,
     },
     /// The file is of another kind.
     #[error("{0}: not a Parquet file; expected a table: motions of a record are made by rockfrag import-motions {0}", path.display())]

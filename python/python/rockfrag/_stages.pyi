@@ -16,6 +16,7 @@ def compare_paper(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def evaluate(
@@ -30,7 +31,7 @@ def evaluate(
     limits: Any = 'delta',
     p: float | None = None,
     alpha: float | None = None,
-    eta: float | None = None,
+    eta: Any = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
@@ -48,6 +49,7 @@ def evaluate(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def export(
@@ -60,7 +62,7 @@ def export(
     measure: Any = None,
     p: float | None = None,
     alpha: float | None = None,
-    eta: float | None = None,
+    eta: Any = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
@@ -76,6 +78,7 @@ def export(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def fit_pex(
@@ -90,6 +93,7 @@ def fit_pex(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def fit_pro(
@@ -106,6 +110,7 @@ def fit_pro(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def ida(
@@ -117,15 +122,19 @@ def ida(
     steps: int = 60,
     halvings: int = 4,
     tolerance: float = 0.001,
-    p: float = 2.5,
-    alpha: float = 0.2,
-    eta: float = 0.92,
+    p: float | None = None,
+    alpha: float | None = None,
+    eta: Any = None,
+    width: float | None = None,
+    height: float | None = None,
+    beam_mass_ratio: float | None = None,
     structures: Any = None,
     simd: Any = None,
     out: PathLike | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def import_motions(
@@ -153,6 +162,7 @@ def import_motions(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def rank_ims(
@@ -163,10 +173,12 @@ def rank_ims(
     transition: Any = 'found',
     terms: int = 3,
     folds: int = 10,
+    candidate: Any = None,
     out: PathLike | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def report(
@@ -181,6 +193,7 @@ def report(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def sample_scenarios(
@@ -194,14 +207,18 @@ def sample_scenarios(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def simulate(
     motions: TableLike,
     *,
-    p: float = 2.5,
-    alpha: float = 0.2,
-    eta: float = 0.92,
+    p: float | None = None,
+    alpha: float | None = None,
+    eta: Any = None,
+    width: float | None = None,
+    height: float | None = None,
+    beam_mass_ratio: float | None = None,
     structures: Any = None,
     simd: Any = None,
     trace: Any = None,
@@ -210,6 +227,7 @@ def simulate(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def synthesize_motions(
@@ -233,6 +251,7 @@ def synthesize_motions(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def universality(
@@ -247,6 +266,7 @@ def universality(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def validate(
@@ -262,4 +282,5 @@ def validate(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...

@@ -50,8 +50,17 @@ const data = JSON.parse(document.getElementById("data").textContent);
     const { p, alpha } = structure();
     const motion = { pga: number("pga") * data.g, pgv: number("pgv"), tp: number("tp"), tm: number("tm") };
     const warnings = [];
-    const right = p > 0 && alpha > 0 && alpha < Math.PI / 2 && motion.pga >= 0 && motion.pgv >= 0;
-    if (!right) warnings.push("Expected p, α, sizes above 0 (α below π/2), PGA and PGV of 0 or more.");
+    const given = { ...(byBlock ? { width: number("width"), height: number("height") } : {}), p, alpha, eta: number("eta"), pga: number("pga"), pgv: number("pgv") };
+    const refused = data.bounds.filter(({ parameter, range: [least, most] }) => parameter in given && !(given[parameter] >= least && given[parameter] <= most));
+    const exchanged = given.width > given.height;
+    if (exchanged) warnings.push("The width is larger than the height: were they exchanged?");
+    else if (refused.length) {
+      const { parameter, expected, slip } = refused[0];
+      const value = given[parameter];
+      warnings.push(Number.isNaN(value) ? `Expected ${parameter}: ${expected}.` : `${parameter} is ${value}; expected ${expected}${value > 0 ? `; ${slip}` : "."}`);
+    }
+    const right = !exchanged && !refused.length;
+    if (right && motion.pgv > 2 * motion.pga) warnings.push("A PGV (m/s) more than twice the PGA (m/s2): are they exchanged, or in other units?");
     const of = fragility.measures(data.g, { p, alpha, ...motion });
     const answers = right ? fragility.evaluate(model, of) : {};
     if (right && model.doubt) warnings.push(`${model.doubt}.`);

@@ -1,9 +1,13 @@
 use arrow_array::RecordBatch;
 
 use super::options::Format;
+use crate::table::evaluated::{ANSWER, RATES};
 use crate::table::schema::Table;
 use crate::table::store::frame::frame_of;
 use crate::table::store::text;
+
+/// How the heading of each answer begins.
+pub const FITS_OF: &str = "fits of ";
 
 /// A short answer.
 pub struct Answer {
@@ -28,4 +32,13 @@ impl Answer {
             }
         }
     }
+}
+
+/// Whether a text that begins like this is an answer in one of the formats.
+pub fn is_own(head: &str) -> bool {
+    let begins_table = |table: &Table| {
+        let names: Vec<&str> = table.columns.iter().map(|column| column.name).collect();
+        head.starts_with(&(names.join(",") + "\n")) || head.starts_with(&format!("[\n  {{ \"{}\":", names[0]))
+    };
+    head.starts_with(FITS_OF) || [ANSWER, RATES].iter().any(begins_table)
 }

@@ -23,6 +23,7 @@ pub use self::options::IdaOptions;
 use super::shared::motions::{DistinctIds, Judge};
 use super::shared::reasons::{Case, Reasons};
 use super::shared::structures::parameters;
+use super::simulate::simd;
 use super::synthesize_motions::SynthesizeMotions;
 use crate::keyword::Keyword;
 use crate::motion::IntensityScratch;
@@ -75,7 +76,7 @@ impl Ida {
     ) -> anyhow::Result<Ida> {
         let (input, out) = (input.into(), out.into());
         let scan = options.scan()?;
-        let (structures, simd) = options.structures()?;
+        let (structures, simd) = (options.structure.resolve()?, simd(options.simd)?);
         Ok(Ida { options: options.clone(), structures, simd, scan, input, out })
     }
 

@@ -8,12 +8,14 @@ use std::sync::Arc;
 use super::reasons::Case;
 use crate::keyword;
 use crate::motion::{IntensityMeasures, IntensityScratch, Suite, intensity};
+use crate::pipeline::console::Console;
 use crate::records::plausibility;
-use crate::rocking::{Record, RecordError, Response, Structure};
+use crate::rocking::{Outcome, Record, RecordError, Response, Structure};
 use crate::table::TableError;
 use crate::table::motions::{Motion, MotionId};
 use crate::table::responses::ResponseRow;
 use crate::table::schema;
+use crate::table::store::source::Source;
 
 /// The record of a motion of the file at `path`, whose samples are these (m/s2).
 ///
@@ -71,7 +73,8 @@ impl Peaks {
             alpha_rad: structure.alpha_rad,
             eta: structure.eta,
             outcome: response.outcome,
-            edp: response.edp,
+            // How far it leans when it is down is no demand: an average over it would mean nothing.
+            edp: (response.outcome != Outcome::Overturning).then_some(response.edp),
             impacts: i32::try_from(response.impacts).unwrap_or(i32::MAX),
             mw: motion.mw,
             re_km: motion.re_km,
@@ -128,6 +131,26 @@ impl Judge {
         let doubt = plausibility::doubt(samples, motion.dt_s)?;
         Some(Case { name, found: Some(doubt.found), reason: doubt.reason.to_string() })
     }
+}
+
+/// The most columns that are named one by one.
+const MOST_NAMED: usize = 12;
+
+/// What may take them, of simulate.
+pub const FOR_RANKING: &str = "rank-ims takes them with --candidate";
+
+/// Says which columns of a motions file are not taken, and what may take them.
+pub fn note_passed_over(source: &Source, columns: &[String], way: &str, console: &Console) {
+    if columns.is_empty() {
+        return;
+    }
+    let more = if columns.len() > MOST_NAMED {
+        format!(" and {} more", columns.len() - MOST_NAMED)
+    } else {
+        String::new()
+    };
+    let named = columns.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
+    console.note(&format!("{}: passed over: {named}{more}; {way}", source.name().display()));
 }
 
 /// The names of all motions so far, which must differ; numbers take little room, as there may be millions.

@@ -9,8 +9,8 @@ use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-pub use self::options::SimulateOptions;
-use super::shared::motions::{DistinctIds, Judge, Peaks, record};
+pub use self::options::{SimulateOptions, simd};
+use super::shared::motions::{DistinctIds, FOR_RANKING, Judge, Peaks, note_passed_over, record};
 use super::shared::partitions::{PartitionedInput, is_folder, out_of_partition};
 use super::shared::reasons::{Case, Reasons};
 use super::shared::structures::parameters;
@@ -24,6 +24,7 @@ use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Problem, Record, Simd, Structure, simulate_all, trace, with_tail};
 use crate::table::TableError;
+use crate::table::motion_measures::own_columns;
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
 use crate::table::responses::{RESPONSES, ResponseRow};
@@ -67,8 +68,8 @@ impl Simulate {
             ));
         }
         Ok(Simulate {
-            structures: options.structures()?,
-            simd: options.simd()?,
+            structures: options.structure.resolve()?,
+            simd: simd(options.simd)?,
             traced: options.trace.clone().map_or(Vec::new(), |Several(ids)| ids),
             input: PartitionedInput::new(input.into(), partition)?,
             out: out.into(),
@@ -265,6 +266,7 @@ impl Stage for Simulate {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let motions = MotionTable::open(&self.input.source, self.input.rows)?;
+        note_passed_over(&self.input.source, &own_columns(&self.input.source)?, FOR_RANKING, console);
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
         let mut writer = motions::writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
         let (mut ids, judge) = (DistinctIds::default(), Judge::new(motions.of_others()));

@@ -60,7 +60,7 @@ columns! {
     alpha_rad: Float64, "rad", "slenderness of the structure";
     eta: Float64, "1", "coefficient of restitution";
     outcome: Text, "1", "no_rocking, safe_rocking or overturning";
-    edp: Float64, "1", "largest rotation over slenderness, |theta|max / alpha (Eq. 7)";
+    edp: Float64, "1", "largest rotation over slenderness, |theta|max / alpha (Eq. 7); null where it overturns";
     impacts: Int32, "1", "impacts within the duration of the record";
     im1: Float64, "1", "wp / p (Eq. 13)";
     im2: Float64, "1", "wm / p (Eq. 13)";
