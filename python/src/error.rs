@@ -20,7 +20,6 @@ fn class_of(error: &anyhow::Error) -> &'static str {
         Some(
             TableError::Io { .. }
             | TableError::NotParquet { .. }
-            | TableError::OtherKind { .. }
             | TableError::NoParquet { .. }
             | TableError::Codec { .. }
             | TableError::Write { .. },

@@ -56,18 +56,12 @@ pub enum TableError {
         cause: parquet::errors::ParquetError,
     },
     /// The file is of another kind.
-    #[error("{}: not a readable Parquet file, nor a damaged one; expected {expected}", path.display())]
+    #[error("{}: not a Parquet file; expected {expected}", path.display())]
     NoParquet {
         /// The file.
         path: PathBuf,
         /// What it should be.
         expected: String,
-    },
-    /// The file is of another kind.
-    #[error("{0}: not a Parquet file; expected a table: motions of a record are made by rockfrag import-motions {0}", path.display())]
-    OtherKind {
-        /// The file.
-        path: PathBuf,
     },
     /// The file is compressed in a way that is not built in.
     #[error("{}: compressed in a way that rockfrag does not read ({message}); write it with zstd or snappy, or uncompressed", path.display())]

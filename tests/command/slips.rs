@@ -388,7 +388,7 @@ fn a_record_in_place_of_motions_leads_to_import_motions() {
     write(folder.path(), "r.csv", &csv("time,acc_g", G));
     for stage in ["simulate", "ida"] {
         let call = format!("{stage} --in r.csv");
-        fail(folder.path(), &call, 1, &["r.csv: not a Parquet file", "rockfrag import-motions r.csv"]);
+        fail(folder.path(), &call, 1, &["r.csv: not a Parquet file", "import-motions of records and CSV"]);
     }
 }
 

@@ -118,18 +118,8 @@ fn open_keeping(path: &Path, statistics: ParquetStatisticsPolicy) -> Result<Open
         .with_encoding_stats_policy(statistics.clone())
         .with_size_stats_policy(statistics);
     let file = SharedFile::new(open_file(path)?).map_err(|source| TableError::io(path, source))?;
-    if is_of_other_kind(path, &file) {
-        return Err(TableError::OtherKind { path: path.to_path_buf() });
-    }
     let metadata = guarded(|| metadata(&file, &options)).map_err(|source| not_parquet(path, source))?;
     Ok(Opened { file, metadata })
-}
-
-/// Whether a file neither begins as Parquet nor is called so.
-fn is_of_other_kind(path: &Path, file: &SharedFile) -> bool {
-    let is_called_so = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
-    let begins = file.get_bytes(0, MAGIC.len());
-    !is_called_so && file.len() > END_BYTES && begins.is_ok_and(|bytes| bytes != MAGIC)
 }
 
 fn metadata(file: &SharedFile, options: &ParquetMetaDataOptions) -> ParquetResult<ArrowReaderMetadata> {
