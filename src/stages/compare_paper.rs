@@ -11,12 +11,15 @@ use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
 use super::shared::groups::{self, Group};
 use super::simulate::Simulate;
-use crate::fragility::{Plane, p_overturning, rms_difference};
+use crate::fragility::{Case, Plane, p_overturning, rms_difference};
+use crate::motion::IntensityMeasures;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::defaults;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
+use crate::statistics::Test;
+use crate::studies::paper::{EXAMPLE_LAMBDA, example, half_erf, hybrid, joint_test, rms_between};
 use crate::table::paper::{self, PAPER, PaperRow, Published, SpreadRow};
 use crate::table::row::WriteRow;
 use crate::table::store::provenance::Provenance;
@@ -101,37 +104,62 @@ impl Side {
             Side::High => "high",
         }
     }
+
+    /// The side that a quantity is of, and what of it.
+    fn of(quantity: &str) -> Option<(Side, &str)> {
+        let of = |side: Side| Some((side, quantity.strip_prefix(side.word())?.strip_prefix('_')?));
+        of(Side::Low).or_else(|| of(Side::High))
+    }
 }
+
+/// The suite and structure whose curve the worked example takes, for both of its structures.
+const EXAMPLE: (&str, &str) = ("csgm", "electrical-equipment");
 
 impl Ours {
     /// Our value of a published quantity; none where our files do not have it.
     fn value(&self, wanted: &Published) -> Option<f64> {
         let (suite, structure) = (wanted.suite.as_str(), wanted.structure.as_str());
         let quantity = wanted.quantity.as_str();
-        for side in [Side::Low, Side::High] {
-            if let Some(rest) = quantity.strip_prefix(side.word()).and_then(|rest| rest.strip_prefix('_')) {
-                return match rest {
-                    "rms_ln_edp" => self.rms(suite, structure, side),
-                    "rms_over_beta" => {
-                        let beta = self.plane_number(suite, structure, side, "beta")?;
-                        Some(self.rms(suite, structure, side)? / beta)
-                    }
-                    column => self.plane_number(suite, structure, side, column),
-                };
-            }
+        if let Some((side, rest)) = Side::of(quantity) {
+            return match rest {
+                "rms_ln_edp" => self.rms(suite, structure, side),
+                "rms_over_beta" => {
+                    let beta = self.plane_number(suite, structure, side, "beta")?;
+                    Some(self.rms(suite, structure, side)? / beta)
+                }
+                "plane" => None,
+                column => self.plane_number(suite, structure, side, column),
+            };
         }
-        if let Some(im) = quantity.strip_prefix("p_ro_at_") {
-            let curve = |column| self.pro.number(suite, structure, "im4", Some("im3_inv"), column);
-            return Some(p_overturning(im.parse().ok()?, curve("mu")?, curve("beta")?, self.pro.link()?));
-        }
+        let curve = |column| self.pro.number(EXAMPLE.0, EXAMPLE.1, "im4", Some("im3_inv"), column);
+        let example_hybrid = || hybrid(&self.example(suite, structure)?, curve("lambda")?);
         match quantity {
             "transition" => self.plane_number(suite, structure, Side::High, "transition_found"),
             "r2_pooled" => self.plane_number(suite, structure, Side::High, "r2_pooled"),
             "hybrid_lambda" => self.pro.number(suite, structure, "im4", Some("im3_inv"), "lambda"),
             "im5_theta" => self.pro.number(suite, structure, "im5", None, "theta"),
             "im5_beta" => self.pro.number(suite, structure, "im5", None, "beta"),
+            "example_hybrid" => example_hybrid(),
+            "example_p_ro" => {
+                Some(p_overturning(example_hybrid()?, curve("mu")?, curve("beta")?, self.pro.link()?))
+            }
+            "example_half_erf" => Some(half_erf(hybrid(&self.example(suite, structure)?, EXAMPLE_LAMBDA)?)),
             _ => None,
         }
+    }
+
+    fn group(&self, suite: &str, structure: &str) -> Option<&Group> {
+        self.groups.iter().find(|g| g.suite.as_deref() == Some(suite) && g.structure == structure)
+    }
+
+    fn cases(&self, suite: &str, structure: &str) -> Option<&[Case]> {
+        Some(&self.group(suite, structure)?.cases)
+    }
+
+    /// The measures of the worked example for a structure.
+    fn example(&self, suite: &str, structure: &str) -> Option<IntensityMeasures> {
+        let group = self.group(suite, structure).filter(|group| !group.cases.is_empty())?;
+        Some(example(&group.structure_of(0)))
     }
 
     fn plane_number(&self, suite: &str, structure: &str, side: Side, column: &str) -> Option<f64> {
@@ -147,15 +175,59 @@ impl Ours {
         let ours = |coefficient| self.plane_number(suite, structure, side, coefficient);
         let theirs = Plane { ln_a: published("ln_a")?, b1: published("b1")?, b2: published("b2")? };
         let ours = Plane { ln_a: ours("ln_a")?, b1: ours("b1")?, b2: ours("b2")? };
-        let group =
-            self.groups.iter().find(|g| g.suite.as_deref() == Some(suite) && g.structure == structure)?;
-        rms_difference(&theirs, &ours, &group.cases, side.range())
+        rms_difference(&theirs, &ours, self.cases(suite, structure)?, side.range())
+    }
+
+    /// What a root mean square of a side is between planes of our seeds.
+    fn seed_rms(&self, wanted: &Published, spread: &Spread) -> Option<f64> {
+        let (side, rest) = Side::of(&wanted.quantity)?;
+        let (suite, structure) = (wanted.suite.as_str(), wanted.structure.as_str());
+        let plane = |set: Vec<f64>| Plane { ln_a: set[0], b1: set[1], b2: set[2] };
+        let planes: Vec<Plane> = sets(spread, side, wanted)?.into_iter().map(plane).collect();
+        let rms = || rms_between(&planes, self.cases(suite, structure)?, side.range());
+        match rest {
+            "rms_ln_edp" => rms(),
+            "rms_over_beta" => Some(rms()? / self.plane_number(suite, structure, side, "beta")?),
+            _ => None,
+        }
+    }
+
+    /// Whether the published plane could be one more of our seeds.
+    fn joint(&self, wanted: &Published, spread: &Spread) -> Option<Test> {
+        let (side, _) = Side::of(&wanted.quantity).filter(|(_, rest)| *rest == "plane")?;
+        let published = NUMBERS_OF_PLANE.map(|number| {
+            let quantity = format!("{}_{number}", side.word());
+            let of_plane =
+                self.published.iter().find(|p| p.is(&quantity, &wanted.suite, &wanted.structure))?;
+            Some((of_plane.published?, of_plane.rounding()?))
+        });
+        let published: Option<Vec<(f64, f64)>> = published.into_iter().collect();
+        let (printed, rounding): (Vec<f64>, Vec<f64>) = published?.into_iter().unzip();
+        joint_test(&sets(spread, side, wanted)?, &printed, &rounding)
     }
 }
 
+/// What Table II prints of a plane.
+const NUMBERS_OF_PLANE: [&str; 4] = ["ln_a", "b1", "b2", "r2"];
+
 /// Values over seeds of each quantity, suite and structure.
-fn by_quantity(spread: &[SpreadRow]) -> BTreeMap<(&str, &str, &str), Vec<f64>> {
-    let mut values: BTreeMap<_, Vec<f64>> = BTreeMap::new();
+type Spread<'a> = BTreeMap<(&'a str, &'a str, &'a str), Vec<f64>>;
+
+/// The numbers of a plane, seed by seed; none where a seed lacks one.
+fn sets(spread: &Spread, side: Side, of: &Published) -> Option<Vec<Vec<f64>>> {
+    let over_seeds = |number: &str| {
+        let quantity = format!("{}_{number}", side.word());
+        let key = (quantity.as_str(), of.suite.as_str(), of.structure.as_str());
+        spread.iter().find(|(other, _)| **other == key).map(|(_, values)| values)
+    };
+    let numbers = NUMBERS_OF_PLANE.iter().map(|number| over_seeds(number)).collect::<Option<Vec<_>>>()?;
+    let seeds = numbers[0].len();
+    let complete = numbers.iter().all(|values| values.len() == seeds);
+    complete.then(|| (0..seeds).map(|seed| numbers.iter().map(|values| values[seed]).collect()).collect())
+}
+
+fn by_quantity(spread: &[SpreadRow]) -> Spread<'_> {
+    let mut values = Spread::new();
     for row in spread {
         let key = (row.quantity.as_str(), row.suite.as_str(), row.structure.as_str());
         values.entry(key).or_default().push(row.value);
@@ -216,7 +288,13 @@ impl Stage for ComparePaper {
         let row = |published: &Published| {
             let key = (published.quantity.as_str(), published.suite.as_str(), published.structure.as_str());
             let values = spread.get(&key).map_or(&[][..], Vec::as_slice);
-            PaperRow::new(published, ours.value(published), values)
+            let joint = ours.joint(published, &spread);
+            PaperRow {
+                seed_rms: ours.seed_rms(published, &spread),
+                t2: joint.map(|test| test.statistic),
+                t2_p: joint.map(|test| test.p),
+                ..PaperRow::new(published, ours.value(published), values)
+            }
         };
         let rows: Vec<PaperRow> = self.published.iter().map(row).collect();
         PaperRow::write(&rows, self.out.clone(), provenance)?;

@@ -61,7 +61,7 @@ fn figure(groups: &[&Group], im_x: Measure, im_y: Option<Measure>) -> Figure {
             let exponents = exponents.collect::<Vec<_>>().join("; ");
             let (x, y) = (im_x.as_str(), im_y.as_str());
             let words = format!(
-                "the hybrid measure {x}^(λ/(1+λ)) {y}^(1/(1+λ)) of Eq. 22 ({exponents}), with limits at the median {y} of the data"
+                "the hybrid measure {x}^(λ/(1+λ)) {y}^(1/(1+λ)) of Eq. 23 ({exponents}), with limits at the median {y} of the data"
             );
             ("overturning-hybrid", "Overturning over the hybrid measure", words, 12)
         }
