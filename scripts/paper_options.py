@@ -2,7 +2,7 @@
 
     python scripts/paper_options.py target/release/rockfrag FOLDER [SEEDS]
 
-Runs each variant below with a few seeds (3; ten minutes of one core) and prints for each of the four planes Hotelling's T2 of the
+Runs each variant below with a few seeds (3; a quarter of an hour of one core) and prints for each of the four planes Hotelling's T2 of the
 published ln a, b1, b2 and R2 about the mean of the variant, by the covariance of data/seed_spread.csv and the rounding of data/paper.csv:
 some 5 is chance, 30 is not. FOLDER keeps the responses, so that what was run is not run again. Needs numpy and polars.
 """
@@ -28,13 +28,12 @@ MOTIONS = [
     "--fmax 15 --kappa 0.01", "--fmax 15 --kappa 0.04", "--low-cut 0.2",
 ]  # fmt: skip
 TOGETHER = [
-    f"{difference}{epoch}{site}{kappa}{fmax}"
+    f"{difference}{epoch}{kappa}{fmax}"
     for difference in ("", " --difference clamp")
     for epoch in ("", " --epoch pga")
-    for site in ("", " --site soil")
     for kappa in ("", " --kappa 0.02")
     for fmax in (" --fmax 15", " --fmax 20", " --fmax 30")
-    if difference or epoch or site or kappa
+    if difference or epoch or kappa
 ]
 VARIANTS = (
     [{}]

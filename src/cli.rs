@@ -113,7 +113,7 @@ pub fn main() -> anyhow::Result<()> {
             run_all(&config, &pipeline, out, dry_run, common.force, &console)
         }
         Tool::SeedSpread { pipeline, options } => {
-            seed_spread(&Config::read(&pipeline)?, &options, &Console { progress: false, ..console })
+            seed_spread(&pipeline, &options, &Console { progress: false, ..console })
         }
         Tool::Inspect { file } => print(&inspect(&file, &Terminal::stdout())?),
     }

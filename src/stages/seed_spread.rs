@@ -1,5 +1,6 @@
 //! seed-spread: the whole pipeline with one seed after the other, to see how far its numbers move by chance.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -24,11 +25,12 @@ pub struct SeedSpreadOptions {
     pub out: PathBuf,
 }
 
-/// Repeats the pipeline of `config` and gathers the numbers that the paper publishes.
+/// Repeats the pipeline of a file and gathers the numbers that the paper publishes.
 ///
 /// # Errors
 /// Those of the stages.
-pub fn seed_spread(config: &Config, options: &SeedSpreadOptions, console: &Console) -> anyhow::Result<()> {
+pub fn seed_spread(pipeline: &Path, options: &SeedSpreadOptions, console: &Console) -> anyhow::Result<()> {
+    let config = Config::read(pipeline)?;
     let folder = folder_of(&options.out);
     let mut rows: Vec<SpreadRow> = Vec::new();
     for seed in 1..=options.seeds {
@@ -41,6 +43,8 @@ pub fn seed_spread(config: &Config, options: &SeedSpreadOptions, console: &Conso
     }
     let mut partial = tempfile::NamedTempFile::new_in(folder)?;
     {
+        let (version, pipeline) = (env!("CARGO_PKG_VERSION"), pipeline.display());
+        writeln!(partial, "# rockfrag {version}: rockfrag seed-spread {pipeline} --seeds {}", options.seeds)?;
         let mut writer = csv::Writer::from_writer(&mut partial);
         rows.iter().try_for_each(|row| writer.serialize(row))?;
         writer.flush()?;
