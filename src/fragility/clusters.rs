@@ -7,7 +7,6 @@ use crate::keyword::keywords;
 /// What the responses of a cluster share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SharedBy {
-    /// The earthquake.
     Earthquake,
     /// Magnitude and distance.
     Cell,

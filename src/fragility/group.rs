@@ -10,7 +10,6 @@ use crate::resampling::{Resamples, Strata, TOGETHER, bootstrap_each};
 /// The cases of one structure under one suite of motions.
 #[derive(Debug, Clone, Copy)]
 pub struct CaseGroup<'a> {
-    /// The responses.
     pub cases: &'a [Case],
     /// The number of the cell of magnitude and distance of each, within which the bootstrap resamples.
     pub cells: &'a [usize],

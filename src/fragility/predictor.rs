@@ -32,9 +32,7 @@ pub struct Predicted {
 /// A measure outside of the range of the data that a fit comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutOfRange {
-    /// Which one.
     pub measure: Measure,
-    /// Its value.
     pub value: f64,
     /// Least and largest value in the data.
     pub range: [f64; 2],

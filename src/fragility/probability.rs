@@ -27,7 +27,6 @@ impl Probability {
 /// The x of a probability Phi(x), with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProbitIndex {
-    /// The x.
     pub value: f64,
     /// Its standard error.
     pub standard_error: f64,

@@ -34,7 +34,6 @@ impl Peak {
 /// All motions whose p PGV / PGA is the same, ordered by one of the two peaks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slice {
-    /// The structure.
     pub structure: Structure,
     /// Which peak is the intensity.
     pub peak: Peak,

@@ -227,7 +227,6 @@ impl Files {
 
 /// A stage in pipeline.yaml, or as it is called: its options, and the inputs that are named.
 pub struct Section<S: Declare> {
-    /// The options.
     pub options: S::Options,
     /// Paths by flags.
     inputs: BTreeMap<&'static str, PathBuf>,

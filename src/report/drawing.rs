@@ -27,7 +27,6 @@ pub enum Ink {
     Muted,
     /// Boundaries between areas.
     Rule,
-    /// The page.
     Paper,
     /// Data, from a palette that the colour-blind can tell apart.
     Data(usize),

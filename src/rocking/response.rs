@@ -49,10 +49,11 @@ impl Response {
 /// How a structure that rocks at the end of the record ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tail {
-    /// It overturns.
     Overturns,
     /// It comes to rest; the largest rotation (rad) still to come.
-    Settles { peak: f64 },
+    Settles {
+        peak: f64,
+    },
 }
 
 /// Decides by energy what follows the record for a structure of slenderness `alpha` (rad) and restitution `eta` in `state`.

@@ -11,7 +11,7 @@ use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
 use super::shared::groups::{self, Group};
 use super::simulate::Simulate;
-use crate::fragility::{Case, Plane, p_overturning, rms_difference};
+use crate::fragility::{Measure, Plane, p_overturning, rms_difference};
 use crate::motion::IntensityMeasures;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
@@ -20,13 +20,15 @@ use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
 use crate::statistics::Test;
 use crate::studies::paper::{EXAMPLE_LAMBDA, example, half_erf, hybrid, joint_test, rms_between};
+use crate::table::fits;
 use crate::table::paper::{self, PAPER, PaperRow, Published, SpreadRow};
-use crate::table::row::WriteRow;
+use crate::table::pex::PexRow;
+use crate::table::pro::ProRow;
+use crate::table::row::{ReadRow, WriteRow};
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
-use crate::table::{pex::PexFrame, pro::ProFrame};
 
-/// Against which spread over seeds our numbers are held.
+/// The spread over seeds that our numbers are compared with.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct ComparePaperOptions {
@@ -78,8 +80,8 @@ impl ComparePaper {
 /// The fits and cases from which our numbers come.
 struct Ours {
     groups: Vec<Group>,
-    pex: PexFrame,
-    pro: ProFrame,
+    pex: Vec<PexRow>,
+    pro: Vec<ProRow>,
     published: Vec<Published>,
 }
 
@@ -112,119 +114,138 @@ impl Side {
     }
 }
 
-/// The suite and structure whose curve the worked example takes, for both of its structures.
-const EXAMPLE: (&str, &str) = ("csgm", "electrical-equipment");
-
 impl Ours {
     /// Our value of a published quantity; none where our files do not have it.
-    fn value(&self, wanted: &Published) -> Option<f64> {
-        let (suite, structure) = (wanted.suite.as_str(), wanted.structure.as_str());
+    ///
+    /// # Errors
+    /// If the quantity is unknown.
+    fn value(&self, wanted: &Published) -> anyhow::Result<Option<f64>> {
         let quantity = wanted.quantity.as_str();
         if let Some((side, rest)) = Side::of(quantity) {
-            return match rest {
-                "rms_ln_edp" => self.rms(suite, structure, side),
-                "rms_over_beta" => {
-                    let beta = self.plane_number(suite, structure, side, "beta")?;
-                    Some(self.rms(suite, structure, side)? / beta)
-                }
+            let plane = self.plane(wanted, side);
+            return Ok(match rest {
+                "rms_ln_edp" => self.rms(wanted, side),
+                "rms_over_beta" => self
+                    .rms(wanted, side)
+                    .zip(plane.and_then(|plane| plane.beta))
+                    .map(|(rms, beta)| rms / beta),
+                "ln_a" => plane.and_then(|plane| plane.ln_a),
+                "b1" => plane.and_then(|plane| plane.b1),
+                "b2" => plane.and_then(|plane| plane.b2),
+                "r2" => plane.and_then(|plane| plane.r2),
+                // A row of its joint test.
                 "plane" => None,
-                column => self.plane_number(suite, structure, side, column),
-            };
+                _ => anyhow::bail!("data/paper.csv: {quantity}: unknown quantity"),
+            });
         }
-        let curve = |column| self.pro.number(EXAMPLE.0, EXAMPLE.1, "im4", Some("im3_inv"), column);
-        let example_hybrid = || hybrid(&self.example(suite, structure)?, curve("lambda")?);
-        match quantity {
-            "transition" => self.plane_number(suite, structure, Side::High, "transition_found"),
-            "r2_pooled" => self.plane_number(suite, structure, Side::High, "r2_pooled"),
-            "hybrid_lambda" => self.pro.number(suite, structure, "im4", Some("im3_inv"), "lambda"),
-            "im5_theta" => self.pro.number(suite, structure, "im5", None, "theta"),
-            "im5_beta" => self.pro.number(suite, structure, "im5", None, "beta"),
-            "example_hybrid" => example_hybrid(),
+        let of_two = || self.curve(wanted, Measure::Im4, Some(Measure::Im3Inverse));
+        let im5 = || self.curve(wanted, Measure::Im5, None);
+        let high = || self.plane(wanted, Side::High);
+        let example = self.example(wanted);
+        Ok(match quantity {
+            "transition" => high().and_then(|plane| plane.transition_found),
+            "r2_pooled" => high().and_then(|plane| plane.r2_pooled),
+            "hybrid_lambda" => of_two().and_then(|curve| curve.lambda),
+            "im5_theta" => im5().and_then(|curve| curve.theta),
+            "im5_beta" => im5().and_then(|curve| curve.beta),
+            "example_hybrid" => example.map(|(im, _)| im),
             "example_p_ro" => {
-                Some(p_overturning(example_hybrid()?, curve("mu")?, curve("beta")?, self.pro.link()?))
+                example.and_then(|(im, curve)| Some(p_overturning(im, curve.mu?, curve.beta?, curve.link)))
             }
-            "example_half_erf" => Some(half_erf(hybrid(&self.example(suite, structure)?, EXAMPLE_LAMBDA)?)),
-            _ => None,
-        }
+            "example_half_erf" => self
+                .example_measures(wanted)
+                .and_then(|measures| Some(half_erf(hybrid(&measures, EXAMPLE_LAMBDA)?))),
+            _ => anyhow::bail!("data/paper.csv: {quantity}: unknown quantity"),
+        })
     }
 
-    fn group(&self, suite: &str, structure: &str) -> Option<&Group> {
-        self.groups.iter().find(|g| g.suite.as_deref() == Some(suite) && g.structure == structure)
+    fn group(&self, of: &Published) -> Option<&Group> {
+        self.groups.iter().find(|group| of.is_of(&group.suite, &group.structure))
     }
 
-    fn cases(&self, suite: &str, structure: &str) -> Option<&[Case]> {
-        Some(&self.group(suite, structure)?.cases)
-    }
-
-    /// The measures of the worked example for a structure.
-    fn example(&self, suite: &str, structure: &str) -> Option<IntensityMeasures> {
-        let group = self.group(suite, structure).filter(|group| !group.cases.is_empty())?;
+    /// The measures of the worked example for a structure of it.
+    fn example_measures(&self, of: &Published) -> Option<IntensityMeasures> {
+        let group = self.group(of).filter(|group| !group.cases.is_empty())?;
         Some(example(&group.structure_of(0)))
     }
 
-    fn plane_number(&self, suite: &str, structure: &str, side: Side, column: &str) -> Option<f64> {
-        self.pex.plane_number(suite, structure, matches!(side, Side::Low), column)
+    /// The hybrid measure of the worked example for a structure of it, by our exponent, and the curve over it: the example takes that
+    /// of the electrical equipment for both structures.
+    fn example(&self, of: &Published) -> Option<(f64, &ProRow)> {
+        let equipment = Published { structure: "electrical-equipment".to_string(), ..of.clone() };
+        let curve = self.curve(&equipment, Measure::Im4, Some(Measure::Im3Inverse))?;
+        Some((hybrid(&self.example_measures(of)?, curve.lambda?)?, curve))
+    }
+
+    fn plane(&self, of: &Published, side: Side) -> Option<&PexRow> {
+        let [low, high] = fits::planes(self.pex.iter().filter(|row| of.is_of(&row.suite, &row.structure)))?;
+        Some(match side {
+            Side::Low => low,
+            Side::High => high,
+        })
+    }
+
+    fn curve(&self, of: &Published, x: Measure, y: Option<Measure>) -> Option<&ProRow> {
+        let mut curves = self.pro.iter().filter(|row| of.is_of(&row.suite, &row.structure));
+        curves.find(|row| row.is_of_overturning() && row.im_x == x && row.im_y == y)
     }
 
     /// How far the published plane lies from ours over our own cases, in ln EDP.
-    fn rms(&self, suite: &str, structure: &str, side: Side) -> Option<f64> {
+    fn rms(&self, of: &Published, side: Side) -> Option<f64> {
         let published = |coefficient: &str| {
             let quantity = format!("{}_{coefficient}", side.word());
-            self.published.iter().find(|p| p.is(&quantity, suite, structure)).and_then(|p| p.published)
+            self.published
+                .iter()
+                .find(|p| p.is(&quantity, &of.suite, &of.structure))
+                .and_then(|p| p.published)
         };
-        let ours = |coefficient| self.plane_number(suite, structure, side, coefficient);
+        let row = self.plane(of, side)?;
         let theirs = Plane { ln_a: published("ln_a")?, b1: published("b1")?, b2: published("b2")? };
-        let ours = Plane { ln_a: ours("ln_a")?, b1: ours("b1")?, b2: ours("b2")? };
-        rms_difference(&theirs, &ours, self.cases(suite, structure)?, side.range())
+        let ours = Plane { ln_a: row.ln_a?, b1: row.b1?, b2: row.b2? };
+        rms_difference(&theirs, &ours, &self.group(of)?.cases, side.range())
     }
 
-    /// What a root mean square of a side is between planes of our seeds.
-    fn seed_rms(&self, wanted: &Published, spread: &Spread) -> Option<f64> {
-        let (side, rest) = Side::of(&wanted.quantity)?;
-        let (suite, structure) = (wanted.suite.as_str(), wanted.structure.as_str());
-        let plane = |set: Vec<f64>| Plane { ln_a: set[0], b1: set[1], b2: set[2] };
-        let planes: Vec<Plane> = sets(spread, side, wanted)?.into_iter().map(plane).collect();
-        let rms = || rms_between(&planes, self.cases(suite, structure)?, side.range());
-        match rest {
-            "rms_ln_edp" => rms(),
-            "rms_over_beta" => Some(rms()? / self.plane_number(suite, structure, side, "beta")?),
-            _ => None,
-        }
+    /// What a root mean square of a side is between planes of two seeds.
+    fn seed_rms(&self, of: &Published, spread: &Spread) -> Option<f64> {
+        let (side, rest) = Side::of(&of.quantity).filter(|(_, rest)| rest.starts_with("rms"))?;
+        let plane = |set: &Vec<f64>| Plane { ln_a: set[0], b1: set[1], b2: set[2] };
+        let planes: Vec<Plane> = sets(spread, of, side)?.iter().map(plane).collect();
+        let rms = rms_between(&planes, &self.group(of)?.cases, side.range())?;
+        Some(rms / if rest == "rms_over_beta" { self.plane(of, side)?.beta? } else { 1.0 })
     }
 
-    /// Whether the published plane could be one more of our seeds.
-    fn joint(&self, wanted: &Published, spread: &Spread) -> Option<Test> {
-        let (side, _) = Side::of(&wanted.quantity).filter(|(_, rest)| *rest == "plane")?;
-        let published = NUMBERS_OF_PLANE.map(|number| {
+    /// Whether the published plane could be that of one more seed.
+    fn joint(&self, of: &Published, spread: &Spread) -> Option<Test> {
+        let (side, _) = Side::of(&of.quantity).filter(|(_, rest)| *rest == "plane")?;
+        let printed = NUMBERS_OF_PLANE.iter().map(|number| {
             let quantity = format!("{}_{number}", side.word());
-            let of_plane =
-                self.published.iter().find(|p| p.is(&quantity, &wanted.suite, &wanted.structure))?;
-            Some((of_plane.published?, of_plane.rounding()?))
+            let number = self.published.iter().find(|p| p.is(&quantity, &of.suite, &of.structure))?;
+            Some((number.published?, number.rounding()?))
         });
-        let published: Option<Vec<(f64, f64)>> = published.into_iter().collect();
-        let (printed, rounding): (Vec<f64>, Vec<f64>) = published?.into_iter().unzip();
-        joint_test(&sets(spread, side, wanted)?, &printed, &rounding)
+        let (printed, rounding): (Vec<f64>, Vec<f64>) =
+            printed.collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        joint_test(&sets(spread, of, side)?, &printed, &rounding)
     }
 }
 
 /// What Table II prints of a plane.
 const NUMBERS_OF_PLANE: [&str; 4] = ["ln_a", "b1", "b2", "r2"];
 
-/// Values over seeds of each quantity, suite and structure.
-type Spread<'a> = BTreeMap<(&'a str, &'a str, &'a str), Vec<f64>>;
-
 /// The numbers of a plane, seed by seed; none where a seed lacks one.
-fn sets(spread: &Spread, side: Side, of: &Published) -> Option<Vec<Vec<f64>>> {
-    let over_seeds = |number: &str| {
+fn sets(spread: &Spread, of: &Published, side: Side) -> Option<Vec<Vec<f64>>> {
+    let over_seeds = |number: &&str| {
         let quantity = format!("{}_{number}", side.word());
         let key = (quantity.as_str(), of.suite.as_str(), of.structure.as_str());
         spread.iter().find(|(other, _)| **other == key).map(|(_, values)| values)
     };
-    let numbers = NUMBERS_OF_PLANE.iter().map(|number| over_seeds(number)).collect::<Option<Vec<_>>>()?;
+    let numbers: Vec<&Vec<f64>> = NUMBERS_OF_PLANE.iter().map(over_seeds).collect::<Option<_>>()?;
     let seeds = numbers[0].len();
     let complete = numbers.iter().all(|values| values.len() == seeds);
     complete.then(|| (0..seeds).map(|seed| numbers.iter().map(|values| values[seed]).collect()).collect())
 }
+
+/// Values over seeds of each quantity, suite and structure.
+type Spread<'a> = BTreeMap<(&'a str, &'a str, &'a str), Vec<f64>>;
 
 fn by_quantity(spread: &[SpreadRow]) -> Spread<'_> {
     let mut values = Spread::new();
@@ -238,7 +259,7 @@ fn by_quantity(spread: &[SpreadRow]) -> Spread<'_> {
 impl Declare for ComparePaper {
     type Options = ComparePaperOptions;
     const NAME: &'static str = PAPER.stage;
-    const ABOUT: &'static str = "Hold our numbers against the published ones";
+    const ABOUT: &'static str = "Compare our numbers with the published ones";
     const INPUTS: &'static [Input] = &[
         Input::file("pex", "pex", FitPex::OUTPUT.file, "Regressions of fit-pex"),
         Input::file("pro", "pro", FitPro::OUTPUT.file, "Curves of fit-pro"),
@@ -280,8 +301,8 @@ impl Stage for ComparePaper {
     fn execute(&self, provenance: &Provenance, _console: &Console) -> anyhow::Result<String> {
         let ours = Ours {
             groups: groups::read(&self.responses)?,
-            pex: PexFrame::read(&self.pex)?,
-            pro: ProFrame::read(&self.pro)?,
+            pex: PexRow::read(self.pex.clone())?,
+            pro: ProRow::read(self.pro.clone())?,
             published: self.published.clone(),
         };
         let spread = by_quantity(&self.spread);
@@ -289,14 +310,14 @@ impl Stage for ComparePaper {
             let key = (published.quantity.as_str(), published.suite.as_str(), published.structure.as_str());
             let values = spread.get(&key).map_or(&[][..], Vec::as_slice);
             let joint = ours.joint(published, &spread);
-            PaperRow {
+            Ok(PaperRow {
                 seed_rms: ours.seed_rms(published, &spread),
                 t2: joint.map(|test| test.statistic),
                 t2_p: joint.map(|test| test.p),
-                ..PaperRow::new(published, ours.value(published), values)
-            }
+                ..PaperRow::new(published, ours.value(published)?, values)
+            })
         };
-        let rows: Vec<PaperRow> = self.published.iter().map(row).collect();
+        let rows: Vec<PaperRow> = self.published.iter().map(row).collect::<anyhow::Result<_>>()?;
         PaperRow::write(&rows, self.out.clone(), provenance)?;
         Ok(format!("{} published numbers", rows.iter().filter(|row| row.published.is_some()).count()))
     }

@@ -76,7 +76,6 @@ pub fn binary_regression(
 /// The likelihood of outcomes as a function of the coefficients.
 #[derive(Clone, Copy)]
 pub struct BinaryLikelihood<'a> {
-    /// The cases.
     pub design: &'a DesignMatrix,
     /// Whether it happened in each.
     pub events: &'a [bool],

@@ -39,7 +39,6 @@ impl Scores<'_> {
 /// First derivatives and the negative second ones of a case with respect to its index.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Score {
-    /// The first.
     pub slope: f64,
     /// The negative of the second.
     pub curvature: f64,

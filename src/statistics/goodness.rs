@@ -10,7 +10,6 @@ const GROUPS: usize = 10;
 /// The outcome of a test.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Test {
-    /// The statistic.
     pub statistic: f64,
     /// Probability of one as large, if the model holds.
     pub p: f64,

@@ -41,7 +41,6 @@ use crate::keyword::keywords;
 /// Whether there is a fit, and if not, why.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FitStatus {
-    /// There is.
     Ok,
     /// There is, but what it is about falls as the measure (of two, the hybrid or the first) grows.
     Falling,

@@ -8,7 +8,6 @@ const MOST_STEPS: usize = 100;
 /// A function to be maximised, with its derivatives.
 #[derive(Debug, Clone)]
 pub struct Objective {
-    /// Its value.
     pub value: f64,
     /// Its first derivatives.
     pub gradient: DVector<f64>,
@@ -19,7 +18,6 @@ pub struct Objective {
 /// Where the iterations ended.
 #[derive(Debug, Clone)]
 pub struct Maximum {
-    /// The place.
     pub at: DVector<f64>,
     /// The function there, or a last small step before.
     pub objective: Objective,
@@ -30,7 +28,6 @@ pub struct Maximum {
 /// Where a search may go from its start.
 #[derive(Debug, Clone, Copy)]
 pub enum Along<'a> {
-    /// Anywhere.
     All,
     /// Only along the columns of this matrix: the constraint that the start fulfils goes on to hold.
     Columns(&'a DMatrix<f64>),

@@ -34,7 +34,6 @@ keywords!(PooledTerms { Line = "line", Curved = "curved", Restitution = "restitu
 /// A structure among others; its parameters as differences from those of a reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PooledStructure<'a> {
-    /// Its responses.
     pub cases: &'a [Case],
     /// ln p.
     pub ln_p: f64,
@@ -49,7 +48,6 @@ pub struct PooledStructure<'a> {
 pub struct PooledTerm {
     /// Of what, in words.
     pub name: String,
-    /// Its value.
     pub coefficient: f64,
     /// Its standard error; all cases of a structure may depend on each other.
     pub standard_error: f64,
@@ -58,7 +56,6 @@ pub struct PooledTerm {
 /// The curve in a range of the first measure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PooledPart {
-    /// The range.
     pub range: std::ops::Range<f64>,
     /// The coefficients, the intercept first.
     pub terms: Vec<PooledTerm>,

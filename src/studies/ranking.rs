@@ -23,7 +23,6 @@ pub enum OfPaper {
 /// A candidate and how it does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
-    /// Its measures.
     pub measures: Vec<String>,
     /// How they enter.
     pub form: Form,
@@ -201,7 +200,6 @@ pub struct MeasureRanking {
     sample: RankingSample,
     folds: Option<Folds>,
     breaks: Breaks,
-    /// Who competes.
     pub candidates: Vec<Candidate>,
 }
 

@@ -16,7 +16,6 @@ use crate::statistics::separation::is_separated;
 /// Forecasts tested on what happened.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Validation {
-    /// How many.
     pub n: usize,
     /// Those in which a measure lies outside of the range of the data of the fit.
     pub extrapolated: usize,

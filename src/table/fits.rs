@@ -1,175 +1,141 @@
-//! The rows of files of fits, as evaluate and export take them, and other readers.
+//! The fits in the rows of pex and pro files, as evaluate, export, validate and the report take them.
 
-use std::collections::HashMap;
-use std::path::PathBuf;
-
-use super::TableError;
-use super::pex::PEX;
-use super::pro::PRO;
-use super::schema::{self, Column, Kind, Table};
-use super::store::columns::Columns;
-use super::store::reader::Batches;
-use super::store::source::Source;
-use crate::fragility::{DemandLaw, Measure, Predictor};
-use crate::keyword::{self, Keyword};
+use super::pex::PexRow;
+use super::pro::ProRow;
+use crate::fragility::{DemandLaw, DemandModel, Event, Measure, Predictor};
+use crate::keyword::Keyword;
 use crate::statistics::{FitStatus, Link};
 
-/// A row of a file of fits.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FitRow {
-    path: PathBuf,
-    row: u64,
-    text: HashMap<&'static str, String>,
-    numbers: HashMap<&'static str, f64>,
+/// A suite, if it has a name, and a structure: what a fit is of.
+pub type GroupKey = (Option<String>, String);
+
+/// A row of a file of fits whose fit cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("the fit of {structure} on {im_x}: {column} is {found}; expected {expected}")]
+pub struct Unusable {
+    structure: String,
+    im_x: &'static str,
+    column: &'static str,
+    found: String,
+    expected: &'static str,
 }
 
-/// The regressions of a pex file.
-///
-/// # Errors
-/// If it is none.
-pub fn regressions(source: impl Into<Source>) -> Result<Vec<FitRow>, TableError> {
-    rows(source, &PEX)
+/// The names of fields with their values.
+macro_rules! named {
+    ($row:expr; $($field:ident)*) => { [$((stringify!($field), $row.$field)),*] };
 }
 
-/// The curves of a pro file.
-///
-/// # Errors
-/// If it is none.
-pub fn curves(source: impl Into<Source>) -> Result<Vec<FitRow>, TableError> {
-    rows(source, &PRO)
-}
-
-/// The rows of a file of fits.
-///
-/// # Errors
-/// If it is not the output of the stage of this table.
-pub fn rows(source: impl Into<Source>, table: &Table) -> Result<Vec<FitRow>, TableError> {
-    let mut rows: Vec<FitRow> = Vec::new();
-    for batch in Batches::open_whole(source, table, &[table.stage])? {
-        let batch = batch?;
-        let columns = batch.columns();
-        let row = |row| FitRow {
-            path: batch.path.to_path_buf(),
-            row: batch.first_row + row as u64,
-            text: HashMap::new(),
-            numbers: HashMap::new(),
-        };
-        let mut fits: Vec<FitRow> = (0..columns.rows()).map(row).collect();
-        for column in table.columns {
-            if column.kind == Kind::Text {
-                for (fit, text) in fits.iter_mut().zip(columns.optional_text(column)?) {
-                    fit.text.extend(text.map(|text| (column.name, text)));
-                }
-            } else {
-                for (fit, number) in fits.iter_mut().zip(numbers(&columns, column)?) {
-                    fit.numbers.extend(number.map(|number| (column.name, number)));
-                }
-            }
-        }
-        rows.extend(fits);
-    }
-    Ok(rows)
-}
-
-fn numbers(columns: &Columns, column: &Column) -> Result<Vec<Option<f64>>, TableError> {
-    match column.kind {
-        Kind::Float64 => columns.optional_numbers(column),
-        _ => Ok(columns.integers(column)?.into_iter().map(|count| Some(count as f64)).collect()),
-    }
-}
-
-impl FitRow {
-    /// The text of a column, if it has one.
-    pub fn text(&self, column: &Column) -> Option<&str> {
-        self.text.get(column.name).map(String::as_str)
+impl PexRow {
+    /// Which suite and structure the regression is of.
+    pub fn group(&self) -> GroupKey {
+        (self.suite.clone(), self.structure.clone())
     }
 
-    /// The number of a column, if it has one.
-    pub fn optional_number(&self, column: &Column) -> Option<f64> {
-        self.numbers.get(column.name).copied()
-    }
-
-    /// The number of a column.
-    ///
-    /// # Errors
-    /// If there is none.
-    pub fn number(&self, column: &Column) -> Result<f64, TableError> {
-        let missing = || self.error(column, "null; expected a number: fit again with --force".to_string());
-        self.optional_number(column).ok_or_else(missing)
-    }
-
-    /// The measure of a column, if it has one.
-    ///
-    /// # Errors
-    /// If it is none of the known ones.
-    pub fn measure(&self, column: &Column) -> Result<Option<Measure>, TableError> {
-        let parse = |word| keyword::parse(word).map_err(|unknown| self.error(column, unknown.to_string()));
-        self.text(column).map(parse).transpose()
-    }
-
-    /// Why there is no fit in this row, or "ok".
-    pub fn status(&self) -> &str {
-        self.text(&schema::status).unwrap_or_default()
-    }
-
-    /// Whether there is a fit in this row.
+    /// Whether there is a regression, and the demand grows with the intensity.
     pub fn is_ok(&self) -> bool {
-        self.status() == FitStatus::Ok.as_str()
+        self.status == FitStatus::Ok
     }
 
-    /// The demand in a row of a pex file.
+    /// The demand by this regression (Eqs. 15 and 17).
     ///
     /// # Errors
-    /// If the row lacks a number.
-    pub fn demand(&self) -> Result<DemandLaw, TableError> {
-        let im_y = self.measure(&schema::im_y)?;
-        let second = |column| if im_y.is_some() { self.number(column) } else { Ok(0.0) };
-        let (a, b1, b2) =
-            (self.number(&schema::se_ln_a)?, self.number(&schema::se_b1)?, second(&schema::se_b2)?);
-        let [ab1, ab2, b1b2] =
-            [self.number(&schema::cov_ln_a_b1)?, second(&schema::cov_ln_a_b2)?, second(&schema::cov_b1_b2)?];
-        let ln_median = self.predictor(
-            [self.number(&schema::ln_a)?, self.number(&schema::b1)?, second(&schema::b2)?],
-            [[a * a, ab1, ab2], [ab1, b1 * b1, b1b2], [ab2, b1b2, b2 * b2]],
+    /// If a number of it is null.
+    pub fn demand(&self) -> Result<DemandLaw, Unusable> {
+        let names = (self.structure.as_str(), self.im_x, self.im_y);
+        let ln_median = predictor(
+            names,
+            named!(self; ln_a b1 b2 se_ln_a se_b1 se_b2 cov_ln_a_b1 cov_ln_a_b2 cov_b1_b2 im_x_low im_x_high im_y_low im_y_high),
         )?;
-        let coefficients = 1.0 + ln_median.measures().count() as f64;
-        let degrees = self.number(&schema::n)? - coefficients;
-        Ok(DemandLaw { ln_median, beta: self.number(&schema::beta)?, degrees })
+        let degrees = self.n as f64 - 1.0 - ln_median.measures().count() as f64;
+        Ok(DemandLaw { ln_median, beta: number(names, ("beta", self.beta))?, degrees })
+    }
+}
+
+/// The planes below and above the transition among rows of one group; the rows must be in the order of the file.
+pub fn planes<'r>(rows: impl Iterator<Item = &'r PexRow>) -> Option<[&'r PexRow; 2]> {
+    use crate::fragility::demand::Form;
+    let planes: Vec<&PexRow> = rows.filter(|row| row.model == Form::Biplanar).collect();
+    planes.try_into().ok()
+}
+
+/// The two planes as one model, each on its side of the transition (Eqs. 17 and 18).
+///
+/// # Errors
+/// If a number of either is null.
+pub fn biplanar([low, high]: [&PexRow; 2]) -> Result<DemandModel, Unusable> {
+    let transition = number((&high.structure, high.im_x, high.im_y), ("range_low", high.range_low))?;
+    Ok(DemandModel::Biplanar { transition, low: low.demand()?, high: high.demand()? })
+}
+
+impl ProRow {
+    /// Which suite and structure the curve is of.
+    pub fn group(&self) -> GroupKey {
+        (self.suite.clone(), self.structure.clone())
     }
 
-    /// The probit index in a row of a pro file: b0 + b1 ln IMx + b2 ln IMy.
+    /// Whether it is a curve of overturning.
+    pub fn is_of_overturning(&self) -> bool {
+        self.event == Event::Overturning
+    }
+
+    /// Whether there is a curve, and it rises with the intensity.
+    pub fn is_ok(&self) -> bool {
+        self.status == FitStatus::Ok
+    }
+
+    /// The probit index of this curve: b0 + b1 ln IMx + b2 ln IMy.
     ///
     /// # Errors
-    /// If the row lacks a number, or the curve has another link.
-    pub fn probit(&self) -> Result<Predictor, TableError> {
-        let link = self.text(&schema::link).unwrap_or_default();
-        if link != Link::Probit.as_str() {
-            return Err(self.error(&schema::link, format!("{link}; expected probit: fit with --link probit")));
+    /// If a number of it is null, or the curve has another link.
+    pub fn probit(&self) -> Result<Predictor, Unusable> {
+        if self.link != Link::Probit {
+            return Err(Unusable {
+                structure: self.structure.clone(),
+                im_x: self.im_x.as_str(),
+                column: "link",
+                found: self.link.as_str().to_string(),
+                expected: "probit: fit with --link probit",
+            });
         }
-        let second = |column| if self.text(&schema::im_y).is_some() { self.number(column) } else { Ok(0.0) };
-        let [se_0, se_1, se_2] =
-            [self.number(&schema::se_b0)?, self.number(&schema::se_b1)?, second(&schema::se_b2)?];
-        let [b01, b02, b12] =
-            [self.number(&schema::cov_b0_b1)?, second(&schema::cov_b0_b2)?, second(&schema::cov_b1_b2)?];
-        self.predictor(
-            [self.number(&schema::b0)?, self.number(&schema::index_b1)?, second(&schema::index_b2)?],
-            [[se_0 * se_0, b01, b02], [b01, se_1 * se_1, b12], [b02, b12, se_2 * se_2]],
+        predictor(
+            (self.structure.as_str(), self.im_x, self.im_y),
+            named!(self; b0 b1 b2 se_b0 se_b1 se_b2 cov_b0_b1 cov_b0_b2 cov_b1_b2 im_x_low im_x_high im_y_low im_y_high),
         )
     }
+}
 
-    fn predictor(&self, coefficients: [f64; 3], covariance: [[f64; 3]; 3]) -> Result<Predictor, TableError> {
-        let missing = || self.error(&schema::im_x, "null; expected a measure".to_string());
-        let im_x = self.measure(&schema::im_x)?.ok_or_else(missing)?;
-        let im_y = self.measure(&schema::im_y)?;
-        let range_x = [self.number(&schema::im_x_low)?, self.number(&schema::im_x_high)?];
-        let range_y = match im_y {
-            Some(_) => [self.number(&schema::im_y_low)?, self.number(&schema::im_y_high)?],
-            None => [0.0; 2],
-        };
-        Ok(Predictor { im_x, im_y, coefficients, covariance, ranges: [range_x, range_y] })
-    }
+type Names<'r> = (&'r str, Measure, Option<Measure>);
 
-    fn error(&self, column: &Column, problem: String) -> TableError {
-        TableError::Value { path: self.path.clone(), row: self.row, column: column.name.to_string(), problem }
+fn number(
+    (structure, im_x, _): Names,
+    (column, value): (&'static str, Option<f64>),
+) -> Result<f64, Unusable> {
+    value.ok_or_else(|| Unusable {
+        structure: structure.to_string(),
+        im_x: im_x.as_str(),
+        column,
+        found: "null".to_string(),
+        expected: "a number: fit again with --force",
+    })
+}
+
+/// Coefficients, their standard errors, their covariances and the ranges of the measures; what is of the second measure is 0
+/// where there is none.
+fn predictor(names: Names, numbers: [(&'static str, Option<f64>); 13]) -> Result<Predictor, Unusable> {
+    const OF_SECOND: [usize; 6] = [2, 5, 7, 8, 11, 12];
+    let (_, im_x, im_y) = names;
+    let mut values = [0.0; 13];
+    for (index, named) in numbers.into_iter().enumerate() {
+        if im_y.is_some() || !OF_SECOND.contains(&index) {
+            values[index] = number(names, named)?;
+        }
     }
+    let [b0, b1, b2, se_0, se_1, se_2, c01, c02, c12, x_low, x_high, y_low, y_high] = values;
+    Ok(Predictor {
+        im_x,
+        im_y,
+        coefficients: [b0, b1, b2],
+        covariance: [[se_0 * se_0, c01, c02], [c01, se_1 * se_1, c12], [c02, c12, se_2 * se_2]],
+        ranges: [[x_low, x_high], [y_low, y_high]],
+    })
 }

@@ -9,7 +9,7 @@ use super::motions::MotionId;
 use super::responses::{RESPONSES, ResponseRow};
 use super::row::{WriteRow, schema_of, table};
 use super::schema::{Column, Table, joined};
-use super::store::reader::{Batch, Batches};
+use super::store::frame::read_frame;
 use super::store::text;
 use crate::fragility::CapacityFit;
 use crate::rocking::{Capacity, CapacityStatus, Structure};
@@ -103,11 +103,9 @@ table! {
 /// What a scan says of a structure under a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CapacityRow<'a> {
-    /// Which motion.
     pub motion_id: &'a MotionId,
     /// Its kind, if known.
     pub suite: Option<&'a str>,
-    /// Which structure.
     pub structure: &'a Structure,
     /// What is scaled.
     pub measure: &'static str,
@@ -134,7 +132,6 @@ pub struct StripeRow<'a> {
 pub struct FragilityRow {
     /// The suite, if known.
     pub suite: Option<String>,
-    /// The structure.
     pub structure: String,
     /// What is scaled.
     pub measure: &'static str,
@@ -157,7 +154,6 @@ pub struct FragilityRow {
 pub struct LevelCount {
     /// At this intensity.
     pub intensity: f64,
-    /// So many.
     pub overturned: usize,
     /// At this intensity or a lower one.
     pub overturned_up_to: usize,
@@ -290,6 +286,5 @@ pub fn fragility(rows: &[FragilityRow]) -> Result<RecordBatch, ArrowError> {
 /// # Errors
 /// If it is none.
 pub fn show(path: &Path) -> anyhow::Result<String> {
-    let batches = Batches::open_whole(path, &IDA_FRAGILITY, &[IDA_FRAGILITY.stage])?;
-    batches.map(|batch| Ok(batch.map(|Batch { rows, .. }| text::aligned(&rows))?)).collect()
+    Ok(text::aligned(&read_frame(path, &IDA_FRAGILITY)?))
 }

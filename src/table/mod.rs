@@ -37,7 +37,6 @@ pub enum TableError {
     /// The file is not there.
     #[error("{}: no such file; {hint}", path.display())]
     Missing {
-        /// The file.
         path: PathBuf,
         /// How to get it.
         hint: String,
@@ -45,7 +44,6 @@ pub enum TableError {
     /// The operating system refused.
     #[error("{}: {source}", path.display())]
     Io {
-        /// The file.
         path: PathBuf,
         /// What it said.
         source: std::io::Error,
@@ -53,7 +51,6 @@ pub enum TableError {
     /// The file cannot be read as Parquet.
     #[error("{}: not a readable Parquet file ({source}); make it again", path.display())]
     NotParquet {
-        /// The file.
         path: PathBuf,
         /// What the reader said.
         source: parquet::errors::ParquetError,
@@ -61,7 +58,6 @@ pub enum TableError {
     /// The file is compressed in a way that is not built in.
     #[error("{}: compressed in a way that rockfrag does not read ({message}); write it with zstd or snappy, or uncompressed", path.display())]
     Codec {
-        /// The file.
         path: PathBuf,
         /// What the reader said.
         message: String,
@@ -69,7 +65,6 @@ pub enum TableError {
     /// The table cannot be read as a frame.
     #[error("{}: cannot read: {message}", path.display())]
     Read {
-        /// The file.
         path: PathBuf,
         /// What the reader said.
         message: String,
@@ -77,7 +72,6 @@ pub enum TableError {
     /// The file cannot be written.
     #[error("{}: cannot write: {message}", path.display())]
     Write {
-        /// The file.
         path: PathBuf,
         /// What the writer said.
         message: String,
@@ -85,7 +79,6 @@ pub enum TableError {
     /// The file was made by another stage than the one whose output is read here.
     #[error("{}: made by {found}; expected the output of {expected}", path.display())]
     OtherStage {
-        /// The file.
         path: PathBuf,
         /// The stage in its metadata.
         found: String,
@@ -95,37 +88,28 @@ pub enum TableError {
     /// A later version of rockfrag has written the file in a way that is not yet known here.
     #[error("{}: written by rockfrag {version} in format {format}; this is rockfrag {}, which reads formats up to {known}: update it, or make the file again", path.display(), env!("CARGO_PKG_VERSION"))]
     Newer {
-        /// The file.
         path: PathBuf,
         /// The version that wrote it.
         version: String,
-        /// Its format.
         format: String,
         /// The last format that is known here.
         known: u32,
     },
     /// The file became another one while it was read.
     #[error("{}: changed or removed while it was read; run again", path.display())]
-    Changed {
-        /// The file.
-        path: PathBuf,
-    },
+    Changed { path: PathBuf },
     /// The file says that it has more rows than it can hold.
     #[error("{}: {rows} rows in a file of {bytes} bytes; expected a byte a row at least: write it plain, without dictionaries and compression", path.display())]
     TooManyRows {
-        /// The file.
         path: PathBuf,
         /// How many rows it announces.
         rows: u64,
-        /// Its size.
         bytes: u64,
     },
     /// A column is missing.
     #[error("{}: no column '{column}'; expected {expected}", path.display())]
     MissingColumn {
-        /// The file.
         path: PathBuf,
-        /// The column.
         column: String,
         /// Its type and meaning.
         expected: String,
@@ -133,9 +117,7 @@ pub enum TableError {
     /// A column has a type that cannot serve.
     #[error("{}: column '{column}' is {found}; expected {expected}", path.display())]
     WrongType {
-        /// The file.
         path: PathBuf,
-        /// The column.
         column: String,
         /// Its type in the file.
         found: String,
@@ -145,7 +127,6 @@ pub enum TableError {
     /// A folder does not stand for a whole table.
     #[error("{}: {problem}", path.display())]
     Folder {
-        /// The folder.
         path: PathBuf,
         /// What is wrong with it and what to do.
         problem: String,
@@ -158,18 +139,13 @@ pub enum TableError {
     },
     /// The table has no rows.
     #[error("{}: the table is empty; expected at least one row", path.display())]
-    Empty {
-        /// The file.
-        path: PathBuf,
-    },
+    Empty { path: PathBuf },
     /// A value cannot be used. `row` counts from 0.
     #[error("{}: row {row}, column '{column}': {problem}", path.display())]
     Value {
-        /// The file.
         path: PathBuf,
         /// Where in the table.
         row: u64,
-        /// Which column.
         column: String,
         /// What stands there and what should.
         problem: String,

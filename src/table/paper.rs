@@ -29,7 +29,6 @@ pub struct Published {
     pub suite: String,
     /// Of which structure.
     pub structure: String,
-    /// The number.
     pub published: Option<f64>,
     /// The least number that is printed so.
     pub print_low: Option<f64>,
@@ -46,6 +45,11 @@ impl Published {
     /// The width of the interval of numbers that are printed so.
     pub fn rounding(&self) -> Option<f64> {
         Some(self.print_high? - self.print_low?)
+    }
+
+    /// Whether it is of that suite and structure.
+    pub fn is_of(&self, suite: &Option<String>, structure: &str) -> bool {
+        suite.as_deref() == Some(&self.suite) && structure == self.structure
     }
 }
 

@@ -1,16 +1,11 @@
 //! The files of fit-pex: one row a regression of the demand in safe rocking, one a regression and resample, and one a place
 //! that was tried for the transition.
 
-use polars::prelude::{ChunkCompareEq, DataFrame};
+use std::sync::Arc;
 
-use super::TableError;
 use super::row::table;
-use super::schema::{self, Column};
-use super::store::frame::read_frame;
-use super::store::source::Source;
 use crate::fragility::Measure;
 use crate::fragility::demand::{Form, Regression};
-use crate::keyword::Keyword;
 use crate::resampling::BootstrapLimits;
 use crate::statistics::FitStatus;
 
@@ -87,9 +82,9 @@ table! {
 
 table! {
     /// The regressions of resampled cases, null where a resample has no fit.
-    pub struct PexReplicateRow<'a> as PEX_BOOTSTRAP = "bootstrap replicates of pex" by "fit-pex" {
-        suite: Option<&'a str>,
-        structure: &'a str,
+    pub struct PexReplicateRow as PEX_BOOTSTRAP = "bootstrap replicates of pex" by "fit-pex" {
+        suite: Option<Arc<str>>,
+        structure: Arc<str>,
         model: Form,
         im_x: Measure,
         im_y: Option<Measure>,
@@ -210,12 +205,14 @@ impl From<&GroupRegression> for PexRow {
 
 impl GroupRegression {
     /// The regressions of its resamples.
-    pub fn replicates(&self) -> impl Iterator<Item = PexReplicateRow<'_>> {
-        self.regression.replicates.iter().enumerate().map(|(replicate, fit)| {
+    pub fn replicates(&self) -> impl Iterator<Item = PexReplicateRow> + '_ {
+        let (suite, structure): (Option<Arc<str>>, Arc<str>) =
+            (self.suite.as_deref().map(Arc::from), self.structure.as_str().into());
+        self.regression.replicates.iter().enumerate().map(move |(replicate, fit)| {
             let coefficient = |k: usize| fit.as_ref()?.fit.coefficients.get(k).copied();
             PexReplicateRow {
-                suite: self.suite.as_deref(),
-                structure: &self.structure,
+                suite: suite.clone(),
+                structure: structure.clone(),
                 model: self.regression.form,
                 im_x: self.regression.im_x,
                 im_y: self.regression.im_y,
@@ -228,31 +225,5 @@ impl GroupRegression {
                 beta: fit.as_ref().map(|fit| fit.fit.residual_sd),
             }
         })
-    }
-}
-
-/// The regressions of a pex file.
-pub struct PexFrame(DataFrame);
-
-impl PexFrame {
-    /// Reads the file.
-    ///
-    /// # Errors
-    /// If it is none of regressions.
-    pub fn read(source: impl Into<Source>) -> Result<PexFrame, TableError> {
-        read_frame(source, &PEX).map(PexFrame)
-    }
-
-    /// A number of one of the two planes, below the transition or above it.
-    pub fn plane_number(&self, suite: &str, structure: &str, low: bool, column: &str) -> Option<f64> {
-        let equal =
-            |column: Column, word: &str| Some(self.0.column(column.name).ok()?.str().ok()?.equal(word));
-        let open_above = self.0.column(schema::range_high.name).ok()?.is_null();
-        let side = if low { !&open_above } else { open_above };
-        let rows = equal(schema::suite, suite)?
-            & equal(schema::structure, structure)?
-            & equal(schema::model, Form::Biplanar.as_str())?
-            & side;
-        self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.iter().next().flatten()
     }
 }

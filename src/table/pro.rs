@@ -1,15 +1,10 @@
 //! The files of fit-pro: one row a fragility curve, and one a curve and resample.
 
-use polars::prelude::{ChunkCompareEq, DataFrame};
+use std::sync::Arc;
 
-use super::TableError;
 use super::row::table;
-use super::schema::{self, Column};
-use super::store::frame::read_frame;
-use super::store::source::Source;
 use crate::fragility::overturning::Curve;
 use crate::fragility::{CurveParameter, Event, Measure};
-use crate::keyword;
 use crate::statistics::{Estimator, FitStatus, Link};
 
 table! {
@@ -92,9 +87,9 @@ table! {
 
 table! {
     /// The curves of resampled cases, null where a resample has no fit.
-    pub struct ProReplicateRow<'a> as PRO_BOOTSTRAP = "bootstrap replicates of pro" by "fit-pro" {
-        suite: Option<&'a str>,
-        structure: &'a str,
+    pub struct ProReplicateRow as PRO_BOOTSTRAP = "bootstrap replicates of pro" by "fit-pro" {
+        suite: Option<Arc<str>>,
+        structure: Arc<str>,
         event: Event = fitted_event,
         im_x: Measure,
         im_y: Option<Measure>,
@@ -209,12 +204,14 @@ impl From<&GroupCurve> for ProRow {
 
 impl GroupCurve {
     /// The curves of its resamples.
-    pub fn replicates(&self) -> impl Iterator<Item = ProReplicateRow<'_>> {
-        self.curve.replicates.iter().enumerate().map(|(replicate, coefficients)| {
+    pub fn replicates(&self) -> impl Iterator<Item = ProReplicateRow> {
+        let (suite, structure): (Option<Arc<str>>, Arc<str>) =
+            (self.suite.as_deref().map(Arc::from), self.structure.as_str().into());
+        self.curve.replicates.iter().enumerate().map(move |(replicate, coefficients)| {
             let coefficient = |k: usize| coefficients.as_ref()?.get(k).copied();
             ProReplicateRow {
-                suite: self.suite.as_deref(),
-                structure: &self.structure,
+                suite: suite.clone(),
+                structure: structure.clone(),
                 event: self.curve.event,
                 im_x: self.curve.im_x,
                 im_y: self.curve.im_y,
@@ -224,45 +221,5 @@ impl GroupCurve {
                 b2: coefficient(2),
             }
         })
-    }
-}
-
-/// The curves of a pro file.
-pub struct ProFrame(DataFrame);
-
-impl ProFrame {
-    /// Reads the file.
-    ///
-    /// # Errors
-    /// If it is none of curves.
-    pub fn read(source: impl Into<Source>) -> Result<ProFrame, TableError> {
-        read_frame(source, &PRO).map(ProFrame)
-    }
-
-    /// A number of the curve of one measure, or of a hybrid of two.
-    pub fn number(
-        &self,
-        suite: &str,
-        structure: &str,
-        im_x: &str,
-        im_y: Option<&str>,
-        column: &str,
-    ) -> Option<f64> {
-        let equal =
-            |column: Column, word: &str| Some(self.0.column(column.name).ok()?.str().ok()?.equal(word));
-        let second = match im_y {
-            Some(im_y) => equal(schema::im_y, im_y)?,
-            None => self.0.column(schema::im_y.name).ok()?.is_null(),
-        };
-        let rows = equal(schema::suite, suite)?
-            & equal(schema::structure, structure)?
-            & equal(schema::im_x, im_x)?
-            & second;
-        self.0.filter(&rows).ok()?.column(column).ok()?.f64().ok()?.iter().next().flatten()
-    }
-
-    /// The link of all curves.
-    pub fn link(&self) -> Option<Link> {
-        keyword::parse(self.0.column(schema::link.name).ok()?.str().ok()?.get(0)?).ok()
     }
 }

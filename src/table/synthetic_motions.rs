@@ -13,7 +13,6 @@ use crate::motion::{Measured, Scenario, Suite};
 pub struct SyntheticMotion {
     /// Unique in the file.
     pub motion_id: i64,
-    /// Its kind.
     pub suite: Suite,
     /// The scenario it belongs to.
     pub scenario: Scenario,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::row::table;
 use super::schema::{self, Column};
-use super::store::reader::{Batch, Batches, expect_columns};
+use super::store::frame::{names, read_frame};
 use super::store::text;
 use crate::fragility::Event;
 use crate::studies::Validation;
@@ -105,13 +105,6 @@ const SHOWN: [Column; 16] = [
 /// # Errors
 /// If it is none.
 pub fn show(path: &Path) -> anyhow::Result<String> {
-    let mut table = String::new();
-    for batch in Batches::open_whole(path, &VALIDATION, &[VALIDATION.stage])? {
-        let Batch { rows, .. } = batch?;
-        let schema = rows.schema();
-        expect_columns(path, &schema, &SHOWN)?;
-        let shown: Vec<usize> = SHOWN.iter().filter_map(|column| schema.index_of(column.name).ok()).collect();
-        table += &text::aligned(&rows.project(&shown)?);
-    }
-    Ok(table)
+    let frame = read_frame(path, &VALIDATION)?;
+    Ok(text::aligned(&frame.select(names(&SHOWN))?))
 }

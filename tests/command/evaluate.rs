@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use arrow_array::{ArrayRef, Float64Array};
+use rockfrag::fragility::Measure;
 use rockfrag::fragility::{p_failure_given_rocking, p_overturning};
 use rockfrag::statistics::Link;
-use rockfrag::table::fits::{FitRow, curves};
-use rockfrag::table::schema;
+use rockfrag::table::pro::ProRow;
+use rockfrag::table::row::ReadRow;
 
 use crate::common::{content, fail, rockfrag, succeed, write};
 
@@ -59,15 +60,14 @@ fn quantity(answer: &str, name: &str) -> Option<f64> {
 #[test]
 fn the_worked_example_of_section_3_is_answered() {
     let (folder, fits) = fitted();
-    let hybrid = |row: &FitRow| row.text(&schema::im_y) == Some("im3_inv");
-    let of = |row: &FitRow| {
-        row.text(&schema::suite) == Some("csgm")
-            && row.text(&schema::structure) == Some("electrical-equipment")
+    let wanted = |row: &&ProRow| {
+        row.suite.as_deref() == Some("csgm")
+            && row.structure == "electrical-equipment"
+            && row.im_y == Some(Measure::Im3Inverse)
     };
-    let rows = curves(run_folder().join("pro.parquet")).unwrap();
-    let row = rows.iter().find(|row| hybrid(row) && of(row)).unwrap();
-    let [lambda, mu, beta] =
-        [schema::lambda, schema::mu, schema::beta].map(|column| row.number(&column).unwrap());
+    let rows = ProRow::read(run_folder().join("pro.parquet")).unwrap();
+    let row = rows.iter().find(wanted).unwrap();
+    let [lambda, mu, beta] = [row.lambda, row.mu, row.beta].map(Option::unwrap);
     for im in [1.55f64, 1.88] {
         // Where p PGV / PGA is 0.3, the PGA that makes the hybrid measure (Eq. 23) this.
         let im4 = (im.powf(1.0 + lambda) / 0.3).powf(1.0 / lambda);

@@ -11,15 +11,17 @@ use rockfrag::table::intensities::IntensityBatches;
 use rockfrag::table::motion_measures::MotionMeasures;
 use rockfrag::table::motion_table::MotionTable;
 use rockfrag::table::motions::{Motion, MotionBatches};
+use rockfrag::table::pex::PexRow;
+use rockfrag::table::pro::ProRow;
 use rockfrag::table::row::ReadRow;
 use rockfrag::table::store::{contents, reader};
 use rockfrag::table::universality::{PooledRow, UniversalityRow};
-use rockfrag::table::{TableError, fits, ida, paper, scenarios, validation};
+use rockfrag::table::{TableError, ida, paper, scenarios, validation};
 
 /// Reads a file as each stage would, and gives what each made of it.
 pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)> {
     vec![
-        ("stamp", words(contents::recorded(path))),
+        ("recorded", words(contents::recorded(path))),
         ("content", words(contents::content_of(path))),
         ("inspect", words(inspect(path, &Terminal::PLAIN))),
         ("scenarios", words(scenarios::read(path))),
@@ -62,14 +64,14 @@ fn motions_in_parts(path: &Path) -> Result<(), TableError> {
     })
 }
 
-fn regressions(path: &Path) -> Result<(), TableError> {
-    let ok = fits::regressions(path)?;
-    ok.iter().filter(|row| row.is_ok()).try_for_each(|row| row.demand().map(drop))
+fn regressions(path: &Path) -> anyhow::Result<()> {
+    let ok = PexRow::read(path)?;
+    ok.iter().filter(|row| row.is_ok()).try_for_each(|row| Ok(row.demand().map(drop)?))
 }
 
-fn curves(path: &Path) -> Result<(), TableError> {
-    let ok = fits::curves(path)?;
-    ok.iter().filter(|row| row.is_ok()).try_for_each(|row| row.probit().map(drop))
+fn curves(path: &Path) -> anyhow::Result<()> {
+    let ok = ProRow::read(path)?;
+    ok.iter().filter(|row| row.is_ok()).try_for_each(|row| Ok(row.probit().map(drop)?))
 }
 
 fn intensities(path: &Path) -> Result<(), TableError> {

@@ -40,7 +40,6 @@ keywords!(Form { Univariate = "univariate", Plane = "plane", Biplanar = "biplana
 /// A regression of ln EDP, or one of two that meet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Regression {
-    /// Its form.
     pub form: Form,
     /// First measure.
     pub im_x: Measure,

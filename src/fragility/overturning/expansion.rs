@@ -42,7 +42,6 @@ pub struct Expansion {
 
 /// Where the polynomial says that the likelihood is greatest.
 pub struct NearMaximum {
-    /// The coefficients.
     pub at: DVector<f64>,
     /// Whether it is precise there.
     pub precise: bool,

@@ -73,7 +73,6 @@ pub struct Curve {
 /// How uncertain a parameter of a curve is, besides the errors and limits of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParameterInference {
-    /// The parameter.
     pub parameter: CurveParameter,
     /// Standard error where cases of one cluster may depend on each other.
     pub clustered_error: f64,

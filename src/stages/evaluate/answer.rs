@@ -2,6 +2,7 @@ use arrow_array::RecordBatch;
 
 use super::options::Format;
 use crate::table::schema::Table;
+use crate::table::store::frame::frame_of;
 use crate::table::store::text;
 
 /// A short answer.
@@ -16,9 +17,11 @@ impl Answer {
     /// The answer as text.
     pub fn text(&self, format: Format) -> anyhow::Result<String> {
         match format {
-            Format::Csv => text::csv(&self.rows),
-            Format::Json => Ok(text::json(&self.rows)),
-            Format::Table | Format::Parquet => Ok(format!("{}\n{}", self.heading, text::aligned(&self.rows))),
+            Format::Csv => text::csv(&frame_of(&self.rows)?),
+            Format::Json => Ok(text::json(&frame_of(&self.rows)?)),
+            Format::Table | Format::Parquet => {
+                Ok(format!("{}\n{}", self.heading, text::aligned(&frame_of(&self.rows)?)))
+            }
         }
     }
 }

@@ -3,10 +3,13 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use polars::prelude::ChunkCompareEq;
+
 use crate::keyword::Keyword;
-use crate::studies::{Form, Target};
-use crate::table::ranking::RankingRow;
-use crate::table::row::{ReadRow, WriteRow, table};
+use crate::table::ranking::{RANKING, RankingRow};
+use crate::table::row::ReadRow;
+use crate::table::schema::{self, Column};
+use crate::table::store::frame::{names, read_frame};
 use crate::table::store::text;
 
 /// A difference beyond so many standard errors is called clear.
@@ -17,11 +20,13 @@ const CLEAR: f64 = 2.0;
 /// # Errors
 /// If it is none.
 pub fn show(path: &Path) -> anyhow::Result<String> {
-    // The rows that were chosen, and those without measures, which every structure has.
     let mut chosen = RankingRow::read(path)?;
     chosen.retain(|row| row.choice.is_some() || row.terms == 0);
-    let shown: Vec<ShownRow> = chosen.iter().map(ShownRow::of).collect();
-    let mut text = text::aligned(&ShownRow::batch(&shown)?);
+    let frame = read_frame(path, &RANKING)?;
+    // The rows that were chosen, and those without measures, which every structure has.
+    let shown =
+        frame.column(schema::choice.name)?.is_not_null() | frame.column(schema::terms.name)?.i64()?.equal(0);
+    let mut text = text::aligned(&frame.filter(&shown)?.select(names(&SHOWN))?);
     text += "\n";
     let of = |row: &RankingRow| (row.suite.clone(), row.structure.clone(), row.target);
     for group in chosen.chunk_by(|a, b| of(a) == of(b)) {
@@ -30,48 +35,24 @@ pub fn show(path: &Path) -> anyhow::Result<String> {
     Ok(text)
 }
 
-table! {
-    /// What a reader looks at first; the file holds the rest.
-    pub struct ShownRow<'a> as SHOWN = "ranking" by "rank-ims" {
-        suite: Option<&'a str>,
-        structure: &'a str,
-        target: Target,
-        choice: Option<&'a str>,
-        measures: &'a str,
-        form: Form,
-        log_score: Option<f64> = rank_log_score,
-        over_paper: Option<f64>,
-        se_over_paper: Option<f64>,
-        over_step: Option<f64>,
-        se_over_step: Option<f64>,
-        auc_unseen: Option<f64>,
-        brier_unseen: Option<f64>,
-        calibration_slope: Option<f64>,
-        beta: Option<f64>,
-    }
-}
-
-impl<'a> ShownRow<'a> {
-    fn of(row: &'a RankingRow) -> ShownRow<'a> {
-        ShownRow {
-            suite: Some(row.suite.as_deref().unwrap_or_default()),
-            structure: &row.structure,
-            target: row.target,
-            choice: Some(row.choice.as_deref().unwrap_or_default()),
-            measures: &row.measures,
-            form: row.form,
-            log_score: row.log_score,
-            over_paper: row.over_paper,
-            se_over_paper: row.se_over_paper,
-            over_step: row.over_step,
-            se_over_step: row.se_over_step,
-            auc_unseen: row.auc_unseen,
-            brier_unseen: row.brier_unseen,
-            calibration_slope: row.calibration_slope,
-            beta: row.beta,
-        }
-    }
-}
+/// What a reader looks at first; the file holds the rest.
+const SHOWN: [Column; 15] = [
+    schema::suite,
+    schema::structure,
+    schema::target,
+    schema::choice,
+    schema::measures,
+    schema::form,
+    schema::rank_log_score,
+    schema::over_paper,
+    schema::se_over_paper,
+    schema::over_step,
+    schema::se_over_step,
+    schema::auc_unseen,
+    schema::brier_unseen,
+    schema::calibration_slope,
+    schema::beta,
+];
 
 /// One structure under one suite, in words.
 fn verdict(group: &[RankingRow]) -> Result<String, std::fmt::Error> {
@@ -86,7 +67,7 @@ fn verdict(group: &[RankingRow]) -> Result<String, std::fmt::Error> {
     let mut line = [target.as_str(), suite, structure.as_str()].join(" ").replace("  ", " ");
     write!(line, " ({n_events} events in {n} cases):")?;
     let Some(paper) = find("paper", None) else {
-        return Ok(line + " no forecasts by the model of the paper to hold others against\n");
+        return Ok(line + " no predictions by the model of the paper to compare others with\n");
     };
     let against = |row: &RankingRow| comparison(row.over_paper, row.se_over_paper);
     write!(line, " the paper takes {} ({})", paper.measures, paper.form.as_str())?;

@@ -1,6 +1,5 @@
 use std::path::Path;
 
-use crate::fragility::Event;
 use crate::fragility::Measure;
 use crate::fragility::demand::Form;
 use crate::keyword::Keyword;
@@ -8,53 +7,47 @@ use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
 use crate::report::data::{Curve, Group, Model, Planes, Regression};
 use crate::stages::shared::fits::{FitFiles, FitsOptions, ModelForm};
-use crate::table::fits::{self, FitRow};
-use crate::table::schema;
+use crate::table::fits::{self, GroupKey};
+use crate::table::pex::PexRow;
+use crate::table::pro::ProRow;
+use crate::table::row::ReadRow;
 
-/// The row, if it is of this group.
-fn is_of(row: &FitRow, group: &Group) -> bool {
-    row.text(&schema::suite) == group.suite.as_deref()
-        && row.text(&schema::structure) == Some(group.structure.name.as_str())
+fn key(group: &Group) -> GroupKey {
+    (group.suite.clone(), group.structure.name.clone())
 }
 
 /// Gives each group its regressions; the demand that P_ex is about.
 pub fn add_regressions(path: &Path, groups: &mut [Group]) -> anyhow::Result<Option<f64>> {
-    let rows = fits::regressions(path)?;
+    let rows = PexRow::read(path)?;
     for group in groups {
-        let of_group = |model: Form| {
-            let rows = rows.iter().filter(|row| is_of(row, group));
-            rows.filter(move |row| row.text(&schema::model) == Some(model.as_str())).collect::<Vec<_>>()
-        };
-        let univariate = of_group(Form::Univariate);
-        let planes = of_group(Form::Biplanar);
-        group.planes = match &planes[..] {
-            [low, high] => regression(low).zip(regression(high)).and_then(|(below, above)| {
-                let transition = high.optional_number(&schema::range_low)?;
-                Some(Planes { transition, sides: [below, above] })
-            }),
-            _ => None,
-        };
-        group.univariate = univariate.into_iter().filter_map(regression).collect();
+        let key = key(group);
+        let of_group = || rows.iter().filter(|row| row.group() == key);
+        group.planes = fits::planes(of_group()).and_then(|[low, high]| {
+            let sides = [regression(low)?, regression(high)?];
+            Some(Planes { transition: high.range_low?, sides })
+        });
+        group.univariate =
+            of_group().filter(|row| row.model == Form::Univariate).filter_map(regression).collect();
     }
-    Ok(rows.iter().find_map(|row| row.optional_number(&schema::limit_state)))
+    Ok(rows.first().map(|row| row.limit_state))
 }
 
 /// A row that holds a regression, whether it rises or falls.
-fn regression(row: &FitRow) -> Option<Regression> {
-    let r2 = row.optional_number(&schema::r2)?;
-    row.demand().ok().map(|law| Regression { law, r2, rises: row.is_ok() })
+fn regression(row: &PexRow) -> Option<Regression> {
+    let law = row.demand().ok()?;
+    Some(Regression { law, r2: row.r2?, rises: row.is_ok() })
 }
 
 /// Gives each group its curves of overturning.
 pub fn add_curves(path: &Path, groups: &mut [Group], console: &Console) -> anyhow::Result<()> {
-    let rows = fits::curves(path)?;
-    let overturning = |row: &&FitRow| row.text(&schema::fitted_event) == Some(Event::Overturning.as_str());
-    let rows: Vec<&FitRow> = rows.iter().filter(overturning).filter(|row| row.is_ok()).collect();
-    if let Some(Err(why)) = rows.first().map(|row| row.probit()) {
-        console.warn(&format!("no curves of overturning in the figures: {why}"));
+    let mut rows = ProRow::read(path)?;
+    rows.retain(|row| row.is_of_overturning() && row.is_ok());
+    if let Some(Err(why)) = rows.first().map(ProRow::probit) {
+        console.warn(&format!("no curves of overturning in the figures: {}: {why}", path.display()));
     }
     for group in groups {
-        let of_group = rows.iter().filter(|row| is_of(row, group));
+        let key = key(group);
+        let of_group = rows.iter().filter(|row| row.group() == key);
         group.curves = of_group.filter_map(|row| row.probit().ok()).map(|index| Curve { index }).collect();
     }
     Ok(())

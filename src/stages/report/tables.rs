@@ -1,14 +1,13 @@
 use std::path::{Path, PathBuf};
 
-use arrow_array::cast::AsArray;
-use arrow_array::{Array, RecordBatch};
-use arrow_schema::DataType;
+use arrow_array::RecordBatch;
+use polars::prelude::{DataFrame, DataType};
 
 use crate::fragility::demand::Form;
 use crate::keyword::Keyword;
 use crate::report::data::{Column, Table};
-use crate::table::TableError;
 use crate::table::schema;
+use crate::table::store::frame::{frame_of, names};
 use crate::table::store::reader::read_any;
 use crate::table::store::text;
 
@@ -99,7 +98,7 @@ const SHOWN: [Shown; 7] = [
 ];
 
 /// The tables of those files that are there.
-pub fn read(files: &[(&'static str, PathBuf)]) -> Result<Vec<Table>, TableError> {
+pub fn read(files: &[(&'static str, PathBuf)]) -> anyhow::Result<Vec<Table>> {
     let of = |shown: &Shown| {
         let (_, path) = files.iter().find(|(role, _)| *role == shown.role)?;
         Some(table(shown, path))
@@ -107,41 +106,40 @@ pub fn read(files: &[(&'static str, PathBuf)]) -> Result<Vec<Table>, TableError>
     SHOWN.iter().filter_map(of).collect()
 }
 
-fn table(shown: &Shown, path: &Path) -> Result<Table, TableError> {
+fn table(shown: &Shown, path: &Path) -> anyhow::Result<Table> {
     let batches = read_any(path)?;
-    let mut table =
-        Table { title: shown.title.to_string(), columns: Vec::new(), rows: Vec::new(), left_out: 0 };
+    let mut frame = DataFrame::empty();
     for batch in &batches {
-        let of_schema = batch.schema();
-        let indices: Vec<usize> = match shown.columns.is_empty() {
-            true => (0..batch.num_columns()).collect(),
-            false => shown.columns.iter().filter_map(|column| of_schema.index_of(column.name).ok()).collect(),
-        };
-        if table.columns.is_empty() {
-            table.columns = indices.iter().map(|&index| column(of_schema.field(index))).collect();
-        }
-        let cells: Vec<Vec<String>> =
-            indices.iter().map(|&index| text::cells(batch.column(index)).collect()).collect();
-        for row in (0..batch.num_rows()).filter(|&row| is_of(batch, row, shown.models)) {
-            if table.rows.len() < MOST_ROWS {
-                table.rows.push(cells.iter().map(|column| column[row].clone()).collect());
-            } else {
-                table.left_out += 1;
-            }
-        }
+        let rows = frame_of(batch)?;
+        frame = if frame.height() == 0 { rows } else { frame.vstack(&rows)? };
     }
-    Ok(table)
-}
-
-fn column(field: &arrow_schema::Field) -> Column {
-    let description = field.metadata().get("description").cloned().unwrap_or_default();
-    Column { name: field.name().clone(), description, numeric: field.data_type() != &DataType::Utf8 }
-}
-
-fn is_of(batch: &RecordBatch, row: usize, models: &[Form]) -> bool {
-    let model = batch.column_by_name(schema::model.name).and_then(|column| column.as_string_opt::<i32>());
-    let is = |model: &arrow_array::StringArray| {
-        !model.is_null(row) && models.iter().any(|wanted| wanted.as_str() == model.value(row))
+    if !shown.models.is_empty() && frame.height() > 0 {
+        let models = frame.column(schema::model.name)?.str()?;
+        let is_shown = |model: Option<&str>| {
+            model.is_some_and(|model| shown.models.iter().any(|wanted| wanted.as_str() == model))
+        };
+        frame = frame.filter(&models.iter().map(is_shown).collect())?;
+    }
+    if !shown.columns.is_empty() {
+        let there = |name: &&str| frame.column(name).is_ok();
+        frame = frame.select(names(shown.columns).filter(there).collect::<Vec<_>>())?;
+    }
+    let first = frame.head(Some(MOST_ROWS));
+    let cells: Vec<Vec<String>> =
+        first.columns().iter().map(|column| text::cells(column).collect()).collect();
+    let fields = batches.first().map(RecordBatch::schema);
+    let column = |column: &polars::prelude::Column| {
+        let field = fields.as_ref().and_then(|schema| schema.field_with_name(column.name()).ok());
+        let description =
+            field.and_then(|field| field.metadata().get("description").cloned()).unwrap_or_default();
+        Column { name: column.name().to_string(), description, numeric: column.dtype() != &DataType::String }
     };
-    models.is_empty() || model.is_some_and(is)
+    Ok(Table {
+        title: shown.title.to_string(),
+        columns: first.columns().iter().map(column).collect(),
+        rows: (0..first.height())
+            .map(|row| cells.iter().map(|column| column[row].clone()).collect())
+            .collect(),
+        left_out: frame.height() - first.height(),
+    })
 }

@@ -6,7 +6,6 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use super::chosen_fits::ChosenFits;
-use crate::fragility::Event;
 use crate::fragility::demand::Form;
 use crate::fragility::{DemandModel, FragilityModel, Measure, has_few_events};
 use crate::keyword::{Keyword, keywords};
@@ -15,8 +14,11 @@ use crate::pipeline::declare::{Declare, Files, Input, StageOptions};
 use crate::pipeline::options::{Word, defaults};
 use crate::stages::fit_pex::FitPex;
 use crate::stages::fit_pro::FitPro;
-use crate::table::fits::{self, FitRow};
-use crate::table::schema;
+use crate::statistics::FitStatus;
+use crate::table::fits::{self, GroupKey, Unusable};
+use crate::table::pex::PexRow;
+use crate::table::pro::ProRow;
+use crate::table::row::ReadRow;
 use crate::table::store::source::Source;
 
 /// The inputs of stages that start from fits.
@@ -105,19 +107,19 @@ impl FitFiles {
     }
 
     fn read(&self) -> anyhow::Result<FitRows> {
-        Ok(FitRows { regressions: fits::regressions(&self.pex)?, curves: fits::curves(&self.pro)? })
+        Ok(FitRows { regressions: PexRow::read(self.pex.clone())?, curves: ProRow::read(self.pro.clone())? })
     }
 
     /// The suites and structures that the options leave.
-    fn asked(&self, files: &FitRows) -> Vec<Group> {
-        let asked = |(suite, structure): &Group| {
+    fn asked(&self, files: &FitRows) -> Vec<GroupKey> {
+        let asked = |(suite, structure): &GroupKey| {
             (self.options.suite.is_none() || self.options.suite == *suite)
                 && self.options.structure.as_ref().is_none_or(|asked| asked == structure)
         };
         files.groups().into_iter().filter(asked).collect()
     }
 
-    fn open_choice(&self, files: &FitRows, asked: Vec<Group>) -> anyhow::Error {
+    fn open_choice(&self, files: &FitRows, asked: Vec<GroupKey>) -> anyhow::Error {
         let list = if asked.is_empty() { files.groups() } else { asked };
         let words = list.iter().map(|(suite, structure)| match suite {
             Some(suite) => format!("--suite {suite} --structure {structure}"),
@@ -128,10 +130,9 @@ impl FitFiles {
     }
 
     /// All fits of a suite and structure, joined.
-    fn join(&self, files: &FitRows, group: &Group) -> anyhow::Result<ChosenFits> {
-        let of_group = |row: &&FitRow| group_of(row) == *group;
-        let regressions: Vec<&FitRow> = files.regressions.iter().filter(of_group).collect();
-        let curves: Vec<&FitRow> = files.curves.iter().filter(of_group).collect();
+    fn join(&self, files: &FitRows, group: &GroupKey) -> anyhow::Result<ChosenFits> {
+        let regressions: Vec<&PexRow> =
+            files.regressions.iter().filter(|row| row.group() == *group).collect();
         let (demand, pair) = match (self.options.model.0, self.options.measure) {
             (ModelForm::Bivariate, Some(measure)) => {
                 return Err(UsageError::because(format!("measure {measure} needs --model univariate")));
@@ -144,64 +145,62 @@ impl FitFiles {
                 (self.univariate(&regressions, measure)?, (measure, None))
             }
         };
-        let curve = self.curve(&curves, pair)?;
-        let limit = regressions.first().map(|row| row.number(&schema::limit_state));
-        let limit = limit.transpose()?.unwrap_or(f64::NAN);
-        let model =
-            FragilityModel { demand, limit, overturning: curve.probit()?, eta: curve.number(&schema::eta)? };
+        let curve = self.curve(files.curves.iter().filter(|row| row.group() == *group), pair)?;
+        let Some(eta) = curve.eta else {
+            anyhow::bail!("{}: eta is null; expected the output of fit-pro", self.pro.name().display())
+        };
+        let overturning = curve.probit().map_err(|why| in_file(self.pro.name(), &why))?;
+        let limit = regressions.first().map_or(f64::NAN, |row| row.limit_state);
+        let few_events = has_few_events(curve.n_events, curve.n, overturning.measures().count());
+        let model = FragilityModel { demand, limit, overturning, eta };
         let (suite, structure) = group.clone();
-        let (n, events) = (curve.number(&schema::n)?, curve.number(&schema::n_events)?);
-        let few_events = has_few_events(events as usize, n as usize, model.overturning.measures().count());
         Ok(ChosenFits { suite, structure, model, resampled: None, few_events })
     }
 
-    fn biplanar(&self, rows: &[&FitRow]) -> anyhow::Result<DemandModel> {
-        let planes = || rows.iter().filter(|row| row.text(&schema::model) == Some(Form::Biplanar.as_str()));
-        let plane = |below: bool, side: &str| -> anyhow::Result<&FitRow> {
-            let mut on_side =
-                planes().filter(|row| row.optional_number(&schema::range_high).is_some() == below);
-            found(on_side.next().copied(), self.pex.name(), &format!("plane {side} the transition"))
+    fn biplanar(&self, rows: &[&PexRow]) -> anyhow::Result<DemandModel> {
+        let (below, above) = match fits::planes(rows.iter().copied()) {
+            Some([below, above]) => (Some(below), Some(above)),
+            None => (None, None),
         };
-        let (low, high) = (plane(true, "below")?, plane(false, "above")?);
-        let transition = high.number(&schema::range_low)?;
-        Ok(DemandModel::Biplanar { transition, low: low.demand()?, high: high.demand()? })
+        for (row, side) in [(below, "below"), (above, "above")] {
+            let what = format!("plane {side} the transition");
+            found(row.map(|row| (row, row.status)), self.pex.name(), &what)?;
+        }
+        let Some(planes) = below.zip(above) else { unreachable!("both planes were found") };
+        fits::biplanar(planes.into()).map_err(|why| in_file(self.pex.name(), &why))
     }
 
-    fn univariate(&self, rows: &[&FitRow], measure: Measure) -> anyhow::Result<DemandModel> {
-        let mut rows = rows.iter().filter(|row| row.text(&schema::model) == Some(Form::Univariate.as_str()));
-        let row = rows.find(|row| row.text(&schema::im_x) == Some(measure.as_str()));
-        let row =
-            found(row.copied(), self.pex.name(), &format!("univariate regression on {}", measure.as_str()))?;
-        Ok(DemandModel::Everywhere(row.demand()?))
+    fn univariate(&self, rows: &[&PexRow], measure: Measure) -> anyhow::Result<DemandModel> {
+        let wanted = |row: &&&PexRow| row.model == Form::Univariate && row.im_x == measure;
+        let row = rows.iter().find(wanted).map(|row| (*row, row.status));
+        let row = found(row, self.pex.name(), &format!("univariate regression on {}", measure.as_str()))?;
+        let law = row.demand().map_err(|why| in_file(self.pex.name(), &why))?;
+        Ok(DemandModel::Everywhere(law))
     }
 
-    fn curve<'a>(
+    fn curve<'r>(
         &self,
-        rows: &[&'a FitRow],
+        mut rows: impl Iterator<Item = &'r ProRow>,
         (x, y): (Measure, Option<Measure>),
-    ) -> anyhow::Result<&'a FitRow> {
-        let wanted = |row: &&&FitRow| {
-            row.text(&schema::fitted_event) == Some(Event::Overturning.as_str())
-                && row.text(&schema::im_x) == Some(x.as_str())
-                && row.text(&schema::im_y) == y.map(Keyword::as_str)
-        };
+    ) -> anyhow::Result<&'r ProRow> {
+        let row = rows.find(|row| row.is_of_overturning() && row.im_x == x && row.im_y == y);
         let second = y.map_or(String::new(), |y| format!(":{}", y.as_str()));
         let what = format!("curve of overturning on {}{second}", x.as_str());
-        found(rows.iter().find(wanted).copied(), self.pro.name(), &what)
+        found(row.map(|row| (row, row.status)), self.pro.name(), &what)
     }
 }
 
 /// The rows of both files.
 struct FitRows {
-    regressions: Vec<FitRow>,
-    curves: Vec<FitRow>,
+    regressions: Vec<PexRow>,
+    curves: Vec<ProRow>,
 }
 
 impl FitRows {
     /// The suites and structures, in the order in which they first appear.
-    fn groups(&self) -> Vec<Group> {
-        let mut groups: Vec<Group> = Vec::new();
-        for group in self.regressions.iter().map(group_of) {
+    fn groups(&self) -> Vec<GroupKey> {
+        let mut groups: Vec<GroupKey> = Vec::new();
+        for group in self.regressions.iter().map(PexRow::group) {
             if !groups.contains(&group) {
                 groups.push(group);
             }
@@ -210,22 +209,18 @@ impl FitRows {
     }
 }
 
-/// A suite and a structure.
-type Group = (Option<String>, String);
-
-fn group_of(row: &FitRow) -> Group {
-    let structure = row.text(&schema::structure).unwrap_or_default().to_string();
-    (row.text(&schema::suite).map(str::to_string), structure)
+fn in_file(path: &Path, why: &Unusable) -> anyhow::Error {
+    anyhow::anyhow!("{}: {why}", path.display())
 }
 
 /// The row, if it is there and holds a fit.
-fn found<'a>(row: Option<&'a FitRow>, path: &Path, what: &str) -> anyhow::Result<&'a FitRow> {
+fn found<'r, R>(row: Option<(&'r R, FitStatus)>, path: &Path, what: &str) -> anyhow::Result<&'r R> {
     match row {
-        Some(row) if row.is_ok() => Ok(row),
-        Some(row) => Err(UsageError::because(format!(
+        Some((row, FitStatus::Ok)) => Ok(row),
+        Some((_, status)) => Err(UsageError::because(format!(
             "{}: the {what} is {}; choose a measure whose fit is ok",
             path.display(),
-            row.status()
+            status.as_str()
         ))),
         None => anyhow::bail!("{}: no {what}; expected the output of fit-pex or fit-pro", path.display()),
     }

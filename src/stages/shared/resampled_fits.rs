@@ -1,18 +1,17 @@
 //! The fits of resampled cases, from the files that fit-pex and fit-pro write with --bootstrap.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::chosen_fits::ChosenFits;
 use super::fits::FitFiles;
 use crate::fragility::Event;
 use crate::fragility::demand::Form;
 use crate::fragility::{DemandLaw, DemandModel, FragilityModel, Predictor};
-use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
-use crate::table::fits::{self, FitRow};
-use crate::table::pex::PEX_BOOTSTRAP;
-use crate::table::pro::PRO_BOOTSTRAP;
-use crate::table::schema::{self, Column, Table};
+use crate::table::pex::PexReplicateRow;
+use crate::table::pro::ProReplicateRow;
+use crate::table::row::ReadRow;
 use crate::table::store::contents::recorded;
 use crate::table::store::source::{Source, with_part};
 
@@ -67,8 +66,8 @@ pub fn read(fits: &FitFiles, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<F
             pro.display()
         )));
     }
-    let demands = demands(&rows(&pex, &PEX_BOOTSTRAP, chosen)?, &chosen.model.demand);
-    let curves = curves(&rows(&pro, &PRO_BOOTSTRAP, chosen)?, &chosen.model.overturning);
+    let demands = demands(&pex, chosen)?;
+    let curves = curves(&pro, chosen)?;
     if demands.len() != curves.len() || demands.is_empty() {
         return Err(UsageError::because(format!(
             "{} has {} resamples and {} has {}; expected the same --bootstrap in fit-pex and fit-pro",
@@ -97,25 +96,15 @@ fn same_cache_key(fits: &Path, bootstrap: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The replicates of the chosen suite and structure.
-fn rows(path: &Path, table: &Table, chosen: &ChosenFits) -> anyhow::Result<Vec<FitRow>> {
-    let mut rows = fits::rows(path, table)?;
-    rows.retain(|row| {
-        row.text(&schema::suite) == chosen.suite.as_deref()
-            && row.text(&schema::structure) == Some(&chosen.structure)
-    });
-    Ok(rows)
-}
-
-/// Of the fit of the chosen measures, in the order of the replicates.
-fn demands(rows: &[FitRow], chosen: &DemandModel) -> Vec<Option<DemandModel>> {
-    let of = |model: Form, law: &DemandLaw| -> Vec<&FitRow> {
-        let same = |row: &&FitRow| {
-            row.text(&schema::model) == Some(model.as_str()) && has_measures(row, &law.ln_median)
-        };
-        rows.iter().filter(same).collect()
+/// The fits of the chosen measures in each resample.
+fn demands(path: &Path, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<DemandModel>>> {
+    let rows: Vec<PexReplicateRow> =
+        of_group(PexReplicateRow::read(path)?, chosen, |row| (&row.suite, &row.structure));
+    let of = |model: Form, law: &DemandLaw| -> Vec<&PexReplicateRow> {
+        let Predictor { im_x, im_y, .. } = law.ln_median;
+        rows.iter().filter(|row| (row.model, row.im_x, row.im_y) == (model, im_x, im_y)).collect()
     };
-    match chosen {
+    Ok(match &chosen.model.demand {
         DemandModel::Everywhere(law) => of(Form::Univariate, law)
             .iter()
             .map(|row| Some(DemandModel::Everywhere(resampled(row, law)?)))
@@ -124,37 +113,44 @@ fn demands(rows: &[FitRow], chosen: &DemandModel) -> Vec<Option<DemandModel>> {
             // All replicates of the lower plane come first.
             let both = of(Form::Biplanar, high);
             let (below, above) = both.split_at(both.len() / 2);
-            let planes = |(below, above): (&&FitRow, &&FitRow)| {
-                let transition = above.optional_number(&schema::range_low)?;
+            let planes = |(below, above): (&&PexReplicateRow, &&PexReplicateRow)| {
                 let (low, high) = (resampled(below, low)?, resampled(above, high)?);
-                Some(DemandModel::Biplanar { transition, low, high })
+                Some(DemandModel::Biplanar { transition: above.range_low?, low, high })
             };
             below.iter().zip(above).map(planes).collect()
         }
-    }
+    })
 }
 
-fn resampled(row: &FitRow, law: &DemandLaw) -> Option<DemandLaw> {
-    let ln_median = with_coefficients(row, &law.ln_median, [schema::ln_a, schema::b1, schema::b2])?;
-    Some(DemandLaw { ln_median, beta: row.optional_number(&schema::beta)?, degrees: law.degrees })
+fn resampled(row: &PexReplicateRow, law: &DemandLaw) -> Option<DemandLaw> {
+    let ln_median = with_coefficients(&law.ln_median, [row.ln_a, row.b1, row.b2])?;
+    Some(DemandLaw { ln_median, beta: row.beta?, degrees: law.degrees })
 }
 
-fn curves(rows: &[FitRow], chosen: &Predictor) -> Vec<Option<Predictor>> {
-    let same = |row: &&FitRow| {
-        row.text(&schema::fitted_event) == Some(Event::Overturning.as_str()) && has_measures(row, chosen)
-    };
-    let columns = [schema::b0, schema::index_b1, schema::index_b2];
-    rows.iter().filter(same).map(|row| with_coefficients(row, chosen, columns)).collect()
+/// The curve of the chosen measures in each resample.
+fn curves(path: &Path, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<Predictor>>> {
+    let rows: Vec<ProReplicateRow> =
+        of_group(ProReplicateRow::read(path)?, chosen, |row| (&row.suite, &row.structure));
+    let fit = &chosen.model.overturning;
+    let wanted = (Event::Overturning, fit.im_x, fit.im_y);
+    let same = rows.iter().filter(|row| (row.event, row.im_x, row.im_y) == wanted);
+    Ok(same.map(|row| with_coefficients(fit, [row.b0, row.b1, row.b2])).collect())
 }
 
-fn has_measures(row: &FitRow, fit: &Predictor) -> bool {
-    row.text(&schema::im_x) == Some(fit.im_x.as_str())
-        && row.text(&schema::im_y) == fit.im_y.map(Keyword::as_str)
+fn of_group<R>(
+    mut rows: Vec<R>,
+    chosen: &ChosenFits,
+    key: fn(&R) -> (&Option<Arc<str>>, &Arc<str>),
+) -> Vec<R> {
+    rows.retain(|row| {
+        let (suite, structure) = key(row);
+        suite.as_deref() == chosen.suite.as_deref() && **structure == *chosen.structure
+    });
+    rows
 }
 
 /// The fit with the coefficients of a replicate.
-fn with_coefficients(row: &FitRow, fit: &Predictor, columns: [Column; 3]) -> Option<Predictor> {
-    let [intercept, first, second] = columns.map(|column| row.optional_number(&column));
+fn with_coefficients(fit: &Predictor, [intercept, first, second]: [Option<f64>; 3]) -> Option<Predictor> {
     let second = if fit.im_y.is_some() { second? } else { 0.0 };
     Some(Predictor { coefficients: [intercept?, first?, second], ..*fit })
 }

@@ -49,7 +49,6 @@ impl Kind {
 pub struct Column {
     /// Lower snake case with the unit as suffix.
     pub name: &'static str,
-    /// Its type.
     pub kind: Kind,
     /// Whether values may be null.
     pub nullable: bool,

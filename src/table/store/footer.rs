@@ -43,7 +43,6 @@ pub struct Range {
     pub nulls: u64,
     /// The least floating-point number.
     pub least: Option<f64>,
-    /// The largest.
     pub largest: Option<f64>,
 }
 

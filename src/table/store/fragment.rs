@@ -36,7 +36,6 @@ pub struct Run {
 
 /// A batch and where it stands.
 pub struct Batch {
-    /// The rows.
     pub rows: RecordBatch,
     /// The file they are of, or the name of the table in memory.
     pub path: Arc<Path>,

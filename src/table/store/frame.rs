@@ -1,65 +1,76 @@
-//! Narrow tables whole, as polars frames.
+//! Narrow tables whole, as polars frames: filtered, sorted and shown there.
 
-use std::path::Path;
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, Int32Type, Int64Type};
+use arrow_array::{ArrayRef, RecordBatch};
+use polars::prelude::{Column, DataFrame, DataType, IntoColumn, NamedFrom, PolarsError, Series};
 
-use polars::prelude::{DataFrame, IntoColumn, NamedFrom, PolarsError, PolarsResult, Series};
-
-use super::columns::Columns;
 use super::reader::Batches;
 use super::source::Source;
 use crate::table::TableError;
-use crate::table::schema::{Column, Kind, Table};
+use crate::table::schema::{self, Kind, Table};
 
-/// A narrow table whole. Columns that may be null and are missing in the file become nulls.
+/// Reads a narrow table whole. Columns that may be null and are missing in the file become nulls.
 ///
 /// # Errors
-/// As [`Batches::open_whole`], or if a column is missing, of another type, or holds a value that it must not.
+/// If it is missing, unreadable, or not the output of the stage of this table, or lacks a column that may not be null.
 pub fn read_frame(source: impl Into<Source>, table: &Table) -> Result<DataFrame, TableError> {
-    read_frame_of(source, table, &[table.stage])
+    let mut whole: Option<DataFrame> = None;
+    for batch in Batches::open_whole(source, table, &[table.stage])? {
+        let batch = batch?;
+        let failed = |error: PolarsError| TableError::Read {
+            path: batch.path.to_path_buf(),
+            message: error.to_string(),
+        };
+        let mut frame = frame_of(&batch.rows).map_err(failed)?;
+        for missing in
+            table.columns.iter().filter(|column| frame.column(column.name).is_err()).collect::<Vec<_>>()
+        {
+            let nulls = Column::full_null(missing.name.into(), frame.height(), &data_type(missing.kind));
+            frame.with_column(nulls).map_err(failed)?;
+        }
+        match &mut whole {
+            None => whole = Some(frame),
+            Some(whole) => whole.vstack_mut_owned(frame).map(drop).map_err(failed)?,
+        }
+    }
+    Ok(whole.unwrap_or_default())
 }
 
-/// A narrow table whole, as [`read_frame`], where other stages may have made it too.
+fn data_type(kind: Kind) -> DataType {
+    match kind {
+        Kind::Float64 => DataType::Float64,
+        Kind::Int64 | Kind::Int32 => DataType::Int64,
+        Kind::Text | Kind::Samples => DataType::String,
+    }
+}
+
+/// The rows of a batch; columns that are neither text, 64-bit numbers nor counts are left out.
 ///
 /// # Errors
-/// As there.
-pub fn read_frame_of(
-    source: impl Into<Source>,
-    table: &Table,
-    stages: &[&str],
-) -> Result<DataFrame, TableError> {
-    let batches = Batches::open_whole(source, table, stages)?;
-    let mut whole = DataFrame::empty();
-    for batch in batches {
-        let batch = batch?;
-        let columns = batch.columns();
-        let series = table.columns.iter().map(|column| series(&columns, column));
-        let series =
-            series.map(|series| Ok(series?.into_column())).collect::<Result<Vec<_>, TableError>>()?;
-        let failed = |source| polars_error(&batch.path, &source);
-        let frame = DataFrame::new(columns.rows(), series).map_err(failed)?;
-        whole = if whole.height() == 0 { frame } else { stack(whole, frame).map_err(failed)? };
-    }
-    Ok(whole)
+/// If two columns have one name.
+pub fn frame_of(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
+    let schema = rows.schema();
+    let columns = schema.fields().iter().zip(rows.columns());
+    let columns = columns.filter_map(|(field, array)| column(field.name(), array)).collect();
+    DataFrame::new(rows.num_rows(), columns)
 }
 
-fn stack(mut above: DataFrame, below: DataFrame) -> PolarsResult<DataFrame> {
-    above.vstack_mut_owned(below)?;
-    Ok(above)
+fn column(name: &str, array: &ArrayRef) -> Option<Column> {
+    let name = name.into();
+    let series = if let Some(text) = array.as_string_opt::<i32>() {
+        Series::new(name, text.iter().collect::<Vec<_>>())
+    } else if let Some(numbers) = array.as_primitive_opt::<Float64Type>() {
+        Series::new(name, numbers.iter().collect::<Vec<_>>())
+    } else if let Some(counts) = array.as_primitive_opt::<Int64Type>() {
+        Series::new(name, counts.iter().collect::<Vec<_>>())
+    } else {
+        Series::new(name, array.as_primitive_opt::<Int32Type>()?.iter().collect::<Vec<_>>())
+    };
+    Some(series.into_column())
 }
 
-fn series(columns: &Columns, column: &Column) -> Result<Series, TableError> {
-    let name = column.name.into();
-    Ok(match (column.kind, column.nullable) {
-        (Kind::Text, true) => Series::new(name, columns.optional_text(column)?),
-        (Kind::Text, false) => Series::new(name, columns.text(column)?),
-        (Kind::Float64, true) => Series::new(name, columns.optional_numbers(column)?),
-        (Kind::Float64, false) => Series::new(name, columns.numbers(column)?),
-        (Kind::Int64 | Kind::Int32, _) if columns.is_text(column) => Series::new(name, columns.text(column)?),
-        (Kind::Int64 | Kind::Int32, _) => Series::new(name, columns.integers(column)?),
-        (Kind::Samples, _) => return Err(columns.value_error(0, column, "no narrow table holds samples")),
-    })
-}
-
-fn polars_error(path: &Path, source: &PolarsError) -> TableError {
-    TableError::Read { path: path.to_path_buf(), message: source.to_string() }
+/// The names of columns, as [`DataFrame::select`] takes them.
+pub fn names(columns: &[schema::Column]) -> impl Iterator<Item = &'static str> + '_ {
+    columns.iter().map(|column| column.name)
 }

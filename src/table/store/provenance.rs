@@ -24,7 +24,6 @@ const CONTENT: &str = "rockfrag.content";
 /// How a file comes to be: enough to make it again, and to know that it need not be made again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Provenance {
-    /// The subcommand.
     pub stage: String,
     /// Of rockfrag.
     pub version: String,

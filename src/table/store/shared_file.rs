@@ -1,6 +1,5 @@
 use std::fs::File;
 use std::io::{self, Read};
-use std::os::unix::fs::FileExt;
 use std::sync::Arc;
 
 use bytes::Bytes;
@@ -45,7 +44,7 @@ impl ChunkReader for SharedFile {
             return Err(ParquetError::EOF(format!("{length} bytes from byte {start} of a file of {file}")));
         }
         let mut bytes = vec![0; length];
-        self.file.read_exact_at(&mut bytes, start)?;
+        From { file: self.file.clone(), position: start }.read_exact(&mut bytes)?;
         Ok(bytes.into())
     }
 }
@@ -58,8 +57,18 @@ pub struct From {
 
 impl Read for From {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let read = self.file.read_at(buffer, self.position)?;
+        let read = read_at(&self.file, buffer, self.position)?;
         self.position += read as u64;
         Ok(read)
     }
+}
+
+#[cfg(unix)]
+fn read_at(file: &File, buffer: &mut [u8], position: u64) -> io::Result<usize> {
+    std::os::unix::fs::FileExt::read_at(file, buffer, position)
+}
+
+#[cfg(windows)]
+fn read_at(file: &File, buffer: &mut [u8], position: u64) -> io::Result<usize> {
+    std::os::windows::fs::FileExt::seek_read(file, buffer, position)
 }

@@ -12,7 +12,6 @@ use arrow_schema::SchemaRef;
 pub struct MemoryTable {
     /// What it is called in messages.
     pub name: PathBuf,
-    /// Its columns.
     pub schema: SchemaRef,
     /// Its rows, in order.
     pub batches: Vec<RecordBatch>,

@@ -259,18 +259,12 @@ pub(super) fn temporary_beside(path: &Path) -> Result<NamedTempFile, TableError>
     let name = path.file_name().ok_or_else(|| failed("that is no file name".to_string()))?;
     let prefix = format!(".{}.", name.to_string_lossy());
     remove_strays(folder, &prefix);
-    tempfile::Builder::new()
-        .prefix(&prefix)
-        .suffix(PARTIAL)
-        .permissions(file_permissions())
-        .tempfile_in(folder)
-        .map_err(|source| failed(format!("{source} (folder {})", folder.display())))
-}
-
-/// Those that any new file gets, not the private ones of a temporary file.
-fn file_permissions() -> std::fs::Permissions {
-    use std::os::unix::fs::PermissionsExt;
-    std::fs::Permissions::from_mode(0o666)
+    let mut partial = tempfile::Builder::new();
+    partial.prefix(&prefix).suffix(PARTIAL);
+    // Those that any new file gets, not the private ones of a temporary file.
+    #[cfg(unix)]
+    partial.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    partial.tempfile_in(folder).map_err(|source| failed(format!("{source} (folder {})", folder.display())))
 }
 
 /// Partial files of the same name that no living run holds: a killed run left them.
