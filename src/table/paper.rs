@@ -117,16 +117,19 @@ table! {
 
 impl PaperRow {
     /// Ours beside a published number, with the mean and the standard deviation of `values`, ours over seeds. There is no z where the
-    /// print leaves more open than two of these standard deviations.
+    /// mean lies in what the print leaves open, and that is more than two of these standard deviations.
     pub fn new(number: &Published, ours: Option<f64>, values: &[f64]) -> PaperRow {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
         let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0);
         let enough = values.len() > 1;
         let (spread_mean, spread_sd) = (enough.then_some(mean), enough.then_some(variance.sqrt()));
+        let is_open = |sd: f64| {
+            let within = number.print_low? <= mean && mean <= number.print_high?;
+            Some(within && number.rounding()? > 2.0 * sd)
+        };
         let z = || {
-            let sd = spread_sd
-                .filter(|&sd| sd > 0.0 && number.rounding().is_none_or(|width| width <= 2.0 * sd))?;
+            let sd = spread_sd.filter(|&sd| sd > 0.0 && is_open(sd) != Some(true))?;
             Some((number.published? - spread_mean?) / sd)
         };
         PaperRow {

@@ -340,7 +340,7 @@ columns! {
     spread_mean: Float64, "1", "mean of ours over seeds";
     spread_sd: Float64, "1", "standard deviation of ours over seeds";
     seeds: Int32, "1", "number of seeds of the spread";
-    z: Float64, "1", "(published - mean) / standard deviation; null where the print leaves more open than two of these";
+    z: Float64, "1", "(published - mean) / standard deviation; null where the mean lies within the rounding of the print, and that is more than two of these";
     seed_rms: Float64, "1", "what ours is between the planes of two of our seeds, root of the mean square";
     t2: Float64, "1", "Hotelling's T2 of the published ln a, b1, b2 and R2 of a plane about ours over seeds, which depend on each other";
     t2_p: Float64, "1", "probability of a t2 as large, if the published plane is one more of ours";
