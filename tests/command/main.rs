@@ -14,6 +14,7 @@ mod partitions;
 mod pipeline;
 mod rank_ims;
 mod report;
+mod shipped;
 #[path = "../guard/snapshot.rs"]
 mod snapshot;
 mod together;
