@@ -10,6 +10,7 @@
 //! probability  the tree that joins them (Eq. 12), and limits of probabilities by the delta method
 //! predictor    a fit as a linear function of ln IM, with the range of its data
 //! model        the fits joined: all probabilities at an intensity; resampled their limits from resampled fits
+//! peaks        how PGA and PGV of motions go together
 //! slice        the same along one peak, PGA or PGV, at a fixed p PGV / PGA
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
@@ -21,6 +22,7 @@ pub mod demand;
 pub(crate) mod group;
 pub(crate) mod model;
 pub mod overturning;
+mod peaks;
 pub(crate) mod predictor;
 pub(crate) mod probability;
 pub(crate) mod resampled;
@@ -40,6 +42,7 @@ pub use overturning::{
     CurveInference, CurveModel, CurveParameter, CurveRefits, EventSample, OverturningFit, fit_overturning,
     fit_with_interaction, fit_with_spline, has_few_events,
 };
+pub use peaks::JointPeaks;
 pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
 pub use probability::{Probability, ProbitIndex};
 pub use probability::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};

@@ -171,7 +171,8 @@ impl Stage for Export {
     fn execute(&self, _provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let fits = self.fits.choose()?;
         let structure = self.structure.structure_with_eta(fits.model.eta)?;
-        fits.warn_of_eta(&structure, console);
+        fits.warn_of_misfit(console);
+        fits.warn_of_structure(&structure, console);
         let functions = self.ratios.iter().map(|&ratio| {
             let slice = Slice { structure: structure.clone(), peak: self.options.im.0, ratio };
             self.function(&slice, &fits, console)

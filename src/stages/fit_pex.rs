@@ -199,6 +199,7 @@ impl Stage for FitPex {
                 suite: group.suite.clone(),
                 structure: group.structure.clone(),
                 eta: group.eta,
+                block: group.block(),
                 limit_state: self.options.limit_state,
                 regression,
             };

@@ -14,7 +14,7 @@ use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
 use crate::pipeline::stage::Stage;
-use crate::statistics::{Estimator, FitStatus, Link};
+use crate::statistics::{Estimator, FitStatus, Gap, Link};
 use crate::table::pro::{GroupCurve, PRO, PRO_BOOTSTRAP, ProReplicateRow, ProRow};
 use crate::table::row::WriteRow;
 use crate::table::store::provenance::Provenance;
@@ -135,15 +135,23 @@ impl Stage for FitPro {
         let to_fit: Vec<CaseGroup> = groups.iter().map(Group::to_fit).collect();
         let fitted = self.curves.fit(&to_fit, &|steps| bar.inc(steps))?;
         bar.finish();
-        let rows = |(group, curves): (&Group, Vec<Curve>)| {
-            let (suite, structure, eta) = (group.suite.clone(), group.structure.clone(), group.eta);
-            let row =
-                move |curve| GroupCurve { suite: suite.clone(), structure: structure.clone(), eta, curve };
-            curves.into_iter().map(row)
-        };
-        let rows: Vec<GroupCurve> = groups.iter().zip(fitted).flat_map(rows).collect();
-        let missing = rows.iter().filter(|row| row.curve.status() != FitStatus::Ok);
+        let mut rows = Vec::new();
+        for (group, curves) in groups.iter().zip(fitted) {
+            let (block, peaks) = (group.block(), group.peaks());
+            let (suite, structure, eta) = (&group.suite, &group.structure, group.eta);
+            let row = |curve| GroupCurve {
+                suite: suite.clone(),
+                structure: structure.clone(),
+                eta,
+                block,
+                peaks,
+                curve,
+            };
+            rows.extend(curves.into_iter().map(row));
+        }
+        let missing = rows.iter().filter(|row| !row.curve.status().is_usable());
         console.warn_each(missing.map(|row| (reason(row), measures(&row.curve))));
+        console.warn_each(rows.iter().filter_map(doubt));
         let few = rows.iter().filter(|row| row.curve.has_few_events());
         console.warn_each(few.map(|row| (few_events(row), measures(&row.curve))));
         if let Some(target) = self.bootstrap_target() {
@@ -154,11 +162,13 @@ impl Stage for FitPro {
             writer.finish()?;
         }
         ProRow::write(&rows.iter().map(ProRow::from).collect::<Vec<_>>(), self.out.clone(), provenance)?;
-        Ok(format!(
-            "{} of {} curves ok",
-            rows.iter().filter(|row| row.curve.status() == FitStatus::Ok).count(),
-            rows.len()
-        ))
+        let count = |status: FitStatus| rows.iter().filter(|row| row.curve.status() == status).count();
+        let doubtful = [FitStatus::Misfit, FitStatus::FarMedian]
+            .map(|status| (count(status), status.as_str()))
+            .into_iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, status)| format!(", {count} {status}"));
+        Ok(format!("{} of {} curves ok{}", count(FitStatus::Ok), rows.len(), doubtful.collect::<String>()))
     }
 }
 
@@ -166,6 +176,29 @@ impl Stage for FitPro {
 fn measures(curve: &Curve) -> String {
     let second = curve.im_y.map_or(String::new(), |measure| format!(":{}", measure.as_str()));
     format!("{}{second}", curve.im_x.as_str())
+}
+
+/// What speaks against a curve that there is, for a message.
+fn doubt(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> Option<(String, String)> {
+    let suite = suite.as_deref().unwrap_or("the motions");
+    let (event, of) = (curve.event.as_str(), measures(curve));
+    let fit = curve.fit.as_ref().ok()?;
+    match curve.status() {
+        FitStatus::Misfit => {
+            let Gap { predicted, observed } = fit.largest_gap?;
+            Some((
+                format!("curves of {event} for {suite}, {structure}, fit badly (tests reject them)"),
+                format!("{of} (predicted {predicted:.2}, observed {observed:.2})"),
+            ))
+        }
+        FitStatus::FarMedian => Some((
+            format!(
+                "medians of {event} for {suite}, {structure}, lie far outside of the data, so that these measures say little"
+            ),
+            format!("{of} (by a factor of {:.0e})", fit.factor_of_median()),
+        )),
+        _ => None,
+    }
 }
 
 /// Which limits to take where events are few, for a message.

@@ -29,7 +29,7 @@ pub use design::natural_spline;
 pub use distribution::PoissonBinomial;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
 pub use estimate::{Estimate, Limits};
-pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
+pub use goodness::{Gap, Test, hosmer_lemeshow, largest_gap, likelihood_ratio, reset};
 pub use goodness::{auc, brier_score, expected_log_score, log_score};
 pub use link::ln_probability_series;
 pub use link::{Information, Link};
@@ -42,6 +42,10 @@ use crate::keyword::keywords;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FitStatus {
     Ok,
+    /// There is, but its own tests reject it, and it is off by more than a little.
+    Misfit,
+    /// There is, but its median lies far outside of the data: it says little about where it is.
+    FarMedian,
     /// There is, but what it is about falls as the measure (of two, the hybrid or the first) grows.
     Falling,
     /// Fewer cases than the fit needs.
@@ -60,6 +64,8 @@ pub enum FitStatus {
 
 keywords!(FitStatus {
     Ok = "ok",
+    Misfit = "misfit",
+    FarMedian = "far_median",
     Falling = "falling",
     TooFewCases = "too_few_cases",
     TooFewEvents = "too_few_events",
@@ -68,3 +74,10 @@ keywords!(FitStatus {
     Collinear = "collinear",
     NotConverged = "not_converged",
 });
+
+impl FitStatus {
+    /// Whether there is a fit that can answer, if with doubts.
+    pub fn is_usable(self) -> bool {
+        matches!(self, FitStatus::Ok | FitStatus::Misfit | FitStatus::FarMedian)
+    }
+}

@@ -2,12 +2,21 @@
 
 use super::pex::PexRow;
 use super::pro::ProRow;
-use crate::fragility::{DemandLaw, DemandModel, Event, Measure, Predictor};
+use crate::fragility::{DemandLaw, DemandModel, Event, JointPeaks, Measure, Predictor};
 use crate::keyword::Keyword;
 use crate::statistics::{FitStatus, Link};
 
 /// A suite, if it has a name, and a structure: what a fit is of.
 pub type GroupKey = (Option<String>, String);
+
+/// The size and slenderness of a structure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Block {
+    /// Frequency parameter p, rad/s.
+    pub p_rad_s: f64,
+    /// Slenderness, rad.
+    pub alpha_rad: f64,
+}
 
 /// A row of a file of fits whose fit cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -73,6 +82,22 @@ impl ProRow {
         (self.suite.clone(), self.structure.clone())
     }
 
+    /// The size and slenderness of the structure, if all cases share them.
+    pub fn block(&self) -> Option<Block> {
+        Some(Block { p_rad_s: self.p_rad_s?, alpha_rad: self.alpha_rad? })
+    }
+
+    /// How PGA and PGV go together in the motions of the cases.
+    pub fn peaks(&self) -> Option<JointPeaks> {
+        Some(JointPeaks {
+            ln_pga_mean: self.ln_pga_mean?,
+            ln_pga_sd: self.ln_pga_sd?,
+            ln_pgv_mean: self.ln_pgv_mean?,
+            ln_pgv_sd: self.ln_pgv_sd?,
+            correlation: self.ln_pga_pgv_correlation?,
+        })
+    }
+
     /// Whether it is a curve of overturning.
     pub fn is_of_overturning(&self) -> bool {
         self.event == Event::Overturning
@@ -80,7 +105,7 @@ impl ProRow {
 
     /// Whether there is a curve, and it rises with the intensity.
     pub fn is_ok(&self) -> bool {
-        self.status == FitStatus::Ok
+        self.status.is_usable()
     }
 
     /// The probit index of this curve: b0 + b1 ln IMx + b2 ln IMy.

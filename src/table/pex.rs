@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use super::fits::Block;
 use super::row::table;
 use crate::fragility::Measure;
 use crate::fragility::demand::{Form, Regression};
@@ -75,6 +76,8 @@ table! {
         im_x_high: Option<f64>,
         im_y_low: Option<f64>,
         im_y_high: Option<f64>,
+        p_rad_s: Option<f64> = fitted_p_rad_s,
+        alpha_rad: Option<f64> = fitted_alpha_rad,
         eta: Option<f64>,
         status: FitStatus,
     }
@@ -118,6 +121,8 @@ pub struct GroupRegression {
     pub structure: String,
     /// Coefficient of restitution of the structure.
     pub eta: f64,
+    /// Its size and slenderness, if all cases share them.
+    pub block: Option<Block>,
     /// The demand that P_ex is about.
     pub limit_state: f64,
     pub regression: Regression,
@@ -197,6 +202,8 @@ impl From<&GroupRegression> for PexRow {
             im_x_high: ends(0).map(|[_, high]| high),
             im_y_low: ends(1).map(|[low, _]| low),
             im_y_high: ends(1).map(|[_, high]| high),
+            p_rad_s: row.block.map(|block| block.p_rad_s),
+            alpha_rad: row.block.map(|block| block.alpha_rad),
             eta: Some(row.eta),
             status: regression.status(),
         }

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use super::fits::Block;
 use super::row::table;
 use crate::fragility::overturning::Curve;
-use crate::fragility::{CurveParameter, Event, Measure};
+use crate::fragility::{CurveParameter, Event, JointPeaks, Measure};
 use crate::statistics::{Estimator, FitStatus, Link};
 
 table! {
@@ -76,10 +77,19 @@ table! {
         hosmer_lemeshow_p: Option<f64>,
         spline_p: Option<f64>,
         interaction_p: Option<f64>,
+        gap_predicted: Option<f64>,
+        gap_observed: Option<f64>,
         im_x_low: Option<f64>,
         im_x_high: Option<f64>,
         im_y_low: Option<f64>,
         im_y_high: Option<f64>,
+        ln_pga_mean: Option<f64>,
+        ln_pga_sd: Option<f64>,
+        ln_pgv_mean: Option<f64>,
+        ln_pgv_sd: Option<f64>,
+        ln_pga_pgv_correlation: Option<f64>,
+        p_rad_s: Option<f64> = fitted_p_rad_s,
+        alpha_rad: Option<f64> = fitted_alpha_rad,
         eta: Option<f64>,
         status: FitStatus,
     }
@@ -108,6 +118,10 @@ pub struct GroupCurve {
     pub structure: String,
     /// Coefficient of restitution of the structure.
     pub eta: f64,
+    /// Its size and slenderness, if all cases share them.
+    pub block: Option<Block>,
+    /// How PGA and PGV go together in the motions of the cases.
+    pub peaks: Option<JointPeaks>,
     pub curve: Curve,
 }
 
@@ -124,6 +138,7 @@ impl From<&GroupCurve> for ProRow {
             parameter.and_then(|parameter| parameter.bootstrap).map_or([None; 4], |limits| limits.in_order())
         });
         let hosmer_lemeshow = fit.and_then(|fit| fit.hosmer_lemeshow);
+        let gap = fit.and_then(|fit| fit.largest_gap);
         let ends = |measure: usize| curve.data_ranges.get(measure).copied();
         ProRow {
             suite: row.suite.clone(),
@@ -192,10 +207,19 @@ impl From<&GroupCurve> for ProRow {
             hosmer_lemeshow_p: hosmer_lemeshow.map(|test| test.p),
             spline_p: curve.spline.map(|test| test.p),
             interaction_p: curve.interaction.map(|test| test.p),
+            gap_predicted: gap.map(|gap| gap.predicted),
+            gap_observed: gap.map(|gap| gap.observed),
             im_x_low: ends(0).map(|[low, _]| low),
             im_x_high: ends(0).map(|[_, high]| high),
             im_y_low: ends(1).map(|[low, _]| low),
             im_y_high: ends(1).map(|[_, high]| high),
+            ln_pga_mean: row.peaks.map(|peaks| peaks.ln_pga_mean),
+            ln_pga_sd: row.peaks.map(|peaks| peaks.ln_pga_sd),
+            ln_pgv_mean: row.peaks.map(|peaks| peaks.ln_pgv_mean),
+            ln_pgv_sd: row.peaks.map(|peaks| peaks.ln_pgv_sd),
+            ln_pga_pgv_correlation: row.peaks.map(|peaks| peaks.correlation),
+            p_rad_s: row.block.map(|block| block.p_rad_s),
+            alpha_rad: row.block.map(|block| block.alpha_rad),
             eta: Some(row.eta),
             status: curve.status(),
         }

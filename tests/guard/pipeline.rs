@@ -271,6 +271,7 @@ fn text_files() {
 }
 
 /// The vector solver gives the same bits with AVX2 as with AVX-512.
+#[cfg(target_arch = "x86_64")]
 #[test]
 fn numbers_of_the_vector_solver() {
     if !std::arch::is_x86_feature_detected!("avx2") {

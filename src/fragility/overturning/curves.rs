@@ -7,7 +7,7 @@ use crate::statistics::FitStatus;
 use crate::statistics::binary::{BinaryFit, Estimator, binary_regression};
 use crate::statistics::design::{Dependence, dependence, natural_spline};
 use crate::statistics::estimate::Estimate;
-use crate::statistics::goodness::{Test, auc, brier_score, hosmer_lemeshow};
+use crate::statistics::goodness::{Gap, Test, auc, brier_score, hosmer_lemeshow, largest_gap};
 use crate::statistics::link::Link;
 use crate::statistics::separation::is_separated;
 
@@ -42,6 +42,9 @@ impl Default for CurveModel {
     }
 }
 
+/// A median that lies outside of the data by a larger factor than this says little.
+const FAR: f64 = 3.0;
+
 /// A fitted fragility curve: Phi((ln IM - mu) / beta), or with another link as [`CurveParameter`] says. Errors by the
 /// delta method, limits by the normal distribution.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +69,10 @@ pub struct OverturningFit {
     pub brier: f64,
     /// Hosmer and Lemeshow's test of the probabilities, where there are cases enough.
     pub hosmer_lemeshow: Option<Test>,
+    /// What it predicts and what was observed in the tenth of the cases where they differ most, where there are cases enough.
+    pub largest_gap: Option<Gap>,
+    /// Least and largest index of the cases.
+    pub index_range: [f64; 2],
     /// Cases used.
     pub n: usize,
     /// Those in which the event happened.
@@ -73,9 +80,19 @@ pub struct OverturningFit {
 }
 
 impl OverturningFit {
-    /// Whether the probability grows with the measure.
+    /// Whether the probability grows with the measure, and its median lies among the data or not far from them.
     pub fn status(&self) -> FitStatus {
-        if self.beta.value > 0.0 { FitStatus::Ok } else { FitStatus::Falling }
+        match self.beta.value {
+            beta if beta <= 0.0 => FitStatus::Falling,
+            _ if self.factor_of_median() > FAR => FitStatus::FarMedian,
+            _ => FitStatus::Ok,
+        }
+    }
+
+    /// By which factor of the measure the median lies outside of the data; 1 inside.
+    pub fn factor_of_median(&self) -> f64 {
+        let [least, largest] = self.index_range;
+        (self.beta.value * least.max(-largest)).exp().max(1.0)
     }
 }
 
@@ -120,6 +137,11 @@ pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<Overt
         auc: auc(&scores, &sample.happened),
         brier: brier_score(&probabilities, &sample.happened),
         hosmer_lemeshow: hosmer_lemeshow(&probabilities, &sample.happened),
+        largest_gap: largest_gap(&probabilities, &sample.happened),
+        index_range: [
+            scores.iter().copied().fold(f64::INFINITY, f64::min),
+            scores.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        ],
         n,
         events,
         regression,

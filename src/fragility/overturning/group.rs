@@ -82,13 +82,31 @@ pub struct ParameterInference {
     pub bootstrap: Option<BootstrapLimits>,
 }
 
+/// The level of the tests of a curve, all together.
+const REJECTED: f64 = 0.01;
+/// A difference in probability that matters to nobody.
+const SMALL_GAP: f64 = 0.05;
+
 impl Curve {
     /// Whether there is a curve, and if not, why.
     pub fn status(&self) -> FitStatus {
         match &self.fit {
-            Ok(fit) => fit.status(),
+            Ok(fit) => match fit.status() {
+                FitStatus::Ok if self.is_misfit() => FitStatus::Misfit,
+                status => status,
+            },
             Err(status) => *status,
         }
+    }
+
+    /// Whether a test rejects the curve, and the curve is off by more than a little. Many cases reject any model, few none: so
+    /// both are asked.
+    fn is_misfit(&self) -> bool {
+        let tests =
+            [self.fit.as_ref().ok().and_then(|fit| fit.hosmer_lemeshow), self.spline, self.interaction];
+        let rejected = tests.into_iter().flatten().any(|test| test.p < REJECTED / tests.len() as f64);
+        let gap = self.fit.as_ref().ok().and_then(|fit| fit.largest_gap);
+        rejected && gap.is_some_and(|gap| gap.size() > SMALL_GAP)
     }
 
     /// How uncertain a parameter is.

@@ -131,8 +131,9 @@ impl Evaluate {
     /// Answers for one intensity or one site.
     fn answer(&self, fits: &ChosenFits, console: &Console) -> anyhow::Result<Answer> {
         fits.warn_of_few_events(console);
+        fits.warn_of_misfit(console);
         let structure = self.structure.structure_with_eta(fits.model.eta)?;
-        fits.warn_of_eta(&structure, console);
+        fits.warn_of_structure(&structure, console);
         match &self.options.hazard.hazard {
             Some(path) => rates::answer(&self.options.hazard, path, fits, &structure, console),
             None => point::answer(&self.options.point, fits, &structure, console),

@@ -78,7 +78,7 @@ pub struct HazardOptions {
     /// CSV file: pga_g or pgv_m_s with annual_rate_of_exceedance, or both with annual_rate_of_occurrence
     #[arg(long, value_name = "FILE")]
     pub hazard: Option<PathBuf>,
-    /// p PGV / PGA of the motions, where the hazard knows one peak only
+    /// The p PGV / PGA of all motions, where the hazard knows one peak only [default: distributed as in the motions of the fits]
     #[arg(long)]
     pub ratio: Option<f64>,
     /// Time of exposure, years

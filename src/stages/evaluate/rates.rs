@@ -1,8 +1,9 @@
+use std::f64::consts::TAU;
 use std::path::Path;
 
 use super::answer::Answer;
 use super::options::HazardOptions;
-use crate::fragility::{FragilityModel, LimitState, Probability, Slice};
+use crate::fragility::{FragilityModel, JointPeaks, LimitState, Peak, Probability, Slice};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -30,18 +31,13 @@ pub fn answer(
 ) -> anyhow::Result<Answer> {
     let years = options.years;
     check(years > 0.0 && years.is_finite(), "years", years, "a time above 0")?;
+    let mut words_of_ratio = String::new();
     let rates = match hazard::read(path)? {
         Hazard::Curve(peak, curve) => {
-            let Some(ratio) = options.ratio else {
-                return Err(UsageError::because(format!(
-                    "a hazard of {} alone needs --ratio, the p PGV / PGA of its motions",
-                    peak.as_str()
-                )));
-            };
-            check(ratio > 0.0 && ratio.is_finite(), "ratio", ratio, "a p PGV / PGA above 0")?;
-            let slice = Slice { structure: structure.clone(), peak, ratio };
-            let rates = along_slice(&slice, &curve, fits, console)?;
-            with_limits(rates, fits, |model| over_curve(&slice, &curve, model))
+            let line = Line::new(options.ratio, structure, peak, fits)?;
+            let rates = along_line(&line, &curve, fits, console)?;
+            words_of_ratio = line.words(&curve, fits);
+            with_limits(rates, fits, |model| over_curve(&line, &curve, model))
         }
         Hazard::Joint(joint) => {
             let rates = over_pairs(structure, &joint, fits, console)?;
@@ -58,23 +54,111 @@ pub fn answer(
         table: RATES,
         rows: evaluated::rates(&rows)?,
         heading: format!(
-            "fits of {}\nstructure of {}, over {}\n",
+            "fits of {}\nstructure of {}, over {}\n{words_of_ratio}low and high are 95 % limits of confidence, {}; they do not hold the hazard's own error\n",
             fits.words(),
             words(structure),
-            path.display()
+            path.display(),
+            fits.words_of_limits()
         ),
     })
 }
 
-fn along_slice(
-    slice: &Slice,
+/// Motions of one peak, and what their other peak is.
+struct Line {
+    /// The slice of the motions' median p PGV / PGA at uplift, or of the only one.
+    slice: Slice,
+    ratio: Ratio,
+}
+
+/// The p PGV / PGA of motions.
+#[derive(Clone, Copy)]
+enum Ratio {
+    Single(f64),
+    /// Distributed as in the motions of the fits, given the intensity.
+    Distributed(JointPeaks),
+    /// So many standard deviations above the median of that distribution.
+    Quantile(JointPeaks, f64),
+}
+
+/// The widest step and the last node of the integral over the distribution, in standard deviations: the trapezoidal rule of a
+/// smooth function under a normal density is exact to 1e-8 with these.
+const STEP: f64 = 0.5;
+const LAST_NODE: i32 = 12;
+
+impl Line {
+    fn new(ratio: Option<f64>, structure: &Structure, peak: Peak, fits: &ChosenFits) -> anyhow::Result<Line> {
+        let ratio = match (ratio, fits.peaks) {
+            (Some(ratio), _) => {
+                check(ratio > 0.0 && ratio.is_finite(), "ratio", ratio, "a p PGV / PGA above 0")?;
+                Ratio::Single(ratio)
+            }
+            (None, Some(peaks)) => Ratio::Distributed(peaks),
+            (None, None) => {
+                return Err(UsageError::because(format!(
+                    "a hazard of {} alone needs --ratio, the p PGV / PGA of its motions: these fits do not know it; fit again with --force",
+                    peak.as_str()
+                )));
+            }
+        };
+        let mut line = Line { slice: Slice { structure: structure.clone(), peak, ratio: 1.0 }, ratio };
+        line.slice.ratio = line.quantile(0.0).ratios(line.slice.intensity_at_im4(1.0))[0].0;
+        Ok(line)
+    }
+
+    /// The line along a quantile of the ratio alone.
+    fn quantile(&self, deviations: f64) -> Line {
+        let ratio = match self.ratio {
+            Ratio::Distributed(peaks) | Ratio::Quantile(peaks, _) => Ratio::Quantile(peaks, deviations),
+            Ratio::Single(ratio) => Ratio::Single(ratio),
+        };
+        Line { slice: self.slice.clone(), ratio }
+    }
+
+    /// The ratios at an intensity, with their weights.
+    fn ratios(&self, intensity: f64) -> Vec<(f64, f64)> {
+        let (p, peak) = (self.slice.structure.p_rad_s, self.slice.peak);
+        match self.ratio {
+            Ratio::Single(ratio) => vec![(ratio, 1.0)],
+            Ratio::Quantile(peaks, deviations) => {
+                vec![(p * peaks.pgv_over_pga(peak, intensity, deviations), 1.0)]
+            }
+            Ratio::Distributed(peaks) => (-LAST_NODE..=LAST_NODE)
+                .map(|node| STEP * f64::from(node))
+                .map(|z| {
+                    (p * peaks.pgv_over_pga(peak, intensity, z), STEP * (-0.5 * z * z).exp() / TAU.sqrt())
+                })
+                .collect(),
+        }
+    }
+
+    /// Where the ratio comes from, and what another one would change.
+    fn words(&self, curve: &HazardCurve, fits: &ChosenFits) -> String {
+        let Ratio::Distributed(_) = self.ratio else {
+            return "p PGV / PGA is the one of --ratio at all intensities; low and high do not hold its error\n".to_string();
+        };
+        let [_, _, _, _, _, _, low, _, _] = over_curve(&self.quantile(-1.0), curve, &fits.model);
+        let [_, _, _, _, _, _, median, _, _] = over_curve(&self.quantile(0.0), curve, &fits.model);
+        let [_, _, _, _, _, _, high, _, _] = over_curve(&self.quantile(1.0), curve, &fits.model);
+        let at_uplift = |deviations| self.quantile(deviations).ratios(self.slice.intensity_at_im4(1.0))[0].0;
+        format!(
+            "p PGV / PGA is distributed as in the motions of the fits: {:.2} at uplift, {:.2} to {:.2} in two of three motions; with these ratios alone, overturning would have the annual rates {median:.1e}, {low:.1e} and {high:.1e} (--ratio takes one)\n",
+            at_uplift(0.0),
+            at_uplift(-1.0),
+            at_uplift(1.0)
+        )
+    }
+}
+
+fn along_line(
+    line: &Line,
     curve: &HazardCurve,
     fits: &ChosenFits,
     console: &Console,
 ) -> anyhow::Result<Rates> {
+    let slice = &line.slice;
     let (model, [(first, _), (last, rate_beyond)]) = (&fits.model, curve.ends());
     let Some(at_last) = slice.limit_states(model, last) else { return Err(periods_needed()) };
-    let rates = over_curve(slice, curve, model);
+    let rates = over_curve(line, curve, model);
     fits.warn_of_slice(slice, last, "the hazard: ", console);
     let (uplift, (unit, size)) = (slice.intensity_at_im4(1.0), slice.peak.usual_unit());
     if first > uplift {
@@ -116,8 +200,17 @@ fn over_pairs(
     Ok(over_bins(structure, joint, model))
 }
 
-fn over_curve(slice: &Slice, curve: &HazardCurve, model: &FragilityModel) -> Rates {
-    curve.mean_annual_rates(&slice.jumps(model), |intensity| flat(slice.limit_states(model, intensity)))
+fn over_curve(line: &Line, curve: &HazardCurve, model: &FragilityModel) -> Rates {
+    curve.mean_annual_rates(&line.slice.jumps(model), |intensity| {
+        let mut slice = line.slice.clone();
+        let mut mean = [0.0; 9];
+        for (ratio, weight) in line.ratios(intensity) {
+            slice.ratio = ratio;
+            let states = flat(slice.limit_states(model, intensity));
+            mean.iter_mut().zip(states).for_each(|(mean, state)| *mean += weight * state);
+        }
+        mean
+    })
 }
 
 fn over_bins(structure: &Structure, joint: &JointHazard, model: &FragilityModel) -> Rates {

@@ -36,6 +36,7 @@ impl EvaluatedTable {
         let intensities = IntensityBatches::open(input, nameless, self.fits.model.eta, BATCH)?;
         let total = intensities.rows();
         self.fits.warn_of_few_events(console);
+        self.fits.warn_of_misfit(console);
         let mut writer = TableWriter::create(out.clone(), &EVALUATED, provenance.clone())?;
         let mut suspect = Suspect::default();
         let bar = console.bar(&provenance.stage, total);
@@ -77,6 +78,7 @@ impl EvaluatedTable {
 struct Suspect {
     out_of_range: usize,
     other_eta: usize,
+    other_block: usize,
     without_measure: usize,
 }
 
@@ -88,6 +90,7 @@ impl Suspect {
         Suspect {
             out_of_range: rows.iter().filter(|row| row.out_of_range.is_some()).count(),
             other_eta: intensities.iter().filter(has_other_eta).count(),
+            other_block: intensities.iter().filter(|one| fits.is_other_block(&one.structure)).count(),
             without_measure: rows.iter().filter(has_no_measure).count(),
         }
     }
@@ -95,6 +98,7 @@ impl Suspect {
     fn add(&mut self, more: &Suspect) {
         self.out_of_range += more.out_of_range;
         self.other_eta += more.other_eta;
+        self.other_block += more.other_block;
         self.without_measure += more.without_measure;
     }
 
@@ -103,6 +107,10 @@ impl Suspect {
         for (rows, reason) in [
             (self.out_of_range, "a measure outside of the data (column out_of_range): extrapolated"),
             (self.other_eta, &eta),
+            (
+                self.other_block,
+                "another p or alpha than the fits: curves taken to other structures often fail",
+            ),
             (self.without_measure, "no value of a measure that the fits need: their probabilities are null"),
         ] {
             if rows > 0 {

@@ -10,18 +10,18 @@ use serde_json::{Value, json};
 use crate::table::TableError;
 use crate::table::store::provenance::{Provenance, Recorded};
 
-/// Lines at the start of a page among which the recorded is.
+/// Lines at the start of a page among which the record of how it was made is.
 const LINES: usize = 8;
 const BEFORE: &str = "<meta name=\"rockfrag\" content=\"";
 const AFTER: &str = "\">";
 
-/// The recorded of a page that is made like this.
+/// What a page that is made like this records of it.
 pub fn words(provenance: &Provenance) -> String {
     let Provenance { stage, version, parameters, inputs, .. } = provenance;
     json!({ "stage": stage, "version": version, "parameters": parameters, "inputs": inputs }).to_string()
 }
 
-/// The recorded of a page, or `None` where it has none.
+/// What a page records of how it was made, or `None` where it has none.
 ///
 /// # Errors
 /// If the page is missing or unreadable.

@@ -1,13 +1,16 @@
 //! The fits as chosen: in words, and where they do not hold.
 
+use super::transfers;
 use crate::fragility::{
-    DemandModel, FragilityModel, LimitState, Measure, OutOfRange, Probabilities, ReplicateLimits,
+    DemandModel, FragilityModel, JointPeaks, LimitState, Measure, OutOfRange, Probabilities, ReplicateLimits,
     ResampledModel, Slice,
 };
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::console::Console;
 use crate::rocking::Structure;
+use crate::statistics::Gap;
+use crate::table::fits::Block;
 
 /// The fits as chosen.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +25,21 @@ pub struct ChosenFits {
     pub resampled: Option<ResampledModel>,
     /// Whether P_ro comes from so few events that some limits are too narrow.
     pub few_events: bool,
+    /// What speaks against the curve of P_ro, if anything does.
+    pub misfit: Option<Misfit>,
+    /// The size and slenderness that were simulated, if all cases share them.
+    pub block: Option<Block>,
+    /// How PGA and PGV go together in the motions that were simulated.
+    pub peaks: Option<JointPeaks>,
+}
+
+/// What the tests of a curve say against it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Misfit {
+    /// What it predicts and what was observed, where they differ most.
+    pub gap: Gap,
+    /// The tests that were made, with their probabilities.
+    pub tests: Vec<(&'static str, f64)>,
 }
 
 /// A difference in eta that the response hardly feels.
@@ -36,8 +54,17 @@ impl ChosenFits {
         Probabilities { given_rocking, ..probabilities }
     }
 
-    /// How the limits come about, in words.
+    /// How the limits come about, and what they do not hold, in words.
     pub fn words_of_limits(&self) -> String {
+        let by = self.way_of_limits();
+        if self.misfit.is_some() {
+            format!("{by}, of the fitted model alone, which its tests reject")
+        } else {
+            by
+        }
+    }
+
+    fn way_of_limits(&self) -> String {
         match &self.resampled {
             None => "by the delta method".to_string(),
             Some(ResampledModel { replicates, limits: ReplicateLimits::Percentile }) => {
@@ -54,6 +81,15 @@ impl ChosenFits {
         if self.resampled.is_some() && self.few_events {
             console.warn("P_ro comes from fewer than 10 events, or non-events, for each coefficient: where it is small, limits by resamples are too narrow, those of --limits delta are not");
         }
+    }
+
+    /// Warns that the tests of the curve reject it, and by how much it is off.
+    pub fn warn_of_misfit(&self, console: &Console) {
+        let Some(Misfit { gap: Gap { predicted, observed }, tests }) = &self.misfit else { return };
+        let tests = tests.iter().map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
+        console.warn(&format!(
+            "P_ro fits its own cases badly: where it predicts {predicted:.3}, {observed:.3} overturned ({tests}); low and high do not hold this error"
+        ));
     }
 
     /// In words: of what, over which measures.
@@ -83,8 +119,13 @@ impl ChosenFits {
         }
     }
 
-    /// That the structure is not of the kind that was simulated.
-    pub fn warn_of_eta(&self, structure: &Structure, console: &Console) {
+    /// Warns if the structure is not the one that was simulated: by what is known of such transfers, or of its eta.
+    pub fn warn_of_structure(&self, structure: &Structure, console: &Console) {
+        let fitted = self.block.map(|block| (block, self.model.eta));
+        let transfer = fitted.and_then(|fitted| transfers::words(self.suite.as_deref(), fitted, structure));
+        if let Some(words) = transfer {
+            return console.warn(&words);
+        }
         if self.is_other_eta(structure.eta) {
             console.warn(&format!(
                 "eta is {:.4}, but the fits are of eta {:.4}, on which the curves depend: simulate and fit with this eta",
@@ -117,6 +158,11 @@ impl ChosenFits {
                 largest / size
             ));
         }
+    }
+
+    /// Whether a structure has another slenderness or size than the one that was simulated.
+    pub fn is_other_block(&self, structure: &Structure) -> bool {
+        self.block.is_some_and(|block| transfers::is_other_block(block, structure))
     }
 
     /// Whether this coefficient of restitution is another one than that of the fits.

@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use super::chosen_fits::ChosenFits;
+use super::chosen_fits::{ChosenFits, Misfit};
 use crate::fragility::demand::Form;
 use crate::fragility::{DemandModel, FragilityModel, Measure, has_few_events};
 use crate::keyword::{Keyword, keywords};
@@ -14,7 +14,7 @@ use crate::pipeline::declare::{Declare, Files, Input, StageOptions};
 use crate::pipeline::options::{Word, defaults};
 use crate::stages::fit_pex::FitPex;
 use crate::stages::fit_pro::FitPro;
-use crate::statistics::FitStatus;
+use crate::statistics::{FitStatus, Gap};
 use crate::table::fits::{self, GroupKey, Unusable};
 use crate::table::pex::PexRow;
 use crate::table::pro::ProRow;
@@ -154,7 +154,17 @@ impl FitFiles {
         let few_events = has_few_events(curve.n_events, curve.n, overturning.measures().count());
         let model = FragilityModel { demand, limit, overturning, eta };
         let (suite, structure) = group.clone();
-        Ok(ChosenFits { suite, structure, model, resampled: None, few_events })
+        let (misfit, block) = (misfit_of(curve), curve.block());
+        Ok(ChosenFits {
+            suite,
+            structure,
+            model,
+            resampled: None,
+            few_events,
+            misfit,
+            block,
+            peaks: curve.peaks(),
+        })
     }
 
     fn biplanar(&self, rows: &[&PexRow]) -> anyhow::Result<DemandModel> {
@@ -209,6 +219,17 @@ impl FitRows {
     }
 }
 
+fn misfit_of(curve: &ProRow) -> Option<Misfit> {
+    let gap = Gap { predicted: curve.gap_predicted?, observed: curve.gap_observed? };
+    let tests = [
+        ("Hosmer-Lemeshow", curve.hosmer_lemeshow_p),
+        ("spline", curve.spline_p),
+        ("interaction", curve.interaction_p),
+    ];
+    let tests = tests.into_iter().filter_map(|(test, p)| Some((test, p?))).collect();
+    (curve.status == FitStatus::Misfit).then_some(Misfit { gap, tests })
+}
+
 fn in_file(path: &Path, why: &Unusable) -> anyhow::Error {
     anyhow::anyhow!("{}: {why}", path.display())
 }
@@ -216,7 +237,7 @@ fn in_file(path: &Path, why: &Unusable) -> anyhow::Error {
 /// The row, if it is there and holds a fit.
 fn found<'r, R>(row: Option<(&'r R, FitStatus)>, path: &Path, what: &str) -> anyhow::Result<&'r R> {
     match row {
-        Some((row, FitStatus::Ok)) => Ok(row),
+        Some((row, status)) if status.is_usable() => Ok(row),
         Some((_, status)) => Err(UsageError::because(format!(
             "{}: the {what} is {}; choose a measure whose fit is ok",
             path.display(),

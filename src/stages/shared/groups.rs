@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::fragility::{Case, CaseGroup, Clusters, cells};
+use crate::fragility::{Case, CaseGroup, Clusters, JointPeaks, cells};
 use crate::rocking::Structure;
+use crate::table::fits::Block;
 use crate::table::ida::IDA_STRIPES;
 use crate::table::responses::{RESPONSES, ResponseCase};
 use crate::table::row::{ReadRow, Row};
@@ -41,6 +42,23 @@ impl Group {
     /// What the fits take.
     pub fn to_fit(&self) -> CaseGroup<'_> {
         CaseGroup { cases: &self.cases, cells: &self.cells, clusters: &self.clusters.numbers }
+    }
+
+    /// The size and slenderness, if all responses share them.
+    pub fn block(&self) -> Option<Block> {
+        let same = |values: &[f64]| {
+            values.first().copied().filter(|first| values.iter().all(|value| value == first))
+        };
+        Some(Block { p_rad_s: same(&self.p_rad_s)?, alpha_rad: same(&self.alpha_rad)? })
+    }
+
+    /// How PGA and PGV go together in its motions.
+    pub fn peaks(&self) -> Option<JointPeaks> {
+        let pgv = |(row, case): (usize, &Case)| {
+            let structure = self.structure_of(row);
+            case.measures.im5 * structure.uplift_acceleration_m_s2() / structure.p_rad_s
+        };
+        JointPeaks::of(&self.pga_m_s2, &self.cases.iter().enumerate().map(pgv).collect::<Vec<_>>())
     }
 
     /// The structure of a response.

@@ -1,4 +1,16 @@
-//! What several stages share: groups of responses, structures, fits that are read back, partitions.
+//! What several stages share.
+//!
+//! ```text
+//! structures         structures as a user names them; structure_options one of them on the command line
+//! motions            records and peaks of motions, under distinct names
+//! measures           which intensity measures are taken
+//! partitions         which part of a table a process works on, and what its file is called
+//! groups             the responses of a suite and structure
+//! uncertainty        the limits of confidence that are asked for
+//! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
+//! resampled_fits     the same in each resample
+//! transfers          how curves did on other structures than their own
+//! ```
 
 pub mod chosen_fits;
 pub mod fits;
@@ -9,4 +21,5 @@ pub mod partitions;
 pub mod resampled_fits;
 pub mod structure_options;
 pub mod structures;
+pub mod transfers;
 pub mod uncertainty;

@@ -106,6 +106,13 @@ columns! {
     cov_ln_a_b1: Float64, "1", "covariance of ln_a and b1";
     cov_ln_a_b2: Float64, "1", "covariance of ln_a and b2";
     cov_b1_b2: Float64, "1", "covariance of b1 and b2";
+    ln_pga_mean: Float64, "ln(m/s2)", "mean of ln PGA of the motions of the cases";
+    ln_pga_sd: Float64, "1", "standard deviation of ln PGA of the motions of the cases";
+    ln_pgv_mean: Float64, "ln(m/s)", "mean of ln PGV of the motions of the cases";
+    ln_pgv_sd: Float64, "1", "standard deviation of ln PGV of the motions of the cases";
+    ln_pga_pgv_correlation: Float64, "1", "correlation of ln PGA and ln PGV in the motions of the cases";
+    fitted_p_rad_s = "p_rad_s": Float64, "rad/s", "frequency parameter p of the structure, if all cases share it";
+    fitted_alpha_rad = "alpha_rad": Float64, "rad", "slenderness of the structure, if all cases share it";
     im_x_low: Float64, "1", "least im_x of the cases";
     im_x_high: Float64, "1", "largest im_x of the cases";
     im_y_low: Float64, "1", "least im_y of the cases";
@@ -184,6 +191,8 @@ columns! {
     hosmer_lemeshow_p: Float64, "1", "probability of as large a hosmer_lemeshow if the curve holds";
     spline_p: Float64, "1", "likelihood-ratio test against a natural spline of ln im_x: probability if none is needed";
     interaction_p: Float64, "1", "likelihood-ratio test against a term ln im_x ln im_y (or ln im_x squared)";
+    gap_predicted: Float64, "1", "mean predicted probability in that tenth of the cases, by predicted probability, in which it is off most";
+    gap_observed: Float64, "1", "share of the events observed in the same tenth";
     link: Text, "1", "probit, logit or cloglog: the probability is F(b0 + b1 ln im_x + b2 ln im_y)";
     b0: Float64, "1", "intercept of the index";
     index_b1 = "b1": Float64, "1", "slope of the index on ln im_x";

@@ -24,7 +24,7 @@ pub fn footer(path: &Path) -> Result<Footer, TableError> {
     Ok(whole)
 }
 
-/// The recorded of a Parquet file, or `None` where another program wrote it. That of a folder is of what its files have in common:
+/// What a Parquet file records of how it was made, or `None` where another program wrote it. That of a folder is of what its files have in common:
 /// no partition, the inputs of the first one, and the fingerprint of all.
 ///
 /// # Errors

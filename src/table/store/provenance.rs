@@ -83,7 +83,7 @@ pub(super) fn recorded_in_file(path: &Path) -> Result<Option<Recorded>, TableErr
     recorded_in(path, footer::open(path)?.metadata.metadata())
 }
 
-/// The recorded in the footer of a file.
+/// What the footer of a file records of how it was made.
 pub(super) fn recorded_in(path: &Path, metadata: &ParquetMetaData) -> Result<Option<Recorded>, TableError> {
     let pairs = metadata.file_metadata().key_value_metadata().map_or(&[][..], Vec::as_slice);
     let get = |key: &str| pairs.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.clone());
