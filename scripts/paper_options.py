@@ -42,7 +42,7 @@ VARIANTS = (
     + [{"scenarios": options} for options in ("--re 2.5:17.5:2.5", "--re 7.5:22.5:2.5", "--design random")]
     + [{"structures": structures} for structures in ((0.149, 0.19, 0.92), (0.15, 0.20, 0.90), (0.15, 0.20, 0.94))]
     + [{"motions": options.strip()} for options in TOGETHER]
-    + [{"motions": options, "pex": "--demand-floor 1e-6"} for options in MOTIONS]
+    + [{"motions": options.strip(), "pex": "--demand-floor 1e-6"} for options in MOTIONS + TOGETHER]
 )
 
 
@@ -83,7 +83,7 @@ def main():
         spread.setdefault((row["quantity"], row["suite"], row["structure"]), []).append(float(row["value"]))
     for row in uncommented(DATA / "paper.csv"):
         published[row["quantity"], row["suite"], row["structure"]] = row
-    print(f"{'':60}" + "".join(f"{structure[:5]} {side:6}" for structure, side in PLANES))
+    print(f"{'':76}" + "".join(f"{structure[:5]} {side:6}" for structure, side in PLANES))
     for variant in VARIANTS:
         name = " ".join(str(options) for options in variant.values()) or "as shipped"
         seeds = [planes(seed, variant) for seed in SEEDS]
@@ -96,7 +96,7 @@ def main():
             covariance = (1 + 1 / len(seeds)) * np.cov([spread[key] for key in keys]) + np.diag(np.square(rounding) / 12)
             off = [float(row["published"]) for row in rows] - np.mean([seed[plane] for seed in seeds], axis=0)
             t2s.append(off @ np.linalg.solve(covariance, off))
-        print(f"{name:60}" + "".join(f"{t2:<12.1f}" for t2 in t2s), flush=True)
+        print(f"{name:76}" + "".join(f"{t2:<12.1f}" for t2 in t2s), flush=True)
 
 
 main()
