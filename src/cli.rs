@@ -91,7 +91,7 @@ pub fn main() -> anyhow::Result<()> {
     let matches = command().get_matches();
     let common = Common::from_arg_matches(&matches)?;
     let console =
-        Console { quiet: common.quiet, progress: common.progress == Progress::Auto, listener: None };
+        Console { quiet: common.quiet, progress: common.progress == Progress::Auto, ..Console::default() };
     if let Some(threads) = common.threads {
         if threads == 0 {
             return Err(UsageError::because("threads is 0; expected 1 or more"));

@@ -101,6 +101,8 @@ pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<
         std::fs::create_dir_all(folder).map_err(|source| TableError::io(folder, source))?;
     }
     let start = std::time::Instant::now();
+    // What this stage warns of stands in its files too.
+    let console = &Console { warnings: planned.warnings.clone(), ..console.clone() };
     let summary = stage.execute(&planned, console)?;
     let took_s = start.elapsed().as_secs_f64();
     if !summary.is_empty() {

@@ -195,10 +195,14 @@ fn doubt(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> Option<(Str
             format!(
                 "medians of {event} for {suite}, {structure}, lie far outside of the data, so that these measures say little"
             ),
-            format!("{of} (by a factor of {:.0e})", fit.factor_of_median()),
+            format!("{of} (by a factor of {})", factor(fit.factor_of_median())),
         )),
         _ => None,
     }
+}
+
+fn factor(factor: f64) -> String {
+    if factor < 1000.0 { format!("{factor:.0}") } else { format!("{factor:.0e}") }
 }
 
 /// Which limits to take where events are few, for a message.

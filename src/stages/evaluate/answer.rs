@@ -15,10 +15,14 @@ pub struct Answer {
 
 impl Answer {
     /// The answer as text.
-    pub fn text(&self, format: Format) -> anyhow::Result<String> {
+    pub fn text(&self, format: Format, warnings: &[String]) -> anyhow::Result<String> {
         match format {
             Format::Csv => text::csv(&frame_of(&self.rows)?),
-            Format::Json => Ok(text::json(&frame_of(&self.rows)?)),
+            Format::Json => Ok(format!(
+                "{{\n\"warnings\": {},\n\"rows\": {}}}\n",
+                serde_json::json!(warnings),
+                text::json(&frame_of(&self.rows)?)
+            )),
             Format::Table | Format::Parquet => {
                 Ok(format!("{}\n{}", self.heading, text::aligned(&frame_of(&self.rows)?)))
             }

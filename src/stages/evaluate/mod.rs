@@ -143,7 +143,7 @@ impl Evaluate {
     /// Writes an answer, or keeps it to be printed.
     fn deliver(&self, answer: &Answer, provenance: &Provenance) -> anyhow::Result<()> {
         let Some(out) = &self.out else {
-            let _ = self.printed.set(answer.text(self.format)?);
+            let _ = self.printed.set(answer.text(self.format, &provenance.warnings.all())?);
             return Ok(());
         };
         match (self.format, out) {
@@ -152,7 +152,9 @@ impl Evaluate {
                 writer.append(&answer.rows)?;
                 Ok(writer.finish()?)
             }
-            (format, Target::Path(path)) => Ok(text_file::write(path, answer.text(format)?)?),
+            (format, Target::Path(path)) => {
+                Ok(text_file::write(path, answer.text(format, &provenance.warnings.all())?)?)
+            }
         }
     }
 }

@@ -53,9 +53,9 @@ impl EvaluatedTable {
                 Ok(writer.write_row_group(&batch)?)
             },
         )?;
-        writer.finish()?;
         bar.finish();
         suspect.warn(&self.fits, console);
+        writer.finish()?;
         Ok(format!("{total} rows"))
     }
 
