@@ -35,7 +35,7 @@ fn structure(Group { structure, .. }: &Group) -> Value {
     json!({ "name": name, "p": p_rad_s, "alpha": alpha_rad, "eta": eta })
 }
 
-fn model(Model { suite, structure, form, fits }: &Model) -> Value {
+fn model(Model { suite, structure, form, fits, doubt }: &Model) -> Value {
     let demand = match &fits.demand {
         DemandModel::Everywhere(all) => json!({ "all": law(all) }),
         DemandModel::Biplanar { transition, low, high } => {
@@ -43,7 +43,7 @@ fn model(Model { suite, structure, form, fits }: &Model) -> Value {
         }
     };
     json!({ "suite": suite, "structure": structure, "form": form, "limit": fits.limit, "eta": fits.eta,
-        "demand": demand, "overturning": predictor(&fits.overturning) })
+        "demand": demand, "overturning": predictor(&fits.overturning), "doubt": doubt })
 }
 
 fn law(law: &DemandLaw) -> Value {

@@ -16,7 +16,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
     im4: "IM4: PGA / (g tan α)", im5: "IM5: p PGV / (g tan α)", im6: "IM6: ωm PGV / (g tan α)",
   };
   const nameOf = ({ suite, structure }) => (suite === null ? structure : `${structure}, ${suite}`);
-  const names = [...new Set(data.models.map(nameOf))];
+  const names = [...new Set(data.models.map(nameOf))].sort();
   const option = (value, words) => new Option(words, value);
   field("fit").replaceChildren(...names.map((name) => option(name, name)));
 
@@ -54,6 +54,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
     if (!right) warnings.push("Expected p, α, sizes above 0 (α below π/2), PGA and PGV of 0 or more.");
     const of = fragility.measures(data.g, { p, alpha, ...motion });
     const answers = right ? fragility.evaluate(model, of) : {};
+    if (right && model.doubt) warnings.push(`${model.doubt}.`);
     if (right && answers.p_f === null) warnings.push("The fits need a measure that is missing: give PGV, and the period if there is a field for it, above 0.");
     if (right && Math.abs(number("eta") - model.eta) > 0.005) {
       warnings.push(`The fits are of η ${model.eta}, on which the curves depend: simulate and fit with this η.`);
