@@ -59,7 +59,7 @@ fn figure(group: &Group) -> Figure {
         name: format!("demand-{}", super::group_file_words(group)),
         title: format!("Demand over velocity and period: {}", group.name()),
         caption: format!(
-            "Demand |θ|max/α of each motion in which the structure rocks, over peak ground velocity and period of the pulse. Overturned structures lie on the floor, at π/(2α); {below} demands below 0.001 are not drawn. {}. As Figures 3 and 4 of the paper, whose three axes these are.",
+            "Demand |θ|max/α of each motion in which the structure rocks, over peak ground velocity and period of the pulse. Overturned structures lie on the floor, at π/(2α); {below} demands below {LEAST} are not drawn. {}. As Figures 3 and 4 of the paper, whose three axes these are.",
             super::structure_words(&group.structure),
         ),
         drawing,
