@@ -118,7 +118,7 @@ pub fn main() -> anyhow::Result<()> {
             run_all(&config, &pipeline, out, dry_run, may, &console)
         }
         Tool::SeedSpread { pipeline, options } => {
-            seed_spread(&Config::read(&pipeline)?, &options, may, &Console { progress: false, ..console })
+            seed_spread(&pipeline, &options, may, &Console { progress: false, ..console })
         }
         Tool::Inspect { file } => print(&inspect(&file, &Terminal::stdout())?),
     }

@@ -15,7 +15,7 @@ use crate::fragility::demand::{Regression, RegressionOptions, ScanPoint};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
-use crate::pipeline::options::{check_bound, defaults, from_scalar};
+use crate::pipeline::options::{check, check_bound, defaults, from_scalar};
 use crate::pipeline::stage::Stage;
 use crate::statistics::FitStatus;
 use crate::table::pex::{GroupRegression, PEX, PEX_BOOTSTRAP, PexReplicateRow, PexRow, ScanRow};
@@ -34,6 +34,10 @@ pub struct FitPexOptions {
     /// IM4 at which the two planes meet: found (least pooled residual), or a number
     #[arg(long, default_value = "found")]
     pub transition: TransitionAt,
+    /// Least demand that counts as seen: smaller ones in safe rocking are raised to it, as a solver of finite tolerance
+    /// would [default: none]
+    #[arg(long)]
+    pub demand_floor: Option<f64>,
     /// Resamples for bootstrap limits, drawn within each cell of magnitude and distance
     #[arg(long, default_value = "0", value_name = "N")]
     pub bootstrap: usize,
@@ -123,6 +127,14 @@ impl FitPex {
     ) -> anyhow::Result<FitPex> {
         let limit = options.limit_state;
         check_bound(&LIMIT_STATE, limit)?;
+        if let Some(floor) = options.demand_floor {
+            check(
+                floor > 0.0 && floor < limit,
+                "demand-floor",
+                floor,
+                "a demand above 0 and below the limit state",
+            )?;
+        }
         let transition = options.transition.im4();
         let uncertainty = uncertainty(options.bootstrap, options.confidence, options.seed)?;
         let options = FitPexOptions { seed: Some(uncertainty.seed), ..options.clone() };
@@ -172,7 +184,11 @@ impl Stage for FitPex {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let groups = groups::read(&self.input)?;
+        let mut groups = groups::read(&self.input)?;
+        if let Some(floor) = self.options.demand_floor {
+            let cases = groups.iter_mut().flat_map(|group| &mut group.cases);
+            cases.filter(|case| case.has_demand()).for_each(|case| case.edp = case.edp.max(floor));
+        }
         let steps = groups.len() as u64 * self.regressions.uncertainty.steps();
         let bar = console.bar(self.name(), steps);
         let to_fit: Vec<CaseGroup> = groups.iter().map(Group::to_fit).collect();

@@ -1,5 +1,6 @@
 //! seed-spread: the whole pipeline with one seed after the other, to see how far its numbers move by chance.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -26,16 +27,17 @@ pub struct SeedSpreadOptions {
     pub out: PathBuf,
 }
 
-/// Repeats the pipeline of `config` and gathers the numbers that the paper publishes.
+/// Repeats the pipeline of a file and gathers the numbers that the paper publishes.
 ///
 /// # Errors
 /// Those of the stages.
 pub fn seed_spread(
-    config: &Config,
+    pipeline: &Path,
     options: &SeedSpreadOptions,
     may: May,
     console: &Console,
 ) -> anyhow::Result<()> {
+    let config = Config::read(pipeline)?;
     let out = options.out.as_path();
     if !may.overwrite && !is_new_or_own(out) {
         return Err(replace::refusal(out, replace::FOREIGN, "seed-spread"));
@@ -52,6 +54,8 @@ pub fn seed_spread(
     }
     let mut partial = tempfile::NamedTempFile::new_in(folder)?;
     {
+        let (version, pipeline) = (env!("CARGO_PKG_VERSION"), pipeline.display());
+        writeln!(partial, "# rockfrag {version}: rockfrag seed-spread {pipeline} --seeds {}", options.seeds)?;
         let mut writer = csv::Writer::from_writer(&mut partial);
         rows.iter().try_for_each(|row| writer.serialize(row))?;
         writer.flush()?;

@@ -69,7 +69,7 @@ fn the_worked_example_of_section_3_is_answered() {
     let row = rows.iter().find(wanted).unwrap();
     let [lambda, mu, beta] = [row.lambda, row.mu, row.beta].map(Option::unwrap);
     for im in [1.55f64, 1.88] {
-        // Where p PGV / PGA is 0.3, the PGA that makes the hybrid measure (Eq. 22) this.
+        // Where p PGV / PGA is 0.3, the PGA that makes the hybrid measure (Eq. 23) this.
         let im4 = (im.powf(1.0 + lambda) / 0.3).powf(1.0 / lambda);
         let pga_g = im4 * 0.2f64.tan();
         let pgv = 0.3 * pga_g * 9.81 / 2.5;

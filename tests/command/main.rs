@@ -16,6 +16,7 @@ mod partitions;
 mod pipeline;
 mod rank_ims;
 mod report;
+mod shipped;
 mod slips;
 #[path = "../guard/snapshot.rs"]
 mod snapshot;

@@ -387,7 +387,7 @@ fn a_record_in_place_of_motions_leads_to_import_motions() {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), "r.csv", &csv("time,acc_g", G));
     for stage in ["simulate", "ida"] {
-        let call = format!("{stage} --in r.csv");
+        let call = format!("{stage} --structures paper --in r.csv");
         fail(folder.path(), &call, 1, &["r.csv: not a Parquet file", "import-motions of records and CSV"]);
     }
 }

@@ -107,7 +107,7 @@ fn hybrid_parameters_follow_from_the_coefficients() {
     close(fit.lambda.unwrap().value, b[1] / b[2], 1e-12, "lambda");
     close(fit.beta.value, 1.0 / (b[1] + b[2]), 1e-12, "beta");
     close(fit.mu.value, -b[0] / (b[1] + b[2]), 1e-12, "mu");
-    // The curve of the hybrid measure IMx^(lambda/(1+lambda)) IMy^(1/(1+lambda)) is the probit itself (Eq. 22).
+    // The curve of the hybrid measure IMx^(lambda/(1+lambda)) IMy^(1/(1+lambda)) is the probit itself (Eq. 23).
     let lambda = fit.lambda.unwrap().value;
     for k in [0, 17, 230] {
         let hybrid = ((lambda * data.x[k] + negative[k]) / (1.0 + lambda)).exp();

@@ -86,6 +86,7 @@ def fit_pex(
     *,
     limit_state: float = 0.1,
     transition: Any = 'found',
+    demand_floor: float | None = None,
     bootstrap: int = 0,
     confidence: float = 0.95,
     seed: int | None = None,

@@ -157,7 +157,7 @@ columns! {
 // Curves of overturning and rocking.
 columns! {
     fitted_event = "event": Text, "1", "overturning, or rocking";
-    lambda: Float64, "1", "exponent of im_x in the hybrid measure (Eq. 22)";
+    lambda: Float64, "1", "exponent of im_x in the hybrid measure (Eq. 23)";
     mu: Float64, "1", "logarithm of the median of the measure at overturning (its mean, for the probit)";
     theta: Float64, "1", "median exp(mu)";
     log_likelihood: Float64, "1", "log-likelihood at its maximum";
@@ -216,7 +216,7 @@ columns! {
     p_ex: Float64, "1", "probability of a demand above the limit state, in safe rocking (Eq. 14)";
     p_ex_low: Float64, "1", "lower 95 % limit of p_ex";
     p_ex_high: Float64, "1", "upper 95 % limit of p_ex";
-    p_ro: Float64, "1", "probability of overturning given rocking (Eq. 19)";
+    p_ro: Float64, "1", "probability of overturning given rocking (Eq. 20; of a hybrid Eq. 24)";
     p_ro_low: Float64, "1", "lower 95 % limit of p_ro";
     p_ro_high: Float64, "1", "upper 95 % limit of p_ro";
     p_f_r: Float64, "1", "probability of failure given rocking (Eq. 12)";
@@ -224,7 +224,7 @@ columns! {
     p_f_r_high: Float64, "1", "upper 95 % limit of p_f_r";
     p_f: Float64, "1", "probability of failure over the whole tree; exactly 0 without rocking";
     out_of_range: Text, "1", "a measure outside of the range of the data of the fits";
-    im_hybrid: Float64, "1", "hybrid measure of P_ro: im_x^(lambda/(1 + lambda)) im_y^(1/(1 + lambda)) (Eq. 22)";
+    im_hybrid: Float64, "1", "hybrid measure of P_ro: im_x^(lambda/(1 + lambda)) im_y^(1/(1 + lambda)) (Eq. 23)";
     asked = "quantity": Text, "1", "a probability, or a measure of the intensity";
     value: Float64, "1", "best estimate";
     low: Float64, "1", "lower 95 % limit";
@@ -345,9 +345,12 @@ columns! {
     quantity: Text, "1", "what was published";
     place: Text, "1", "where the paper prints it";
     published: Float64, "1", "the published number";
-    ours: Float64, "1", "the same number from these files";
+    ours: Float64, "1", "the same number from these files; of a rms, the published plane less ours in ln EDP (over beta) at our cases";
     spread_mean: Float64, "1", "mean of ours over seeds";
     spread_sd: Float64, "1", "standard deviation of ours over seeds";
     seeds: Int32, "1", "number of seeds of the spread";
-    z: Float64, "1", "(published - mean) / standard deviation";
+    z: Float64, "1", "(published - mean) / standard deviation; null where the mean lies within the rounding of the print, and that is more than two of these";
+    seed_rms: Float64, "1", "what ours is between the planes of two of our seeds, root of the mean square";
+    t2: Float64, "1", "Hotelling's T2 of the published ln a, b1, b2 and R2 of a plane about ours over seeds, which depend on each other";
+    t2_p: Float64, "1", "probability of a t2 as large, if the published plane is one more of ours";
 }
