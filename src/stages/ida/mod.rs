@@ -94,7 +94,7 @@ impl Ida {
             counts: Counts::of(&self.scan, &stripes, &capacities),
             stripes: ida::stripes(&stripes, by_name)?,
             windows: ida::windows(&capacities, by_name)?,
-            capacities: ida::capacities(&capacities, self.scan.highest(), by_name)?,
+            capacities: ida::capacities(&capacities, by_name)?,
         })
     }
 }
@@ -102,8 +102,8 @@ impl Ida {
 impl Declare for Ida {
     type Options = IdaOptions;
     const NAME: &'static str = IDA.stage;
-    const ABOUT: &'static str = "Incremental dynamic analysis: at which intensities of each motion each structure overturns, and \
-         which larger ones it survives";
+    const ABOUT: &'static str = "Incremental dynamic analysis: from which intensity of each motion on each structure overturns, and \
+         which share of larger ones does so";
     const INPUTS: &'static [Input] =
         &[Input::file("motions", "in", SynthesizeMotions::OUTPUT.file, "Motions to read, as simulate does")];
     const OUTPUT: Output = Output::file(
@@ -192,7 +192,7 @@ impl Stage for Ida {
         [stripes, windows, shares, fragility, capacities].into_iter().try_for_each(TableWriter::finish)?;
         bar.finish();
         Ok(format!(
-            "{total} motions and {} structure(s) at {} levels in ratios of {:.4}, of {:.4} near overturning",
+            "{total} motions and {} structure(s) at {} levels in ratios of {:.4}, of {:.4} where they rock",
             self.structures.len(),
             self.scan.levels().len(),
             self.scan.ratio(),
