@@ -82,9 +82,11 @@ const FIRTH_TOLERANCE: f64 = 1e-14;
 const SAME: f64 = 1e-9;
 /// Where the search for the maximum of Firth's likelihood starts: indices that are the same in all cases,
 const FLAT_STARTS: [f64; 5] = [0.0, -3.0, -1.0, 1.0, 2.0];
-/// and the curve of the logit, steeper or flatter by these factors, with these added to its index.
+/// the curve of the logit, steeper or flatter by these factors, with these added to its index,
 const STEEPER: [f64; 3] = [0.5, 1.0, 2.0];
 const SHIFTED: [f64; 3] = [-1.0, 0.0, 1.0];
+/// and an index that rises as that of the logit with these standard deviations, 0 halfway between the lowest event and the highest other.
+const STEEP: [f64; 4] = [1.0, 3.0, 9.0, 27.0];
 
 /// The likelihood of outcomes as a function of the coefficients.
 #[derive(Clone, Copy)]
@@ -113,7 +115,7 @@ impl BinaryLikelihood<'_> {
         let logit = logit.maximise(&self.flat(0.0), Along::All, tolerance);
         let curves = logit.iter().flat_map(|Maximum { at, .. }| {
             let shifted = move |steeper: f64| SHIFTED.map(|shift| at * steeper + self.flat(shift));
-            STEEPER.into_iter().flat_map(shifted)
+            STEEPER.into_iter().flat_map(shifted).chain(self.steep(at))
         });
         let starts = FLAT_STARTS.into_iter().map(|index| self.flat(index)).chain(curves);
         let found = starts.filter_map(|start| self.maximise(&start, Along::All, tolerance));
@@ -121,6 +123,25 @@ impl BinaryLikelihood<'_> {
         // Of those that are the same but for rounding, the first.
         let is_higher = |a: &Maximum, b: &Maximum| a.objective.value > b.objective.value + SAME;
         maxima.reduce(|best, next| if is_higher(&next, &best) { next } else { best })
+    }
+
+    /// Coefficients of steep indices in the direction of these.
+    fn steep(&self, direction: &DVector<f64>) -> [DVector<f64>; STEEP.len()] {
+        let indices = self.design.indices(direction.as_slice());
+        let (mut lowest_event, mut highest_other) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut sum, mut squares, mut cases) = (0.0, 0.0, 0.0);
+        for ((index, &event), &weight) in indices.into_iter().zip(self.events).zip(self.weights) {
+            if weight > 0.0 {
+                match event {
+                    true => lowest_event = index.min(lowest_event),
+                    false => highest_other = index.max(highest_other),
+                }
+                (sum, squares, cases) = (sum + index, squares + index * index, cases + 1.0);
+            }
+        }
+        let sd = (squares / cases - (sum / cases) * (sum / cases)).max(0.0).sqrt();
+        let centred = direction + self.flat(-0.5 * (lowest_event + highest_other));
+        STEEP.map(|steep| &centred * (steep / sd))
     }
 
     /// Coefficients of an index that is the same in all cases.

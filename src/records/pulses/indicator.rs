@@ -13,8 +13,6 @@ const REFINED: usize = 20;
 /// Local maxima whose square is at least this share of the largest are refined: the steps between the periods are so small that no
 /// other becomes the largest.
 const LEAST_PEAK: f64 = 0.9;
-/// How far the middle moves meanwhile, as a share of the period.
-const MOVED: f64 = 0.05;
 /// Wavelets that make up the extracted pulse.
 const WAVELETS: usize = 10;
 /// How far from the first wavelet the others may lie, as a share of its scale (their period times 5/7).
@@ -105,7 +103,7 @@ fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64, scratch: &mut WaveletScra
     let transforms: Vec<WaveletTransform> =
         velocities.iter().map(|velocity| WaveletTransform::new(velocity, dt_s, longest, scratch)).collect();
     let of_period = |k: usize| strongest_sample(&transforms, period_s(k as f64), scratch);
-    let scan: Vec<(f64, i64)> = (0..PERIODS).map(of_period).collect();
+    let scan: Vec<(f64, usize)> = (0..PERIODS).map(of_period).collect();
     let largest = scan.iter().map(|(square, _)| *square).fold(0.0, f64::max);
     let square = |k: usize| scan.get(k).map_or(0.0, |(square, _)| *square);
     let is_peak = |k: &usize| {
@@ -117,17 +115,11 @@ fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64, scratch: &mut WaveletScra
         places.map(move |place| (period_s(place), k))
     });
     let at_period = |(period_s, k): (f64, usize)| {
-        let sampled = SampledWavelet::new(period_s, dt_s);
-        let reach = (MOVED * period_s / dt_s).ceil() as i64;
-        let squares = |centre: i64| -> f64 {
-            velocities.iter().map(|velocity| sampled.coefficient(velocity, centre).powi(2)).sum()
-        };
-        let about = scan[k].1 - reach..=scan[k].1 + reach;
-        let strongest = about.map(|centre| (squares(centre), centre)).max_by(|(a, _), (b, _)| a.total_cmp(b));
-        strongest.map(|(square, centre)| (square, Wavelet { period_s, centre_s: centre as f64 * dt_s }))
+        let wavelet = Wavelet { period_s, centre_s: scan[k].1 as f64 * dt_s };
+        let squares = velocities.iter().map(|velocity| wavelet.coefficient(velocity, dt_s).powi(2));
+        (squares.sum::<f64>(), wavelet)
     };
-    let strongest = refined.filter_map(at_period).max_by(|(a, _), (b, _)| a.total_cmp(b));
-    strongest.map(|(_, wavelet)| wavelet)
+    refined.map(at_period).max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, wavelet)| wavelet)
 }
 
 /// Finds the sample at which wavelets of a period have the largest sum of squared coefficients, and that sum.
@@ -135,7 +127,7 @@ fn strongest_sample(
     transforms: &[WaveletTransform],
     period_s: f64,
     scratch: &mut WaveletScratch,
-) -> (f64, i64) {
+) -> (f64, usize) {
     let mut coefficients = transforms.iter().map(|transform| transform.coefficients(period_s, scratch));
     let mut squares = coefficients.next().unwrap_or_default();
     squares.iter_mut().for_each(|value| *value *= *value);
