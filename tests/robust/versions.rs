@@ -60,7 +60,7 @@ fn each_file_is_read_by_the_stages_that_read_it() {
     assert_eq!(there.count(), readers().len());
     for (name, expected) in readers() {
         let path = files().join(format!("{name}.parquet"));
-        assert!(stamp(&path).unwrap().is_some(), "{name}");
+        assert!(recorded(&path).unwrap().is_some(), "{name}");
         let read = read_as_everything(&path);
         for reader in expected.into_iter().chain(["stamp", "content", "inspect"]) {
             let (_, result) = read.iter().find(|(what, _)| *what == reader).unwrap();
