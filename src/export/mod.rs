@@ -12,7 +12,7 @@ mod pelicun;
 
 pub use levels::{levels, whole_curve_end};
 pub use openquake::{continuous, discrete};
-pub use pelicun::{metadata, parameters};
+pub use pelicun::{LEAST_TOLERANCE as PELICUN_TOLERANCE, metadata, parameters};
 
 use crate::fragility::{Lognormal, Peak};
 

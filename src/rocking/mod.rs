@@ -14,6 +14,8 @@
 //! incremental  one motion at rising intensity: where a structure overturns, and which stronger motions it survives
 //! ```
 
+#![deny(clippy::disallowed_methods)]
+
 mod batch;
 mod incremental;
 mod lane_roots;

@@ -172,8 +172,8 @@ impl Structure {
                 return Err(StructureError { structure: name.to_string(), parameter, value, expected });
             }
         }
-        let semi_diagonal_m = 0.5 * width_m.hypot(height_m);
-        let alpha_rad = (width_m / height_m).atan();
+        let semi_diagonal_m = 0.5 * libm::hypot(width_m, height_m);
+        let alpha_rad = libm::atan(width_m / height_m);
         let eta = eta.unwrap_or_else(|| housner_eta(alpha_rad));
         Structure::new(name, rectangular_p(semi_diagonal_m), alpha_rad, eta)
     }
@@ -227,11 +227,12 @@ pub fn frame_p(column_p_rad_s: f64, beam_mass_ratio: f64) -> f64 {
 
 /// Housner's (1963) coefficient of restitution of a rectangular block: eta = 1 - 1.5 sin^2(alpha).
 pub fn housner_eta(alpha_rad: f64) -> f64 {
-    1.0 - 1.5 * alpha_rad.sin().powi(2)
+    1.0 - 1.5 * libm::sin(alpha_rad).powi(2)
 }
 
 /// Coefficient of restitution of a rocking frame: eta = (1 - 1.5 sin^2(alpha) + 3 y cos(2 alpha)) / (1 + 3 y), of the
 /// ratio y of beam to columns mass (Makris & Vassiliou 2013).
 pub fn frame_eta(alpha_rad: f64, beam_mass_ratio: f64) -> f64 {
-    (housner_eta(alpha_rad) + 3.0 * beam_mass_ratio * (2.0 * alpha_rad).cos()) / (1.0 + 3.0 * beam_mass_ratio)
+    (housner_eta(alpha_rad) + 3.0 * beam_mass_ratio * libm::cos(2.0 * alpha_rad))
+        / (1.0 + 3.0 * beam_mass_ratio)
 }

@@ -116,6 +116,12 @@ impl Declare for Export {
         }
         let (tolerance, upto) = (options.tolerance, options.upto);
         check(tolerance > 0.0 && tolerance < 0.1, "tolerance", tolerance, "an error above 0 and below 0.1")?;
+        check(
+            program != Program::Pelicun || tolerance >= export::PELICUN_TOLERANCE,
+            "tolerance",
+            tolerance,
+            "an error of 1e-5 or more for pelicun, which keeps six digits",
+        )?;
         check(upto.is_none_or(f64::is_finite), "upto", upto.unwrap_or_default(), "a finite intensity")?;
         let file = if program == Program::Pelicun { "fragility.csv" } else { Self::OUTPUT.file };
         let Target::Path(out) = files.asked(file).unwrap_or_else(|| file.into()) else {
@@ -204,8 +210,12 @@ impl Stage for Export {
         }
         text_file::write(&self.out, content)?;
         let paths: Vec<String> = self.outputs().iter().map(|path| path.display().to_string()).collect();
-        let levels = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
-        Ok(format!("{} functions, up to {levels} levels: {}", functions.len(), paths.join(", ")))
+        let most = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
+        let levels = match self.program {
+            Program::OpenQuake | Program::Pelicun => format!(", up to {most} levels"),
+            Program::OpenQuakeContinuous => String::new(),
+        };
+        Ok(format!("{} functions{levels}: {}", functions.len(), paths.join(", ")))
     }
 }
 

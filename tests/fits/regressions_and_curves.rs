@@ -283,6 +283,9 @@ fn want_of_cases_and_of_events_are_statuses() {
     assert_eq!(fit_biplanar(&few, None).unwrap_err(), FitStatus::TooFewCases);
     let same: Vec<Case> = (0..9).map(|_| case(Outcome::SafeRocking, 0.1, 1.0, 1.5)).collect();
     assert_eq!(fit_univariate(&same, Measure::Im4).unwrap_err(), FitStatus::Constant);
+    assert_eq!(fit_biplanar(&same, None).unwrap_err(), FitStatus::Constant);
+    let line = |k: i32| case(Outcome::SafeRocking, 0.1, 1.0 + 0.01 * f64::from(k), 1.0 + 0.01 * f64::from(k));
+    assert_eq!(fit_biplanar(&(1..90).map(line).collect::<Vec<_>>(), None).unwrap_err(), FitStatus::Collinear);
     let x: Vec<f64> = (0..50).map(f64::from).collect();
     let four: Vec<bool> = (0..50).map(|k| k % 13 == 0).collect();
     assert_eq!(curve(&x, &x, &four, &[Measure::Im4]).unwrap_err(), FitStatus::TooFewEvents);

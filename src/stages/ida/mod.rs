@@ -100,7 +100,7 @@ impl Ida {
             counts: Counts::of(&self.scan, &stripes, &capacities),
             stripes: ida::stripes(&stripes, by_name)?,
             windows: ida::windows(&capacities, by_name)?,
-            capacities: ida::capacities(&capacities, self.scan.highest(), by_name)?,
+            capacities: ida::capacities(&capacities, by_name)?,
         })
     }
 }
@@ -108,8 +108,8 @@ impl Ida {
 impl Declare for Ida {
     type Options = IdaOptions;
     const NAME: &'static str = IDA.stage;
-    const ABOUT: &'static str = "Incremental dynamic analysis: at which intensities of each motion each structure overturns, and \
-         which larger ones it survives";
+    const ABOUT: &'static str = "Incremental dynamic analysis: from which intensity of each motion on each structure overturns, and \
+         which share of larger ones does so";
     const INPUTS: &'static [Input] =
         &[Input::file("motions", "in", SynthesizeMotions::OUTPUT.file, "Motions to read, as simulate does")];
     const OUTPUT: Output = Output::file(
@@ -201,7 +201,7 @@ impl Stage for Ida {
         bar.finish();
         doubts.lines("motions").for_each(|line| console.warn(&line));
         Ok(format!(
-            "{total} motions and {} structure(s) at {} levels in ratios of {:.4}, of {:.4} near overturning",
+            "{total} motions and {} structure(s) at {} levels in ratios of {:.4}, of {:.4} where they rock",
             self.structures.len(),
             self.scan.levels().len(),
             self.scan.ratio(),

@@ -27,10 +27,10 @@ pub struct IdaOptions {
     /// Equal ratios between them, whose ends are the stripes
     #[arg(long, default_value = "60")]
     pub steps: usize,
-    /// How often a step is halved in search of safe windows, near overturning and where its ends overturn in different ways
+    /// How often a step is halved where the structure rocks: the resolution; four times more where a peak comes near the tipping point
     #[arg(long, default_value = "4")]
     pub halvings: u32,
-    /// Relative error of the intensities at which the outcome changes
+    /// Relative error of the simulated intensities at which the outcome changes
     #[arg(long, default_value = "0.001")]
     pub tolerance: f64,
     #[command(flatten)]

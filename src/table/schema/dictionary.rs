@@ -292,12 +292,13 @@ columns! {
     measure: Text, "1", "what intensity is: scale (of the motion as it is), pga (in g), pgv (in m/s), im4, im5 or im6";
     intensity: Float64, "1", "the measure of the scaled motion";
     unscaled: Float64, "1", "the measure of the motion as it is";
+    overturning_above: Float64, "1", "share of the intensities from this level to the next, in logarithms, that overturn the structure; null: the last level";
     capacity: Text, "1", "overturns (within the scan), safe (throughout), or below (overturns already at its foot)";
-    safe_below: Float64, "1", "largest intensity below all that overturn the structure; null: none in the scan";
-    overturning_intensity: Float64, "1", "least intensity that overturns the structure; null: none in the scan";
-    safe_windows: Int64, "1", "ranges of larger intensities that it survives";
-    safe_up_to: Float64, "1", "largest intensity that it survives; null: none in the scan";
-    window: Int64, "1", "number of the window, rising with the intensity";
+    safe_below: Float64, "1", "largest simulated intensity below all that overturn the structure; null: none in the scan";
+    overturning_intensity: Float64, "1", "least simulated intensity that overturns the structure; null: none in the scan";
+    safe_windows: Int64, "1", "ranges of larger intensities, as wide as the resolution, of which it survives all that were simulated";
+    safe_up_to: Float64, "1", "largest simulated intensity that it survives; null: none in the scan";
+    window: Int64, "1", "number of the window (a range of simulated intensities that are all safe), rising with the intensity";
     window_low: Float64, "1", "least intensity of the window";
     window_high: Float64, "1", "largest intensity of the window; null: the scan ends within it";
     overturned: Int64, "1", "motions that overturn the structure at this intensity";
