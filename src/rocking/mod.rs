@@ -37,6 +37,6 @@ pub use march::simulate;
 pub use record::{Record, RecordError};
 pub use response::{Outcome, Response};
 pub use structure::{
-    BOUNDS, Bound, Structure, StructureError, frame_eta, frame_p, housner_eta, judge, rectangular_p,
+    BOUNDS, Block, Bound, Structure, StructureError, frame_eta, frame_p, housner_eta, judge, rectangular_p,
 };
 pub use trace::{SolverEvent, TracePoint, trace, with_tail};

@@ -5,6 +5,15 @@ use std::ops::RangeInclusive;
 
 use crate::units::G_M_S2;
 
+/// The size and slenderness of a structure, whatever its coefficient of restitution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Block {
+    /// Frequency parameter p, rad/s.
+    pub p_rad_s: f64,
+    /// Slenderness, rad.
+    pub alpha_rad: f64,
+}
+
 /// A rigid rocking structure, reduced to the three parameters that govern its response.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Structure {

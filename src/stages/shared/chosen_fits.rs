@@ -8,9 +8,9 @@ use crate::fragility::{
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::console::Console;
+use crate::rocking::Block;
 use crate::rocking::Structure;
 use crate::statistics::Gap;
-use crate::table::fits::Block;
 
 /// The fits as chosen.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use anyhow::anyhow;
 
 use crate::fragility::{Case, CaseGroup, Clusters, JointPeaks, cells};
+use crate::rocking::Block;
 use crate::rocking::Structure;
 use crate::table::TableError;
-use crate::table::fits::Block;
 use crate::table::ida::IDA_STRIPES;
 use crate::table::responses::{RESPONSES, ResponseCase};
 use crate::table::row::Row;

@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 
+use crate::rocking::Block;
 use crate::rocking::Structure;
-use crate::table::fits::Block;
 
 /// What `rockfrag universality` found: the curves of one structure on 61 others.
 const STUDY: &str = include_str!("../../../data/universality.csv");
