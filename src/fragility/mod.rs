@@ -11,6 +11,7 @@
 //! predictor    a fit as a linear function of ln IM, with the range of its data
 //! model        the fits joined: all probabilities at an intensity; resampled their limits from resampled fits
 //! slice        the same along one peak, PGA or PGV, at a fixed p PGV / PGA
+//! universal    the surface that is shipped: the same probabilities for any structure, without fits of one's own
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
 
@@ -25,6 +26,7 @@ pub(crate) mod predictor;
 pub(crate) mod probability;
 pub(crate) mod resampled;
 pub(crate) mod slice;
+pub mod universal;
 
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Event, Measure};
@@ -45,3 +47,4 @@ pub use probability::{Probability, ProbitIndex};
 pub use probability::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use resampled::{ReplicateLimits, ResampledModel};
 pub use slice::{Lognormal, Peak, Slice};
+pub use universal::UniversalModel;

@@ -9,5 +9,6 @@ mod limits;
 mod normal;
 mod paper_model;
 mod regressions_and_curves;
+mod universal;
 mod universality;
 mod validation;

@@ -1,8 +1,9 @@
 use std::path::Path;
 
 use super::answer::Answer;
+use super::answering::{Answering, Model};
 use super::options::HazardOptions;
-use crate::fragility::{FragilityModel, LimitState, Probability, Slice};
+use crate::fragility::{LimitState, Probability, Slice};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -11,7 +12,6 @@ use crate::pipeline::console::Console;
 use crate::pipeline::options::check;
 use crate::rocking::Structure;
 use crate::stages::evaluate::hazard::{self, Hazard};
-use crate::stages::shared::chosen_fits::ChosenFits;
 use crate::stages::shared::structures::words;
 use crate::table::evaluated::{self, RATES, RateRow};
 use rayon::prelude::*;
@@ -24,7 +24,7 @@ type Rates = [f64; 9];
 pub fn answer(
     options: &HazardOptions,
     path: &Path,
-    fits: &ChosenFits,
+    answering: &Answering,
     structure: &Structure,
     console: &Console,
 ) -> anyhow::Result<Answer> {
@@ -40,26 +40,26 @@ pub fn answer(
             };
             check(ratio > 0.0 && ratio.is_finite(), "ratio", ratio, "a p PGV / PGA above 0")?;
             let slice = Slice { structure: structure.clone(), peak, ratio };
-            let rates = along_slice(&slice, &curve, fits, console)?;
-            with_limits(rates, fits, |model| over_curve(&slice, &curve, model))
+            let rates = along_slice(&slice, &curve, answering, console)?;
+            with_limits(rates, answering, |model| over_curve(&slice, &curve, model))
         }
         Hazard::Joint(joint) => {
-            let rates = over_pairs(structure, &joint, fits, console)?;
-            with_limits(rates, fits, |model| over_bins(structure, &joint, model))
+            let rates = over_pairs(structure, &joint, answering, console)?;
+            with_limits(rates, answering, |model| over_bins(structure, &joint, model))
         }
     };
     let row = |(index, &state): (usize, &LimitState)| {
         let annual_rate = [0, 1, 2].map(|part| rates[3 * index + part]);
         let probability = annual_rate.map(|rate| probability_in_years(rate, years));
-        RateRow { state, annual_rate, years, probability, meaning: fits.meaning(state) }
+        RateRow { state, annual_rate, years, probability, meaning: answering.meaning(state) }
     };
     let rows: Vec<RateRow> = LimitState::ALL.iter().enumerate().map(row).collect();
     Ok(Answer {
         table: RATES,
         rows: evaluated::rates(&rows)?,
         heading: format!(
-            "fits of {}\nstructure of {}, over {}\n",
-            fits.words(),
+            "{}\nstructure of {}, over {}\n",
+            answering.words(),
             words(structure),
             path.display()
         ),
@@ -69,13 +69,13 @@ pub fn answer(
 fn along_slice(
     slice: &Slice,
     curve: &HazardCurve,
-    fits: &ChosenFits,
+    answering: &Answering,
     console: &Console,
 ) -> anyhow::Result<Rates> {
-    let (model, [(first, _), (last, rate_beyond)]) = (&fits.model, curve.ends());
-    let Some(at_last) = slice.limit_states(model, last) else { return Err(periods_needed()) };
+    let (model, [(first, _), (last, rate_beyond)]) = (answering.model(), curve.ends());
+    let Some(at_last) = limit_states(slice, model, last) else { return Err(periods_needed()) };
     let rates = over_curve(slice, curve, model);
-    fits.warn_of_slice(slice, last, "the hazard: ", console);
+    answering.warn_of_slice(slice, last, "the hazard: ", console);
     let (uplift, (unit, size)) = (slice.intensity_at_im4(1.0), slice.peak.usual_unit());
     if first > uplift {
         console.warn(&format!(
@@ -98,16 +98,16 @@ fn along_slice(
 fn over_pairs(
     structure: &Structure,
     joint: &JointHazard,
-    fits: &ChosenFits,
+    answering: &Answering,
     console: &Console,
 ) -> anyhow::Result<Rates> {
-    let model = &fits.model;
+    let model = answering.model();
     let measures = |bin: &PairOfPeaks| measures_of(structure, bin);
-    let states = |bin: &PairOfPeaks| model.probabilities(&measures(bin)).limit_states();
+    let states = |bin: &PairOfPeaks| model.probabilities(structure, &measures(bin)).limit_states();
     if joint.bins.iter().any(|bin| states(bin).is_none()) {
         return Err(periods_needed());
     }
-    let is_outside = |bin: &&PairOfPeaks| model.out_of_range(&measures(bin)).next().is_some();
+    let is_outside = |bin: &&PairOfPeaks| !model.out_of_range(&measures(bin)).is_empty();
     let outside = joint.bins.iter().filter(is_outside).count();
     if outside > 0 {
         let all = joint.bins.len();
@@ -116,19 +116,21 @@ fn over_pairs(
     Ok(over_bins(structure, joint, model))
 }
 
-fn over_curve(slice: &Slice, curve: &HazardCurve, model: &FragilityModel) -> Rates {
-    curve.mean_annual_rates(&slice.jumps(model), |intensity| flat(slice.limit_states(model, intensity)))
+fn over_curve(slice: &Slice, curve: &HazardCurve, model: Model) -> Rates {
+    curve.mean_annual_rates(&model.jumps(slice), |intensity| flat(limit_states(slice, model, intensity)))
 }
 
-fn over_bins(structure: &Structure, joint: &JointHazard, model: &FragilityModel) -> Rates {
-    joint.mean_annual_rates(|bin| flat(model.probabilities(&measures_of(structure, bin)).limit_states()))
+fn over_bins(structure: &Structure, joint: &JointHazard, model: Model) -> Rates {
+    joint.mean_annual_rates(|bin| {
+        flat(model.probabilities(structure, &measures_of(structure, bin)).limit_states())
+    })
 }
 
 /// The rates with limits from those of each resample, if there are any.
-fn with_limits(rates: Rates, fits: &ChosenFits, rates_of: impl Fn(&FragilityModel) -> Rates + Sync) -> Rates {
-    let Some(resampled) = &fits.resampled else { return rates };
+fn with_limits(rates: Rates, answering: &Answering, rates_of: impl Fn(Model) -> Rates + Sync) -> Rates {
+    let Some(resampled) = answering.resampled() else { return rates };
     let replicates: Vec<Option<Rates>> =
-        resampled.replicates.par_iter().map(|model| model.as_ref().map(&rates_of)).collect();
+        resampled.replicates.par_iter().map(|model| model.as_ref().map(Model::Fits).map(&rates_of)).collect();
     let mut limited = rates;
     // Of rocking, which is certain from uplift on, the limits are the rate itself.
     for (k, state) in limited.chunks_exact_mut(3).enumerate().skip(1) {
@@ -137,6 +139,10 @@ fn with_limits(rates: Rates, fits: &ChosenFits, rates_of: impl Fn(&FragilityMode
         (state[1], state[2]) = (low, high);
     }
     limited
+}
+
+fn limit_states(slice: &Slice, model: Model, intensity: f64) -> Option<[Probability; 3]> {
+    model.probabilities(&slice.structure, &slice.measures(intensity)).limit_states()
 }
 
 fn measures_of(structure: &Structure, bin: &PairOfPeaks) -> IntensityMeasures {

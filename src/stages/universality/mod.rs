@@ -94,6 +94,11 @@ impl Universality {
         check(limit > 0.0 && limit.is_finite(), "limit-state", limit, "a demand |theta|max / alpha above 0")?;
         check(transition > 1.0 && transition < 100.0, "transition", transition, "an IM4 above 1")?;
         let form = match (options.model.0, options.measure) {
+            (ModelForm::Universal, _) => {
+                return Err(UsageError::because(
+                    "model universal has no fits; expected bivariate or univariate",
+                ));
+            }
             (ModelForm::Bivariate, Some(measure)) => {
                 return Err(UsageError::because(format!("measure {measure} needs --model univariate")));
             }
