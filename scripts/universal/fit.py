@@ -9,7 +9,7 @@ import surface
 
 REPLICATES = 50
 # Of the index, between structures and cells of one kind of motion: by judge.py, on structures and cells not seen.
-SPREADS = (0.75, 0.85)
+SPREADS = (0.75, 0.9)
 
 
 def overturning(cases, knots, weights=None, start=None):

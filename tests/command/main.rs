@@ -17,5 +17,6 @@ mod report;
 #[path = "../guard/snapshot.rs"]
 mod snapshot;
 mod together;
+mod universal;
 mod universality;
 mod validate;
