@@ -21,3 +21,8 @@ done
 call simulate --in motions.parquet --structures part.csv --out equipment.parquet
 
 python3 "$here/fit.py" "$root/data/universal.csv" "$root/tests/reference/fits/universal_answers.csv" motions.parquet responses_?.parquet
+
+# How well it does, for docs/universal.md; with records.parquet of scripts/near_fault_records.py in the folder, on these too:
+#     simulate --in records.parquet --structures structures.csv --out records_responses.parquet
+#     python3 judge.py motions.parquet equipment.parquet records_responses.parquet judged.json responses_?.parquet
+#     python3 compare.py motions.parquet responses_?.parquet
