@@ -60,21 +60,6 @@ impl LogitIndex {
         let [value, low, high] = [self.value, self.value - half_width, self.value + half_width].map(logistic);
         Probability { value, low, high }
     }
-
-    /// Of failure given rocking (Eq. 12). To first order its index moves by those of overturning and of exceeding, each times its
-    /// probability over that of failure. What the surface does not know of a structure is taken to move both the same way.
-    fn of_failure(overturning: &LogitIndex, exceeding: &LogitIndex) -> LogitIndex {
-        let (p_ro, p_ex) = (logistic(overturning.value), logistic(exceeding.value));
-        let p_failure = p_failure_given_rocking(p_ro, p_ex);
-        let survival = logistic(-overturning.value) * logistic(-exceeding.value);
-        let (of_ro, of_ex) = (p_ro / p_failure, p_ex / p_failure);
-        let pairs = overturning.deviations.iter().zip(&exceeding.deviations);
-        LogitIndex {
-            value: (p_failure / survival).ln(),
-            deviations: pairs.map(|(ro, ex)| of_ro * ro + of_ex * ex).collect(),
-            spread: of_ro * overturning.spread + of_ex * exceeding.spread,
-        }
-    }
 }
 
 impl UniversalModel {
@@ -93,11 +78,12 @@ impl UniversalModel {
 
     fn given_rocking(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<GivenRocking> {
         let [overturning, exceeding] = self.indices(structure, measures)?;
-        Some(GivenRocking {
-            p_ex: exceeding.probability(),
-            p_ro: overturning.probability(),
-            p_failure: LogitIndex::of_failure(&overturning, &exceeding).probability(),
-        })
+        let (p_ro, p_ex) = (overturning.probability(), exceeding.probability());
+        let failure = |of: fn(&Probability) -> f64| p_failure_given_rocking(of(&p_ro), of(&p_ex));
+        // What the surface does not know of a structure is taken to move both the same way.
+        let p_failure =
+            Probability { value: failure(|p| p.value), low: failure(|p| p.low), high: failure(|p| p.high) };
+        Some(GivenRocking { p_ex, p_ro, p_failure })
     }
 
     /// The measures that lie outside of the motions of the surface; none without rocking.
@@ -213,6 +199,9 @@ impl Curve {
         let mut index = LogitIndex { value: 0.0, deviations: vec![0.0; replicates], spread: self.spread };
         for term in &self.terms {
             let product: f64 = term.functions.iter().zip(functions).map(|(&k, of)| of[k]).product();
+            if product == 0.0 {
+                continue;
+            }
             index.value += term.coefficient * product;
             let pairs = index.deviations.iter_mut().zip(&term.deviations);
             pairs.for_each(|(sum, deviation)| *sum += deviation * product);

@@ -39,6 +39,7 @@ fn one_command_and_no_file_answer() {
     let answer = json(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"));
     let [p, low, high] = ["value", "low", "high"].map(|column| value(&answer, "p_f", column));
     assert!(0.0 < low && low < p && p < high && high < 1.0, "{answer}");
+    assert_eq!(answer.as_array().unwrap().last().unwrap()["quantity"], "model");
     // More is exceeded of a smaller limit, and overturning does not know it.
     let smaller = json(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6 --limit-state 0.03"));
     assert!(value(&smaller, "p_ex", "value") > value(&answer, "p_ex", "value"));

@@ -127,10 +127,13 @@ impl Answering {
 
     /// What a limit state is, in words.
     pub fn meaning(&self, state: LimitState) -> String {
-        match state {
-            LimitState::Rocking => "rocking".to_string(),
-            LimitState::Failure => format!("|theta|max / alpha above {}, or overturning", self.limit()),
-            LimitState::Overturning => "overturning".to_string(),
+        match (self, state) {
+            (Answering::Fits(fits), _) => fits.meaning(state),
+            (_, LimitState::Rocking) => "rocking".to_string(),
+            (Answering::Universal(model), LimitState::Failure) => {
+                format!("|theta|max / alpha above {}, or overturning, by the universal surface", model.limit)
+            }
+            (_, LimitState::Overturning) => "overturning, by the universal surface".to_string(),
         }
     }
 

@@ -60,6 +60,10 @@ pub fn answer(
     rows.extend(
         measured.into_iter().filter(|(_, value)| value.is_some()).map(|(im, value)| row(im, value, None)),
     );
+    if let Answering::Universal(_) = answering {
+        // Other formats than the table have no heading.
+        rows.push(AnswerRow { quantity: "model", value: None, limits: None, meaning: answering.words() });
+    }
     Ok(Answer {
         table: ANSWER,
         rows: evaluated::answer(&rows)?,
