@@ -54,7 +54,7 @@ fn fits_answer_where_they_are_or_are_asked_for() {
     assert!(words(folder.path(), &format!("evaluate {fits} {structure}")).starts_with("fits of"));
     let universal = words(folder.path(), &format!("evaluate {fits} --model universal {structure}"));
     assert!(universal.starts_with("universal fragility surface"), "{universal}");
-    for asked in ["--model bivariate", "--measure im5", "--structure frame", "--pro pro.parquet"] {
+    for asked in ["--model bivariate", "--measure im5", "--structure frame"] {
         fail(
             folder.path(),
             &format!("evaluate {asked} {structure}"),

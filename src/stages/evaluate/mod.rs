@@ -9,6 +9,7 @@ mod rates;
 mod table;
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::Context;
@@ -34,6 +35,8 @@ use crate::pipeline::options::{Word, check};
 use crate::pipeline::stage::{Stage, beside};
 use crate::pipeline::terminal::Terminal;
 use crate::rocking::Structure;
+use crate::stages::fit_pex::FitPex;
+use crate::stages::fit_pro::FitPro;
 use crate::table::TableError;
 use crate::table::evaluated::EVALUATED;
 use crate::table::store::contents::content_of;
@@ -148,15 +151,19 @@ fn fits(options: &FitsOptions, files: &Files) -> anyhow::Result<Option<FitFiles>
     if *model == Some(Word(ModelForm::Universal)) || (unspecified && none) {
         return Ok(None);
     }
-    for input in FIT_INPUTS {
-        if files.optional(input.role).is_none() {
-            return Err(UsageError::because(format!(
-                "no {0}.parquet here; expected --{0} FILE, or --model universal, which needs no fits",
-                input.flag
-            )));
+    if none {
+        return Err(UsageError::because(
+            "no pex.parquet and pro.parquet here; expected --pex FILE and --pro FILE, or --model universal, which needs no fits",
+        ));
+    }
+    // Of one file alone, the other is where it always is.
+    let mut files = files.clone();
+    for (role, file) in [("pex", FitPex::OUTPUT.file), ("pro", FitPro::OUTPUT.file)] {
+        if files.optional(role).is_none() {
+            files.inputs.push((role, Path::new(file).into()));
         }
     }
-    FitFiles::new(options, files).map(Some)
+    FitFiles::new(options, &files).map(Some)
 }
 
 impl Evaluate {

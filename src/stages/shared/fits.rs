@@ -32,7 +32,7 @@ pub const FIT_INPUTS: [Input; 2] = [
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Fits")]
 pub struct FitsOptions {
-    /// Suite of the fits [default: the only one; of validate, all]
+    /// Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm]
     #[arg(long)]
     pub suite: Option<String>,
     /// Structure of the fits [default: the only one; of validate, all]
