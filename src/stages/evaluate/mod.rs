@@ -268,8 +268,8 @@ impl Stage for Evaluate {
                 json!({ "fits": files.options, "limits": limits, "structure": structure, "question": question })
             }
             None => json!({
-                "model": ModelForm::Universal.as_str(), "surface": blake3::hash(universal::SURFACE.as_bytes()).to_hex().as_str(), "suite": fits.suite,
-                "limit-state": limit_state, "structure": structure, "question": question
+                "model": ModelForm::Universal.as_str(), "surface": blake3::hash(universal::SURFACE.as_bytes()).to_hex().as_str(), "suite": fits.suite.as_deref().unwrap_or(Suite::Csgm.as_str()),
+                "limit-state": limit_state.unwrap_or(PAPER_LIMIT), "structure": structure, "question": question
             }),
         }
     }

@@ -30,7 +30,10 @@ pub fn answer(
     let probabilities = answering.probabilities(structure, &measures);
     let failure = probabilities.limit_states().map(|[_, failure, _]| failure);
     if failure.is_none() {
-        console.warn("the fits need a measure that is missing: give --pgv above 0, --tp or --tm");
+        console.warn(match answering {
+            Answering::Fits(_) => "the fits need a measure that is missing: give --pgv above 0, --tp or --tm",
+            Answering::Universal(_) => "the surface needs a velocity: give --pgv above 0",
+        });
     }
     answering.warn_of_range(&measures, "", console);
     let row = |column: Column, value: Option<f64>, p: Option<Probability>| AnswerRow {
