@@ -3,6 +3,7 @@
 #     make out/pex.parquet one file and what it needs
 #     make spread          the spread over seeds that is shipped in data/
 #     make universality    how the curves of one structure do on others, shipped in data/ too
+#     make universal       the fragility surface that is shipped in the program
 # `rockfrag run` does the same from pipeline.yaml alone. A stage that finds its file up to date leaves it as it is;
 # touching it tells make so.
 
@@ -10,7 +11,7 @@ ROCKFRAG ?= target/release/rockfrag
 CALL := $(ROCKFRAG) --config pipeline.yaml
 OUT := out
 
-.PHONY: all spread universality picture check-exports check-report sbom unsafe attack test clean
+.PHONY: all spread universality universal picture check-exports check-report sbom unsafe attack test clean
 
 all: $(OUT)/paper.parquet $(OUT)/report.html
 
@@ -45,6 +46,9 @@ spread: | $(ROCKFRAG)
 universality: | $(ROCKFRAG)
 	$(ROCKFRAG) run data/universality.yaml --out $(OUT)/universality
 	python3 scripts/universality_summary.py $(OUT)/universality/universality.parquet data/universality.csv
+
+universal: | $(ROCKFRAG)
+	scripts/universal/make.sh $(ROCKFRAG) $(OUT)/universal
 
 picture: $(OUT)/pro.parquet
 	python3 scripts/readme_picture.py $(OUT) docs/fragility.png

@@ -12,6 +12,7 @@
 //! model        the fits joined: all probabilities at an intensity; resampled their limits from resampled fits
 //! peaks        how PGA and PGV of motions go together
 //! slice        the same along one peak, PGA or PGV, at a fixed p PGV / PGA
+//! universal    the surface that is shipped: the same probabilities for any structure, without fits of one's own
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
 
@@ -27,6 +28,7 @@ pub(crate) mod predictor;
 pub(crate) mod probability;
 pub(crate) mod resampled;
 pub(crate) mod slice;
+pub mod universal;
 
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Event, Measure};
@@ -48,3 +50,4 @@ pub use probability::{Probability, ProbitIndex};
 pub use probability::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use resampled::{ReplicateLimits, ResampledModel};
 pub use slice::{DOUBTFUL_PEAKS, Lognormal, Peak, Slice, are_doubtful};
+pub use universal::UniversalModel;

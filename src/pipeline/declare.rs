@@ -80,6 +80,8 @@ enum Unnamed {
     Folder(&'static str),
     /// In a run this file in the folder of its files, else nothing.
     FileOfRun(&'static str),
+    /// This file, outside of a run only if it is there.
+    FileIfThere(&'static str),
     Nothing,
 }
 
@@ -107,6 +109,14 @@ impl Input {
         }
     }
 
+    /// Makes the file one that the stage can do without, outside of a run.
+    pub const fn if_there(self) -> Input {
+        match self.unnamed {
+            Unnamed::File(file) => Input { unnamed: Unnamed::FileIfThere(file), ..self },
+            _ => self,
+        }
+    }
+
     /// Makes the input one that is read only where it is named.
     pub const fn if_named(self) -> Input {
         Input { unnamed: Unnamed::Nothing, ..self }
@@ -129,7 +139,10 @@ impl Input {
 
     fn path(&self, run: Option<&Path>) -> Option<PathBuf> {
         match (self.unnamed, run) {
-            (Unnamed::File(file) | Unnamed::FileOfRun(file), Some(folder)) => Some(folder.join(file)),
+            (Unnamed::File(file) | Unnamed::FileOfRun(file) | Unnamed::FileIfThere(file), Some(folder)) => {
+                Some(folder.join(file))
+            }
+            (Unnamed::FileIfThere(file), None) => Some(PathBuf::from(file)).filter(|path| path.exists()),
             (Unnamed::Folder(_), Some(folder)) => Some(folder.to_path_buf()),
             (Unnamed::File(name) | Unnamed::Folder(name), None) => Some(name.into()),
             (Unnamed::FileOfRun(_), None) | (Unnamed::Nothing, _) => None,
@@ -138,7 +151,7 @@ impl Input {
 
     fn arg(&self) -> Arg {
         let (kind, default) = match self.unnamed {
-            Unnamed::File(file) => ("FILE", Some(file)),
+            Unnamed::File(file) | Unnamed::FileIfThere(file) => ("FILE", Some(file)),
             Unnamed::Folder(folder) => ("DIR", Some(folder)),
             Unnamed::FileOfRun(_) | Unnamed::Nothing => ("FILE", None),
         };

@@ -159,9 +159,9 @@ impl Stage for Export {
     }
 
     fn parameters(&self) -> Value {
-        let ExportOptions { fits, to, im, ratio, levels, upto, tolerance, .. } = &self.options;
+        let ExportOptions { to, im, ratio, levels, upto, tolerance, .. } = &self.options;
         json!({
-            "fits": fits, "structure": self.structure, "to": to, "im": im, "ratio": ratio, "levels": levels,
+            "fits": self.fits.options, "structure": self.structure, "to": to, "im": im, "ratio": ratio, "levels": levels,
             "upto": upto, "tolerance": tolerance
         })
     }

@@ -37,19 +37,19 @@ pub struct Intensity {
 pub struct IntensityBatches {
     batches: Batches,
     structure: Option<Structure>,
-    eta: f64,
+    eta: Option<f64>,
 }
 
 impl IntensityBatches {
     /// Opens the table, `batch_size` rows at a time. `structure` holds for all rows; without one each row must have its
-    /// own p and alpha, and `eta` holds where it has no eta.
+    /// own p and alpha, and `eta` holds where it has no eta; without one it must have one.
     ///
     /// # Errors
     /// If the file is missing, unreadable, empty, of another stage, or lacks a column.
     pub fn open(
         source: impl Into<Source>,
         structure: Option<Structure>,
-        eta: f64,
+        eta: Option<f64>,
         batch_size: usize,
     ) -> Result<IntensityBatches, TableError> {
         let columns = if structure.is_none() { READ.concat() } else { [PEAKS, PERIODS].concat() };
@@ -92,13 +92,13 @@ impl IntensityBatches {
             let found = eta[row].unwrap_or_default();
             return Err(columns.value_error(row, &schema::eta, &format!("{found}; expected {expected}")));
         }
-        let structure = |((p_rad_s, alpha_rad), eta): ((f64, f64), Option<f64>)| Structure {
-            name: String::new(),
-            p_rad_s,
-            alpha_rad,
-            eta: eta.unwrap_or(self.eta),
+        let structure = |(row, ((p_rad_s, alpha_rad), eta)): (usize, ((f64, f64), Option<f64>))| {
+            let unknown =
+                || columns.value_error(row, &schema::eta, "null; expected a coefficient of restitution");
+            let eta = eta.or(self.eta).ok_or_else(unknown)?;
+            Ok(Structure { name: String::new(), p_rad_s, alpha_rad, eta })
         };
-        Ok(p.into_iter().zip(alpha).zip(eta).map(structure).collect())
+        p.into_iter().zip(alpha).zip(eta).enumerate().map(structure).collect()
     }
 }
 

@@ -21,5 +21,6 @@ mod slips;
 #[path = "../guard/snapshot.rs"]
 mod snapshot;
 mod together;
+mod universal;
 mod universality;
 mod validate;

@@ -10,5 +10,6 @@ mod normal;
 mod paper;
 mod paper_model;
 mod regressions_and_curves;
+mod universal;
 mod universality;
 mod validation;

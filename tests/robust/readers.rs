@@ -75,5 +75,5 @@ fn curves(path: &Path) -> anyhow::Result<()> {
 }
 
 fn intensities(path: &Path) -> Result<(), TableError> {
-    IntensityBatches::open(path, None, 0.92, 4096)?.try_for_each(|batch| batch.map(drop))
+    IntensityBatches::open(path, None, Some(0.92), 4096)?.try_for_each(|batch| batch.map(drop))
 }

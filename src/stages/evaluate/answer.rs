@@ -6,8 +6,12 @@ use crate::table::schema::Table;
 use crate::table::store::frame::frame_of;
 use crate::table::store::text;
 
-/// How the heading of each answer begins.
+/// How an answer of fits begins.
 pub const FITS_OF: &str = "fits of ";
+/// How an answer of the universal surface begins.
+pub const UNIVERSAL: &str = "universal fragility surface";
+/// How an answer in JSON begins.
+const JSON: &str = "{\n\"warnings\": ";
 
 /// A short answer.
 pub struct Answer {
@@ -23,7 +27,7 @@ impl Answer {
         match format {
             Format::Csv => text::csv(&frame_of(&self.rows)?),
             Format::Json => Ok(format!(
-                "{{\n\"warnings\": {},\n\"rows\": {}}}\n",
+                "{JSON}{},\n\"rows\": {}}}\n",
                 serde_json::json!(warnings),
                 text::json(&frame_of(&self.rows)?)
             )),
@@ -38,7 +42,8 @@ impl Answer {
 pub fn is_own(head: &str) -> bool {
     let begins_table = |table: &Table| {
         let names: Vec<&str> = table.columns.iter().map(|column| column.name).collect();
-        head.starts_with(&(names.join(",") + "\n")) || head.starts_with(&format!("[\n  {{ \"{}\":", names[0]))
+        head.starts_with(&(names.join(",") + "\n"))
     };
-    head.starts_with(FITS_OF) || [ANSWER, RATES].iter().any(begins_table)
+    [FITS_OF, UNIVERSAL, JSON].iter().any(|begin| head.starts_with(begin))
+        || [ANSWER, RATES].iter().any(begins_table)
 }

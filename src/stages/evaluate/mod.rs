@@ -1,6 +1,7 @@
 //! evaluate: probabilities at one intensity, at each of a table, or over the hazard of a site.
 
 mod answer;
+mod answering;
 pub mod hazard;
 mod options;
 mod point;
@@ -8,27 +9,34 @@ mod rates;
 mod table;
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::Context;
 use serde_json::{Value, json};
 
 use self::answer::Answer;
+use self::answering::Answering;
 use self::options::Format;
 pub use self::options::{EvaluateOptions, HazardOptions, LimitsBy, PointOptions};
 use self::table::EvaluatedTable;
 use super::shared::chosen_fits::ChosenFits;
-use super::shared::fits::{FIT_INPUTS, FitFiles};
+use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions, ModelForm};
 use super::shared::resampled_fits;
 use super::shared::structures::StructureSpec;
-use crate::fragility::{ReplicateLimits, ResampledModel};
+use crate::fragility::{ReplicateLimits, ResampledModel, UniversalModel, universal};
+use crate::keyword::{self, Keyword};
+use crate::motion::Suite;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::files::hash;
-use crate::pipeline::options::Word;
+use crate::pipeline::options::{Word, check};
 use crate::pipeline::stage::{Stage, beside, content_of_role};
 use crate::pipeline::terminal::Terminal;
+use crate::rocking::Structure;
+use crate::stages::fit_pex::FitPex;
+use crate::stages::fit_pro::FitPro;
 use crate::table::TableError;
 use crate::table::evaluated::EVALUATED;
 use crate::table::store::provenance::Provenance;
@@ -38,6 +46,9 @@ use crate::table::store::writer::TableWriter;
 
 /// The role of a table of intensities.
 const INTENSITIES: &str = "intensities";
+
+/// The limit state of the paper: what P_ex of the universal surface is about unless another demand is asked for.
+const PAPER_LIMIT: f64 = 0.1;
 
 impl LimitsBy {
     /// The fits, with their resamples where limits need them.
@@ -66,7 +77,8 @@ impl LimitsBy {
 /// The stage, ready to run.
 pub struct Evaluate {
     options: EvaluateOptions,
-    fits: FitFiles,
+    /// The fits that answer; without them the surface that is shipped does.
+    fits: Option<FitFiles>,
     fit_files: Vec<(&'static str, Source)>,
     structure: StructureSpec,
     /// A table of intensities, if it is asked at each of them.
@@ -83,8 +95,8 @@ impl Declare for Evaluate {
     const ABOUT: &'static str = "Probabilities of rocking, failure and overturning: at one intensity, at each of a table, or a \
          year at a site";
     const INPUTS: &'static [Input] = &[
-        FIT_INPUTS[0],
-        FIT_INPUTS[1],
+        FIT_INPUTS[0].if_there(),
+        FIT_INPUTS[1].if_there(),
         Input::file(
             INTENSITIES,
             "in",
@@ -102,7 +114,7 @@ impl Declare for Evaluate {
     .under("Output");
 
     fn create(options: &EvaluateOptions, files: &Files) -> anyhow::Result<Evaluate> {
-        let fits = FitFiles::new(&options.fits, files)?;
+        let fits = fits(&options.fits, files)?;
         let intensities = files.optional(INTENSITIES);
         let beside_table = || Some(beside(intensities.as_ref()?.name(), Self::OUTPUT.file).into());
         let format = options.format.map(|Word(format)| format);
@@ -114,7 +126,10 @@ impl Declare for Evaluate {
             return Err(UsageError::because("format parquet needs --out FILE"));
         }
         Ok(Evaluate {
-            fit_files: options.limits.0.fit_files(&fits)?,
+            fit_files: match &fits {
+                Some(fits) => options.limits.0.fit_files(fits)?,
+                None => Vec::new(),
+            },
             structure: options.structure.spec()?,
             options: options.clone(),
             fits,
@@ -126,16 +141,85 @@ impl Declare for Evaluate {
     }
 }
 
+/// The fits that are asked for; none where the universal surface is, by its name, or because there are none and nothing is said
+/// of them.
+fn fits(options: &FitsOptions, files: &Files) -> anyhow::Result<Option<FitFiles>> {
+    let FitsOptions { suite: _, structure, model, measure } = options;
+    let unspecified = model.is_none() && structure.is_none() && measure.is_none();
+    let none = FIT_INPUTS.iter().all(|input| files.optional(input.role).is_none());
+    if *model == Some(Word(ModelForm::Universal)) || (unspecified && none) {
+        return Ok(None);
+    }
+    if none {
+        return Err(UsageError::because(
+            "no pex.parquet and pro.parquet here; expected --pex FILE and --pro FILE, or --model universal, which needs no fits",
+        ));
+    }
+    // Of one file alone, the other is where it always is.
+    let mut files = files.clone();
+    for (role, file) in [("pex", FitPex::OUTPUT.file), ("pro", FitPro::OUTPUT.file)] {
+        if files.optional(role).is_none() {
+            files.inputs.push((role, Path::new(file).into()));
+        }
+    }
+    FitFiles::new(options, &files).map(Some)
+}
+
 impl Evaluate {
+    /// What answers.
+    fn answering(&self) -> anyhow::Result<Answering> {
+        let (limits, limit) = (self.options.limits.0, self.options.limit_state);
+        if let Some(fits) = &self.fits {
+            if limit.is_some() {
+                return Err(UsageError::because(
+                    "limit-state is of the universal surface; that of fits is chosen by fit-pex --limit-state",
+                ));
+            }
+            return Ok(Answering::Fits(limits.choose(fits)?));
+        }
+        if limits != LimitsBy::Delta {
+            return Err(UsageError::because(
+                "limits percentile and bc are of fits; the universal surface has its own",
+            ));
+        }
+        let limit = limit.unwrap_or(PAPER_LIMIT);
+        let [least, largest] = universal::limits();
+        check(
+            limit >= least && limit <= largest,
+            "limit-state",
+            limit,
+            &format!("a demand |theta|max / alpha from {least} to {largest}"),
+        )?;
+        let motions = match &self.options.fits.suite {
+            None => Suite::Csgm,
+            Some(word) => keyword::parse(word)
+                .ok()
+                .filter(|suite| Suite::SYNTHETIC.contains(suite))
+                .ok_or_else(|| {
+                    UsageError::because(format!(
+                        "suite '{word}' is none of the universal surface; expected pulse, csgm or hfc"
+                    ))
+                })?,
+        };
+        Ok(Answering::Universal(UniversalModel { limit, motions }))
+    }
+
+    /// The structure; `answering` may know an eta where none is given.
+    fn structure(&self, answering: &Answering) -> anyhow::Result<Structure> {
+        match answering.eta() {
+            Some(eta) => self.structure.structure_with_eta(eta),
+            None => self.structure.structure(),
+        }
+    }
+
     /// Answers for one intensity or one site.
-    fn answer(&self, fits: &ChosenFits, console: &Console) -> anyhow::Result<Answer> {
-        fits.warn_of_few_events(console);
-        fits.warn_of_misfit(console);
-        let structure = self.structure.structure_with_eta(fits.model.eta)?;
-        fits.warn_of_structure(&structure, console);
+    fn answer(&self, answering: &Answering, console: &Console) -> anyhow::Result<Answer> {
+        answering.warn_of_fits(console);
+        let structure = self.structure(answering)?;
+        answering.warn_of_structure(&structure, console);
         match &self.options.hazard.hazard {
-            Some(path) => rates::answer(&self.options.hazard, path, fits, &structure, console),
-            None => point::answer(&self.options.point, fits, &structure, console),
+            Some(path) => rates::answer(&self.options.hazard, path, answering, &structure, console),
+            None => point::answer(&self.options.point, answering, &structure, console),
         }
     }
 
@@ -173,18 +257,27 @@ impl Stage for Evaluate {
     }
 
     fn parameters(&self) -> Value {
-        let EvaluateOptions { fits, limits, point, hazard, .. } = &self.options;
+        let EvaluateOptions { fits, limits, limit_state, point, hazard, .. } = &self.options;
         let question = match (&self.intensities, &hazard.hazard) {
             (Some(_), _) => Value::Null,
             (None, Some(_)) => json!({ "ratio": hazard.ratio, "years": hazard.years }),
             (None, None) => json!(point),
         };
-        json!({ "fits": fits, "limits": limits, "structure": self.structure, "question": question })
+        let structure = &self.structure;
+        match &self.fits {
+            Some(files) => {
+                json!({ "fits": files.options, "limits": limits, "structure": structure, "question": question })
+            }
+            None => json!({
+                "model": ModelForm::Universal.as_str(), "surface": blake3::hash(universal::SURFACE.as_bytes()).to_hex().as_str(), "suite": fits.suite.as_deref().unwrap_or(Suite::Csgm.as_str()),
+                "limit-state": limit_state.unwrap_or(PAPER_LIMIT), "structure": structure, "question": question
+            }),
+        }
     }
 
     fn provenance(&self) -> anyhow::Result<Provenance> {
-        if self.options.limits.0 != LimitsBy::Delta {
-            resampled_fits::expect_files(&self.fits)?;
+        if let Some(fits) = self.fits.as_ref().filter(|_| self.options.limits.0 != LimitsBy::Delta) {
+            resampled_fits::expect_files(fits)?;
         }
         let sources = self.inputs();
         let content =
@@ -207,14 +300,14 @@ impl Stage for Evaluate {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let fits = self.options.limits.0.choose(&self.fits)?;
+        let answering = self.answering()?;
         if let (Some(input), Some(out)) = (&self.intensities, &self.out) {
             let given = self.options.structure.structures.is_given();
-            let structure = given.then(|| self.structure.structure_with_eta(fits.model.eta)).transpose()?;
-            let table = EvaluatedTable { fits, structure };
+            let structure = given.then(|| self.structure(&answering)).transpose()?;
+            let table = EvaluatedTable { answering, structure };
             return table.write(input, out, provenance, console);
         }
-        self.deliver(&self.answer(&fits, console)?, provenance)?;
+        self.deliver(&self.answer(&answering, console)?, provenance)?;
         Ok(String::new())
     }
 }

@@ -22,6 +22,9 @@ pub struct EvaluateOptions {
     /// delta (of the standard errors), or from the resamples of fit-pex and fit-pro --bootstrap: percentile, or bc (bias-corrected)
     #[arg(long, default_value = "delta", help_heading = "Fits")]
     pub limits: Word<LimitsBy>,
+    /// Of the universal surface: demand |theta|max / alpha that P_ex is about, 0.02 to 0.5 [default: 0.1]
+    #[arg(long, value_name = "DEMAND", help_heading = "Fits")]
+    pub limit_state: Option<f64>,
     #[command(flatten)]
     #[serde(flatten)]
     pub structure: StructureOptions,

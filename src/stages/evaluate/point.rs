@@ -1,4 +1,5 @@
-use super::answer::{Answer, FITS_OF};
+use super::answer::Answer;
+use super::answering::Answering;
 use super::options::PointOptions;
 use crate::fragility::{DOUBTFUL_PEAKS, Peak, Probability, are_doubtful};
 use crate::motion::IntensityMeasures;
@@ -6,7 +7,6 @@ use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, check_bound};
 use crate::rocking::Structure;
-use crate::stages::shared::chosen_fits::ChosenFits;
 use crate::stages::shared::structures::words;
 use crate::table::evaluated::{self, ANSWER, AnswerRow};
 use crate::table::schema::{self, Column};
@@ -15,7 +15,7 @@ use crate::units::G_M_S2;
 /// All probabilities at one intensity.
 pub fn answer(
     options: &PointOptions,
-    fits: &ChosenFits,
+    answering: &Answering,
     structure: &Structure,
     console: &Console,
 ) -> anyhow::Result<Answer> {
@@ -38,12 +38,15 @@ pub fn answer(
         console.warn(DOUBTFUL_PEAKS);
     }
     let measures = IntensityMeasures::new(structure, pga_g * G_M_S2, pgv_m_s, options.tp, options.tm);
-    let probabilities = fits.probabilities(&measures);
+    let probabilities = answering.probabilities(structure, &measures);
     let failure = probabilities.limit_states().map(|[_, failure, _]| failure);
     if failure.is_none() {
-        console.warn("the fits need a measure that is missing: give --pgv above 0, --tp or --tm");
+        console.warn(match answering {
+            Answering::Fits(_) => "the fits need a measure that is missing: give --pgv above 0, --tp or --tm",
+            Answering::Universal(_) => "the surface needs a velocity: give --pgv above 0",
+        });
     }
-    fits.warn_of_range(&measures, "", console);
+    answering.warn_of_range(&measures, "", console);
     let row = |column: Column, value: Option<f64>, p: Option<Probability>| AnswerRow {
         quantity: column.name,
         value: value.or(p.map(|p| p.value)),
@@ -58,7 +61,7 @@ pub fn answer(
         row(schema::p_f_r, None, given.map(|given| given.p_failure)),
         row(schema::p_f, None, failure),
     ];
-    let hybrid = fits.model.overturning.im_y.and_then(|_| fits.model.overturning.hybrid_measure(&measures));
+    let hybrid = answering.hybrid_measure(&measures);
     let measured = [
         (schema::im1, measures.im1),
         (schema::im2, measures.im2),
@@ -71,15 +74,19 @@ pub fn answer(
     rows.extend(
         measured.into_iter().filter(|(_, value)| value.is_some()).map(|(im, value)| row(im, value, None)),
     );
+    if let Answering::Universal(_) = answering {
+        // Other formats than the table have no heading.
+        rows.push(AnswerRow { quantity: "model", value: None, limits: None, meaning: answering.words() });
+    }
     Ok(Answer {
         table: ANSWER,
         rows: evaluated::answer(&rows)?,
         heading: format!(
-            "{FITS_OF}{}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % limits of confidence, {}\n",
-            fits.words(),
+            "{}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % limits of confidence, {}\n",
+            answering.words(),
             words(structure),
-            fits.model.limit,
-            fits.words_of_limits(),
+            answering.limit(),
+            answering.words_of_limits(),
         ),
     })
 }

@@ -1,11 +1,10 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use super::answer::{Answer, FITS_OF};
+use super::answer::Answer;
+use super::answering::{Answering, Model};
 use super::options::HazardOptions;
-use crate::fragility::{
-    DOUBTFUL_PEAKS, FragilityModel, JointPeaks, LimitState, Peak, Probability, Slice, are_doubtful,
-};
+use crate::fragility::{DOUBTFUL_PEAKS, JointPeaks, LimitState, Peak, Probability, Slice, are_doubtful};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -14,7 +13,6 @@ use crate::pipeline::console::Console;
 use crate::pipeline::options::check;
 use crate::rocking::Structure;
 use crate::stages::evaluate::hazard::{self, Hazard};
-use crate::stages::shared::chosen_fits::ChosenFits;
 use crate::stages::shared::structures::words;
 use crate::table::evaluated::{self, RATES, RateRow};
 use rayon::prelude::*;
@@ -27,7 +25,7 @@ type Rates = [f64; 9];
 pub fn answer(
     options: &HazardOptions,
     path: &Path,
-    fits: &ChosenFits,
+    answering: &Answering,
     structure: &Structure,
     console: &Console,
 ) -> anyhow::Result<Answer> {
@@ -36,31 +34,31 @@ pub fn answer(
     let mut words_of_ratio = String::new();
     let rates = match hazard::read(path)? {
         Hazard::Curve(peak, curve) => {
-            let line = Line::new(options.ratio, structure, peak, fits)?;
-            let rates = along_line(&line, &curve, fits, console)?;
-            words_of_ratio = line.words(&curve, fits);
-            with_limits(rates, fits, |model| over_curve(&line, &curve, model))
+            let line = Line::new(options.ratio, structure, peak, answering)?;
+            let rates = along_line(&line, &curve, answering, console)?;
+            words_of_ratio = line.words(&curve, answering);
+            with_limits(rates, answering, |model| over_curve(&line, &curve, model))
         }
         Hazard::Joint(joint) => {
-            let rates = over_pairs(structure, &joint, fits, console)?;
-            with_limits(rates, fits, |model| over_bins(structure, &joint, model))
+            let rates = over_pairs(structure, &joint, answering, console)?;
+            with_limits(rates, answering, |model| over_bins(structure, &joint, model))
         }
     };
     let row = |(index, &state): (usize, &LimitState)| {
         let annual_rate = [0, 1, 2].map(|part| rates[3 * index + part]);
         let probability = annual_rate.map(|rate| probability_in_years(rate, years));
-        RateRow { state, annual_rate, years, probability, meaning: fits.meaning(state) }
+        RateRow { state, annual_rate, years, probability, meaning: answering.meaning(state) }
     };
     let rows: Vec<RateRow> = LimitState::ALL.iter().enumerate().map(row).collect();
     Ok(Answer {
         table: RATES,
         rows: evaluated::rates(&rows)?,
         heading: format!(
-            "{FITS_OF}{}\nstructure of {}, over {}\n{words_of_ratio}low and high are 95 % limits of confidence, {}; they do not hold the hazard's own error\n",
-            fits.words(),
+            "{}\nstructure of {}, over {}\n{words_of_ratio}low and high are 95 % limits of confidence, {}; they do not hold the hazard's own error\n",
+            answering.words(),
             words(structure),
             path.display(),
-            fits.words_of_limits()
+            answering.words_of_limits()
         ),
     })
 }
@@ -88,8 +86,13 @@ const STEP: f64 = 0.5;
 const LAST_NODE: i32 = 12;
 
 impl Line {
-    fn new(ratio: Option<f64>, structure: &Structure, peak: Peak, fits: &ChosenFits) -> anyhow::Result<Line> {
-        let ratio = match (ratio, fits.peaks) {
+    fn new(
+        ratio: Option<f64>,
+        structure: &Structure,
+        peak: Peak,
+        answering: &Answering,
+    ) -> anyhow::Result<Line> {
+        let ratio = match (ratio, answering.peaks()) {
             (Some(ratio), _) => {
                 check(ratio > 0.0 && ratio.is_finite(), "ratio", ratio, "a p PGV / PGA above 0")?;
                 Ratio::Single(ratio)
@@ -97,7 +100,7 @@ impl Line {
             (None, Some(peaks)) => Ratio::Distributed(peaks),
             (None, None) => {
                 return Err(UsageError::because(format!(
-                    "a hazard of {} alone needs --ratio, the p PGV / PGA of its motions: these fits do not know it; fit again with --force",
+                    "a hazard of {} alone needs --ratio, the p PGV / PGA of its motions: what answers does not know it",
                     peak.as_str()
                 )));
             }
@@ -134,13 +137,13 @@ impl Line {
     }
 
     /// Where the ratio comes from, and what another one would change.
-    fn words(&self, curve: &HazardCurve, fits: &ChosenFits) -> String {
+    fn words(&self, curve: &HazardCurve, answering: &Answering) -> String {
         let Ratio::Distributed(_) = self.ratio else {
             return "p PGV / PGA is the one of --ratio at all intensities; low and high do not hold its error\n".to_string();
         };
-        let [_, _, _, _, _, _, low, _, _] = over_curve(&self.quantile(-1.0), curve, &fits.model);
-        let [_, _, _, _, _, _, median, _, _] = over_curve(&self.quantile(0.0), curve, &fits.model);
-        let [_, _, _, _, _, _, high, _, _] = over_curve(&self.quantile(1.0), curve, &fits.model);
+        let [_, _, _, _, _, _, low, _, _] = over_curve(&self.quantile(-1.0), curve, answering.model());
+        let [_, _, _, _, _, _, median, _, _] = over_curve(&self.quantile(0.0), curve, answering.model());
+        let [_, _, _, _, _, _, high, _, _] = over_curve(&self.quantile(1.0), curve, answering.model());
         let at_uplift = |deviations| self.quantile(deviations).ratios(self.slice.intensity_at_im4(1.0))[0].0;
         format!(
             "p PGV / PGA is distributed as in the motions of the fits: {:.2} at uplift, {:.2} to {:.2} in two of three motions; with these ratios alone, overturning would have the annual rates {median:.1e}, {low:.1e} and {high:.1e} (--ratio takes one)\n",
@@ -154,14 +157,14 @@ impl Line {
 fn along_line(
     line: &Line,
     curve: &HazardCurve,
-    fits: &ChosenFits,
+    answering: &Answering,
     console: &Console,
 ) -> anyhow::Result<Rates> {
     let slice = &line.slice;
-    let (model, [(first, _), (last, rate_beyond)]) = (&fits.model, curve.ends());
-    let Some(at_last) = slice.limit_states(model, last) else { return Err(periods_needed()) };
+    let (model, [(first, _), (last, rate_beyond)]) = (answering.model(), curve.ends());
+    let Some(at_last) = limit_states(slice, model, last) else { return Err(periods_needed()) };
     let rates = over_curve(line, curve, model);
-    fits.warn_of_slice(slice, last, "the hazard: ", console);
+    answering.warn_of_slice(slice, last, "the hazard: ", console);
     let (uplift, (unit, size)) = (slice.intensity_at_im4(1.0), slice.peak.usual_unit());
     if first > uplift {
         console.warn(&format!(
@@ -184,16 +187,16 @@ fn along_line(
 fn over_pairs(
     structure: &Structure,
     joint: &JointHazard,
-    fits: &ChosenFits,
+    answering: &Answering,
     console: &Console,
 ) -> anyhow::Result<Rates> {
-    let model = &fits.model;
+    let model = answering.model();
     let measures = |bin: &PairOfPeaks| measures_of(structure, bin);
-    let states = |bin: &PairOfPeaks| model.probabilities(&measures(bin)).limit_states();
+    let states = |bin: &PairOfPeaks| model.probabilities(structure, &measures(bin)).limit_states();
     if joint.bins.iter().any(|bin| states(bin).is_none()) {
         return Err(periods_needed());
     }
-    let is_outside = |bin: &&PairOfPeaks| model.out_of_range(&measures(bin)).next().is_some();
+    let is_outside = |bin: &&PairOfPeaks| !model.out_of_range(&measures(bin)).is_empty();
     let outside = joint.bins.iter().filter(is_outside).count();
     if outside > 0 {
         let all = joint.bins.len();
@@ -206,28 +209,30 @@ fn over_pairs(
     Ok(over_bins(structure, joint, model))
 }
 
-fn over_curve(line: &Line, curve: &HazardCurve, model: &FragilityModel) -> Rates {
-    curve.mean_annual_rates(&line.slice.jumps(model), |intensity| {
+fn over_curve(line: &Line, curve: &HazardCurve, model: Model) -> Rates {
+    curve.mean_annual_rates(&model.jumps(&line.slice), |intensity| {
         let mut slice = line.slice.clone();
         let mut mean = [0.0; 9];
         for (ratio, weight) in line.ratios(intensity) {
             slice.ratio = ratio;
-            let states = flat(slice.limit_states(model, intensity));
+            let states = flat(limit_states(&slice, model, intensity));
             mean.iter_mut().zip(states).for_each(|(mean, state)| *mean += weight * state);
         }
         mean
     })
 }
 
-fn over_bins(structure: &Structure, joint: &JointHazard, model: &FragilityModel) -> Rates {
-    joint.mean_annual_rates(|bin| flat(model.probabilities(&measures_of(structure, bin)).limit_states()))
+fn over_bins(structure: &Structure, joint: &JointHazard, model: Model) -> Rates {
+    joint.mean_annual_rates(|bin| {
+        flat(model.probabilities(structure, &measures_of(structure, bin)).limit_states())
+    })
 }
 
 /// The rates with limits from those of each resample, if there are any.
-fn with_limits(rates: Rates, fits: &ChosenFits, rates_of: impl Fn(&FragilityModel) -> Rates + Sync) -> Rates {
-    let Some(resampled) = &fits.resampled else { return rates };
+fn with_limits(rates: Rates, answering: &Answering, rates_of: impl Fn(Model) -> Rates + Sync) -> Rates {
+    let Some(resampled) = answering.resampled() else { return rates };
     let replicates: Vec<Option<Rates>> =
-        resampled.replicates.par_iter().map(|model| model.as_ref().map(&rates_of)).collect();
+        resampled.replicates.par_iter().map(|model| model.as_ref().map(Model::Fits).map(&rates_of)).collect();
     let mut limited = rates;
     // Of rocking, which is certain from uplift on, the limits are the rate itself.
     for (k, state) in limited.chunks_exact_mut(3).enumerate().skip(1) {
@@ -236,6 +241,10 @@ fn with_limits(rates: Rates, fits: &ChosenFits, rates_of: impl Fn(&FragilityMode
         (state[1], state[2]) = (low, high);
     }
     limited
+}
+
+fn limit_states(slice: &Slice, model: Model, intensity: f64) -> Option<[Probability; 3]> {
+    model.probabilities(&slice.structure, &slice.measures(intensity)).limit_states()
 }
 
 fn measures_of(structure: &Structure, bin: &PairOfPeaks) -> IntensityMeasures {

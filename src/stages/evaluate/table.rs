@@ -1,10 +1,10 @@
 use rayon::prelude::*;
 
+use super::answering::Answering;
 use crate::fragility::{DOUBTFUL_PEAKS, are_doubtful};
 use crate::pipeline::console::Console;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
-use crate::stages::shared::chosen_fits::ChosenFits;
 use crate::table::evaluated::{self, EVALUATED, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
 use crate::table::store::provenance::Provenance;
@@ -16,7 +16,7 @@ const BATCH: usize = 16_384;
 
 /// Probabilities at each intensity of a table.
 pub struct EvaluatedTable {
-    pub fits: ChosenFits,
+    pub answering: Answering,
     /// Of all rows; without it each row has its own.
     pub structure: Option<Structure>,
 }
@@ -34,10 +34,9 @@ impl EvaluatedTable {
         console: &Console,
     ) -> anyhow::Result<String> {
         let nameless = self.structure.clone().map(|structure| Structure { name: String::new(), ..structure });
-        let intensities = IntensityBatches::open(input, nameless, self.fits.model.eta, BATCH)?;
+        let intensities = IntensityBatches::open(input, nameless, self.answering.eta(), BATCH)?;
         let total = intensities.rows();
-        self.fits.warn_of_few_events(console);
-        self.fits.warn_of_misfit(console);
+        self.answering.warn_of_fits(console);
         let mut writer = TableWriter::create(out.clone(), &EVALUATED, provenance.clone())?;
         let mut suspect = Suspect::default();
         let bar = console.bar(&provenance.stage, total);
@@ -45,7 +44,7 @@ impl EvaluatedTable {
             intensities.map(|batch| Ok(batch?)),
             |intensities| {
                 let rows: Vec<EvaluatedRow> = intensities.par_iter().map(|one| self.row(one)).collect();
-                let suspect = Suspect::among(&rows, &intensities, &self.fits);
+                let suspect = Suspect::among(&rows, &intensities, &self.answering);
                 bar.inc(rows.len() as u64)?;
                 Ok((evaluated::batch(&rows)?, suspect))
             },
@@ -55,21 +54,24 @@ impl EvaluatedTable {
             },
         )?;
         bar.finish();
-        suspect.warn(&self.fits, console);
+        suspect.warn(&self.answering, console);
         writer.finish()?;
-        Ok(format!("{total} rows"))
+        Ok(match &self.answering {
+            Answering::Fits(_) => format!("{total} rows"),
+            universal @ Answering::Universal(_) => format!("{total} rows by the {}", universal.words()),
+        })
     }
 
     fn row(&self, intensity: &Intensity) -> EvaluatedRow {
-        let (model, measures) = (&self.fits.model, &intensity.measures);
-        let probabilities = self.fits.probabilities(measures);
+        let measures = &intensity.measures;
+        let probabilities = self.answering.probabilities(&intensity.structure, measures);
         EvaluatedRow {
             p_rad_s: intensity.structure.p_rad_s,
             alpha_rad: intensity.structure.alpha_rad,
             pga_m_s2: intensity.pga_m_s2,
             pgv_m_s: intensity.pgv_m_s,
             probabilities,
-            out_of_range: model.out_of_range(measures).next().map(|out| out.measure),
+            out_of_range: self.answering.model().out_of_range(measures).first().map(|out| out.measure),
         }
     }
 }
@@ -78,21 +80,21 @@ impl EvaluatedTable {
 #[derive(Default)]
 struct Suspect {
     out_of_range: usize,
-    other_eta: usize,
+    other_structure: usize,
     other_block: usize,
     without_measure: usize,
     doubtful: usize,
 }
 
 impl Suspect {
-    fn among(rows: &[EvaluatedRow], intensities: &[Intensity], fits: &ChosenFits) -> Suspect {
+    fn among(rows: &[EvaluatedRow], intensities: &[Intensity], answering: &Answering) -> Suspect {
         let has_no_measure =
             |row: &&EvaluatedRow| row.probabilities.p_nr == 0.0 && row.probabilities.given_rocking.is_none();
-        let has_other_eta = |intensity: &&Intensity| fits.is_other_eta(intensity.structure.eta);
+        let is_other = |intensity: &&Intensity| answering.is_other_structure(&intensity.structure);
         Suspect {
             out_of_range: rows.iter().filter(|row| row.out_of_range.is_some()).count(),
-            other_eta: intensities.iter().filter(has_other_eta).count(),
-            other_block: intensities.iter().filter(|one| fits.is_other_block(&one.structure)).count(),
+            other_structure: intensities.iter().filter(is_other).count(),
+            other_block: intensities.iter().filter(|one| answering.is_other_block(&one.structure)).count(),
             doubtful: rows.iter().filter(|row| are_doubtful(row.pga_m_s2, row.pgv_m_s)).count(),
             without_measure: rows.iter().filter(has_no_measure).count(),
         }
@@ -100,17 +102,20 @@ impl Suspect {
 
     fn add(&mut self, more: &Suspect) {
         self.out_of_range += more.out_of_range;
-        self.other_eta += more.other_eta;
+        self.other_structure += more.other_structure;
         self.other_block += more.other_block;
         self.without_measure += more.without_measure;
         self.doubtful += more.doubtful;
     }
 
-    fn warn(&self, fits: &ChosenFits, console: &Console) {
-        let eta = format!("another eta than the fits ({}): they depend on it", fits.model.eta);
+    fn warn(&self, answering: &Answering, console: &Console) {
+        let other = match answering.eta() {
+            Some(eta) => format!("another eta than the fits ({eta}): they depend on it"),
+            None => "a structure outside of those of the surface: extrapolated".to_string(),
+        };
         for (rows, reason) in [
             (self.out_of_range, "a measure outside of the data (column out_of_range): extrapolated"),
-            (self.other_eta, &eta),
+            (self.other_structure, &other),
             (
                 self.other_block,
                 "another p or alpha than the fits: curves taken to other structures often fail",

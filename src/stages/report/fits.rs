@@ -62,7 +62,8 @@ pub fn models(pex: &Path, pro: &Path, groups: &[Group]) -> Vec<Model> {
     let forms = std::iter::once(None).chain(Measure::SCALAR.map(Some));
     let models = forms.flat_map(|measure| {
         let model = Word(if measure.is_some() { ModelForm::Univariate } else { ModelForm::Bivariate });
-        let options = FitsOptions { suite: None, structure: None, model, measure: measure.map(Word) };
+        let options =
+            FitsOptions { suite: None, structure: None, model: Some(model), measure: measure.map(Word) };
         let files = FitFiles { pex: pex.into(), pro: pro.into(), options };
         let form = measure.map_or(ModelForm::Bivariate.as_str(), Keyword::as_str).to_string();
         let chosen = files.choose_each().unwrap_or_default().into_iter().flatten();

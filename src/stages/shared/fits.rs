@@ -32,27 +32,30 @@ pub const FIT_INPUTS: [Input; 2] = [
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Fits")]
 pub struct FitsOptions {
-    /// Suite of the fits [default: the only one; of validate, all]
+    /// Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm]
     #[arg(long)]
     pub suite: Option<String>,
     /// Structure of the fits [default: the only one; of validate, all]
     #[arg(long)]
     pub structure: Option<String>,
-    /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate
-    #[arg(long, default_value = "bivariate")]
-    pub model: Word<ModelForm>,
+    /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv), univariate, or in evaluate universal (the surface
+    /// for all structures, without fits) [default: bivariate; in evaluate universal where there are no fits]
+    #[arg(long)]
+    pub model: Option<Word<ModelForm>>,
     /// Measure of the univariate model, im1 to im6 [default: im5]
     #[arg(long, value_name = "IM")]
     pub measure: Option<Word<Measure>>,
 }
 
-/// How many measures the curves have.
+/// Which curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModelForm {
-    /// One.
+    /// Of one measure.
     Univariate,
-    /// Two.
+    /// Of two.
     Bivariate,
+    /// None of one's own: the surface that is shipped.
+    Universal,
 }
 
 /// The files of fit-pex and fit-pro, and which of their fits are asked for.
@@ -63,7 +66,7 @@ pub struct FitFiles {
     pub options: FitsOptions,
 }
 
-keywords!(ModelForm { Univariate = "univariate", Bivariate = "bivariate" });
+keywords!(ModelForm { Univariate = "univariate", Bivariate = "bivariate", Universal = "universal" });
 
 impl Default for FitsOptions {
     fn default() -> Self {
@@ -79,7 +82,12 @@ impl FitFiles {
     /// # Errors
     /// If there are no such files.
     pub fn new(options: &FitsOptions, files: &Files) -> anyhow::Result<FitFiles> {
-        Ok(FitFiles { pex: files.input("pex")?, pro: files.input("pro")?, options: options.clone() })
+        let model = options.model.or(Some(Word(ModelForm::Bivariate)));
+        if model == Some(Word(ModelForm::Universal)) {
+            return Err(UsageError::because("model universal has no fits; only evaluate takes it"));
+        }
+        let options = FitsOptions { model, ..options.clone() };
+        Ok(FitFiles { pex: files.input("pex")?, pro: files.input("pro")?, options })
     }
 
     /// Reads the files and chooses.
@@ -133,7 +141,9 @@ impl FitFiles {
     fn join(&self, files: &FitRows, group: &GroupKey) -> anyhow::Result<ChosenFits> {
         let regressions: Vec<&PexRow> =
             files.regressions.iter().filter(|row| row.group() == *group).collect();
-        let (demand, pair) = match (self.options.model.0, self.options.measure) {
+        let model = self.options.model.map_or(ModelForm::Bivariate, |word| word.0);
+        let (demand, pair) = match (model, self.options.measure) {
+            (ModelForm::Universal, _) => unreachable!("the surface has no fits to join"),
             (ModelForm::Bivariate, Some(measure)) => {
                 return Err(UsageError::because(format!("measure {measure} needs --model univariate")));
             }

@@ -1,0 +1,227 @@
+//! The fragility of any rocking structure, from one surface that is shipped: `docs/universal.md` tells what it was made from
+//! and how well it does, `scripts/universal/surface.py` is the same in Python.
+
+use std::sync::LazyLock;
+
+use super::case::Measure;
+use super::model::{GivenRocking, Probabilities};
+use super::predictor::OutOfRange;
+use super::probability::{Probability, Z_95, p_failure_given_rocking, p_no_rocking};
+use crate::motion::{IntensityMeasures, Suite};
+use crate::rocking::Structure;
+
+/// The surface as it is shipped: knots, domain and coefficients.
+pub const SURFACE: &str = include_str!("../../data/universal.csv");
+
+static PARSED: LazyLock<Surface> = LazyLock::new(|| Surface::parse(SURFACE));
+
+/// Functions of one coordinate: 1, itself, and the cubic splines of five knots.
+const FUNCTIONS: usize = 5;
+const COORDINATES: usize = 8;
+type Functions = [[f64; FUNCTIONS]; COORDINATES];
+
+/// The surface at a limit state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UniversalModel {
+    /// The demand |theta|max / alpha that P_ex is about.
+    pub limit: f64,
+    /// The kind of motion, one of [`Suite::SYNTHETIC`]; all others count as combined ones.
+    pub motions: Suite,
+}
+
+/// A parameter of a structure that no structure of the surface had.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherStructure {
+    pub parameter: &'static str,
+    pub value: f64,
+    /// Least and largest value among the structures of the surface.
+    pub range: [f64; 2],
+}
+
+/// The logit of a probability.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LogitIndex {
+    pub value: f64,
+    /// What it would be less this, from resampled structures and cells.
+    deviations: Vec<f64>,
+    /// Standard deviation between structures and scenarios of what the surface does not know.
+    spread: f64,
+}
+
+impl LogitIndex {
+    /// Its standard error: of the surface, and of the structure and scenario about it.
+    pub fn standard_error(&self) -> f64 {
+        let squares: f64 = self.deviations.iter().map(|deviation| deviation * deviation).sum();
+        (squares / self.deviations.len() as f64 + self.spread * self.spread).sqrt()
+    }
+
+    fn probability(&self) -> Probability {
+        let half_width = Z_95 * self.standard_error();
+        let [value, low, high] = [self.value, self.value - half_width, self.value + half_width].map(logistic);
+        Probability { value, low, high }
+    }
+}
+
+impl UniversalModel {
+    /// The probabilities of a structure at an intensity.
+    pub fn probabilities(&self, structure: &Structure, measures: &IntensityMeasures) -> Probabilities {
+        let p_nr = p_no_rocking(measures.im4);
+        let given_rocking = if p_nr == 0.0 { self.given_rocking(structure, measures) } else { None };
+        Probabilities { p_nr, given_rocking }
+    }
+
+    /// The logits of overturning and of exceeding the limit, given rocking; none where the ground has no velocity.
+    pub fn indices(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<[LogitIndex; 2]> {
+        let functions = PARSED.functions(self, structure, measures)?;
+        Some(PARSED.curves.each_ref().map(|curve| curve.at(&functions)))
+    }
+
+    fn given_rocking(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<GivenRocking> {
+        let [overturning, exceeding] = self.indices(structure, measures)?;
+        let (p_ro, p_ex) = (overturning.probability(), exceeding.probability());
+        let failure = |of: fn(&Probability) -> f64| p_failure_given_rocking(of(&p_ro), of(&p_ex));
+        // What the surface does not know of a structure is taken to move both the same way.
+        let p_failure =
+            Probability { value: failure(|p| p.value), low: failure(|p| p.low), high: failure(|p| p.high) };
+        Some(GivenRocking { p_ex, p_ro, p_failure })
+    }
+
+    /// The measures that lie outside of the motions of the surface; none without rocking.
+    pub fn out_of_range(&self, measures: &IntensityMeasures) -> impl Iterator<Item = OutOfRange> {
+        let rocks = p_no_rocking(measures.im4) == 0.0;
+        let known = [("im4", Measure::Im4), ("im3", Measure::Im3), ("im5", Measure::Im5)];
+        known.into_iter().filter_map(move |(name, measure)| {
+            let (value, range) = (measure.among(measures)?, PARSED.range(name));
+            (rocks && is_outside(value, range)).then_some(OutOfRange { measure, value, range })
+        })
+    }
+}
+
+/// The parameters of a structure that lie outside of those of the surface.
+pub fn other_structure(structure: &Structure) -> impl Iterator<Item = OtherStructure> {
+    let parameters = [("p", structure.p_rad_s), ("alpha", structure.alpha_rad), ("eta", structure.eta)];
+    parameters.into_iter().filter_map(|(parameter, value)| {
+        let range = PARSED.range(parameter);
+        is_outside(value, range).then_some(OtherStructure { parameter, value, range })
+    })
+}
+
+/// The least and largest limit state that the surface knows, as |theta|max / alpha.
+pub fn limits() -> [f64; 2] {
+    PARSED.range("limit")
+}
+
+fn is_outside(value: f64, [least, largest]: [f64; 2]) -> bool {
+    value < least || value > largest
+}
+
+fn logistic(index: f64) -> f64 {
+    1.0 / (1.0 + (-index).exp())
+}
+
+/// The file, read.
+struct Surface {
+    knots: [Vec<f64>; COORDINATES],
+    domain: Vec<(&'static str, [f64; 2])>,
+    /// Of overturning and of exceeding.
+    curves: [Curve; 2],
+}
+
+#[derive(Default)]
+struct Curve {
+    spread: f64,
+    terms: Vec<Term>,
+}
+
+/// A product of one function of each coordinate.
+struct Term {
+    functions: [usize; COORDINATES],
+    coefficient: f64,
+    deviations: Vec<f64>,
+}
+
+impl Surface {
+    /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which tests find.
+    fn parse(text: &'static str) -> Surface {
+        let mut surface =
+            Surface { knots: Default::default(), domain: Vec::new(), curves: Default::default() };
+        let mut coordinate = 0;
+        for line in text.lines().filter(|line| !line.starts_with('#')) {
+            let cells: Vec<&str> = line.split(',').collect();
+            let numbers: Vec<f64> = cells[2..].iter().map(|cell| cell.parse().expect(line)).collect();
+            let curve = &mut surface.curves[usize::from(cells[1] == "pex")];
+            match cells[0] {
+                "domain" => surface.domain.push((cells[1], [numbers[0], numbers[1]])),
+                "knots" => {
+                    surface.knots[coordinate] = numbers;
+                    coordinate += 1;
+                }
+                "spread" => curve.spread = numbers[0],
+                _ => curve.terms.push(Term {
+                    functions: std::array::from_fn(|k| numbers[k] as usize),
+                    coefficient: numbers[COORDINATES],
+                    deviations: numbers[COORDINATES + 1..].to_vec(),
+                }),
+            }
+        }
+        surface
+    }
+
+    fn range(&self, name: &str) -> [f64; 2] {
+        let known = self.domain.iter().find(|(other, _)| *other == name);
+        known.map_or([f64::NEG_INFINITY, f64::INFINITY], |(_, range)| *range)
+    }
+
+    fn functions(
+        &self,
+        model: &UniversalModel,
+        structure: &Structure,
+        measures: &IntensityMeasures,
+    ) -> Option<Functions> {
+        let is = |suite: Suite| f64::from(u8::from(model.motions == suite));
+        let coordinates = [
+            (measures.im4.ln() + 0.05).ln(),
+            Measure::Im3.among(measures)?.ln(),
+            (structure.eta - 0.85) / 0.1,
+            (structure.alpha_rad / 0.15).ln(),
+            (structure.p_rad_s / 2.0).ln(),
+            (model.limit / 0.2).ln(),
+            is(Suite::Pulse),
+            is(Suite::Hfc),
+        ];
+        Some(std::array::from_fn(|k| splines(coordinates[k], &self.knots[k])))
+    }
+}
+
+impl Curve {
+    fn at(&self, functions: &Functions) -> LogitIndex {
+        let replicates = self.terms.first().map_or(0, |term| term.deviations.len());
+        let mut index = LogitIndex { value: 0.0, deviations: vec![0.0; replicates], spread: self.spread };
+        for term in &self.terms {
+            let product: f64 = term.functions.iter().zip(functions).map(|(&k, of)| of[k]).product();
+            if product == 0.0 {
+                continue;
+            }
+            index.value += term.coefficient * product;
+            let pairs = index.deviations.iter_mut().zip(&term.deviations);
+            pairs.for_each(|(sum, deviation)| *sum += deviation * product);
+        }
+        index
+    }
+}
+
+/// 1, the coordinate, and restricted cubic splines: cubic between the knots, linear outside of them (Harrell, Regression modeling
+/// strategies, section 2.4.5).
+fn splines(u: f64, knots: &[f64]) -> [f64; FUNCTIONS] {
+    let mut functions = [0.0; FUNCTIONS];
+    (functions[0], functions[1]) = (1.0, u);
+    if let [first, .., before, last] = *knots {
+        let cube = |knot: f64| (u - knot).max(0.0).powi(3);
+        let width = (last - first) * (last - first);
+        for (function, &knot) in functions[2..].iter_mut().zip(&knots[..knots.len() - 2]) {
+            let (a, b) = ((last - knot) / (last - before), (before - knot) / (last - before));
+            *function = (cube(knot) - a * cube(before) + b * cube(last)) / width;
+        }
+    }
+    functions
+}

@@ -1,0 +1,129 @@
+//! evaluate without fits: the surface that is shipped answers, and says so.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::Float64Type;
+use arrow_array::{ArrayRef, Float64Array};
+
+use crate::clusters::rows as rows_of;
+use crate::common::{fail, rockfrag, succeed, write};
+use crate::evaluate::fitted;
+
+const BLOCK: &str = "evaluate --width 0.5 --height 2.0";
+
+fn json(folder: &Path, arguments: &str) -> serde_json::Value {
+    let arguments = format!("{arguments} --format json");
+    let output = rockfrag(folder).args(arguments.split_whitespace()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn value(answer: &serde_json::Value, quantity: &str, column: &str) -> f64 {
+    let row = answer.as_array().unwrap().iter().find(|row| row["quantity"] == quantity).unwrap();
+    row[column].as_f64().unwrap()
+}
+
+fn words(folder: &Path, arguments: &str) -> String {
+    let output = rockfrag(folder).args(arguments.split_whitespace()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn one_command_and_no_file_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = words(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"));
+    assert!(said.starts_with("universal fragility surface, of motions csgm"), "{said}");
+    let answer = json(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"));
+    let [p, low, high] = ["value", "low", "high"].map(|column| value(&answer, "p_f", column));
+    assert!(0.0 < low && low < p && p < high && high < 1.0, "{answer}");
+    assert_eq!(answer.as_array().unwrap().last().unwrap()["quantity"], "model");
+    // More is exceeded of a smaller limit, and overturning does not know it.
+    let smaller = json(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6 --limit-state 0.03"));
+    assert!(value(&smaller, "p_ex", "value") > value(&answer, "p_ex", "value"));
+    assert_eq!(value(&smaller, "p_ro", "value"), value(&answer, "p_ro", "value"));
+    assert!(std::fs::read_dir(folder.path()).unwrap().next().is_none());
+}
+
+#[test]
+fn fits_answer_where_they_are_or_are_asked_for() {
+    let (folder, fits) = fitted();
+    let structure = "--p 2.5 --alpha 0.2 --eta 0.92 --pga 0.5 --pgv 0.6";
+    assert!(words(folder.path(), &format!("evaluate {fits} {structure}")).starts_with("fits of"));
+    let universal = words(folder.path(), &format!("evaluate {fits} --model universal {structure}"));
+    assert!(universal.starts_with("universal fragility surface"), "{universal}");
+    for asked in ["--model bivariate", "--measure im5", "--structure frame"] {
+        fail(
+            folder.path(),
+            &format!("evaluate {asked} {structure}"),
+            2,
+            &["no pex.parquet here", "universal"],
+        );
+    }
+    fail(
+        folder.path(),
+        &format!("evaluate {fits} {structure} --limit-state 0.1"),
+        2,
+        &["fit-pex --limit-state"],
+    );
+    fail(folder.path(), &format!("validate {fits} --model universal"), 2, &["only evaluate takes it"]);
+}
+
+#[test]
+fn what_the_surface_does_not_know_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let motion = "--pga 0.5 --pgv 0.6";
+    fail(folder.path(), &format!("evaluate --p 2.5 --alpha 0.2 {motion}"), 2, &["expected p, alpha and eta"]);
+    fail(folder.path(), &format!("{BLOCK} {motion} --limit-state 0.9"), 2, &["from 0.02 to 0.5"]);
+    fail(folder.path(), &format!("{BLOCK} {motion} --suite record"), 2, &["pulse, csgm or hfc"]);
+    fail(folder.path(), &format!("{BLOCK} {motion} --limits bc"), 2, &["universal surface has its own"]);
+    assert_eq!(succeed(folder.path(), &format!("{BLOCK} {motion}")), "");
+    let small = succeed(folder.path(), &format!("evaluate --p 20 --alpha 0.2 --eta 0.9 {motion}"));
+    assert!(small.contains("p is 20.0000, outside of 0.4 to 8"), "{small}");
+    let strong = succeed(folder.path(), &format!("{BLOCK} --pga 50 --pgv 30"));
+    assert!(strong.contains("im4 is") && strong.contains("extrapolated"), "{strong}");
+}
+
+#[test]
+fn a_table_is_answered_row_by_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let column = |values: &[f64]| Arc::new(Float64Array::from(values.to_vec())) as ArrayRef;
+    let rows = [(2.5, 0.2, 0.92, 0.5, 0.6), (1.0, 0.15, 0.9, 0.3, 0.9)];
+    let of = |k: fn(&(f64, f64, f64, f64, f64)) -> f64| column(&rows.iter().map(k).collect::<Vec<_>>());
+    write(
+        &folder.path().join("t.parquet"),
+        vec![
+            ("p_rad_s", of(|row| row.0)),
+            ("alpha_rad", of(|row| row.1)),
+            ("eta", of(|row| row.2)),
+            ("pga_m_s2", of(|row| row.3 * 9.81)),
+            ("pgv_m_s", of(|row| row.4)),
+        ],
+    );
+    let said = succeed(folder.path(), "evaluate --in t.parquet --out e.parquet");
+    assert!(said.contains("2 rows by the universal fragility surface"), "{said}");
+    let table = rows_of(&folder.path().join("e.parquet"));
+    let p_ro = table.column_by_name("p_ro").unwrap().as_primitive::<Float64Type>().clone();
+    for (row, (p, alpha, eta, pga, pgv)) in rows.into_iter().enumerate() {
+        let asked = format!("evaluate --p {p} --alpha {alpha} --eta {eta} --pga {pga} --pgv {pgv}");
+        let answer = json(folder.path(), &asked);
+        assert!((value(&answer, "p_ro", "value") - p_ro.value(row)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_hazard_gives_rates() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/data");
+    for hazard in [format!("{data}/hazard.csv --ratio 0.25"), format!("{data}/hazard_joint.csv")] {
+        let answer =
+            json(folder.path(), &format!("evaluate --p 2.5 --alpha 0.2 --eta 0.92 --hazard {hazard}"));
+        let rates: Vec<f64> = (0..3).map(|k| answer[k]["annual_rate"].as_f64().unwrap()).collect();
+        assert!(rates[0] > rates[1] && rates[1] > rates[2] && rates[2] > 0.0, "{rates:?}");
+        let [low, high] =
+            ["annual_rate_low", "annual_rate_high"].map(|limit| answer[2][limit].as_f64().unwrap());
+        assert!(low < rates[2] && rates[2] < high);
+    }
+}
