@@ -133,15 +133,15 @@ fn files_that_are_missing_damaged_or_of_another_stage_are_named() {
         folder.path(),
         "simulate --in bad.parquet --p 2.5 --alpha 0.2 --eta 0.92",
         1,
-        &["bad.parquet", "not a readable Parquet file"],
+        &["bad.parquet", "not a Parquet file"],
     );
     std::fs::write(folder.path().join("none.parquet"), b"").unwrap();
-    fail(folder.path(), "inspect none.parquet", 1, &["none.parquet", "not a readable Parquet file"]);
+    fail(folder.path(), "inspect none.parquet", 1, &["none.parquet", "not a Parquet file"]);
     fail(
         folder.path(),
         "simulate --in . --p 2.5 --alpha 0.2 --eta 0.92",
         1,
-        &["bad.parquet", "not a readable Parquet file"],
+        &["bad.parquet", "not a Parquet file"],
     );
     succeed(folder.path(), "run");
     fail(

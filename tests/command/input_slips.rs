@@ -108,7 +108,7 @@ const CALLS: [(&str, i32, &[&str]); 60] = [
     (
         "simulate --in table.csv --structures paper",
         1,
-        &["table.csv: not a readable Parquet file", "import-motions"],
+        &["table.csv: not a Parquet file", "import-motions"],
     ),
     ("fit-pro --in table.csv", 1, &["the responses that simulate makes"]),
     ("fit-pex --in RUN/motions.parquet", 1, &["made by synthesize-motions", "output of simulate"]),
