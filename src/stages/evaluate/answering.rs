@@ -12,7 +12,7 @@ use crate::stages::shared::chosen_fits::ChosenFits;
 
 /// What answers.
 pub enum Answering {
-    Fits(ChosenFits),
+    Fits(Box<ChosenFits>),
     Universal(UniversalModel),
 }
 

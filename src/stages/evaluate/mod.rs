@@ -176,7 +176,7 @@ impl Evaluate {
                     "limit-state is of the universal surface; that of fits is chosen by fit-pex --limit-state",
                 ));
             }
-            return Ok(Answering::Fits(limits.choose(fits)?));
+            return Ok(Answering::Fits(Box::new(limits.choose(fits)?)));
         }
         if limits != LimitsBy::Delta {
             return Err(UsageError::because(
