@@ -173,7 +173,7 @@ def main():
         s, c, u = (independent[k].astype(np.int64) for k in ("structure", "cell", "suite"))
         units = {"structure, suite": 10 * s + u, "cell, suite": 10 * c + u, "structure, cell, suite": 1000 * s + 10 * c + u}
         for name, unit in units.items():
-            for spread in (0.0, 0.5, fit.SPREADS[limit is not None]):
+            for spread in (0.0, *fit.SPREADS[limit is not None]):
                 said[f"coverage {name}, spread {spread}"] = coverage(eta, happened, unit, spread)
         result[NAMES[limit]] = said
         print(NAMES[limit], json.dumps(said, indent=1), flush=True)

@@ -11,7 +11,8 @@ HEAD = """\
 # A probability is 1/(1 + exp(-index)); the index is a sum of coefficients, each times a product of one function of each coordinate.
 # Coordinates: ln(ln IM4 + 0.05), ln IM3, (eta - 0.85)/0.1, ln(alpha/0.15), ln(p/2), ln(limit/0.2), 1 for pulses alone, 1 for high
 # frequencies alone. Functions: 0 is 1, 1 the coordinate itself, from 2 on restricted cubic splines over its knots.
-# domain: name, least, largest. knots: coordinate, knots. spread: curve, standard deviation between structures and scenarios.
+# domain: name, least, largest. knots: coordinate, knots. spread: curve, standard deviation between
+# structures at one magnitude and distance, and over many.
 # term: curve, function of each coordinate, coefficient, its deviations in {replicates} fits to resampled structures and cells.
 """
 
@@ -30,8 +31,8 @@ def surface_file(path, curves, deviations, cases, spreads):
             file.write(f"domain,{name},{bounds[0]},{bounds[1]}\n")
         for name, knots in zip(surface.COORDINATES, curves[0].knots):
             file.write(",".join(["knots", name, *map(str, knots)]) + "\n")
-        for event, tau in zip(("pro", "pex"), spreads):
-            file.write(f"spread,{event},{tau}\n")
+        for event, (one, many) in zip(("pro", "pex"), spreads):
+            file.write(f"spread,{event},{one},{many}\n")
         for k, (event, curve) in enumerate(zip(("pro", "pex"), curves)):
             for i, (term, b) in enumerate(zip(curve.terms, curve.coefficients)):
                 each = [f"{pair[k][i]:.4g}" for pair in deviations]

@@ -27,6 +27,17 @@ pub struct UniversalModel {
     pub limit: f64,
     /// The kind of motion, one of [`Suite::SYNTHETIC`]; all others count as combined ones.
     pub motions: Suite,
+    /// What the limits are about.
+    pub scenarios: Scenarios,
+}
+
+/// Over which magnitudes and distances a probability is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scenarios {
+    /// A single pair of them.
+    One,
+    /// Many, among which their differences average out, as over a hazard.
+    Many,
 }
 
 /// A parameter of a structure that no structure of the surface had.
@@ -44,7 +55,7 @@ pub struct LogitIndex {
     pub value: f64,
     /// What it would be less this, from resampled structures and cells.
     deviations: Vec<f64>,
-    /// Standard deviation between structures and scenarios of what the surface does not know.
+    /// Standard deviation of what the surface does not know of structures and scenarios.
     spread: f64,
 }
 
@@ -73,7 +84,7 @@ impl UniversalModel {
     /// The logits of overturning and of exceeding the limit, given rocking; none where the ground has no velocity.
     pub fn indices(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<[LogitIndex; 2]> {
         let functions = PARSED.functions(self, structure, measures)?;
-        Some(PARSED.curves.each_ref().map(|curve| curve.at(&functions)))
+        Some(PARSED.curves.each_ref().map(|curve| curve.at(&functions, self.scenarios)))
     }
 
     fn given_rocking(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<GivenRocking> {
@@ -129,7 +140,8 @@ struct Surface {
 
 #[derive(Default)]
 struct Curve {
-    spread: f64,
+    /// For one scenario, and for many.
+    spread: [f64; 2],
     terms: Vec<Term>,
 }
 
@@ -156,7 +168,7 @@ impl Surface {
                     surface.knots[coordinate] = numbers;
                     coordinate += 1;
                 }
-                "spread" => curve.spread = numbers[0],
+                "spread" => curve.spread = [numbers[0], numbers[1]],
                 _ => curve.terms.push(Term {
                     functions: std::array::from_fn(|k| numbers[k] as usize),
                     coefficient: numbers[COORDINATES],
@@ -194,9 +206,10 @@ impl Surface {
 }
 
 impl Curve {
-    fn at(&self, functions: &Functions) -> LogitIndex {
+    fn at(&self, functions: &Functions, scenarios: Scenarios) -> LogitIndex {
         let replicates = self.terms.first().map_or(0, |term| term.deviations.len());
-        let mut index = LogitIndex { value: 0.0, deviations: vec![0.0; replicates], spread: self.spread };
+        let spread = self.spread[scenarios as usize];
+        let mut index = LogitIndex { value: 0.0, deviations: vec![0.0; replicates], spread };
         for term in &self.terms {
             let product: f64 = term.functions.iter().zip(functions).map(|(&k, of)| of[k]).product();
             if product == 0.0 {

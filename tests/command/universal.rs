@@ -59,7 +59,7 @@ fn fits_answer_where_they_are_or_are_asked_for() {
             folder.path(),
             &format!("evaluate {asked} {structure}"),
             2,
-            &["no pex.parquet here", "universal"],
+            &["no pex.parquet and pro.parquet here", "universal"],
         );
     }
     fail(

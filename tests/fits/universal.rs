@@ -1,6 +1,7 @@
 //! The surface that is shipped, against what Python reads from the same file (scripts/universal/write.py).
 
-use rockfrag::fragility::{Measure, Probability, UniversalModel, p_failure_given_rocking, universal};
+use rockfrag::fragility::universal::{self, Scenarios};
+use rockfrag::fragility::{Measure, Probability, UniversalModel, p_failure_given_rocking};
 use rockfrag::motion::{IntensityMeasures, Suite};
 use rockfrag::rocking::Structure;
 
@@ -12,7 +13,7 @@ fn measures(structure: &Structure, pga_m_s2: f64, pgv_m_s: f64) -> IntensityMeas
     IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None)
 }
 
-const MODEL: UniversalModel = UniversalModel { limit: 0.1, motions: Suite::Csgm };
+const MODEL: UniversalModel = UniversalModel { limit: 0.1, motions: Suite::Csgm, scenarios: Scenarios::One };
 
 #[test]
 fn indices_are_those_of_python() {
@@ -23,7 +24,7 @@ fn indices_are_those_of_python() {
     assert_eq!(rows.len(), 200);
     for row in rows {
         let [p, alpha, eta, limit, kind, pga, pgv, ro, se_ro, ex, se_ex] = row[..] else { panic!("{row:?}") };
-        let model = UniversalModel { limit, motions: Suite::SYNTHETIC[kind as usize] };
+        let model = UniversalModel { limit, motions: Suite::SYNTHETIC[kind as usize], ..MODEL };
         let structure = structure(p, alpha, eta);
         let [overturning, exceeding] = model.indices(&structure, &measures(&structure, pga, pgv)).unwrap();
         for (ours, theirs) in [
@@ -47,6 +48,20 @@ fn the_branches_are_joined_by_the_tree() {
         for Probability { value, low, high } in [given.p_ro, given.p_ex, given.p_failure] {
             assert!(0.0 <= low && low <= value && value <= high && high <= 1.0, "{value} {low} {high}");
         }
+    }
+}
+
+#[test]
+fn over_many_scenarios_less_is_unknown() {
+    let block = Structure::rectangular_block("block", 0.5, 2.0, None).unwrap();
+    let of = |scenarios| {
+        let model = UniversalModel { scenarios, ..MODEL };
+        model.probabilities(&block, &measures(&block, 5.0, 0.6)).given_rocking.unwrap()
+    };
+    let (one, many) = (of(Scenarios::One), of(Scenarios::Many));
+    for (one, many) in [(one.p_ro, many.p_ro), (one.p_ex, many.p_ex), (one.p_failure, many.p_failure)] {
+        assert_eq!(one.value, many.value);
+        assert!(one.low < many.low && many.low < many.value && many.high < one.high);
     }
 }
 

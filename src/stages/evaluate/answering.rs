@@ -1,7 +1,7 @@
 //! What answers: fits of one structure, or the surface of all.
 
 use super::answer::{FITS_OF, UNIVERSAL};
-use crate::fragility::universal::other_structure;
+use crate::fragility::universal::{Scenarios, other_structure};
 use crate::fragility::{
     FragilityModel, JointPeaks, LimitState, OutOfRange, Probabilities, ResampledModel, Slice, UniversalModel,
 };
@@ -13,7 +13,7 @@ use crate::stages::shared::chosen_fits::ChosenFits;
 
 /// What answers.
 pub enum Answering {
-    Fits(ChosenFits),
+    Fits(Box<ChosenFits>),
     Universal(UniversalModel),
 }
 
@@ -120,8 +120,12 @@ impl Answering {
     pub fn words_of_limits(&self) -> String {
         match self {
             Answering::Fits(fits) => fits.words_of_limits(),
-            Answering::Universal(_) => {
-                "for one structure and one magnitude and distance that the surface has not seen".to_string()
+            Answering::Universal(UniversalModel { scenarios: Scenarios::One, .. }) => {
+                "for one structure at one magnitude and distance that the surface has not seen".to_string()
+            }
+            Answering::Universal(UniversalModel { scenarios: Scenarios::Many, .. }) => {
+                "for one structure that the surface has not seen, over many magnitudes and distances"
+                    .to_string()
             }
         }
     }

@@ -24,7 +24,8 @@ use super::shared::chosen_fits::ChosenFits;
 use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions, ModelForm};
 use super::shared::resampled_fits;
 use super::shared::structures::StructureSpec;
-use crate::fragility::{ReplicateLimits, ResampledModel, UniversalModel, universal};
+use crate::fragility::universal::{self, Scenarios};
+use crate::fragility::{ReplicateLimits, ResampledModel, UniversalModel};
 use crate::keyword::{self, Keyword};
 use crate::motion::Suite;
 use crate::pipeline::UsageError;
@@ -175,7 +176,7 @@ impl Evaluate {
                     "limit-state is of the universal surface; that of fits is chosen by fit-pex --limit-state",
                 ));
             }
-            return Ok(Answering::Fits(limits.choose(fits)?));
+            return Ok(Answering::Fits(Box::new(limits.choose(fits)?)));
         }
         if limits != LimitsBy::Delta {
             return Err(UsageError::because(
@@ -201,7 +202,11 @@ impl Evaluate {
                     ))
                 })?,
         };
-        Ok(Answering::Universal(UniversalModel { limit, motions }))
+        let scenarios = match self.options.hazard.hazard {
+            Some(_) => Scenarios::Many,
+            None => Scenarios::One,
+        };
+        Ok(Answering::Universal(UniversalModel { limit, motions, scenarios }))
     }
 
     /// The structure; `answering` may know an eta where none is given.
