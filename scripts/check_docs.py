@@ -220,7 +220,7 @@ def main():
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
     parser.add_argument("--update", action="store_true")
     parser.add_argument("--python")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     pages = arguments.pages or [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
     printed = ran = wrong = 0
     with tempfile.TemporaryDirectory() as root:
