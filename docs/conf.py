@@ -13,8 +13,6 @@ myst_heading_anchors = 3
 html_theme = "furo"
 html_title = f"rockfrag {release}"
 exclude_patterns = ["_build"]
-# Pages that other parts of the project may bring.
-suppress_warnings = ["toc.empty_glob"]
 # Copied commands come without the prompt and the output.
 copybutton_prompt_text = "$ "
 copybutton_line_continuation_character = "\\"
