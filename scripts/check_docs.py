@@ -1,4 +1,4 @@
-"""Runs what README.md and docs print, and compares: check_docs.py ROCKFRAG [--update] [--python PYTHON] [PAGE...]
+"""Runs what README.md, CONTRIBUTING.md and docs print, and compares: check_docs.py ROCKFRAG [--update] [--python PYTHON] [PAGE...]
 
 Fenced blocks are read by the words after their language:
 
@@ -221,7 +221,7 @@ def main():
     parser.add_argument("--update", action="store_true")
     parser.add_argument("--python")
     arguments = parser.parse_intermixed_args()
-    pages = arguments.pages or [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    pages = arguments.pages or [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
     printed = ran = wrong = 0
     with tempfile.TemporaryDirectory() as root:
         folders = Folders(pathlib.Path(root), arguments.rockfrag.resolve())
