@@ -89,8 +89,12 @@ def matches(expected, actual):
 
 def elided(expected, actual):
     """The new output with as much left out as before."""
+
+    def kept(part, lines):
+        return [old if matches([old], [new]) else new for old, new in zip(part, lines)] + lines[len(part) :]
+
     if "..." not in expected:
-        return actual
+        return kept(expected, actual)
     parts = [[]]
     for line in expected:
         if line == "...":
@@ -98,14 +102,14 @@ def elided(expected, actual):
         else:
             parts[-1].append(line)
     first, middle, last = parts[0], parts[1:-1], parts[-1]
-    lines, at, end = actual[: len(first)], len(first), len(actual) - len(last)
+    lines, at, end = kept(first, actual[: len(first)]), len(first), len(actual) - len(last)
     for part in middle:
         places = range(at, max(at, end - len(part)) + 1)
         alike = lambda place: difflib.SequenceMatcher(None, "\n".join(part), "\n".join(actual[place : place + len(part)])).ratio()
         at = max(places, key=alike)
-        lines += ["...", *actual[at : at + len(part)]]
+        lines += ["...", *kept(part, actual[at : at + len(part)])]
         at += len(part)
-    return [*lines, "...", *actual[max(end, 0) :]] if last else [*lines, "..."]
+    return [*lines, "...", *kept(last, actual[max(end, 0) :])] if last else [*lines, "..."]
 
 
 class Folders:
