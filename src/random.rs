@@ -12,7 +12,8 @@ pub enum Purpose {
     Sample,
     /// The digital shift of a Sobol sequence; the row is the cell.
     SobolShift,
-    /// The noise of the stochastic motion; the row is the scenario.
+    /// The noise of the stochastic motion; the row is the scenario. Two files of scenarios of one seed share the noise of rows of the
+    /// same number: a grid of one cell has that of the first cell of any other.
     Noise,
     /// The rows of a resample; the row is the replicate.
     Bootstrap,

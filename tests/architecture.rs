@@ -69,17 +69,48 @@ fn no_folder_is_crowded() {
     assert!(crowded.is_empty(), "{}", crowded.join("\n"));
 }
 
+/// The pages that tell where in the tree things are.
+const PAGES: [&str; 2] = ["docs/architecture.md", "docs/paper.md"];
+
 #[test]
-fn what_the_page_on_architecture_names_is_there() {
+fn what_the_pages_name_is_there() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let page = std::fs::read_to_string(root.join("docs/architecture.md")).unwrap();
-    let named = page.split('`').skip(1).step_by(2).filter(|name| name.contains('/') && !name.contains(' '));
-    let missing: Vec<&str> = named
-        .filter(|name| ![root.to_path_buf(), root.join("src")].iter().any(|base| base.join(name).exists()))
-        .collect();
-    assert!(missing.is_empty(), "docs/architecture.md names what is not there: {missing:?}");
+    for page in PAGES {
+        let text = std::fs::read_to_string(root.join(page)).unwrap();
+        let is_path = |name: &&str| name.contains('/') && !name.contains(' ') && !name.starts_with("out/");
+        let named = text.split('`').skip(1).step_by(2).filter(is_path);
+        let missing: Vec<&str> = named
+            .filter(|name| {
+                ![root.to_path_buf(), root.join("src")].iter().any(|base| base.join(name).exists())
+            })
+            .collect();
+        assert!(missing.is_empty(), "{page} names what is not there: {missing:?}");
+    }
+    let architecture = std::fs::read_to_string(root.join(PAGES[0])).unwrap();
     for room in LAYERS.iter().flat_map(|rooms| rooms.iter()).filter(|room| **room != "allocator") {
-        assert!(page.contains(room), "docs/architecture.md does not name src/{room}");
+        assert!(architecture.contains(room), "{} does not name src/{room}", PAGES[0]);
+    }
+}
+
+/// The names of figures and of quantities of the comparison that docs/paper.md promises, as the source has them.
+#[test]
+fn what_the_page_on_the_paper_promises_is_made() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = std::fs::read_to_string(root.join("docs/paper.md")).unwrap();
+    let figures: String = files()
+        .iter()
+        .filter(|file| file.starts_with("report/figures"))
+        .map(|file| std::fs::read_to_string(root.join("src").join(file)).unwrap())
+        .collect();
+    let of_figures = page.split("## Figures").nth(1).unwrap().split("## Tables").next().unwrap();
+    let names = of_figures.split('`').skip(1).step_by(2);
+    let missing: Vec<&str> =
+        names.filter(|name| !figures.contains(&format!("\"{}", name.trim_end_matches('*')))).collect();
+    assert!(missing.is_empty(), "docs/paper.md names figures that nothing draws: {missing:?}");
+    let published = std::fs::read_to_string(root.join("data/paper.csv")).unwrap();
+    for quantity in published.lines().skip(1).map(|line| line.split(',').next().unwrap()) {
+        let kind = quantity.starts_with("low_") || quantity.starts_with("high_");
+        assert!(kind || page.contains(&format!("`{quantity}`")), "docs/paper.md does not tell of {quantity}");
     }
 }
 

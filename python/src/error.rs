@@ -20,6 +20,7 @@ fn class_of(error: &anyhow::Error) -> &'static str {
         Some(
             TableError::Io { .. }
             | TableError::NotParquet { .. }
+            | TableError::NoParquet { .. }
             | TableError::Codec { .. }
             | TableError::Write { .. },
         ) => "FileError",

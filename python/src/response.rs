@@ -6,7 +6,7 @@ use pyo3::types::PyDict;
 use rockfrag::keyword::Keyword;
 use rockfrag::pipeline::UsageError;
 use rockfrag::pipeline::options::check;
-use rockfrag::rocking::{Record, RecordError, TracePoint, simulate, trace, with_tail};
+use rockfrag::rocking::{Outcome, Record, RecordError, TracePoint, simulate, trace, with_tail};
 use rockfrag::stages::shared::structures::StructureSpec;
 
 use crate::error::to_python;
@@ -43,7 +43,8 @@ pub fn response<'py>(
     let events = points.iter().filter_map(|point| Some((point.time_s, point.solver_event?.as_str())));
     result.set_item("events", events.collect::<Vec<_>>())?;
     result.set_item("outcome", response.outcome.as_str())?;
-    result.set_item("edp", response.edp)?;
+    let demand = (response.outcome != Outcome::Overturning).then_some(response.edp);
+    result.set_item("edp", demand)?;
     result.set_item("impacts", response.impacts)?;
     result.set_item("p_rad_s", structure.p_rad_s)?;
     result.set_item("alpha_rad", structure.alpha_rad)?;

@@ -26,6 +26,9 @@ pub struct Settings {
     /// Whether even what is up to date is run.
     #[pyo3(item)]
     pub force: bool,
+    /// Whether files that something else has made are written over.
+    #[pyo3(item)]
+    pub overwrite: bool,
 }
 
 /// What the stage says, for the thread that waits for it.

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use rockfrag::pipeline::{UsageError, cache};
+use rockfrag::pipeline::UsageError;
+use rockfrag::pipeline::cache::{self, May};
 use rockfrag::stages::registry;
 use rockfrag::table::store::partition::Partition;
 use rockfrag::table::store::provenance::Provenance;
@@ -38,7 +39,8 @@ pub fn call(
     if let Some(out) = out {
         let path = run(py, &settings, |console| {
             let stages = registry::create(stage, options, &inputs, Some((&out).into()))?;
-            stages.iter().try_for_each(|stage| cache::run_alone(stage.as_ref(), settings.force, console))?;
+            let may = May { force: settings.force, overwrite: settings.overwrite };
+            stages.iter().try_for_each(|stage| cache::run_alone(stage.as_ref(), may, console))?;
             let written = if stages.len() == 1 { stages[0].outputs().pop() } else { None };
             Ok(written.unwrap_or(out))
         })?;

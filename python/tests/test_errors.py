@@ -12,14 +12,14 @@ def motions(**columns):
 
 def test_a_missing_file():
     with pytest.raises(FileNotFoundError, match="nowhere.parquet: no such file") as caught:
-        rockfrag.simulate("nowhere.parquet")
+        rockfrag.simulate("nowhere.parquet", structures="paper")
     assert isinstance(caught.value, rockfrag.RockfragError)
 
 
 def test_a_file_that_is_none(tmp_path):
     (tmp_path / "m.parquet").write_text("no parquet")
     with pytest.raises(OSError, match="m.parquet: not a readable Parquet file"):
-        rockfrag.simulate(tmp_path / "m.parquet")
+        rockfrag.simulate(tmp_path / "m.parquet", structures="paper")
 
 
 @pytest.mark.parametrize(
@@ -33,13 +33,13 @@ def test_a_file_that_is_none(tmp_path):
 )
 def test_a_table_that_is_no_table_of_motions(wrong, message):
     with pytest.raises(rockfrag.TableError, match=message) as caught:
-        rockfrag.simulate(motions(**wrong))
+        rockfrag.simulate(motions(**wrong), structures="paper")
     assert isinstance(caught.value, ValueError)
 
 
 def test_a_table_without_rows():
     with pytest.raises(rockfrag.TableError, match="motions: the table is empty"):
-        rockfrag.simulate(motions().clear())
+        rockfrag.simulate(motions().clear(), structures="paper")
 
 
 @pytest.mark.parametrize(
@@ -51,7 +51,7 @@ def test_a_table_without_rows():
         (lambda: rockfrag.sample_scenarios(threads=0), "threads is 0"),
         (lambda: rockfrag.simulate(motions(), alpha=3.0), "alpha"),
         (lambda: rockfrag.simulate(motions(), structures={"q": 1}), "unknown field `q`"),
-        (lambda: rockfrag.simulate(motions(), partition="3/3"), "from 0 to n - 1"),
+        (lambda: rockfrag.simulate(motions(), structures="paper", partition="3/3"), "from 0 to n - 1"),
         (lambda: rockfrag.response([0.0, 1.0], -1.0, {"p": 2, "alpha": 0.2, "eta": 0.9}), "dt_s is -1"),
     ],
 )
@@ -62,15 +62,15 @@ def test_an_option_that_is_out_of_range(call, message):
 
 def test_something_that_is_no_table():
     with pytest.raises(TypeError, match="motions is int; expected a path, or a table"):
-        rockfrag.simulate(3)
+        rockfrag.simulate(3, structures="paper")
 
 
 def test_a_file_of_a_table_in_memory(tmp_path):
     with pytest.raises(rockfrag.TableError, match="motions: a table in memory; write it"):
-        rockfrag.simulate(motions(), out=tmp_path / "r.parquet")
+        rockfrag.simulate(motions(), structures="paper", out=tmp_path / "r.parquet")
 
 
-def test_a_doubtful_fit_is_a_warning():
-    responses = rockfrag.simulate(motions(), p=2.0, alpha=0.02)
-    with pytest.warns(rockfrag.RockfragWarning, match="too_few|too few"):
+def test_a_fit_of_nothing_says_what_is_there_and_what_would_help():
+    responses = rockfrag.simulate(motions(), p=2.0, alpha=0.02, eta=0.92)
+    with pytest.warns(rockfrag.RockfragWarning, match="too_few|too few"), pytest.raises(rockfrag.RockfragError, match="none of 7 curves"):
         rockfrag.fit_pro(responses)

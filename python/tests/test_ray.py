@@ -68,7 +68,7 @@ def test_a_store_of_objects(cluster, out, tmp_path):
         assert rows(tmp_path / "responses").equals(expected(out / "responses.parquet"))
         assert len(list((tmp_path / "responses").iterdir())) == 2
     with pytest.raises(Exception, match="empty"):
-        rockfrag.ray.simulate("empty", "responses", filesystem=store)
+        rockfrag.ray.simulate("empty", "responses", filesystem=store, structures=STRUCTURES)
 
 
 def test_a_lost_node_changes_nothing(cluster, out, tmp_path):

@@ -45,10 +45,10 @@ STAGES = {
     "sample-scenarios": "--samples 2000 --out {o}/scenarios.parquet",
     "synthesize-motions": "--in {i}/scenarios.parquet --out {o}/motions.parquet",
     "import-motions": "{i}/../record.txt --unit g --out {o}/records.parquet",
-    "simulate": "--in {i}/motions.parquet --trace 0,1 --out {o}/one.parquet",
+    "simulate": "--in {i}/motions.parquet --structures paper --trace 0,1 --out {o}/one.parquet",
     "fit-pex": "--in {i}/responses.parquet --bootstrap 100 --out {o}/pex.parquet",
     "fit-pro": "--in {i}/responses.parquet --out {o}/pro.parquet",
-    "ida": "--in {i}/motions.parquet --from 1 --to 2 --steps 4 --halvings 1 --tolerance 0.1 --out {o}/ida.parquet",
+    "ida": "--in {i}/motions.parquet --structures paper --from 1 --to 2 --steps 4 --halvings 1 --tolerance 0.1 --out {o}/ida.parquet",
     "universality": "--in {i}/responses.parquet --out {o}/universality.parquet",
     "rank-ims": "--in {i}/responses.parquet --out {o}/ranking.parquet",
     "compare-paper": "--pex {i}/pex.parquet --pro {i}/pro.parquet --responses {i}/responses.parquet --out {o}/paper.parquet",
@@ -203,17 +203,17 @@ class Attacks:
         motions, out = folder / "motions.parquet", folder / "responses.parquet"
         answers = {}
         for source in (self.files / "motions.parquet", other):
-            call(f"--force simulate --in {source} --out {out}")
+            call(f"--force simulate --structures paper --in {source} --out {out}")
             answers[source] = out.read_bytes()
         right, wrong = answers.values()
         start = time.monotonic()
-        call(f"--force simulate --in {other} --out {out}")
+        call(f"--force simulate --structures paper --in {other} --out {out}")
         duration = time.monotonic() - start
         for attempt in range(TRIES // 2):
             out.unlink(missing_ok=True)
             shutil.copy(self.files / "motions.parquet", motions)
             shutil.copy(other, folder / "next.parquet")
-            child = subprocess.Popen([ROCKFRAG, "--quiet", "--force", "simulate", "--in", motions, "--out", out],
+            child = subprocess.Popen([ROCKFRAG, "--quiet", "--force", "simulate", "--structures", "paper", "--in", motions, "--out", out],
                                      stderr=subprocess.PIPE, text=True)
             time.sleep(random.random() * duration)
             how = ("replaced", "removed", "cut short")[attempt % 3]

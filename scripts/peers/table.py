@@ -23,6 +23,7 @@ HERE = pathlib.Path(__file__).parent
 ROOT = HERE.parent.parent
 ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS")}
 REPLICATES = 2000
+STRUCTURE = ("--p", 2.5, "--alpha", 0.2, "--eta", 0.92)
 
 
 def run(*command, env=None, core=None):
@@ -113,7 +114,7 @@ def compare(folder, rockfrag, repeat):
     run(*synthesize)
     count = 3500
 
-    simulate = (rockfrag, "simulate", "--in", motions, "--out", responses, "--force", "--quiet")
+    simulate = (rockfrag, "simulate", *STRUCTURE, "--in", motions, "--out", responses, "--force", "--quiet")
     read = (sys.executable, HERE / "read_pyarrow.py", motions, "--once")
     whole, reading, first = in_turns(
         repeat, lambda: run(*simulate)[0], lambda: run(*read)[0], lambda: float(run(*read)[2])
@@ -261,7 +262,7 @@ def compare(folder, rockfrag, repeat):
     run(rockfrag, "sample-scenarios", "--out", many, "--samples", 1000)
     run(rockfrag, "synthesize-motions", "--in", many, "--out", ten, "--suite", "csgm")
     small = peak_memory_mb(*simulate)
-    large = peak_memory_mb(rockfrag, "simulate", "--in", ten, "--out", responses, "--force", "--quiet")
+    large = peak_memory_mb(rockfrag, "simulate", *STRUCTURE, "--in", ten, "--out", responses, "--force", "--quiet")
     table.add(
         "simulate, peak memory, 35,000 motions",
         f"{large:.0f} MB",

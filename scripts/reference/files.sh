@@ -26,12 +26,12 @@ call evaluate --pex pex.parquet --pro pro.parquet --structure electrical-equipme
 
 call sample-scenarios --seed 7 --mw 6.5 --re 5 --samples 2 --out scenarios.parquet
 call synthesize-motions --in scenarios.parquet --dt 0.05 --out motions.parquet
-call simulate --in motions.parquet --simd scalar --trace 0 --out traced.parquet
+call simulate --in motions.parquet --p 2.5 --alpha 0.2 --eta 0.92 --simd scalar --trace 0 --out traced.parquet
 awk 'BEGIN { for (k = 0; k < 400; k++) print k * 0.01, 0.5 * sin(k * k / 900) }' > "$work/record.txt"
-call import-motions "$work/record.txt" --unit g --out records.parquet
+call import-motions "$work/record.txt" --unit g --accept-implausible --out records.parquet
 
 # Of the stages that came later, from the files above.
-call ida --in motions.parquet --from 1 --to 3 --steps 4 --halvings 1 --tolerance 0.05 --simd scalar --out ida.parquet
+call ida --in motions.parquet --from 1 --to 3 --steps 4 --halvings 1 --tolerance 0.05 --p 2.5 --alpha 0.2 --eta 0.92 --simd scalar --out ida.parquet
 call rank-ims --in responses.parquet --terms 1 --folds 4 --out ranking.parquet > "$work/ranking.txt"
 call universality --in responses.parquet --out universality.parquet > "$work/universality.txt"
 fits="--pex pex.parquet --pro pro.parquet --structure electrical-equipment --p 2.5 --alpha 0.20"

@@ -1,6 +1,6 @@
 """Measures and pulses of motions by other programs: python records.py tests/reference
 
-Reads rocking/motions.parquet and writes records/measures.csv (eqsig, and numpy for the mean period) and records/pulses.csv
+Reads rocking/motions.parquet and writes records/measures.csv (eqsig, and numpy for the mean period, the Arias intensity and durations) and records/pulses.csv
 (the indicator of Baker 2007 with PyWavelets' db4 at full resolution; the fit of Eq. 1 by differential evolution). Needs
 numpy, scipy, pyarrow, eqsig and PyWavelets.
 """
@@ -35,10 +35,16 @@ def measures(acceleration, dt):
     yield "pgv_m_s", abs(signal.velocity).max()
     yield "pgd_m", abs(signal.displacement).max()
     yield "tm_s", mean_period(acceleration, dt)
-    yield "arias_m_s", eqsig.im.calc_arias_intensity(signal)[-1]
+    # eqsig has the trapezoids of a^2; between samples the motion is a line, whose square has this integral.
+    left, right = acceleration[:-1], acceleration[1:]
+    yield "arias_m_s", np.pi / (2 * 9.81) * dt / 3 * (left**2 + left * right + right**2).sum()
     yield "cav_m_s", eqsig.im.calc_cav(signal)[-1]
-    yield "d5_75_s", eqsig.im.calc_sig_dur_vals(acceleration, dt, 0.05, 0.75)
-    yield "d5_95_s", eqsig.im.calc_sig_dur_vals(acceleration, dt, 0.05, 0.95)
+    # Its durations too, at 64 parts of a step.
+    fine = np.interp(np.arange(64 * (len(acceleration) - 1) + 1) / 64, np.arange(len(acceleration)), acceleration)
+    energy = np.append(0, np.cumsum(fine[:-1] ** 2 + fine[:-1] * fine[1:] + fine[1:] ** 2))
+    moments = np.interp([0.05 * energy[-1], 0.75 * energy[-1], 0.95 * energy[-1]], energy, np.arange(len(fine)) * dt / 64)
+    yield "d5_75_s", moments[1] - moments[0]
+    yield "d5_95_s", moments[2] - moments[0]
     housner = np.linspace(0.1, 2.5, 49)
     yield "housner_m", np.trapezoid(eqsig.sdof.pseudo_response_spectra(acceleration, dt, housner, 0.05)[1], housner)
     spectrum = eqsig.sdof.pseudo_response_spectra(acceleration, dt, PERIODS, 0.05)[2]

@@ -12,13 +12,17 @@ mod pelicun;
 
 pub use levels::{levels, whole_curve_end};
 pub use openquake::{continuous, discrete};
-pub use pelicun::{metadata, parameters};
+pub use pelicun::{LEAST_TOLERANCE as PELICUN_TOLERANCE, metadata, parameters};
 
 use crate::fragility::{Lognormal, Peak};
 
 /// Distance below a jump of the last level before it, relative to the intensity of the jump: far enough for pelicun, which keeps
 /// six digits where it converts units.
 pub const GAP: f64 = 2e-5;
+
+/// How the name of a model begins, and what the name of a function has before its ratio.
+pub const OWN_ID: &str = "rockfrag_";
+pub const OF_RATIO: &str = "_ratio";
 
 /// What the functions of a file have in common.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,4 +55,9 @@ pub struct Function {
 pub fn plain_id(name: &str) -> String {
     let plain = |sign: char| if sign.is_ascii_alphanumeric() { sign } else { '_' };
     name.chars().map(plain).collect()
+}
+
+/// Whether a text that begins like this is one of these files.
+pub fn is_own(head: &str) -> bool {
+    openquake::is_own(head) || pelicun::is_own(head)
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Function, Model};
+use super::{Function, Model, OWN_ID};
 use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
 use crate::units::{CM_PER_M, G_M_S2};
@@ -85,6 +85,11 @@ fn document(
         text += "    </fragilityFunction>\n";
     }
     text + "  </fragilityModel>\n</nrml>\n"
+}
+
+/// Whether a text that begins like this is such a file: its model has a name of ours.
+pub fn is_own(head: &str) -> bool {
+    head.contains(&format!("<fragilityModel id=\"{OWN_ID}"))
 }
 
 /// Writes numbers in full, separated by spaces.

@@ -3,13 +3,19 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Function, GAP, Model};
+use super::{Function, GAP, Model, OF_RATIO, OWN_ID};
 use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
 use crate::units::G_M_S2;
 
+/// The first columns.
+const COMMON: [&str; 6] =
+    ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"];
+
 /// Least rise of a probability from one level to the next: pelicun keeps six digits.
 const LEAST_RISE: f64 = 2e-6;
+/// Least error that a table can be held to: levels between which the probability rises by less than [`LEAST_RISE`] are left out.
+pub const LEAST_TOLERANCE: f64 = 1e-5;
 
 /// Returns the name of a peak in pelicun, its unit there, and the size of that unit in m/s2 or m/s.
 fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
@@ -26,9 +32,8 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
 /// If memory runs out.
 pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let common = ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"];
     let of_state = ["Family", "Theta_0", "Theta_1", "DamageStateWeights"];
-    let names = common.map(str::to_string).into_iter();
+    let names = COMMON.map(str::to_string).into_iter();
     let states = LimitState::ALL.iter();
     let names = names.chain(states.flat_map(|ls| of_state.map(|name| format!("{}-{name}", ls.as_str()))));
     writer.write_record(names)?;
@@ -45,6 +50,12 @@ pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
         writer.write_record(row)?;
     }
     Ok(String::from_utf8(writer.into_inner()?)?)
+}
+
+/// Whether a text that begins like this is either file: its model has a name of ours, or its first function does.
+pub fn is_own(head: &str) -> bool {
+    let first = head.strip_prefix(COMMON[0]).and_then(|rest| rest.lines().nth(1)).unwrap_or_default();
+    head.contains(&format!("\"ShortName\": \"{OWN_ID}")) || first.contains(OF_RATIO)
 }
 
 /// Writes the levels, a bar, and the probabilities at them.

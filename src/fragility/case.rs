@@ -7,7 +7,7 @@ use crate::rocking::Outcome;
 pub struct Case {
     /// Which branch of the tree it took.
     pub outcome: Outcome,
-    /// |theta|max / alpha.
+    /// |theta|max / alpha; infinite where it overturns.
     pub edp: f64,
     /// The measures of Eq. 13.
     pub measures: IntensityMeasures,

@@ -47,4 +47,4 @@ pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
 pub use probability::{Probability, ProbitIndex};
 pub use probability::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use resampled::{ReplicateLimits, ResampledModel};
-pub use slice::{Lognormal, Peak, Slice};
+pub use slice::{DOUBTFUL_PEAKS, Lognormal, Peak, Slice, are_doubtful};

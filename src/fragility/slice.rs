@@ -7,7 +7,7 @@ use super::probability::Probability;
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::normal;
-use crate::rocking::Structure;
+use crate::rocking::{Bound, Structure};
 use crate::units::G_M_S2;
 
 /// The peak that measures the intensity along a slice.
@@ -29,6 +29,38 @@ impl Peak {
             Peak::Pgv => ("m/s", 1.0),
         }
     }
+}
+
+/// The largest PGA (g) or PGV (m/s) that can be meant: several times what has been recorded.
+const LARGEST_PEAK: f64 = 20.0;
+
+/// PGV over PGA, s, above which they are likely exchanged or of other units: that of a record hardly passes 0.5 s,
+/// that of a pulse of 12 s alone reaches 2 s.
+const LARGEST_PEAKS_RATIO_S: f64 = 2.0;
+
+impl Peak {
+    /// Where it can lie in its usual unit.
+    pub const fn bound(self) -> Bound {
+        let range = (0.0, LARGEST_PEAK);
+        match self {
+            Peak::Pga => {
+                let slip = "is it in m/s2, cm/s2 or percent of g?";
+                Bound { parameter: "pga", range, expected: "0 g or more, up to 20", slip }
+            }
+            Peak::Pgv => {
+                Bound { parameter: "pgv", range, expected: "0 m/s or more, up to 20", slip: "is it in cm/s?" }
+            }
+        }
+    }
+}
+
+/// What to say of peaks that are.
+pub const DOUBTFUL_PEAKS: &str =
+    "a PGV (m/s) more than twice the PGA (m/s2): are they exchanged, or in other units?";
+
+/// Whether no motion is likely to have these peaks (m/s2 and m/s), so that they may be exchanged, or of other units.
+pub fn are_doubtful(pga_m_s2: f64, pgv_m_s: f64) -> bool {
+    pgv_m_s > LARGEST_PEAKS_RATIO_S * pga_m_s2
 }
 
 /// All motions whose p PGV / PGA is the same, ordered by one of the two peaks.

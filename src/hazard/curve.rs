@@ -32,6 +32,10 @@ pub enum HazardError {
     NotPositive { point: usize, im: f64, rate: f64 },
     #[error("point {point}: expected a larger intensity than before, and no larger rate")]
     Unordered { point: usize },
+    #[error(
+        "intensities fall and rates rise; expected the smallest intensity first, if the two columns are not exchanged"
+    )]
+    Falling,
 }
 
 impl HazardCurve {
@@ -49,6 +53,9 @@ impl HazardCurve {
             return Err(HazardError::NotPositive { point, im, rate });
         }
         match points.windows(2).position(|pair| pair[0].0 >= pair[1].0 || pair[0].1 < pair[1].1) {
+            Some(_) if points.windows(2).all(|pair| pair[0].0 > pair[1].0 && pair[0].1 < pair[1].1) => {
+                Err(HazardError::Falling)
+            }
             Some(before) => Err(HazardError::Unordered { point: before + 1 }),
             None => Ok(HazardCurve { points }),
         }

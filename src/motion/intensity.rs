@@ -92,7 +92,7 @@ pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch)
     let Integrals { pga_m_s2, pgv_m_s, pgd_m, cav_m_s, .. } =
         widest(Integration { acceleration, dt_s, energy });
     let arias_m_s = 0.5 * PI / G_M_S2 * energy.last().copied().unwrap_or_default();
-    let [d5, d75, d95] = [0.05, 0.75, 0.95].map(|share| time_of_share(energy, dt_s, share));
+    let [d5, d75, d95] = [0.05, 0.75, 0.95].map(|share| time_of_share(acceleration, energy, dt_s, share));
     Measures {
         pga_m_s2,
         pgv_m_s,
@@ -105,17 +105,26 @@ pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch)
     }
 }
 
-/// Finds when a share of the last value of a running integral has come, s; within a time step it grows linearly. 0 for a
-/// motion without energy.
-fn time_of_share(energy: &[f64], dt_s: f64, share: f64) -> f64 {
+/// Halvings of a time step that find a moment within it, to the rounding of the time.
+const HALVINGS: usize = 40;
+
+/// Finds when a share of the last value of `energy`, the running integral of the squared acceleration, has come, s. 0 for a motion
+/// without energy.
+fn time_of_share(acceleration: &[f64], energy: &[f64], dt_s: f64, share: f64) -> f64 {
     let Some(&total) = energy.last().filter(|total| **total > 0.0) else { return 0.0 };
     let reached = share * total;
     let after = energy.partition_point(|sum| *sum < reached).max(1);
-    let (before, sum) = (energy[after - 1], energy[after]);
-    dt_s * ((after - 1) as f64 + (reached - before) / (sum - before))
+    let (left, right) = (acceleration[after - 1], acceleration[after]);
+    let mut part = [0.0, 1.0];
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (part[0] + part[1]);
+        let sum = energy[after - 1] + middle * squared(dt_s, left, left + middle * (right - left));
+        part[usize::from(sum >= reached)] = middle;
+    }
+    dt_s * ((after - 1) as f64 + part[1])
 }
 
-/// Trapezoidal integrals of a motion up to a sample, and the peaks so far.
+/// Integrals of a motion up to a sample, and the peaks so far: that of a^2 of a line between the samples, the others by trapezoids.
 #[derive(Default)]
 struct Integrals {
     velocity_m_s: f64,
@@ -150,7 +159,7 @@ impl NullaryFnOnce for Integration<'_> {
             let right = &acceleration[block * BLOCK + 1..][..samples];
             for k in 0..samples {
                 velocity[k] = trapezoid(dt_s, left[k], right[k]);
-                energy[k] = trapezoid(dt_s, left[k] * left[k], right[k] * right[k]);
+                energy[k] = squared(dt_s, left[k], right[k]);
                 cav[k] = trapezoid(dt_s, left[k].abs(), right[k].abs());
             }
             // Sums wait for their own last value: they stand in a loop of their own, which keeps the one above wide.
@@ -173,6 +182,12 @@ impl NullaryFnOnce for Integration<'_> {
 #[inline(always)]
 fn trapezoid(dt_s: f64, left: f64, right: f64) -> f64 {
     0.5 * dt_s * (left + right)
+}
+
+/// Integrates the square of a line between two samples.
+#[inline(always)]
+fn squared(dt_s: f64, left: f64, right: f64) -> f64 {
+    dt_s / 3.0 * (left * left + left * right + right * right)
 }
 
 /// Returns the larger of two numbers, in one instruction: the maximum of the standard library asks for NaN too.

@@ -13,6 +13,8 @@
 //! fourier        transforms of real series, planned once for each length
 //! ```
 
+#![deny(clippy::disallowed_methods)]
+
 mod combine;
 mod design;
 mod dimensionless;

@@ -96,7 +96,7 @@ impl Source {
     pub fn new(mw: f64, re_km: f64) -> Source {
         // The depth h of an equivalent point source makes the effective distance R = sqrt(re^2 + h^2).
         let depth_km = libm::exp10(-0.05 + 0.15 * mw);
-        let distance_km = re_km.hypot(depth_km);
+        let distance_km = libm::hypot(re_km, depth_km);
         // M0 of the moment magnitude (Hanks & Kanamori 1979).
         let moment_dyne_cm = libm::exp10(1.5 * mw + 16.05);
         Source {

@@ -6,10 +6,20 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::console::Console;
+use super::replace;
 use super::stage::{Stage, folder_of};
 use super::terminal::Weight;
 use crate::table::TableError;
 use crate::table::store::provenance::Provenance;
+
+/// What a run may do that it does not do by itself.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct May {
+    /// Run stages that are up to date.
+    pub force: bool,
+    /// Write over files that something else has written.
+    pub overwrite: bool,
+}
 
 /// Whether a stage must run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,9 +56,9 @@ pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
 ///
 /// # Errors
 /// Those of the stage.
-pub fn run_alone(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<()> {
+pub fn run_alone(stage: &dyn Stage, may: May, console: &Console) -> anyhow::Result<()> {
     let _lock = lock_folder(stage, Access::Shared, console)?;
-    run(stage, force, console)
+    run(stage, may, console)
 }
 
 /// What else may happen in a folder while a run writes into it.
@@ -89,10 +99,11 @@ pub fn lock_folder(stage: &dyn Stage, access: Access, console: &Console) -> anyh
 ///
 /// # Errors
 /// Those of the stage.
-pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<()> {
+pub fn run(stage: &dyn Stage, may: May, console: &Console) -> anyhow::Result<()> {
     let planned = stage.provenance()?;
     let name = stage.name();
-    if !force && freshness(stage, &planned) == Freshness::UpToDate {
+    replace::check(stage, &planned, may.overwrite)?;
+    if !may.force && freshness(stage, &planned) == Freshness::UpToDate {
         console.stage(name, "up to date", Weight::Faint);
         return Ok(());
     }
@@ -101,6 +112,8 @@ pub fn run(stage: &dyn Stage, force: bool, console: &Console) -> anyhow::Result<
         std::fs::create_dir_all(folder).map_err(|source| TableError::io(folder, source))?;
     }
     let start = std::time::Instant::now();
+    // What this stage warns of stands in its files too.
+    let console = &Console { warnings: planned.warnings.clone(), ..console.clone() };
     let summary = stage.execute(&planned, console)?;
     let took_s = start.elapsed().as_secs_f64();
     if !summary.is_empty() {

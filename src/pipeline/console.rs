@@ -7,6 +7,7 @@ use std::sync::Arc;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::terminal::{Terminal, Weight};
+use crate::table::store::provenance::Warnings;
 
 /// A program that calls a stage and wants to know how it goes, in place of a terminal.
 pub trait Listener: Send + Sync {
@@ -35,6 +36,8 @@ pub struct Console {
     pub progress: bool,
     /// Who hears it, if not whoever reads stderr.
     pub listener: Option<Arc<dyn Listener>>,
+    /// Where warnings are kept besides.
+    pub warnings: Warnings,
 }
 
 /// Progress through the steps of a stage.
@@ -71,6 +74,7 @@ impl Console {
 
     /// A warning: a result to be looked at twice.
     pub fn warn(&self, warning: &str) {
+        self.warnings.push(warning);
         match &self.listener {
             Some(listener) => listener.warn(warning),
             None => self.note(&format!("warning: {warning}")),

@@ -358,6 +358,8 @@ fn new_command<S: Declare>() -> Command {
         .chain([S::OUTPUT.arg()])
         .partition(|arg| arg.get_help_heading().is_none());
     let command = S::Options::augment_args(Command::new(S::NAME).args(own));
+    // What a negative number means is said by the check of the option, not by a word on unknown flags.
+    let command = command.mut_args(|arg| arg.allow_negative_numbers(true));
     let command = command.next_help_heading(None::<&str>).args(headed);
     let about = S::ABOUT.split("\n\n").next();
     let long = S::ABOUT.contains("\n\n").then_some(S::ABOUT);

@@ -5,6 +5,7 @@
 //! stage    what every stage has: inputs, parameters, outputs, work
 //! declare  what a stage says of itself, from which its command and its section of pipeline.yaml follow
 //! cache    whether a stage is up to date, and if not, why; two runs in one folder
+//! replace  what a stage may write over
 //! files    files and folders that a user names
 //! stream   read, work and write at the same time, in order
 //! console  progress, notes and warnings on stderr
@@ -16,6 +17,7 @@ pub mod console;
 pub mod declare;
 pub mod files;
 pub mod options;
+pub mod replace;
 pub mod stage;
 pub mod stream;
 pub mod terminal;

@@ -9,6 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::UsageError;
 use crate::keyword::{self, Keyword, UnknownKeyword, nearest};
+use crate::rocking::Bound;
 
 /// The defaults of an options struct: what an empty command line gives.
 pub fn defaults<T: Args>() -> T {
@@ -185,6 +186,15 @@ impl<'de, T: Deserialize<'de> + FromStr<Err: fmt::Display>> Deserialize<'de> for
 /// With the name of the option and what was expected.
 pub fn check(ok: bool, option: &str, value: impl fmt::Display, expected: &str) -> anyhow::Result<()> {
     if ok { Ok(()) } else { Err(UsageError::because(format!("{option} is {value}; expected {expected}"))) }
+}
+
+/// That a number lies where it can be right, or what slip it may be.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_bound(bound: &Bound, value: f64) -> anyhow::Result<()> {
+    let refusal = bound.refusal(value);
+    check(refusal.is_none(), bound.parameter, value, &refusal.unwrap_or_default())
 }
 
 /// What is wrong with a YAML file, in one line: where, what, and for an unknown key the nearest known one.

@@ -53,12 +53,18 @@ pub trait Stage {
         recorded(output)
     }
 
+    /// Whether a text, of which this is the start, is one that this stage writes.
+    fn is_own_text(&self, _head: &str) -> bool {
+        false
+    }
+
     /// What its files will say of how they were made.
     ///
     /// # Errors
     /// If an input is missing or unreadable.
     fn provenance(&self) -> anyhow::Result<Provenance> {
-        let content = |(role, source): &(&str, Source)| Ok((role.to_string(), content_of(source)?));
+        let content =
+            |(role, source): &(&str, Source)| Ok((role.to_string(), content_of_role(role, source)?));
         let sources = self.inputs();
         let inputs = sources.iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
         let sources =
@@ -66,6 +72,29 @@ pub trait Stage {
         Ok(Provenance::new(self.name(), self.parameters(), inputs).of_sources(sources))
     }
 }
+
+/// What an input holds ([`content_of`]).
+///
+/// # Errors
+/// As there; of a file of another kind with what plays this role.
+pub fn content_of_role(role: &str, source: &Source) -> Result<String, TableError> {
+    content_of(source).map_err(|error| match (error, MAKERS.iter().find(|(other, _)| *other == role)) {
+        (TableError::NoParquet { path, .. }, Some((_, maker))) => {
+            TableError::NoParquet { path, expected: format!("the {role} that {maker}") }
+        }
+        (error, _) => error,
+    })
+}
+
+/// Who makes what plays a role, in words.
+const MAKERS: [(&str, &str); 6] = [
+    ("scenarios", "sample-scenarios makes"),
+    ("motions", "synthesize-motions makes, or import-motions of records and CSV"),
+    ("responses", "simulate makes"),
+    ("pex", "fit-pex makes"),
+    ("pro", "fit-pro makes"),
+    ("intensities", "a Parquet table with pga_m_s2 and pgv_m_s has"),
+];
 
 /// The folder of a file.
 pub fn folder_of(path: &Path) -> &Path {

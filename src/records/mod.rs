@@ -6,6 +6,7 @@
 //! formats          from the text of a file to records, one file a format
 //! pairs            which horizontal components belong together
 //! rotation         two horizontal components in another direction, and RotD
+//! plausibility     whether a motion can be that of an earthquake
 //! signal           steps on samples alone: baseline, high-pass, time step, scale
 //! pulses           whether a record holds a velocity pulse, and which
 //! processing       all of these in order: from records to the motions that are imported of them
@@ -13,6 +14,7 @@
 
 pub mod formats;
 pub mod pairs;
+pub mod plausibility;
 pub mod processing;
 pub mod pulses;
 mod recorded_motion;
@@ -20,4 +22,4 @@ pub mod rotation;
 pub mod signal;
 
 pub use formats::{AccelerationUnit, Format, RecordFileError, read};
-pub use recorded_motion::{ColumnChoice, Given, HeaderPga, RecordedMotion};
+pub use recorded_motion::{ColumnChoice, Given, HeaderPga, RecordedMotion, SaidUnit, Teller};

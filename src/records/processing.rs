@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use super::RecordedMotion;
+use super::plausibility::{self, Doubt};
 use super::pulses::{FittedPulse, PulseIndicator, Verdict, WaveletScratch, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, RotD};
 use super::signal::{Baseline, HighPass, HighPassScratch, Scaling, resample, resampled_length};
+use super::{RecordedMotion, SaidUnit};
 use crate::keyword::keywords;
 use crate::motion::{IntensityScratch, LONGEST_MOTION, MeasurePlan, Measured, Suite, intensity};
 
@@ -32,6 +33,8 @@ pub struct NamedRecord {
 pub struct Refusal {
     /// Path as given.
     pub file: String,
+    /// What was found in it, where the reason is one that others have too.
+    pub found: Option<String>,
     /// What is wrong with it, and what to do.
     pub reason: String,
 }
@@ -39,7 +42,13 @@ pub struct Refusal {
 impl Refusal {
     /// Refuses a file for a reason.
     pub fn of(file: &Path, reason: &impl ToString) -> Refusal {
-        Refusal { file: file.display().to_string(), reason: reason.to_string() }
+        Refusal::because(file.display().to_string(), reason.to_string())
+    }
+
+    /// Refuses the file of this name for a reason, which may begin with the name.
+    pub fn because(file: String, reason: String) -> Refusal {
+        let reason = reason.strip_prefix(&format!("{file}: ")).map_or(reason.clone(), str::to_string);
+        Refusal { file, found: None, reason }
     }
 }
 
@@ -58,6 +67,12 @@ pub struct ImportedMotion {
     /// Direction of positive acceleration, degrees clockwise from north.
     pub azimuth_deg: Option<f64>,
     pub source: SourceFile,
+    /// The format of the file, in a word.
+    pub format: &'static str,
+    /// The unit that the samples had.
+    pub unit: Option<SaidUnit>,
+    /// Why it can hardly be a record, if it was accepted all the same.
+    pub doubt: Option<Doubt>,
     /// The factor by which it is scaled.
     pub scale: f64,
     /// Time between samples, s.
@@ -92,6 +107,16 @@ pub enum PulseSearch {
 
 keywords!(PulseSearch { Find = "find", Skip = "skip" });
 
+/// The format of motions in a Parquet file.
+pub const TABLE: &str = "parquet";
+
+/// What becomes of motions that can hardly be those of an earthquake.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Implausible {
+    Refuse,
+    Accept,
+}
+
 /// What is done to records.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Processing {
@@ -105,7 +130,14 @@ pub struct Processing {
     pub pulses: PulseSearch,
     /// Whether motions without their pulses are written too.
     pub residual: bool,
+    pub implausible: Implausible,
     pub plan: MeasurePlan,
+}
+
+/// A record after baseline, filter and time step, and what is doubtful about it.
+struct Processed {
+    record: NamedRecord,
+    doubt: Option<Doubt>,
 }
 
 /// What a thread keeps from one motion to the next.
@@ -129,8 +161,8 @@ impl Processing {
     /// # Errors
     /// If it cannot be processed as asked.
     pub fn import(&self, record: NamedRecord, scratch: &mut Scratch) -> Result<Vec<ImportedMotion>, Refusal> {
-        let record = self.processed(record, scratch)?;
-        self.scaled(&record, None, scratch)
+        let processed = self.processed(record, scratch)?;
+        self.scaled(&processed, None, scratch)
     }
 
     /// Processes two components at right angles, with their azimuths (degrees), into one motion.
@@ -142,28 +174,40 @@ impl Processing {
         pair: [(NamedRecord, f64); 2],
         scratch: &mut Scratch,
     ) -> Result<Vec<ImportedMotion>, Refusal> {
-        let (record, rotd) = self.rotated(pair, scratch)?;
-        self.scaled(&record, Some(rotd), scratch)
+        let (processed, rotd) = self.rotated(pair, scratch)?;
+        self.scaled(&processed, Some(rotd), scratch)
     }
 
-    /// Corrects the baseline, filters and resamples.
-    fn processed(&self, mut record: NamedRecord, scratch: &mut Scratch) -> Result<NamedRecord, Refusal> {
+    /// Corrects the baseline, filters, judges and resamples.
+    fn processed(&self, mut record: NamedRecord, scratch: &mut Scratch) -> Result<Processed, Refusal> {
         let motion = &mut record.motion;
         self.baseline.remove_from(&mut motion.acceleration_m_s2);
         if let Some(high_pass) = self.high_pass {
             high_pass.apply(&mut motion.acceleration_m_s2, motion.dt_s, &mut scratch.high_pass);
+        }
+        let doubt = plausibility::doubt(&motion.acceleration_m_s2, motion.dt_s);
+        if let Some(Doubt { found, reason, is_impossible: true }) = &doubt
+            && self.implausible == Implausible::Refuse
+        {
+            // One of many in a table goes by its name there.
+            let row = motion.component.as_ref().filter(|_| motion.format == TABLE);
+            return Err(Refusal {
+                file: record.source.path,
+                found: Some(row.map_or(found.clone(), |name| format!("{name}: {found}"))),
+                reason: format!("{reason} (--accept-implausible takes it as it is)"),
+            });
         }
         if let Some(dt_s) = self.resample_s {
             let samples = resampled_length(motion.acceleration_m_s2.len(), motion.dt_s, dt_s);
             if !(2.0..=LONGEST_MOTION as f64).contains(&samples) {
                 let reason =
                     format!("{samples} samples at a time step of {dt_s} s; choose another for --resample");
-                return Err(Refusal { file: record.source.path, reason });
+                return Err(Refusal::because(record.source.path, reason));
             }
             motion.acceleration_m_s2 = resample(&motion.acceleration_m_s2, motion.dt_s, dt_s);
             motion.dt_s = dt_s;
         }
-        Ok(record)
+        Ok(Processed { record, doubt })
     }
 
     /// Processes two components and rotates them to the direction asked for.
@@ -171,9 +215,11 @@ impl Processing {
         &self,
         pair: [(NamedRecord, f64); 2],
         scratch: &mut Scratch,
-    ) -> Result<(NamedRecord, RotD), Refusal> {
+    ) -> Result<(Processed, RotD), Refusal> {
         let [(first, first_deg), (second, second_deg)] = pair;
         let (first, second) = (self.processed(first, scratch)?, self.processed(second, scratch)?);
+        let doubt = first.doubt.or(second.doubt);
+        let (first, second) = (first.record, second.record);
         let accelerations = [first.motion.acceleration_m_s2, second.motion.acceleration_m_s2];
         let pair = HorizontalPair::new(first.motion.dt_s, [first_deg, second_deg], accelerations);
         let azimuth_deg = match self.direction {
@@ -201,11 +247,10 @@ impl Processing {
                 component: Some(format!("{azimuth_deg:.1} deg of a pair")),
                 azimuth_deg: Some(azimuth_deg),
                 header_pga: None,
-                event: first.motion.event,
-                station: first.motion.station,
+                ..first.motion
             },
         };
-        Ok((record, pair.rotd()))
+        Ok((Processed { record, doubt }, pair.rotd()))
     }
 
     /// Scales and measures a processed record: one motion for each factor, each followed by its residual if that is asked for.
@@ -214,22 +259,24 @@ impl Processing {
     /// If it cannot be scaled as asked.
     fn scaled(
         &self,
-        record: &NamedRecord,
+        processed: &Processed,
         rotd: Option<RotD>,
         scratch: &mut Scratch,
     ) -> Result<Vec<ImportedMotion>, Refusal> {
+        let Processed { record, doubt } = processed;
         let RecordedMotion { dt_s, ref acceleration_m_s2, .. } = record.motion;
         let factors = self.scaling.factors(acceleration_m_s2, dt_s);
         if factors.is_empty() {
             let reason = "the motion is zero throughout; it cannot be scaled to a peak".to_string();
-            return Err(Refusal { file: record.source.path.clone(), reason });
+            return Err(Refusal::because(record.source.path.clone(), reason));
         }
         let pulses = self.pulses(&record.motion, scratch);
         let several = factors.len() > 1;
         let motions = factors.into_iter().flat_map(|factor| {
             let id = record.motion_id.clone();
             let motion_id = if several { format!("{id} x{factor}") } else { id };
-            let motion = self.scaled_by(factor, record, motion_id, rotd, pulses, scratch);
+            let scaled = self.scaled_by(factor, record, motion_id, rotd, pulses, scratch);
+            let motion = ImportedMotion { doubt: doubt.clone(), ..scaled };
             let residual = self.residual(&motion, scratch);
             [Some(motion), residual].into_iter().flatten()
         });
@@ -268,6 +315,9 @@ impl Processing {
             component: motion.component.clone(),
             azimuth_deg: motion.azimuth_deg,
             source: record.source.clone(),
+            format: motion.format,
+            unit: motion.unit,
+            doubt: None,
             scale: factor,
             dt_s: motion.dt_s,
             measured: self.measured(&acceleration_m_s2, motion.dt_s, scratch),
@@ -293,6 +343,7 @@ impl Processing {
             rotd: None,
             indicator: None,
             pulse: None,
+            doubt: None,
             ..motion.clone()
         })
     }

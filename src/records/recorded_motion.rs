@@ -24,6 +24,37 @@ pub struct RecordedMotion {
     pub azimuth_deg: Option<f64>,
     /// Peak acceleration that the header gives.
     pub header_pga: Option<HeaderPga>,
+    /// The format of the file, in a word.
+    pub format: &'static str,
+    /// The unit that the samples had.
+    pub unit: Option<SaidUnit>,
+}
+
+/// A unit, and who says it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SaidUnit {
+    pub unit: AccelerationUnit,
+    pub by: Teller,
+}
+
+/// Who says of samples what they are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Teller {
+    /// The file or its format.
+    File,
+    User,
+}
+
+impl SaidUnit {
+    /// The unit that the file says.
+    pub fn by_file(unit: AccelerationUnit) -> SaidUnit {
+        SaidUnit { unit, by: Teller::File }
+    }
+
+    /// The unit that the user says.
+    pub fn by_user(unit: AccelerationUnit) -> SaidUnit {
+        SaidUnit { unit, by: Teller::User }
+    }
 }
 
 /// A peak acceleration as a header gives it.

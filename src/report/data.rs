@@ -83,6 +83,8 @@ pub struct Model {
     /// `bivariate`, or the name of the one measure.
     pub form: String,
     pub fits: FragilityModel,
+    /// What speaks against it, if anything does.
+    pub doubt: Option<String>,
 }
 
 /// A motion and the responses of structures to it over time.

@@ -3,12 +3,12 @@
 use base64::prelude::{BASE64_STANDARD, Engine};
 use serde_json::{Value, json};
 
-use crate::fragility::{DemandLaw, DemandModel, Measure, Predictor};
+use crate::fragility::{DemandLaw, DemandModel, Measure, Peak, Predictor};
 use crate::keyword::Keyword;
 use crate::motion::intensity::velocity;
 use crate::report::data::{Group, Model, Motion, Planes, ReportData, Trace};
 use crate::report::figure::{Envelope, envelope};
-use crate::rocking::{SolverEvent, Structure};
+use crate::rocking::{BOUNDS, Bound, SolverEvent, Structure};
 use crate::units::G_M_S2;
 
 /// Largest integer of sixteen bits.
@@ -22,6 +22,7 @@ const MOST_IN_SPACE: usize = 2500;
 pub fn json(data: &ReportData) -> String {
     let all = json!({
         "g": G_M_S2,
+        "bounds": BOUNDS.iter().copied().chain([Peak::Pga, Peak::Pgv].map(Peak::bound)).map(bound).collect::<Vec<_>>(),
         "structures": data.groups.iter().map(structure).collect::<Vec<_>>(),
         "models": data.models.iter().map(model).collect::<Vec<_>>(),
         "planes": data.groups.iter().filter_map(in_space).collect::<Vec<_>>(),
@@ -30,12 +31,16 @@ pub fn json(data: &ReportData) -> String {
     all.to_string().replace('<', "\\u003c")
 }
 
+fn bound(Bound { parameter, range, expected, slip }: Bound) -> Value {
+    json!({ "parameter": parameter, "range": range, "expected": expected, "slip": slip })
+}
+
 fn structure(Group { structure, .. }: &Group) -> Value {
     let Structure { name, p_rad_s, alpha_rad, eta } = structure;
     json!({ "name": name, "p": p_rad_s, "alpha": alpha_rad, "eta": eta })
 }
 
-fn model(Model { suite, structure, form, fits }: &Model) -> Value {
+fn model(Model { suite, structure, form, fits, doubt }: &Model) -> Value {
     let demand = match &fits.demand {
         DemandModel::Everywhere(all) => json!({ "all": law(all) }),
         DemandModel::Biplanar { transition, low, high } => {
@@ -43,7 +48,7 @@ fn model(Model { suite, structure, form, fits }: &Model) -> Value {
         }
     };
     json!({ "suite": suite, "structure": structure, "form": form, "limit": fits.limit, "eta": fits.eta,
-        "demand": demand, "overturning": predictor(&fits.overturning) })
+        "demand": demand, "overturning": predictor(&fits.overturning), "doubt": doubt })
 }
 
 fn law(law: &DemandLaw) -> Value {

@@ -2,21 +2,33 @@
 //! dynamic analysis, Earthquake Engineering & Structural Dynamics 31, 491-514).
 //!
 //! Rocking is not monotone in the intensity: a structure that overturns under a motion may survive a stronger one of the same
-//! shape, so that there is no one capacity, but a least overturning intensity and safe windows above it.
+//! shape, and the closer one looks the more changes of outcome there are: the edges are fractal. So there is no one capacity. What a
+//! scan tells is, at its resolution, the least overturning intensity, the share of each band above that overturns, and the windows in
+//! which nothing that was simulated does.
 
 use super::response::{Outcome, Response};
 use crate::keyword::keywords;
 
-/// The demand |theta|max / alpha from which a structure that survives may have a neighbour that does not.
-const NEAR_OVERTURNING: f64 = 0.2;
+/// The demand |theta|max / alpha at which a structure tips, but for what the ground does meanwhile.
+const TIPPING: f64 = 1.0;
+/// Between impacts the demand is a continuous function of the intensity. It is taken to grow within a step by up to so many times its
+/// change over the step, or over one of those beside: more, and fewer grazing peaks are missed.
+const GROWTH: f64 = 8.0;
+/// How often a step of the finest ratio is halved where the demand may so reach the tipping point.
+const CLOSER_HALVINGS: i32 = 4;
+/// At least so many steps, of equal ratios or smaller, make a safe window.
+const WINDOW_PARTS: u32 = 16;
+/// Rounding must not ask for one halving more.
+const ROUNDING: f64 = 1.0 + 1e-12;
 
-/// The intensities of an incremental dynamic analysis: levels in equal ratios, and more between them where the outcome changes or
-/// may change twice.
+/// The intensities of an incremental dynamic analysis: levels in equal ratios, equal parts of them where the structure rocks, and
+/// more where the outcome changes or a peak may graze the tipping point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
     levels: Vec<f64>,
     ratio: f64,
     finest_ratio: f64,
+    closest_ratio: f64,
     tolerance: f64,
 }
 
@@ -36,15 +48,16 @@ pub struct ScanPoint {
 }
 
 impl Scan {
-    /// Divides the intensities between two in `steps` equal ratios, which are halved up to `halvings` times where the outcome may
-    /// change twice within them. Where it changes, the intensity is found to the relative `tolerance`.
+    /// Divides the intensities between two in `steps` equal ratios, which are halved `halvings` times where the structure rocks, and
+    /// further where it is close to overturning. Where the outcome changes, the intensity is found to the relative `tolerance`.
     pub fn new(from: f64, to: f64, steps: usize, halvings: u32, tolerance: f64) -> Scan {
-        let parts = |parts: f64| libm::pow(to / from, 1.0 / parts);
+        let halved = |times: i32| libm::pow(to / from, libm::ldexp(1.0, -times) / steps as f64);
         let level = |k: usize| from * libm::pow(to / from, k as f64 / steps as f64);
         Scan {
             levels: (0..steps).map(level).chain([to]).collect(),
-            ratio: parts(steps as f64),
-            finest_ratio: parts(steps as f64 * libm::exp2(f64::from(halvings))),
+            ratio: halved(0),
+            finest_ratio: halved(halvings as i32),
+            closest_ratio: halved(halvings as i32 + CLOSER_HALVINGS),
             tolerance,
         }
     }
@@ -62,8 +75,8 @@ impl Scan {
         self.ratio
     }
 
-    /// Ratio of two intensities between which nothing more is searched: narrower safe windows, or overturning ranges, may be
-    /// missed.
+    /// Ratio of the intensities at which every case is simulated as soon as it rocks: the resolution. Narrower overturning ranges may be
+    /// missed where no peak near the tipping point shows them, and narrower safe windows count as none.
     pub fn finest_ratio(&self) -> f64 {
         self.finest_ratio
     }
@@ -93,35 +106,97 @@ impl Scan {
             points.clear();
             for (case, found) in found.iter_mut().enumerate() {
                 found.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
-                let missing = found.windows(2).filter_map(|pair| self.between(&pair[0], &pair[1]));
-                points.extend(missing.map(|intensity| ScanPoint { case, intensity }));
+                points.extend(self.missing(found).map(|intensity| ScanPoint { case, intensity }));
             }
         }
         Ok(found)
     }
 
-    /// Returns the intensity between two neighbours that must be simulated too, if any.
-    fn between(&self, below: &ScanResponse, above: &ScanResponse) -> Option<f64> {
-        let widest = if below.overturns() != above.overturns() {
-            1.0 + self.tolerance
-        } else if may_hide_a_change(&below.response, &above.response) {
-            // Rounding must not ask for one halving more.
-            self.finest_ratio * (1.0 + 1e-12)
-        } else {
-            return None;
+    /// Returns the intensities that have yet to be simulated between those of a case.
+    fn missing<'a>(&'a self, found: &'a [ScanResponse]) -> impl Iterator<Item = f64> + 'a {
+        let first = found.iter().position(ScanResponse::overturns).unwrap_or(found.len());
+        let runs = found.chunk_by(|a, b| a.overturns() == b.overturns());
+        let part = |run: &[ScanResponse]| {
+            self.is_window(run).then(|| libm::pow(width(run), 1.0 / f64::from(WINDOW_PARTS)))
         };
-        (above.intensity / below.intensity > widest).then(|| (below.intensity * above.intensity).sqrt())
+        let window_parts = runs.flat_map(move |run| std::iter::repeat_n(part(run), run.len()));
+        found.windows(2).zip(window_parts).enumerate().filter_map(move |(step, (pair, window_part))| {
+            let [below, above] = [&pair[0], &pair[1]];
+            let widest = if below.overturns() != above.overturns() {
+                1.0 + self.tolerance
+            } else if above.response.outcome == Outcome::NoRocking {
+                return None;
+            } else if (step < first || window_part.is_some()) && may_tip(found, step) {
+                self.closest_ratio
+            } else {
+                self.finest_ratio.min(window_part.filter(|_| step > first).unwrap_or(f64::INFINITY))
+            };
+            let is_wide = above.intensity / below.intensity > widest * ROUNDING;
+            is_wide.then(|| (below.intensity * above.intensity).sqrt())
+        })
+    }
+
+    /// Tells whether a run of responses is one of safe ones, as wide as the resolution.
+    fn is_window(&self, run: &[ScanResponse]) -> bool {
+        !run[0].overturns() && width(run) * ROUNDING >= self.finest_ratio
+    }
+
+    /// Finds the capacity in responses at rising intensity.
+    pub fn capacity(&self, responses: &[ScanResponse]) -> Capacity {
+        let mut runs = responses.chunk_by(|a, b| a.overturns() == b.overturns()).peekable();
+        let safe = runs.next_if(|run| !run[0].overturns());
+        let safe_below = safe.and_then(|run| run.last()).map(|last| last.intensity);
+        let overturning = runs.next().map(|run| run[0].intensity);
+        let mut windows = Vec::new();
+        while let Some(run) = runs.next() {
+            if self.is_window(run) {
+                let high = runs.peek().map(|_| run[run.len() - 1].intensity);
+                windows.push(SafeWindow { low: run[0].intensity, high });
+            }
+        }
+        let status = match (safe_below, overturning) {
+            (_, None) => CapacityStatus::Safe,
+            (None, Some(_)) => CapacityStatus::Below,
+            (Some(_), Some(_)) => CapacityStatus::Overturns,
+        };
+        let safe_up_to = responses.iter().rfind(|at| !at.overturns()).map(|at| at.intensity);
+        Capacity { status, safe_below, overturning, windows, safe_up_to }
+    }
+
+    /// Finds in responses at rising intensity which share of the intensities from each level to the next overturns, in logarithms:
+    /// a step whose ends differ counts by half.
+    pub fn overturning_shares(&self, responses: &[ScanResponse]) -> Vec<f64> {
+        let mut rest = responses;
+        let share = |level: &[f64]| {
+            let inside = rest.partition_point(|at| at.intensity < level[1]);
+            let overturning = rest[..=inside].windows(2).map(|pair| {
+                let ends = pair.iter().filter(|end| end.overturns()).count();
+                0.5 * ends as f64 * libm::log(pair[1].intensity / pair[0].intensity)
+            });
+            let share = overturning.sum::<f64>() / libm::log(level[1] / level[0]);
+            rest = &rest[inside..];
+            share.min(1.0)
+        };
+        self.levels.windows(2).map(share).collect()
     }
 }
 
-/// Tells whether the outcome may change twice between two responses of the same outcome: between overturnings in another mode, after
-/// more or fewer impacts (Zhang & Makris 2001, Rocking response of free-standing blocks under cycloidal pulses, Journal of
-/// Engineering Mechanics 127, 473-483), and near overturning.
-fn may_hide_a_change(below: &Response, above: &Response) -> bool {
-    match above.outcome {
-        Outcome::Overturning => below.impacts != above.impacts,
-        _ => below.edp.max(above.edp) > NEAR_OVERTURNING,
-    }
+/// Returns the ratio of the last intensity of a run to its first.
+fn width(run: &[ScanResponse]) -> f64 {
+    run[run.len() - 1].intensity / run[0].intensity
+}
+
+/// Tells whether the demand may reach the tipping point within a step, growing as it changes there and in the safe steps beside.
+fn may_tip(found: &[ScanResponse], step: usize) -> bool {
+    let beside = &found[step.saturating_sub(1)..found.len().min(step + 3)];
+    let rate = |pair: &[ScanResponse]| {
+        let [a, b] = [&pair[0], &pair[1]];
+        (b.response.edp - a.response.edp).abs() / libm::log(b.intensity / a.intensity)
+    };
+    let safe = beside.windows(2).filter(|pair| !pair.iter().any(ScanResponse::overturns));
+    let [below, above] = [&found[step], &found[step + 1]];
+    let growth = GROWTH * safe.map(rate).fold(0.0, f64::max) * libm::log(above.intensity / below.intensity);
+    below.response.edp.max(above.response.edp) + growth > TIPPING
 }
 
 impl ScanResponse {
@@ -143,8 +218,7 @@ pub enum CapacityStatus {
 
 keywords!(CapacityStatus { Overturns = "overturns", Safe = "safe", Below = "below" });
 
-/// The capacity of a structure against overturning, as a scan finds it. Each change of outcome lies between two neighbouring
-/// intensities.
+/// The capacity of a structure against overturning, as a scan finds it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Capacity {
     pub status: CapacityStatus,
@@ -152,39 +226,18 @@ pub struct Capacity {
     pub safe_below: Option<f64>,
     /// Least simulated intensity that overturns it.
     pub overturning: Option<f64>,
-    /// Ranges of intensity above that it survives.
+    /// Safe ranges above.
     pub windows: Vec<SafeWindow>,
+    /// Largest simulated intensity that it survives.
+    pub safe_up_to: Option<f64>,
 }
 
-/// A range of intensities that a structure survives, above one that overturns it.
+/// A range above an overturning intensity, as wide as the resolution of the scan, in which the structure survives every simulated
+/// intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SafeWindow {
     /// Least intensity of the window.
     pub low: f64,
     /// Largest intensity of the window; none where the scan ends within it.
     pub high: Option<f64>,
-}
-
-impl Capacity {
-    /// Finds the capacity in responses at rising intensity.
-    pub fn of(responses: &[ScanResponse]) -> Capacity {
-        let mut runs = responses.chunk_by(|a, b| a.overturns() == b.overturns()).peekable();
-        let safe = runs.next_if(|run| !run[0].overturns());
-        let safe_below = safe.and_then(|run| run.last()).map(|last| last.intensity);
-        let overturning = runs.next().map(|run| run[0].intensity);
-        let mut windows = Vec::new();
-        while let Some(run) = runs.next() {
-            let [first, last] = [&run[0], &run[run.len() - 1]];
-            if !first.overturns() {
-                let high = runs.peek().map(|_| last.intensity);
-                windows.push(SafeWindow { low: first.intensity, high });
-            }
-        }
-        let status = match (safe_below, overturning) {
-            (_, None) => CapacityStatus::Safe,
-            (None, Some(_)) => CapacityStatus::Below,
-            (Some(_), Some(_)) => CapacityStatus::Overturns,
-        };
-        Capacity { status, safe_below, overturning, windows }
-    }
 }

@@ -14,6 +14,8 @@
 //! incremental  one motion at rising intensity: where a structure overturns, and which stronger motions it survives
 //! ```
 
+#![deny(clippy::disallowed_methods)]
+
 mod batch;
 mod incremental;
 mod lane_roots;
@@ -34,5 +36,7 @@ pub use incremental::{Capacity, CapacityStatus, SafeWindow, Scan, ScanPoint, Sca
 pub use march::simulate;
 pub use record::{Record, RecordError};
 pub use response::{Outcome, Response};
-pub use structure::{Structure, StructureError, frame_eta, frame_p, housner_eta, rectangular_p};
+pub use structure::{
+    BOUNDS, Block, Bound, Structure, StructureError, frame_eta, frame_p, housner_eta, judge, rectangular_p,
+};
 pub use trace::{SolverEvent, TracePoint, trace, with_tail};

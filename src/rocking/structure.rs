@@ -1,9 +1,18 @@
 //! Structures by their three parameters, and where these come from.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::ops::RangeInclusive;
 
 use crate::units::G_M_S2;
+
+/// The size and slenderness of a structure, whatever its coefficient of restitution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Block {
+    /// Frequency parameter p, rad/s.
+    pub p_rad_s: f64,
+    /// Slenderness, rad.
+    pub alpha_rad: f64,
+}
 
 /// A rigid rocking structure, reduced to the three parameters that govern its response.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +40,102 @@ pub struct StructureError {
     structure: String,
     parameter: &'static str,
     value: f64,
-    expected: &'static str,
+    expected: String,
+}
+
+/// The range of a parameter in which there are structures, and what a number outside of it is likely to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bound {
+    /// What the parameter is called in options.
+    pub parameter: &'static str,
+    /// The least and the largest.
+    pub range: (f64, f64),
+    /// In words.
+    pub expected: &'static str,
+    /// The likely slip.
+    pub slip: &'static str,
+}
+
+/// What a user may give. The solver takes more ([`Structure::new`]), but outside of these bounds a number is a slip, most often of the
+/// unit: no structure that rocks is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or
+/// is wider than tall, for then it slides; nor is a beam 50 times as heavy as its columns.
+pub const BOUNDS: [Bound; 6] = [
+    Bound {
+        parameter: "width",
+        range: (1e-4, 200.0),
+        expected: "a length above 0 m, up to 200 m",
+        slip: "is it in mm?",
+    },
+    Bound {
+        parameter: "height",
+        range: (1e-3, 200.0),
+        expected: "a length above 0 m, up to 200 m",
+        slip: "is it in mm?",
+    },
+    Bound {
+        parameter: "beam-mass-ratio",
+        range: (0.0, 50.0),
+        expected: "a mass ratio of 0 or more, up to 50",
+        slip: "is it in percent?",
+    },
+    Bound {
+        parameter: "p",
+        range: (0.2, 50.0),
+        expected: "a frequency parameter above 0 rad/s, from 0.2 to 50",
+        slip: "is it in Hz, or of dimensions in mm?",
+    },
+    Bound {
+        parameter: "alpha",
+        range: (0.01, FRAC_PI_4),
+        expected: "a slenderness between 0 and pi/2 rad, from 0.01 to 0.7854 (45 degrees)",
+        slip: "is it in degrees, or height over width?",
+    },
+    Bound {
+        parameter: "eta",
+        range: (f64::MIN_POSITIVE, 1.0),
+        expected: "a coefficient of restitution above 0 and up to 1",
+        slip: "is it in percent?",
+    },
+];
+
+impl Bound {
+    /// That of a parameter.
+    pub fn of(parameter: &str) -> Option<&'static Bound> {
+        BOUNDS.iter().find(|bound| bound.parameter == parameter)
+    }
+
+    /// What is expected in place of a number that cannot be right, and what slip it may be.
+    pub fn refusal(&self, value: f64) -> Option<String> {
+        let Bound { range: (least, most), expected, slip, .. } = *self;
+        match value {
+            _ if value >= least && value <= most => None,
+            _ if value > 0.0 && value.is_finite() => Some(format!("{expected}; {slip}")),
+            _ => Some(expected.to_string()),
+        }
+    }
+}
+
+/// Judges the parameters of a structure as a user gives them, by name.
+///
+/// # Errors
+/// If one of them cannot be right, with the likely slip.
+pub fn judge(structure: &str, given: &[(&'static str, f64)]) -> Result<(), StructureError> {
+    let failed = |parameter, value, expected| {
+        Err(StructureError { structure: structure.to_string(), parameter, value, expected })
+    };
+    for &(parameter, value) in given {
+        if let Some(expected) = Bound::of(parameter).and_then(|bound| bound.refusal(value)) {
+            return failed(parameter, value, expected);
+        }
+    }
+    let value =
+        |wanted: &str| given.iter().find(|(parameter, _)| *parameter == wanted).map(|&(_, value)| value);
+    match (value("width"), value("height")) {
+        (Some(width), Some(height)) if width > height => {
+            failed("width", width, format!("no more than the height, {height} m; were they exchanged?"))
+        }
+        _ => Ok(()),
+    }
 }
 
 impl Structure {
@@ -40,11 +144,16 @@ impl Structure {
     /// # Errors
     /// If `p` is not in [0.001, 100] rad/s, `alpha` not in [1e-6, pi/2) rad or `eta` not in (0, 1].
     pub fn new(name: &str, p_rad_s: f64, alpha_rad: f64, eta: f64) -> Result<Structure, StructureError> {
-        let check = |ok: bool, parameter, value, expected| {
+        let check = |ok: bool, parameter, value, expected: &str| {
             if ok {
                 return Ok(());
             }
-            Err(StructureError { structure: name.to_string(), parameter, value, expected })
+            Err(StructureError {
+                structure: name.to_string(),
+                parameter,
+                value,
+                expected: expected.to_string(),
+            })
         };
         let possible_p = FREQUENCIES_RAD_S.contains(&p_rad_s);
         check(possible_p, "p", p_rad_s, "a frequency parameter above 0 rad/s, from 0.001 to 100")?;
@@ -68,12 +177,12 @@ impl Structure {
     ) -> Result<Structure, StructureError> {
         for (parameter, value) in [("width", width_m), ("height", height_m)] {
             if !(value > 0.0 && value.is_finite()) {
-                let expected = "a length above 0 m";
+                let expected = "a length above 0 m".to_string();
                 return Err(StructureError { structure: name.to_string(), parameter, value, expected });
             }
         }
-        let semi_diagonal_m = 0.5 * width_m.hypot(height_m);
-        let alpha_rad = (width_m / height_m).atan();
+        let semi_diagonal_m = 0.5 * libm::hypot(width_m, height_m);
+        let alpha_rad = libm::atan(width_m / height_m);
         let eta = eta.unwrap_or_else(|| housner_eta(alpha_rad));
         Structure::new(name, rectangular_p(semi_diagonal_m), alpha_rad, eta)
     }
@@ -95,7 +204,7 @@ impl Structure {
                 structure: name.to_string(),
                 parameter: "beam-mass-ratio",
                 value: beam_mass_ratio,
-                expected: "a mass ratio of 0 or more",
+                expected: "a mass ratio of 0 or more".to_string(),
             });
         }
         let column = Structure::rectangular_block(name, width_m, height_m, Some(1.0))?;
@@ -127,11 +236,12 @@ pub fn frame_p(column_p_rad_s: f64, beam_mass_ratio: f64) -> f64 {
 
 /// Housner's (1963) coefficient of restitution of a rectangular block: eta = 1 - 1.5 sin^2(alpha).
 pub fn housner_eta(alpha_rad: f64) -> f64 {
-    1.0 - 1.5 * alpha_rad.sin().powi(2)
+    1.0 - 1.5 * libm::sin(alpha_rad).powi(2)
 }
 
 /// Coefficient of restitution of a rocking frame: eta = (1 - 1.5 sin^2(alpha) + 3 y cos(2 alpha)) / (1 + 3 y), of the
 /// ratio y of beam to columns mass (Makris & Vassiliou 2013).
 pub fn frame_eta(alpha_rad: f64, beam_mass_ratio: f64) -> f64 {
-    (housner_eta(alpha_rad) + 3.0 * beam_mass_ratio * (2.0 * alpha_rad).cos()) / (1.0 + 3.0 * beam_mass_ratio)
+    (housner_eta(alpha_rad) + 3.0 * beam_mass_ratio * libm::cos(2.0 * alpha_rad))
+        / (1.0 + 3.0 * beam_mass_ratio)
 }

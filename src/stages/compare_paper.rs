@@ -12,11 +12,14 @@ use super::fit_pro::FitPro;
 use super::shared::groups::{self, Group};
 use super::simulate::Simulate;
 use crate::fragility::{Measure, Plane, p_overturning, rms_difference};
+use crate::motion::IntensityMeasures;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::defaults;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
+use crate::statistics::Test;
+use crate::studies::paper::{EXAMPLE_LAMBDA, example, half_erf, hybrid, joint_test, rms_between};
 use crate::table::fits;
 use crate::table::paper::{self, PAPER, PaperRow, Published, SpreadRow};
 use crate::table::pex::PexRow;
@@ -103,6 +106,12 @@ impl Side {
             Side::High => "high",
         }
     }
+
+    /// The side that a quantity is of, and what of it.
+    fn of(quantity: &str) -> Option<(Side, &str)> {
+        let of = |side: Side| Some((side, quantity.strip_prefix(side.word())?.strip_prefix('_')?));
+        of(Side::Low).or_else(|| of(Side::High))
+    }
 }
 
 impl Ours {
@@ -112,39 +121,60 @@ impl Ours {
     /// If the quantity is unknown.
     fn value(&self, wanted: &Published) -> anyhow::Result<Option<f64>> {
         let quantity = wanted.quantity.as_str();
-        for side in [Side::Low, Side::High] {
-            if let Some(rest) = quantity.strip_prefix(side.word()).and_then(|rest| rest.strip_prefix('_')) {
-                let plane = self.plane(wanted, side);
-                return Ok(match rest {
-                    "rms_ln_edp" => self.rms(wanted, side),
-                    "rms_over_beta" => self
-                        .rms(wanted, side)
-                        .zip(plane.and_then(|plane| plane.beta))
-                        .map(|(rms, beta)| rms / beta),
-                    "ln_a" => plane.and_then(|plane| plane.ln_a),
-                    "b1" => plane.and_then(|plane| plane.b1),
-                    "b2" => plane.and_then(|plane| plane.b2),
-                    "r2" => plane.and_then(|plane| plane.r2),
-                    _ => anyhow::bail!("data/paper.csv: {quantity}: unknown quantity"),
-                });
-            }
+        if let Some((side, rest)) = Side::of(quantity) {
+            let plane = self.plane(wanted, side);
+            return Ok(match rest {
+                "rms_ln_edp" => self.rms(wanted, side),
+                "rms_over_beta" => self
+                    .rms(wanted, side)
+                    .zip(plane.and_then(|plane| plane.beta))
+                    .map(|(rms, beta)| rms / beta),
+                "ln_a" => plane.and_then(|plane| plane.ln_a),
+                "b1" => plane.and_then(|plane| plane.b1),
+                "b2" => plane.and_then(|plane| plane.b2),
+                "r2" => plane.and_then(|plane| plane.r2),
+                // A row of its joint test.
+                "plane" => None,
+                _ => anyhow::bail!("data/paper.csv: {quantity}: unknown quantity"),
+            });
         }
-        let hybrid = || self.curve(wanted, Measure::Im4, Some(Measure::Im3Inverse));
+        let of_two = || self.curve(wanted, Measure::Im4, Some(Measure::Im3Inverse));
         let im5 = || self.curve(wanted, Measure::Im5, None);
         let high = || self.plane(wanted, Side::High);
-        if let Some(im) = quantity.strip_prefix("p_ro_at_") {
-            let im = im.parse()?;
-            let at = |curve: &ProRow| Some(p_overturning(im, curve.mu?, curve.beta?, curve.link));
-            return Ok(hybrid().and_then(at));
-        }
+        let example = self.example(wanted);
         Ok(match quantity {
             "transition" => high().and_then(|plane| plane.transition_found),
             "r2_pooled" => high().and_then(|plane| plane.r2_pooled),
-            "hybrid_lambda" => hybrid().and_then(|curve| curve.lambda),
+            "hybrid_lambda" => of_two().and_then(|curve| curve.lambda),
             "im5_theta" => im5().and_then(|curve| curve.theta),
             "im5_beta" => im5().and_then(|curve| curve.beta),
+            "example_hybrid" => example.map(|(im, _)| im),
+            "example_p_ro" => {
+                example.and_then(|(im, curve)| Some(p_overturning(im, curve.mu?, curve.beta?, curve.link)))
+            }
+            "example_half_erf" => self
+                .example_measures(wanted)
+                .and_then(|measures| Some(half_erf(hybrid(&measures, EXAMPLE_LAMBDA)?))),
             _ => anyhow::bail!("data/paper.csv: {quantity}: unknown quantity"),
         })
+    }
+
+    fn group(&self, of: &Published) -> Option<&Group> {
+        self.groups.iter().find(|group| of.is_of(&group.suite, &group.structure))
+    }
+
+    /// The measures of the worked example for a structure of it.
+    fn example_measures(&self, of: &Published) -> Option<IntensityMeasures> {
+        let group = self.group(of).filter(|group| !group.cases.is_empty())?;
+        Some(example(&group.structure_of(0)))
+    }
+
+    /// The hybrid measure of the worked example for a structure of it, by our exponent, and the curve over it: the example takes that
+    /// of the electrical equipment for both structures.
+    fn example(&self, of: &Published) -> Option<(f64, &ProRow)> {
+        let equipment = Published { structure: "electrical-equipment".to_string(), ..of.clone() };
+        let curve = self.curve(&equipment, Measure::Im4, Some(Measure::Im3Inverse))?;
+        Some((hybrid(&self.example_measures(of)?, curve.lambda?)?, curve))
     }
 
     fn plane(&self, of: &Published, side: Side) -> Option<&PexRow> {
@@ -172,14 +202,53 @@ impl Ours {
         let row = self.plane(of, side)?;
         let theirs = Plane { ln_a: published("ln_a")?, b1: published("b1")?, b2: published("b2")? };
         let ours = Plane { ln_a: row.ln_a?, b1: row.b1?, b2: row.b2? };
-        let group = self.groups.iter().find(|group| of.is_of(&group.suite, &group.structure))?;
-        rms_difference(&theirs, &ours, &group.cases, side.range())
+        rms_difference(&theirs, &ours, &self.group(of)?.cases, side.range())
+    }
+
+    /// What a root mean square of a side is between planes of two seeds.
+    fn seed_rms(&self, of: &Published, spread: &Spread) -> Option<f64> {
+        let (side, rest) = Side::of(&of.quantity).filter(|(_, rest)| rest.starts_with("rms"))?;
+        let plane = |set: &Vec<f64>| Plane { ln_a: set[0], b1: set[1], b2: set[2] };
+        let planes: Vec<Plane> = sets(spread, of, side)?.iter().map(plane).collect();
+        let rms = rms_between(&planes, &self.group(of)?.cases, side.range())?;
+        Some(rms / if rest == "rms_over_beta" { self.plane(of, side)?.beta? } else { 1.0 })
+    }
+
+    /// Whether the published plane could be that of one more seed.
+    fn joint(&self, of: &Published, spread: &Spread) -> Option<Test> {
+        let (side, _) = Side::of(&of.quantity).filter(|(_, rest)| *rest == "plane")?;
+        let printed = NUMBERS_OF_PLANE.iter().map(|number| {
+            let quantity = format!("{}_{number}", side.word());
+            let number = self.published.iter().find(|p| p.is(&quantity, &of.suite, &of.structure))?;
+            Some((number.published?, number.rounding()?))
+        });
+        let (printed, rounding): (Vec<f64>, Vec<f64>) =
+            printed.collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        joint_test(&sets(spread, of, side)?, &printed, &rounding)
     }
 }
 
+/// What Table II prints of a plane.
+const NUMBERS_OF_PLANE: [&str; 4] = ["ln_a", "b1", "b2", "r2"];
+
+/// The numbers of a plane, seed by seed; none where a seed lacks one.
+fn sets(spread: &Spread, of: &Published, side: Side) -> Option<Vec<Vec<f64>>> {
+    let over_seeds = |number: &&str| {
+        let quantity = format!("{}_{number}", side.word());
+        let key = (quantity.as_str(), of.suite.as_str(), of.structure.as_str());
+        spread.iter().find(|(other, _)| **other == key).map(|(_, values)| values)
+    };
+    let numbers: Vec<&Vec<f64>> = NUMBERS_OF_PLANE.iter().map(over_seeds).collect::<Option<_>>()?;
+    let seeds = numbers[0].len();
+    let complete = numbers.iter().all(|values| values.len() == seeds);
+    complete.then(|| (0..seeds).map(|seed| numbers.iter().map(|values| values[seed]).collect()).collect())
+}
+
 /// Values over seeds of each quantity, suite and structure.
-fn by_quantity(spread: &[SpreadRow]) -> BTreeMap<(&str, &str, &str), Vec<f64>> {
-    let mut values: BTreeMap<_, Vec<f64>> = BTreeMap::new();
+type Spread<'a> = BTreeMap<(&'a str, &'a str, &'a str), Vec<f64>>;
+
+fn by_quantity(spread: &[SpreadRow]) -> Spread<'_> {
+    let mut values = Spread::new();
     for row in spread {
         let key = (row.quantity.as_str(), row.suite.as_str(), row.structure.as_str());
         values.entry(key).or_default().push(row.value);
@@ -240,7 +309,13 @@ impl Stage for ComparePaper {
         let row = |published: &Published| {
             let key = (published.quantity.as_str(), published.suite.as_str(), published.structure.as_str());
             let values = spread.get(&key).map_or(&[][..], Vec::as_slice);
-            Ok(PaperRow::new(published, ours.value(published)?, values))
+            let joint = ours.joint(published, &spread);
+            Ok(PaperRow {
+                seed_rms: ours.seed_rms(published, &spread),
+                t2: joint.map(|test| test.statistic),
+                t2_p: joint.map(|test| test.p),
+                ..PaperRow::new(published, ours.value(published)?, values)
+            })
         };
         let rows: Vec<PaperRow> = self.published.iter().map(row).collect::<anyhow::Result<_>>()?;
         PaperRow::write(&rows, self.out.clone(), provenance)?;

@@ -62,7 +62,7 @@ impl Default for ExportOptions {
 
 impl StageOptions for ExportOptions {
     fn resolve_paths(&mut self, folder: &Path) {
-        self.structure.resolve_paths(folder);
+        self.structure.structures.resolve_path(folder);
     }
 }
 
@@ -116,6 +116,12 @@ impl Declare for Export {
         }
         let (tolerance, upto) = (options.tolerance, options.upto);
         check(tolerance > 0.0 && tolerance < 0.1, "tolerance", tolerance, "an error above 0 and below 0.1")?;
+        check(
+            program != Program::Pelicun || tolerance >= export::PELICUN_TOLERANCE,
+            "tolerance",
+            tolerance,
+            "an error of 1e-5 or more for pelicun, which keeps six digits",
+        )?;
         check(upto.is_none_or(f64::is_finite), "upto", upto.unwrap_or_default(), "a finite intensity")?;
         let file = if program == Program::Pelicun { "fragility.csv" } else { Self::OUTPUT.file };
         let Target::Path(out) = files.asked(file).unwrap_or_else(|| file.into()) else {
@@ -168,6 +174,10 @@ impl Stage for Export {
         Err(TableError::Missing { path: output.to_path_buf(), hint: "run export".to_string() })
     }
 
+    fn is_own_text(&self, head: &str) -> bool {
+        export::is_own(head)
+    }
+
     fn execute(&self, _provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let fits = self.fits.choose()?;
         let structure = self.structure.structure_with_eta(fits.model.eta)?;
@@ -179,7 +189,7 @@ impl Stage for Export {
         });
         let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
         let model = Model {
-            id: format!("rockfrag_{}", plain_id(&structure.name)),
+            id: format!("{}{}", export::OWN_ID, plain_id(&structure.name)),
             description: format!(
                 "rockfrag {}: fits of {}; structure of {}",
                 env!("CARGO_PKG_VERSION"),
@@ -200,8 +210,12 @@ impl Stage for Export {
         }
         text_file::write(&self.out, content)?;
         let paths: Vec<String> = self.outputs().iter().map(|path| path.display().to_string()).collect();
-        let levels = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
-        Ok(format!("{} functions, up to {levels} levels: {}", functions.len(), paths.join(", ")))
+        let most = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
+        let levels = match self.program {
+            Program::OpenQuake | Program::Pelicun => format!(", up to {most} levels"),
+            Program::OpenQuakeContinuous => String::new(),
+        };
+        Ok(format!("{} functions{levels}: {}", functions.len(), paths.join(", ")))
     }
 }
 
@@ -222,7 +236,7 @@ impl Export {
         };
         let range_of_data = [jumps[0], slice.largest_in_data(model)];
         let levels = self.levels(&jumps, range_of_data[1], reaching)?;
-        let id = plain_id(&format!("{}_ratio{}", slice.structure.name, slice.ratio));
+        let id = plain_id(&format!("{}{}{}", slice.structure.name, export::OF_RATIO, slice.ratio));
         fits.warn_of_slice(slice, levels[levels.len() - 1], &format!("{id}: "), console);
         let probabilities = levels.iter().map(|&level| reaching(level)).collect();
         Ok(Function { id, peak: slice.peak, levels, probabilities, overturning, range_of_data })

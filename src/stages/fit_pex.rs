@@ -2,19 +2,20 @@
 
 use std::str::FromStr;
 
+use anyhow::ensure;
 use clap::Args;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::shared::groups::{self, Group};
-use super::shared::uncertainty::uncertainty;
+use super::shared::uncertainty::{LIMIT_STATE, uncertainty};
 use super::simulate::Simulate;
 use crate::fragility::CaseGroup;
 use crate::fragility::demand::{Regression, RegressionOptions, ScanPoint};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
-use crate::pipeline::options::{check, defaults, from_scalar};
+use crate::pipeline::options::{check, check_bound, defaults, from_scalar};
 use crate::pipeline::stage::Stage;
 use crate::statistics::FitStatus;
 use crate::table::pex::{GroupRegression, PEX, PEX_BOOTSTRAP, PexReplicateRow, PexRow, ScanRow};
@@ -33,6 +34,10 @@ pub struct FitPexOptions {
     /// IM4 at which the two planes meet: found (least pooled residual), or a number
     #[arg(long, default_value = "found")]
     pub transition: TransitionAt,
+    /// Least demand that counts as seen: smaller ones in safe rocking are raised to it, as a solver of finite tolerance
+    /// would [default: none]
+    #[arg(long)]
+    pub demand_floor: Option<f64>,
     /// Resamples for bootstrap limits, drawn within each cell of magnitude and distance
     #[arg(long, default_value = "0", value_name = "N")]
     pub bootstrap: usize,
@@ -121,7 +126,15 @@ impl FitPex {
         out: impl Into<Target>,
     ) -> anyhow::Result<FitPex> {
         let limit = options.limit_state;
-        check(limit > 0.0 && limit.is_finite(), "limit-state", limit, "a demand |theta|max / alpha above 0")?;
+        check_bound(&LIMIT_STATE, limit)?;
+        if let Some(floor) = options.demand_floor {
+            check(
+                floor > 0.0 && floor < limit,
+                "demand-floor",
+                floor,
+                "a demand above 0 and below the limit state",
+            )?;
+        }
         let transition = options.transition.im4();
         let uncertainty = uncertainty(options.bootstrap, options.confidence, options.seed)?;
         let options = FitPexOptions { seed: Some(uncertainty.seed), ..options.clone() };
@@ -171,7 +184,11 @@ impl Stage for FitPex {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let groups = groups::read(&self.input)?;
+        let mut groups = groups::read(&self.input)?;
+        if let Some(floor) = self.options.demand_floor {
+            let cases = groups.iter_mut().flat_map(|group| &mut group.cases);
+            cases.filter(|case| case.has_demand()).for_each(|case| case.edp = case.edp.max(floor));
+        }
         let steps = groups.len() as u64 * self.regressions.uncertainty.steps();
         let bar = console.bar(self.name(), steps);
         let to_fit: Vec<CaseGroup> = groups.iter().map(Group::to_fit).collect();
@@ -200,6 +217,13 @@ impl Stage for FitPex {
         }
         let missing = rows.iter().filter(|row| row.regression.status() != FitStatus::Ok);
         console.warn_each(missing.map(|row| (reason(row), measures(&row.regression))));
+        let fitted = rows.iter().filter(|row| row.regression.status() == FitStatus::Ok).count();
+        ensure!(
+            fitted > 0,
+            "none of {} regressions can be fitted, and no file is written; expected more cases that rock and do not overturn: more \
+             motions, or a structure that rocks in them",
+            rows.len()
+        );
         ScanRow::write(&scans, self.scan_target(), provenance)?;
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PEX_BOOTSTRAP, provenance.clone())?;
@@ -209,7 +233,6 @@ impl Stage for FitPex {
             writer.finish()?;
         }
         PexRow::write(&rows.iter().map(PexRow::from).collect::<Vec<_>>(), self.out.clone(), provenance)?;
-        let fitted = rows.iter().filter(|row| row.regression.status() == FitStatus::Ok).count();
         let status = FitStatus::Ok.as_str();
         Ok(format!("{fitted} of {} fits {status}", rows.len()))
     }

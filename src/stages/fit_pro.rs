@@ -1,5 +1,8 @@
 //! fit-pro: fragility curves of overturning, or of rocking, by maximum likelihood.
 
+use std::collections::BTreeSet;
+
+use anyhow::ensure;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -7,7 +10,7 @@ use serde_json::{Value, json};
 use super::shared::groups::{self, Group};
 use super::shared::uncertainty::uncertainty;
 use super::simulate::Simulate;
-use crate::fragility::overturning::{Curve, CurveOptions, Pair};
+use crate::fragility::overturning::{Curve, CurveOptions, LEAST_EVENTS, Pair};
 use crate::fragility::{CaseGroup, CurveModel, Event};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
@@ -154,6 +157,8 @@ impl Stage for FitPro {
         console.warn_each(rows.iter().filter_map(doubt));
         let few = rows.iter().filter(|row| row.curve.has_few_events());
         console.warn_each(few.map(|row| (few_events(row), measures(&row.curve))));
+        let fitted = rows.iter().filter(|row| row.curve.status() == FitStatus::Ok).count();
+        ensure!(fitted > 0, nothing_fits(&rows));
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PRO_BOOTSTRAP, provenance.clone())?;
             for row in &rows {
@@ -195,10 +200,31 @@ fn doubt(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> Option<(Str
             format!(
                 "medians of {event} for {suite}, {structure}, lie far outside of the data, so that these measures say little"
             ),
-            format!("{of} (by a factor of {:.0e})", fit.factor_of_median()),
+            format!("{of} (by a factor of {})", factor(fit.factor_of_median())),
         )),
         _ => None,
     }
+}
+
+fn factor(factor: f64) -> String {
+    if factor < 1000.0 { format!("{factor:.0}") } else { format!("{factor:.0e}") }
+}
+
+/// What to do where no curve can be fitted: no file is written, since nothing could be read from it.
+fn nothing_fits(rows: &[GroupCurve]) -> String {
+    let event = rows.first().map_or("events", |row| row.curve.event.as_str());
+    let counts: BTreeSet<String> =
+        rows.iter().map(|row| format!("{} of {}", row.curve.events, row.curve.n)).collect();
+    let counts = counts.into_iter().collect::<Vec<_>>().join(", ");
+    format!(
+        "none of {} curves can be fitted, and no file is written: {event} in {counts} cases; expected {LEAST_EVENTS} or more with it, \
+         and {LEAST_EVENTS} or more without\n\
+         more motions, or stronger ones (import-motions --scale), answer the same question with more events\n\
+         --estimator firth answers it from one event on, and in spite of separation, with wide limits\n\
+         ida scales each motion until it overturns a structure; fit-pro reads its stripes (ida.stripes.parquet), which tell what \
+         these motions would do if they were stronger",
+        rows.len()
+    )
 }
 
 /// Which limits to take where events are few, for a message.

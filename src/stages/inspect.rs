@@ -75,7 +75,10 @@ fn made(Recorded { provenance, content, .. }: &Recorded, terminal: &Terminal) ->
     }
     let by = format!("  made by {}, rockfrag {}", provenance.stage, provenance.version);
     let lines = pairs.iter().map(|(name, value)| terminal.line(&format!("  {name} {value}"), Weight::Faint));
-    std::iter::once(terminal.line(&by, Weight::Plain)).chain(lines).collect()
+    let warnings = provenance.warnings.all();
+    let warnings =
+        warnings.iter().map(|warning| terminal.line(&format!("  warning: {warning}"), Weight::Plain));
+    std::iter::once(terminal.line(&by, Weight::Plain)).chain(lines).chain(warnings).collect()
 }
 
 fn type_words(data_type: &DataType) -> String {

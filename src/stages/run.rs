@@ -3,27 +3,28 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use crate::pipeline::cache::{self, Access, Freshness, freshness};
+use crate::pipeline::cache::{self, Access, Freshness, May, freshness};
 use crate::pipeline::console::Console;
+use crate::pipeline::replace;
 use crate::pipeline::stage::Stage;
 
 /// Runs the stages in order, after other runs in the same folder.
 ///
 /// # Errors
 /// That of the first stage that fails.
-pub fn run(stages: &[Box<dyn Stage>], force: bool, console: &Console) -> anyhow::Result<()> {
+pub fn run(stages: &[Box<dyn Stage>], may: May, console: &Console) -> anyhow::Result<()> {
     let _lock = match stages.first() {
         Some(stage) => cache::lock_folder(stage.as_ref(), Access::Exclusive, console)?,
         None => None,
     };
-    stages.iter().try_for_each(|stage| cache::run(stage.as_ref(), force, console))
+    stages.iter().try_for_each(|stage| cache::run(stage.as_ref(), may, console))
 }
 
 /// What a run would do and why, without doing it.
 ///
 /// # Errors
 /// If an input that no stage makes is missing.
-pub fn dry_run(stages: &[Box<dyn Stage>], force: bool) -> anyhow::Result<String> {
+pub fn dry_run(stages: &[Box<dyn Stage>], may: May) -> anyhow::Result<String> {
     let mut text = String::new();
     let mut anew: Vec<PathBuf> = Vec::new();
     for stage in stages {
@@ -31,12 +32,17 @@ pub fn dry_run(stages: &[Box<dyn Stage>], force: bool) -> anyhow::Result<String>
             stage.inputs().into_iter().find(|(_, source)| anew.iter().any(|path| path == source.name()));
         let state = match waits {
             Some((role, _)) => Freshness::Stale(format!("the {role} are made anew")),
-            None if force => Freshness::Stale("--force".to_string()),
+            None if may.force => Freshness::Stale("--force".to_string()),
             None => freshness(stage.as_ref(), &stage.provenance()?),
         };
-        let verdict = match &state {
-            Freshness::UpToDate => "up to date".to_string(),
-            Freshness::Stale(reason) => format!("would run: {reason}"),
+        let refused = match waits {
+            Some(_) => None,
+            None => replace::check(stage.as_ref(), &stage.provenance()?, may.overwrite).err(),
+        };
+        let verdict = match (&state, refused) {
+            (_, Some(reason)) => format!("would be refused: {reason}"),
+            (Freshness::UpToDate, None) => "up to date".to_string(),
+            (Freshness::Stale(reason), None) => format!("would run: {reason}"),
         };
         writeln!(text, "{:20} {verdict}", stage.name())?;
         if let serde_json::Value::Object(parameters) = stage.parameters() {

@@ -1,5 +1,6 @@
 //! seed-spread: the whole pipeline with one seed after the other, to see how far its numbers move by chance.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -8,8 +9,10 @@ use clap::Args;
 use super::compare_paper::ComparePaper;
 use super::registry::Config;
 use super::run::run;
+use crate::pipeline::cache::May;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::Declare;
+use crate::pipeline::replace;
 use crate::pipeline::stage::{Stage, folder_of};
 use crate::table::paper::{self, SpreadRow};
 
@@ -24,29 +27,47 @@ pub struct SeedSpreadOptions {
     pub out: PathBuf,
 }
 
-/// Repeats the pipeline of `config` and gathers the numbers that the paper publishes.
+/// Repeats the pipeline of a file and gathers the numbers that the paper publishes.
 ///
 /// # Errors
 /// Those of the stages.
-pub fn seed_spread(config: &Config, options: &SeedSpreadOptions, console: &Console) -> anyhow::Result<()> {
-    let folder = folder_of(&options.out);
+pub fn seed_spread(
+    pipeline: &Path,
+    options: &SeedSpreadOptions,
+    may: May,
+    console: &Console,
+) -> anyhow::Result<()> {
+    let config = Config::read(pipeline)?;
+    let out = options.out.as_path();
+    if !may.overwrite && !is_new_or_own(out) {
+        return Err(replace::refusal(out, replace::FOREIGN, "seed-spread"));
+    }
+    let folder = folder_of(out);
     let mut rows: Vec<SpreadRow> = Vec::new();
     for seed in 1..=options.seeds {
         console.note(&format!("seed {seed} of {}", options.seeds));
         let scratch = tempfile::Builder::new().prefix(".seed-spread.").tempdir_in(folder)?;
         let numbers = scratch.path().join(ComparePaper::OUTPUT.file);
         let stages = config.clone().with_seed(seed).stages(scratch.path())?;
-        run(&needed_for(&numbers, stages), true, console)?;
+        run(&needed_for(&numbers, stages), May { force: true, ..May::default() }, console)?;
         rows.extend(paper::ours(&numbers, seed)?);
     }
     let mut partial = tempfile::NamedTempFile::new_in(folder)?;
     {
+        let (version, pipeline) = (env!("CARGO_PKG_VERSION"), pipeline.display());
+        writeln!(partial, "# rockfrag {version}: rockfrag seed-spread {pipeline} --seeds {}", options.seeds)?;
         let mut writer = csv::Writer::from_writer(&mut partial);
         rows.iter().try_for_each(|row| writer.serialize(row))?;
         writer.flush()?;
     }
     partial.persist(&options.out).with_context(|| options.out.display().to_string())?;
     Ok(())
+}
+
+/// Whether a file is not there, is empty, or is such a spread.
+fn is_new_or_own(out: &Path) -> bool {
+    let is_empty = std::fs::metadata(out).map_or(true, |there| there.len() == 0);
+    is_empty || paper::spread(Some(out)).is_ok_and(|rows| !rows.is_empty())
 }
 
 /// Those of the stages of a run, in order, on which a file depends.

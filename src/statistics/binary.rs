@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::keyword::keywords;
 use crate::statistics::derivatives::{Scores, derivatives, sum};
 use crate::statistics::design::DesignMatrix;
-use crate::statistics::link::Link;
+use crate::statistics::link::{Information, Link};
 use crate::statistics::newton::{Along, Maximum, Objective, maximise};
 
 /// A binary regression with an intercept: P(event) = F(b0 + b1 x1 + ...).
@@ -41,7 +41,7 @@ impl BinaryFit {
 pub struct BinaryError;
 
 /// Maximises the Bernoulli likelihood of `events` (true: it happened), or as `estimator` says Firth's of them, by Newton's
-/// method. `predictors` are each as long as `events`. Under separation the likelihood has no maximum, and the iterations
+/// method, Firth's from several starts: it may have more maxima than one. `predictors` are each as long as `events`. Under separation the likelihood has no maximum, and the iterations
 /// may still stop, far out where it is flat: [`is_separated`](crate::statistics::is_separated) must be asked first.
 ///
 /// # Errors
@@ -55,8 +55,11 @@ pub fn binary_regression(
     let design = DesignMatrix::new(predictors, events.len());
     let weights = vec![1.0; events.len()];
     let likelihood = BinaryLikelihood { design: &design, events, weights: &weights, link, estimator };
-    let start = DVector::zeros(design.columns().len());
-    let Maximum { at, objective, .. } = likelihood.maximise(&start, Along::All, 0.0).ok_or(BinaryError)?;
+    let Maximum { at, objective, .. } = match estimator {
+        Estimator::Ml => likelihood.maximise(&likelihood.flat(0.0), Along::All, 0.0),
+        Estimator::Firth => likelihood.highest(FIRTH_TOLERANCE),
+    }
+    .ok_or(BinaryError)?;
     let information = match estimator {
         Estimator::Ml => objective.information,
         Estimator::Firth => penalty(&likelihood, &at).ok_or(BinaryError)?.information,
@@ -72,6 +75,18 @@ pub fn binary_regression(
         objective: objective.value,
     })
 }
+
+/// What the last step to the maximum of Firth's likelihood may promise; it is taken, and squares the error.
+const FIRTH_TOLERANCE: f64 = 1e-14;
+/// Maxima that differ by less are the same.
+const SAME: f64 = 1e-9;
+/// Where the search for the maximum of Firth's likelihood starts: indices that are the same in all cases,
+const FLAT_STARTS: [f64; 5] = [0.0, -3.0, -1.0, 1.0, 2.0];
+/// the curve of the logit, steeper or flatter by these factors, with these added to its index,
+const STEEPER: [f64; 3] = [0.5, 1.0, 2.0];
+const SHIFTED: [f64; 3] = [-1.0, 0.0, 1.0];
+/// and an index that rises as that of the logit with these standard deviations, 0 halfway between the lowest event and the highest other.
+const STEEP: [f64; 4] = [1.0, 3.0, 9.0, 27.0];
 
 /// The likelihood of outcomes as a function of the coefficients.
 #[derive(Clone, Copy)]
@@ -93,8 +108,58 @@ impl BinaryLikelihood<'_> {
         maximise(|coefficients| self.at(coefficients), start, along, tolerance)
     }
 
-    /// Value and derivatives at these coefficients. The second derivatives are those of the likelihood alone, for which
-    /// it is concave; with a penalty, which changes them by some n-th part, Newton's steps converge linearly.
+    /// The highest of the maxima that Newton's method finds from several starts.
+    pub fn highest(&self, tolerance: f64) -> Option<Maximum> {
+        let logit = BinaryLikelihood { link: Link::Logit, ..*self };
+        let logit = logit.maximise(&self.flat(0.0), Along::All, tolerance);
+        let curves = logit.iter().flat_map(|Maximum { at, .. }| {
+            let shifted = move |steeper: f64| SHIFTED.map(|shift| at * steeper + self.flat(shift));
+            STEEPER.into_iter().flat_map(shifted).chain(self.steep(at))
+        });
+        let starts = FLAT_STARTS.into_iter().map(|index| self.flat(index)).chain(curves);
+        let found = starts.filter_map(|start| self.maximise(&start, Along::All, tolerance));
+        let maxima = found.filter(|found| self.is_maximum(&found.at));
+        // Of those that are the same but for rounding, the first.
+        let is_higher = |a: &Maximum, b: &Maximum| a.objective.value > b.objective.value + SAME;
+        maxima.reduce(|best, next| if is_higher(&next, &best) { next } else { best })
+    }
+
+    /// Coefficients of steep indices in the direction of these.
+    fn steep(&self, direction: &DVector<f64>) -> [DVector<f64>; STEEP.len()] {
+        let indices = self.design.indices(direction.as_slice());
+        let (mut lowest_event, mut highest_other) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut sum, mut squares, mut cases) = (0.0, 0.0, 0.0);
+        for ((index, &event), &weight) in indices.into_iter().zip(self.events).zip(self.weights) {
+            if weight > 0.0 {
+                match event {
+                    true => lowest_event = index.min(lowest_event),
+                    false => highest_other = index.max(highest_other),
+                }
+                (sum, squares, cases) = (sum + index, squares + index * index, cases + 1.0);
+            }
+        }
+        let sd = (squares / cases - (sum / cases) * (sum / cases)).max(0.0).sqrt();
+        let centred = direction + self.flat(-0.5 * (lowest_event + highest_other));
+        STEEP.map(|steep| &centred * (steep / sd))
+    }
+
+    /// Coefficients of an index that is the same in all cases.
+    fn flat(&self, index: f64) -> DVector<f64> {
+        DVector::from_fn(self.design.columns().len(), |k, _| if k == 0 { index } else { 0.0 })
+    }
+
+    /// Whether the likelihood falls in all directions from here, where its first derivatives vanish.
+    fn is_maximum(&self, at: &DVector<f64>) -> bool {
+        let curvature = self.derivatives_at(at).information;
+        let penalty = || penalty(self, at).map(|penalty| penalty.curvature);
+        match self.estimator {
+            Estimator::Ml => curvature.cholesky().is_some(),
+            Estimator::Firth => penalty().is_some_and(|penalty| (curvature + penalty).cholesky().is_some()),
+        }
+    }
+
+    /// Value and derivatives at these coefficients. With a penalty the function need not be concave: where it is not, the expected
+    /// information of the likelihood stands in for the second derivatives.
     pub fn at(&self, coefficients: &DVector<f64>) -> Objective {
         let mut objective = self.derivatives_at(coefficients);
         objective.value = self.log_likelihood(coefficients);
@@ -103,6 +168,9 @@ impl BinaryLikelihood<'_> {
                 Some(penalty) => {
                     objective.value += penalty.value;
                     objective.gradient += penalty.gradient;
+                    let curvature = &objective.information + penalty.curvature;
+                    let is_concave = curvature.clone().cholesky().is_some();
+                    objective.information = if is_concave { curvature } else { penalty.information };
                 }
                 None => objective.value = f64::NEG_INFINITY,
             }
@@ -165,6 +233,8 @@ pub struct Penalty {
     pub value: f64,
     /// Its first derivatives.
     pub gradient: DVector<f64>,
+    /// The negative of its second derivatives.
+    pub curvature: DMatrix<f64>,
     /// The expected information.
     pub information: DMatrix<f64>,
 }
@@ -184,11 +254,29 @@ pub fn penalty(likelihood: &BinaryLikelihood, coefficients: &DVector<f64>) -> Op
     let information = derivatives(design, &[], expected).information;
     let factor = information.clone().cholesky()?;
     let inverse = factor.inverse();
-    let mut gradient = DVector::zeros(coefficients.len());
+    let k = coefficients.len();
+    let (mut gradient, mut curvature) = (DVector::zeros(k), DMatrix::zeros(k, k));
+    // The derivative of the information with respect to each coefficient.
+    let mut slopes = vec![DMatrix::zeros(k, k); k];
     let cases = design.rows().zip(&of_cases).zip(*weights).filter(|(_, weight)| **weight > 0.0);
     for ((row, of_case), weight) in cases {
-        let leverage = weight * of_case.weight * (&inverse * &row).dot(&row);
-        gradient += row * (0.5 * leverage * of_case.ln_weight_slope);
+        let Information { weight: of_case, ln_weight_slope: slope, ln_weight_curvature } = *of_case;
+        let leverage = weight * of_case * (&inverse * &row).dot(&row);
+        gradient.axpy(0.5 * leverage * slope, &row, 1.0);
+        curvature.syger(-0.5 * leverage * (slope * slope + ln_weight_curvature), &row, &row, 1.0);
+        for (slopes, x) in slopes.iter_mut().zip(&row) {
+            slopes.syger(weight * of_case * slope * x, &row, &row, 1.0);
+        }
     }
-    Some(Penalty { value: factor.l().diagonal().map(f64::ln).sum(), gradient, information })
+    let relative: Vec<DMatrix<f64>> = slopes
+        .iter_mut()
+        .map(|slope| {
+            slope.fill_upper_triangle_with_lower_triangle();
+            &inverse * &*slope
+        })
+        .collect();
+    curvature.fill_upper_triangle_with_lower_triangle();
+    curvature += DMatrix::from_fn(k, k, |i, j| 0.5 * (&relative[i] * &relative[j]).trace());
+    let value = factor.l_dirty().diagonal().map(f64::ln).sum();
+    Some(Penalty { value, gradient, curvature, information })
 }

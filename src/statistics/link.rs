@@ -25,6 +25,8 @@ pub struct Information {
     pub weight: f64,
     /// The derivative of its logarithm.
     pub ln_weight_slope: f64,
+    /// The second derivative of its logarithm.
+    pub ln_weight_curvature: f64,
 }
 
 impl Link {
@@ -121,16 +123,22 @@ impl Link {
                 Information {
                     weight: of_event * of_other,
                     ln_weight_slope: of_other - of_event - 2.0 * index,
+                    ln_weight_curvature: of_other * (of_other - index) + of_event * (of_event + index) - 2.0,
                 }
             }
             Link::Logit => {
                 let p = self.probability(index);
-                Information { weight: p * (1.0 - p), ln_weight_slope: 1.0 - 2.0 * p }
+                let weight = p * (1.0 - p);
+                Information { weight, ln_weight_slope: 1.0 - 2.0 * p, ln_weight_curvature: -2.0 * weight }
             }
             Link::Cloglog => {
                 let hazard = index.exp();
                 let ratio = hazard_ratio(hazard);
-                Information { weight: hazard * ratio, ln_weight_slope: 2.0 - hazard - ratio }
+                Information {
+                    weight: hazard * ratio,
+                    ln_weight_slope: 2.0 - hazard - ratio,
+                    ln_weight_curvature: -hazard - ratio * (1.0 - hazard - ratio),
+                }
             }
         }
     }

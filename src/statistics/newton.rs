@@ -4,6 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 /// The most steps.
 const MOST_STEPS: usize = 100;
+/// The shortest share of a step that is tried.
+const LEAST_SHARE: f64 = 1e-9;
+/// What a value may lose in a step, as a share of it: its rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// A function to be maximised, with its derivatives.
 #[derive(Debug, Clone)]
@@ -33,8 +37,9 @@ pub enum Along<'a> {
     Columns(&'a DMatrix<f64>),
 }
 
-/// Maximises a concave function by Newton's method with step halving, until a step promises to gain less than `tolerance` (or the rounding
-/// of the value). None if that does not happen, or the information is singular.
+/// Maximises a function by Newton's method with step halving, until a step promises to gain less than `tolerance` (or the rounding
+/// of the value): a maximum of a concave function; of another, a place from which no step leads up. None if that does not happen, or
+/// the information is singular.
 pub fn maximise(
     objective: impl Fn(&DVector<f64>) -> Objective,
     start: &DVector<f64>,
@@ -50,11 +55,14 @@ pub fn maximise(
             // So small a step needs no look where it leads.
             return here.value.is_finite().then_some(Maximum { at: at + step, objective: here, steps });
         }
-        let (next, there) = ascend(&objective, &at, &step, &here);
-        if next == at {
-            return here.value.is_finite().then_some(Maximum { at, objective: here, steps });
+        match ascend(&objective, &at, &step, &here) {
+            Some((next, there)) if next != at => (at, here) = (next, there),
+            // What the step promises is the rounding of the value, or the function is not what its derivatives say.
+            _ if promised <= ROUNDING * (1.0 + here.value.abs()) => {
+                return here.value.is_finite().then_some(Maximum { at, objective: here, steps });
+            }
+            _ => return None,
         }
-        (at, here) = (next, there);
     }
     None
 }
@@ -71,21 +79,22 @@ pub fn newton_step(here: &Objective, along: Along) -> Option<DVector<f64>> {
     }
 }
 
-/// The longest of the step and its halves that does not lower the function.
+/// The longest of the step and its halves that does not lower the function; none if each does.
 fn ascend(
     objective: impl Fn(&DVector<f64>) -> Objective,
     from: &DVector<f64>,
     step: &DVector<f64>,
     here: &Objective,
-) -> (DVector<f64>, Objective) {
-    let tolerance = 1e-12 * (1.0 + here.value.abs());
+) -> Option<(DVector<f64>, Objective)> {
+    let least = here.value - ROUNDING * (1.0 + here.value.abs());
     let mut share = 1.0;
-    loop {
+    while share > LEAST_SHARE {
         let to = from + step * share;
         let there = objective(&to);
-        if there.value >= here.value - tolerance || share < 1e-6 {
-            return (to, there);
+        if there.value >= least {
+            return Some((to, there));
         }
         share *= 0.5;
     }
+    None
 }

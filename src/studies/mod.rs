@@ -5,10 +5,12 @@
 //! rating        how well a set predicts; folds: which clusters are left out together; ranking: the order of all sets
 //! transfer      the curve of one structure, asked about another; universality: how it does; pooled: one curve for all
 //! validation    forecasts of cases that were not fitted, tested on what happened
+//! paper         how ours stands to what the paper prints
 //! ```
 
 pub(crate) mod candidate;
 pub(crate) mod folds;
+pub mod paper;
 pub(crate) mod pooled;
 pub(crate) mod ranking;
 pub(crate) mod ranking_sample;

@@ -4,19 +4,11 @@ use super::pex::PexRow;
 use super::pro::ProRow;
 use crate::fragility::{DemandLaw, DemandModel, Event, JointPeaks, Measure, Predictor};
 use crate::keyword::Keyword;
+use crate::rocking::Block;
 use crate::statistics::{FitStatus, Link};
 
 /// A suite, if it has a name, and a structure: what a fit is of.
 pub type GroupKey = (Option<String>, String);
-
-/// The size and slenderness of a structure.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Block {
-    /// Frequency parameter p, rad/s.
-    pub p_rad_s: f64,
-    /// Slenderness, rad.
-    pub alpha_rad: f64,
-}
 
 /// A row of a file of fits whose fit cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -36,7 +36,7 @@ table! {
 }
 
 table! {
-    /// Intensities that a structure survives, above one that overturns it.
+    /// Ranges above an overturning intensity in which a structure survives every simulated one.
     pub struct WindowRow<'a> as IDA_WINDOWS = "windows" by "ida" {
         motion_id: &'a MotionId,
         suite: Option<&'a str>,
@@ -54,6 +54,7 @@ table! {
         measure: &'a str,
         intensity: f64,
         scale: f64,
+        overturning_above: Option<f64>,
     }
 }
 
@@ -125,6 +126,8 @@ pub struct StripeRow<'a> {
     pub intensity: f64,
     /// The factor by which the motion is scaled.
     pub scale: f64,
+    /// Share of the intensities from this level to the next that overturn the structure; none at the last.
+    pub overturning_above: Option<f64>,
 }
 
 /// The capacities of a structure against the motions of a suite.
@@ -159,23 +162,11 @@ pub struct LevelCount {
     pub overturned_up_to: usize,
 }
 
-impl CapacityRow<'_> {
-    /// The largest intensity that the structure survives, in a scan up to `top`.
-    fn safe_up_to(&self, top: f64) -> Option<f64> {
-        let Capacity { status, windows, safe_below, .. } = &self.capacity;
-        match (status, windows.last()) {
-            (CapacityStatus::Safe, _) => Some(top),
-            (_, Some(window)) => Some(window.high.unwrap_or(top)),
-            (_, None) => *safe_below,
-        }
-    }
-}
-
-/// The rows of the file of capacities, of a scan up to `top`.
+/// The rows of the file of capacities.
 ///
 /// # Errors
 /// If a motion without a number stands among those that have one.
-pub fn capacities(rows: &[CapacityRow], top: f64, by_name: bool) -> Result<RecordBatch, ArrowError> {
+pub fn capacities(rows: &[CapacityRow], by_name: bool) -> Result<RecordBatch, ArrowError> {
     let rows = rows.iter().map(|row| IdaRow {
         motion_id: row.motion_id,
         suite: row.suite,
@@ -189,7 +180,7 @@ pub fn capacities(rows: &[CapacityRow], top: f64, by_name: bool) -> Result<Recor
         safe_below: row.capacity.safe_below,
         overturning_intensity: row.capacity.overturning,
         safe_windows: row.capacity.windows.len(),
-        safe_up_to: row.safe_up_to(top),
+        safe_up_to: row.capacity.safe_up_to,
     });
     IdaRow::batch_in(&rows.collect::<Vec<_>>(), &schema_of(&IDA, by_name))
 }
@@ -219,8 +210,12 @@ pub fn windows(rows: &[CapacityRow], by_name: bool) -> Result<RecordBatch, Arrow
 /// As [`capacities`].
 pub fn stripes(rows: &[StripeRow], by_name: bool) -> Result<RecordBatch, ArrowError> {
     let mut columns = ResponseRow::arrays(rows.iter().map(|row| &row.response), by_name);
-    let level =
-        |row: &StripeRow| LevelRow { measure: row.measure, intensity: row.intensity, scale: row.scale };
+    let level = |row: &StripeRow| LevelRow {
+        measure: row.measure,
+        intensity: row.intensity,
+        scale: row.scale,
+        overturning_above: row.overturning_above,
+    };
     columns.extend(LevelRow::arrays(rows.iter().map(level).collect::<Vec<_>>().iter(), by_name));
     RecordBatch::try_new(schema_of(&IDA_STRIPES, by_name), columns)
 }

@@ -1,14 +1,12 @@
 //! A table of intensities, ours (motions, responses) or anyone's: pga_m_s2 and pgv_m_s, and what else is there.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::TableError;
 use super::schema::{self, Column};
 use super::store::columns::Columns;
 use super::store::reader::{Batch, Batches};
 use super::store::source::Source;
 use crate::motion::IntensityMeasures;
-use crate::rocking::Structure;
+use crate::rocking::{Bound, Structure};
 
 /// The stages whose output can stand as a table of intensities.
 const STAGES: [&str; 4] = ["synthesize-motions", "import-motions", "simulate", "evaluate"];
@@ -66,9 +64,9 @@ impl IntensityBatches {
 
     fn intensities(&self, batch: &Batch) -> Result<Vec<Intensity>, TableError> {
         let columns = batch.columns();
-        let not_negative = "0 or more";
-        let pga = within(&columns, &schema::pga_m_s2, |pga| pga >= 0.0, not_negative)?;
-        let pgv = within(&columns, &schema::pgv_m_s, |pgv| pgv >= 0.0, not_negative)?;
+        let not_negative = |value: f64| (value < 0.0).then(|| "0 or more".to_string());
+        let pga = within(&columns, &schema::pga_m_s2, not_negative)?;
+        let pgv = within(&columns, &schema::pgv_m_s, not_negative)?;
         let (tp, tm) = (columns.optional_numbers(&schema::tp_s)?, columns.optional_numbers(&schema::tm_s)?);
         let structures = self.structures(&columns)?;
         let intensity = |(row, structure): (usize, Structure)| Intensity {
@@ -84,10 +82,16 @@ impl IntensityBatches {
         if let Some(structure) = &self.structure {
             return Ok(vec![structure.clone(); columns.rows()]);
         }
-        let p = within(columns, &schema::p_rad_s, |p| p > 0.0, "a frequency parameter above 0 rad/s")?;
-        let slender = "a slenderness between 0 and pi/2 rad";
-        let alpha = within(columns, &schema::alpha_rad, |alpha| alpha > 0.0 && alpha < FRAC_PI_2, slender)?;
+        let refusal = |parameter| move |value| Bound::of(parameter)?.refusal(value);
+        let p = within(columns, &schema::p_rad_s, refusal("p"))?;
+        let alpha = within(columns, &schema::alpha_rad, refusal("alpha"))?;
         let eta = columns.optional_numbers(&schema::eta)?;
+        let wrong = |eta: &Option<f64>| refusal("eta")((*eta)?);
+        if let Some((row, expected)) = eta.iter().enumerate().find_map(|(row, eta)| Some((row, wrong(eta)?)))
+        {
+            let found = eta[row].unwrap_or_default();
+            return Err(columns.value_error(row, &schema::eta, &format!("{found}; expected {expected}")));
+        }
         let structure = |((p_rad_s, alpha_rad), eta): ((f64, f64), Option<f64>)| Structure {
             name: String::new(),
             p_rad_s,
@@ -107,16 +111,17 @@ impl Iterator for IntensityBatches {
     }
 }
 
-/// The numbers of a column, all within what is possible.
+/// The numbers of a column, none of which is refused.
 fn within(
     columns: &Columns,
     column: &Column,
-    possible: impl Fn(f64) -> bool,
-    expected: &str,
+    refusal: impl Fn(f64) -> Option<String>,
 ) -> Result<Vec<f64>, TableError> {
     let values = columns.numbers(column)?;
-    match values.iter().position(|&value| !possible(value)) {
-        Some(row) => Err(columns.value_error(row, column, &format!("{}; expected {expected}", values[row]))),
+    match values.iter().enumerate().find_map(|(row, &value)| Some((row, refusal(value)?))) {
+        Some((row, expected)) => {
+            Err(columns.value_error(row, column, &format!("{}; expected {expected}", values[row])))
+        }
         None => Ok(values),
     }
 }

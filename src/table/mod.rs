@@ -49,11 +49,19 @@ pub enum TableError {
         source: std::io::Error,
     },
     /// The file cannot be read as Parquet.
-    #[error("{}: not a readable Parquet file ({source}); make it again", path.display())]
+    #[error("{}: not a readable Parquet file ({cause}); make it again", path.display())]
     NotParquet {
         path: PathBuf,
         /// What the reader said.
-        source: parquet::errors::ParquetError,
+        cause: parquet::errors::ParquetError,
+    },
+    /// The file is of another kind.
+    #[error("{}: not a Parquet file; expected {expected}", path.display())]
+    NoParquet {
+        /// The file.
+        path: PathBuf,
+        /// What it should be.
+        expected: String,
     },
     /// The file is compressed in a way that is not built in.
     #[error("{}: compressed in a way that rockfrag does not read ({message}); write it with zstd or snappy, or uncompressed", path.display())]

@@ -1,5 +1,6 @@
 //! A motions file that several threads read, some motions at a time.
 
+use std::collections::HashSet;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -61,6 +62,11 @@ impl MotionTable {
         let total = table.rows();
         let rows = partition.map_or(0..total, |partition| partition.rows(total));
         Ok(MotionTable { table, rows, by_name })
+    }
+
+    /// The files that another program made, or the table in memory.
+    pub fn of_others(&self) -> HashSet<Arc<Path>> {
+        self.table.of_others().collect()
     }
 
     /// How many motions there are.

@@ -30,12 +30,21 @@ pub struct Published {
     /// Of which structure.
     pub structure: String,
     pub published: Option<f64>,
+    /// The least number that is printed so.
+    pub print_low: Option<f64>,
+    /// The largest.
+    pub print_high: Option<f64>,
 }
 
 impl Published {
     /// Whether this is the number of that quantity, suite and structure.
     pub fn is(&self, quantity: &str, suite: &str, structure: &str) -> bool {
         self.quantity == quantity && self.suite == suite && self.structure == structure
+    }
+
+    /// The width of the interval of numbers that are printed so.
+    pub fn rounding(&self) -> Option<f64> {
+        Some(self.print_high? - self.print_low?)
     }
 
     /// Whether it is of that suite and structure.
@@ -59,12 +68,17 @@ pub struct SpreadRow {
     pub value: f64,
 }
 
+/// Reads CSV in which lines that start with # say where it comes from.
+fn csv_reader(text: &str) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes())
+}
+
 /// All published numbers, in the order in which they are shown.
 ///
 /// # Errors
 /// If the table that is built in is damaged.
 pub fn published() -> anyhow::Result<Vec<Published>> {
-    let rows = csv::Reader::from_reader(PUBLISHED.as_bytes()).into_deserialize();
+    let rows = csv_reader(PUBLISHED).into_deserialize();
     rows.collect::<Result<_, _>>().context("data/paper.csv")
 }
 
@@ -78,7 +92,7 @@ pub fn spread(path: Option<&Path>) -> anyhow::Result<Vec<SpreadRow>> {
         Some(path) => text_file::text(path, MOST_MIB, "a spread over seeds").with_context(|| name.clone())?,
         None => SPREAD.to_string(),
     };
-    let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize();
+    let rows = csv_reader(&text).into_deserialize();
     rows.collect::<Result<_, _>>().context(name)
 }
 
@@ -95,19 +109,27 @@ table! {
         spread_sd: Option<f64>,
         seeds: i32,
         z: Option<f64>,
+        seed_rms: Option<f64>,
+        t2: Option<f64>,
+        t2_p: Option<f64>,
     }
 }
 
 impl PaperRow {
-    /// Ours beside a published number, with the mean and the standard deviation of `values`, ours over seeds.
+    /// Ours beside a published number, with the mean and the standard deviation of `values`, ours over seeds. There is no z where the
+    /// mean lies in what the print leaves open, and that is more than two of these standard deviations.
     pub fn new(number: &Published, ours: Option<f64>, values: &[f64]) -> PaperRow {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
         let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0);
         let enough = values.len() > 1;
         let (spread_mean, spread_sd) = (enough.then_some(mean), enough.then_some(variance.sqrt()));
+        let is_open = |sd: f64| {
+            let within = number.print_low? <= mean && mean <= number.print_high?;
+            Some(within && number.rounding()? > 2.0 * sd)
+        };
         let z = || {
-            let sd = spread_sd.filter(|&sd| sd > 0.0)?;
+            let sd = spread_sd.filter(|&sd| sd > 0.0 && is_open(sd) != Some(true))?;
             Some((number.published? - spread_mean?) / sd)
         };
         PaperRow {
@@ -121,6 +143,9 @@ impl PaperRow {
             spread_sd,
             seeds: values.len() as i32,
             z: z(),
+            seed_rms: None,
+            t2: None,
+            t2_p: None,
         }
     }
 }
@@ -138,22 +163,33 @@ pub fn ours(path: &Path, seed: u64) -> anyhow::Result<Vec<SpreadRow>> {
     Ok(PaperRow::read(path)?.into_iter().filter_map(row).collect())
 }
 
-/// The comparison as a table to read; rows that we have no number for are left out.
+/// The comparison as a table to read; rows that hold no number of ours are left out.
 ///
 /// # Errors
 /// If the file is no comparison with the paper.
 pub fn show(path: &Path) -> anyhow::Result<String> {
     let mut table = format!(
-        "{:20} {:6} {:21} {:>10} {:>10} {:>10} {:>9} {:>7}  {}\n",
-        "quantity", "suite", "structure", "published", "ours", "mean", "sd", "z", "place"
+        "{:20} {:6} {:21} {:>10} {:>10} {:>10} {:>9} {:>7} {:>9} {:>8} {:>8}  {}\n",
+        "quantity",
+        "suite",
+        "structure",
+        "published",
+        "ours",
+        "mean",
+        "sd",
+        "z",
+        "seed_rms",
+        "T2",
+        "T2_p",
+        "place"
     );
-    for row in PaperRow::read(path)?.iter().filter(|row| row.ours.is_some()) {
+    for row in PaperRow::read(path)?.iter().filter(|row| row.ours.or(row.t2).is_some()) {
         let number = |value: Option<f64>, decimals: usize| {
             value.map_or("-".to_string(), |value| format!("{value:.decimals$}"))
         };
         writeln!(
             table,
-            "{:20} {:6} {:21} {:>10} {:>10} {:>10} {:>9} {:>7}  {}",
+            "{:20} {:6} {:21} {:>10} {:>10} {:>10} {:>9} {:>7} {:>9} {:>8} {:>8}  {}",
             row.quantity,
             row.suite.as_deref().unwrap_or_default(),
             row.structure.as_deref().unwrap_or_default(),
@@ -162,8 +198,16 @@ pub fn show(path: &Path) -> anyhow::Result<String> {
             number(row.spread_mean, 3),
             number(row.spread_sd, 3),
             number(row.z, 2),
+            number(row.seed_rms, 3),
+            number(row.t2, 1),
+            row.t2_p.map_or("-".to_string(), probability),
             row.place,
         )?;
     }
     Ok(table)
+}
+
+/// Writes a probability with two digits that count.
+fn probability(p: f64) -> String {
+    if p < 0.001 { format!("{p:.1e}") } else { format!("{p:.2}") }
 }

@@ -3,11 +3,11 @@
 
 use std::sync::Arc;
 
-use super::fits::Block;
 use super::row::table;
 use crate::fragility::Measure;
 use crate::fragility::demand::{Form, Regression};
 use crate::resampling::BootstrapLimits;
+use crate::rocking::Block;
 use crate::statistics::FitStatus;
 
 table! {

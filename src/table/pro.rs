@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::fits::Block;
 use super::row::table;
 use crate::fragility::overturning::Curve;
 use crate::fragility::{CurveParameter, Event, JointPeaks, Measure};
+use crate::rocking::Block;
 use crate::statistics::{Estimator, FitStatus, Link};
 
 table! {

@@ -2,8 +2,12 @@
 
 use std::sync::Arc;
 
+use super::TableError;
 use super::motions::MotionId;
-use super::row::table;
+use super::row::{ReadRow, table};
+use super::schema;
+use super::store::columns::Columns;
+use crate::fragility::Case;
 use crate::motion::IntensityMeasures;
 use crate::rocking::{Outcome, SolverEvent, Structure};
 
@@ -17,7 +21,7 @@ table! {
         alpha_rad: f64,
         eta: f64,
         outcome: Outcome,
-        edp: f64,
+        edp: Option<f64>,
         impacts: i32,
         mw: Option<f64>,
         re_km: Option<f64>,
@@ -45,7 +49,7 @@ table! {
         alpha_rad: f64,
         eta: f64,
         outcome: Outcome,
-        edp: f64,
+        edp: Option<f64>,
         mw: Option<f64>,
         re_km: Option<f64>,
         earthquake: Option<Arc<str>>,
@@ -62,6 +66,27 @@ table! {
 }
 
 impl ResponseCase {
+    /// The rows of a batch: whatever did not overturn has a demand.
+    ///
+    /// # Errors
+    /// If a column is missing or of another type, or a value cannot be used.
+    pub fn checked(columns: &Columns) -> Result<Vec<ResponseCase>, TableError> {
+        let rows = ResponseCase::of(columns)?;
+        let lacks = |row: &ResponseCase| row.edp.is_none() && row.outcome != Outcome::Overturning;
+        match rows.iter().position(lacks) {
+            Some(row) => {
+                Err(columns.value_error(row, &schema::edp, "null; expected a number unless it overturns"))
+            }
+            None => Ok(rows),
+        }
+    }
+
+    /// The response as the fits see it. One that overturns exceeds any demand.
+    pub fn case(&self) -> Case {
+        let demand = self.edp.filter(|_| self.outcome != Outcome::Overturning);
+        Case { outcome: self.outcome, edp: demand.unwrap_or(f64::INFINITY), measures: self.measures() }
+    }
+
     pub fn measures(&self) -> IntensityMeasures {
         let &ResponseCase { im1, im2, im3, im4, im5, im6, .. } = self;
         IntensityMeasures { im1, im2, im3, im4, im5, im6 }

@@ -36,7 +36,7 @@ fn samples(values: &[f64]) -> Option<Vec<Option<f64>>> {
 fn motions_of_others_need_three_columns_only() {
     let folder = tempfile::tempdir().unwrap();
     write_motions(&folder.path().join("m.parquet"), 0.01, &[samples(&[0.0, 3.0, -4.0, 0.0])]);
-    let told = succeed(folder.path(), "simulate --in m.parquet");
+    let told = succeed(folder.path(), "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92");
     assert!(told.contains("1 responses"), "{told}");
 }
 
@@ -45,7 +45,7 @@ fn motions_that_cannot_be_used_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let try_motions = |dt: f64, motions: &[Option<Vec<Option<f64>>>], expected: &[&str]| {
         write_motions(&folder.path().join("m.parquet"), dt, motions);
-        fail(folder.path(), "simulate --in m.parquet", 1, expected);
+        fail(folder.path(), "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92", 1, expected);
         assert!(!folder.path().join("responses.parquet").exists());
     };
     let fine = samples(&[0.0, 1.0]);
@@ -70,7 +70,7 @@ fn columns_that_are_missing_or_of_another_type_are_named() {
     write(&path, vec![("motion_id", ids.clone()), ("dt_s", dt.clone())]);
     fail(
         folder.path(),
-        "simulate --in m.parquet",
+        "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92",
         1,
         &["m.parquet", "no column 'acceleration_m_s2'", "m/s2"],
     );
@@ -78,9 +78,19 @@ fn columns_that_are_missing_or_of_another_type_are_named() {
         &path,
         vec![("motion_id", ids.clone()), ("dt_s", text.clone()), ("acceleration_m_s2", text.clone())],
     );
-    fail(folder.path(), "simulate --in m.parquet", 1, &["'dt_s'", "expected 64-bit floating-point"]);
+    fail(
+        folder.path(),
+        "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["'dt_s'", "expected 64-bit floating-point"],
+    );
     write(&path, vec![("motion_id", ids), ("dt_s", dt), ("acceleration_m_s2", text)]);
-    fail(folder.path(), "simulate --in m.parquet", 1, &["'acceleration_m_s2'", "lists of floating-point"]);
+    fail(
+        folder.path(),
+        "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["'acceleration_m_s2'", "lists of floating-point"],
+    );
     fail(folder.path(), "synthesize-motions --in m.parquet", 1, &["no column", "scenario_id"]);
 }
 
@@ -101,29 +111,54 @@ fn two_motions_of_one_name_are_refused() {
             ("acceleration_m_s2", Arc::new(list.finish())),
         ],
     );
-    fail(folder.path(), "simulate --in m.parquet", 1, &["two motions are called 'a'"]);
+    fail(
+        folder.path(),
+        "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["two motions are called 'a'"],
+    );
 }
 
 #[test]
 fn files_that_are_missing_damaged_or_of_another_stage_are_named() {
     let (folder, _) = small_pipeline();
-    fail(folder.path(), "simulate", 1, &["motions.parquet: no such file", "run the stage that makes it"]);
+    fail(
+        folder.path(),
+        "simulate --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["motions.parquet: no such file", "run the stage that makes it"],
+    );
     std::fs::write(folder.path().join("bad.parquet"), b"no parquet at all").unwrap();
-    fail(folder.path(), "simulate --in bad.parquet", 1, &["bad.parquet", "not a readable Parquet file"]);
+    fail(
+        folder.path(),
+        "simulate --in bad.parquet --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["bad.parquet", "not a readable Parquet file"],
+    );
     std::fs::write(folder.path().join("none.parquet"), b"").unwrap();
     fail(folder.path(), "inspect none.parquet", 1, &["none.parquet", "not a readable Parquet file"]);
-    fail(folder.path(), "simulate --in .", 1, &["bad.parquet", "not a readable Parquet file"]);
+    fail(
+        folder.path(),
+        "simulate --in . --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["bad.parquet", "not a readable Parquet file"],
+    );
     succeed(folder.path(), "run");
     fail(
         folder.path(),
-        "simulate --in out/scenarios.parquet",
+        "simulate --in out/scenarios.parquet --p 2.5 --alpha 0.2 --eta 0.92",
         1,
         &["made by sample-scenarios", "synthesize-motions"],
     );
     fail(folder.path(), "fit-pex --in out/motions.parquet", 1, &["made by synthesize-motions", "simulate"]);
     let whole = std::fs::read(folder.path().join("out/motions.parquet")).unwrap();
     std::fs::write(folder.path().join("cut.parquet"), &whole[..whole.len() / 2]).unwrap();
-    fail(folder.path(), "simulate --in cut.parquet", 1, &["cut.parquet", "not a readable Parquet file"]);
+    fail(
+        folder.path(),
+        "simulate --in cut.parquet --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["cut.parquet", "not a readable Parquet file"],
+    );
 }
 
 #[test]
@@ -147,7 +182,7 @@ fn impossible_parameters_are_named() {
     simulate("--structures s.yaml", &["structure 'a'", "p, alpha and eta"]);
     fail(
         folder.path(),
-        "simulate --in out/motions.parquet --out r.parquet --trace 99999",
+        "simulate --in out/motions.parquet --out r.parquet --trace 99999 --p 2.5 --alpha 0.2 --eta 0.92",
         1,
         &["no motion '99999'"],
     );
@@ -186,14 +221,23 @@ fn mistakes_in_the_pipeline_file_are_shown_with_their_place() {
 }
 
 #[test]
-fn too_few_cases_are_a_status_and_a_warning() {
+fn a_fit_of_nothing_fails_and_says_what_would_help() {
     let folder = tempfile::tempdir().unwrap();
     write_motions(&folder.path().join("m.parquet"), 0.01, &[samples(&[0.0, 3.0, -4.0, 0.0])]);
-    succeed(folder.path(), "simulate --in m.parquet");
-    let told = succeed(folder.path(), "fit-pex --in responses.parquet");
-    assert!(told.contains("too_few_cases"), "{told}");
-    let told = succeed(folder.path(), "fit-pro --in responses.parquet");
-    assert!(told.contains("too_few_events"), "{told}");
+    succeed(folder.path(), "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92");
+    let regressions = ["too_few_cases", "none of 9 regressions", "no file is written", "more motions"];
+    fail(folder.path(), "fit-pex --in responses.parquet", 1, &regressions);
+    let ways = [
+        "too_few_events",
+        "none of 7 curves",
+        "overturning in 0 of",
+        "expected 5",
+        "--scale",
+        "--estimator firth",
+        "ida",
+    ];
+    fail(folder.path(), "fit-pro --in responses.parquet", 1, &ways);
+    assert!(!folder.path().join("pex.parquet").exists() && !folder.path().join("pro.parquet").exists());
 }
 
 #[test]

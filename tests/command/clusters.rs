@@ -87,7 +87,7 @@ fn simulate_carries_the_earthquake_by_name_or_number() {
             ("acceleration_m_s2", Arc::new(list.finish())),
         ];
         write(&folder.path().join("motions.parquet"), columns);
-        succeed(folder.path(), "simulate --force");
+        succeed(folder.path(), "simulate --force --p 2.5 --alpha 0.2 --eta 0.92");
         let responses = rows(&folder.path().join("responses.parquet"));
         let events: Vec<Option<&str>> = responses["earthquake"].as_string::<i32>().iter().collect();
         assert_eq!(events, [Some(expected), None]);

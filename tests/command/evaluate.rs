@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use arrow_array::{ArrayRef, Float64Array};
 use rockfrag::fragility::Measure;
 use rockfrag::fragility::{p_failure_given_rocking, p_overturning};
-use rockfrag::statistics::Link;
+use rockfrag::statistics::{FitStatus, Link};
 use rockfrag::table::pro::ProRow;
 use rockfrag::table::row::ReadRow;
 
@@ -31,7 +31,7 @@ pub fn run_folder() -> &'static Path {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("evaluate");
         std::fs::create_dir_all(&folder).unwrap();
         std::fs::write(folder.join("pipeline.yaml"), PIPELINE).unwrap();
-        succeed(&folder, "run");
+        succeed(&folder, "run --force");
         folder.join("out")
     })
 }
@@ -69,7 +69,7 @@ fn the_worked_example_of_section_3_is_answered() {
     let row = rows.iter().find(wanted).unwrap();
     let [lambda, mu, beta] = [row.lambda, row.mu, row.beta].map(Option::unwrap);
     for im in [1.55f64, 1.88] {
-        // Where p PGV / PGA is 0.3, the PGA that makes the hybrid measure (Eq. 22) this.
+        // Where p PGV / PGA is 0.3, the PGA that makes the hybrid measure (Eq. 23) this.
         let im4 = (im.powf(1.0 + lambda) / 0.3).powf(1.0 / lambda);
         let pga_g = im4 * 0.2f64.tan();
         let pgv = 0.3 * pga_g * 9.81 / 2.5;
@@ -94,8 +94,8 @@ fn answers_come_in_every_format() {
     let table = ask("");
     assert!(table.contains("p_f_r") && table.contains("Eq. 12"), "{table}");
     let json: serde_json::Value = serde_json::from_str(&ask("--format json")).unwrap();
-    assert_eq!(json[2]["quantity"], "p_ro");
-    assert_eq!(json[2]["value"].as_f64(), quantity(&ask("--format csv"), "p_ro"));
+    assert_eq!(json["rows"][2]["quantity"], "p_ro");
+    assert_eq!(json["rows"][2]["value"].as_f64(), quantity(&ask("--format csv"), "p_ro"));
     assert_eq!(ask("--format parquet --out a.parquet"), "");
     assert!(stdout(folder.path(), "inspect a.parquet").contains("made by evaluate"));
     assert_eq!(ask("--format csv --out a.csv"), "");
@@ -172,6 +172,80 @@ fn a_table_of_anyone_will_do() {
     fail(folder.path(), &format!("evaluate {fits} --in t.parquet"), 1, &["row 1", "p_rad_s", "above 0"]);
 }
 
+/// The motions of a hazard of PGA, in bins of PGA and of PGV given it: what a joint hazard of them is.
+fn joint_bins(pro: &ProRow, rate_of_exceedance: impl Fn(f64) -> f64) -> String {
+    let peaks = [pro.ln_pga_mean, pro.ln_pga_sd, pro.ln_pgv_mean, pro.ln_pgv_sd, pro.ln_pga_pgv_correlation];
+    let [pga_mean, pga_sd, pgv_mean, pgv_sd, r] = peaks.map(Option::unwrap);
+    let mut text = String::from("pga_m_s2,pgv_m_s,annual_rate_of_occurrence\n");
+    let edges: Vec<f64> = (0..=600).map(|k| 0.5 * (100.0f64).powf(f64::from(k) / 600.0)).collect();
+    for edge in edges.windows(2) {
+        let (pga, rate) =
+            ((edge[0] * edge[1]).sqrt(), rate_of_exceedance(edge[0]) - rate_of_exceedance(edge[1]));
+        for z in (-40..=40).map(|k| 0.1 * f64::from(k)) {
+            let weight = 0.1 * (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt();
+            let ln_pgv =
+                pgv_mean + r * pgv_sd / pga_sd * (pga.ln() - pga_mean) + z * pgv_sd * (1.0 - r * r).sqrt();
+            text += &format!("{pga},{},{}\n", ln_pgv.exp(), rate * weight);
+        }
+    }
+    text
+}
+
+#[test]
+fn without_a_ratio_a_hazard_of_one_peak_is_the_joint_one_of_the_motions_of_the_fits() {
+    let (folder, fits) = fitted();
+    let rows = ProRow::read(run_folder().join("pro.parquet")).unwrap();
+    let of = |row: &&ProRow| row.suite.as_deref() == Some("csgm") && row.structure == "electrical-equipment";
+    // A power law from 0.5 to 50 m/s2, cut off there.
+    let exceeded = |pga: f64| 0.02 * (pga.powi(-2) - 50f64.powi(-2)).max(1e-12);
+    let line = |k: u32| {
+        let pga = 0.5 * 100f64.powf(f64::from(k) / 600.0);
+        format!("{pga},{}\n", exceeded(pga))
+    };
+    let curve = "pga_m_s2,annual_rate_of_exceedance\n".to_string() + &(0..=600).map(line).collect::<String>();
+    std::fs::write(folder.path().join("curve.csv"), curve).unwrap();
+    let joint = joint_bins(rows.iter().find(of).unwrap(), exceeded);
+    std::fs::write(folder.path().join("joint.csv"), joint).unwrap();
+    let rates = |hazard: &str| {
+        let call = format!("evaluate {fits} --p 2.5 --alpha 0.2 --hazard {hazard} --format json");
+        let rates: serde_json::Value = serde_json::from_str(&stdout(folder.path(), &call)).unwrap();
+        [0, 1, 2].map(|state| rates["rows"][state]["annual_rate"].as_f64().unwrap())
+    };
+    for (one, joint) in rates("curve.csv").into_iter().zip(rates("joint.csv")) {
+        // Bins of 0.8 % of PGA cut uplift and the transition roughly.
+        assert!((one / joint - 1.0).abs() < 0.01, "{one} for {joint}");
+    }
+    let said = stdout(folder.path(), &format!("evaluate {fits} --p 2.5 --alpha 0.2 --hazard curve.csv"));
+    assert!(said.contains("p PGV / PGA is distributed as in the motions of the fits"), "{said}");
+}
+
+#[test]
+fn a_curve_that_its_tests_reject_says_by_how_much_it_is_off() {
+    let rows = ProRow::read(run_folder().join("pro.parquet")).unwrap();
+    let gap = |row: &ProRow| Some((row.gap_predicted? - row.gap_observed?).abs());
+    for row in &rows {
+        let least = [row.hosmer_lemeshow_p, row.spline_p, row.interaction_p]
+            .into_iter()
+            .flatten()
+            .fold(1.0, f64::min);
+        let rejected = least < 0.01 / 3.0 && gap(row).is_some_and(|gap| gap > 0.05);
+        assert!(row.status != FitStatus::Misfit || rejected, "{row:?}");
+        assert!(row.status != FitStatus::Ok || !rejected, "{row:?}");
+    }
+    assert!(rows.iter().any(|row| row.status == FitStatus::Misfit));
+}
+
+#[test]
+fn a_curve_taken_to_another_structure_says_how_such_transfers_fared() {
+    let (folder, fits) = fitted();
+    let ask =
+        |structure: &str| succeed(folder.path(), &format!("evaluate {fits} {structure} --pga 0.5 --pgv 0.6"));
+    assert!(!ask("--p 2.5 --alpha 0.2").contains("study of universality"));
+    let told = ask("--p 2.5 --alpha 0.05");
+    assert!(told.contains("alpha 0.050") && told.contains("curves taken as far, 0 held"), "{told}");
+    assert!(ask("--p 2.5 --alpha 0.5").contains("in the study of universality"));
+}
+
 #[test]
 fn a_hazard_gives_annual_rates() {
     let (folder, fits) = fitted();
@@ -218,7 +292,7 @@ fn limits_come_from_resamples_if_asked() {
     for limits in ["percentile", "bc"] {
         let answer = ask(limits);
         for row in [1, 2, 3, 4] {
-            let of = |answer: &serde_json::Value, name: &str| answer[row][name].as_f64().unwrap();
+            let of = |answer: &serde_json::Value, name: &str| answer["rows"][row][name].as_f64().unwrap();
             assert_eq!(of(&answer, "value"), of(&delta, "value"));
             let width = |answer| of(answer, "high") - of(answer, "low");
             assert!(of(&answer, "low") < of(&answer, "value") && of(&answer, "value") < of(&answer, "high"));
@@ -229,7 +303,7 @@ fn limits_come_from_resamples_if_asked() {
     let data = concat!(env!("CARGO_MANIFEST_DIR"), "/data");
     let hazard = format!("{call} --hazard {data}/hazard.csv --ratio 0.25 --limits bc --format json");
     let rates: serde_json::Value = serde_json::from_str(&stdout(folder.path(), &hazard)).unwrap();
-    let rate = |state: usize, name: &str| rates[state][name].as_f64().unwrap();
+    let rate = |state: usize, name: &str| rates["rows"][state][name].as_f64().unwrap();
     assert_eq!(rate(0, "annual_rate"), rate(0, "annual_rate_low"), "uplift is certain");
     assert!(
         rate(2, "annual_rate_low") < rate(2, "annual_rate")
@@ -285,7 +359,6 @@ fn questions_without_an_answer_are_explained() {
         ask(&format!("{fits} {structure} --hazard h.csv {rest}"), code, expected);
     };
     let good = "pga_g,annual_rate_of_exceedance\n0.1,0.01\n1,0.001\n";
-    hazard(good, "", 2, &["needs --ratio"]);
     hazard(good, "--ratio 0", 2, &["ratio is 0"]);
     hazard("pga,rate\n1,1\n", "--ratio 1", 1, &["h.csv", "columns pga, rate", "expected pga_g"]);
     hazard(&good.replace("0.001", "x"), "--ratio 1", 1, &["h.csv", "line 3", "'x'"]);

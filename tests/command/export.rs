@@ -13,7 +13,8 @@ fn each_program_gets_its_files() {
     let told = export("--to openquake --ratio 0.2,0.4");
     assert!(told.contains("2 functions") && told.contains("fragility.xml"), "{told}");
     assert_eq!(read("fragility.xml").matches("<fragilityFunction ").count(), 2);
-    export("--to openquake-continuous --im pgv --ratio 0.3 --out c.xml");
+    let told = export("--to openquake-continuous --im pgv --ratio 0.3 --out c.xml");
+    assert!(told.contains("1 functions: c.xml"), "a curve has no levels: {told}");
     assert!(read("c.xml").contains("imt=\"PGV\""));
     export("--to pelicun --ratio 0.3 --out p.csv");
     assert!(read("p.csv").contains("p2_5_alpha0_2_eta0_92_ratio0_3,0,Peak Ground Acceleration,g,0,1,"));
@@ -46,6 +47,7 @@ fn what_cannot_be_exported_is_explained() {
     export("--to openquak --ratio 0.3", &["did you mean 'openquake'"]);
     export("--to openquake --ratio 0", &["ratio is 0"]);
     export("--to openquake --ratio 0.3 --tolerance 0", &["tolerance is 0"]);
+    export("--to pelicun --ratio 0.3 --tolerance 1e-6", &["tolerance is 0.000001", "1e-5", "six digits"]);
     export("--to openquake --ratio 0.3 --levels 0.1,0.2", &["above uplift, 0.2027"]);
     export("--to openquake --ratio 0.3 --model univariate --measure im6", &["use the bivariate model"]);
     export("--to openquake", &["--ratio"]);

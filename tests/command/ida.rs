@@ -37,6 +37,11 @@ fn numbers(rows: &RecordBatch, column: &str) -> Vec<f64> {
     rows[column].as_primitive::<Float64Type>().values().to_vec()
 }
 
+/// The demands, and -1 where the structure overturns.
+fn demands(rows: &RecordBatch) -> Vec<f64> {
+    rows["edp"].as_primitive::<Float64Type>().iter().map(|edp| edp.unwrap_or(-1.0)).collect()
+}
+
 fn texts(rows: &RecordBatch, column: &str) -> Vec<String> {
     rows[column].as_string::<i32>().iter().map(|text| text.unwrap().to_string()).collect()
 }
@@ -79,7 +84,7 @@ fn a_stripe_is_what_simulate_makes_of_the_scaled_motions() {
         succeed(folder.path(), &format!("{call} --out responses.parquet"));
         let responses = rows(&folder.path().join("responses.parquet"));
         let at_level = |all: Vec<f64>| all.into_iter().skip(level).step_by(6).collect::<Vec<_>>();
-        assert_eq!(at_level(numbers(&stripes, "edp")), numbers(&responses, "edp"));
+        assert_eq!(at_level(demands(&stripes)), demands(&responses));
         let of_level: Vec<String> = texts(&stripes, "outcome").into_iter().skip(level).step_by(6).collect();
         assert_eq!(of_level, texts(&responses, "outcome"));
         outcomes += of_level.iter().filter(|outcome| *outcome == "overturning").count();
@@ -134,7 +139,10 @@ fn neither_threads_nor_other_motions_matter() {
     let folder = with_motions();
     let mut contents = Vec::new();
     for threads in [1, 2] {
-        succeed(folder.path(), &format!("ida --measure pga --to 3 --force --threads {threads}"));
+        succeed(
+            folder.path(),
+            &format!("ida --measure pga --to 3 --force --threads {threads} --p 2.5 --alpha 0.2 --eta 0.92"),
+        );
         contents.push(FILES.map(|file| content(&folder.path().join(file))));
     }
     assert_eq!(contents[0], contents[1]);
@@ -146,7 +154,12 @@ fn neither_threads_nor_other_motions_matter() {
     write_motions(&folder.path().join("all.parquet"), &motions);
     write_motions(&folder.path().join("last.parquet"), &motions[7..]);
     let of = |name: &str| {
-        succeed(folder.path(), &format!("ida --in {name}.parquet --out {name}.ida.parquet --to 4"));
+        succeed(
+            folder.path(),
+            &format!(
+                "ida --in {name}.parquet --out {name}.ida.parquet --to 4 --p 2.5 --alpha 0.2 --eta 0.92"
+            ),
+        );
         rows(&folder.path().join(format!("{name}.ida.parquet")))
     };
     let (all, last) = (of("all"), of("last"));
@@ -190,16 +203,36 @@ fn what_cannot_be_scaled_or_scanned_is_told_so() {
         fail(folder.path(), &format!("ida {flags}"), 2, &[expected]);
     }
     let dead = ["row 1", "motion '2' has no pga above 0", "--measure scale"];
-    fail(folder.path(), "ida --measure pga", 1, &dead);
-    fail(folder.path(), "ida --in none.parquet", 1, &["none.parquet: no such file"]);
-    succeed(folder.path(), "ida --steps 3");
+    fail(folder.path(), "ida --measure pga --p 2.5 --alpha 0.2 --eta 0.92", 1, &dead);
+    fail(
+        folder.path(),
+        "ida --in none.parquet --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["none.parquet: no such file"],
+    );
+    succeed(folder.path(), "ida --steps 3 --p 2.5 --alpha 0.2 --eta 0.92");
     let capacities = rows(&folder.path().join("ida.parquet"));
     assert_eq!(texts(&capacities, "capacity")[1], "safe");
     assert_eq!(numbers(&capacities, "safe_below")[1], 10.0);
     let missing = ["made by ida; expected the output of synthesize-motions or import-motions"];
-    fail(folder.path(), "ida --in ida.parquet --out other.parquet", 1, &missing);
-    fail(folder.path(), "fit-pro --in ida.parquet", 1, &["no column"]);
+    fail(
+        folder.path(),
+        "ida --in ida.parquet --out other.parquet --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &missing,
+    );
+    fail(
+        folder.path(),
+        "fit-pro --in ida.parquet",
+        1,
+        &["no column", "of the files of ida, ida.stripes.parquet"],
+    );
     // Too large a factor is named, not simulated.
-    fail(folder.path(), "ida --from 1 --to 1e300 --steps 1", 1, &["row 0", "motion '1'", "by a lower --to"]);
+    fail(
+        folder.path(),
+        "ida --from 1 --to 1e300 --steps 1 --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["row 0", "motion '1'", "by a lower --to"],
+    );
     assert!(!folder.path().join("other.parquet").exists());
 }

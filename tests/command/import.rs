@@ -38,7 +38,8 @@ fn folders_are_walked_and_simulate_reads_what_comes() {
     // Of two files of one name the ending or the path tells which is which.
     let expected = ["records/a/x.csv", "b", "x.csv", "c.NS", "c.EW"];
     assert_eq!(ids(&folder.path().join("motions.parquet")), expected);
-    let told = succeed(folder.path(), "simulate --in motions.parquet --trace b");
+    let told =
+        succeed(folder.path(), "simulate --in motions.parquet --trace b --p 2.5 --alpha 0.2 --eta 0.92");
     assert!(told.contains("5 responses"), "{told}");
     // What it wrote is no record, even where it lies among them.
     let told = succeed(folder.path(), "import-motions records --out records/out.parquet --unit g");
@@ -92,7 +93,7 @@ fn a_pipeline_may_start_from_records() {
     for k in 1..9 {
         write_csv(folder.path(), &format!("here/records/{k}.csv"), f64::from(k));
     }
-    let pipeline = "import-motions: { files: [records], unit: g, column: 2 }\nsimulate: {}\n";
+    let pipeline = "import-motions: { files: [records], unit: g, column: 2 }\nsimulate: { p: 2.5, alpha: 0.2, eta: 0.92 }\n";
     std::fs::write(folder.path().join("here/pipeline.yaml"), pipeline).unwrap();
     let told = succeed(folder.path(), "run here/pipeline.yaml");
     assert!(told.contains("8 motions of 8 files") && told.contains("8 responses"), "{told}");
@@ -110,8 +111,8 @@ fn a_pipeline_may_start_from_records() {
 #[test]
 fn motions_do_not_depend_on_threads() {
     let folder = tempfile::tempdir().unwrap();
-    for k in 0..70 {
-        write_csv(folder.path(), &format!("records/{k:03}.csv"), f64::from(k) * 0.3);
+    for k in 1..=70 {
+        write_csv(folder.path(), &format!("records/{k:03}.csv"), f64::from(k));
     }
     succeed(folder.path(), "import-motions records --unit g --out one.parquet --threads 1");
     succeed(folder.path(), "import-motions records --unit g --out two.parquet --threads 2");
@@ -182,7 +183,7 @@ fn factors_make_several_motions_and_peaks_one() {
     let residual = &imported(&path)[3];
     assert_eq!((residual.suite.as_deref(), residual.tp_s), (Some("residual"), None));
     assert!(residual.pgv_m_s.unwrap() < 0.02, "the pulse is the whole record: {residual:?}");
-    succeed(folder.path(), "simulate");
+    succeed(folder.path(), "simulate --p 2.5 --alpha 0.2 --eta 0.92");
     succeed(folder.path(), "import-motions n.at2 e.at2 --scale-pga 0.4 --force");
     assert!(imported(&path).iter().all(|motion| (motion.pga_m_s2.unwrap() / 9.81 - 0.4).abs() < 1e-6));
     succeed(

@@ -9,11 +9,15 @@ mod evaluate;
 mod export;
 mod ida;
 mod import;
+mod input_slips;
 mod kill;
+mod overwrite;
 mod partitions;
 mod pipeline;
 mod rank_ims;
 mod report;
+mod shipped;
+mod slips;
 #[path = "../guard/snapshot.rs"]
 mod snapshot;
 mod together;

@@ -78,9 +78,14 @@ fn a_partition_that_is_done_is_skipped() {
     let told = succeed(folder.path(), &format!("{call} 1/2"));
     assert!(told.contains("up to date"), "{told}");
     // Another cut is other work, even where the name is the same.
-    let told = succeed(folder.path(), &format!("{call} 1/3"));
+    let told = succeed(folder.path(), &format!("{call} 1/3 --overwrite"));
     assert!(told.contains("26 motions") || told.contains("28 motions"), "{told}");
-    fail(folder.path(), "simulate --in parts", 1, &["part-00001.parquet", "3 partitions", "of 2"]);
+    fail(
+        folder.path(),
+        "simulate --in parts --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["part-00001.parquet", "3 partitions", "of 2"],
+    );
 }
 
 #[test]
@@ -89,18 +94,28 @@ fn an_incomplete_folder_is_no_table() {
     let at = |name: &str| folder.path().join(name);
     std::fs::remove_file(at("parts/part-00001.parquet")).unwrap();
     let missing = ["parts", "part-00001.parquet is missing", "--partition 1/3"];
-    fail(folder.path(), "simulate --in parts --out r.parquet", 1, &missing);
+    fail(folder.path(), "simulate --in parts --out r.parquet --p 2.5 --alpha 0.2 --eta 0.92", 1, &missing);
     // A partition needs no other one.
-    succeed(folder.path(), "simulate --in parts --partition 2/3 --out r");
+    succeed(folder.path(), "simulate --in parts --partition 2/3 --out r --p 2.5 --alpha 0.2 --eta 0.92");
     fail(
         folder.path(),
-        "simulate --in parts --partition 1/3 --out r",
+        "simulate --in parts --partition 1/3 --out r --p 2.5 --alpha 0.2 --eta 0.92",
         1,
         &["part-00001.parquet", "no such file"],
     );
-    fail(folder.path(), "simulate --in parts --partition 2/4 --out r", 1, &["3 partitions", "2/4"]);
+    fail(
+        folder.path(),
+        "simulate --in parts --partition 2/4 --out r --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["3 partitions", "2/4"],
+    );
     std::fs::create_dir(at("empty")).unwrap();
-    fail(folder.path(), "simulate --in empty --out r.parquet", 1, &["empty", "part-00000.parquet"]);
+    fail(
+        folder.path(),
+        "simulate --in empty --out r.parquet --p 2.5 --alpha 0.2 --eta 0.92",
+        1,
+        &["empty", "part-00000.parquet"],
+    );
 }
 
 #[test]
@@ -110,9 +125,10 @@ fn a_partition_that_cannot_be_is_named() {
         let call = format!("synthesize-motions --in out/scenarios.parquet --partition={wrong}");
         fail(folder.path(), &call, 2, &["from 0 to n - 1"]);
     }
-    let call = "simulate --in out/motions.parquet --trace 1 --partition 0/2";
+    let call = "simulate --in out/motions.parquet --trace 1 --partition 0/2 --p 2.5 --alpha 0.2 --eta 0.92";
     fail(folder.path(), call, 2, &["--partition", "--trace"]);
-    let call = "simulate --in parts/part-00000.parquet --out r --partition 0/2";
+    let call =
+        "simulate --in parts/part-00000.parquet --out r --partition 0/2 --p 2.5 --alpha 0.2 --eta 0.92";
     fail(folder.path(), call, 2, &["partition 0/1", "--partition 0/2"]);
 }
 
@@ -123,8 +139,9 @@ fn a_partition_may_have_no_rows() {
     succeed(folder.path(), "synthesize-motions --in two.parquet --out few --partition 0/3");
     succeed(folder.path(), "synthesize-motions --in two.parquet --out few --partition 1/3");
     succeed(folder.path(), "synthesize-motions --in two.parquet --out few --partition 2/3");
-    let told = succeed(folder.path(), "simulate --in few --out r.parquet");
+    let told = succeed(folder.path(), "simulate --in few --out r.parquet --p 2.5 --alpha 0.2 --eta 0.92");
     assert!(told.contains("4 responses"), "{told}");
-    let told = succeed(folder.path(), "simulate --in few --out r --partition 0/3");
+    let told =
+        succeed(folder.path(), "simulate --in few --out r --partition 0/3 --p 2.5 --alpha 0.2 --eta 0.92");
     assert!(told.contains("0 responses"), "{told}");
 }

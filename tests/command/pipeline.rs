@@ -127,7 +127,7 @@ fn a_traced_motion_shows_its_events() {
     succeed(folder.path(), "run");
     succeed(
         folder.path(),
-        "simulate --in out/motions.parquet --out r.parquet --p 1 --alpha 0.15 --trace 0,1",
+        "simulate --in out/motions.parquet --out r.parquet --p 1 --alpha 0.15 --eta 0.92 --trace 0,1",
     );
     let text = rockfrag(folder.path()).args(["inspect", "r.trace.parquet"]).output().unwrap();
     let text = String::from_utf8(text.stdout).unwrap();

@@ -139,7 +139,7 @@ fn bad_calls_and_other_motions_are_refused() {
     write(&here.join("motions.parquet"), vec![("motion_id", one)]);
     fail(here, &motions, 1, &["motions.parquet: no motion '0'", "the motions that the responses are to"]);
     succeed(here, "sample-scenarios --mw 6,7 --re 5,10 --samples 60 --seed 43");
-    succeed(here, "synthesize-motions --dt 0.01 --force");
+    succeed(here, "synthesize-motions --dt 0.01 --overwrite");
     fail(here, &motions, 1, &["column 'pga_m_s2'", "the motions that the responses are to"]);
     assert!(!Path::new(&here.join("ranking.parquet")).exists());
 }

@@ -11,10 +11,15 @@ use crate::common::{fail, succeed, write};
 use crate::evaluate::run_folder;
 
 /// The figures that every run of both suites and structures has.
-const FIGURES: [&str; 15] = [
+const FIGURES: [&str; 23] = [
     "motion",
     "outcomes-frame",
     "outcomes-electrical-equipment",
+    "demand-frame-pulse",
+    "demand-frame-csgm",
+    "demand-electrical-equipment-pulse",
+    "demand-electrical-equipment-csgm",
+    "histories",
     "similarity",
     "tree",
     "regressions-frame-pulse",
@@ -22,10 +27,13 @@ const FIGURES: [&str; 15] = [
     "regressions-electrical-equipment-pulse",
     "regressions-electrical-equipment-csgm",
     "radar",
+    "planes-pulse",
     "planes",
     "exceedance",
     "overturning",
+    "overturning-im4",
     "overturning-hybrid",
+    "overturning-hybrid-im5",
     "reliability",
 ];
 

@@ -5,6 +5,7 @@ use std::process::{Child, Command, Stdio};
 
 use rockfrag::pipeline::console::Console;
 use rockfrag::pipeline::stage::Stage;
+use rockfrag::stages::shared::structures::Structures;
 use rockfrag::stages::simulate::{Simulate, SimulateOptions};
 
 use crate::common::{small_pipeline, succeed};
@@ -50,7 +51,9 @@ fn rows_of_one_file_do_not_say_that_they_come_from_another() {
     succeed(folder.path(), "run --out other --seed 99");
     let motions = |out: &str| folder.path().join(out).join("motions.parquet");
     let out = folder.path().join("responses.parquet");
-    let stage = Simulate::new(&SimulateOptions::default(), motions("one"), out.clone()).unwrap();
+    let mut options = SimulateOptions::default();
+    options.structure.structures = Some(Structures::Paper);
+    let stage = Simulate::new(&options, motions("one"), out.clone()).unwrap();
     let planned = stage.provenance().unwrap();
     std::fs::copy(motions("other"), motions("one")).unwrap();
     let console = Console { quiet: true, ..Console::default() };

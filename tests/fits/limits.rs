@@ -174,7 +174,7 @@ proptest! {
         let here = hybrid(&x, &y, &events).unwrap();
         let there = hybrid(&shifted(&x, a), &shifted(&y, b), &events).unwrap();
         let lambda = here.lambda.unwrap().value;
-        // mu is a mean of ln IM with weights lambda/(1 + lambda) and 1/(1 + lambda) (Eq. 22).
+        // mu is a mean of ln IM with weights lambda/(1 + lambda) and 1/(1 + lambda) (Eq. 23).
         let moved = (lambda * a + b) / (1.0 + lambda);
         prop_assert!((there.lambda.unwrap().value / lambda - 1.0).abs() < 1e-8);
         prop_assert!((there.beta.value / here.beta.value - 1.0).abs() < 1e-8);

@@ -7,6 +7,7 @@ mod export;
 mod hazard;
 mod limits;
 mod normal;
+mod paper;
 mod paper_model;
 mod regressions_and_curves;
 mod universality;

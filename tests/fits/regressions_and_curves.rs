@@ -107,7 +107,7 @@ fn hybrid_parameters_follow_from_the_coefficients() {
     close(fit.lambda.unwrap().value, b[1] / b[2], 1e-12, "lambda");
     close(fit.beta.value, 1.0 / (b[1] + b[2]), 1e-12, "beta");
     close(fit.mu.value, -b[0] / (b[1] + b[2]), 1e-12, "mu");
-    // The curve of the hybrid measure IMx^(lambda/(1+lambda)) IMy^(1/(1+lambda)) is the probit itself (Eq. 22).
+    // The curve of the hybrid measure IMx^(lambda/(1+lambda)) IMy^(1/(1+lambda)) is the probit itself (Eq. 23).
     let lambda = fit.lambda.unwrap().value;
     for k in [0, 17, 230] {
         let hybrid = ((lambda * data.x[k] + negative[k]) / (1.0 + lambda)).exp();
@@ -283,6 +283,9 @@ fn want_of_cases_and_of_events_are_statuses() {
     assert_eq!(fit_biplanar(&few, None).unwrap_err(), FitStatus::TooFewCases);
     let same: Vec<Case> = (0..9).map(|_| case(Outcome::SafeRocking, 0.1, 1.0, 1.5)).collect();
     assert_eq!(fit_univariate(&same, Measure::Im4).unwrap_err(), FitStatus::Constant);
+    assert_eq!(fit_biplanar(&same, None).unwrap_err(), FitStatus::Constant);
+    let line = |k: i32| case(Outcome::SafeRocking, 0.1, 1.0 + 0.01 * f64::from(k), 1.0 + 0.01 * f64::from(k));
+    assert_eq!(fit_biplanar(&(1..90).map(line).collect::<Vec<_>>(), None).unwrap_err(), FitStatus::Collinear);
     let x: Vec<f64> = (0..50).map(f64::from).collect();
     let four: Vec<bool> = (0..50).map(|k| k % 13 == 0).collect();
     assert_eq!(curve(&x, &x, &four, &[Measure::Im4]).unwrap_err(), FitStatus::TooFewEvents);

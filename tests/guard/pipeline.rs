@@ -65,10 +65,13 @@ const CALLS: [(&str, &str); 38] = [
         "synthesize-motions --in out/scenarios.parquet --out more/soil.parquet --suite csgm,hfc --dt 0.02 \
          --difference signed --epoch pga --site soil --kappa 0.02 --fmax 20 --low-cut 0.1",
     ),
-    ("simulate_one", "simulate --in more/soil.parquet --out more/soil.responses.parquet --simd scalar"),
+    (
+        "simulate_one",
+        "simulate --in more/soil.parquet --out more/soil.responses.parquet --simd scalar --p 2.5 --alpha 0.2 --eta 0.92",
+    ),
     (
         "simulate_trace",
-        "simulate --in out/motions.parquet --out traced.parquet --simd scalar --p 1 --alpha 0.15 --trace 0,1",
+        "simulate --in out/motions.parquet --out traced.parquet --simd scalar --p 1 --alpha 0.15 --eta 0.92 --trace 0,1",
     ),
     (
         "simulate_blocks",

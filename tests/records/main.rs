@@ -3,6 +3,7 @@
 #![cfg(feature = "pipeline")]
 
 mod known_records;
+mod plausibility;
 mod processing;
 mod pulses;
 mod quirks;

@@ -90,6 +90,22 @@ fn a_pulse_is_found_and_shaking_is_none() {
     }
 }
 
+/// Two wavelets far apart in period and time, of which the second is stronger by so little that only the refined periods show it: the
+/// first lies on a period of the scan, the second between two.
+#[test]
+fn the_period_is_that_of_the_stronger_of_two_equal_peaks() {
+    let ratio = 60.0_f64.powf(1.0 / 59.0);
+    let scanned = 0.25 * ratio.powi(20);
+    let between = 0.25 * ratio.powf(41.5);
+    let wavelet = |period_s: f64, centre_s: f64| Wavelet { period_s, centre_s };
+    let (short, long) = (wavelet(scanned, 6.0), wavelet(between, 26.0));
+    for (factor, expected) in [(1.003, between), (0.997, scanned)] {
+        let at = |k: usize| short.value(k as f64 * DT) + factor * long.value(k as f64 * DT);
+        let found = of(&(0..5000).map(at).collect::<Vec<_>>());
+        assert!((found.period_s / expected - 1.0).abs() < 0.01, "{factor}: {found:?} for {expected}");
+    }
+}
+
 #[test]
 fn a_fitted_pulse_is_the_one_that_was_made() {
     for pulse in [

@@ -27,7 +27,7 @@ pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)
         ("scenarios", words(scenarios::read(path))),
         ("motions", words(motions(path))),
         ("motions in parts", words(motions_in_parts(path))),
-        ("measures of motions", words(MotionMeasures::read(path))),
+        ("measures of motions", words(MotionMeasures::read(path, &[]))),
         ("responses", words(groups::read(path))),
         ("regressions", words(regressions(path))),
         ("curves", words(curves(path))),

@@ -8,7 +8,9 @@ use rockfrag::stages::report::{Report, ReportOptions};
 use rockfrag::stages::sample_scenarios::{SampleScenarios, SampleScenariosOptions};
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 
-const QUIET: Console = Console { quiet: true, progress: false, listener: None };
+fn quiet() -> Console {
+    Console { quiet: true, ..Console::default() }
+}
 
 fn copy(name: &str, to: &Path) {
     std::fs::copy(Path::new("tests/reference/files").join(name), to).unwrap();
@@ -18,11 +20,11 @@ fn copy(name: &str, to: &Path) {
 fn expect_refusal(stage: &dyn Stage, replace: impl FnOnce()) {
     let planned = stage.provenance().unwrap();
     replace();
-    let words = stage.execute(&planned, &QUIET).unwrap_err().to_string();
+    let words = stage.execute(&planned, &quiet()).unwrap_err().to_string();
     assert!(words.contains("changed or removed while it was read"), "{words}");
     assert!(stage.outputs().iter().all(|output| !output.exists()), "{words}");
     let now = stage.provenance().unwrap();
-    stage.execute(&now, &QUIET).unwrap();
+    stage.execute(&now, &quiet()).unwrap();
     assert!(stage.outputs().iter().all(|output| output.exists()));
 }
 
@@ -41,7 +43,7 @@ fn a_table_does_not_say_that_it_comes_from_what_it_does_not_come_from() {
             ..SampleScenariosOptions::default()
         };
         let other = SampleScenarios::new(&options, scenarios).unwrap();
-        other.execute(&other.provenance().unwrap(), &QUIET).unwrap();
+        other.execute(&other.provenance().unwrap(), &quiet()).unwrap();
     });
 }
 

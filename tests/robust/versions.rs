@@ -114,7 +114,7 @@ fn a_later_format_is_refused_and_says_so() {
     let now = FORMAT_VERSION.to_string();
     let later = (FORMAT_VERSION + 1).to_string();
     for (name, call) in [
-        ("motions.parquet", "simulate --in motions.parquet --out out.parquet"),
+        ("motions.parquet", "simulate --in motions.parquet --structures paper --out out.parquet"),
         ("responses.parquet", "fit-pro --in responses.parquet --out out.parquet"),
         ("motions.parquet", "inspect motions.parquet"),
     ] {

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use rockfrag::fragility::{KnownCapacity, fit_capacities};
 use rockfrag::rocking::{
-    Capacity, CapacityStatus, Outcome, Problem, Record, Response, SafeWindow, Scan, ScanPoint, Simd,
-    Structure, simulate_all,
+    Capacity, CapacityStatus, Outcome, Problem, Record, Response, SafeWindow, Scan, ScanPoint, ScanResponse,
+    Simd, Structure, simulate_all,
 };
 use rockfrag::statistics::FitStatus;
 use rockfrag::units::G_M_S2;
@@ -23,7 +23,7 @@ fn capacity(scan: &Scan, structure: &Structure, samples: &[f64], dt: f64) -> Cap
         let problem = |samples| Problem { structure, record: Record::new(samples, dt).unwrap() };
         Ok(simulate_all(&scaled.iter().map(|samples| problem(samples)).collect::<Vec<_>>(), Simd::fastest()))
     };
-    Capacity::of(&scan.run(1, respond).unwrap()[0])
+    scan.capacity(&scan.run(1, respond).unwrap()[0])
 }
 
 #[track_caller]
@@ -141,7 +141,7 @@ fn scan_of(scan: &Scan, ranges: &[(f64, f64, u32)]) -> Capacity {
         };
         Ok(points.iter().map(of).collect())
     };
-    Capacity::of(&scan.run(1, respond).unwrap()[0])
+    scan.capacity(&scan.run(1, respond).unwrap()[0])
 }
 
 #[test]
@@ -179,19 +179,79 @@ fn a_scan_looks_closer_only_where_it_must() {
         assert_eq!(found[0], found[1]);
         found[0].len()
     };
-    // Far from overturning, or overturning all in the same way: the levels alone.
-    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.1, 0)), 5);
-    assert_eq!(simulated(|_| (Outcome::Overturning, 7.0, 3)), 5);
-    // Near overturning: each step is halved twice. From level 4 on: two steps of four.
-    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.9, 0)), 4 * 4 + 1);
-    assert_eq!(simulated(|at| (Outcome::SafeRocking, if at >= 4.0 { 0.9 } else { 0.1 }, 0)), 5 + 3 + 3 + 2);
-    // Between two ways of overturning, twice a halving of the step in which it changes.
-    assert_eq!(simulated(|at| (Outcome::Overturning, 7.0, u32::from(at < 3.0))), 5 + 2);
-    // Where overturning begins, halvings of ln 2 until it is known to a thousandth: ln 2 / 1e-3 < 2^10.
+    // Without rocking the levels alone; wherever it rocks each step is halved twice.
+    assert_eq!(simulated(|_| (Outcome::NoRocking, 0.0, 0)), 5);
+    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.1, 0)), 4 * 4 + 1);
+    assert_eq!(simulated(|_| (Outcome::Overturning, 7.0, 3)), 4 * 4 + 1);
+    assert_eq!(simulated(|at| (Outcome::Overturning, 7.0, u32::from(at < 3.0))), 4 * 4 + 1);
+    // Uplift between level 2 and 4: the steps below have none.
+    assert_eq!(
+        simulated(|at| (if at > 3.0 { Outcome::SafeRocking } else { Outcome::NoRocking }, 0.0, 0)),
+        5 + 3 * 3 - 1
+    );
+    // Beyond the tipping point each step is halved four times more; at its foot only where the demand grows so fast.
+    assert_eq!(simulated(|_| (Outcome::SafeRocking, 1.1, 0)), 4 * 4 * 16 + 1);
+    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.99, 0)), 4 * 4 + 1);
+    let growing = simulated(|at| (Outcome::SafeRocking, if at > 3.9 { 0.3 } else { 0.1 }, 0));
+    assert!((4 * 4 + 10..4 * 4 + 60).contains(&growing), "{growing}");
+    // Where overturning begins, halvings of ln 2 / 4 until it is known to a thousandth: ln 2 / 1e-3 < 2^10.
     assert_eq!(
         simulated(|at| (if at > 3.0 { Outcome::Overturning } else { Outcome::SafeRocking }, 0.1, 0)),
-        5 + 10
+        4 * 4 + 1 + 8
     );
+}
+
+/// A scan of a demand that is a function of the intensity, overturning from 1 on.
+fn scan_of_demand(scan: &Scan, demand: impl Fn(f64) -> f64) -> Vec<ScanResponse> {
+    let respond = |points: &[ScanPoint]| {
+        let response = |point: &ScanPoint| {
+            let edp = demand(point.intensity);
+            let outcome = if edp >= 1.0 { Outcome::Overturning } else { Outcome::SafeRocking };
+            Response { outcome, edp, impacts: 2 }
+        };
+        Ok::<_, std::convert::Infallible>(points.iter().map(response).collect())
+    };
+    scan.run(1, respond).unwrap().remove(0)
+}
+
+#[test]
+fn a_grazing_peak_narrower_than_the_resolution_is_followed() {
+    // Peaks of the demand that reach tipping over a third, and not quite, of the finest step: below all else, and in a window.
+    let scan = Scan::new(1.0, 16.0, 40, 1, 1e-4);
+    let finest = scan.finest_ratio().ln();
+    for shift in 0..7 {
+        let (first, hole, almost) = (2.0 * (1.0 + 0.003 * f64::from(shift)), 9.0, 5.0);
+        let peak = |at: f64, place: f64, top: f64| {
+            let away = ((at / place).ln() / finest).abs();
+            (top - (top - 1.0).abs() * 36.0 * away * away).max(0.7 - 0.2 * away)
+        };
+        let demand = |at: f64| match at {
+            4.0..4.5 | 12.0..13.0 => 3.0,
+            _ => peak(at, first, 1.05).max(peak(at, hole, 1.05)).max(peak(at, almost, 0.97)).max(0.1),
+        };
+        let capacity = scan.capacity(&scan_of_demand(&scan, demand));
+        close(capacity.overturning.unwrap(), first * (-finest / 6.0).exp(), 2e-4);
+        let bounds = |window: &SafeWindow| (window.low, window.high.unwrap_or(16.0));
+        let windows: Vec<(f64, f64)> = capacity.windows.iter().map(bounds).collect();
+        assert!(windows.iter().all(|(low, high)| !(*low < hole && hole < *high)), "{windows:?}");
+        assert!(windows.iter().any(|(low, high)| *low < almost && almost < *high), "{windows:?}");
+        close(capacity.safe_up_to.unwrap(), 16.0, 1e-12);
+    }
+}
+
+#[test]
+fn shares_are_those_of_the_logarithm_of_the_intensity() {
+    let scan = Scan::new(1.0, 16.0, 4, 3, 1e-6);
+    let bands = [(1.1, 1.3), (1.5, 1.6), (2.5, 7.0)];
+    let overturns = |at: f64| bands.iter().any(|(low, high)| (*low..*high).contains(&at));
+    let responses = scan_of_demand(&scan, |at| if overturns(at) { 3.0 } else { 0.3 });
+    let shares = scan.overturning_shares(&responses);
+    let part = |low: f64, high: f64| (high / low).ln() / 2.0_f64.ln();
+    let expected = [part(1.1, 1.3) + part(1.5, 1.6), part(2.5, 4.0), part(4.0, 7.0), 0.0];
+    for (share, expected) in shares.iter().zip(expected) {
+        assert!((share - expected).abs() < 1e-5, "{shares:?}");
+    }
+    assert_eq!(shares.len(), 4);
 }
 
 #[test]

@@ -19,7 +19,7 @@ fn folder(name: &str) -> String {
     format!("{}/tests/reference/fits/{name}", env!("CARGO_MANIFEST_DIR"))
 }
 
-fn read<T: serde::de::DeserializeOwned>(name: &str) -> Vec<T> {
+pub fn read<T: serde::de::DeserializeOwned>(name: &str) -> Vec<T> {
     csv::Reader::from_path(folder(name)).unwrap().into_deserialize().map(Result::unwrap).collect()
 }
 

@@ -4,7 +4,7 @@ use rockfrag::fragility::{CurveInference, CurveModel, CurveParameter, fit_overtu
 use rockfrag::keyword::Keyword;
 use rockfrag::statistics::{BinaryFit, Estimator, FitStatus, Link, binary_regression, is_separated};
 
-use crate::data::{Data, answers, data};
+use crate::data::{Data, answers, data, read};
 
 /// Two measures and few cases; or one measure that parts the outcomes.
 fn sets() -> [(&'static str, &'static str, Data); 2] {
@@ -59,6 +59,42 @@ fn what_separates_has_a_curve_by_firth_alone() {
     let fit = fit_overturning(&sample, &model).unwrap();
     assert!(fit.beta.value > 0.0 && fit.beta.value < 1.0);
     assert!(fit.regression.log_likelihood > fit.regression.objective - 10.0);
+}
+
+/// 150 sets of few cases that one measure or two separate, completely or but for a point with both outcomes, and the largest
+/// penalised likelihood that scipy finds from 45 starts (scripts/reference/separated.py).
+#[test]
+fn what_separates_has_the_highest_maximum_under_every_link() {
+    let mut sets: Vec<(Vec<Vec<f64>>, Vec<bool>)> = vec![(vec![Vec::new(); 2], Vec::new()); 150];
+    let rows: Vec<(usize, f64, Option<f64>, u8)> = read("separated.csv");
+    for (set, x, y, event) in rows {
+        let (columns, events) = &mut sets[set];
+        columns[0].push(x);
+        columns[1].extend(y);
+        events.push(event == 1);
+    }
+    let answers: Vec<(usize, String, f64, usize)> = read("separated_answers.csv");
+    assert_eq!(answers.len(), 450);
+    for &link in Link::ALL {
+        let (mut none, mut lower, mut largest) = (0, 0, 0.0_f64);
+        for (set, _, penalised, _) in answers.iter().filter(|answer| answer.1 == link.as_str()) {
+            let (columns, events) = &sets[*set];
+            let columns: Vec<&[f64]> = columns.iter().filter(|x| !x.is_empty()).map(Vec::as_slice).collect();
+            assert!(is_separated(&columns, events), "{set}");
+            match binary_regression(&columns, events, link, Estimator::Firth) {
+                Ok(fit) => {
+                    lower += usize::from(fit.objective < penalised - 1e-6);
+                    largest = largest.max(fit.objective - penalised);
+                }
+                Err(_) => none += 1,
+            }
+        }
+        println!(
+            "{link:?}: no maximum {none}, a lower one {lower}, higher than scipy's by up to {largest:e}"
+        );
+        assert_eq!((none, lower), (0, 0), "{link:?}");
+        assert!(largest < 1e-6);
+    }
 }
 
 #[test]

@@ -47,6 +47,8 @@ fn derivatives_of_the_links_are_those_of_their_values() {
             assert!((of(index).weight / expected - 1.0).abs() < 1e-12, "{link:?} {index}");
             let slope = (of(index + h).weight.ln() - of(index - h).weight.ln()) / (2.0 * h);
             assert!((of(index).ln_weight_slope - slope).abs() < 1e-8, "{link:?} {index}");
+            let curvature = (of(index + h).ln_weight_slope - of(index - h).ln_weight_slope) / (2.0 * h);
+            assert!((of(index).ln_weight_curvature - curvature).abs() < 1e-8, "{link:?} {index}");
         }
         assert!((link.probability(link.median_index()) - 0.5).abs() < 1e-15);
     }

@@ -20,13 +20,13 @@ def structure(given: Mapping[str, Any]) -> dict[str, Any]:
     return {_kebab(name): _plain(value) for name, value in given.items() if value is not None}
 
 
-def settings(threads: int | None, progress: Progress | None, force: bool) -> dict[str, Any]:
+def settings(threads: int | None, progress: Progress | None, force: bool | None, overwrite: bool | None) -> dict[str, Any]:
     """The settings of a call."""
     if threads is not None and threads < 1:
         from .errors import OptionError
 
         raise OptionError(f"threads is {threads}; expected 1 or more")
-    return {"threads": threads, "progress": progress, "force": force}
+    return {"threads": threads, "progress": progress, "force": bool(force), "overwrite": bool(overwrite)}
 
 
 def path(out: PathLike | None) -> str | None:

@@ -27,8 +27,8 @@ class Response:
     events: list[tuple[float, str]]
     #: no_rocking, safe_rocking or overturning.
     outcome: str
-    #: Largest rotation over slenderness (Eq. 7).
-    edp: float
+    #: Largest rotation over slenderness (Eq. 7); none if it overturns.
+    edp: float | None
     #: Impacts within the duration of the record.
     impacts: int
     #: Frequency parameter of the structure, rad/s.
@@ -52,8 +52,8 @@ def response(
     Args:
         acceleration_m_s2: Ground acceleration, m/s2, linear between samples.
         dt_s: Time between samples, s.
-        structure: ``{"p": 2.5, "alpha": 0.20, "eta": 0.92}`` (rad/s, rad, 1); or ``width`` and ``height`` of a block (m), with
-            ``beam_mass_ratio`` for a frame.
+        structure: ``{"p": 2.5, "alpha": 0.20, "eta": 0.92}`` (rad/s, rad, 1 or ``"housner"``); or ``width`` and ``height`` of a
+            block (m), with ``beam_mass_ratio`` for a frame.
         tail_s: Quiet time after the record, in which free rocking shows, s.
 
     Returns:

@@ -28,6 +28,7 @@ _COMMON = {
     "threads": ("int | None", None, "All cores if not given."),
     "progress": ("Progress | None", None, "Called with the number of steps done and of all."),
     "force": ("bool", False, "Make even a file that is up to date."),
+    "overwrite": ("bool", False, "Write over a file that another stage or program has made."),
 }
 
 
@@ -90,7 +91,7 @@ def _function(stage: Mapping[str, Any]) -> Callable[..., Any]:
 
     def call(*arguments: Any, **keywords: Any) -> Any:
         given = {name: value for name, value in signature.bind(*arguments, **keywords).arguments.items() if value is not None}
-        settings = _options.settings(given.pop("threads", None), given.pop("progress", None), given.pop("force", False))
+        settings = _options.settings(*(given.pop(name, None) for name in ("threads", "progress", "force", "overwrite")))
         out = _options.path(given.pop("out", None))
         inputs = {role: given.pop(role) for role in roles & given.keys()}
         for name, value in given.items():

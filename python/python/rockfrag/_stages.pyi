@@ -16,6 +16,7 @@ def compare_paper(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def evaluate(
@@ -30,7 +31,7 @@ def evaluate(
     limits: Any = 'delta',
     p: float | None = None,
     alpha: float | None = None,
-    eta: float | None = None,
+    eta: Any = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
@@ -48,6 +49,7 @@ def evaluate(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def export(
@@ -60,7 +62,7 @@ def export(
     measure: Any = None,
     p: float | None = None,
     alpha: float | None = None,
-    eta: float | None = None,
+    eta: Any = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
@@ -76,6 +78,7 @@ def export(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def fit_pex(
@@ -83,6 +86,7 @@ def fit_pex(
     *,
     limit_state: float = 0.1,
     transition: Any = 'found',
+    demand_floor: float | None = None,
     bootstrap: int = 0,
     confidence: float = 0.95,
     seed: int | None = None,
@@ -90,6 +94,7 @@ def fit_pex(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def fit_pro(
@@ -106,6 +111,7 @@ def fit_pro(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def ida(
@@ -117,15 +123,19 @@ def ida(
     steps: int = 60,
     halvings: int = 4,
     tolerance: float = 0.001,
-    p: float = 2.5,
-    alpha: float = 0.2,
-    eta: float = 0.92,
+    p: float | None = None,
+    alpha: float | None = None,
+    eta: Any = None,
+    width: float | None = None,
+    height: float | None = None,
+    beam_mass_ratio: float | None = None,
     structures: Any = None,
     simd: Any = None,
     out: PathLike | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def import_motions(
@@ -147,11 +157,13 @@ def import_motions(
     residual: bool = False,
     sa: Any = None,
     housner: bool = False,
+    accept_implausible: bool = False,
     keep_going: bool = False,
     out: PathLike | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def rank_ims(
@@ -162,10 +174,12 @@ def rank_ims(
     transition: Any = 'found',
     terms: int = 3,
     folds: int = 10,
+    candidate: Any = None,
     out: PathLike | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def report(
@@ -180,6 +194,7 @@ def report(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def sample_scenarios(
@@ -193,14 +208,18 @@ def sample_scenarios(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def simulate(
     motions: TableLike,
     *,
-    p: float = 2.5,
-    alpha: float = 0.2,
-    eta: float = 0.92,
+    p: float | None = None,
+    alpha: float | None = None,
+    eta: Any = None,
+    width: float | None = None,
+    height: float | None = None,
+    beam_mass_ratio: float | None = None,
     structures: Any = None,
     simd: Any = None,
     trace: Any = None,
@@ -209,6 +228,7 @@ def simulate(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def synthesize_motions(
@@ -232,6 +252,7 @@ def synthesize_motions(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def universality(
@@ -246,6 +267,7 @@ def universality(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...
 
 def validate(
@@ -261,4 +283,5 @@ def validate(
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
+    overwrite: bool = False,
 ) -> Any: ...

@@ -67,7 +67,7 @@ pub struct Biplanar {
 /// Two planes (Eqs. 17 and 18), parted where `transition` says or where their pooled residual is least.
 ///
 /// # Errors
-/// If no transition can be found for want of cases.
+/// If no transition can be found, for want of cases or as one plane would say.
 pub fn fit_biplanar(cases: &[Case], transition: Option<f64>) -> Result<Biplanar, FitStatus> {
     let sample = DemandSample::new(cases, &PLANE, 0.0..f64::INFINITY);
     let found = TransitionSearch::new(&sample).find(&vec![1.0; cases.len()]);
@@ -75,7 +75,9 @@ pub fn fit_biplanar(cases: &[Case], transition: Option<f64>) -> Result<Biplanar,
         Some(Transition { im4, scan }) => (Some(im4), scan),
         None => (None, Vec::new()),
     };
-    let transition = transition.or(found).ok_or(FitStatus::TooFewCases)?;
+    // What one plane over all cases cannot do, two cannot for the same reason.
+    let why = || sample.fit().err().unwrap_or(FitStatus::TooFewCases);
+    let transition = transition.or(found).ok_or_else(why)?;
     let low = fit_plane(cases, 0.0..transition);
     let high = fit_plane(cases, transition..f64::INFINITY);
     let (mut r2_pooled, mut r2_overall) = (None, None);

@@ -13,7 +13,7 @@ use crate::statistics::separation::is_separated;
 
 /// A curve from fewer events, or non-events, would be an opinion; Firth's needs one, and says in its limits how little it
 /// knows.
-const LEAST_EVENTS: usize = 5;
+pub const LEAST_EVENTS: usize = 5;
 
 /// With fewer events, or non-events, for each coefficient, limits by the standard errors of lambda, mu and beta are too narrow, and so
 /// are those of small probabilities by resamples; those by the profile likelihood, and of probabilities by the delta method, are not

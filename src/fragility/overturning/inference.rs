@@ -74,7 +74,8 @@ impl<'a> CurveInference<'a> {
         if self.fit.estimator == Estimator::Ml && self.separated(weights) {
             return None;
         }
-        likelihood.maximise(&self.fit.coefficients, Along::All, TOLERANCE).map(|maximum| maximum.at)
+        let nearby = likelihood.maximise(&self.fit.coefficients, Along::All, TOLERANCE);
+        nearby.or_else(|| likelihood.highest(TOLERANCE)).map(|maximum| maximum.at)
     }
 
     /// The parameters of the curve.

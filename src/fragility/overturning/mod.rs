@@ -15,7 +15,7 @@ pub(crate) mod parameter;
 pub(crate) mod profile;
 pub(crate) mod sample;
 
-pub use curves::{CurveModel, OverturningFit, fit_overturning, has_few_events};
+pub use curves::{CurveModel, LEAST_EVENTS, OverturningFit, fit_overturning, has_few_events};
 pub use curves::{fit_with_interaction, fit_with_spline};
 pub use group::{Curve, CurveOptions, Pair, ParameterInference};
 pub use inference::CurveInference;

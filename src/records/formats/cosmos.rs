@@ -7,7 +7,7 @@ use super::header::time_step;
 use super::numbers::{Layout, first_number, leading_number, samples};
 use super::text::{Line, after, lines, quoted, words};
 use super::unit::AccelerationUnit;
-use crate::records::{Given, HeaderPga, RecordedMotion};
+use crate::records::{Given, HeaderPga, RecordedMotion, SaidUnit};
 
 /// The integer that gives the azimuth, from 0.
 const AZIMUTH: usize = 53;
@@ -152,6 +152,8 @@ impl Channel<'_> {
                 m_s2: peak.abs() * scale,
                 rounding_m_s2: PEAK_ROUNDING * peak.abs() * scale,
             }),
+            unit: Some(SaidUnit::by_file(unit)),
+            ..RecordedMotion::default()
         })
     }
 }

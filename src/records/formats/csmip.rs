@@ -7,7 +7,7 @@ use super::header::{azimuth_of, header_pga, time_step};
 use super::numbers::{Layout, Numbers, first_number, leading_number, samples};
 use super::text::{Line, after, lines, quoted, words};
 use super::unit::AccelerationUnit;
-use crate::records::{Given, HeaderPga, RecordedMotion};
+use crate::records::{Given, HeaderPga, RecordedMotion, SaidUnit};
 
 /// The layout of samples where the line does not say it.
 const USUAL: Layout = Layout { on_line: 8, width: 10 };
@@ -48,8 +48,11 @@ pub fn parse(text: &str, given: &Given) -> Result<Vec<RecordedMotion>, RecordFil
         header.clear();
     }
     let line = lines(text).count();
-    let nothing =
-        RecordFileError::EndsEarly { line, expected: "'... points of accel data equally spaced ...'" };
+    let velocity = lines(text).find(|line| after(line.text, "points of veloc").is_some());
+    let nothing = velocity.map_or(
+        RecordFileError::EndsEarly { line, expected: "'... points of accel data equally spaced ...'" },
+        |line| RecordFileError::NotAcceleration { line: line.number, quantity: "velocity" },
+    );
     if motions.is_empty() { Err(nothing) } else { Ok(motions) }
 }
 
@@ -119,6 +122,8 @@ fn motion(header: &[Line], data: &Data, values: Vec<f64>) -> RecordedMotion {
         }),
         component,
         header_pga: peak(header),
+        unit: Some(SaidUnit::by_file(data.unit)),
+        ..RecordedMotion::default()
     }
 }
 

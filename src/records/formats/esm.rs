@@ -5,7 +5,7 @@ use super::header::{azimuth_of, header_pga, time_step};
 use super::numbers::{leading_number, samples};
 use super::text::{Line, after, lines, quoted, words};
 use super::unit::AccelerationUnit;
-use crate::records::{Given, RecordedMotion};
+use crate::records::{Given, RecordedMotion, SaidUnit};
 
 /// Lines in which the header must come to its end.
 const HEADER: usize = 200;
@@ -34,8 +34,12 @@ pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileErro
     }
     let unit = match find("UNITS") {
         Some((line, unit)) => AccelerationUnit::leading(unit)
+            .map(SaidUnit::by_file)
             .ok_or_else(|| RecordFileError::Unit { line, unit: quoted(unit) })?,
-        None => given.unit.ok_or_else(|| missing("UNITS", "'UNITS: cm/s^2': give it with --unit"))?,
+        None => given
+            .unit
+            .map(SaidUnit::by_user)
+            .ok_or_else(|| missing("UNITS", "'UNITS: cm/s^2': give it with --unit"))?,
     };
     let number = |key| find(key).and_then(|(line, value)| leading_number(value).map(|number| (line, number)));
     let (line, dt_s) = number("SAMPLING_INTERVAL_S")
@@ -45,7 +49,7 @@ pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileErro
         .filter(|(_, count)| *count >= 0.0)
         .ok_or_else(|| missing("NDATA", "the number of samples, such as 'NDATA: 18904'"))?;
     let values = samples(lines(text).skip(end), announced as u64, None)?;
-    let scale = unit.in_m_s2();
+    let scale = unit.unit.in_m_s2();
     let stream = find("STREAM").map_or("", |(_, stream)| stream);
     Ok(RecordedMotion {
         dt_s: time_step(dt_s, line)?,
@@ -56,6 +60,8 @@ pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileErro
         azimuth_deg: direction(stream),
         header_pga: find("PGA_CM/S^2")
             .and_then(|(_, peak)| header_pga(peak, AccelerationUnit::CentimetrePerSecond2)),
+        unit: Some(unit),
+        ..RecordedMotion::default()
     })
 }
 

@@ -6,7 +6,7 @@ use super::header::{header_pga, time_step};
 use super::numbers::{first_number, leading_number, samples};
 use super::text::{Line, after, lines, quoted, words};
 use super::unit::AccelerationUnit;
-use crate::records::{Given, RecordedMotion};
+use crate::records::{Given, RecordedMotion, SaidUnit};
 
 /// Lines in which the header must come to its end.
 const HEADER: usize = 40;
@@ -68,6 +68,8 @@ pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileErro
         azimuth_deg: known.and_then(|(_, _, azimuth, _)| *azimuth),
         header_pga: find("Max. Acc. (gal)")
             .and_then(|(_, peak)| header_pga(peak, AccelerationUnit::CentimetrePerSecond2)),
+        unit: Some(SaidUnit::by_file(AccelerationUnit::CentimetrePerSecond2)),
+        ..RecordedMotion::default()
     })
 }
 

@@ -8,6 +8,8 @@
 //! knet      K-NET and KiK-net
 //! smc       USGS SMC
 //! columns   plain numbers, with or without a column of time
+//! heading   what headings and comments above plain numbers say of them
+//! table     plain numbers as rows and columns
 //! text      bytes to text to numbered lines
 //! numbers   numbers as Fortran and people write them, and blocks of them
 //! header    time steps, peaks and azimuths
@@ -21,10 +23,12 @@ mod csmip;
 mod error;
 mod esm;
 mod header;
+mod heading;
 mod knet;
 mod numbers;
 mod peer_at2;
 mod smc;
+mod table;
 mod text;
 mod unit;
 
@@ -112,5 +116,7 @@ pub fn read(
 ) -> Result<Vec<RecordedMotion>, RecordFileError> {
     let text = decode(bytes)?;
     let format = format.map_or_else(|| Format::of(&text), Ok)?;
-    format.parse(&text, given)
+    let mut motions = format.parse(&text, given)?;
+    motions.iter_mut().for_each(|motion| motion.format = format.as_str());
+    Ok(motions)
 }

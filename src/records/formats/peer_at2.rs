@@ -6,7 +6,7 @@ use super::header::{azimuth_of, header_pga, time_step};
 use super::numbers::{Numbers, first_number, samples};
 use super::text::{Line, after, lines, quoted, words};
 use super::unit::AccelerationUnit;
-use crate::records::{Given, RecordedMotion};
+use crate::records::{Given, RecordedMotion, SaidUnit};
 
 /// Lines of the header in which the one with NPTS must come.
 const HEADER: usize = 8;
@@ -30,7 +30,7 @@ pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileErro
     let unit = unit(&header, given)?;
     let (announced, dt_s) = length(counts, given)?;
     let values = samples(lines(text).skip(counts.number), announced, None)?;
-    let scale = unit.in_m_s2();
+    let scale = unit.unit.in_m_s2();
     let title = Title::of(header.get(1).map_or("", |line| line.text));
     Ok(RecordedMotion {
         dt_s: time_step(dt_s, counts.number)?,
@@ -43,6 +43,8 @@ pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileErro
             .iter()
             .find_map(|line| after(line.text, "PGA"))
             .and_then(|rest| header_pga(rest.trim_start_matches([' ', '=']), AccelerationUnit::G)),
+        unit: Some(unit),
+        ..RecordedMotion::default()
     })
 }
 
@@ -71,22 +73,27 @@ fn length(line: Line, given: &Given) -> Result<(u64, f64), RecordFileError> {
     Ok((npts as u64, dt_s))
 }
 
-fn unit(header: &[Line], given: &Given) -> Result<AccelerationUnit, RecordFileError> {
+fn unit(header: &[Line], given: &Given) -> Result<SaidUnit, RecordFileError> {
     const OTHERS: [(&str, &str); 2] =
         [("VELOCITY", "velocity, as in a VT2 file"), ("DISPLACEMENT", "displacement, as in a DT2 file")];
-    let kind = header.iter().find(|line| after(line.text, "UNITS OF").is_some());
-    let Some(line) = kind else {
-        return given.unit.ok_or(RecordFileError::Missing {
+    // The first two lines name the database and the record.
+    let kinds = || header.iter().filter(|line| line.number > 2);
+    let other = |(word, quantity): &(&str, &'static str)| {
+        kinds().find(|line| after(line.text, word).is_some()).map(|line| (line, *quantity))
+    };
+    if let Some((line, quantity)) = OTHERS.iter().find_map(other) {
+        return Err(RecordFileError::NotAcceleration { line: line.number, quantity });
+    }
+    let Some(line) = header.iter().find(|line| after(line.text, "UNITS OF").is_some()) else {
+        return given.unit.map(SaidUnit::by_user).ok_or(RecordFileError::Missing {
             line: 3,
             what: "unit",
             expected: "'ACCELERATION TIME SERIES IN UNITS OF G': give it with --unit",
         });
     };
-    if let Some((_, quantity)) = OTHERS.iter().find(|(word, _)| after(line.text, word).is_some()) {
-        return Err(RecordFileError::NotAcceleration { line: line.number, quantity });
-    }
     let unit = after(line.text, "UNITS OF").unwrap_or("");
     AccelerationUnit::leading(unit)
+        .map(SaidUnit::by_file)
         .ok_or_else(|| RecordFileError::Unit { line: line.number, unit: quoted(unit) })
 }
 

@@ -6,7 +6,7 @@ use super::header::{azimuth_of, time_step};
 use super::numbers::{Layout, leading_number, samples};
 use super::text::{Line, after, lines, words};
 use super::unit::AccelerationUnit;
-use crate::records::{Given, HeaderPga, RecordedMotion};
+use crate::records::{Given, HeaderPga, RecordedMotion, SaidUnit};
 
 /// What the first line says of other contents.
 const OTHERS: [(&str, &str); 4] = [
@@ -83,6 +83,8 @@ pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileErro
         header_pga: peaks
             .reduce(f64::max)
             .map(|peak| HeaderPga { m_s2: peak * scale, rounding_m_s2: PEAK_ROUNDING * peak * scale }),
+        unit: Some(SaidUnit::by_file(AccelerationUnit::CentimetrePerSecond2)),
+        ..RecordedMotion::default()
     })
 }
 

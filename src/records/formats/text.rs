@@ -22,22 +22,64 @@ pub fn lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
     text.lines().enumerate().map(|(index, text)| Line { number: index + 1, text })
 }
 
-/// Decodes the bytes of a file: UTF-8, or else Latin-1.
+/// How files begin that hold no text, what they are, and what to do.
+const ARCHIVES: [(&[u8], &str, &str); 4] = [
+    (b"PK\x03\x04", "an Excel workbook or another zip archive", "save it as CSV, or unpack it"),
+    (b"\xd0\xcf\x11\xe0", "an old Excel workbook", "save it as CSV"),
+    (b"\x1f\x8b", "a gzip archive", "unpack it"),
+    (b"\x89HDF", "an HDF5 file", "write the acceleration as CSV"),
+];
+
+/// Decodes the bytes of a file: UTF-16 or UTF-8 by their marks, else UTF-8, else Latin-1; with plain blanks, signs and
+/// line ends.
 ///
 /// # Errors
 /// If it is empty or binary.
 pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, RecordFileError> {
+    if let Some((_, what, cure)) = ARCHIVES.iter().find(|(magic, ..)| bytes.starts_with(magic)) {
+        return Err(RecordFileError::Binary { what, cure });
+    }
+    let text = match bytes {
+        [0xff, 0xfe, rest @ ..] => Cow::Owned(utf_16(rest, u16::from_le_bytes)),
+        [0xfe, 0xff, rest @ ..] => Cow::Owned(utf_16(rest, u16::from_be_bytes)),
+        _ => eight_bits(bytes)?,
+    };
+    let text = plain(text);
+    if text.trim().is_empty() { Err(RecordFileError::Empty) } else { Ok(text) }
+}
+
+fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
+    let (pairs, _) = bytes.as_chunks::<2>();
+    String::from_utf16_lossy(&pairs.iter().map(|pair| unit(*pair)).collect::<Vec<_>>())
+}
+
+fn eight_bits(bytes: &[u8]) -> Result<Cow<'_, str>, RecordFileError> {
     let sample = bytes.get(..SAMPLE).unwrap_or(bytes);
     let control = |byte: &&u8| **byte < b' ' && !matches!(**byte, b'\t' | b'\n' | b'\r' | b'\x0c' | b'\x1a');
     // Single null bytes pad the text of some real headers.
     if sample.iter().filter(control).count() * 50 > sample.len() {
-        return Err(RecordFileError::Binary);
+        return Err(RecordFileError::Binary { what: "binary data", cure: "unpack it if it is an archive" });
     }
-    let text = match std::str::from_utf8(bytes) {
+    Ok(match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text.strip_prefix('\u{feff}').unwrap_or(text)),
         Err(_) => Cow::Owned(bytes.iter().map(|&byte| char::from(byte)).collect()),
+    })
+}
+
+/// The text with plain blanks for typographic ones, minus signs that numbers have, and line ends where only returns stand.
+fn plain(text: Cow<str>) -> Cow<str> {
+    let is_blank = |c: char| matches!(c, '\u{a0}' | '\u{2000}'..='\u{200a}' | '\u{202f}');
+    let only_returns = text.contains('\r') && !text.contains('\n');
+    if !only_returns && (text.is_ascii() || !text.contains(|c| is_blank(c) || c == '\u{2212}')) {
+        return text;
+    }
+    let letter = |c: char| match c {
+        '\r' if only_returns => '\n',
+        '\u{2212}' => '-',
+        c if is_blank(c) => ' ',
+        c => c,
     };
-    if text.trim().is_empty() { Err(RecordFileError::Empty) } else { Ok(text) }
+    Cow::Owned(text.chars().map(letter).collect())
 }
 
 /// Joins the words of a text by single blanks; none if there are no words.

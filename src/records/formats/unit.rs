@@ -1,64 +1,105 @@
+//! Units as headers, headings and people write them.
+
 use crate::units::G_M_S2;
 
 /// A unit of acceleration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AccelerationUnit {
     G,
+    PercentG,
     MilliG,
     MetrePerSecond2,
     /// Also called gal.
     CentimetrePerSecond2,
     MillimetrePerSecond2,
+    FootPerSecond2,
+    InchPerSecond2,
 }
 
-/// How units are written, without blanks and in lower case.
-const NAMES: [(&str, AccelerationUnit); 23] = [
-    ("g", AccelerationUnit::G),
-    ("mg", AccelerationUnit::MilliG),
-    ("milli-g", AccelerationUnit::MilliG),
-    ("m/s2", AccelerationUnit::MetrePerSecond2),
-    ("m/s/s", AccelerationUnit::MetrePerSecond2),
-    ("m/s^2", AccelerationUnit::MetrePerSecond2),
-    ("m/s**2", AccelerationUnit::MetrePerSecond2),
-    ("m/sec2", AccelerationUnit::MetrePerSecond2),
-    ("m/sec/sec", AccelerationUnit::MetrePerSecond2),
-    ("m/sec^2", AccelerationUnit::MetrePerSecond2),
-    ("cm/s2", AccelerationUnit::CentimetrePerSecond2),
-    ("cm/s/s", AccelerationUnit::CentimetrePerSecond2),
-    ("cm/s^2", AccelerationUnit::CentimetrePerSecond2),
-    ("cm/s**2", AccelerationUnit::CentimetrePerSecond2),
-    ("cm/sec2", AccelerationUnit::CentimetrePerSecond2),
-    ("cm/sec/sec", AccelerationUnit::CentimetrePerSecond2),
-    ("cm/sec^2", AccelerationUnit::CentimetrePerSecond2),
-    ("cm/sec**2", AccelerationUnit::CentimetrePerSecond2),
-    ("gal", AccelerationUnit::CentimetrePerSecond2),
-    ("gals", AccelerationUnit::CentimetrePerSecond2),
-    ("mm/s2", AccelerationUnit::MillimetrePerSecond2),
-    ("mm/s/s", AccelerationUnit::MillimetrePerSecond2),
-    ("mm/s^2", AccelerationUnit::MillimetrePerSecond2),
+use AccelerationUnit::{
+    CentimetrePerSecond2, FootPerSecond2, G, InchPerSecond2, MetrePerSecond2, MilliG, MillimetrePerSecond2,
+    PercentG,
+};
+
+/// Each unit with its name, in m/s2, and how it is written otherwise, of letters, digits and `%` alone.
+const UNITS: [(AccelerationUnit, &str, f64, &[&str]); 8] = [
+    (G, "g", G_M_S2, &["g", "gs"]),
+    (PercentG, "%g", 0.01 * G_M_S2, &["%g", "percentg", "pctg"]),
+    (MilliG, "mg", 0.001 * G_M_S2, &["mg", "millig"]),
+    (MetrePerSecond2, "m/s2", 1.0, &["ms2", "mss"]),
+    (CentimetrePerSecond2, "cm/s2", 0.01, &["cms2", "cmss", "gal", "gals"]),
+    (MillimetrePerSecond2, "mm/s2", 0.001, &["mms2", "mmss"]),
+    (FootPerSecond2, "ft/s2", 0.3048, &["fts2", "ftss"]),
+    (InchPerSecond2, "in/s2", 0.0254, &["ins2", "inss"]),
 ];
+/// How times are written, in s.
+const TIMES: [(&[&str], f64); 4] = [
+    (&["s", "sec", "secs", "second", "seconds"], 1.0),
+    (&["ms", "msec", "millisecond", "milliseconds"], 1e-3),
+    (&["us", "\u{b5}s", "\u{3bc}s", "usec"], 1e-6),
+    (&["min", "mins", "minutes"], 60.0),
+];
+const LENGTHS: [&str; 5] = ["m", "cm", "mm", "in", "ft"];
+const COUNTS: [&str; 5] = ["count", "counts", "volt", "volts", "mv"];
+
+/// What the numbers of a column are in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unit {
+    Acceleration(AccelerationUnit),
+    /// So many seconds.
+    Time(f64),
+    Velocity,
+    Displacement,
+    /// Of an instrument that was not calibrated.
+    Counts,
+}
+
+impl Unit {
+    /// Finds the unit that a text names, and nothing else.
+    pub fn named(text: &str) -> Option<Unit> {
+        let lower = text.trim().to_lowercase().replace('\u{b2}', "2");
+        if let Some(unit) = AccelerationUnit::named(&lower) {
+            return Some(Unit::Acceleration(unit));
+        }
+        if let Some((_, in_s)) = TIMES.iter().find(|(names, _)| names.contains(&lower.as_str())) {
+            return Some(Unit::Time(*in_s));
+        }
+        let is_velocity = |length: &str| {
+            let per = lower.strip_prefix(length).map(|rest| rest.trim_matches([' ', '_', '/', '.', '*']));
+            per.is_some_and(|per| {
+                matches!(per, "s" | "sec" | "s-1" | "s^-1") && lower.len() > length.len() + per.len()
+            })
+        };
+        if LENGTHS.iter().any(|length| is_velocity(length)) || lower == "kine" {
+            return Some(Unit::Velocity);
+        }
+        if LENGTHS.contains(&lower.as_str()) {
+            return Some(Unit::Displacement);
+        }
+        COUNTS.contains(&lower.as_str()).then_some(Unit::Counts)
+    }
+}
 
 impl AccelerationUnit {
     /// Returns the factor from this unit to m/s2.
     pub fn in_m_s2(self) -> f64 {
-        match self {
-            AccelerationUnit::G => G_M_S2,
-            AccelerationUnit::MilliG => G_M_S2 / 1000.0,
-            AccelerationUnit::MetrePerSecond2 => 1.0,
-            AccelerationUnit::CentimetrePerSecond2 => 0.01,
-            AccelerationUnit::MillimetrePerSecond2 => 0.001,
-        }
+        UNITS.iter().find(|(unit, ..)| *unit == self).map_or(1.0, |(_, _, in_m_s2, _)| *in_m_s2)
     }
 
     /// Reads the unit with which a text begins; words, a full stop or a code in brackets may follow it.
     pub fn leading(text: &str) -> Option<AccelerationUnit> {
-        let text = text.trim_start().to_ascii_lowercase();
-        let name = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';')).next()?;
-        AccelerationUnit::named(name.trim_end_matches('.'))
+        let text = text.trim_start();
+        AccelerationUnit::named(
+            text.split(|c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';')).next()?,
+        )
     }
 
-    fn named(name: &str) -> Option<AccelerationUnit> {
-        NAMES.iter().find(|(known, _)| *known == name).map(|(_, unit)| *unit)
+    /// Finds a unit however its parts are joined: `cm/s^2`, `cm/sec/sec`, `cm_s2`, `cm s-2`.
+    fn named(text: &str) -> Option<AccelerationUnit> {
+        let is_joint = |c: char| c.is_whitespace() || matches!(c, '/' | '_' | '-' | '^' | '*' | '.' | '\'');
+        let joined: String = text.to_lowercase().chars().filter(|c| !is_joint(*c)).collect();
+        let name = joined.replace('\u{b2}', "2").replace("sec", "s");
+        UNITS.iter().find(|(.., names)| names.contains(&name.as_str())).map(|(unit, ..)| *unit)
     }
 }
 
@@ -66,20 +107,16 @@ impl std::str::FromStr for AccelerationUnit {
     type Err = String;
 
     fn from_str(text: &str) -> Result<AccelerationUnit, String> {
-        let expected =
-            || format!("'{text}' is no unit of acceleration; expected g, mg, m/s2, cm/s2, gal or mm/s2");
-        AccelerationUnit::named(&text.trim().to_ascii_lowercase()).ok_or_else(expected)
+        AccelerationUnit::named(text).ok_or_else(|| {
+            format!(
+                "'{text}' is no unit of acceleration; expected g, mg, m/s2, cm/s2, gal, mm/s2, %g, ft/s2 or in/s2"
+            )
+        })
     }
 }
 
 impl std::fmt::Display for AccelerationUnit {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.write_str(match self {
-            AccelerationUnit::G => "g",
-            AccelerationUnit::MilliG => "mg",
-            AccelerationUnit::MetrePerSecond2 => "m/s2",
-            AccelerationUnit::CentimetrePerSecond2 => "cm/s2",
-            AccelerationUnit::MillimetrePerSecond2 => "mm/s2",
-        })
+        f.write_str(UNITS.iter().find(|(unit, ..)| unit == self).map_or("", |(_, name, ..)| name))
     }
 }

@@ -7,9 +7,12 @@ use crate::motion::intensity::peak;
 
 /// Periods of pulses that are looked for, s.
 pub const PERIODS_S: (f64, f64) = (0.25, 15.0);
-/// Periods at which all of the record is looked at, in equal ratios, and how many between two of them where it counts.
+/// Periods at which all of the record is looked at, in equal ratios, and how many between two of them about a local maximum.
 const PERIODS: usize = 60;
 const REFINED: usize = 20;
+/// Local maxima whose square is at least this share of the largest are refined: the steps between the periods are so small that no
+/// other becomes the largest.
+const LEAST_PEAK: f64 = 0.9;
 /// Wavelets that make up the extracted pulse.
 const WAVELETS: usize = 10;
 /// How far from the first wavelet the others may lie, as a share of its scale (their period times 5/7).
@@ -54,8 +57,7 @@ keywords!(Verdict { Pulse = "pulse", NoPulse = "no_pulse", Late = "late", Weak =
 impl PulseIndicator {
     /// Judges a velocity (m/s) at steps of `dt_s`; none if it does not move.
     pub fn of(velocity: &[f64], dt_s: f64, scratch: &mut WaveletScratch) -> Option<PulseIndicator> {
-        let strongest = strongest_wavelet(&[velocity], dt_s, scratch)?;
-        let wavelet = strongest.refined(velocity, dt_s);
+        let wavelet = strongest_wavelet(&[velocity], dt_s, scratch)?;
         // Baker's predictors: what of peak velocity and energy remains without the pulse.
         let pulse = extract(velocity, dt_s, wavelet);
         let residual: Vec<f64> = velocity.iter().zip(&pulse).map(|(v, p)| v - p).collect();
@@ -88,54 +90,56 @@ pub fn strongest_direction(
     scratch: &mut WaveletScratch,
 ) -> Option<[f64; 2]> {
     let strongest = strongest_wavelet(&velocities, dt_s, scratch)?;
-    Some(velocities.map(|velocity| strongest.wavelet.coefficient(velocity, dt_s)))
+    Some(velocities.map(|velocity| strongest.coefficient(velocity, dt_s)))
 }
 
-/// The wavelet of the largest coefficient among the periods, and by how much these differ.
-struct Strongest {
-    wavelet: Wavelet,
-    ratio: f64,
-}
-
-impl Strongest {
-    /// Refines the period between its neighbours.
-    fn refined(&self, velocity: &[f64], dt_s: f64) -> Wavelet {
-        let Decimated { velocities, dt_s } = Decimated::of(&[velocity], dt_s);
-        let at = |k: usize| {
-            let steps = k as f64 / REFINED as f64 - 1.0;
-            let period_s = self.wavelet.period_s * libm::pow(self.ratio, steps);
-            Wavelet { period_s: period_s.clamp(PERIODS_S.0, PERIODS_S.1), ..self.wavelet }
-        };
-        let strength =
-            |wavelet: &Wavelet| velocities.iter().map(|v| wavelet.coefficient(v, dt_s).abs()).sum::<f64>();
-        let candidates = (0..=2 * REFINED).map(at).map(|wavelet| (strength(&wavelet), wavelet));
-        let best = candidates.max_by(|(a, _), (b, _)| a.total_cmp(b));
-        best.map_or(self.wavelet, |(_, wavelet)| wavelet)
-    }
-}
-
-fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64, scratch: &mut WaveletScratch) -> Option<Strongest> {
+/// Finds the wavelet whose coefficients in all velocities have the largest sum of squares, refined from each local maximum among the
+/// periods: two of nearly the same height may lie far apart. None if the velocities are zero.
+fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64, scratch: &mut WaveletScratch) -> Option<Wavelet> {
     let (shortest, longest) = PERIODS_S;
     let ratio = libm::pow(longest / shortest, 1.0 / (PERIODS - 1) as f64);
+    let period_s = |place: f64| (shortest * libm::pow(ratio, place)).clamp(shortest, longest);
     let Decimated { velocities, dt_s } = Decimated::of(velocities, dt_s);
     let transforms: Vec<WaveletTransform> =
         velocities.iter().map(|velocity| WaveletTransform::new(velocity, dt_s, longest, scratch)).collect();
-    let mut best = (0.0, None);
-    for k in 0..PERIODS {
-        let period_s = shortest * ratio.powi(k as i32);
-        let mut squares = vec![0.0; velocities.first()?.len()];
-        for component in &transforms {
-            for (sum, value) in squares.iter_mut().zip(component.coefficients(period_s, scratch)) {
-                *sum += value * value;
-            }
-        }
-        for (index, square) in squares.into_iter().enumerate() {
-            if square > best.0 {
-                best = (square, Some(Wavelet { period_s, centre_s: index as f64 * dt_s }));
-            }
-        }
+    let of_period = |k: usize| strongest_sample(&transforms, period_s(k as f64), scratch);
+    let scan: Vec<(f64, usize)> = (0..PERIODS).map(of_period).collect();
+    let largest = scan.iter().map(|(square, _)| *square).fold(0.0, f64::max);
+    let square = |k: usize| scan.get(k).map_or(0.0, |(square, _)| *square);
+    let is_peak = |k: &usize| {
+        let beside = square(k.wrapping_sub(1)).max(square(k + 1));
+        square(*k) > 0.0 && square(*k) >= beside.max(LEAST_PEAK * largest)
+    };
+    let refined = (0..PERIODS).filter(is_peak).flat_map(|k| {
+        let places = (0..=2 * REFINED).map(move |step| k as f64 + step as f64 / REFINED as f64 - 1.0);
+        places.map(move |place| (period_s(place), k))
+    });
+    let at_period = |(period_s, k): (f64, usize)| {
+        let wavelet = Wavelet { period_s, centre_s: scan[k].1 as f64 * dt_s };
+        let squares = velocities.iter().map(|velocity| wavelet.coefficient(velocity, dt_s).powi(2));
+        (squares.sum::<f64>(), wavelet)
+    };
+    refined.map(at_period).max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, wavelet)| wavelet)
+}
+
+/// Finds the sample at which wavelets of a period have the largest sum of squared coefficients, and that sum.
+fn strongest_sample(
+    transforms: &[WaveletTransform],
+    period_s: f64,
+    scratch: &mut WaveletScratch,
+) -> (f64, usize) {
+    let mut coefficients = transforms.iter().map(|transform| transform.coefficients(period_s, scratch));
+    let mut squares = coefficients.next().unwrap_or_default();
+    squares.iter_mut().for_each(|value| *value *= *value);
+    for component in coefficients {
+        squares.iter_mut().zip(component).for_each(|(sum, value)| *sum += value * value);
     }
-    best.1.map(|wavelet| Strongest { wavelet, ratio })
+    (0..).zip(squares).fold(
+        (0.0, 0),
+        |best, (sample, square)| {
+            if square > best.0 { (square, sample) } else { best }
+        },
+    )
 }
 
 /// Velocities of which only every so many samples are kept.

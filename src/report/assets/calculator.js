@@ -16,7 +16,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
     im4: "IM4: PGA / (g tan α)", im5: "IM5: p PGV / (g tan α)", im6: "IM6: ωm PGV / (g tan α)",
   };
   const nameOf = ({ suite, structure }) => (suite === null ? structure : `${structure}, ${suite}`);
-  const names = [...new Set(data.models.map(nameOf))];
+  const names = [...new Set(data.models.map(nameOf))].sort();
   const option = (value, words) => new Option(words, value);
   field("fit").replaceChildren(...names.map((name) => option(name, name)));
 
@@ -50,10 +50,20 @@ const data = JSON.parse(document.getElementById("data").textContent);
     const { p, alpha } = structure();
     const motion = { pga: number("pga") * data.g, pgv: number("pgv"), tp: number("tp"), tm: number("tm") };
     const warnings = [];
-    const right = p > 0 && alpha > 0 && alpha < Math.PI / 2 && motion.pga >= 0 && motion.pgv >= 0;
-    if (!right) warnings.push("Expected p, α, sizes above 0 (α below π/2), PGA and PGV of 0 or more.");
+    const given = { ...(byBlock ? { width: number("width"), height: number("height") } : {}), p, alpha, eta: number("eta"), pga: number("pga"), pgv: number("pgv") };
+    const refused = data.bounds.filter(({ parameter, range: [least, most] }) => parameter in given && !(given[parameter] >= least && given[parameter] <= most));
+    const exchanged = given.width > given.height;
+    if (exchanged) warnings.push("The width is larger than the height: were they exchanged?");
+    else if (refused.length) {
+      const { parameter, expected, slip } = refused[0];
+      const value = given[parameter];
+      warnings.push(Number.isNaN(value) ? `Expected ${parameter}: ${expected}.` : `${parameter} is ${value}; expected ${expected}${value > 0 ? `; ${slip}` : "."}`);
+    }
+    const right = !exchanged && !refused.length;
+    if (right && motion.pgv > 2 * motion.pga) warnings.push("A PGV (m/s) more than twice the PGA (m/s2): are they exchanged, or in other units?");
     const of = fragility.measures(data.g, { p, alpha, ...motion });
     const answers = right ? fragility.evaluate(model, of) : {};
+    if (right && model.doubt) warnings.push(`${model.doubt}.`);
     if (right && answers.p_f === null) warnings.push("The fits need a measure that is missing: give PGV, and the period if there is a field for it, above 0.");
     if (right && Math.abs(number("eta") - model.eta) > 0.005) {
       warnings.push(`The fits are of η ${model.eta}, on which the curves depend: simulate and fit with this η.`);

@@ -1,6 +1,8 @@
 //! One file a figure; each makes of the data the figures that they suffice for.
 
+mod demand;
 mod exceedance;
+mod histories;
 mod motion;
 mod outcomes;
 mod overturning;
@@ -24,9 +26,11 @@ use crate::rocking::Structure;
 pub type Draw = fn(&ReportData) -> Vec<Figure>;
 
 /// All kinds of figures, in the order of the page, which is that of the paper.
-pub const ALL: [Draw; 10] = [
+pub const ALL: [Draw; 12] = [
     motion::figures,
     outcomes::figures,
+    demand::figures,
+    histories::figures,
     similarity::figures,
     tree::figures,
     regressions::figures,

@@ -1,4 +1,4 @@
-//! Figures 3 and 4: outcomes over peak velocity and period of the pulse.
+//! A figure of our own: outcomes over peak velocity and period of the pulse.
 
 use crate::keyword::Keyword;
 use crate::report::axis::Axis;
@@ -77,7 +77,7 @@ fn figure(groups: &[&Group]) -> Figure {
         name: format!("outcomes-{}", super::file_words(&structure.name)),
         title: format!("How {} comes through each motion", structure.name),
         caption: format!(
-            "Each dot is a motion; squares stand for many of them where there are more than {} in a panel. {}. {counts}. As Figures 3 and 4 of the paper.",
+            "Each dot is a motion; squares stand for many of them where there are more than {} in a panel. {}. {counts}. A figure of our own.",
             MOST_POINTS,
             super::structure_words(structure),
         ),

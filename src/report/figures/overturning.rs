@@ -19,25 +19,73 @@ const BINS: usize = 14;
 /// Radius of the circle of the fullest bin, points.
 const LARGEST: f64 = 8.0;
 
-/// Draws the figure over one measure, and that over two if there is a curve of two.
+/// Draws the figures over one measure, and those over two if there is a curve of two.
 pub fn figures(data: &ReportData) -> Vec<Figure> {
     let groups: Vec<&Group> = data.groups.iter().filter(|group| group.rocked().next().is_some()).collect();
     if groups.is_empty() {
         return Vec::new();
     }
-    let of_two = groups
+    let over_one =
+        [(Measure::Im5, "overturning"), (Measure::Im4, "overturning-im4")].map(|(measure, name)| {
+            let curves: Vec<_> =
+                groups.iter().map(|group| (*group, group.curve(measure, None).map(|c| c.index))).collect();
+            let words = match measure {
+                Measure::Im4 => "PGA / (g tan α)",
+                _ => "p PGV / (g tan α)",
+            };
+            figure(&curves, measure, [name, "Overturning over one measure", words, "11"])
+        });
+    let hybrids: Vec<(&Group, Predictor)> = groups
         .iter()
-        .flat_map(|group| &group.curves)
-        .find_map(|curve| Some((curve.index.im_x, curve.index.im_y?)));
-    let over_one = figure(&groups, Measure::Im5, None);
-    let over_two = of_two.map(|(x, y)| {
-        let with_curve = |group: &&Group| group.curve(x, Some(y)).is_some();
-        figure(&groups.iter().copied().filter(with_curve).collect::<Vec<_>>(), x, Some(y))
-    });
-    std::iter::once(over_one).chain(over_two).collect()
+        .filter_map(|group| Some((*group, group.curves.iter().find(|c| c.index.im_y.is_some())?.index)))
+        .collect();
+    let over_two = over_hybrids("overturning-hybrid", &hybrids);
+    let with_im5: Option<Vec<(&Group, Predictor)>> =
+        hybrids.iter().map(|(group, index)| Some((*group, over_im5(index)?))).collect();
+    let of_im5 = with_im5.and_then(|hybrids| over_hybrids("overturning-hybrid-im5", &hybrids));
+    over_one.into_iter().chain(over_two).chain(of_im5).collect()
 }
 
-fn figure(groups: &[&Group], im_x: Measure, im_y: Option<Measure>) -> Figure {
+/// A figure over hybrid measures.
+fn over_hybrids(name: &str, hybrids: &[(&Group, Predictor)]) -> Option<Figure> {
+    let exponents = hybrids.iter().map(|(group, index)| {
+        let [_, b1, b2] = index.coefficients;
+        let measures = index.measures().map(Keyword::as_str).collect::<Vec<_>>().join(", ");
+        format!("{}: {measures}, λ = {}", group.name(), number::short(b1 / b2))
+    });
+    let words = format!(
+        "the hybrid measure x^(λ/(1+λ)) y^(1/(1+λ)) of Eq. 23 ({}), with limits at the median y of the data",
+        exponents.collect::<Vec<_>>().join("; ")
+    );
+    let curves: Vec<_> = hybrids.iter().map(|(group, index)| (*group, Some(*index))).collect();
+    let im_x = hybrids.first()?.1.im_x;
+    Some(figure(&curves, im_x, [name, "Overturning over the hybrid measure", &words, "12"]))
+}
+
+/// The same curve over IM5 and IM3, or its inverse where IM3 would have a negative power: IM4 is IM5 IM3.
+fn over_im5(index: &Predictor) -> Option<Predictor> {
+    let (Measure::Im4, Some(Measure::Im3Inverse)) = (index.im_x, index.im_y) else { return None };
+    let [b0, b1, b2] = index.coefficients;
+    let sign = if b1 > b2 { 1.0 } else { -1.0 };
+    let im_y = if b1 > b2 { Measure::Im3 } else { Measure::Im3Inverse };
+    // The new coefficients are b0, b1 and the sign times b1 - b2.
+    let rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, sign, -sign]];
+    let sum = |i: usize, j: usize| -> f64 {
+        let pairs = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));
+        pairs.map(|(k, l)| rows[i][k] * index.covariance[k][l] * rows[j][l]).sum()
+    };
+    let covariance = [0, 1, 2].map(|i| [0, 1, 2].map(|j| sum(i, j)));
+    let coefficients = [b0, b1, sign * (b1 - b2)];
+    Some(Predictor { im_x: Measure::Im5, im_y: Some(im_y), coefficients, covariance, ..*index })
+}
+
+/// Name, title, words of the measure and number in the paper of a figure, of groups and their curves; where there is none, the data lie
+/// over `im_x`.
+fn figure(
+    groups: &[(&Group, Option<Predictor>)],
+    im_x: Measure,
+    [name, title, measure, of_paper]: [&str; 4],
+) -> Figure {
     let grid = Grid::of(groups.len(), 118.0).with_legend();
     let mut drawing = grid.drawing();
     let entries = [
@@ -46,31 +94,15 @@ fn figure(groups: &[&Group], im_x: Measure, im_y: Option<Measure>) -> Figure {
         (Mark::Area(Ink::Data(1).thin(0.2)), Label::plain("95 % limits")),
     ];
     legend(&mut drawing, grid.legend_at(), &entries);
-    for (index, group) in groups.iter().enumerate() {
-        let (corner, width) = grid.place(index);
-        draw(&mut drawing, group, (im_x, im_y), corner, width, grid.panel_height);
+    for (place, (group, index)) in groups.iter().enumerate() {
+        let (corner, width) = grid.place(place);
+        draw(&mut drawing, group, (*index, im_x), corner, width, grid.panel_height);
     }
-    let (name, title, measure, number) = match im_y {
-        None => ("overturning", "Overturning over one measure", "p PGV / (g tan α)".to_string(), 11),
-        Some(im_y) => {
-            let exponents = groups.iter().filter_map(|group| {
-                let index = group.curve(im_x, Some(im_y))?.index;
-                let [_, b1, b2] = index.coefficients;
-                Some(format!("{}: λ = {}", group.name(), number::short(b1 / b2)))
-            });
-            let exponents = exponents.collect::<Vec<_>>().join("; ");
-            let (x, y) = (im_x.as_str(), im_y.as_str());
-            let words = format!(
-                "the hybrid measure {x}^(λ/(1+λ)) {y}^(1/(1+λ)) of Eq. 22 ({exponents}), with limits at the median {y} of the data"
-            );
-            ("overturning-hybrid", "Overturning over the hybrid measure", words, 12)
-        }
-    };
     Figure {
         name: name.to_string(),
         title: title.to_string(),
         caption: format!(
-            "Probability of overturning given rocking over {measure}. Circles are the shares of overturning in bins, their area is the number of motions. As Figure {number} of the paper."
+            "Probability of overturning given rocking over {measure}. Circles are the shares of overturning in bins, their area is the number of motions. As Figure {of_paper} of the paper."
         ),
         drawing,
     }
@@ -79,15 +111,14 @@ fn figure(groups: &[&Group], im_x: Measure, im_y: Option<Measure>) -> Figure {
 fn draw(
     drawing: &mut Drawing,
     group: &Group,
-    (im_x, im_y): (Measure, Option<Measure>),
+    (index, im_x): (Option<Predictor>, Measure),
     corner: [f64; 2],
     width: f64,
     height: f64,
 ) {
-    let index = group.curve(im_x, im_y).map(|curve| curve.index);
-    let over = |response: &ReportResponse| match (index, im_y) {
-        (Some(index), Some(_)) => index.hybrid_measure(&response.case.measures),
-        (None, Some(_)) => None,
+    let im_y = index.and_then(|index| index.im_y);
+    let over = |response: &ReportResponse| match index {
+        Some(index) if im_y.is_some() => index.hybrid_measure(&response.case.measures),
         _ => im_x.of(&response.case),
     };
     let values: Vec<[f64; 2]> = group

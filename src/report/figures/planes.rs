@@ -1,21 +1,71 @@
-//! Figure 9: the two planes of the demand, both edge-on.
+//! Figure 9: the two planes of the demand, both edge-on, over velocity and period as in the paper, and over IM4 and IM3.
 
 use crate::fragility::Measure;
 use crate::report::axis::{Axis, range};
-use crate::report::data::{Group, Planes, ReportData, ReportResponse};
+use crate::report::data::{Group, ReportData, ReportResponse};
 use crate::report::drawing::Ink;
 use crate::report::figure::{Figure, Grid};
 use crate::report::panel::{Mark, Panel, legend};
 use crate::report::text::{Label, number};
+use crate::statistics::least_squares;
 
 type Vector = [f64; 3];
 
-/// Draws one figure, one panel a group that has both planes.
+/// Two planes in some coordinates, below the transition and from there on: the cases, and ln a, b1 and b2.
+struct Sides {
+    points: [Vec<Vector>; 2],
+    planes: [Vector; 2],
+}
+
+/// Draws the figure of the paper for the groups whose motions have a period, and one over the measures of the planes.
 pub fn figures(data: &ReportData) -> Vec<Figure> {
-    let groups: Vec<(&Group, Planes)> =
-        data.groups.iter().filter_map(|group| Some((group, group.planes?))).collect();
+    let of_measures = |group: &Group| {
+        let fitted = group.planes?;
+        let point = |response: &ReportResponse| {
+            let ln = |measure: Measure| measure.of(&response.case).map(f64::ln);
+            Some([ln(Measure::Im4)?, ln(Measure::Im3)?, response.case.edp.ln()])
+        };
+        let planes = fitted.sides.map(|side| side.law.ln_median.coefficients);
+        Some(Sides { points: points(group, fitted.transition, point), planes })
+    };
+    let of_velocity_and_period = |group: &Group| {
+        let point = |response: &ReportResponse| {
+            Some([response.pgv_m_s.ln(), response.tp_s?.ln(), response.case.edp.ln()])
+        };
+        let points = points(group, group.planes?.transition, point);
+        let planes = [plane_through(&points[0])?, plane_through(&points[1])?];
+        Some(Sides { points, planes })
+    };
+    let parted = data.groups.iter().find_map(|group| group.planes).map(|planes| planes.transition);
+    let parted = parted.map_or(String::new(), |im4| format!("They part at IM4 = {}.", number::plain(im4)));
+    let seen = "seen along the line in which the planes meet: both are edge-on, and what lies off them is their residual.";
+    let over_pulse = format!(
+        "Demand in safe rocking in the space of ln PGV, ln Tp and ln EDP, {seen} The planes are fitted in this space. {parted} As Figure 9 of the paper; there the velocity is Vp, which PGV is under pulses alone."
+    );
+    let over_measures = format!(
+        "Demand in safe rocking in the space of ln IM4, ln IM3 and ln EDP, {seen} The planes are those of Eqs. 17 and 18 and Table II. {parted} The page turns them in space. A figure of our own."
+    );
+    [
+        figure(data, "planes-pulse", &over_pulse, ["ln PGV", "ln Tp", "ln EDP"], of_velocity_and_period),
+        figure(data, "planes", &over_measures, ["ln IM4", "ln IM3", "ln EDP"], of_measures),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// One panel a group that has both planes.
+fn figure(
+    data: &ReportData,
+    name: &str,
+    caption: &str,
+    axes: [&str; 3],
+    of: impl Fn(&Group) -> Option<Sides>,
+) -> Option<Figure> {
+    let groups: Vec<(&Group, Sides)> =
+        data.groups.iter().filter_map(|group| Some((group, of(group)?))).collect();
     if groups.is_empty() {
-        return Vec::new();
+        return None;
     }
     let grid = Grid::of(groups.len(), 125.0).with_legend();
     let mut drawing = grid.drawing();
@@ -25,12 +75,11 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         (Mark::Line(Ink::Text.line(1.2)), Label::plain("planes")),
     ];
     legend(&mut drawing, grid.legend_at(), &entries);
-    for (index, (group, planes)) in groups.iter().enumerate() {
+    for (index, (group, Sides { points, planes })) in groups.iter().enumerate() {
         let (corner, width) = grid.place(index);
         let view = View::edge_on(planes);
-        let points = [true, false].map(|below| points(group, planes, below));
         let places: [Vec<[f64; 2]>; 2] =
-            points.clone().map(|points| points.iter().map(|point| view.of(point)).collect());
+            points.each_ref().map(|points| points.iter().map(|point| view.of(point)).collect());
         let ends = |axis: usize| {
             let [low, high] = range(places.iter().flatten().map(|place| place[axis]));
             let margin = 0.04 * (high - low);
@@ -40,14 +89,13 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
             corner,
             width,
             height: grid.panel_height,
-            x: Axis::linear(ends(0), words_of(&view.right)),
-            y: Axis::linear(ends(1), words_of(&view.up)),
+            x: Axis::linear(ends(0), words_of(&view.right, axes)),
+            y: Axis::linear(ends(1), words_of(&view.up, axes)),
         };
         for (places, ink) in places.iter().zip([Ink::Data(2), Ink::Data(0)]) {
             panel.scatter(&mut drawing, places, 0.7, ink.thin(0.5));
         }
-        for (side, points) in planes.sides.iter().zip(&points) {
-            let [ln_a, b1, b2] = side.law.ln_median.coefficients;
+        for ([ln_a, b1, b2], points) in planes.iter().zip(points) {
             let on_plane = points.iter().map(|[x, y, _]| view.of(&[*x, *y, ln_a + b1 * x + b2 * y]));
             let mut on_plane: Vec<[f64; 2]> = on_plane.collect();
             on_plane.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
@@ -57,28 +105,27 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         }
         panel.frame(&mut drawing, Label::plain(group.name()).bold());
     }
-    vec![Figure {
-        name: "planes".to_string(),
-        title: "Two planes, seen edge-on".to_string(),
-        caption: format!(
-            "Demand in safe rocking in the space of ln IM4, ln IM3 and ln EDP, seen along the line in which the two planes (Eqs. 17 and 18) meet: both are edge-on, and what lies off them is their residual. They part at IM4 = {}. The page turns them in space. As Figure 9 of the paper.",
-            number::plain(groups[0].1.transition)
-        ),
-        drawing,
-    }]
+    let title = format!("Two planes over {} and {}, seen edge-on", axes[0], axes[1]);
+    Some(Figure { name: name.to_string(), title, caption: caption.to_string(), drawing })
 }
 
-/// Collects ln IM4, ln IM3 and ln EDP of the cases on one side of the transition.
-fn points(group: &Group, planes: &Planes, below: bool) -> Vec<Vector> {
-    let on_side = group.safe().filter(|response| (response.case.measures.im4 < planes.transition) == below);
-    let point = |response: &ReportResponse| {
-        Some([
-            Measure::Im4.of(&response.case)?.ln(),
-            Measure::Im3.of(&response.case)?.ln(),
-            response.case.edp.ln(),
-        ])
-    };
-    on_side.filter_map(point).collect()
+/// Collects the cases below the transition, and those from there on.
+fn points(
+    group: &Group,
+    transition: f64,
+    point: impl Fn(&ReportResponse) -> Option<Vector>,
+) -> [Vec<Vector>; 2] {
+    [true, false].map(|below| {
+        let on_side = group.safe().filter(|response| (response.case.measures.im4 < transition) == below);
+        on_side.filter_map(&point).collect()
+    })
+}
+
+/// ln a, b1 and b2 of the plane nearest to these points.
+fn plane_through(points: &[Vector]) -> Option<Vector> {
+    let [x, y, z] = [0, 1, 2].map(|axis| points.iter().map(|point| point[axis]).collect::<Vec<f64>>());
+    let fit = least_squares(&[&x, &y], &z).ok()?;
+    Some([0, 1, 2].map(|k| fit.coefficients[k].value))
 }
 
 /// The two directions that span the picture.
@@ -89,9 +136,9 @@ struct View {
 
 impl View {
     /// Looks along the line in which the planes meet.
-    fn edge_on(planes: &Planes) -> View {
+    fn edge_on(planes: &[Vector; 2]) -> View {
         let normal = |side: usize| {
-            let [_, b1, b2] = planes.sides[side].law.ln_median.coefficients;
+            let [_, b1, b2] = planes[side];
             [b1, b2, -1.0]
         };
         let along = unit(cross(normal(0), normal(1)));
@@ -122,8 +169,7 @@ fn unit(vector: Vector) -> Vector {
 }
 
 /// Writes a direction as a sum without small terms: `0.85 ln IM4 - 0.52 ln IM3`.
-fn words_of(direction: &Vector) -> Label {
-    let names = ["ln IM4", "ln IM3", "ln EDP"];
+fn words_of(direction: &Vector, names: [&str; 3]) -> Label {
     let parts = direction.iter().zip(names).filter(|(part, _)| part.abs() >= 0.03);
     let mut text = String::new();
     for (part, name) in parts {

@@ -1,4 +1,4 @@
-//! Figure 5: structures that differ in their own units, and hardly in dimensionless ones.
+//! A figure of our own: structures that differ in their own units, and hardly in dimensionless ones.
 
 use super::{by_ratio, sorted};
 use crate::fragility::Measure;
@@ -102,7 +102,7 @@ fn figure(groups: &[&Group]) -> Figure {
         name: "similarity".to_string(),
         title: "Similarity: one curve for all structures".to_string(),
         caption: format!(
-            "Demand in safe rocking{suite} above the transition of the planes, with medians of bins of PGV. Left in units that each structure has its own curve in, right in dimensionless ones, in which the curves come together. {}. As Figure 5 of the paper.",
+            "Demand in safe rocking{suite} above the transition of the planes, with medians of bins of PGV. Left in units that each structure has its own curve in, right in dimensionless ones, in which the curves come together. {}. A figure of our own, of what Figure 5 of the paper shows of two responses.",
             structures.collect::<Vec<_>>().join("; ")
         ),
         drawing,

@@ -1,9 +1,13 @@
 use arrow_array::RecordBatch;
 
 use super::options::Format;
+use crate::table::evaluated::{ANSWER, RATES};
 use crate::table::schema::Table;
 use crate::table::store::frame::frame_of;
 use crate::table::store::text;
+
+/// How the heading of each answer begins.
+pub const FITS_OF: &str = "fits of ";
 
 /// A short answer.
 pub struct Answer {
@@ -15,13 +19,26 @@ pub struct Answer {
 
 impl Answer {
     /// The answer as text.
-    pub fn text(&self, format: Format) -> anyhow::Result<String> {
+    pub fn text(&self, format: Format, warnings: &[String]) -> anyhow::Result<String> {
         match format {
             Format::Csv => text::csv(&frame_of(&self.rows)?),
-            Format::Json => Ok(text::json(&frame_of(&self.rows)?)),
+            Format::Json => Ok(format!(
+                "{{\n\"warnings\": {},\n\"rows\": {}}}\n",
+                serde_json::json!(warnings),
+                text::json(&frame_of(&self.rows)?)
+            )),
             Format::Table | Format::Parquet => {
                 Ok(format!("{}\n{}", self.heading, text::aligned(&frame_of(&self.rows)?)))
             }
         }
     }
+}
+
+/// Whether a text that begins like this is an answer in one of the formats.
+pub fn is_own(head: &str) -> bool {
+    let begins_table = |table: &Table| {
+        let names: Vec<&str> = table.columns.iter().map(|column| column.name).collect();
+        head.starts_with(&(names.join(",") + "\n")) || head.starts_with(&format!("[\n  {{ \"{}\":", names[0]))
+    };
+    head.starts_with(FITS_OF) || [ANSWER, RATES].iter().any(begins_table)
 }

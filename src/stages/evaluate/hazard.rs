@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use anyhow::{Context, anyhow, bail};
+use csv::StringRecord;
 
 use crate::fragility::Peak;
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks};
-use crate::table::store::text_file;
+use crate::table::store::text_file::{self, CsvText};
 use crate::units::G_M_S2;
 
 /// What the file may call an intensity: the peak, and the size of its unit in m/s2 or m/s.
@@ -38,58 +39,50 @@ pub fn read(path: &Path) -> anyhow::Result<Hazard> {
 }
 
 fn of(text: &str) -> anyhow::Result<Hazard> {
-    let mut reader =
-        csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
-    let names = reader.headers()?.clone();
+    let table = CsvText::new(text)?;
+    let names = table.names.clone();
     let place = |wanted: &str| names.iter().position(|name| name == wanted);
     let intensities: Vec<(Peak, f64, usize)> =
         INTENSITIES.iter().filter_map(|&(name, peak, unit)| Some((peak, unit, place(name)?))).collect();
-    let records = reader.into_records();
+    let number = |(line, record): &(u64, StringRecord), at: usize, bound: Option<(Peak, f64)>| {
+        let (text, name) = (record.get(at).unwrap_or_default(), &names[at]);
+        let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
+        let refusal = match (value, bound) {
+            (None, _) => Some("a finite number".to_string()),
+            (Some(value), Some((peak, unit))) => peak.bound().refusal(value * unit / peak.usual_unit().1),
+            (Some(value), None) => (value < 0.0).then(|| "0 or more".to_string()),
+        };
+        match (value, refusal) {
+            (Some(value), None) => Ok(value * bound.map_or(1.0, |(_, unit)| unit)),
+            (_, refusal) => {
+                let expected = refusal.unwrap_or_default();
+                Err(anyhow!("line {line}, column '{name}': '{text}'; expected {expected}"))
+            }
+        }
+    };
     match (&intensities[..], place(EXCEEDANCE), place(OCCURRENCE)) {
         (&[(peak, unit, at)], Some(rate), None) => {
-            let point = |record: csv::StringRecord| {
-                Ok((unit * number(&record, &names, at)?, number(&record, &names, rate)?))
-            };
-            let points = records.map(|record| point(record?)).collect::<anyhow::Result<Vec<_>>>()?;
+            let point = |row| Ok((number(&row, at, Some((peak, unit)))?, number(&row, rate, None)?));
+            let points = table.rows().map(|row| point(row?)).collect::<anyhow::Result<Vec<_>>>()?;
             Ok(Hazard::Curve(peak, HazardCurve::new(points)?))
         }
         (&[(Peak::Pga, unit_a, a), (Peak::Pgv, unit_v, v)], None, Some(rate)) => {
-            let bin = |record: csv::StringRecord| {
-                let at_least_0 = |at| match number(&record, &names, at)? {
-                    value if value >= 0.0 => Ok(value),
-                    value => Err(bad(&record, &names, at, &value.to_string(), "0 or more")),
-                };
+            let bin = |row| {
                 Ok(PairOfPeaks {
-                    pga_m_s2: unit_a * at_least_0(a)?,
-                    pgv_m_s: unit_v * at_least_0(v)?,
-                    annual_rate: at_least_0(rate)?,
+                    pga_m_s2: number(&row, a, Some((Peak::Pga, unit_a)))?,
+                    pgv_m_s: number(&row, v, Some((Peak::Pgv, unit_v)))?,
+                    annual_rate: number(&row, rate, None)?,
                 })
             };
-            let bins = records.map(|record| bin(record?)).collect::<anyhow::Result<Vec<_>>>()?;
-            Ok(Hazard::Joint(JointHazard { bins }))
+            let bins = table.rows().map(|row| bin(row?)).collect::<anyhow::Result<Vec<_>>>()?;
+            match bins.is_empty() {
+                true => bail!("no rows; expected bins of PGA and PGV with annual rates"),
+                false => Ok(Hazard::Joint(JointHazard { bins })),
+            }
         }
         _ => bail!(
             "columns {}; expected pga_g, pga_m_s2 or pgv_m_s with {EXCEEDANCE}, or a PGA and pgv_m_s with {OCCURRENCE}",
-            names.iter().collect::<Vec<_>>().join(", ")
+            names.join(", ")
         ),
     }
-}
-
-fn number(record: &csv::StringRecord, names: &csv::StringRecord, at: usize) -> anyhow::Result<f64> {
-    let text = record.get(at).unwrap_or_default();
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(bad(record, names, at, text, "a finite number")),
-    }
-}
-
-fn bad(
-    record: &csv::StringRecord,
-    names: &csv::StringRecord,
-    at: usize,
-    text: &str,
-    expected: &str,
-) -> anyhow::Error {
-    let line = record.position().map_or(0, csv::Position::line);
-    anyhow!("line {line}, column '{}': '{text}'; expected {expected}", names.get(at).unwrap_or_default())
 }

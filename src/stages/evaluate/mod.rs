@@ -27,11 +27,10 @@ use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::files::hash;
 use crate::pipeline::options::Word;
-use crate::pipeline::stage::{Stage, beside};
+use crate::pipeline::stage::{Stage, beside, content_of_role};
 use crate::pipeline::terminal::Terminal;
 use crate::table::TableError;
 use crate::table::evaluated::EVALUATED;
-use crate::table::store::contents::content_of;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::store::text_file;
@@ -143,7 +142,7 @@ impl Evaluate {
     /// Writes an answer, or keeps it to be printed.
     fn deliver(&self, answer: &Answer, provenance: &Provenance) -> anyhow::Result<()> {
         let Some(out) = &self.out else {
-            let _ = self.printed.set(answer.text(self.format)?);
+            let _ = self.printed.set(answer.text(self.format, &provenance.warnings.all())?);
             return Ok(());
         };
         match (self.format, out) {
@@ -152,7 +151,9 @@ impl Evaluate {
                 writer.append(&answer.rows)?;
                 Ok(writer.finish()?)
             }
-            (format, Target::Path(path)) => Ok(text_file::write(path, answer.text(format)?)?),
+            (format, Target::Path(path)) => {
+                Ok(text_file::write(path, answer.text(format, &provenance.warnings.all())?)?)
+            }
         }
     }
 }
@@ -186,7 +187,8 @@ impl Stage for Evaluate {
             resampled_fits::expect_files(&self.fits)?;
         }
         let sources = self.inputs();
-        let content = |(role, source): &(&str, Source)| Ok((role.to_string(), content_of(source)?));
+        let content =
+            |(role, source): &(&str, Source)| Ok((role.to_string(), content_of_role(role, source)?));
         let mut inputs = sources.iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
         if let Some(hazard) = &self.options.hazard.hazard {
             let content = hash(hazard).with_context(|| hazard.display().to_string())?;
@@ -200,10 +202,14 @@ impl Stage for Evaluate {
         Ok(self.printed.get().cloned().unwrap_or_default())
     }
 
+    fn is_own_text(&self, head: &str) -> bool {
+        answer::is_own(head)
+    }
+
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let fits = self.options.limits.0.choose(&self.fits)?;
         if let (Some(input), Some(out)) = (&self.intensities, &self.out) {
-            let given = self.options.structure.is_given();
+            let given = self.options.structure.structures.is_given();
             let structure = given.then(|| self.structure.structure_with_eta(fits.model.eta)).transpose()?;
             let table = EvaluatedTable { fits, structure };
             return table.write(input, out, provenance, console);

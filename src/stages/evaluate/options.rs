@@ -44,7 +44,7 @@ impl Default for EvaluateOptions {
 
 impl StageOptions for EvaluateOptions {
     fn resolve_paths(&mut self, folder: &Path) {
-        self.structure.resolve_paths(folder);
+        self.structure.structures.resolve_path(folder);
         if let Some(hazard) = &mut self.hazard.hazard {
             *hazard = folder.join(&*hazard);
         }

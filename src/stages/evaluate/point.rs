@@ -1,10 +1,10 @@
-use super::answer::Answer;
+use super::answer::{Answer, FITS_OF};
 use super::options::PointOptions;
-use crate::fragility::Probability;
+use crate::fragility::{DOUBTFUL_PEAKS, Peak, Probability, are_doubtful};
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::check;
+use crate::pipeline::options::{check, check_bound};
 use crate::rocking::Structure;
 use crate::stages::shared::chosen_fits::ChosenFits;
 use crate::stages::shared::structures::words;
@@ -24,8 +24,19 @@ pub fn answer(
             "expected --pga (g) and --pgv (m/s); or --in TABLE, or --hazard CURVE",
         ));
     };
-    check(pga_g >= 0.0 && pga_g.is_finite(), "pga", pga_g, "0 g or more")?;
-    check(pgv_m_s >= 0.0 && pgv_m_s.is_finite(), "pgv", pgv_m_s, "0 m/s or more")?;
+    check_bound(&Peak::Pga.bound(), pga_g)?;
+    check_bound(&Peak::Pgv.bound(), pgv_m_s)?;
+    for (name, period) in [("tp", options.tp), ("tm", options.tm)] {
+        check(
+            period.is_none_or(|s| s > 0.0 && s <= 60.0),
+            name,
+            period.unwrap_or_default(),
+            "a period above 0 s, up to 60",
+        )?;
+    }
+    if are_doubtful(pga_g * G_M_S2, pgv_m_s) {
+        console.warn(DOUBTFUL_PEAKS);
+    }
     let measures = IntensityMeasures::new(structure, pga_g * G_M_S2, pgv_m_s, options.tp, options.tm);
     let probabilities = fits.probabilities(&measures);
     let failure = probabilities.limit_states().map(|[_, failure, _]| failure);
@@ -64,7 +75,7 @@ pub fn answer(
         table: ANSWER,
         rows: evaluated::answer(&rows)?,
         heading: format!(
-            "fits of {}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % limits of confidence, {}\n",
+            "{FITS_OF}{}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % limits of confidence, {}\n",
             fits.words(),
             words(structure),
             fits.model.limit,

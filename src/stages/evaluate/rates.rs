@@ -1,9 +1,11 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use super::answer::Answer;
+use super::answer::{Answer, FITS_OF};
 use super::options::HazardOptions;
-use crate::fragility::{FragilityModel, JointPeaks, LimitState, Peak, Probability, Slice};
+use crate::fragility::{
+    DOUBTFUL_PEAKS, FragilityModel, JointPeaks, LimitState, Peak, Probability, Slice, are_doubtful,
+};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -54,7 +56,7 @@ pub fn answer(
         table: RATES,
         rows: evaluated::rates(&rows)?,
         heading: format!(
-            "fits of {}\nstructure of {}, over {}\n{words_of_ratio}low and high are 95 % limits of confidence, {}; they do not hold the hazard's own error\n",
+            "{FITS_OF}{}\nstructure of {}, over {}\n{words_of_ratio}low and high are 95 % limits of confidence, {}; they do not hold the hazard's own error\n",
             fits.words(),
             words(structure),
             path.display(),
@@ -196,6 +198,10 @@ fn over_pairs(
     if outside > 0 {
         let all = joint.bins.len();
         console.warn(&format!("{outside} of {all} bins lie outside of the data: extrapolated"));
+    }
+    let doubtful = joint.bins.iter().filter(|bin| are_doubtful(bin.pga_m_s2, bin.pgv_m_s)).count();
+    if doubtful > 0 {
+        console.warn(&format!("{doubtful} of {} bins have {DOUBTFUL_PEAKS}", joint.bins.len()));
     }
     Ok(over_bins(structure, joint, model))
 }

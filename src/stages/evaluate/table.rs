@@ -1,5 +1,6 @@
 use rayon::prelude::*;
 
+use crate::fragility::{DOUBTFUL_PEAKS, are_doubtful};
 use crate::pipeline::console::Console;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
@@ -53,9 +54,9 @@ impl EvaluatedTable {
                 Ok(writer.write_row_group(&batch)?)
             },
         )?;
-        writer.finish()?;
         bar.finish();
         suspect.warn(&self.fits, console);
+        writer.finish()?;
         Ok(format!("{total} rows"))
     }
 
@@ -80,6 +81,7 @@ struct Suspect {
     other_eta: usize,
     other_block: usize,
     without_measure: usize,
+    doubtful: usize,
 }
 
 impl Suspect {
@@ -91,6 +93,7 @@ impl Suspect {
             out_of_range: rows.iter().filter(|row| row.out_of_range.is_some()).count(),
             other_eta: intensities.iter().filter(has_other_eta).count(),
             other_block: intensities.iter().filter(|one| fits.is_other_block(&one.structure)).count(),
+            doubtful: rows.iter().filter(|row| are_doubtful(row.pga_m_s2, row.pgv_m_s)).count(),
             without_measure: rows.iter().filter(has_no_measure).count(),
         }
     }
@@ -100,6 +103,7 @@ impl Suspect {
         self.other_eta += more.other_eta;
         self.other_block += more.other_block;
         self.without_measure += more.without_measure;
+        self.doubtful += more.doubtful;
     }
 
     fn warn(&self, fits: &ChosenFits, console: &Console) {
@@ -111,6 +115,7 @@ impl Suspect {
                 self.other_block,
                 "another p or alpha than the fits: curves taken to other structures often fail",
             ),
+            (self.doubtful, DOUBTFUL_PEAKS),
             (self.without_measure, "no value of a measure that the fits need: their probabilities are null"),
         ] {
             if rows > 0 {

@@ -20,8 +20,10 @@ use serde_json::{Value, json};
 
 use self::counts::Counts;
 pub use self::options::IdaOptions;
-use super::shared::motions::DistinctIds;
+use super::shared::motions::{DistinctIds, Judge};
+use super::shared::reasons::{Case, Reasons};
 use super::shared::structures::parameters;
+use super::simulate::simd;
 use super::synthesize_motions::SynthesizeMotions;
 use crate::keyword::Keyword;
 use crate::motion::IntensityScratch;
@@ -59,6 +61,7 @@ struct Analysed {
     capacities: RecordBatch,
     windows: RecordBatch,
     counts: Counts,
+    doubts: Vec<Case>,
 }
 
 impl Ida {
@@ -73,7 +76,7 @@ impl Ida {
     ) -> anyhow::Result<Ida> {
         let (input, out) = (input.into(), out.into());
         let scan = options.scan()?;
-        let (structures, simd) = options.structures()?;
+        let (structures, simd) = (options.structure.resolve()?, simd(options.simd)?);
         Ok(Ida { options: options.clone(), structures, simd, scan, input, out })
     }
 
@@ -86,15 +89,18 @@ impl Ida {
         path: &Path,
         motions: &[Motion],
         by_name: bool,
+        judge: &Judge,
         scratch: &mut IntensityScratch,
     ) -> anyhow::Result<Analysed> {
         let (stripes, capacities) = self.stripes_and_capacities(path, motions, scratch)?;
+        let doubt = |motion: &Motion| judge.doubt(path, motion, &motion.acceleration_m_s2.to_vec());
         Ok(Analysed {
+            doubts: motions.iter().filter_map(doubt).collect(),
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             counts: Counts::of(&self.scan, &stripes, &capacities),
             stripes: ida::stripes(&stripes, by_name)?,
             windows: ida::windows(&capacities, by_name)?,
-            capacities: ida::capacities(&capacities, self.scan.highest(), by_name)?,
+            capacities: ida::capacities(&capacities, by_name)?,
         })
     }
 }
@@ -102,8 +108,8 @@ impl Ida {
 impl Declare for Ida {
     type Options = IdaOptions;
     const NAME: &'static str = IDA.stage;
-    const ABOUT: &'static str = "Incremental dynamic analysis: at which intensities of each motion each structure overturns, and \
-         which larger ones it survives";
+    const ABOUT: &'static str = "Incremental dynamic analysis: from which intensity of each motion on each structure overturns, and \
+         which share of larger ones does so";
     const INPUTS: &'static [Input] =
         &[Input::file("motions", "in", SynthesizeMotions::OUTPUT.file, "Motions to read, as simulate does")];
     const OUTPUT: Output = Output::file(
@@ -153,6 +159,7 @@ impl Stage for Ida {
         let mut windows = motions::writer(part(&IDA_WINDOWS), &IDA_WINDOWS, by_name, provenance)?;
         let mut capacities = motions::writer(self.out.clone(), &IDA, by_name, provenance)?;
         let (mut ids, mut counts) = (DistinctIds::default(), Counts::default());
+        let (judge, mut doubts) = (Judge::new(file.of_others()), Reasons::default());
         let pool = Pool::new(IntensityScratch::default);
         let bar = console.bar(self.name(), total);
         pipelined(
@@ -162,7 +169,7 @@ impl Stage for Ida {
                     let path = file.path_of(part);
                     let analyse_chunk = |motions: Vec<Motion>| {
                         let analysed =
-                            pool.lend(|scratch| self.analyse(&path, &motions, by_name, scratch))?;
+                            pool.lend(|scratch| self.analyse(&path, &motions, by_name, &judge, scratch))?;
                         bar.inc(motions.len() as u64)?;
                         Ok(analysed)
                     };
@@ -180,6 +187,7 @@ impl Stage for Ida {
                     windows.append(&analysed.windows)?;
                     capacities.append(&analysed.capacities)?;
                     counts.append(analysed.counts);
+                    analysed.doubts.into_iter().for_each(|case| doubts.add(case));
                 }
                 Ok(())
             },
@@ -191,8 +199,9 @@ impl Stage for Ida {
         fragility.append(&ida::fragility(&rows)?)?;
         [stripes, windows, shares, fragility, capacities].into_iter().try_for_each(TableWriter::finish)?;
         bar.finish();
+        doubts.lines("motions").for_each(|line| console.warn(&line));
         Ok(format!(
-            "{total} motions and {} structure(s) at {} levels in ratios of {:.4}, of {:.4} near overturning",
+            "{total} motions and {} structure(s) at {} levels in ratios of {:.4}, of {:.4} where they rock",
             self.structures.len(),
             self.scan.levels().len(),
             self.scan.ratio(),

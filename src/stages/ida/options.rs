@@ -8,13 +8,12 @@ use serde::{Deserialize, Serialize};
 use super::measure::ScaledMeasure;
 use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{Word, check, defaults};
-use crate::rocking::{Scan, Simd, Structure};
-use crate::stages::shared::structures::Structures;
-use crate::stages::simulate::SimulateOptions;
+use crate::rocking::{Scan, Simd};
+use crate::stages::shared::structure_options::StructuresOptions;
 
 /// Which structures, and the intensities at which they are simulated.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+#[serde(rename_all = "kebab-case", default)]
 pub struct IdaOptions {
     /// What is scaled: scale (the motion as it is), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, of each structure)
     #[arg(long, default_value = "scale")]
@@ -28,24 +27,15 @@ pub struct IdaOptions {
     /// Equal ratios between them, whose ends are the stripes
     #[arg(long, default_value = "60")]
     pub steps: usize,
-    /// How often a step is halved in search of safe windows, near overturning and where its ends overturn in different ways
+    /// How often a step is halved where the structure rocks: the resolution; four times more where a peak comes near the tipping point
     #[arg(long, default_value = "4")]
     pub halvings: u32,
-    /// Relative error of the intensities at which the outcome changes
+    /// Relative error of the simulated intensities at which the outcome changes
     #[arg(long, default_value = "0.001")]
     pub tolerance: f64,
-    /// Frequency parameter of the structure, rad/s
-    #[arg(long, default_value = "2.5")]
-    pub p: f64,
-    /// Slenderness of the structure, rad
-    #[arg(long, default_value = "0.20")]
-    pub alpha: f64,
-    /// Coefficient of restitution
-    #[arg(long, default_value = "0.92")]
-    pub eta: f64,
-    /// Structures from a YAML or CSV file, as simulate takes them
-    #[arg(long, conflicts_with_all = ["p", "alpha", "eta"])]
-    pub structures: Option<Structures>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub structure: StructuresOptions,
     /// Vector instructions of the solver: scalar, avx2 or avx512, as in simulate [default: the fastest of this processor]
     #[arg(long)]
     pub simd: Option<Word<Simd>>,
@@ -63,9 +53,7 @@ impl Default for IdaOptions {
 
 impl StageOptions for IdaOptions {
     fn resolve_paths(&mut self, folder: &Path) {
-        if let Some(structures) = &mut self.structures {
-            structures.resolve_path(folder);
-        }
+        self.structure.resolve_path(folder);
     }
 }
 
@@ -78,11 +66,5 @@ impl IdaOptions {
         check(halvings <= MOST_HALVINGS, "halvings", halvings, &format!("0 to {MOST_HALVINGS}"))?;
         check((1e-9..=0.5).contains(&tolerance), "tolerance", tolerance, "a share from 1e-9 to 0.5")?;
         Ok(Scan::new(from, to, steps, halvings, tolerance))
-    }
-
-    pub(super) fn structures(&self) -> anyhow::Result<(Vec<Structure>, Simd)> {
-        let IdaOptions { p, alpha, eta, structures, simd, .. } = self.clone();
-        let simulate = SimulateOptions { p, alpha, eta, structures, simd, trace: None, partition: None };
-        Ok((simulate.structures()?, simulate.simd()?))
     }
 }

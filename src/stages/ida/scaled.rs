@@ -5,7 +5,7 @@ use std::path::Path;
 use super::Ida;
 use crate::motion::{IntensityMeasures, IntensityScratch};
 use crate::rocking::{
-    Capacity, Problem, Record, RecordError, Response, ScanPoint, ScanResponse, Structure, simulate_all,
+    Problem, Record, RecordError, Response, ScanPoint, ScanResponse, Structure, simulate_all,
 };
 use crate::stages::shared::motions::{Peaks, record};
 use crate::table::TableError;
@@ -52,14 +52,16 @@ impl Ida {
                 let levels = self.scan.levels();
                 levels.binary_search_by(|level| level.total_cmp(&response.intensity)).is_ok()
             };
-            stripes.extend(responses.iter().filter(is_level).map(|response| self.stripe(case, response)));
+            let shares = self.scan.overturning_shares(responses).into_iter().map(Some).chain([None]);
+            let levels = responses.iter().filter(is_level).zip(shares);
+            stripes.extend(levels.map(|(response, share)| self.stripe(case, response, share)));
             capacities.push(CapacityRow {
                 motion_id: &case.motion.motion_id,
                 suite: case.motion.suite.as_deref(),
                 structure: case.structure,
                 measure: self.measure(),
                 unscaled: case.unscaled,
-                capacity: Capacity::of(responses),
+                capacity: self.scan.capacity(responses),
             });
         }
         Ok((stripes, capacities))
@@ -108,7 +110,12 @@ impl Ida {
         Ok(responses)
     }
 
-    fn stripe<'m>(&self, case: &Case<'m, '_>, at: &ScanResponse) -> StripeRow<'m> {
+    fn stripe<'m>(
+        &self,
+        case: &Case<'m, '_>,
+        at: &ScanResponse,
+        overturning_above: Option<f64>,
+    ) -> StripeRow<'m> {
         let Case { motion, structure, .. } = case;
         let scale = at.intensity / case.unscaled;
         StripeRow {
@@ -116,6 +123,7 @@ impl Ida {
             measure: self.measure(),
             intensity: at.intensity,
             scale,
+            overturning_above,
         }
     }
 }

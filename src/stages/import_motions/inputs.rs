@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use crate::motion::LONGEST_MOTION;
 use crate::pipeline::files;
-use crate::records::processing::{NamedRecord, Refusal, SourceFile};
-use crate::records::{Format, Given, RecordedMotion, read};
+use crate::records::processing::{NamedRecord, Refusal, SourceFile, TABLE};
+use crate::records::{AccelerationUnit, Format, Given, RecordedMotion, SaidUnit, read};
 use crate::rocking::Record;
 use crate::table::motions::{Motion, MotionBatches};
 use crate::table::store::text_file;
@@ -161,7 +161,7 @@ fn of_parquet(motion: Motion, name: &str, source: SourceFile) -> Result<NamedRec
     let acceleration_m_s2 = motion.acceleration_m_s2.to_vec();
     if let Err(problem) = Record::new(&acceleration_m_s2, motion.dt_s) {
         let reason = format!("row {}: {problem}", motion.row);
-        return Err(Refusal { file: source.path, reason });
+        return Err(Refusal::because(source.path, reason));
     }
     Ok(NamedRecord {
         motion_id: format!("{name}:{}", motion.motion_id),
@@ -170,6 +170,8 @@ fn of_parquet(motion: Motion, name: &str, source: SourceFile) -> Result<NamedRec
             dt_s: motion.dt_s,
             acceleration_m_s2,
             component: Some(motion.motion_id.to_string()),
+            format: TABLE,
+            unit: Some(SaidUnit::by_file(AccelerationUnit::MetrePerSecond2)),
             ..RecordedMotion::default()
         },
     })

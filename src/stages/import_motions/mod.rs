@@ -4,10 +4,12 @@
 //! options  which files, how they are read, what is done to them
 //! inputs   files to records, and what is wrong with those that cannot be read
 //! work     files or pairs in groups that are processed at once
+//! told     what is said of all that
 //! ```
 
 mod inputs;
 mod options;
+mod told;
 mod work;
 
 use std::collections::{BTreeMap, HashSet};
@@ -19,7 +21,8 @@ use serde_json::{Value, json};
 
 use self::inputs::{Names, Reading};
 pub use self::options::ImportMotionsOptions;
-use self::work::{Importer, Plan, summary};
+use self::told::{Told, summary};
+use self::work::{Importer, Plan};
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
@@ -28,7 +31,7 @@ use crate::pipeline::files::{content_of_all, expand};
 use crate::pipeline::options::Word;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
-use crate::records::processing::{Processing, Refusal, Scratch};
+use crate::records::processing::{Implausible, Processing, Refusal, Scratch};
 use crate::records::signal::Scaling;
 use crate::table::records::{self, RECORDS};
 use crate::table::store::provenance::Provenance;
@@ -111,8 +114,17 @@ impl Stage for ImportMotions {
 
     fn parameters(&self) -> Value {
         let Reading { format, given, pga_tolerance } = &self.importer.reading;
-        let Processing { baseline, high_pass, resample_s, direction, scaling, pulses, residual, plan } =
-            &self.importer.processing;
+        let Processing {
+            baseline,
+            high_pass,
+            resample_s,
+            direction,
+            scaling,
+            pulses,
+            residual,
+            implausible,
+            plan,
+        } = &self.importer.processing;
         let scaling = match scaling {
             Scaling::Factors(factors) => json!({ "factors": factors }),
             Scaling::Pga(target) => json!({ "pga_m_s2": target }),
@@ -126,7 +138,7 @@ impl Stage for ImportMotions {
             "high-pass": high_pass.map(|filter| filter.corner_hz), "resample": resample_s,
             "rotate": direction.map(|direction| direction.to_string()), "scale": scaling,
             "pulses": Word(*pulses), "residual": residual, "housner": plan.housner, "sa": plan.sa_periods_s,
-            "keep-going": self.keep_going,
+            "accept-implausible": *implausible == Implausible::Accept, "keep-going": self.keep_going,
         })
     }
 
@@ -142,7 +154,7 @@ impl Stage for ImportMotions {
         let pool = Pool::new(Scratch::default);
         let Plan { work, mut refused } = self.importer.plan(console);
         let bar = console.bar(self.name(), self.importer.files.len() as u64);
-        let mut seen = HashSet::new();
+        let (mut seen, mut told) = (HashSet::new(), Told::default());
         pipelined(
             work.map(Ok),
             |work| {
@@ -156,7 +168,10 @@ impl Stage for ImportMotions {
                 let mut rows = Vec::new();
                 for result in results {
                     match result {
-                        Ok(imported) => rows.extend(imported),
+                        Ok(imported) => {
+                            told.add(&imported);
+                            rows.extend(imported);
+                        }
                         Err(refusal) => refused.push(refusal),
                     }
                 }
@@ -168,10 +183,15 @@ impl Stage for ImportMotions {
             },
         )?;
         bar.finish();
+        if seen.is_empty() && refused.is_empty() {
+            bail!("no motion is imported of {} files", self.importer.files.len());
+        }
         if seen.is_empty() {
             bail!("no motion is imported; {}", summary(&refused, self.importer.files.len()));
         }
         self.expect_unchanged(provenance)?;
+        told.lines().iter().for_each(|line| console.note(line));
+        told.doubts.lines("motions").for_each(|doubt| console.warn(&doubt));
         if refused.is_empty() || self.keep_going {
             writer.finish()?;
             if !refused.is_empty() {

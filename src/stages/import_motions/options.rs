@@ -10,7 +10,7 @@ use crate::keyword::{self, Keyword};
 use crate::pipeline::UsageError;
 use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{Parsed, Steps, Word, check, defaults};
-use crate::records::processing::{Processing, PulseSearch};
+use crate::records::processing::{Implausible, Processing, PulseSearch};
 use crate::records::rotation::Direction;
 use crate::records::signal::{Baseline, HighPass, Scaling};
 use crate::records::{AccelerationUnit, ColumnChoice, Format, Given};
@@ -30,11 +30,11 @@ pub struct ImportMotionsOptions {
     /// Time between samples of files that do not say it, s
     #[arg(long)]
     pub dt: Option<f64>,
-    /// Unit of files that do not say it: g, mg, m/s2, cm/s2 (gal) or mm/s2
+    /// Unit of files that do not say it: g, mg, m/s2, cm/s2 (gal), mm/s2, %g, ft/s2 or in/s2
     #[arg(long)]
     pub unit: Option<Parsed<AccelerationUnit>>,
     /// Column of plain files that holds the acceleration: its number, its name, or all where one series wraps over lines
-    /// [default: the only one, or the second after times]
+    /// [default: the one of that heading, or the only one besides times]
     #[arg(long, value_name = "N|NAME|all")]
     pub column: Option<Parsed<ColumnChoice>>,
     /// By which share samples may miss the peak that their header gives, besides its rounding
@@ -75,6 +75,10 @@ pub struct ImportMotionsOptions {
     /// Also compute the Housner intensity, 15 times the work or more
     #[arg(long)]
     pub housner: bool,
+    /// Take motions that can hardly be those of an earthquake (PGA, PGV, time step, spikes, drift): they are named, and are no
+    /// failure
+    #[arg(long)]
+    pub accept_implausible: bool,
     /// Files that cannot be read are named, and are no failure
     #[arg(long)]
     pub keep_going: bool,
@@ -123,6 +127,7 @@ impl ImportMotionsOptions {
             scaling: self.scaling()?,
             pulses: self.pulses.0,
             residual: self.residual,
+            implausible: if self.accept_implausible { Implausible::Accept } else { Implausible::Refuse },
             plan: measure_plan(self.housner, self.sa.as_ref())?,
         })
     }

@@ -1,6 +1,5 @@
 //! Files, or pairs of components, in groups that are processed at once.
 
-use std::collections::HashSet;
 use std::path::PathBuf;
 
 use rayon::prelude::*;
@@ -137,12 +136,4 @@ impl Importer {
             }
         }
     }
-}
-
-/// Sums up which of so many files are refused, whole or in part.
-pub fn summary(refused: &[Refusal], files: usize) -> String {
-    let lines: Vec<String> =
-        refused.iter().map(|refusal| format!("\n  {}: {}", refusal.file, refusal.reason)).collect();
-    let distinct: HashSet<&str> = refused.iter().map(|refusal| refusal.file.as_str()).collect();
-    format!("{} of {files} files refused:{}", distinct.len(), lines.concat())
 }

@@ -12,14 +12,17 @@ use super::fit_pex::TransitionAt;
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
 use crate::keyword::Keyword;
+use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
-use crate::pipeline::options::{check, defaults};
+use crate::pipeline::options::{Parsed, Several, check, check_bound, defaults};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
 use crate::stages::shared::groups::{self, Group};
+use crate::stages::shared::motions::note_passed_over;
+use crate::stages::shared::uncertainty::LIMIT_STATE;
 use crate::studies::{FurtherMeasure, MeasureRanking, RankingRules, RankingSample, Target};
-use crate::table::motion_measures::MotionMeasures;
+use crate::table::motion_measures::{MotionMeasures, OwnMeasure, own_columns};
 use crate::table::ranking::{RANKING, RankedCandidate, RankingRow, ReliabilityRow};
 use crate::table::store::provenance::Provenance;
 
@@ -43,6 +46,10 @@ pub struct RankImsOptions {
     /// The most folds of cross-validation; each leaves out whole cells of magnitude and distance, or earthquakes
     #[arg(long, default_value = "10")]
     pub folds: usize,
+    /// Further columns of --motions that are measures; the unit at the end of the name tells how they become dimensionless, as
+    /// fiv3_m_s by p v / (g tan alpha)
+    #[arg(long, value_name = "COLUMN,...")]
+    pub candidate: Option<Several<Parsed<OwnMeasure>>>,
 }
 
 impl Default for RankImsOptions {
@@ -73,13 +80,33 @@ impl RankIms {
         motions: Option<Source>,
         out: impl Into<source::Target>,
     ) -> anyhow::Result<RankIms> {
-        let RankImsOptions { limit_state, transition, terms, folds } = options.clone();
-        let possible = limit_state > 0.0 && limit_state.is_finite();
-        check(possible, "limit-state", limit_state, "a demand |theta|max / alpha above 0")?;
+        let RankImsOptions { limit_state, transition, terms, folds, .. } = options.clone();
+        check_bound(&LIMIT_STATE, limit_state)?;
         check((1..=3).contains(&terms), "terms", terms, "1, 2 or 3 measures")?;
         check((2..=1000).contains(&folds), "folds", folds, "2 to 1000 folds")?;
+        if options.candidate.is_some() && motions.is_none() {
+            return Err(UsageError::because("candidate needs the motions; name their file with --motions"));
+        }
         let rules = RankingRules { folds, terms, transition: transition.im4() };
         Ok(RankIms { options: options.clone(), rules, input: input.into(), motions, out: out.into() })
+    }
+
+    /// That the candidates are there, and says which other columns are not taken.
+    fn expect_columns(&self, motions: &Source, own: &[OwnMeasure], console: &Console) -> anyhow::Result<()> {
+        let mut columns = own_columns(motions)?;
+        for own in own.iter().map(ToString::to_string) {
+            let Some(place) = columns.iter().position(|column| *column == own) else {
+                let there =
+                    if columns.is_empty() { "it has none of its own".into() } else { columns.join(", ") };
+                let file = motions.name().display();
+                return Err(UsageError::because(format!(
+                    "{file}: no further column '{own}'; expected one of its own: {there}"
+                )));
+            };
+            columns.remove(place);
+        }
+        note_passed_over(motions, &columns, "take them with --candidate", console);
+        Ok(())
     }
 
     fn reliability_target(&self) -> source::Target {
@@ -177,7 +204,15 @@ impl Stage for RankIms {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let motions = self.motions.as_ref().map(MotionMeasures::read).transpose()?;
+        let own: Vec<OwnMeasure> =
+            self.options.candidate.iter().flat_map(|Several(own)| own.iter().map(|own| own.0)).collect();
+        let motions = match &self.motions {
+            Some(motions) => {
+                self.expect_columns(motions, &own, console)?;
+                Some(MotionMeasures::read(motions, &own)?)
+            }
+            None => None,
+        };
         let mut samples: Vec<(&Group, RankingSample)> = Vec::new();
         for group in &groups {
             let further = motions.as_ref().map_or(Ok(Vec::new()), |motions| further(group, motions));

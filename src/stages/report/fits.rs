@@ -6,6 +6,7 @@ use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
 use crate::report::data::{Curve, Group, Model, Planes, Regression};
+use crate::stages::shared::chosen_fits::{ChosenFits, Misfit};
 use crate::stages::shared::fits::{FitFiles, FitsOptions, ModelForm};
 use crate::table::fits::{self, GroupKey};
 use crate::table::pex::PexRow;
@@ -53,7 +54,7 @@ pub fn add_curves(path: &Path, groups: &mut [Group], console: &Console) -> anyho
     Ok(())
 }
 
-/// The fits of each group joined: bivariate, and over each measure that has both fits.
+/// The fits of each group joined: bivariate, and over each measure that has both fits; of a group, the best first.
 pub fn models(pex: &Path, pro: &Path, groups: &[Group]) -> Vec<Model> {
     let shown = |model: &Model| {
         groups.iter().any(|group| group.suite == model.suite && group.structure.name == model.structure)
@@ -65,12 +66,13 @@ pub fn models(pex: &Path, pro: &Path, groups: &[Group]) -> Vec<Model> {
         let files = FitFiles { pex: pex.into(), pro: pro.into(), options };
         let form = measure.map_or(ModelForm::Bivariate.as_str(), Keyword::as_str).to_string();
         let chosen = files.choose_each().unwrap_or_default().into_iter().flatten();
-        chosen.map(move |fits| Model {
-            suite: fits.suite,
-            structure: fits.structure,
-            form: form.clone(),
-            fits: fits.model,
+        chosen.map(move |fits| {
+            let (doubt, aic) = (fits.misfit.as_ref().map(Misfit::words), fits.aic_per_case);
+            let ChosenFits { suite, structure, model, .. } = fits;
+            (Model { suite, structure, form: form.clone(), fits: model, doubt }, aic)
         })
     });
-    models.filter(shown).collect()
+    let mut models: Vec<(Model, f64)> = models.filter(|(model, _)| shown(model)).collect();
+    models.sort_by(|(_, a), (_, b)| a.total_cmp(b));
+    models.into_iter().map(|(model, _)| model).collect()
 }

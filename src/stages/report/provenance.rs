@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::table::TableError;
-use crate::table::store::provenance::{Provenance, Recorded};
+use crate::table::store::provenance::{Provenance, Recorded, Warnings};
 
 /// Lines at the start of a page among which the record of how it was made is.
 const LINES: usize = 8;
@@ -58,6 +58,7 @@ fn parse(words: &str) -> Option<Recorded> {
         parameters: value["parameters"].clone(),
         inputs,
         sources: BTreeMap::new(),
+        warnings: Warnings::default(),
     };
     let cache_key = provenance.cache_key();
     Some(Recorded { provenance, cache_key, content: String::new() })

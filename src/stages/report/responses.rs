@@ -2,18 +2,17 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::ReportOptions;
-use crate::fragility::Case;
 use crate::pipeline::UsageError;
 use crate::report::data::{Group, ReportResponse};
 use crate::table::responses::{RESPONSES, ResponseCase};
-use crate::table::row::{ReadRow, Row};
+use crate::table::row::Row;
 use crate::table::store::reader::Batches;
 
 /// The responses of the suites and structures that are to be shown, and how many others there are.
 pub fn read(path: &Path, options: &ReportOptions) -> anyhow::Result<(Vec<Group>, usize)> {
     let mut sorted = Sorted::default();
     for batch in Batches::open_whole(path, &ResponseCase::TABLE, &[RESPONSES.stage])? {
-        for row in ResponseCase::of(&batch?.columns())? {
+        for row in ResponseCase::checked(&batch?.columns())? {
             sorted.add(&row, options);
         }
     }
@@ -46,9 +45,8 @@ struct Sorted {
 impl Sorted {
     fn add(&mut self, row: &ResponseCase, options: &ReportOptions) {
         let Some(group) = self.group(row, options) else { return };
-        let case = Case { outcome: row.outcome, edp: row.edp, measures: row.measures() };
         group.responses.push(ReportResponse {
-            case,
+            case: row.case(),
             pga_m_s2: row.pga_m_s2,
             pgv_m_s: row.pgv_m_s,
             tp_s: row.tp_s,

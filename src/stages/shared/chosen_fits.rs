@@ -8,9 +8,9 @@ use crate::fragility::{
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::console::Console;
+use crate::rocking::Block;
 use crate::rocking::Structure;
 use crate::statistics::Gap;
-use crate::table::fits::Block;
 
 /// The fits as chosen.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,8 @@ pub struct ChosenFits {
     pub resampled: Option<ResampledModel>,
     /// Whether P_ro comes from so few events that some limits are too narrow.
     pub few_events: bool,
+    /// Akaike's criterion of the curve of P_ro for each case: the least is of the best model.
+    pub aic_per_case: f64,
     /// What speaks against the curve of P_ro, if anything does.
     pub misfit: Option<Misfit>,
     /// The size and slenderness that were simulated, if all cases share them.
@@ -40,6 +42,17 @@ pub struct Misfit {
     pub gap: Gap,
     /// The tests that were made, with their probabilities.
     pub tests: Vec<(&'static str, f64)>,
+}
+
+impl Misfit {
+    /// By how much the curve is off, and which tests reject it.
+    pub fn words(&self) -> String {
+        let Misfit { gap: Gap { predicted, observed }, tests } = self;
+        let tests = tests.iter().map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
+        format!(
+            "P_ro fits its own cases badly: where it predicts {predicted:.3}, {observed:.3} overturned ({tests}); low and high do not hold this error"
+        )
+    }
 }
 
 /// A difference in eta that the response hardly feels.
@@ -85,11 +98,9 @@ impl ChosenFits {
 
     /// Warns that the tests of the curve reject it, and by how much it is off.
     pub fn warn_of_misfit(&self, console: &Console) {
-        let Some(Misfit { gap: Gap { predicted, observed }, tests }) = &self.misfit else { return };
-        let tests = tests.iter().map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
-        console.warn(&format!(
-            "P_ro fits its own cases badly: where it predicts {predicted:.3}, {observed:.3} overturned ({tests}); low and high do not hold this error"
-        ));
+        if let Some(misfit) = &self.misfit {
+            console.warn(&misfit.words());
+        }
     }
 
     /// In words: of what, over which measures.

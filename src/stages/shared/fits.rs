@@ -161,6 +161,7 @@ impl FitFiles {
             model,
             resampled: None,
             few_events,
+            aic_per_case: curve.aic.unwrap_or(f64::INFINITY) / curve.n as f64,
             misfit,
             block,
             peaks: curve.peaks(),

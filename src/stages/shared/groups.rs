@@ -3,14 +3,17 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use anyhow::anyhow;
+
 use crate::fragility::{Case, CaseGroup, Clusters, JointPeaks, cells};
+use crate::rocking::Block;
 use crate::rocking::Structure;
-use crate::table::fits::Block;
+use crate::table::TableError;
 use crate::table::ida::IDA_STRIPES;
 use crate::table::responses::{RESPONSES, ResponseCase};
-use crate::table::row::{ReadRow, Row};
+use crate::table::row::Row;
 use crate::table::store::reader::Batches;
-use crate::table::store::source::Source;
+use crate::table::store::source::{Source, with_part};
 
 /// All responses of one structure to one suite.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,8 +78,9 @@ impl Group {
 pub fn read(source: impl Into<Source>) -> anyhow::Result<Vec<Group>> {
     let mut groups: Vec<Builder> = Vec::new();
     let mut places: HashMap<(Option<Arc<str>>, Arc<str>), usize> = HashMap::new();
-    for batch in Batches::open_whole(source, &ResponseCase::TABLE, &[RESPONSES.stage, IDA_STRIPES.stage])? {
-        for row in ResponseCase::of(&batch?.columns())? {
+    let stages = [RESPONSES.stage, IDA_STRIPES.stage];
+    for batch in Batches::open_whole(source, &ResponseCase::TABLE, &stages)? {
+        for row in ResponseCase::checked(&batch?.columns()).map_err(name_stripes)? {
             let place = *places.entry((row.suite.clone(), row.structure.clone())).or_insert(groups.len());
             match groups.get_mut(place) {
                 Some(group) => group.add(row),
@@ -85,6 +89,18 @@ pub fn read(source: impl Into<Source>) -> anyhow::Result<Vec<Group>> {
         }
     }
     Ok(groups.into_iter().map(Builder::finish).collect())
+}
+
+/// Of the files of ida the fits read one.
+fn name_stripes(error: TableError) -> anyhow::Error {
+    let stripes = match &error {
+        TableError::MissingColumn { path, .. } => Some(with_part(path, IDA_STRIPES.name)),
+        _ => None,
+    };
+    match stripes.filter(|stripes| stripes.is_file()) {
+        Some(stripes) => anyhow!("{error}; of the files of ida, {} has the responses", stripes.display()),
+        None => error.into(),
+    }
 }
 
 /// A group of which more responses may come.
@@ -116,7 +132,7 @@ impl Builder {
 
     fn add(&mut self, row: ResponseCase) {
         let group = &mut self.group;
-        group.cases.push(Case { outcome: row.outcome, edp: row.edp, measures: row.measures() });
+        group.cases.push(row.case());
         group.p_rad_s.push(row.p_rad_s);
         group.alpha_rad.push(row.alpha_rad);
         group.motion_ids.push(row.motion_id.to_string());

@@ -18,6 +18,7 @@ pub mod groups;
 pub mod measures;
 pub mod motions;
 pub mod partitions;
+pub mod reasons;
 pub mod resampled_fits;
 pub mod structure_options;
 pub mod structures;

@@ -1,14 +1,21 @@
-//! Motions as simulate and ida take them: as records, with their peaks, under distinct names.
+//! Motions as simulate and ida take them: as records, with their peaks, under distinct names; and what is doubtful about those
+//! that other programs made.
 
 use std::collections::HashSet;
 use std::path::Path;
+use std::sync::Arc;
 
-use crate::motion::{IntensityMeasures, IntensityScratch, intensity};
-use crate::rocking::{Record, RecordError, Response, Structure};
+use super::reasons::Case;
+use crate::keyword;
+use crate::motion::{IntensityMeasures, IntensityScratch, Suite, intensity};
+use crate::pipeline::console::Console;
+use crate::records::plausibility;
+use crate::rocking::{Outcome, Record, RecordError, Response, Structure};
 use crate::table::TableError;
 use crate::table::motions::{Motion, MotionId};
 use crate::table::responses::ResponseRow;
 use crate::table::schema;
+use crate::table::store::source::Source;
 
 /// The record of a motion of the file at `path`, whose samples are these (m/s2).
 ///
@@ -66,7 +73,8 @@ impl Peaks {
             alpha_rad: structure.alpha_rad,
             eta: structure.eta,
             outcome: response.outcome,
-            edp: response.edp,
+            // How far it leans when it is down is no demand: an average over it would mean nothing.
+            edp: (response.outcome != Outcome::Overturning).then_some(response.edp),
             impacts: i32::try_from(response.impacts).unwrap_or(i32::MAX),
             mw: motion.mw,
             re_km: motion.re_km,
@@ -88,6 +96,61 @@ impl Peaks {
     pub fn scaled(&self, factor: f64) -> Peaks {
         Peaks { pga_m_s2: factor * self.pga_m_s2, pgv_m_s: factor * self.pgv_m_s, ..*self }
     }
+}
+
+/// By which share the peak that a file of others gives may miss that of the samples.
+const PEAK_TOLERANCE: f64 = 0.1;
+
+/// Whether the motions of other programs can be those of earthquakes.
+pub struct Judge {
+    of_others: HashSet<Arc<Path>>,
+}
+
+impl Judge {
+    /// Of the motions in these files, but for those that say that they are synthetic.
+    pub fn new(of_others: HashSet<Arc<Path>>) -> Judge {
+        Judge { of_others }
+    }
+
+    /// What is doubtful about a motion of the file at `path`, whose samples are these (m/s2).
+    pub fn doubt(&self, path: &Path, motion: &Motion, samples: &[f64]) -> Option<Case> {
+        let suite = motion.suite.as_deref().and_then(|word| keyword::parse::<Suite>(word).ok());
+        let is_synthetic = suite.is_some_and(|suite| Suite::SYNTHETIC.contains(&suite));
+        if is_synthetic || !self.of_others.contains(path) {
+            return None;
+        }
+        let name = motion.motion_id.to_string();
+        let peak = intensity::peak(samples);
+        let other = motion.pga_m_s2.filter(|pga| (pga - peak).abs() > PEAK_TOLERANCE * peak);
+        if let Some(pga) = other {
+            let found = Some(format!("{pga:.3} m/s2 for {peak:.3} m/s2"));
+            let reason =
+                "column 'pga_m_s2' is not the peak of the samples; PGA of another unit or component?";
+            return Some(Case { name, found, reason: reason.to_string() });
+        }
+        let doubt = plausibility::doubt(samples, motion.dt_s)?;
+        Some(Case { name, found: Some(doubt.found), reason: doubt.reason.to_string() })
+    }
+}
+
+/// The most columns that are named one by one.
+const MOST_NAMED: usize = 12;
+
+/// What may take them, of simulate.
+pub const FOR_RANKING: &str = "rank-ims takes them with --candidate";
+
+/// Says which columns of a motions file are not taken, and what may take them.
+pub fn note_passed_over(source: &Source, columns: &[String], way: &str, console: &Console) {
+    if columns.is_empty() {
+        return;
+    }
+    let more = if columns.len() > MOST_NAMED {
+        format!(" and {} more", columns.len() - MOST_NAMED)
+    } else {
+        String::new()
+    };
+    let named = columns.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
+    console.note(&format!("{}: passed over: {named}{more}; {way}", source.name().display()));
 }
 
 /// The names of all motions so far, which must differ; numbers take little room, as there may be millions.

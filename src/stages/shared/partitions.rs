@@ -29,7 +29,7 @@ impl PartitionedInput {
                 let source = folder::partition(folder, asked)?.into();
                 Ok(PartitionedInput { source, partition: Some(asked), rows: None })
             }
-            (Source::Path(file), asked) if file.is_file() => match (folder::partition_of(file)?, asked) {
+            (Source::Path(file), asked) if file.is_file() => match (of_file(file), asked) {
                 (Some(own), Some(asked)) if own != asked => Err(UsageError::because(format!(
                     "{} is partition {own}; expected it without --partition {asked}",
                     file.display()
@@ -40,6 +40,11 @@ impl PartitionedInput {
             _ => Ok(PartitionedInput { source, partition: asked, rows: asked }),
         }
     }
+}
+
+/// Which partition a file is; whoever reads it says what is wrong with one that does not tell.
+fn of_file(file: &Path) -> Option<Partition> {
+    folder::partition_of(file).unwrap_or_default()
 }
 
 /// The output of a stage that may work on a partition only: `file`, or where `--out` is a folder the file of the partition in

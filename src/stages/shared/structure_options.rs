@@ -1,89 +1,124 @@
-//! One structure, as the command line gives it.
+//! Structures, as the command line gives them.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use super::structures::{StructureSpec, Structures};
+use super::structures::{Restitution, StructureSpec, Structures};
 use crate::pipeline::UsageError;
+use crate::rocking::Structure;
 
-/// One structure on the command line.
+/// The parameters of one structure on the command line.
 #[derive(Debug, Clone, PartialEq, Default, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Structure")]
-pub struct StructureOptions {
+pub struct StructureParameters {
     /// Frequency parameter of the structure, rad/s
     #[arg(long)]
     pub p: Option<f64>,
     /// Slenderness of the structure, rad
     #[arg(long)]
     pub alpha: Option<f64>,
-    /// Coefficient of restitution [default: that of the fits, or that of the dimensions]
+    /// Coefficient of restitution, or housner: 1 - 1.5 sin^2(alpha) [default: that of the dimensions, or of the fits]
     #[arg(long)]
-    pub eta: Option<f64>,
+    pub eta: Option<Restitution>,
     /// In place of p and alpha: width of the block or column, m
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
     pub width: Option<f64>,
     /// Height of the block or column, m
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
     pub height: Option<f64>,
     /// Of a frame: mass of the beam over that of all columns
-    #[arg(long, value_name = "RATIO")]
+    #[arg(long, value_name = "RATIO", conflicts_with_all = ["p", "alpha"])]
     pub beam_mass_ratio: Option<f64>,
-    /// In place of them: YAML or CSV file of structures
+}
+
+impl StructureParameters {
+    /// Whether there is any.
+    pub fn is_given(&self) -> bool {
+        *self != StructureParameters::default()
+    }
+
+    /// The structure, without a name.
+    pub fn spec(&self) -> StructureSpec {
+        let StructureParameters { p, alpha, eta, width, height, beam_mass_ratio } = *self;
+        StructureSpec { name: None, p, alpha, eta, width, height, beam_mass_ratio }
+    }
+}
+
+/// Structures on the command line: the parameters of one, or a file of some.
+#[derive(Debug, Clone, PartialEq, Default, Args, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", default)]
+#[command(next_help_heading = "Structure")]
+pub struct StructuresOptions {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub parameters: StructureParameters,
+    /// In place of them: YAML or CSV file of structures, or the word paper for both of the paper
     #[arg(long, value_name = "FILE", conflicts_with_all = ["p", "alpha", "eta", "width", "height", "beam_mass_ratio"])]
-    pub structures: Option<PathBuf>,
+    pub structures: Option<Structures>,
+}
+
+impl StructuresOptions {
+    /// Whether there is any.
+    pub fn is_given(&self) -> bool {
+        self.parameters.is_given() || self.structures.is_some()
+    }
+
+    /// Makes the path of a file relative to `folder`, that of the pipeline file.
+    pub fn resolve_path(&mut self, folder: &Path) {
+        if let Some(structures) = &mut self.structures {
+            structures.resolve_path(folder);
+        }
+    }
+
+    /// All structures, checked.
+    ///
+    /// # Errors
+    /// If there is none, a file cannot be read, or one is impossible.
+    pub fn resolve(&self) -> anyhow::Result<Vec<Structure>> {
+        match &self.structures {
+            Some(structures) => structures.resolve(),
+            None if !self.parameters.is_given() => Err(UsageError::because(
+                "no structure; expected --width M --height M of a block; or --p, --alpha and --eta; or --structures FILE; --structures paper are both of the paper",
+            )),
+            None => Ok(vec![self.parameters.spec().structure()?]),
+        }
+    }
+}
+
+/// One structure on the command line.
+#[derive(Debug, Clone, PartialEq, Default, Args, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", default)]
+#[command(next_help_heading = "Structure")]
+pub struct StructureOptions {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub structures: StructuresOptions,
     /// Name of the structure in that file [default: the only one]
     #[arg(long, requires = "structures")]
     pub name: Option<String>,
 }
 
 impl StructureOptions {
-    /// Whether there is any.
-    pub fn is_given(&self) -> bool {
-        [self.p, self.alpha, self.eta, self.width, self.height, self.beam_mass_ratio]
-            .iter()
-            .any(Option::is_some)
-            || self.structures.is_some()
-    }
-
-    /// Makes the path of a structures file relative to `folder`, that of the pipeline file.
-    pub fn resolve_paths(&mut self, folder: &Path) {
-        if let Some(structures) = &mut self.structures {
-            *structures = folder.join(&*structures);
-        }
-    }
-
     /// The structure as it is given, or as it is in the file.
     ///
     /// # Errors
     /// If it is not in the file, or the file cannot be read.
     pub fn spec(&self) -> anyhow::Result<StructureSpec> {
-        let Some(path) = &self.structures else {
-            return Ok(StructureSpec {
-                name: None,
-                p: self.p,
-                alpha: self.alpha,
-                eta: self.eta,
-                width: self.width,
-                height: self.height,
-                beam_mass_ratio: self.beam_mass_ratio,
-            });
-        };
-        let mut structures = Structures::File(path.clone()).resolve()?;
-        let names: Vec<String> = structures.iter().map(|structure| structure.name.clone()).collect();
+        let StructuresOptions { parameters, structures } = &self.structures;
+        let Some(structures) = structures else { return Ok(parameters.spec()) };
+        let mut all = structures.resolve()?;
+        let names: Vec<String> = all.iter().map(|structure| structure.name.clone()).collect();
         let place = match &self.name {
             Some(name) => names.iter().position(|known| known == name),
             None => (names.len() == 1).then_some(0),
         };
         let Some(place) = place else {
-            return Err(UsageError::because(format!(
-                "{}: expected --name with one of {}",
-                path.display(),
-                names.join(", ")
-            )));
+            let expected = format!("expected --name with one of {}", names.join(", "));
+            return Err(UsageError::because(format!("{structures}: {expected}")));
         };
-        Ok(StructureSpec::from(structures.swap_remove(place)))
+        Ok(StructureSpec::from(all.swap_remove(place)))
     }
 }

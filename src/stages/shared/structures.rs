@@ -1,4 +1,4 @@
-//! Structures as a user names them: by p, alpha and eta, as a block, or as a frame.
+//! Structures as a user names them: by p, alpha and eta, as a block, as a frame, or those of the paper.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -6,16 +6,65 @@ use std::str::FromStr;
 
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{self, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
 use crate::pipeline::UsageError;
-use crate::pipeline::options::explain;
-use crate::rocking::Structure;
-use crate::table::store::text_file;
+use crate::pipeline::options::{explain, from_scalar};
+use crate::rocking::{Structure, StructureError, housner_eta, judge};
+use crate::table::store::text_file::{self, CsvText};
 
 /// The largest file: hundreds of thousands of structures.
 const MOST_MIB: u64 = 16;
+
+/// The ways to give a structure.
+pub const WAYS: &str =
+    "p, alpha and eta (a number, or housner); or width and height (m), with beam-mass-ratio for a frame";
+
+/// A coefficient of restitution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Restitution {
+    /// A number.
+    Given(f64),
+    /// That of a rectangular block of the same slenderness.
+    Housner,
+}
+
+impl Restitution {
+    fn of(self, alpha_rad: f64) -> f64 {
+        match self {
+            Restitution::Given(eta) => eta,
+            Restitution::Housner => housner_eta(alpha_rad),
+        }
+    }
+}
+
+impl FromStr for Restitution {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Restitution, String> {
+        match (text, text.parse()) {
+            ("housner", _) => Ok(Restitution::Housner),
+            (_, Ok(eta)) => Ok(Restitution::Given(eta)),
+            _ => Err(format!("'{text}': expected a number above 0 and up to 1, or housner")),
+        }
+    }
+}
+
+impl Serialize for Restitution {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Restitution::Given(eta) => serializer.serialize_f64(*eta),
+            Restitution::Housner => serializer.serialize_str("housner"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Restitution {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Restitution, D::Error> {
+        from_scalar(deserializer)
+    }
+}
 
 /// One structure: p, alpha and eta; or the width and height (m) of a block or of a frame's columns, with beam-mass-ratio for a
 /// frame. Of the latter two, eta may be left out.
@@ -29,7 +78,7 @@ pub struct StructureSpec {
     /// Slenderness, rad.
     pub alpha: Option<f64>,
     /// Coefficient of restitution.
-    pub eta: Option<f64>,
+    pub eta: Option<Restitution>,
     /// Width 2b of the block or column, m.
     pub width: Option<f64>,
     /// Height 2h of the block or column, m.
@@ -42,24 +91,31 @@ impl StructureSpec {
     /// The structure.
     ///
     /// # Errors
-    /// If parameters are missing, mixed, or out of range.
+    /// If parameters are missing, mixed, or cannot be right.
     pub fn structure(&self) -> anyhow::Result<Structure> {
         let name = self.name.clone().unwrap_or_else(|| self.generic_name());
+        let wrong = |error: StructureError| UsageError::because(error.to_string());
+        judge(&name, &self.given()).map_err(wrong)?;
+        let of_dimensions = |alpha_rad: f64| self.eta.map(|eta| eta.of(alpha_rad));
         let structure = match (self.p, self.alpha, self.eta, self.width, self.height, self.beam_mass_ratio) {
-            (Some(p), Some(alpha), Some(eta), None, None, None) => Structure::new(&name, p, alpha, eta),
-            (None, None, eta, Some(width), Some(height), None) => {
-                Structure::rectangular_block(&name, width, height, eta)
+            (Some(p), Some(alpha), Some(eta), None, None, None) => {
+                Structure::new(&name, p, alpha, eta.of(alpha))
             }
-            (None, None, eta, Some(width), Some(height), Some(ratio)) => {
-                Structure::frame(&name, width, height, ratio, eta)
+            (None, None, _, Some(width), Some(height), None) => {
+                Structure::rectangular_block(&name, width, height, of_dimensions((width / height).atan()))
             }
-            _ => {
-                return Err(UsageError::because(format!(
-                    "structure '{name}': expected p, alpha and eta; or width and height (m), with beam-mass-ratio for a frame"
-                )));
+            (None, None, _, Some(width), Some(height), Some(ratio)) => {
+                Structure::frame(&name, width, height, ratio, of_dimensions((width / height).atan()))
             }
+            _ if self.given().is_empty() && self.name.is_none() => {
+                return Err(UsageError::because(format!("no structure; expected {WAYS}")));
+            }
+            _ => return Err(UsageError::because(format!("structure '{name}': expected {WAYS}"))),
         };
-        structure.map_err(|error| UsageError::because(error.to_string()))
+        let structure = structure.map_err(wrong)?;
+        let Structure { p_rad_s, alpha_rad, eta, .. } = structure;
+        judge(&name, &[("p", p_rad_s), ("alpha", alpha_rad), ("eta", eta)]).map_err(wrong)?;
+        Ok(structure)
     }
 
     /// The structure; `eta` of the fits holds where neither it nor dimensions are given.
@@ -67,21 +123,48 @@ impl StructureSpec {
     /// # Errors
     /// As [`StructureSpec::structure`].
     pub fn structure_with_eta(&self, eta: f64) -> anyhow::Result<Structure> {
-        let eta = self.eta.or_else(|| self.width.is_none().then_some(eta));
-        StructureSpec { eta, ..self.clone() }.structure()
+        let of_fits = || (self.p.is_some() && self.alpha.is_some()).then_some(Restitution::Given(eta));
+        StructureSpec { eta: self.eta.or_else(of_fits), ..self.clone() }.structure()
     }
 
-    fn generic_name(&self) -> String {
+    /// The numbers that are given.
+    fn given(&self) -> Vec<(&'static str, f64)> {
+        let eta = match self.eta {
+            Some(Restitution::Given(eta)) => Some(eta),
+            _ => None,
+        };
         let parts = [
             ("p", self.p),
             ("alpha", self.alpha),
             ("width", self.width),
             ("height", self.height),
-            ("beam", self.beam_mass_ratio),
-            ("eta", self.eta),
+            ("beam-mass-ratio", self.beam_mass_ratio),
+            ("eta", eta),
         ];
-        let given = parts.iter().filter_map(|(name, value)| value.map(|value| format!("{name}{value}")));
-        given.collect::<Vec<_>>().join("-")
+        parts.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
+    }
+
+    fn generic_name(&self) -> String {
+        let short = |name: &'static str| if name == "beam-mass-ratio" { "beam" } else { name };
+        let numbers = self.given().into_iter().map(|(name, value)| format!("{}{value}", short(name)));
+        let housner = (self.eta == Some(Restitution::Housner)).then(|| "housner".to_string());
+        numbers.chain(housner).collect::<Vec<_>>().join("-")
+    }
+
+    /// Takes a cell of a CSV file.
+    fn set(&mut self, column: &str, text: &str) -> Result<(), String> {
+        let number = || text.parse().map_err(|_| format!("'{text}'; expected a number, such as 2.5"));
+        match column {
+            "name" => self.name = Some(text.to_string()),
+            "eta" => self.eta = Some(text.parse()?),
+            "p" => self.p = Some(number()?),
+            "alpha" => self.alpha = Some(number()?),
+            "width" => self.width = Some(number()?),
+            "height" => self.height = Some(number()?),
+            "beam_mass_ratio" => self.beam_mass_ratio = Some(number()?),
+            _ => return Err(format!("unknown column; expected name, with {WAYS}")),
+        }
+        Ok(())
     }
 }
 
@@ -92,7 +175,7 @@ impl From<Structure> for StructureSpec {
             name: Some(name),
             p: Some(p_rad_s),
             alpha: Some(alpha_rad),
-            eta: Some(eta),
+            eta: Some(Restitution::Given(eta)),
             ..StructureSpec::default()
         }
     }
@@ -115,17 +198,30 @@ pub fn parameters(structures: &[Structure]) -> Value {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Structures {
+    /// Those of the paper.
+    #[serde(serialize_with = "paper")]
+    Paper,
     /// From a YAML or CSV file.
     File(PathBuf),
     /// From the pipeline file itself.
     List(Vec<StructureSpec>),
 }
 
+impl fmt::Display for Structures {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Structures::Paper => f.write_str(PAPER),
+            Structures::File(path) => path.display().fmt(f),
+            Structures::List(_) => f.write_str("structures"),
+        }
+    }
+}
+
 impl FromStr for Structures {
     type Err = std::convert::Infallible;
 
     fn from_str(path: &str) -> Result<Structures, Self::Err> {
-        Ok(Structures::File(PathBuf::from(path)))
+        Ok(if path == PAPER { Structures::Paper } else { Structures::File(PathBuf::from(path)) })
     }
 }
 
@@ -142,11 +238,13 @@ impl<'de> Visitor<'de> for FileOrList {
     type Value = Structures;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("the name of a file, or a list of structures")
+        f.write_str(
+            "the name of a file, paper, or a list of structures: [{ name: block, width: 0.6, height: 2.4 }]",
+        )
     }
 
     fn visit_str<E: de::Error>(self, path: &str) -> Result<Structures, E> {
-        Ok(Structures::File(PathBuf::from(path)))
+        path.parse().map_err(E::custom)
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Structures, A::Error> {
@@ -168,6 +266,7 @@ impl Structures {
     /// If the file cannot be read, there is no structure, one is impossible, or two have the same name.
     pub fn resolve(&self) -> anyhow::Result<Vec<Structure>> {
         let specs = match self {
+            Structures::Paper => PAPERS.map(of_paper).to_vec(),
             Structures::List(specs) => specs.clone(),
             Structures::File(path) => read(path)?,
         };
@@ -187,19 +286,60 @@ impl Structures {
     }
 }
 
+/// The word for the structures of the paper: name, p (rad/s) and alpha (rad), of eta 0.92.
+const PAPER: &str = "paper";
+const PAPERS: [(&str, f64, f64); 2] = [("frame", 1.0, 0.15), ("electrical-equipment", 2.5, 0.20)];
+
+fn of_paper((name, p, alpha): (&str, f64, f64)) -> StructureSpec {
+    StructureSpec {
+        name: Some(name.to_string()),
+        p: Some(p),
+        alpha: Some(alpha),
+        eta: Some(Restitution::Given(0.92)),
+        ..StructureSpec::default()
+    }
+}
+
+fn paper<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(PAPER)
+}
+
 fn read(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
     let failed = |what: String| UsageError::because(format!("{}: {what}", path.display()));
-    let text = text_file::text(path, MOST_MIB, "structures").map_err(|error| failed(error.to_string()))?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    match extension.as_str() {
-        "yaml" | "yml" => serde_saphyr::from_str(&text).map_err(|error| failed(explain(&error))),
-        "csv" => {
-            let rows = csv::ReaderBuilder::new()
-                .trim(csv::Trim::All)
-                .from_reader(text.as_bytes())
-                .into_deserialize();
-            rows.collect::<Result<_, _>>().map_err(|error| failed(error.to_string()))
+    let read = match extension.as_str() {
+        "yaml" | "yml" => from_yaml,
+        "csv" => from_csv,
+        _ => {
+            return Err(failed(
+                "expected a .yaml, .yml or .csv file of structures, or the word paper".to_string(),
+            ));
         }
-        _ => Err(failed("expected a .yaml, .yml or .csv file of structures".to_string())),
+    };
+    let text = text_file::text(path, MOST_MIB, "structures").map_err(|error| failed(error.to_string()))?;
+    read(&text).map_err(failed)
+}
+
+fn from_yaml(text: &str) -> Result<Vec<StructureSpec>, String> {
+    let is_content = |line: &&str| !line.is_empty() && !line.starts_with(['#', '%']) && *line != "---";
+    match text.lines().map(str::trim).find(is_content) {
+        Some(line) if !line.starts_with(['-', '[']) => Err(format!(
+            "'{line}'; expected a list, each structure on a line: - {{ name: block, width: 0.6, height: 2.4 }}"
+        )),
+        _ => serde_saphyr::from_str(text).map_err(|error| explain(&error)),
     }
+}
+
+fn from_csv(text: &str) -> Result<Vec<StructureSpec>, String> {
+    let table = CsvText::new(text).map_err(|error| error.to_string())?;
+    let names = table.names.clone();
+    let spec = |row: csv::Result<(u64, csv::StringRecord)>| {
+        let (line, record) = row.map_err(|error| error.to_string())?;
+        let mut spec = StructureSpec::default();
+        for (name, cell) in names.iter().zip(&record).filter(|(_, cell)| !cell.is_empty()) {
+            spec.set(name, cell).map_err(|wrong| format!("line {line}, column '{name}': {wrong}"))?;
+        }
+        Ok(spec)
+    };
+    table.rows().map(spec).collect()
 }

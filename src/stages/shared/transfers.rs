@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 
+use crate::rocking::Block;
 use crate::rocking::Structure;
-use crate::table::fits::Block;
 
 /// What `rockfrag universality` found: the curves of one structure on 61 others.
 const STUDY: &str = include_str!("../../../data/universality.csv");
@@ -11,7 +11,9 @@ const STUDY: &str = include_str!("../../../data/universality.csv");
 const REFERENCE: &str = "electrical-equipment";
 
 /// Bounds of |ln(ratio)| of slenderness, |ln(ratio)| of p, and difference in eta, that divide transfers into near and far ones.
-const BANDS: [&[f64]; 3] = [&[0.01, 0.3, 0.75], &[0.01, 0.5, 1.0], &[0.005]];
+const BANDS: [&[f64]; 3] = [&[0.3, 0.75], &[0.5, 1.0], &[0.005]];
+/// A difference in the logarithm of p or alpha that the response hardly feels.
+const SAME: f64 = 0.01;
 
 /// A row of the study.
 #[derive(Debug, Deserialize)]
@@ -27,21 +29,23 @@ struct Transfer {
     verdict: String,
 }
 
+/// |ln(ratio)| of slenderness and of p.
+fn ln_ratios(block: Block, other: Block) -> [f64; 2] {
+    let ln_ratio = |a: f64, b: f64| (a / b).ln().abs();
+    [ln_ratio(block.alpha_rad, other.alpha_rad), ln_ratio(block.p_rad_s, other.p_rad_s)]
+}
+
 /// How far a structure is from the one that was fitted: the band of slenderness, of p and of eta.
 fn distance((block, eta): (Block, f64), (other, other_eta): (Block, f64)) -> [usize; 3] {
-    let ln_ratio = |a: f64, b: f64| (a / b).ln().abs();
-    let differences = [
-        ln_ratio(block.alpha_rad, other.alpha_rad),
-        ln_ratio(block.p_rad_s, other.p_rad_s),
-        (eta - other_eta).abs(),
-    ];
+    let [alpha, p] = ln_ratios(block, other);
+    let differences = [alpha, p, (eta - other_eta).abs()];
     std::array::from_fn(|axis| BANDS[axis].iter().filter(|&&bound| differences[axis] > bound).count())
 }
 
 /// Whether a structure has another slenderness or size than the one that was fitted.
 pub fn is_other_block(fitted: Block, structure: &Structure) -> bool {
     let block = Block { p_rad_s: structure.p_rad_s, alpha_rad: structure.alpha_rad };
-    distance((fitted, 0.0), (block, 0.0)) != [0; 3]
+    ln_ratios(fitted, block).iter().any(|difference| *difference > SAME)
 }
 
 /// What the study found for curves of overturning taken as far as from the fitted structure to this one, in words; none if it is

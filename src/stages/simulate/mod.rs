@@ -9,9 +9,10 @@ use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-pub use self::options::SimulateOptions;
-use super::shared::motions::{DistinctIds, Peaks, record};
+pub use self::options::{SimulateOptions, simd};
+use super::shared::motions::{DistinctIds, FOR_RANKING, Judge, Peaks, note_passed_over, record};
 use super::shared::partitions::{PartitionedInput, is_folder, out_of_partition};
+use super::shared::reasons::{Case, Reasons};
 use super::shared::structures::parameters;
 use super::synthesize_motions::SynthesizeMotions;
 use crate::motion::IntensityScratch;
@@ -23,6 +24,7 @@ use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Problem, Record, Simd, Structure, simulate_all, trace, with_tail};
 use crate::table::TableError;
+use crate::table::motion_measures::own_columns;
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
 use crate::table::responses::{RESPONSES, ResponseRow};
@@ -66,8 +68,8 @@ impl Simulate {
             ));
         }
         Ok(Simulate {
-            structures: options.structures()?,
-            simd: options.simd()?,
+            structures: options.structure.resolve()?,
+            simd: simd(options.simd)?,
             traced: options.trace.clone().map_or(Vec::new(), |Several(ids)| ids),
             input: PartitionedInput::new(input.into(), partition)?,
             out: out.into(),
@@ -80,6 +82,7 @@ impl Simulate {
         path: &Path,
         motions: &[Motion],
         by_name: bool,
+        judge: &Judge,
         scratch: &mut Scratch,
     ) -> anyhow::Result<Responded> {
         let Scratch { samples, intensity } = scratch;
@@ -98,7 +101,12 @@ impl Simulate {
         let traced = motions.iter().zip(&records);
         let traced = traced.filter(|(motion, _)| self.traced.contains(&motion.motion_id.to_string()));
         let traces = traced.map(|(motion, record)| self.trace(&motion.motion_id, record, by_name));
+        let judged = motions.iter().zip(&records);
+        let doubts = judged
+            .filter_map(|(motion, record)| judge.doubt(path, motion, record.acceleration_m_s2()))
+            .collect();
         Ok(Responded {
+            doubts,
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             rows: ResponseRow::batch_in(&rows, &schema_of(&RESPONSES, by_name))?,
             traces: traces.collect::<anyhow::Result<_>>()?,
@@ -167,6 +175,7 @@ struct Responded {
     motion_ids: Vec<MotionId>,
     rows: RecordBatch,
     traces: Vec<Trace>,
+    doubts: Vec<Case>,
 }
 
 /// The trace of a motion.
@@ -257,10 +266,11 @@ impl Stage for Simulate {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let motions = MotionTable::open(&self.input.source, self.input.rows)?;
+        note_passed_over(&self.input.source, &own_columns(&self.input.source)?, FOR_RANKING, console);
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
         let mut writer = motions::writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
-        let mut ids = DistinctIds::default();
-        let mut traces: Vec<Trace> = Vec::new();
+        let (mut ids, judge) = (DistinctIds::default(), Judge::new(motions.of_others()));
+        let (mut traces, mut doubts): (Vec<Trace>, Reasons) = (Vec::new(), Reasons::default());
         let pool = Pool::new(Scratch::default);
         let bar = console.bar(self.name(), total);
         pipelined(
@@ -270,7 +280,8 @@ impl Stage for Simulate {
                     let path = motions.path_of(part);
                     let simulate_chunk = |chunk: Result<Vec<Motion>, TableError>| {
                         let chunk = chunk?;
-                        let responded = pool.lend(|scratch| self.respond(&path, &chunk, by_name, scratch))?;
+                        let responded =
+                            pool.lend(|scratch| self.respond(&path, &chunk, by_name, &judge, scratch))?;
                         bar.inc(chunk.len() as u64)?;
                         Ok(responded)
                     };
@@ -281,9 +292,10 @@ impl Stage for Simulate {
                 Ok(responded.into_iter().flatten())
             },
             |responded| {
-                for Responded { motion_ids, rows, traces: traced } in responded {
+                for Responded { motion_ids, rows, traces: traced, doubts: doubtful } in responded {
                     ids.add(self.input.source.name(), &motion_ids)?;
                     traces.extend(traced);
+                    doubtful.into_iter().for_each(|case| doubts.add(case));
                     writer.append(&rows)?;
                 }
                 Ok(())
@@ -299,6 +311,7 @@ impl Stage for Simulate {
         }
         writer.finish()?;
         bar.finish();
+        doubts.lines("motions").for_each(|line| console.warn(&line));
         Ok(format!(
             "{} responses of {} structure(s)",
             total * self.structures.len() as u64,

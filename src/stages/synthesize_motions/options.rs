@@ -66,8 +66,8 @@ pub struct SynthesizeMotionsOptions {
     /// Scenarios in a row group: what is held in memory and read at once; the rows do not depend on it
     #[arg(long, default_value = "128")]
     pub row_group: usize,
-    /// Only partition i of n, i from 0 to n - 1: an equal share of the scenarios; the output is then a folder, in which it is
-    /// part-0000i.parquet
+    /// Only partition i of n, i from 0 to n - 1: an equal share of the scenarios, of which the later ones take longer; the output
+    /// is then a folder, in which it is part-0000i.parquet
     #[arg(long, value_name = "I/N")]
     pub partition: Option<Parsed<Partition>>,
 }

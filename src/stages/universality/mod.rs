@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 use super::shared::fits::ModelForm;
 use super::shared::groups::{self, Group};
+use super::shared::uncertainty::LIMIT_STATE;
 use super::simulate::Simulate;
 use crate::fragility::Event;
 use crate::fragility::Measure;
@@ -16,7 +17,7 @@ use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
-use crate::pipeline::options::{Word, check, defaults};
+use crate::pipeline::options::{Word, check, check_bound, defaults};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
 use crate::statistics::FitStatus;
@@ -91,7 +92,7 @@ impl Universality {
         out: impl Into<Target>,
     ) -> anyhow::Result<Universality> {
         let (limit, transition) = (options.limit_state, options.transition);
-        check(limit > 0.0 && limit.is_finite(), "limit-state", limit, "a demand |theta|max / alpha above 0")?;
+        check_bound(&LIMIT_STATE, limit)?;
         check(transition > 1.0 && transition < 100.0, "transition", transition, "an IM4 above 1")?;
         let form = match (options.model.0, options.measure) {
             (ModelForm::Bivariate, Some(measure)) => {

@@ -59,7 +59,7 @@ pub struct Column {
 }
 
 impl Column {
-    pub(super) const fn new(
+    pub(in crate::table) const fn new(
         name: &'static str,
         kind: Kind,
         unit: &'static str,

@@ -60,7 +60,7 @@ columns! {
     alpha_rad: Float64, "rad", "slenderness of the structure";
     eta: Float64, "1", "coefficient of restitution";
     outcome: Text, "1", "no_rocking, safe_rocking or overturning";
-    edp: Float64, "1", "largest rotation over slenderness, |theta|max / alpha (Eq. 7)";
+    edp: Float64, "1", "largest rotation over slenderness, |theta|max / alpha (Eq. 7); null where it overturns";
     impacts: Int32, "1", "impacts within the duration of the record";
     im1: Float64, "1", "wp / p (Eq. 13)";
     im2: Float64, "1", "wm / p (Eq. 13)";
@@ -157,7 +157,7 @@ columns! {
 // Curves of overturning and rocking.
 columns! {
     fitted_event = "event": Text, "1", "overturning, or rocking";
-    lambda: Float64, "1", "exponent of im_x in the hybrid measure (Eq. 22)";
+    lambda: Float64, "1", "exponent of im_x in the hybrid measure (Eq. 23)";
     mu: Float64, "1", "logarithm of the median of the measure at overturning (its mean, for the probit)";
     theta: Float64, "1", "median exp(mu)";
     log_likelihood: Float64, "1", "log-likelihood at its maximum";
@@ -216,7 +216,7 @@ columns! {
     p_ex: Float64, "1", "probability of a demand above the limit state, in safe rocking (Eq. 14)";
     p_ex_low: Float64, "1", "lower 95 % limit of p_ex";
     p_ex_high: Float64, "1", "upper 95 % limit of p_ex";
-    p_ro: Float64, "1", "probability of overturning given rocking (Eq. 19)";
+    p_ro: Float64, "1", "probability of overturning given rocking (Eq. 20; of a hybrid Eq. 24)";
     p_ro_low: Float64, "1", "lower 95 % limit of p_ro";
     p_ro_high: Float64, "1", "upper 95 % limit of p_ro";
     p_f_r: Float64, "1", "probability of failure given rocking (Eq. 12)";
@@ -224,7 +224,7 @@ columns! {
     p_f_r_high: Float64, "1", "upper 95 % limit of p_f_r";
     p_f: Float64, "1", "probability of failure over the whole tree; exactly 0 without rocking";
     out_of_range: Text, "1", "a measure outside of the range of the data of the fits";
-    im_hybrid: Float64, "1", "hybrid measure of P_ro: im_x^(lambda/(1 + lambda)) im_y^(1/(1 + lambda)) (Eq. 22)";
+    im_hybrid: Float64, "1", "hybrid measure of P_ro: im_x^(lambda/(1 + lambda)) im_y^(1/(1 + lambda)) (Eq. 23)";
     asked = "quantity": Text, "1", "a probability, or a measure of the intensity";
     value: Float64, "1", "best estimate";
     low: Float64, "1", "lower 95 % limit";
@@ -292,12 +292,13 @@ columns! {
     measure: Text, "1", "what intensity is: scale (of the motion as it is), pga (in g), pgv (in m/s), im4, im5 or im6";
     intensity: Float64, "1", "the measure of the scaled motion";
     unscaled: Float64, "1", "the measure of the motion as it is";
+    overturning_above: Float64, "1", "share of the intensities from this level to the next, in logarithms, that overturn the structure; null: the last level";
     capacity: Text, "1", "overturns (within the scan), safe (throughout), or below (overturns already at its foot)";
-    safe_below: Float64, "1", "largest intensity below all that overturn the structure; null: none in the scan";
-    overturning_intensity: Float64, "1", "least intensity that overturns the structure; null: none in the scan";
-    safe_windows: Int64, "1", "ranges of larger intensities that it survives";
-    safe_up_to: Float64, "1", "largest intensity that it survives; null: none in the scan";
-    window: Int64, "1", "number of the window, rising with the intensity";
+    safe_below: Float64, "1", "largest simulated intensity below all that overturn the structure; null: none in the scan";
+    overturning_intensity: Float64, "1", "least simulated intensity that overturns the structure; null: none in the scan";
+    safe_windows: Int64, "1", "ranges of larger intensities, as wide as the resolution, of which it survives all that were simulated";
+    safe_up_to: Float64, "1", "largest simulated intensity that it survives; null: none in the scan";
+    window: Int64, "1", "number of the window (a range of simulated intensities that are all safe), rising with the intensity";
     window_low: Float64, "1", "least intensity of the window";
     window_high: Float64, "1", "largest intensity of the window; null: the scan ends within it";
     overturned: Int64, "1", "motions that overturn the structure at this intensity";
@@ -345,9 +346,12 @@ columns! {
     quantity: Text, "1", "what was published";
     place: Text, "1", "where the paper prints it";
     published: Float64, "1", "the published number";
-    ours: Float64, "1", "the same number from these files";
+    ours: Float64, "1", "the same number from these files; of a rms, the published plane less ours in ln EDP (over beta) at our cases";
     spread_mean: Float64, "1", "mean of ours over seeds";
     spread_sd: Float64, "1", "standard deviation of ours over seeds";
     seeds: Int32, "1", "number of seeds of the spread";
-    z: Float64, "1", "(published - mean) / standard deviation";
+    z: Float64, "1", "(published - mean) / standard deviation; null where the mean lies within the rounding of the print, and that is more than two of these";
+    seed_rms: Float64, "1", "what ours is between the planes of two of our seeds, root of the mean square";
+    t2: Float64, "1", "Hotelling's T2 of the published ln a, b1, b2 and R2 of a plane about ours over seeds, which depend on each other";
+    t2_p: Float64, "1", "probability of a t2 as large, if the published plane is one more of ours";
 }

@@ -52,7 +52,11 @@ pub fn partition(folder: &Path, wanted: Partition) -> Result<PathBuf, TableError
     ))
 }
 
-fn parquet_files(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
+/// The Parquet files in a folder, in the order of names, without hidden ones.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn parquet_files(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
     let entries = std::fs::read_dir(folder).map_err(|source| TableError::io(folder, source))?;
     let mut files = Vec::new();
     for entry in entries {

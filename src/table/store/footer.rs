@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use arrow_schema::SchemaRef;
@@ -153,11 +154,21 @@ fn open_file(path: &Path) -> Result<File, TableError> {
     }
 }
 
+/// Whether a file was one of Parquet once, for all that is wrong with it.
+fn begins_as_parquet(path: &Path) -> bool {
+    let mut start = [0; MAGIC.len()];
+    File::open(path).is_ok_and(|mut file| file.read_exact(&mut start).is_ok() && start == *MAGIC)
+}
+
 pub(super) fn not_parquet(path: &Path, source: ParquetError) -> TableError {
     let path = path.to_path_buf();
     let message = source.to_string();
     if message.contains("Disabled feature") {
         return TableError::Codec { path, message };
     }
-    TableError::NotParquet { path, source }
+    if !begins_as_parquet(&path) {
+        let expected = "a table that rockfrag made, or one with its columns".to_string();
+        return TableError::NoParquet { path, expected };
+    }
+    TableError::NotParquet { path, cause: source }
 }

@@ -43,7 +43,7 @@ impl Partition {
     }
 
     /// That which `parameters` name.
-    pub(super) fn among(parameters: &Value) -> Option<Partition> {
+    pub fn among(parameters: &Value) -> Option<Partition> {
         parameters.get(PARAMETER)?.as_str()?.parse().ok()
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
 
 use parquet::file::metadata::{KeyValue, ParquetMetaData};
 use serde_json::Value;
@@ -20,6 +21,31 @@ const PARAMETERS: &str = "rockfrag.parameters";
 const INPUTS: &str = "rockfrag.inputs";
 const CACHE_KEY: &str = "rockfrag.cache_key";
 const CONTENT: &str = "rockfrag.content";
+const WARNINGS: &str = "rockfrag.warnings";
+
+/// The warnings of a stage while it works; whoever writes its files takes them from here.
+#[derive(Debug, Clone, Default)]
+pub struct Warnings(Arc<Mutex<Vec<String>>>);
+
+impl Warnings {
+    /// Adds one.
+    pub fn push(&self, warning: &str) {
+        if let Ok(mut all) = self.0.lock() {
+            all.push(warning.to_string());
+        }
+    }
+
+    /// All so far.
+    pub fn all(&self) -> Vec<String> {
+        self.0.lock().map_or(Vec::new(), |all| all.clone())
+    }
+}
+
+impl PartialEq for Warnings {
+    fn eq(&self, other: &Warnings) -> bool {
+        self.all() == other.all()
+    }
+}
 
 /// How a file comes to be: enough to make it again, and to know that it need not be made again.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,13 +59,16 @@ pub struct Provenance {
     pub inputs: BTreeMap<String, String>,
     /// Where the inputs are, by their roles, as far as they can be looked at again; the file does not say.
     pub sources: BTreeMap<String, PathBuf>,
+    /// What was warned of while the rows were made.
+    pub warnings: Warnings,
 }
 
 impl Provenance {
     /// Of a file that this version of rockfrag makes.
     pub fn new(stage: &str, parameters: Value, inputs: BTreeMap<String, String>) -> Provenance {
         let version = env!("CARGO_PKG_VERSION").to_string();
-        Provenance { stage: stage.to_string(), version, parameters, inputs, sources: BTreeMap::new() }
+        let (sources, warnings) = (BTreeMap::new(), Warnings::default());
+        Provenance { stage: stage.to_string(), version, parameters, inputs, sources, warnings }
     }
 
     /// With the places of its inputs.
@@ -47,13 +76,14 @@ impl Provenance {
         Provenance { sources, ..self }
     }
 
-    /// The fingerprint of what is to be done: equal plans give equal rows.
+    /// The fingerprint of what is to be done: equal keys give equal rows.
     pub fn cache_key(&self) -> String {
         let key = serde_json::json!([self.stage, self.version, self.parameters, self.inputs]);
         blake3::hash(key.to_string().as_bytes()).to_hex().to_string()
     }
 
     pub(super) fn key_values(&self, content: &str) -> Vec<KeyValue> {
+        let warnings = self.warnings.all();
         [
             (FORMAT, FORMAT_VERSION.to_string()),
             (STAGE, self.stage.clone()),
@@ -63,8 +93,10 @@ impl Provenance {
             (CACHE_KEY, self.cache_key()),
             (CONTENT, content.to_string()),
         ]
+        .into_iter()
+        .chain((!warnings.is_empty()).then(|| (WARNINGS, serde_json::json!(warnings).to_string())))
         .map(|(key, value)| KeyValue::new(key.to_string(), value))
-        .to_vec()
+        .collect()
     }
 }
 
@@ -93,6 +125,7 @@ pub(super) fn recorded_in(path: &Path, metadata: &ParquetMetaData) -> Result<Opt
         let version = get(VERSION).unwrap_or_default();
         return Err(TableError::Newer { path: path.to_path_buf(), version, format, known: FORMAT_VERSION });
     }
+    let warnings = get(WARNINGS).and_then(|words| serde_json::from_str(&words).ok()).unwrap_or_default();
     let recorded = || {
         Some(Recorded {
             provenance: Provenance {
@@ -101,6 +134,7 @@ pub(super) fn recorded_in(path: &Path, metadata: &ParquetMetaData) -> Result<Opt
                 parameters: serde_json::from_str(&get(PARAMETERS)?).ok()?,
                 inputs: serde_json::from_str(&get(INPUTS)?).ok()?,
                 sources: BTreeMap::new(),
+                warnings: Warnings(Arc::new(Mutex::new(warnings))),
             },
             cache_key: get(CACHE_KEY)?,
             content: get(CONTENT)?,

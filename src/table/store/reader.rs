@@ -88,6 +88,12 @@ impl OpenTable {
         self.fragments.iter().flat_map(Fragment::rows_of_groups).sum()
     }
 
+    /// The files that do not say which of our stages made them, or the table in memory.
+    pub fn of_others(&self) -> impl Iterator<Item = Arc<Path>> {
+        let is_ours = |fragment: &&Fragment| matches!(fragment, Fragment::File(file) if file.is_ours);
+        self.fragments.iter().filter(move |fragment| !is_ours(fragment)).map(Fragment::path)
+    }
+
     /// The columns that will be read, of each file.
     ///
     /// # Errors

@@ -27,6 +27,8 @@ pub(super) struct TableFile {
     pub path: Arc<Path>,
     /// The columns that will be read.
     pub schema: SchemaRef,
+    /// Whether it says by which of our stages it was made.
+    pub is_ours: bool,
     file: SharedFile,
     metadata: ArrowReaderMetadata,
     columns: ProjectionMask,
@@ -55,9 +57,7 @@ impl TableFile {
         is_wanted: impl Fn(&str) -> bool,
     ) -> Result<TableFile, TableError> {
         let Opened { file, metadata } = footer::open(path)?;
-        if let Some(stages) = stages {
-            expect_stage(path, metadata.metadata(), stages)?;
-        }
+        let is_ours = expect_stage(path, metadata.metadata(), stages)?;
         let fields = metadata.schema().fields();
         let wanted: Vec<usize> =
             (0..fields.len()).filter(|&column| is_wanted(fields[column].name())).collect();
@@ -65,7 +65,7 @@ impl TableFile {
         let schema = Arc::new(schema.map_err(|source| not_parquet(path, source))?);
         let columns = ProjectionMask::roots(metadata.parquet_schema(), wanted.iter().copied());
         let lists = lists_among(&wanted, &metadata);
-        Ok(TableFile { path: path.into(), schema, file, metadata, columns, lists })
+        Ok(TableFile { path: path.into(), schema, is_ours, file, metadata, columns, lists })
     }
 
     /// How many rows each of its row groups has.
@@ -160,17 +160,18 @@ fn lists_among(wanted: &[usize], metadata: &ArrowReaderMetadata) -> Vec<ListColu
     wanted.iter().enumerate().filter_map(list_column).collect()
 }
 
-/// That a file which says by which stage it was made was made by one of these.
-fn expect_stage(path: &Path, metadata: &ParquetMetaData, stages: &[&str]) -> Result<(), TableError> {
-    match recorded_in(path, metadata)? {
-        Some(recorded) if !stages.contains(&recorded.provenance.stage.as_str()) => {
-            Err(TableError::OtherStage {
-                path: path.to_path_buf(),
-                found: recorded.provenance.stage,
-                expected: stages.join(" or "),
-            })
+/// That a file which says by which stage it was made was made by one of these, if some are given; tells whether it does say so.
+fn expect_stage(
+    path: &Path,
+    metadata: &ParquetMetaData,
+    stages: Option<&[&str]>,
+) -> Result<bool, TableError> {
+    let Some(stages) = stages else { return Ok(false) };
+    match recorded_in(path, metadata)?.map(|recorded| recorded.provenance.stage) {
+        Some(found) if !stages.contains(&found.as_str()) => {
+            Err(TableError::OtherStage { path: path.to_path_buf(), found, expected: stages.join(" or ") })
         }
-        _ => Ok(()),
+        found => Ok(found.is_some()),
     }
 }
 

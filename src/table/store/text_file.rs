@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::path::Path;
 
+use csv::{Position, Reader, ReaderBuilder, StringRecord, Trim};
+
 use super::writer::temporary_beside;
 use crate::table::TableError;
 
@@ -49,4 +51,48 @@ pub fn write(path: &Path, content: impl AsRef<[u8]>) -> std::result::Result<(), 
     partial.write_all(content.as_ref()).map_err(|source| TableError::io(path, source))?;
     partial.persist(path).map_err(|refused| TableError::io(path, refused.error))?;
     Ok(())
+}
+
+/// The table of a CSV file, as spreadsheets of any country write it: names in any letter case; semicolons between the cells, and then a
+/// comma before the decimals. Lines that begin with # are words.
+pub struct CsvText<'a> {
+    /// The names of the columns, in lower case, with underscores.
+    pub names: Vec<String>,
+    has_semicolons: bool,
+    reader: Reader<&'a [u8]>,
+}
+
+impl<'a> CsvText<'a> {
+    /// Reads the names.
+    ///
+    /// # Errors
+    /// If the text is no CSV.
+    pub fn new(text: &'a str) -> csv::Result<CsvText<'a>> {
+        let text = text.trim_start_matches('\u{feff}');
+        let header = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
+        let has_semicolons = header.contains(';') && !header.contains(',');
+        let mut builder = ReaderBuilder::new();
+        builder.comment(Some(b'#')).trim(Trim::All).delimiter(if has_semicolons { b';' } else { b',' });
+        let mut reader = builder.from_reader(text.as_bytes());
+        let plain = |name: &str| name.to_lowercase().replace([' ', '-'], "_");
+        let names = reader.headers()?.iter().map(plain).collect();
+        Ok(CsvText { names, has_semicolons, reader })
+    }
+
+    /// The rows with their lines, in order.
+    pub fn rows(self) -> impl Iterator<Item = csv::Result<(u64, StringRecord)>> + use<'a> {
+        let has_semicolons = self.has_semicolons;
+        self.reader.into_records().map(move |record| {
+            let record = record?;
+            let line = record.position().map_or(0, Position::line);
+            if !has_semicolons {
+                return Ok((line, record));
+            }
+            let with_point = |cell: &str| {
+                let point = cell.replace(',', ".");
+                if point.parse::<f64>().is_ok() { point } else { cell.to_string() }
+            };
+            Ok((line, record.iter().map(with_point).collect()))
+        })
+    }
 }

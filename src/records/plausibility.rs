@@ -1,0 +1,127 @@
+//! Whether an acceleration can be that of an earthquake: a wrong unit, a wrong time step and damaged samples give motions that
+//! no instrument has ever recorded.
+
+use crate::motion::intensity::{peak, velocity};
+use crate::units::G_M_S2;
+
+/// Time steps of records, s: from instruments of 200 to 500 samples a second down to film digitised by hand, with a margin.
+const STEPS_S: (f64, f64) = (1e-4, 0.1);
+/// The largest recorded PGA of a component is 3.95 g (Iwate-Miyagi 2008, IWTH25, vertical); with a margin, m/s2.
+const LARGEST_PGA_M_S2: f64 = 5.0 * G_M_S2;
+/// The largest recorded PGV of a component is about 3 m/s, of both 3.9 m/s (Chi-Chi 1999, TCU068); with a margin, m/s.
+const LARGEST_PGV_M_S: f64 = 5.0;
+/// The range of PGV/PGA, s: TCU068 has 0.8, sites on deep sediments up to 0.9, and sines of 30 Hz 0.005; the records of FEMA
+/// P695 have 0.06 to 0.47.
+const PGV_PGA_S: (f64, f64) = (0.005, 1.0);
+/// The highest mean frequency, Hz: the ground damps what is faster, on the hardest rock above some 20 Hz; the records of FEMA
+/// P695 have 1.5 to 14.
+const HIGHEST_FREQUENCY_HZ: f64 = 30.0;
+/// A spike: one sample that holds this share of the sum of squares, while its neighbours are below this share of it. In the
+/// records of FEMA P695 the largest sample holds 0.044 at most, and its neighbours reach 0.79 of it at least.
+const SPIKE: (f64, f64) = (0.02, 0.25);
+/// The ground is at rest when a record ends: a velocity above this, m/s, that is also above this share of PGV is a drift. The
+/// records of FEMA P695 end at 0.015 m/s and 0.025 of PGV at most.
+const DRIFT: (f64, f64) = (0.1, 0.5);
+/// Accelerographs resolve some 1e-4 g, and a motion of 1e-3 g rocks nothing that stands; m/s2.
+const WEAKEST_PGA_M_S2: f64 = 1e-3 * G_M_S2;
+
+/// Why a motion can hardly be one of an earthquake.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Doubt {
+    /// What was found, such as `PGA 598 g`.
+    pub found: String,
+    /// What is known of records, and which slip it may be.
+    pub reason: &'static str,
+    /// Whether no record was ever like this, rather than few that matter.
+    pub is_impossible: bool,
+}
+
+/// Judges an acceleration (m/s2) at steps of `dt_s`; gives the first doubt.
+pub fn doubt(acceleration: &[f64], dt_s: f64) -> Option<Doubt> {
+    let impossible = |found: String, reason| Some(Doubt { found, reason, is_impossible: true });
+    if !(STEPS_S.0..=STEPS_S.1).contains(&dt_s) {
+        return impossible(
+            format!("dt {} s", rounded(dt_s)),
+            "time steps of records are 0.0001 to 0.1 s; milliseconds, or sample numbers in place of times?",
+        );
+    }
+    let pga = peak(acceleration);
+    if pga == 0.0 {
+        return impossible("0 throughout".to_string(), "a motion without motion; another column?");
+    }
+    if let Some(sample) = spike(acceleration, pga) {
+        return impossible(
+            format!("sample {} of {} g", sample + 1, rounded(pga / G_M_S2)),
+            "it stands alone, among samples below a quarter of it; a spike or a damaged number?",
+        );
+    }
+    if pga > LARGEST_PGA_M_S2 {
+        return impossible(
+            format!("PGA {} g", rounded(pga / G_M_S2)),
+            "the largest ever recorded is about 4 g; another unit, such as cm/s2?",
+        );
+    }
+    let velocity = velocity(acceleration, dt_s);
+    let pgv = peak(&velocity);
+    let last = velocity.last().map_or(0.0, |last| last.abs());
+    if last > DRIFT.0 && last > DRIFT.1 * pgv {
+        return impossible(
+            format!("velocity of {} m/s at the end", rounded(last)),
+            "the ground comes to rest; an offset or a trend, which import-motions --baseline linear removes, or the end is cut off?",
+        );
+    }
+    if pgv > LARGEST_PGV_M_S {
+        return impossible(
+            format!("PGV {} m/s", rounded(pgv)),
+            "the largest ever recorded is about 4 m/s; another unit or time step, or an offset?",
+        );
+    }
+    if pgv > PGV_PGA_S.1 * pga {
+        return impossible(
+            format!("PGV/PGA {} s", rounded(pgv / pga)),
+            "records have up to about 0.9 s; a time step too long, or velocity in place of acceleration?",
+        );
+    }
+    let frequency = mean_frequency(acceleration, dt_s);
+    if frequency > HIGHEST_FREQUENCY_HZ || pgv < PGV_PGA_S.0 * pga {
+        return impossible(
+            format!("mean frequency {} Hz, PGV/PGA {} s", rounded(frequency), rounded(pgv / pga)),
+            "records have up to about 20 Hz, and 0.01 s at least; a time step too short, or noise?",
+        );
+    }
+    let weak = Doubt {
+        found: format!("PGA {} g", rounded(pga / G_M_S2)),
+        reason: "too weak to rock anything; another unit, such as g in place of cm/s2?",
+        is_impossible: false,
+    };
+    (pga < WEAKEST_PGA_M_S2).then_some(weak)
+}
+
+/// The place of the largest sample, if it stands alone.
+fn spike(acceleration: &[f64], pga: f64) -> Option<usize> {
+    let at = acceleration.iter().position(|a| a.abs() == pga)?;
+    let neighbours = [at.checked_sub(1), Some(at + 1)].map(|place| acceleration.get(place?));
+    let is_alone = neighbours.into_iter().flatten().all(|a| a.abs() < SPIKE.1 * pga);
+    let squares = || acceleration.iter().map(|a| a * a).sum::<f64>();
+    (is_alone && pga * pga > SPIKE.0 * squares()).then_some(at)
+}
+
+/// The root of the mean square of frequencies, Hz: that of the sine whose steps are as large.
+fn mean_frequency(acceleration: &[f64], dt_s: f64) -> f64 {
+    let steps: f64 = acceleration.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+    let squares: f64 = acceleration.iter().map(|a| a * a).sum();
+    (steps / squares).sqrt() / (std::f64::consts::TAU * dt_s)
+}
+
+/// To three digits.
+fn rounded(value: f64) -> String {
+    let digits = 2 - libm::floor(libm::log10(value.abs().max(1e-300))) as i32;
+    match usize::try_from(digits) {
+        Ok(decimals) if decimals < 12 => {
+            let text = format!("{value:.decimals$}");
+            if decimals == 0 { text } else { text.trim_end_matches('0').trim_end_matches('.').to_string() }
+        }
+        Ok(_) => format!("{value:.2e}"),
+        Err(_) => format!("{value:.0}"),
+    }
+}
