@@ -22,6 +22,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FENCE = re.compile(r"(`{3,})(.*)")
@@ -230,6 +231,7 @@ def main():
     with tempfile.TemporaryDirectory() as root:
         folders = Folders(pathlib.Path(root), arguments.rockfrag.resolve())
         for page in [Page(path.resolve()) for path in pages]:
+            start = time.monotonic()
             try:
                 page.check(folders, arguments.python, arguments.update)
             except ValueError as error:
@@ -237,7 +239,7 @@ def main():
                 page.wrong += 1
             python = f", python {'run' if arguments.python else 'not run'}" if page.scripts else ""
             if page.printed or python or page.wrong:
-                print(f"{page.name}: {page.printed} commands, {page.ran} run, {page.wrong} wrong{python}", flush=True)
+                print(f"{page.name}: {page.printed} commands, {page.ran} run, {page.wrong} wrong{python}, {time.monotonic() - start:.0f} s", flush=True)
             printed, ran, wrong = printed + page.printed, ran + page.ran, wrong + page.wrong
     print(f"{printed} commands printed, {ran} run, {wrong} wrong")
     sys.exit(1 if wrong and not arguments.update else 0)
