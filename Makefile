@@ -4,6 +4,8 @@
 #     make spread          the spread over seeds that is shipped in data/
 #     make universality    how the curves of one structure do on others, shipped in data/ too
 #     make universal       the fragility surface that is shipped in the program
+#     make book            the documentation, into target/book
+#     make check-docs      what README and docs print, run again
 # `rockfrag run` does the same from pipeline.yaml alone. A stage that finds its file up to date leaves it as it is;
 # touching it tells make so.
 
@@ -11,7 +13,7 @@ ROCKFRAG ?= target/release/rockfrag
 CALL := $(ROCKFRAG) --config pipeline.yaml
 OUT := out
 
-.PHONY: all spread universality universal picture check-exports check-report sbom unsafe attack test clean
+.PHONY: all spread universality universal picture book check-docs check-exports check-report sbom unsafe attack test clean
 
 all: $(OUT)/paper.parquet $(OUT)/report.html
 
@@ -52,6 +54,13 @@ universal: | $(ROCKFRAG)
 
 picture: $(OUT)/pro.parquet
 	python3 scripts/readme_picture.py $(OUT) docs/fragility.png
+
+book: | $(ROCKFRAG)
+	scripts/build_docs.sh $(ROCKFRAG)
+
+# With --update the pages get what came out.
+check-docs: | $(ROCKFRAG)
+	python3 scripts/check_docs.py $(ROCKFRAG)
 
 # OpenQuake and pelicun from PyPI read what export writes: 1.5 GB for the time of the check.
 check-exports: $(OUT)/pex.parquet $(OUT)/pro.parquet

@@ -108,12 +108,11 @@ def test_partitions_are_the_whole(out, tmp_path):
 
 def test_the_five_lines_of_the_readme():
     readme = (pathlib.Path(__file__).parents[2] / "README.md").read_text()
-    start = readme.index("    import matplotlib")
-    lines = readme[start : readme.index("\n\n", start)].splitlines()
+    lines = readme.split("```python\n")[1].split("```")[0].splitlines()
     assert len(lines) == 5
     matplotlib.use("Agg")
     names = {}
     with pytest.warns(rockfrag.RockfragWarning):
-        exec("\n".join(line.strip() for line in lines), names)
+        exec("\n".join(lines), names)
     (curve,) = names["plt"].gca().lines
     assert (np.diff(curve.get_ydata()) > -1e-3).all() and curve.get_ydata()[-1] > 0.9

@@ -72,7 +72,7 @@ pub struct ImportMotionsOptions {
     /// commas; sa_0p20_m_s2 is that at 0.2 s
     #[arg(long)]
     pub sa: Option<Steps>,
-    /// Also compute the Housner intensity, which doubles the time
+    /// Also compute the Housner intensity, 15 times the work or more
     #[arg(long)]
     pub housner: bool,
     /// Take motions that can hardly be those of an earthquake (PGA, PGV, time step, spikes, drift): they are named, and are no

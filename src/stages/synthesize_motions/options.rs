@@ -56,7 +56,7 @@ pub struct SynthesizeMotionsOptions {
     /// Order n of the high-pass filter
     #[arg(long, default_value = "4")]
     pub low_cut_order: u32,
-    /// Also compute the Housner intensity, which doubles the time
+    /// Also compute the Housner intensity, 15 times the work or more
     #[arg(long)]
     pub housner: bool,
     /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers separated by
