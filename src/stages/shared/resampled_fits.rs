@@ -137,11 +137,10 @@ fn curves(path: &Path, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<Predict
     Ok(same.map(|row| with_coefficients(fit, [row.b0, row.b1, row.b2])).collect())
 }
 
-fn of_group<R>(
-    mut rows: Vec<R>,
-    chosen: &ChosenFits,
-    key: fn(&R) -> (&Option<Arc<str>>, &Arc<str>),
-) -> Vec<R> {
+/// The suite and the structure of a row.
+type KeyOf<R> = fn(&R) -> (&Option<Arc<str>>, &Arc<str>);
+
+fn of_group<R>(mut rows: Vec<R>, chosen: &ChosenFits, key: KeyOf<R>) -> Vec<R> {
     rows.retain(|row| {
         let (suite, structure) = key(row);
         suite.as_deref() == chosen.suite.as_deref() && **structure == *chosen.structure
