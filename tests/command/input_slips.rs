@@ -105,11 +105,7 @@ const CALLS: [(&str, i32, &[&str]); 60] = [
     ("evaluate FITS --p 2.5 --alpha 0.2 --hazard no_bins.csv", 1, &["no rows"]),
     ("evaluate FITS --p 2.5 --alpha 0.2 --hazard fast.csv", 0, &["1 of 1 bins", "exchanged"]),
     // Files in the wrong place.
-    (
-        "simulate --in table.csv --structures paper",
-        1,
-        &["table.csv: not a Parquet file", "import-motions"],
-    ),
+    ("simulate --in table.csv --structures paper", 1, &["table.csv: not a Parquet file", "import-motions"]),
     ("fit-pro --in table.csv", 1, &["the responses that simulate makes"]),
     ("fit-pex --in RUN/motions.parquet", 1, &["made by synthesize-motions", "output of simulate"]),
     ("evaluate FITS --p 2.5 --alpha 0.2 --in table.csv", 1, &["Parquet table with pga_m_s2 and pgv_m_s"]),

@@ -409,7 +409,7 @@ fn motions_of_others_are_judged_with_a_warning() {
     ];
     crate::common::write(&folder.path().join("m.parquet"), columns);
     for stage in ["simulate", "ida"] {
-        let told = succeed(folder.path(), &format!("{stage} --in m.parquet"));
+        let told = succeed(folder.path(), &format!("{stage} --in m.parquet --structures paper"));
         assert!(told.contains("warning: 2 motions: the largest ever recorded"), "{told}");
         assert!(told.contains("2 (PGA 30.5 g), 3 (PGA 15.2 g)"), "{told}");
         assert!(told.contains("warning: 4: 0.305 m/s2 for 2.991 m/s2; column 'pga_m_s2'"), "{told}");
