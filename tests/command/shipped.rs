@@ -47,8 +47,11 @@ fn the_first_seed_of_the_spread_is_what_the_program_makes() {
     }
 }
 
+/// A column of the file, and its value in a row.
+type Shipped = (&'static str, fn(&UniversalityRow) -> Option<f64>);
+
 /// The columns of the shipped universality that depend on the structure of the row and the reference alone.
-const OF_STRUCTURE: [(&str, fn(&UniversalityRow) -> Option<f64>); 8] = [
+const OF_STRUCTURE: [Shipped; 8] = [
     ("n", |row| Some(row.n as f64)),
     ("seen", |row| Some(row.seen as f64)),
     ("expected", |row| Some(row.expected)),
@@ -59,17 +62,15 @@ const OF_STRUCTURE: [(&str, fn(&UniversalityRow) -> Option<f64>); 8] = [
     ("worst_over", |row| row.worst_over),
 ];
 /// Those that depend on all structures.
-const OF_ALL: [(&str, fn(&UniversalityRow) -> Option<f64>); 4] = [
+const OF_ALL: [Shipped; 4] = [
     ("log_score_line", |row| row.log_score_line),
     ("log_score_curved", |row| row.log_score_curved),
     ("log_score_restitution", |row| row.log_score_restitution),
     ("log_score_structure", |row| row.log_score_structure),
 ];
 
-type Columns<'a> = &'a [(&'static str, fn(&UniversalityRow) -> Option<f64>)];
-
 /// Makes the universality of the shipped set-up with these structures of its grid, and compares it.
-fn compare_universality(structures: &dyn Fn(&str) -> bool, columns: Columns) {
+fn compare_universality(structures: &dyn Fn(&str) -> bool, columns: &[Shipped]) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::copy(data("universality.yaml"), folder.path().join("universality.yaml")).unwrap();
     let grid = std::fs::read_to_string(data("universality_grid.csv")).unwrap();
