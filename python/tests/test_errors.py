@@ -18,7 +18,7 @@ def test_a_missing_file():
 
 def test_a_file_that_is_none(tmp_path):
     (tmp_path / "m.parquet").write_text("no parquet")
-    with pytest.raises(OSError, match="m.parquet: not a readable Parquet file"):
+    with pytest.raises(OSError, match="m.parquet: not a Parquet file"):
         rockfrag.simulate(tmp_path / "m.parquet", structures="paper")
 
 
