@@ -83,7 +83,7 @@ def evaluate(fit, form, block, asked):
     call += ["--model", "bivariate"] if form == "bivariate" else ["--model", "univariate", "--measure", form]
     names = ["width", "height"] if block else ["p", "alpha"]
     call += [word for name in names + ["eta", "pga", "pgv", "tp", "tm"] for word in (f"--{name}", repr(asked[name]))]
-    rows = json.loads(subprocess.run(call, check=True, capture_output=True, text=True).stdout)
+    rows = json.loads(subprocess.run(call, check=True, capture_output=True, text=True).stdout)["rows"]
     return {row["quantity"]: row for row in rows}
 
 
