@@ -1,11 +1,11 @@
 //! What answers: fits of one structure, or the surface of all.
 
 use super::answer::{FITS_OF, UNIVERSAL};
-use crate::fragility::universal::{Scenarios, other_structure};
+use crate::fragility::universal::{self, Scenarios, other_structure};
 use crate::fragility::{
     FragilityModel, JointPeaks, LimitState, OutOfRange, Probabilities, ResampledModel, Slice, UniversalModel,
 };
-use crate::keyword::Keyword;
+use crate::keyword::{self, Keyword};
 use crate::motion::{IntensityMeasures, Suite};
 use crate::pipeline::console::Console;
 use crate::rocking::Structure;
@@ -148,6 +148,15 @@ impl Answering {
             fits.warn_of_few_events(console);
             fits.warn_of_misfit(console);
         }
+    }
+
+    /// The universal surface, to be asked besides where the tests of the fits reject them.
+    pub fn beside_misfit(&self, scenarios: Scenarios) -> Option<UniversalModel> {
+        let Answering::Fits(fits) = self else { return None };
+        fits.misfit.as_ref()?;
+        let [least, largest] = universal::limits();
+        let motions = fits.suite.as_deref().and_then(|word| keyword::parse(word).ok()).unwrap_or(Suite::Csgm);
+        Some(UniversalModel { limit: fits.model.limit.clamp(least, largest), motions, scenarios })
     }
 
     /// How PGA and PGV go together in the motions behind it, if it is known.

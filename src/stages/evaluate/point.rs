@@ -1,6 +1,7 @@
 use super::answer::Answer;
 use super::answering::Answering;
 use super::options::PointOptions;
+use crate::fragility::universal::Scenarios;
 use crate::fragility::{DOUBTFUL_PEAKS, Peak, Probability, are_doubtful};
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
@@ -47,6 +48,13 @@ pub fn answer(
         });
     }
     answering.warn_of_range(&measures, "", console);
+    let universal = answering.beside_misfit(Scenarios::One);
+    if let Some(given) = universal.and_then(|model| model.probabilities(structure, &measures).given_rocking) {
+        let Probability { value, low, high } = given.p_ro;
+        console.warn(&format!(
+            "the universal surface (--model universal) has P_ro {value:.3} ({low:.3} to {high:.3})"
+        ));
+    }
     let row = |column: Column, value: Option<f64>, p: Option<Probability>| AnswerRow {
         quantity: column.name,
         value: value.or(p.map(|p| p.value)),

@@ -4,6 +4,7 @@ use std::path::Path;
 use super::answer::Answer;
 use super::answering::{Answering, Model};
 use super::options::HazardOptions;
+use crate::fragility::universal::Scenarios;
 use crate::fragility::{DOUBTFUL_PEAKS, JointPeaks, LimitState, Peak, Probability, Slice, are_doubtful};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
@@ -32,15 +33,22 @@ pub fn answer(
     let years = options.years;
     check(years > 0.0 && years.is_finite(), "years", years, "a time above 0")?;
     let mut words_of_ratio = String::new();
+    let universal = answering.beside_misfit(Scenarios::Many);
     let rates = match hazard::read(path)? {
         Hazard::Curve(peak, curve) => {
             let line = Line::new(options.ratio, structure, peak, answering)?;
             let rates = along_line(&line, &curve, answering, console)?;
             words_of_ratio = line.words(&curve, answering);
+            if let Some(model) = &universal {
+                warn_of_universal(&over_curve(&line, &curve, Model::Universal(model)), console);
+            }
             with_limits(rates, answering, |model| over_curve(&line, &curve, model))
         }
         Hazard::Joint(joint) => {
             let rates = over_pairs(structure, &joint, answering, console)?;
+            if let Some(model) = &universal {
+                warn_of_universal(&over_bins(structure, &joint, Model::Universal(model)), console);
+            }
             with_limits(rates, answering, |model| over_bins(structure, &joint, model))
         }
     };
@@ -61,6 +69,12 @@ pub fn answer(
             answering.words_of_limits()
         ),
     })
+}
+
+fn warn_of_universal([.., rate, low, high]: &Rates, console: &Console) {
+    console.warn(&format!(
+        "by the universal surface (--model universal) the annual rate of overturning is {rate:.1e} ({low:.1e} to {high:.1e})"
+    ));
 }
 
 /// Motions of one peak, and what their other peak is.
