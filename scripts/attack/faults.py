@@ -29,7 +29,7 @@ simulate:
   structures:
     - { name: frame, p: 1.0, alpha: 0.15, eta: 0.92 }
     - { name: electrical-equipment, p: 2.5, alpha: 0.20, eta: 0.92 }
-ida: { from: 1, to: 2, steps: 4, halvings: 1, tolerance: 0.1 }
+ida: { structures: paper, from: 1, to: 2, steps: 4, halvings: 1, tolerance: 0.1 }
 fit-pex: { bootstrap: 200 }
 fit-pro: { bootstrap: 50 }
 universality: {}

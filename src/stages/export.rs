@@ -49,10 +49,13 @@ pub struct ExportOptions {
     /// Largest intensity, g or m/s [default: that of the data; of pelicun, where all probabilities are 1]
     #[arg(long, value_name = "IM", help_heading = "Export")]
     pub upto: Option<f64>,
-    /// Largest error of straight lines between the levels
-    #[arg(long, default_value = "1e-6", help_heading = "Export")]
-    pub tolerance: f64,
+    /// Largest error of straight lines between the levels [default: 1e-6; of pelicun 1e-5]
+    #[arg(long, help_heading = "Export")]
+    pub tolerance: Option<f64>,
 }
+
+/// The largest error of lines between levels where nothing else is said.
+const TOLERANCE: f64 = 1e-6;
 
 impl Default for ExportOptions {
     fn default() -> Self {
@@ -87,6 +90,7 @@ keywords!(Program {
 pub struct Export {
     options: ExportOptions,
     program: Program,
+    tolerance: f64,
     ratios: Vec<f64>,
     fits: FitFiles,
     structure: StructureSpec,
@@ -114,7 +118,8 @@ impl Declare for Export {
         for &ratio in &ratio.values {
             check(ratio > 0.0, "ratio", ratio, "a p PGV / PGA above 0")?;
         }
-        let (tolerance, upto) = (options.tolerance, options.upto);
+        let usual = if program == Program::Pelicun { export::PELICUN_TOLERANCE } else { TOLERANCE };
+        let (tolerance, upto) = (options.tolerance.unwrap_or(usual), options.upto);
         check(tolerance > 0.0 && tolerance < 0.1, "tolerance", tolerance, "an error above 0 and below 0.1")?;
         check(
             program != Program::Pelicun || tolerance >= export::PELICUN_TOLERANCE,
@@ -130,6 +135,7 @@ impl Declare for Export {
         Ok(Export {
             options: options.clone(),
             program,
+            tolerance,
             ratios: ratio.values.clone(),
             fits: FitFiles::new(&options.fits, files)?,
             structure: options.structure.spec()?,
@@ -159,10 +165,10 @@ impl Stage for Export {
     }
 
     fn parameters(&self) -> Value {
-        let ExportOptions { to, im, ratio, levels, upto, tolerance, .. } = &self.options;
+        let ExportOptions { to, im, ratio, levels, upto, .. } = &self.options;
         json!({
             "fits": self.fits.options, "structure": self.structure, "to": to, "im": im, "ratio": ratio, "levels": levels,
-            "upto": upto, "tolerance": tolerance
+            "upto": upto, "tolerance": self.tolerance
         })
     }
 
@@ -251,7 +257,7 @@ impl Export {
     ) -> anyhow::Result<Vec<f64>> {
         // pelicun knows a whole distribution or none.
         let whole = (self.program == Program::Pelicun)
-            .then(|| export::whole_curve_end(jumps[0], self.options.tolerance, &reaching));
+            .then(|| export::whole_curve_end(jumps[0], self.tolerance, &reaching));
         let end = self.options.upto.map_or(whole.unwrap_or(largest_in_data), |upto| upto * self.unit());
         let mut levels = match &self.options.levels {
             Some(steps) => {
@@ -261,7 +267,7 @@ impl Export {
             None => {
                 let inner = jumps.iter().copied().filter(|&jump| jump < end);
                 let edges: Vec<f64> = inner.chain([end]).collect();
-                export::levels(&edges, self.options.tolerance, &reaching)
+                export::levels(&edges, self.tolerance, &reaching)
             }
         };
         let last = levels.last().copied().unwrap_or(end);

@@ -19,6 +19,10 @@ fn each_program_gets_its_files() {
     export("--to pelicun --ratio 0.3 --out p.csv");
     assert!(read("p.csv").contains("p2_5_alpha0_2_eta0_92_ratio0_3,0,Peak Ground Acceleration,g,0,1,"));
     assert!(read("p.json").contains("RangeOfData"));
+    succeed(
+        folder.path(),
+        &format!("export {fits} --p 2.5 --alpha 0.2 --to pelicun --ratio 0.3 --out usual.csv"),
+    );
 }
 
 #[test]

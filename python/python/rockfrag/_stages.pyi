@@ -74,7 +74,7 @@ def export(
     ratio: Any = None,
     levels: Any = None,
     upto: float | None = None,
-    tolerance: float = 1e-06,
+    tolerance: float | None = None,
     out: PathLike,
     threads: int | None = None,
     progress: Progress | None = None,
