@@ -44,7 +44,7 @@ FITS = "--pex {i}/pex.parquet --pro {i}/pro.parquet --structure electrical-equip
 STAGES = {
     "sample-scenarios": "--samples 2000 --out {o}/scenarios.parquet",
     "synthesize-motions": "--in {i}/scenarios.parquet --out {o}/motions.parquet",
-    "import-motions": "{i}/../record.txt --unit g --out {o}/records.parquet",
+    "import-motions": "{i}/../record.txt --unit g --accept-implausible --out {o}/records.parquet",
     "simulate": "--in {i}/motions.parquet --structures paper --trace 0,1 --out {o}/one.parquet",
     "fit-pex": "--in {i}/responses.parquet --bootstrap 100 --out {o}/pex.parquet",
     "fit-pro": "--in {i}/responses.parquet --out {o}/pro.parquet",
