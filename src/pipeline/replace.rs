@@ -2,7 +2,6 @@
 
 use std::fs::{File, Metadata};
 use std::io::Read;
-use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
 use super::UsageError;
@@ -55,19 +54,27 @@ pub fn refusal(target: &Path, owner: &str, stage: &str) -> anyhow::Error {
 /// The role of the input that a target is, or in whose folder of tables it would stand.
 fn input_that_is(stage: &dyn Stage, target: &Path) -> Option<&'static str> {
     let (file, folder) = (identity(target), identity(folder_of(target)));
-    let is_same = |other: &Path, own: Option<(u64, u64)>| own.is_some() && identity(other) == own;
+    let is_same = |other: &Path, own: &Option<_>| own.is_some() && identity(other) == *own;
     let is_table = target.extension().is_some_and(|extension| extension == "parquet");
     let is_target = |(_, source): &(&'static str, Source)| match source {
-        Source::Path(path) if path.is_dir() => is_table && is_same(path, folder),
-        Source::Path(path) => is_same(path, file),
+        Source::Path(path) if path.is_dir() => is_table && is_same(path, &folder),
+        Source::Path(path) => is_same(path, &file),
         Source::Memory(_) => false,
     };
     stage.inputs().into_iter().find(is_target).map(|(role, _)| role)
 }
 
 /// Which file a path leads to, by whatever name, link or letter case.
+#[cfg(unix)]
 fn identity(path: &Path) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
     std::fs::metadata(path).ok().map(|file| (file.dev(), file.ino()))
+}
+
+/// Which file a path leads to, by whatever name, symbolic link or letter case; hard links are not seen through.
+#[cfg(not(unix))]
+fn identity(path: &Path) -> Option<PathBuf> {
+    path.canonicalize().ok()
 }
 
 /// Who wrote a file, in words, if it was not this stage. Of an empty one nothing can be lost.
