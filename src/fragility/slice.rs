@@ -21,16 +21,6 @@ pub enum Peak {
 
 keywords!(Peak { Pga = "pga", Pgv = "pgv" });
 
-impl Peak {
-    /// The unit in which it is usually stated, and its size in m/s2 or m/s.
-    pub fn usual_unit(self) -> (&'static str, f64) {
-        match self {
-            Peak::Pga => ("g", G_M_S2),
-            Peak::Pgv => ("m/s", 1.0),
-        }
-    }
-}
-
 /// The largest PGA (g) or PGV (m/s) that can be meant: several times what has been recorded.
 const LARGEST_PEAK: f64 = 20.0;
 
@@ -39,6 +29,14 @@ const LARGEST_PEAK: f64 = 20.0;
 const LARGEST_PEAKS_RATIO_S: f64 = 2.0;
 
 impl Peak {
+    /// The unit in which it is usually stated, and its size in m/s2 or m/s.
+    pub fn usual_unit(self) -> (&'static str, f64) {
+        match self {
+            Peak::Pga => ("g", G_M_S2),
+            Peak::Pgv => ("m/s", 1.0),
+        }
+    }
+
     /// Where it can lie in its usual unit.
     pub const fn bound(self) -> Bound {
         let range = (0.0, LARGEST_PEAK);

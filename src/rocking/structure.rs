@@ -139,6 +139,11 @@ pub fn judge(structure: &str, given: &[(&'static str, f64)]) -> Result<(), Struc
 }
 
 impl Structure {
+    /// Returns its size and slenderness.
+    pub fn block(&self) -> Block {
+        Block { p_rad_s: self.p_rad_s, alpha_rad: self.alpha_rad }
+    }
+
     /// Checks the frequency parameter p (rad/s), slenderness alpha (rad) and coefficient of restitution eta of a structure.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 use super::pex::PexRow;
 use super::pro::ProRow;
+use crate::fragility::demand::Form;
 use crate::fragility::{DemandLaw, DemandModel, Event, JointPeaks, Measure, Predictor};
 use crate::keyword::Keyword;
 use crate::rocking::Block;
@@ -54,7 +55,6 @@ impl PexRow {
 
 /// The planes below and above the transition among rows of one group; the rows must be in the order of the file.
 pub fn planes<'r>(rows: impl Iterator<Item = &'r PexRow>) -> Option<[&'r PexRow; 2]> {
-    use crate::fragility::demand::Form;
     let planes: Vec<&PexRow> = rows.filter(|row| row.model == Form::Biplanar).collect();
     planes.try_into().ok()
 }

@@ -20,6 +20,8 @@ use rayon::prelude::*;
 
 /// Value, lower and upper limit of each limit state in turn.
 type Rates = [f64; 9];
+/// The place of the rate of overturning among them.
+const OVERTURNING: usize = 6;
 
 /// The annual rate of each limit state over the hazard of a site. By the delta method the limits are those of the probabilities at
 /// every intensity at once, as if all were too high or too low together; by resamples, those of the rate itself.
@@ -155,9 +157,9 @@ impl Line {
         let Ratio::Distributed(_) = self.ratio else {
             return "p PGV / PGA is the one of --ratio at all intensities; low and high do not hold its error\n".to_string();
         };
-        let [_, _, _, _, _, _, low, _, _] = over_curve(&self.quantile(-1.0), curve, answering.model());
-        let [_, _, _, _, _, _, median, _, _] = over_curve(&self.quantile(0.0), curve, answering.model());
-        let [_, _, _, _, _, _, high, _, _] = over_curve(&self.quantile(1.0), curve, answering.model());
+        let overturning =
+            |deviations| over_curve(&self.quantile(deviations), curve, answering.model())[OVERTURNING];
+        let [low, median, high] = [-1.0, 0.0, 1.0].map(overturning);
         let at_uplift = |deviations| self.quantile(deviations).ratios(self.slice.intensity_at_im4(1.0))[0].0;
         format!(
             "p PGV / PGA is distributed as in the motions of the fits: {:.2} at uplift, {:.2} to {:.2} in two of three motions; with these ratios alone, overturning would have the annual rates {median:.1e}, {low:.1e} and {high:.1e} (--ratio takes one)\n",
@@ -187,7 +189,7 @@ fn along_line(
             uplift / size
         ));
     }
-    let [.., overturning, _, _] = rates;
+    let overturning = rates[OVERTURNING];
     let uncounted = rate_beyond * (1.0 - at_last[2].value);
     if uncounted > 0.01 * overturning {
         console.warn(&format!(

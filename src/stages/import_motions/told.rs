@@ -62,8 +62,7 @@ impl Told {
             self.pulses += usize::from(indicator.verdict == Verdict::Pulse);
         }
         if let Some(doubt) = &first.doubt {
-            let (found, reason) = (Some(doubt.found.clone()), doubt.reason.to_string());
-            self.doubts.add(Case { name: first.motion_id.clone(), found, reason });
+            self.doubts.add(Case::of_doubt(first.motion_id.clone(), doubt));
         }
         for motion in motions.iter().filter(|motion| motion.suite == Suite::Record) {
             self.pga_m_s2.add(motion.measured.measures.pga_m_s2);

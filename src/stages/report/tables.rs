@@ -1,13 +1,13 @@
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
-use polars::prelude::{DataFrame, DataType};
+use polars::prelude::DataType;
 
 use crate::fragility::demand::Form;
 use crate::keyword::Keyword;
 use crate::report::data::{Column, Table};
 use crate::table::schema;
-use crate::table::store::frame::{frame_of, names};
+use crate::table::store::frame::{frame_of, names, stacked};
 use crate::table::store::reader::read_any;
 use crate::table::store::text;
 
@@ -108,11 +108,7 @@ pub fn read(files: &[(&'static str, PathBuf)]) -> anyhow::Result<Vec<Table>> {
 
 fn table(shown: &Shown, path: &Path) -> anyhow::Result<Table> {
     let batches = read_any(path)?;
-    let mut frame = DataFrame::empty();
-    for batch in &batches {
-        let rows = frame_of(batch)?;
-        frame = if frame.height() == 0 { rows } else { frame.vstack(&rows)? };
-    }
+    let mut frame = stacked(batches.iter().map(frame_of).collect::<Result<Vec<_>, _>>()?)?;
     if !shown.models.is_empty() && frame.height() > 0 {
         let models = frame.column(schema::model.name)?.str()?;
         let is_shown = |model: Option<&str>| {

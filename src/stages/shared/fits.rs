@@ -179,16 +179,12 @@ impl FitFiles {
     }
 
     fn biplanar(&self, rows: &[&PexRow]) -> anyhow::Result<DemandModel> {
-        let (below, above) = match fits::planes(rows.iter().copied()) {
-            Some([below, above]) => (Some(below), Some(above)),
-            None => (None, None),
+        let planes = fits::planes(rows.iter().copied());
+        let plane = |index: usize, side: &str| {
+            let row = planes.map(|planes| (planes[index], planes[index].status));
+            found(row, self.pex.name(), &format!("plane {side} the transition"))
         };
-        for (row, side) in [(below, "below"), (above, "above")] {
-            let what = format!("plane {side} the transition");
-            found(row.map(|row| (row, row.status)), self.pex.name(), &what)?;
-        }
-        let Some(planes) = below.zip(above) else { unreachable!("both planes were found") };
-        fits::biplanar(planes.into()).map_err(|why| in_file(self.pex.name(), &why))
+        fits::biplanar([plane(0, "below")?, plane(1, "above")?]).map_err(|why| in_file(self.pex.name(), &why))
     }
 
     fn univariate(&self, rows: &[&PexRow], measure: Measure) -> anyhow::Result<DemandModel> {

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::reasons::Case;
+use super::reasons::{Case, listed};
 use crate::keyword;
 use crate::motion::{IntensityMeasures, IntensityScratch, Suite, intensity};
 use crate::pipeline::console::Console;
@@ -128,8 +128,7 @@ impl Judge {
                 "column 'pga_m_s2' is not the peak of the samples; PGA of another unit or component?";
             return Some(Case { name, found, reason: reason.to_string() });
         }
-        let doubt = plausibility::doubt(samples, motion.dt_s)?;
-        Some(Case { name, found: Some(doubt.found), reason: doubt.reason.to_string() })
+        plausibility::doubt(samples, motion.dt_s).map(|doubt| Case::of_doubt(name, &doubt))
     }
 }
 
@@ -144,13 +143,8 @@ pub fn note_passed_over(source: &Source, columns: &[String], way: &str, console:
     if columns.is_empty() {
         return;
     }
-    let more = if columns.len() > MOST_NAMED {
-        format!(" and {} more", columns.len() - MOST_NAMED)
-    } else {
-        String::new()
-    };
-    let named = columns.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
-    console.note(&format!("{}: passed over: {named}{more}; {way}", source.name().display()));
+    let named = listed(&columns[..columns.len().min(MOST_NAMED)], columns.len());
+    console.note(&format!("{}: passed over: {named}; {way}", source.name().display()));
 }
 
 /// The names of all motions so far, which must differ; numbers take little room, as there may be millions.

@@ -1,5 +1,7 @@
 //! What holds for many things, told once.
 
+use crate::records::plausibility::Doubt;
+
 /// Things that a line names; of the others it tells how many there are.
 const NAMED: usize = 10;
 
@@ -9,6 +11,22 @@ pub struct Case {
     /// What was found in it.
     pub found: Option<String>,
     pub reason: String,
+}
+
+impl Case {
+    /// Of what is doubtful about a motion of this name.
+    pub fn of_doubt(name: String, Doubt { found, reason, .. }: &Doubt) -> Case {
+        Case { name, found: Some(found.clone()), reason: reason.to_string() }
+    }
+}
+
+/// The first names of so many things, and how many more there are.
+pub fn listed(names: &[String], of: usize) -> String {
+    let more = match of - names.len() {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    names.join(", ") + &more
 }
 
 /// Reasons in the order in which they came first, each with how many things it holds for, and the first of these.
@@ -52,10 +70,6 @@ impl Reason {
             None => name.clone(),
         };
         let names: Vec<String> = named.iter().map(each).collect();
-        let more = match count - named.len() {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        format!("{count} {things}: {reason}: {}{more}", names.join(", "))
+        format!("{count} {things}: {reason}: {}", listed(&names, *count))
     }
 }

@@ -2,8 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::rocking::Block;
-use crate::rocking::Structure;
+use crate::rocking::{Block, Structure};
 
 /// What `rockfrag universality` found: the curves of one structure on 61 others.
 const STUDY: &str = include_str!("../../../data/universality.csv");
@@ -44,18 +43,16 @@ fn distance((block, eta): (Block, f64), (other, other_eta): (Block, f64)) -> [us
 
 /// Whether a structure has another slenderness or size than the one that was fitted.
 pub fn is_other_block(fitted: Block, structure: &Structure) -> bool {
-    let block = Block { p_rad_s: structure.p_rad_s, alpha_rad: structure.alpha_rad };
-    ln_ratios(fitted, block).iter().any(|difference| *difference > SAME)
+    ln_ratios(fitted, structure.block()).iter().any(|difference| *difference > SAME)
 }
 
 /// What the study found for curves of overturning taken as far as from the fitted structure to this one, in words; none if it is
 /// the same block, whatever its eta.
 pub fn words(suite: Option<&str>, fitted: (Block, f64), structure: &Structure) -> Option<String> {
-    let block = Block { p_rad_s: structure.p_rad_s, alpha_rad: structure.alpha_rad };
-    let asked = distance(fitted, (block, structure.eta));
     if !is_other_block(fitted.0, structure) {
         return None;
     }
+    let asked = distance(fitted, (structure.block(), structure.eta));
     let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(STUDY.as_bytes());
     let study: Vec<Transfer> = reader.deserialize().collect::<Result<_, _>>().ok()?;
     let at = |row: &Transfer| (Block { p_rad_s: row.p_rad_s, alpha_rad: row.alpha_rad }, row.eta);
@@ -85,6 +82,6 @@ pub fn words(suite: Option<&str>, fitted: (Block, f64), structure: &Structure) -
     Some(format!(
         "the curves are of {}, this structure has {}: in the study of universality, {found}; simulate and fit this structure",
         of(fitted.0, fitted.1),
-        of(block, structure.eta)
+        of(structure.block(), structure.eta)
     ))
 }

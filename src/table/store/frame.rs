@@ -15,8 +15,9 @@ use crate::table::schema::{self, Kind, Table};
 /// # Errors
 /// If it is missing, unreadable, or not the output of the stage of this table, or lacks a column that may not be null.
 pub fn read_frame(source: impl Into<Source>, table: &Table) -> Result<DataFrame, TableError> {
-    let mut whole: Option<DataFrame> = None;
-    for batch in Batches::open_whole(source, table, &[table.stage])? {
+    let source = source.into();
+    let path = source.name().to_path_buf();
+    let frames = Batches::open_whole(source, table, &[table.stage])?.map(|batch| {
         let batch = batch?;
         let failed = |error: PolarsError| TableError::Read {
             path: batch.path.to_path_buf(),
@@ -29,12 +30,23 @@ pub fn read_frame(source: impl Into<Source>, table: &Table) -> Result<DataFrame,
             let nulls = Column::full_null(missing.name.into(), frame.height(), &data_type(missing.kind));
             frame.with_column(nulls).map_err(failed)?;
         }
-        match &mut whole {
-            None => whole = Some(frame),
-            Some(whole) => whole.vstack_mut_owned(frame).map(drop).map_err(failed)?,
-        }
+        Ok(frame)
+    });
+    let frames = frames.collect::<Result<Vec<_>, TableError>>()?;
+    stacked(frames).map_err(|error| TableError::Read { path, message: error.to_string() })
+}
+
+/// The frames, one below the other.
+///
+/// # Errors
+/// If they have other columns.
+pub fn stacked(frames: impl IntoIterator<Item = DataFrame>) -> Result<DataFrame, PolarsError> {
+    let mut frames = frames.into_iter();
+    let mut whole = frames.next().unwrap_or_default();
+    for frame in frames {
+        whole.vstack_mut_owned(frame)?;
     }
-    Ok(whole.unwrap_or_default())
+    Ok(whole)
 }
 
 fn data_type(kind: Kind) -> DataType {
