@@ -6,6 +6,7 @@
 //! regression    least squares with standard errors and limits
 //! link, binary  maximum likelihood of binary outcomes, or Firth's penalised; separation: whether there is a maximum
 //! newton        the method that finds it; derivatives: sums over the cases, in wide registers
+//! search        roots and minima in one variable, by argmin
 //! influence     what each case adds to a fit: jackknife, clustered errors, first step of a refit
 //! goodness      tests of fit and scores; distribution: Student's t, F, chi squared, Poisson binomial
 //! ```
@@ -20,6 +21,7 @@ pub(crate) mod influence;
 pub(crate) mod link;
 pub(crate) mod newton;
 pub(crate) mod regression;
+pub(crate) mod search;
 pub(crate) mod separation;
 
 pub use binary::Estimator;

@@ -14,6 +14,7 @@ use crate::statistics::estimate::Estimate;
 use crate::statistics::goodness::{Test, added_powers};
 use crate::statistics::newton::{Along, newton_step};
 use crate::statistics::regression::LinearFit;
+use crate::statistics::search::minimum;
 
 /// Between which logarithms of the width it is searched (0.005 and 2).
 const LN_WIDTHS: (f64, f64) = (-5.298, 0.693);
@@ -73,19 +74,16 @@ pub fn fit_smooth(sample: &DemandSample, confidence: f64) -> Result<SmoothFit, F
         return Err(FitStatus::TooFewCases);
     }
     let (low, high) = LN_WIDTHS;
-    let mut step = (high - low) / (PLACES - 1) as f64;
-    let grid = (0..PLACES).filter_map(|k| planes(sample, low + step * k as f64));
-    let mut best = grid.min_by(|a, b| a.rss.total_cmp(&b.rss)).ok_or(FitStatus::Collinear)?;
-    if best.ln_width < low + 0.5 * step || best.ln_width > high - 0.5 * step {
+    let step = (high - low) / (PLACES - 1) as f64;
+    let rss = |ln_width: f64| planes(sample, ln_width).map(|planes| planes.rss);
+    // A grid first: the sum of squares may have several minima.
+    let grid = (0..PLACES).map(|k| low + step * k as f64).filter_map(|at| Some((at, rss(at)?)));
+    let (near, _) = grid.min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(FitStatus::Collinear)?;
+    if near < low + 0.5 * step || near > high - 0.5 * step {
         return Err(FitStatus::NotConverged);
     }
-    while step > CLOSE {
-        let around = [-step, step].into_iter().filter_map(|aside| planes(sample, best.ln_width + aside));
-        match around.min_by(|a, b| a.rss.total_cmp(&b.rss)).filter(|near| near.rss < best.rss) {
-            Some(near) => best = near,
-            None => step *= 0.5,
-        }
-    }
+    let best = minimum(rss, (near - step, near + step), CLOSE).and_then(|at| planes(sample, at));
+    let best = best.ok_or(FitStatus::NotConverged)?;
     with_errors(sample, &best, confidence)
 }
 

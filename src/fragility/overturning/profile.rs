@@ -7,6 +7,7 @@ use crate::normal;
 use crate::statistics::binary::{BinaryFit, BinaryLikelihood};
 use crate::statistics::estimate::Limits;
 use crate::statistics::newton::Along;
+use crate::statistics::search::root;
 
 /// What the last Newton step to a constrained maximum may gain.
 const TOLERANCE: f64 = 1e-13;
@@ -14,8 +15,6 @@ const TOLERANCE: f64 = 1e-13;
 const CLOSE: f64 = 1e-10;
 /// Steps outwards, each twice the last, before a limit counts as infinitely far.
 const MOST_STEPS: usize = 20;
-/// Steps of the search between two places.
-const MOST_TRIALS: usize = 60;
 
 /// The values of a parameter at which the likelihood, maximised over all else, lies within half the quantile of chi
 /// squared of its maximum (Venzon & Moolgavkar 1988, Applied Statistics 37, 87-94; for a penalised likelihood Heinze &
@@ -75,7 +74,9 @@ impl Profile<'_> {
                 return f64::NAN;
             };
             if outside.depth >= depth {
-                return self.between(inside, outside, depth, CLOSE * error);
+                // The depth is nearly a line, so that Brent's method needs few trials.
+                let gap = |value: f64| Some(self.at(value, &inside.coefficients)?.depth - depth);
+                return root(gap, (inside.value, outside.value), CLOSE * error).unwrap_or(f64::NAN);
             }
             if at_edge {
                 return 0.0;
@@ -83,31 +84,6 @@ impl Profile<'_> {
             (inside, step) = (outside, 2.0 * step);
         }
         side * f64::INFINITY
-    }
-
-    /// The value between two places at which the profile has this depth, by regula falsi (Illinois): the depth is nearly
-    /// a line.
-    fn between(&self, mut inside: Place, mut outside: Place, depth: f64, close: f64) -> f64 {
-        let (mut short, mut long) = (inside.depth - depth, outside.depth - depth);
-        let mut last_was_inside = None;
-        for _ in 0..MOST_TRIALS {
-            let value = (inside.value * long - outside.value * short) / (long - short);
-            if (value - inside.value).abs().min((value - outside.value).abs()) <= close {
-                return value;
-            }
-            let Some(place) = self.at(value, &inside.coefficients) else { return f64::NAN };
-            let is_inside = place.depth < depth;
-            let again = last_was_inside == Some(is_inside);
-            if is_inside {
-                (short, inside) = (place.depth - depth, place);
-                long *= if again { 0.5 } else { 1.0 };
-            } else {
-                (long, outside) = (place.depth - depth, place);
-                short *= if again { 0.5 } else { 1.0 };
-            }
-            last_was_inside = Some(is_inside);
-        }
-        f64::NAN
     }
 
     /// The place where the parameter has this value, searched from coefficients nearby.
