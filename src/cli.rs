@@ -78,7 +78,7 @@ enum Tool {
 
 fn command() -> Command {
     let command = Command::new("rockfrag")
-        .version(env!("CARGO_PKG_VERSION"))
+        .version(crate::VERSION)
         .max_term_width(100)
         .subcommand_required(true)
         .arg_required_else_help(true);

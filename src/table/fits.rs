@@ -53,9 +53,11 @@ impl PexRow {
     }
 }
 
-/// The planes below and above the transition among rows of one group; the rows must be in the order of the file.
+/// The planes below and above the transition among rows of one group, in whatever order: a file may have been sorted elsewhere.
 pub fn planes<'r>(rows: impl Iterator<Item = &'r PexRow>) -> Option<[&'r PexRow; 2]> {
-    let planes: Vec<&PexRow> = rows.filter(|row| row.model == Form::Biplanar).collect();
+    let mut planes: Vec<&PexRow> = rows.filter(|row| row.model == Form::Biplanar).collect();
+    let start = |row: &PexRow| row.range_low.unwrap_or(0.0);
+    planes.sort_by(|a, b| start(a).total_cmp(&start(b)));
     planes.try_into().ok()
 }
 

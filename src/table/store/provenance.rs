@@ -51,7 +51,7 @@ impl PartialEq for Warnings {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Provenance {
     pub stage: String,
-    /// Of rockfrag.
+    /// Of rockfrag, with the fingerprint of its code: files of other code of the same version are made again.
     pub version: String,
     /// All resolved parameters that the rows depend on.
     pub parameters: Value,
@@ -66,7 +66,7 @@ pub struct Provenance {
 impl Provenance {
     /// Of a file that this version of rockfrag makes.
     pub fn new(stage: &str, parameters: Value, inputs: BTreeMap<String, String>) -> Provenance {
-        let version = env!("CARGO_PKG_VERSION").to_string();
+        let version = crate::VERSION.to_string();
         let (sources, warnings) = (BTreeMap::new(), Warnings::default());
         Provenance { stage: stage.to_string(), version, parameters, inputs, sources, warnings }
     }
