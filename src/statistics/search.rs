@@ -35,7 +35,8 @@ where
     F: Fn(f64) -> Option<f64>,
     S: Solver<Objective<F>, IterState<f64, (), (), (), (), f64>>,
 {
-    let search = Executor::new(Objective(f), solver).timer(false).configure(|state| state.max_iters(MOST_TRIALS));
+    let search =
+        Executor::new(Objective(f), solver).timer(false).configure(|state| state.max_iters(MOST_TRIALS));
     let state = search.run().ok()?.state;
     state.get_param().copied().filter(|_| state.get_iter() < MOST_TRIALS)
 }

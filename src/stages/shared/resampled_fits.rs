@@ -1,5 +1,6 @@
 //! The fits of resampled cases, from the files that fit-pex and fit-pro write with --bootstrap.
 
+use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -110,14 +111,17 @@ fn demands(path: &Path, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<Demand
             .map(|row| Some(DemandModel::Everywhere(resampled(row, law)?)))
             .collect(),
         DemandModel::Biplanar { low, high, .. } => {
-            // All replicates of the lower plane come first.
-            let both = of(Form::Biplanar, high);
-            let (below, above) = both.split_at(both.len() / 2);
-            let planes = |(below, above): (&&PexReplicateRow, &&PexReplicateRow)| {
+            let mut both = of(Form::Biplanar, high);
+            both.sort_by(|a, b| {
+                a.replicate
+                    .cmp(&b.replicate)
+                    .then(a.range_low.partial_cmp(&b.range_low).unwrap_or(Ordering::Equal))
+            });
+            let planes = |[below, above]: &[&PexReplicateRow; 2]| {
                 let (low, high) = (resampled(below, low)?, resampled(above, high)?);
                 Some(DemandModel::Biplanar { transition: above.range_low?, low, high })
             };
-            below.iter().zip(above).map(planes).collect()
+            both.as_chunks().0.iter().map(planes).collect()
         }
     })
 }
