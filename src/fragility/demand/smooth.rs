@@ -83,7 +83,7 @@ pub fn fit_smooth(sample: &DemandSample, confidence: f64) -> Result<SmoothFit, F
         return Err(FitStatus::NotConverged);
     }
     let best = minimum(rss, (near - step, near + step), CLOSE).and_then(|at| planes(sample, at));
-    let best = best.ok_or(FitStatus::NotConverged)?;
+    let best = best.ok_or(FitStatus::Collinear)?;
     with_errors(sample, &best, confidence)
 }
 
