@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use polars::prelude::DataFrame;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -296,6 +297,10 @@ impl Stage for ComparePaper {
 
     fn show(&self, terminal: &Terminal) -> anyhow::Result<String> {
         self.out.path().map_or(Ok(String::new()), |out| Ok(terminal.table(&paper::show(out)?)))
+    }
+
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        self.out.path().map(paper::shown).transpose()
     }
 
     fn execute(&self, provenance: &Provenance, _console: &Console) -> anyhow::Result<String> {

@@ -1,5 +1,6 @@
 //! validate: curves tested on responses that they were not fitted to, such as those to recorded motions.
 
+use polars::prelude::DataFrame;
 use serde_json::{Value, json};
 
 use super::shared::chosen_fits::ChosenFits;
@@ -15,6 +16,7 @@ use crate::pipeline::terminal::Terminal;
 use crate::studies::{Forecasts, Validation};
 use crate::table::row::WriteRow;
 use crate::table::store::contents::recorded;
+use crate::table::store::frame::read_frame;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::validation::{self, VALIDATION, ValidationRow};
@@ -152,6 +154,10 @@ impl Stage for Validate {
 
     fn show(&self, terminal: &Terminal) -> anyhow::Result<String> {
         self.out.path().map_or(Ok(String::new()), |out| Ok(terminal.table(&validation::show(out)?)))
+    }
+
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        Ok(self.out.path().map(|out| read_frame(out, &VALIDATION)).transpose()?)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

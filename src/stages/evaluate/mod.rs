@@ -223,7 +223,10 @@ impl Evaluate {
         let structure = self.structure(answering)?;
         answering.warn_of_structure(&structure, console);
         match &self.options.hazard.hazard {
-            Some(path) => rates::answer(&self.options.hazard, path, answering, &structure, console),
+            Some(path) => {
+                let hazard = hazard::read(path, &self.options.headings())?;
+                rates::answer(&self.options.hazard, path, hazard, answering, &structure, console)
+            }
             None => point::answer(&self.options.point, answering, &structure, console),
         }
     }
@@ -269,7 +272,7 @@ impl Stage for Evaluate {
             (None, None) => json!(point),
         };
         let structure = &self.structure;
-        match &self.fits {
+        let mut parameters = match &self.fits {
             Some(files) => {
                 json!({ "fits": files.options, "limits": limits, "structure": structure, "question": question })
             }
@@ -277,7 +280,11 @@ impl Stage for Evaluate {
                 "model": ModelForm::Universal.as_str(), "surface": blake3::hash(universal::SURFACE.as_bytes()).to_hex().as_str(), "suite": fits.suite.as_deref().unwrap_or(Suite::Csgm.as_str()),
                 "limit-state": limit_state.unwrap_or(PAPER_LIMIT), "structure": structure, "question": question
             }),
+        };
+        if let Some(columns) = &self.options.columns {
+            parameters["columns"] = json!(columns);
         }
+        parameters
     }
 
     fn provenance(&self) -> anyhow::Result<Provenance> {
@@ -309,7 +316,7 @@ impl Stage for Evaluate {
         if let (Some(input), Some(out)) = (&self.intensities, &self.out) {
             let given = self.options.structure.structures.is_given();
             let structure = given.then(|| self.structure(&answering)).transpose()?;
-            let table = EvaluatedTable { answering, structure };
+            let table = EvaluatedTable { answering, headings: self.options.headings(), structure };
             return table.write(input, out, provenance, console);
         }
         self.deliver(&self.answer(&answering, console)?, provenance)?;

@@ -7,9 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::keyword::{self, Keyword, keywords};
 use crate::pipeline::declare::StageOptions;
-use crate::pipeline::options::{Word, defaults};
+use crate::pipeline::options::{Parsed, Word, defaults};
 use crate::stages::shared::fits::FitsOptions;
 use crate::stages::shared::structure_options::StructureOptions;
+use crate::table::store::headings::Headings;
 use crate::table::store::source::Target;
 
 /// What is asked, of which fits and structure.
@@ -34,6 +35,9 @@ pub struct EvaluateOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub hazard: HazardOptions,
+    /// Which headings of the file of --hazard or --in stand for which columns, as pga_g=PGA,annual_rate_of_exceedance=rate
+    #[arg(long, value_name = "COLUMN=HEADING,...", help_heading = "Hazard of a site")]
+    pub columns: Option<Parsed<Headings>>,
     /// table (to read), csv, json, or parquet (with --out) [default: as --out ends, or table]
     #[arg(long, help_heading = "Output")]
     pub format: Option<Word<Format>>,
@@ -42,6 +46,13 @@ pub struct EvaluateOptions {
 impl Default for EvaluateOptions {
     fn default() -> Self {
         defaults()
+    }
+}
+
+impl EvaluateOptions {
+    /// The headings of files that are not the names of columns.
+    pub(super) fn headings(&self) -> Headings {
+        self.columns.clone().map_or(Headings::default(), |Parsed(headings)| headings)
     }
 }
 

@@ -15,6 +15,7 @@ mod scaled;
 use std::path::Path;
 
 use arrow_array::RecordBatch;
+use polars::prelude::DataFrame;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -37,6 +38,7 @@ use crate::table::ida::{self, IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_W
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
 use crate::table::schema::Table;
+use crate::table::store::frame::read_frame;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::store::writer::TableWriter;
@@ -149,6 +151,11 @@ impl Stage for Ida {
             Target::Path(path) => ida::show(&path),
             Target::Memory(..) => Ok(String::new()),
         }
+    }
+
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        let fragility = self.out.part(IDA_FRAGILITY.name);
+        Ok(fragility.path().map(|path| read_frame(path, &IDA_FRAGILITY)).transpose()?)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

@@ -4,6 +4,7 @@ pub mod verdict;
 
 use anyhow::Context;
 use clap::Args;
+use polars::prelude::DataFrame;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -200,6 +201,10 @@ impl Stage for RankIms {
 
     fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
         self.out.path().map_or(Ok(String::new()), verdict::show)
+    }
+
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        self.out.path().map(verdict::shown).transpose()
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

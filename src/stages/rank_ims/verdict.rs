@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use polars::prelude::ChunkCompareEq;
+use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use crate::keyword::Keyword;
 use crate::table::ranking::{RANKING, RankingRow};
@@ -22,17 +22,24 @@ const CLEAR: f64 = 2.0;
 pub fn show(path: &Path) -> anyhow::Result<String> {
     let mut chosen = RankingRow::read(path)?;
     chosen.retain(|row| row.choice.is_some() || row.terms == 0);
-    let frame = read_frame(path, &RANKING)?;
-    // The rows that were chosen, and those without measures, which every structure has.
-    let shown =
-        frame.column(schema::choice.name)?.is_not_null() | frame.column(schema::terms.name)?.i64()?.equal(0);
-    let mut text = text::aligned(&frame.filter(&shown)?.select(names(&SHOWN))?);
+    let mut text = text::aligned(&shown(path)?.select(names(&SHOWN))?);
     text += "\n";
     let of = |row: &RankingRow| (row.suite.clone(), row.structure.clone(), row.target);
     for group in chosen.chunk_by(|a, b| of(a) == of(b)) {
         text += &verdict(group)?;
     }
     Ok(text)
+}
+
+/// The rows that were chosen, and those without measures, which every structure has.
+///
+/// # Errors
+/// If the file is no ranking.
+pub fn shown(path: &Path) -> anyhow::Result<DataFrame> {
+    let frame = read_frame(path, &RANKING)?;
+    let shown =
+        frame.column(schema::choice.name)?.is_not_null() | frame.column(schema::terms.name)?.i64()?.equal(0);
+    Ok(frame.filter(&shown)?)
 }
 
 /// What a reader looks at first; the file holds the rest.

@@ -3,6 +3,7 @@
 mod words;
 
 use clap::Args;
+use polars::prelude::DataFrame;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -25,6 +26,7 @@ use crate::studies::{
     CurveForm, CurveSubject, PooledFit, PooledStructure, PooledTerms, Transfer, fit_pooled,
 };
 use crate::table::row::WriteRow;
+use crate::table::store::frame::read_frame;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::store::writer::TableWriter;
@@ -260,6 +262,10 @@ impl Stage for Universality {
 
     fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
         self.out.path().map_or(Ok(String::new()), words::show)
+    }
+
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        Ok(self.out.path().map(|out| read_frame(out, &UNIVERSALITY)).transpose()?)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

@@ -1,5 +1,7 @@
 //! run: all stages of pipeline.yaml in order, skipping what is up to date.
 
+pub mod findings;
+
 use std::fmt::Write;
 use std::path::PathBuf;
 
