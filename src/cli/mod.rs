@@ -210,12 +210,17 @@ fn run_all(stages: &[Box<dyn Stage>], format: Format, may: May, console: &Consol
     match format {
         Format::Table => {
             let terminal = Terminal::stdout();
-            let shown = stages.iter().map(|stage| stage.show(&terminal)).collect::<anyhow::Result<String>>()?;
+            let shown =
+                stages.iter().map(|stage| stage.show(&terminal)).collect::<anyhow::Result<String>>()?;
             let gap = if findings.is_empty() || shown.is_empty() { "" } else { "\n" };
-            print(&format!("{}{gap}{shown}", findings.iter().map(|line| format!("{line}\n")).collect::<String>()))
+            print(&format!(
+                "{}{gap}{shown}",
+                findings.iter().map(|line| format!("{line}\n")).collect::<String>()
+            ))
         }
         Format::Json => {
-            let each = |stage: &Box<dyn Stage>| Ok(format!("\"{}\": {}", stage.name(), json(stage.as_ref())?));
+            let each =
+                |stage: &Box<dyn Stage>| Ok(format!("\"{}\": {}", stage.name(), json(stage.as_ref())?));
             let each = stages.iter().map(each).collect::<anyhow::Result<Vec<_>>>()?;
             print(&format!("{{\n\"findings\": {},\n{}}}\n", json!(findings), each.join(",\n")))
         }

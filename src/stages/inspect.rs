@@ -128,13 +128,19 @@ fn first_rows(path: &Path, rows: usize) -> anyhow::Result<DataFrame> {
 fn readable(array: &ArrayRef) -> ArrayRef {
     let length = |length: usize| format!("{length} samples");
     if let Some(lists) = array.as_list_opt::<i32>() {
-        return Arc::new(lists.iter().map(|list| list.map(|list| length(list.len()))).collect::<StringArray>());
+        return Arc::new(
+            lists.iter().map(|list| list.map(|list| length(list.len()))).collect::<StringArray>(),
+        );
     }
     if let Some(lists) = array.as_list_opt::<i64>() {
-        return Arc::new(lists.iter().map(|list| list.map(|list| length(list.len()))).collect::<StringArray>());
+        return Arc::new(
+            lists.iter().map(|list| list.map(|list| length(list.len()))).collect::<StringArray>(),
+        );
     }
     if let Some(lists) = array.as_fixed_size_list_opt() {
-        return Arc::new(lists.iter().map(|list| list.map(|list| length(list.len()))).collect::<StringArray>());
+        return Arc::new(
+            lists.iter().map(|list| list.map(|list| length(list.len()))).collect::<StringArray>(),
+        );
     }
     if let Some(numbers) = array.as_primitive_opt::<Float32Type>() {
         return Arc::new(numbers.iter().map(|number| number.map(f64::from)).collect::<Float64Array>());

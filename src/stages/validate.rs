@@ -95,14 +95,20 @@ impl Validate {
 impl Declare for Validate {
     type Options = FitsOptions;
     const NAME: &'static str = VALIDATION.stage;
-    const ABOUT: &'static str = "Test fits on responses they were not made from, such as those to records: counts seen and \
-         expected, scores";
+    const ABOUT: &'static str = "Test fits on responses they were not fitted to, such as those to records: observed and \
+         expected counts, scores";
+    const EXAMPLES: &'static str =
+        "rockfrag validate --in responses.parquet --pex pex.parquet --pro pro.parquet";
+    const HELPS: &'static [(&'static str, &'static str)] = &[
+        ("suite", "Suite of the fits [default: all]"),
+        ("structure", "Structure of the fits [default: all]"),
+    ];
     const INPUTS: &'static [Input] = &[
         Input::file(
             RESPONSES_ROLE,
             "in",
             Simulate::OUTPUT.file,
-            "Responses to hold the curves against, such as those to records",
+            "Responses to test the fits on, such as those to records",
         ),
         FIT_INPUTS[0],
         FIT_INPUTS[1],

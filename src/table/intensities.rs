@@ -1,9 +1,9 @@
 //! A table of intensities, ours (motions, responses) or anyone's: pga_m_s2 and pgv_m_s, and what else is there.
 
 use super::TableError;
+use super::schema::headings::Headings;
 use super::schema::{self, Column};
 use super::store::columns::Columns;
-use super::store::headings::Headings;
 use super::store::reader::{Batch, Batches, OpenTable, expect_columns};
 use super::store::source::Source;
 use crate::motion::IntensityMeasures;

@@ -172,7 +172,8 @@ pub fn ours(path: &Path, seed: u64) -> anyhow::Result<Vec<SpreadRow>> {
 /// If the file is no comparison with the paper.
 pub fn shown(path: &Path) -> anyhow::Result<DataFrame> {
     let frame = read_frame(path, &PAPER)?;
-    let is_ours = frame.column(schema::ours.name)?.is_not_null() | frame.column(schema::t2.name)?.is_not_null();
+    let is_ours =
+        frame.column(schema::ours.name)?.is_not_null() | frame.column(schema::t2.name)?.is_not_null();
     Ok(frame.filter(&is_ours)?)
 }
 

@@ -8,7 +8,7 @@ use rockfrag::stages::registry::Config;
 use rockfrag::stages::shared::structures::Structures;
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 use rockfrag::table::paper;
-use rockfrag::table::store::headings::Headings;
+use rockfrag::table::schema::headings::Headings;
 
 const PIECES: [&str; 28] = [
     "seed: 1",

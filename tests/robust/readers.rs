@@ -14,7 +14,7 @@ use rockfrag::table::motions::{Motion, MotionBatches};
 use rockfrag::table::pex::PexRow;
 use rockfrag::table::pro::ProRow;
 use rockfrag::table::row::ReadRow;
-use rockfrag::table::store::headings::Headings;
+use rockfrag::table::schema::headings::Headings;
 use rockfrag::table::store::{contents, reader};
 use rockfrag::table::universality::{PooledRow, UniversalityRow};
 use rockfrag::table::{TableError, ida, paper, scenarios, validation};
@@ -77,5 +77,6 @@ fn curves(path: &Path) -> anyhow::Result<()> {
 }
 
 fn intensities(path: &Path) -> Result<(), TableError> {
-    IntensityBatches::open(path, &Headings::default(), None, Some(0.92), 4096)?.try_for_each(|batch| batch.map(drop))
+    IntensityBatches::open(path, &Headings::default(), None, Some(0.92), 4096)?
+        .try_for_each(|batch| batch.map(drop))
 }

@@ -8,7 +8,7 @@ use csv::StringRecord;
 
 use crate::fragility::Peak;
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks};
-use crate::table::store::headings::Headings;
+use crate::table::schema::headings::Headings;
 use crate::table::store::text_file::{self, CsvText};
 use crate::units::G_M_S2;
 
@@ -48,7 +48,8 @@ enum Cell {
 impl Cell {
     /// What the column of this name holds.
     fn of(name: &str) -> Option<Cell> {
-        let of_peak = |&(known, peak, unit): &(&str, Peak, f64)| (known == name).then_some(Cell::Peak(peak, unit));
+        let of_peak =
+            |&(known, peak, unit): &(&str, Peak, f64)| (known == name).then_some(Cell::Peak(peak, unit));
         let years = || {
             let years: f64 = name.strip_prefix(PROBABILITY.0)?.strip_suffix(PROBABILITY.1)?.parse().ok()?;
             (years > 0.0 && years.is_finite()).then_some(Cell::ExceedanceIn(years))
@@ -65,7 +66,11 @@ impl Cell {
         let percent = text.strip_suffix('%');
         let parsed = percent.unwrap_or(text).trim_end().parse::<f64>().ok().filter(|value| value.is_finite());
         let Some(written) = parsed else {
-            let comma = if text.contains(',') { "; with decimal commas, separate the cells by semicolons" } else { "" };
+            let comma = if text.contains(',') {
+                "; with decimal commas, separate the cells by semicolons"
+            } else {
+                ""
+            };
             return Err(format!("a finite number{comma}"));
         };
         let value = if percent.is_some() { written / 100.0 } else { written };

@@ -7,7 +7,7 @@ use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
 use crate::table::evaluated::{self, EVALUATED, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
-use crate::table::store::headings::Headings;
+use crate::table::schema::headings::Headings;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::store::writer::TableWriter;
@@ -37,7 +37,8 @@ impl EvaluatedTable {
         console: &Console,
     ) -> anyhow::Result<String> {
         let nameless = self.structure.clone().map(|structure| Structure { name: String::new(), ..structure });
-        let intensities = IntensityBatches::open(input, &self.headings, nameless, self.answering.eta(), BATCH)?;
+        let intensities =
+            IntensityBatches::open(input, &self.headings, nameless, self.answering.eta(), BATCH)?;
         let total = intensities.rows();
         self.answering.warn_of_fits(console);
         let mut writer = TableWriter::create(out.clone(), &EVALUATED, provenance.clone())?;

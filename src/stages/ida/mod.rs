@@ -110,10 +110,11 @@ impl Ida {
 impl Declare for Ida {
     type Options = IdaOptions;
     const NAME: &'static str = IDA.stage;
-    const ABOUT: &'static str = "Incremental dynamic analysis: from which intensity of each motion on each structure overturns, and \
-         which share of larger ones does so";
+    const ABOUT: &'static str = "Run incremental dynamic analysis: find the intensity from which each motion overturns each structure, and \
+         the share of larger ones that does";
+    const EXAMPLES: &'static str = "rockfrag ida --width 0.5 --height 2.0 --measure im5";
     const INPUTS: &'static [Input] =
-        &[Input::file("motions", "in", SynthesizeMotions::OUTPUT.file, "Motions to read, as simulate does")];
+        &[Input::file("motions", "in", SynthesizeMotions::OUTPUT.file, "Motions to read, as in simulate")];
     const OUTPUT: Output = Output::file(
         "ida.parquet",
         "File of overturning intensities to write; NAME.stripes, NAME.windows, NAME.shares and NAME.fragility stand beside it [default: ida.parquet beside the input]",

@@ -11,6 +11,7 @@ use clap::ValueEnum;
 use super::registry::PAPER;
 use crate::motion::{Design, Grid, MotionModel, Suite, Synthesizer};
 use crate::pipeline::UsageError;
+use crate::pipeline::stage::folder_of;
 use crate::units::G_M_S2;
 
 /// What a folder starts from.
@@ -57,6 +58,8 @@ impl Start {
 /// # Errors
 /// If one of them is there already, in which case nothing is written; or if the folder cannot be written.
 pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
+    // As a name without the folder that it is in anyway.
+    let folder = folder.strip_prefix(".").unwrap_or(folder);
     let files: Vec<(PathBuf, String)> =
         start.files().into_iter().map(|(name, text)| (folder.join(name), text)).collect();
     if let Some((path, _)) = files.iter().find(|(path, _)| path.symlink_metadata().is_ok()) {
@@ -77,15 +80,13 @@ pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
     if !samples.is_empty() {
         writeln!(said, "wrote {} made-up records to {}", samples.len(), folder.join(RECORDS).display())?;
     }
-    let there = if folder == Path::new(".") { String::new() } else { format!("cd {} && ", folder.display()) };
+    let there = if folder == Path::new("") { String::new() } else { format!("cd {} && ", folder.display()) };
     writeln!(said, "next: {there}rockfrag run")?;
     Ok(said)
 }
 
 fn write(path: &Path, text: &str) -> std::io::Result<()> {
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder)?;
-    }
+    std::fs::create_dir_all(folder_of(path))?;
     // A file that came meanwhile is left as it is.
     File::create_new(path)?.write_all(text.as_bytes())
 }

@@ -44,8 +44,10 @@ pub fn of(stages: &[Box<dyn Stage>]) -> anyhow::Result<Vec<String>> {
 
 /// How many published numbers and planes are reproduced.
 fn of_paper(rows: &[PaperRow]) -> Option<String> {
-    let compared: Vec<&PaperRow> =
-        rows.iter().filter(|row| row.published.is_some() && row.spread_sd.is_some_and(|sd| sd > 0.0)).collect();
+    let compared: Vec<&PaperRow> = rows
+        .iter()
+        .filter(|row| row.published.is_some() && row.spread_sd.is_some_and(|sd| sd > 0.0))
+        .collect();
     // Without z, the print leaves open more than the seeds do, and ours lies in it.
     let within = compared.iter().filter(|row| row.z.is_none_or(|z| z.abs() <= DEVIATIONS)).count();
     let planes: Vec<f64> = rows.iter().filter_map(|row| row.t2_p).collect();
@@ -90,5 +92,11 @@ fn probability(fits: &ChosenFits) -> Option<String> {
         fits.model.out_of_range(&measures).next().map(|_| "outside of its data"),
     ];
     let doubts: String = doubts.into_iter().flatten().map(|doubt| format!("; {doubt}")).collect();
-    Some(format!("{:.2} for {} ({:.2} to {:.2}{doubts})", p.value, structure.name, p.low, p.high))
+    let [value, low, high] = [p.value, p.low, p.high].map(short);
+    Some(format!("{value} for {} ({low} to {high}{doubts})", structure.name))
+}
+
+/// A probability with the digits that a sentence needs.
+fn short(p: f64) -> String {
+    if p < 0.01 { format!("{p:.0e}") } else { format!("{p:.2}") }
 }

@@ -36,7 +36,7 @@ use crate::table::universality::{POOLED, PooledRow, UNIVERSALITY, UniversalityRo
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct UniversalityOptions {
-    /// Structure whose curves are transferred to all others
+    /// Structure whose curves to transfer to all others
     #[arg(long, default_value = "electrical-equipment", value_name = "NAME")]
     pub reference: String,
     /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate
@@ -46,10 +46,10 @@ pub struct UniversalityOptions {
     #[arg(long, value_name = "IM")]
     pub measure: Option<Word<Measure>>,
     /// IM4 at which the two planes of all structures meet
-    #[arg(long, default_value = "1.3")]
+    #[arg(long, default_value = "1.3", value_name = "IM4")]
     pub transition: f64,
-    /// Demand |theta|max / alpha whose exceedance P_ex is about
-    #[arg(long, default_value = "0.10")]
+    /// Limit state of P_ex: a demand |theta|max / alpha
+    #[arg(long, default_value = "0.10", value_name = "DEMAND")]
     pub limit_state: f64,
 }
 
@@ -228,8 +228,9 @@ fn pooled<'a>(subject: &CurveSubject, suite: &SuiteOfGroups<'a>) -> Vec<Result<P
 impl Declare for Universality {
     type Options = UniversalityOptions;
     const NAME: &'static str = UNIVERSALITY.stage;
-    const ABOUT: &'static str = "How universal the curves of one structure are: tested on the responses of all others to the \
-         same motions";
+    const ABOUT: &'static str =
+        "Test the curves of one structure on the responses of all others to the same motions";
+    const EXAMPLES: &'static str = "rockfrag universality --reference electrical-equipment";
     const INPUTS: &'static [Input] =
         &[Input::file("responses", "in", Simulate::OUTPUT.file, "Responses of all structures to read")];
     const OUTPUT: Output = Output::file(

@@ -11,7 +11,7 @@
 //! contents     what files and folders say of themselves
 //! writer       batches to a file that gets its name when it is whole
 //! provenance   what made a file, in its metadata; fingerprint the hash of what it holds
-//! text         a table as aligned text, CSV or JSON; text_file text files whole; headings other names of columns
+//! text         a table as aligned text, CSV or JSON; text_file text files whole
 //! ```
 
 pub mod columns;
@@ -23,7 +23,6 @@ pub mod folder;
 pub mod footer;
 pub(crate) mod fragment;
 pub mod frame;
-pub mod headings;
 pub mod guarded;
 pub(crate) mod limits;
 pub(crate) mod lists;

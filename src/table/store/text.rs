@@ -36,6 +36,8 @@ fn aligned_under(frame: &DataFrame, heads: impl Iterator<Item = Vec<String>>) ->
 pub fn cells(column: &Column) -> impl Iterator<Item = String> {
     values(column).map(|value| match value {
         AnyValue::String(text) => text.to_string(),
+        // In a frame of one row.
+        AnyValue::StringOwned(text) => text.to_string(),
         AnyValue::Float64(number) => short(number),
         AnyValue::Int64(count) => count.to_string(),
         AnyValue::Int32(count) => count.to_string(),
@@ -53,6 +55,7 @@ pub fn csv(frame: &DataFrame) -> anyhow::Result<String> {
     for row in rows(frame) {
         writer.write_record(row.map(|value| match value {
             AnyValue::String(text) => text.to_string(),
+            AnyValue::StringOwned(text) => text.to_string(),
             AnyValue::Float64(number) => number.to_string(),
             AnyValue::Int64(count) => count.to_string(),
             AnyValue::Int32(count) => count.to_string(),
@@ -68,6 +71,7 @@ pub fn json(frame: &DataFrame) -> String {
         let pairs = frame.columns().iter().zip(row).map(|(column, value)| {
             let value = match value {
                 AnyValue::String(text) => Value::from(text),
+                AnyValue::StringOwned(text) => Value::from(text.as_str()),
                 AnyValue::Float64(number) => Value::from(number),
                 AnyValue::Int64(count) => Value::from(count),
                 AnyValue::Int32(count) => Value::from(count),

@@ -6,9 +6,9 @@ use std::path::Path;
 
 use csv::{Position, Reader, ReaderBuilder, StringRecord, Trim};
 
-use super::headings::Headings;
 use super::writer::temporary_beside;
 use crate::table::TableError;
+use crate::table::schema::headings::Headings;
 
 /// The bytes of a file that may have `most_mib` MiB, and of anything else that can be read, up to that.
 ///
@@ -99,7 +99,11 @@ impl<'a> CsvText<'a> {
             }
             let with_point = |cell: &str| {
                 let point = cell.replace(',', ".");
-                if point.parse::<f64>().is_ok() { point } else { cell.to_string() }
+                if point.trim_end_matches(['%', ' ']).parse::<f64>().is_ok() {
+                    point
+                } else {
+                    cell.to_string()
+                }
             };
             Ok((line, record.iter().map(with_point).collect()))
         })
@@ -113,7 +117,9 @@ fn plain(heading: &str) -> String {
 
 /// What is wrong with a row.
 fn explain(error: &csv::Error) -> String {
-    let csv::ErrorKind::UnequalLengths { pos, expected_len, len } = error.kind() else { return error.to_string() };
+    let csv::ErrorKind::UnequalLengths { pos, expected_len, len } = error.kind() else {
+        return error.to_string();
+    };
     let line = pos.as_ref().map_or(0, Position::line);
     format!(
         "line {line}: {len} cells under {expected_len} headings; if commas are decimal signs, separate the cells by semicolons"

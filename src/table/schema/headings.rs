@@ -19,7 +19,10 @@ impl FromStr for Headings {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Headings, String> {
-        let pair = |part: &str| match part.split_once('=').map(|(column, heading)| (column.trim(), heading.trim())) {
+        let pair = |part: &str| match part
+            .split_once('=')
+            .map(|(column, heading)| (column.trim(), heading.trim()))
+        {
             Some((column, heading)) if !column.is_empty() && !heading.is_empty() => {
                 Ok((column.to_string(), heading.to_string()))
             }
@@ -31,7 +34,8 @@ impl FromStr for Headings {
 
 impl fmt::Display for Headings {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let pairs: Vec<String> = self.0.iter().map(|(column, heading)| format!("{column}={heading}")).collect();
+        let pairs: Vec<String> =
+            self.0.iter().map(|(column, heading)| format!("{column}={heading}")).collect();
         f.write_str(&pairs.join(","))
     }
 }
@@ -58,9 +62,12 @@ impl Headings {
     ///
     /// # Errors
     /// With the first pair that has none of these headings.
-    pub fn renamed(&self, headings: &[String], alike: impl Fn(&str, &str) -> bool) -> Result<Vec<String>, String> {
-        let missing =
-            |(_, heading): &&(String, String)| !headings.iter().any(|other| alike(other, heading));
+    pub fn renamed(
+        &self,
+        headings: &[String],
+        alike: impl Fn(&str, &str) -> bool,
+    ) -> Result<Vec<String>, String> {
+        let missing = |(_, heading): &&(String, String)| !headings.iter().any(|other| alike(other, heading));
         if let Some((column, heading)) = self.0.iter().find(missing) {
             return Err(format!(
                 "no heading '{heading}' for {column}; expected one of {}",
