@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use clap::{Args, Command, FromArgMatches, Subcommand};
+use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand};
 use clap_complete::Shell;
 use serde_json::json;
 
@@ -123,8 +123,11 @@ fn command() -> Command {
 /// # Errors
 /// Those of the stage that was called; [`UsageError`] for a mistake in the call.
 pub fn main() -> anyhow::Result<()> {
-    let matches = command().get_matches();
-    let common = Common::from_arg_matches(&matches)?;
+    obey(&command().get_matches())
+}
+
+fn obey(matches: &ArgMatches) -> anyhow::Result<()> {
+    let common = Common::from_arg_matches(matches)?;
     let (subcommand, flags) = matches.subcommand().ok_or_else(|| UsageError::because("no subcommand"))?;
     expect_no_idle(subcommand, flags)?;
     let console =
@@ -150,7 +153,7 @@ pub fn main() -> anyhow::Result<()> {
             }
         });
     }
-    match Tool::from_arg_matches(&matches)? {
+    match Tool::from_arg_matches(matches)? {
         Tool::Run { pipeline, out, seed, dry_run: dry, printed } => {
             let config = read_pipeline(&pipeline)?;
             let config = if let Some(seed) = seed { config.with_seed(seed) } else { config };

@@ -273,7 +273,7 @@ impl<S: Declare> Section<S> {
                 inputs.extend(flags.get_one::<PathBuf>(name).map(|path| (name, path.clone())));
             } else if let Some(value) = typed.get(name) {
                 if value.is_null() {
-                    return Err(UsageError::because(format!("{name} is no finite number")));
+                    return Err(UsageError::because(format!("{name} is not a finite number")));
                 }
                 options.insert(name.to_string(), value.clone());
             }

@@ -66,7 +66,7 @@ impl Validate {
                 recorded(path)?.and_then(|recorded| recorded.provenance.inputs.get(RESPONSES_ROLE).cloned());
             if fitted_to.as_ref() == responses {
                 console.warn(&format!(
-                    "{} was fitted to the very responses of {}: that they agree proves nothing",
+                    "{} was fitted to these responses, {}: that they agree proves nothing",
                     path.display(),
                     self.input.name().display()
                 ));

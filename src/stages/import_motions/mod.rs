@@ -204,7 +204,7 @@ impl Stage for ImportMotions {
         writer.made_otherwise(incomplete(provenance, &refused));
         writer.finish()?;
         bail!(
-            "{}\n{} motions of the others are imported; with --keep-going this is no failure",
+            "{}\n{} motions of the others are imported; with --keep-going the command succeeds all the same",
             summary(&refused, self.importer.files.len()),
             seen.len()
         )
