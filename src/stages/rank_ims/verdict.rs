@@ -90,7 +90,7 @@ fn verdict(group: &[RankingRow]) -> Result<String, std::fmt::Error> {
             let against = comparison(scalar.over_best, scalar.se_over_best);
             write!(
                 line,
-                "\n    the best of the six of Eq. 13 as one power law, {}, is {against} beside it",
+                "\n    the best of the six of Eq. 13 as one power law, {}, is {against} compared with it",
                 scalar.measures
             )?;
         }
@@ -115,7 +115,7 @@ fn verdict(group: &[RankingRow]) -> Result<String, std::fmt::Error> {
 
 /// A difference of log scores in words.
 fn comparison(value: Option<f64>, error: Option<f64>) -> String {
-    let (Some(value), Some(error)) = (value, error) else { return "of unknown worth".to_string() };
+    let (Some(value), Some(error)) = (value, error) else { return "not comparable".to_string() };
     let word = match value {
         value if value > CLEAR * error => "clearly better",
         value if value < -CLEAR * error => "clearly worse",
