@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand};
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
 use clap_complete::Shell;
 use serde_json::json;
 
@@ -100,8 +100,8 @@ enum Tool {
 }
 
 const FIRST: &str = "Examples:
-  rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6   how likely a block of 0.5 x 2.0 m overturns
-  rockfrag init                                                    a folder to start from";
+  rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6
+  rockfrag init";
 
 fn command() -> Command {
     let command = Command::new("rockfrag")
@@ -109,10 +109,12 @@ fn command() -> Command {
         .max_term_width(100)
         .subcommand_required(true)
         .arg_required_else_help(true);
-    let command = commands().into_iter().fold(command, |command, stage| {
-        let prints = PRINTING.contains(&stage.get_name());
-        command.subcommand(if prints { Printed::augment_args(stage) } else { stage })
+    let printed: Vec<Arg> = Printed::augment_args(Command::new("")).get_arguments().cloned().collect();
+    let stages = commands().into_iter().map(|stage| match PRINTING.contains(&stage.get_name()) {
+        true => stage.args(printed.clone()),
+        false => stage,
     });
+    let command = command.subcommands(stages.collect::<Vec<_>>());
     with_common(Tool::augment_subcommands(command))
         .about("Dimensionless fragility curves for rocking structures in near-fault earthquakes")
         .after_help(FIRST)

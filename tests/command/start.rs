@@ -133,6 +133,7 @@ fn every_help_has_examples_that_run() {
         let help = stdout(folder.path(), &format!("{name} --help"));
         let examples = help.split("\nExamples:\n").nth(1).unwrap_or_default();
         let examples = commands(examples);
+        assert!(help.starts_with(char::is_uppercase) && !help.starts_with("How "), "{help}");
         assert!((1..=2).contains(&examples.len()), "{name}: {} examples\n{help}", examples.len());
         for example in examples {
             assert!(example.starts_with(&name), "{name}: {example}");
