@@ -56,6 +56,12 @@ impl IntensityBatches {
         batch_size: usize,
     ) -> Result<IntensityBatches, TableError> {
         let columns = if structure.is_none() { READ.concat() } else { [PEAKS, PERIODS].concat() };
+        let source = source.into();
+        if !headings.is_empty() {
+            // Of all columns, so that a message can name them.
+            let whole = OpenTable::open_at(&source, &STAGES, |_| true)?;
+            whole.schemas()?.iter().try_for_each(|(path, schema)| headings.schema(path, schema).map(drop))?;
+        }
         let table = OpenTable::open_at(source, &STAGES, |name| headings.may_be(name, &columns))?;
         table.expect_rows(FEW_ROWS)?;
         for (path, schema) in table.schemas()? {

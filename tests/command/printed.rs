@@ -66,7 +66,8 @@ fn every_table_is_printed_for_programs_with_its_warnings() {
 fn a_run_is_printed_for_programs() {
     let (folder, _) = small_pipeline();
     let printed = json(folder.path(), "run");
-    assert_eq!(printed["compare-paper"]["rows"].as_array().unwrap()[0]["quantity"], "low_ln_a");
+    let rows = printed["compare-paper"]["rows"].as_array().unwrap();
+    assert!(rows.iter().any(|row| row["quantity"] == "im5_theta"), "{printed}");
     assert!(!printed["fit-pro"]["warnings"].as_array().unwrap().is_empty(), "{printed}");
     assert!(printed["findings"][0].as_str().unwrap().contains("published numbers"), "{printed}");
 }
@@ -113,7 +114,8 @@ fn a_run_of_the_paper_says_first_what_it_found() {
     let lines: Vec<&str> = printed.lines().collect();
     // By the table: z within two, or none because the print leaves more open than seeds do.
     let rows = PaperRow::read(folder.path().join("out/paper.parquet")).unwrap();
-    let compared = rows.iter().filter(|row| row.published.is_some() && row.spread_sd.is_some());
+    let compared =
+        rows.iter().filter(|row| row.published.is_some() && row.spread_sd.is_some_and(|sd| sd > 1e-9));
     let within = compared.clone().filter(|row| row.z.is_none_or(|z| z.abs() <= 2.0)).count();
     assert!(
         lines[0].starts_with(&format!("{within} of {} published numbers", compared.count())),

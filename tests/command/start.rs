@@ -196,7 +196,7 @@ fn every_shell_gets_completions_of_every_command() {
     }
     fail(folder.path(), "completions tcsh", 2, &["'tcsh'", "bash"]);
     // By a bash, where there is one: what follows `rockfrag fit`.
-    let words = "source bash && COMP_WORDS=(rockfrag fit) COMP_CWORD=1 && _rockfrag rockfrag fit rockfrag && echo ${COMPREPLY[@]}";
+    let words = "source ./bash && COMP_WORDS=(rockfrag fit) COMP_CWORD=1 && _rockfrag rockfrag fit rockfrag && echo ${COMPREPLY[@]}";
     if let Ok(output) =
         std::process::Command::new("bash").args(["-c", words]).current_dir(folder.path()).output()
     {

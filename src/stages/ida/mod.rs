@@ -112,7 +112,8 @@ impl Declare for Ida {
     const NAME: &'static str = IDA.stage;
     const ABOUT: &'static str = "Run incremental dynamic analysis: find the intensity from which each motion overturns each structure, and \
          the share of larger ones that does";
-    const EXAMPLES: &'static str = "rockfrag ida --width 0.5 --height 2.0 --measure im5";
+    const EXAMPLES: &'static str =
+        "rockfrag ida --in recorded.parquet --width 0.5 --height 2.0 --measure im5";
     const INPUTS: &'static [Input] =
         &[Input::file("motions", "in", SynthesizeMotions::OUTPUT.file, "Motions to read, as in simulate")];
     const OUTPUT: Output = Output::file(

@@ -23,6 +23,8 @@ const PGV_M_S: f64 = 0.6;
 const MOST_STRUCTURES: usize = 4;
 /// A published number beyond so many standard deviations is not reproduced.
 const DEVIATIONS: f64 = 2.0;
+/// A number that varies less than this over seeds does not come from them.
+const ROUNDING: f64 = 1e-9;
 /// A published plane whose probability is below this is not reproduced.
 const LEAST_P: f64 = 0.05;
 
@@ -46,7 +48,7 @@ pub fn of(stages: &[Box<dyn Stage>]) -> anyhow::Result<Vec<String>> {
 fn of_paper(rows: &[PaperRow]) -> Option<String> {
     let compared: Vec<&PaperRow> = rows
         .iter()
-        .filter(|row| row.published.is_some() && row.spread_sd.is_some_and(|sd| sd > 0.0))
+        .filter(|row| row.published.is_some() && row.spread_sd.is_some_and(|sd| sd > ROUNDING))
         .collect();
     // Without z, the print leaves open more than the seeds do, and ours lies in it.
     let within = compared.iter().filter(|row| row.z.is_none_or(|z| z.abs() <= DEVIATIONS)).count();
