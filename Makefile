@@ -54,6 +54,7 @@ universal: | $(ROCKFRAG)
 
 picture: $(OUT)/pro.parquet
 	python3 scripts/readme_picture.py $(OUT) docs/fragility.png
+	python3 scripts/study_pictures.py
 
 book: | $(ROCKFRAG)
 	scripts/build_docs.sh $(ROCKFRAG)

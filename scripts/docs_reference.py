@@ -1,14 +1,16 @@
 """Writes the reference of the book: docs_reference.py ROCKFRAG FOLDER
 
-commands.md comes from the help of each command, columns.md from the declarations in src/table. The page of statuses must name
-every status of a fit.
+commands.md comes from the help of each command, columns.md from the declarations in src/table, python.md from the docstrings and
+the stub of the Python package. The page of statuses must name every status of a fit.
 """
 
+import ast
 import os
 import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 COLUMN = re.compile(r'^    (\w+)(?: = "([^"]+)")?: (\w+), "([^"]*)", "((?:[^"\\]|\\.)*)";')
@@ -30,7 +32,8 @@ def commands(program):
     names = [name for name in re.findall(r"^  ([a-z][a-z-]*) ", listed, re.MULTILINE) if name != "help"]
     parts = ["# Commands\n", "What `rockfrag COMMAND --help` prints.\n", f"```text\n{overview.rstrip()}\n```\n"]
     for name in names:
-        text = help_of(program, name).split("\nCommon options:")[0].rstrip()
+        # What all commands share stands in the overview.
+        text = re.sub(r"\nCommon options:\n(?: .*\n)+", "", help_of(program, name)).rstrip()
         parts.append(f"## {name}\n\n```text\n{text}\n```\n")
     return "\n".join(parts)
 
@@ -66,6 +69,51 @@ def columns():
     return "\n".join(parts)
 
 
+def signature(function):
+    """A function as it is called, an argument a line if there are many."""
+    name, arguments = function.name, ast.unparse(function.args)
+    result = f" -> {ast.unparse(function.returns)}" if function.returns else ""
+    if len(arguments) > 80:
+        parts = re.split(r", (?=\*|\w+: )", arguments)
+        arguments = "\n    " + ",\n    ".join(parts) + ",\n"
+    return f"```python\n{name}({arguments}){result}\n```\n"
+
+
+def text_of(node):
+    """A docstring in Markdown."""
+    text = ast.get_docstring(node) or ""
+    text = re.sub(r":\w+:`~?([^`]+)`", r"`\1`", text).replace("``", "`")
+    text = re.sub(r"^(Args|Returns):$", r"\1:\n", text, flags=re.MULTILINE)
+    text = re.sub(r"^    (\w+): (?=.*)", r"* `\1`: ", text, flags=re.MULTILINE)
+    text = re.sub(r"(?<=Returns:\n\n)    ", "* ", text)
+    return re.sub(r"::\n\n((?:(?:    .*)?\n)+)", lambda code: f":\n\n```python\n{textwrap.dedent(code[1]).strip()}\n```\n\n", text + "\n")
+
+
+def python():
+    folder = ROOT / "python/python/rockfrag"
+    tree = {name: ast.parse((folder / name).read_text()) for name in ("__init__.py", "_stages.pyi", "_rocking.py", "errors.py", "ray.py")}
+    of = lambda file, kind: [node for node in tree[file].body if isinstance(node, kind) and not node.name.startswith("_")]
+    parts = ["# Python functions\n", text_of(tree["__init__.py"]), "## Stages\n"]
+    for function in of("_stages.pyi", ast.FunctionDef):
+        command = function.name.replace("_", "-")
+        parts += [f"### {function.name}\n", signature(function), f"The options are those of the command [{command}](commands.md#{command}).\n"]
+    parts.append("## One response over time\n")
+    for function in of("_rocking.py", ast.FunctionDef):
+        parts += [f"### {function.name}\n", signature(function), text_of(function)]
+    lines = (folder / "_rocking.py").read_text().splitlines()
+    for item in of("_rocking.py", ast.ClassDef):
+        parts += [f"### {item.name}\n", text_of(item), "| attribute | meaning |", "|---|---|"]
+        fields = [node for node in item.body if isinstance(node, ast.AnnAssign)]
+        parts += [f"| `{field.target.id}` | {lines[field.lineno - 2].strip().removeprefix('#:').strip()} |" for field in fields]
+        parts.append("")
+    parts.append("## Errors and warnings\n")
+    parts += [f"`{item.name}`\n: {' '.join(text_of(item).split())}\n" for item in of("errors.py", ast.ClassDef)]
+    parts += ["## rockfrag.ray\n", text_of(tree["ray.py"])]
+    for function in of("ray.py", ast.FunctionDef):
+        parts += [f"### ray.{function.name}\n", signature(function), text_of(function)]
+    return "\n".join(parts)
+
+
 def check_statuses():
     page = (ROOT / "docs/reference/statuses.md").read_text()
     declared = re.search(r"keywords!\(FitStatus \{(.*?)\}\)", (ROOT / "src/statistics/mod.rs").read_text(), re.DOTALL)[1]
@@ -80,6 +128,7 @@ def main():
     folder.mkdir(exist_ok=True)
     (folder / "commands.md").write_text(commands(program))
     (folder / "columns.md").write_text(columns())
+    (folder / "python.md").write_text(python())
 
 
 main()

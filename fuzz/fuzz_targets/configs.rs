@@ -9,6 +9,7 @@ use rockfrag::stages::shared::structures::Structures;
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 use rockfrag::stages::evaluate::hazard;
 use rockfrag::table::paper;
+use rockfrag::table::schema::headings::Headings;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&first, text)) = bytes.split_first() else { return };
@@ -29,7 +30,7 @@ fuzz_target!(|bytes: &[u8]| {
         }
         1 => drop(Structures::File(file("structures.yaml")).resolve()),
         2 => drop(Structures::File(file("structures.csv")).resolve()),
-        3 => drop(hazard::read(&file("hazard.csv"))),
+        3 => drop(hazard::read(&file("hazard.csv"), &Headings::default())),
         4 => {
             let site = file("site.csv").display().to_string();
             let options = SynthesizeMotionsOptions { site, ..SynthesizeMotionsOptions::default() };

@@ -38,6 +38,8 @@ pub struct Console {
     pub listener: Option<Arc<dyn Listener>>,
     /// Where warnings are kept besides.
     pub warnings: Warnings,
+    /// Where warnings go that nobody needs to see one by one.
+    pub expected: Option<Warnings>,
 }
 
 /// Progress through the steps of a stage.
@@ -75,9 +77,10 @@ impl Console {
     /// A warning: a result to be looked at twice.
     pub fn warn(&self, warning: &str) {
         self.warnings.push(warning);
-        match &self.listener {
-            Some(listener) => listener.warn(warning),
-            None => self.note(&format!("warning: {warning}")),
+        match (&self.expected, &self.listener) {
+            (Some(expected), _) => expected.push(warning),
+            (None, Some(listener)) => listener.warn(warning),
+            (None, None) => self.note(&format!("warning: {warning}")),
         }
     }
 

@@ -38,6 +38,10 @@ pub trait Declare: Stage + Sized + 'static {
     const NAME: &'static str;
     /// What it does, in one phrase; further paragraphs are for `--help`.
     const ABOUT: &'static str;
+    /// Commands to try, one a line.
+    const EXAMPLES: &'static str;
+    /// Other words for options that several stages share, by their names, where they mean something else here.
+    const HELPS: &'static [(&'static str, &'static str)] = &[];
     /// What it reads of what other stages make.
     const INPUTS: &'static [Input] = &[];
     /// The file it writes.
@@ -269,7 +273,7 @@ impl<S: Declare> Section<S> {
                 inputs.extend(flags.get_one::<PathBuf>(name).map(|path| (name, path.clone())));
             } else if let Some(value) = typed.get(name) {
                 if value.is_null() {
-                    return Err(UsageError::because(format!("{name} is no finite number")));
+                    return Err(UsageError::because(format!("{name} is not a finite number")));
                 }
                 options.insert(name.to_string(), value.clone());
             }
@@ -374,6 +378,11 @@ fn new_command<S: Declare>() -> Command {
     // What a negative number means is said by the check of the option, not by a word on unknown flags.
     let command = command.mut_args(|arg| arg.allow_negative_numbers(true));
     let command = command.next_help_heading(None::<&str>).args(headed);
+    let command = S::HELPS
+        .iter()
+        .fold(command, |command, &(option, help)| command.mut_arg(option, |arg| arg.help(help)));
+    let examples: String = S::EXAMPLES.lines().map(|line| format!("\n  {line}")).collect();
+    let command = command.after_help(format!("Examples:{examples}"));
     let about = S::ABOUT.split("\n\n").next();
     let long = S::ABOUT.contains("\n\n").then_some(S::ABOUT);
     command.about(about).long_about(long)

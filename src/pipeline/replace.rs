@@ -36,7 +36,7 @@ pub fn check(stage: &dyn Stage, planned: &Provenance, overwrite: bool) -> anyhow
         }
         let Ok(there) = std::fs::metadata(&target) else { continue };
         if !there.is_file() {
-            return failed("there is something that is no file; name another with --out");
+            return failed("there is something that is not a file; name another with --out");
         }
         if !overwrite && let Some(owner) = other_owner(stage, &target, &there) {
             return Err(refusal(&target, &owner, stage.name()));

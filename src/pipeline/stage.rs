@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use polars::prelude::DataFrame;
 use serde_json::Value;
 
 use super::console::Console;
@@ -38,6 +39,14 @@ pub trait Stage {
     /// If an output cannot be read.
     fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
         Ok(String::new())
+    }
+
+    /// The rows of the table that it shows, with all columns, for a program; none where it shows no table.
+    ///
+    /// # Errors
+    /// If an output cannot be read.
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        Ok(None)
     }
 
     /// The files it writes.

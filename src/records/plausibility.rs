@@ -52,7 +52,7 @@ pub fn doubt(acceleration: &[f64], dt_s: f64) -> Option<Doubt> {
     if let Some(sample) = spike(acceleration, pga) {
         return impossible(
             format!("sample {} of {} g", sample + 1, rounded(pga / G_M_S2)),
-            "it stands alone, among samples below a quarter of it; a spike or a damaged number?",
+            "it is isolated among samples below a quarter of it; a spike or a damaged number?",
         );
     }
     if pga > LARGEST_PGA_M_S2 {

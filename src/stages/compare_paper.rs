@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use polars::prelude::DataFrame;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -32,8 +33,8 @@ use crate::table::store::source::{Source, Target};
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct ComparePaperOptions {
-    /// CSV file of the numbers over seeds, as seed-spread writes it [default: the one shipped, of the paper's set-up]
-    #[arg(long)]
+    /// CSV file of our numbers over seeds, from seed-spread [default: the built-in one, for the paper's set-up]
+    #[arg(long, value_name = "FILE")]
     pub spread: Option<PathBuf>,
 }
 
@@ -259,11 +260,18 @@ fn by_quantity(spread: &[SpreadRow]) -> Spread<'_> {
 impl Declare for ComparePaper {
     type Options = ComparePaperOptions;
     const NAME: &'static str = PAPER.stage;
-    const ABOUT: &'static str = "Compare our numbers with the published ones";
+    const ABOUT: &'static str = "Compare our numbers with those that the paper publishes";
+    const EXAMPLES: &'static str = "rockfrag compare-paper\n\
+        rockfrag compare-paper --format json";
     const INPUTS: &'static [Input] = &[
-        Input::file("pex", "pex", FitPex::OUTPUT.file, "Regressions of fit-pex"),
-        Input::file("pro", "pro", FitPro::OUTPUT.file, "Curves of fit-pro"),
-        Input::file("responses", "responses", Simulate::OUTPUT.file, "Responses that both were fitted to"),
+        Input::file("pex", "pex", FitPex::OUTPUT.file, "Demand fits, from fit-pex"),
+        Input::file("pro", "pro", FitPro::OUTPUT.file, "Overturning curves, from fit-pro"),
+        Input::file(
+            "responses",
+            "responses",
+            Simulate::OUTPUT.file,
+            "Responses that both were fitted to, from simulate",
+        ),
     ];
     const OUTPUT: Output = Output::file(
         "paper.parquet",
@@ -296,6 +304,10 @@ impl Stage for ComparePaper {
 
     fn show(&self, terminal: &Terminal) -> anyhow::Result<String> {
         self.out.path().map_or(Ok(String::new()), |out| Ok(terminal.table(&paper::show(out)?)))
+    }
+
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        self.out.path().map(paper::shown).transpose()
     }
 
     fn execute(&self, provenance: &Provenance, _console: &Console) -> anyhow::Result<String> {

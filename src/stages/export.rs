@@ -33,24 +33,24 @@ pub struct ExportOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub structure: StructureOptions,
-    /// openquake (NRML 0.5), openquake-continuous (the same, overturning alone as a lognormal curve) or pelicun (CSV, and
-    /// JSON beside it)
+    /// Program to write for: openquake (NRML 0.5), openquake-continuous (the same, with overturning alone as a lognormal curve) or
+    /// pelicun (CSV, and JSON beside it)
     #[arg(long, help_heading = "Export")]
     pub to: Option<Word<Program>>,
-    /// Intensity: pga or pgv
+    /// Intensity of the functions: pga (g) or pgv (m/s)
     #[arg(long, default_value = "pga", help_heading = "Export")]
     pub im: Word<Peak>,
     /// p PGV / PGA of the motions: one function for each of these numbers
     #[arg(long, value_name = "RATIO,...", help_heading = "Export")]
     pub ratio: Option<Steps>,
-    /// Intensities of the table, g or m/s, as numbers or first:last:step [default: as many as the tolerance needs]
+    /// Intensities of the table, g or m/s: first:last:step, or numbers separated by commas [default: as many as --tolerance needs]
     #[arg(long, value_name = "IM,...", conflicts_with_all = ["upto", "tolerance"], help_heading = "Export")]
     pub levels: Option<Steps>,
-    /// Largest intensity, g or m/s [default: that of the data; of pelicun, where all probabilities are 1]
+    /// Largest intensity, g or m/s [default: as in the data; for pelicun, where all probabilities are 1]
     #[arg(long, value_name = "IM", help_heading = "Export")]
     pub upto: Option<f64>,
-    /// Largest error of straight lines between the levels [default: 1e-6; of pelicun 1e-5]
-    #[arg(long, help_heading = "Export")]
+    /// Largest error of linear interpolation between levels [default: 1e-6; for pelicun 1e-5]
+    #[arg(long, value_name = "P", help_heading = "Export")]
     pub tolerance: Option<f64>,
 }
 
@@ -101,6 +101,11 @@ impl Declare for Export {
     type Options = ExportOptions;
     const NAME: &'static str = "export";
     const ABOUT: &'static str = "Write the fragility of a structure for OpenQuake or pelicun";
+    const EXAMPLES: &'static str = "rockfrag export --to openquake --suite csgm --structure electrical-equipment --p 2.5 --alpha 0.20 --ratio 0.3";
+    const HELPS: &'static [(&'static str, &'static str)] = &[(
+        "eta",
+        "Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions, or as in the fits]",
+    )];
     const INPUTS: &'static [Input] = &FIT_INPUTS;
     const OUTPUT: Output =
         Output::file("fragility.xml", "File to write [default: fragility.xml or fragility.csv]")

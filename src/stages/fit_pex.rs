@@ -28,21 +28,20 @@ use crate::table::store::writer::TableWriter;
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct FitPexOptions {
-    /// Demand |theta|max / alpha whose exceedance P_ex is about
-    #[arg(long, default_value = "0.10")]
+    /// Limit state of P_ex: a demand |theta|max / alpha
+    #[arg(long, default_value = "0.10", value_name = "DEMAND")]
     pub limit_state: f64,
-    /// IM4 at which the two planes meet: found (least pooled residual), or a number
-    #[arg(long, default_value = "found")]
+    /// IM4 at which the two planes meet: a number, or found (where the pooled residual is least)
+    #[arg(long, default_value = "found", value_name = "IM4")]
     pub transition: TransitionAt,
-    /// Least demand that counts as seen: smaller ones in safe rocking are raised to it, as a solver of finite tolerance
-    /// would [default: none]
-    #[arg(long)]
+    /// Raise smaller demands in safe rocking to this one, as a solver of finite tolerance does [default: none]
+    #[arg(long, value_name = "DEMAND")]
     pub demand_floor: Option<f64>,
-    /// Resamples for bootstrap limits, drawn within each cell of magnitude and distance
+    /// Number of bootstrap resamples, drawn within each cell of magnitude and distance
     #[arg(long, default_value = "0", value_name = "N")]
     pub bootstrap: usize,
-    /// Probability with which limits of confidence hold the truth
-    #[arg(long, default_value = "0.95")]
+    /// Confidence level of all limits
+    #[arg(long, default_value = "0.95", value_name = "P")]
     pub confidence: f64,
     /// Seed of the resamples [default: 42]
     #[arg(long)]
@@ -155,6 +154,8 @@ impl Declare for FitPex {
     type Options = FitPexOptions;
     const NAME: &'static str = PEX.stage;
     const ABOUT: &'static str = "Fit the demand in safe rocking: P_ex";
+    const EXAMPLES: &'static str = "rockfrag fit-pex --transition 1.3\n\
+        rockfrag fit-pex --limit-state 0.2 --bootstrap 200 --out wider.parquet";
     const INPUTS: &'static [Input] =
         &[Input::file("responses", "in", Simulate::OUTPUT.file, "Responses to read")];
     const OUTPUT: Output =

@@ -28,23 +28,23 @@ use crate::table::store::writer::TableWriter;
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct FitProOptions {
-    /// What the probability is of: overturning (given rocking), or rocking (of all motions)
+    /// Event of the probability: overturning (given rocking) or rocking (of all motions)
     #[arg(long, default_value = "overturning")]
     pub event: Word<Event>,
-    /// Pairs of measures that make hybrid ones, besides the six scalar measures
-    #[arg(long, default_value = "im4:im3_inv")]
+    /// Pairs of measures for hybrid curves, besides the curves of the six single measures
+    #[arg(long, default_value = "im4:im3_inv", value_name = "IM:IM,...")]
     pub pairs: Several<Parsed<Pair>>,
-    /// How the index becomes a probability: probit (lognormal curve), logit or cloglog
+    /// Shape of the curve: probit (lognormal), logit or cloglog
     #[arg(long, default_value = "probit")]
     pub link: Word<Link>,
-    /// What is maximised: ml (the likelihood), or firth (penalised, for few events or separation)
+    /// What to maximise: ml (the likelihood) or firth (the penalised likelihood, for few events or separation)
     #[arg(long, default_value = "ml")]
     pub estimator: Word<Estimator>,
-    /// Resamples for bootstrap limits, drawn within each cell of magnitude and distance
+    /// Number of bootstrap resamples, drawn within each cell of magnitude and distance
     #[arg(long, default_value = "0", value_name = "N")]
     pub bootstrap: usize,
-    /// Probability with which limits of confidence hold the truth
-    #[arg(long, default_value = "0.95")]
+    /// Confidence level of all limits
+    #[arg(long, default_value = "0.95", value_name = "P")]
     pub confidence: f64,
     /// Seed of the resamples [default: 42]
     #[arg(long)]
@@ -104,6 +104,8 @@ impl Declare for FitPro {
     type Options = FitProOptions;
     const NAME: &'static str = PRO.stage;
     const ABOUT: &'static str = "Fit the probability of overturning: P_ro";
+    const EXAMPLES: &'static str = "rockfrag fit-pro\n\
+        rockfrag fit-pro --estimator firth --out firth.parquet";
     const INPUTS: &'static [Input] =
         &[Input::file("responses", "in", Simulate::OUTPUT.file, "Responses to read")];
     const OUTPUT: Output =

@@ -12,6 +12,7 @@ pub mod fit_pex;
 pub mod fit_pro;
 pub mod ida;
 pub mod import_motions;
+pub mod init;
 pub mod inspect;
 pub mod rank_ims;
 pub mod registry;

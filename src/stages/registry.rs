@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use anyhow::Context;
 use clap::{ArgMatches, Command};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -24,7 +25,7 @@ use super::validate::Validate;
 use crate::pipeline::UsageError;
 use crate::pipeline::declare::{AnySection, Declare, Files, OUT, Section, command, description};
 use crate::pipeline::options::explain;
-use crate::pipeline::stage::{Stage, beside};
+use crate::pipeline::stage::{Stage, beside, folder_of};
 use crate::table::store::source::{Source, Target};
 use crate::table::store::text_file;
 
@@ -116,6 +117,9 @@ stages! {
 /// The largest file: many thousand structures.
 const MOST_MIB: u64 = 1;
 
+/// The set-up of the paper.
+pub const PAPER: &str = include_str!("../../pipeline.yaml");
+
 impl Config {
     /// Reads the file.
     ///
@@ -131,6 +135,24 @@ impl Config {
         config.sections_mut().for_each(|section| section.resolve_paths(folder));
         config.out = Some(beside(path, "").join(config.out.unwrap_or("out".into())));
         Ok(config)
+    }
+
+    /// Whether these stages are some of the paper's set-up, as `pipeline.yaml` has it.
+    ///
+    /// # Errors
+    /// If an input cannot be read.
+    pub fn is_of_paper(stages: &[Box<dyn Stage>]) -> anyhow::Result<bool> {
+        let Some(path) = stages.first().and_then(|stage| stage.outputs().pop()) else { return Ok(false) };
+        let paper: Config = serde_saphyr::from_str(PAPER).context("pipeline.yaml")?;
+        let paper = paper.stages(folder_of(&path))?;
+        let is_same = |one: &dyn Stage, other: &dyn Stage| {
+            let names = |stage: &dyn Stage| {
+                stage.inputs().iter().map(|(_, source)| source.name().to_path_buf()).collect::<Vec<_>>()
+            };
+            one.name() == other.name() && one.parameters() == other.parameters() && names(one) == names(other)
+        };
+        let is_of_paper = |stage: &dyn Stage| paper.iter().any(|other| is_same(stage, other.as_ref()));
+        Ok(stages.iter().all(|stage| is_of_paper(stage.as_ref())))
     }
 
     /// The same run with another seed in all stages.

@@ -29,15 +29,15 @@ pub struct SampleScenariosOptions {
     #[arg(long)]
     pub seed: Option<u64>,
     /// Scenarios in each cell of the grid
-    #[arg(long, default_value = "100")]
+    #[arg(long, default_value = "100", value_name = "N")]
     pub samples: usize,
     /// Moment magnitudes: first:last:step, or numbers separated by commas
-    #[arg(long, default_value = "5.5:7.5:0.5")]
+    #[arg(long, default_value = "5.5:7.5:0.5", value_name = "MW,...")]
     pub mw: Steps,
     /// Distances, km: first:last:step, or numbers separated by commas
-    #[arg(long, default_value = "5:20:2.5")]
+    #[arg(long, default_value = "5:20:2.5", value_name = "KM,...")]
     pub re: Steps,
-    /// How cells are sampled: lhs, random or sobol
+    /// How to sample each cell: lhs (Latin hypercube), random or sobol
     #[arg(long, default_value = "lhs")]
     pub design: Word<Design>,
 }
@@ -91,6 +91,8 @@ impl Declare for SampleScenarios {
     type Options = SampleScenariosOptions;
     const NAME: &'static str = SCENARIOS.stage;
     const ABOUT: &'static str = "Sample earthquake scenarios on a magnitude-distance grid";
+    const EXAMPLES: &'static str = "rockfrag sample-scenarios\n\
+        rockfrag sample-scenarios --mw 6.5,7 --re 5:15:5 --samples 50 --out near.parquet";
     const OUTPUT: Output =
         Output::file("scenarios.parquet", "Scenarios file to write [default: scenarios.parquet]");
 

@@ -19,11 +19,11 @@ use crate::table::paper::{self, SpreadRow};
 /// How many seeds, and where to.
 #[derive(Debug, Clone, Args)]
 pub struct SeedSpreadOptions {
-    /// Seeds 1 to N
-    #[arg(long, default_value = "20")]
+    /// Number of seeds, from 1 on
+    #[arg(long, default_value = "20", value_name = "N")]
     pub seeds: u64,
-    /// CSV file of every number with every seed
-    #[arg(long, default_value = "seed_spread.csv")]
+    /// CSV file to write: each number with each seed
+    #[arg(long, default_value = "seed_spread.csv", value_name = "FILE")]
     pub out: PathBuf,
 }
 

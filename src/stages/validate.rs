@@ -1,5 +1,6 @@
 //! validate: curves tested on responses that they were not fitted to, such as those to recorded motions.
 
+use polars::prelude::DataFrame;
 use serde_json::{Value, json};
 
 use super::shared::chosen_fits::ChosenFits;
@@ -15,6 +16,7 @@ use crate::pipeline::terminal::Terminal;
 use crate::studies::{Forecasts, Validation};
 use crate::table::row::WriteRow;
 use crate::table::store::contents::recorded;
+use crate::table::store::frame::read_frame;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::validation::{self, VALIDATION, ValidationRow};
@@ -64,7 +66,7 @@ impl Validate {
                 recorded(path)?.and_then(|recorded| recorded.provenance.inputs.get(RESPONSES_ROLE).cloned());
             if fitted_to.as_ref() == responses {
                 console.warn(&format!(
-                    "{} was fitted to the very responses of {}: that they agree proves nothing",
+                    "{} was fitted to these responses, {}: that they agree proves nothing",
                     path.display(),
                     self.input.name().display()
                 ));
@@ -93,14 +95,20 @@ impl Validate {
 impl Declare for Validate {
     type Options = FitsOptions;
     const NAME: &'static str = VALIDATION.stage;
-    const ABOUT: &'static str = "Test fits on responses they were not made from, such as those to records: counts seen and \
-         expected, scores";
+    const ABOUT: &'static str = "Test fits on responses they were not fitted to, such as those to records: observed and \
+         expected counts, scores";
+    const EXAMPLES: &'static str =
+        "rockfrag validate --in responses.parquet --pex pex.parquet --pro pro.parquet";
+    const HELPS: &'static [(&'static str, &'static str)] = &[
+        ("suite", "Suite of the fits [default: all]"),
+        ("structure", "Structure of the fits [default: all]"),
+    ];
     const INPUTS: &'static [Input] = &[
         Input::file(
             RESPONSES_ROLE,
             "in",
             Simulate::OUTPUT.file,
-            "Responses to hold the curves against, such as those to records",
+            "Responses to test the fits on, such as those to records",
         ),
         FIT_INPUTS[0],
         FIT_INPUTS[1],
@@ -152,6 +160,10 @@ impl Stage for Validate {
 
     fn show(&self, terminal: &Terminal) -> anyhow::Result<String> {
         self.out.path().map_or(Ok(String::new()), |out| Ok(terminal.table(&validation::show(out)?)))
+    }
+
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        Ok(self.out.path().map(|out| read_frame(out, &VALIDATION)).transpose()?)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

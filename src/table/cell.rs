@@ -115,7 +115,7 @@ impl Value for f64 {
 }
 
 impl WriteValue for f64 {
-    /// What is no finite number is missing.
+    /// What is not a finite number is missing.
     fn optional_array<'r>(values: impl Iterator<Item = Option<&'r f64>>, _: bool) -> ArrayRef {
         let finite = |value: Option<&f64>| value.copied().filter(|value| value.is_finite());
         Arc::new(Float64Array::from_iter(values.map(finite)))

@@ -1,9 +1,10 @@
 //! A table of intensities, ours (motions, responses) or anyone's: pga_m_s2 and pgv_m_s, and what else is there.
 
 use super::TableError;
+use super::schema::headings::Headings;
 use super::schema::{self, Column};
 use super::store::columns::Columns;
-use super::store::reader::{Batch, Batches};
+use super::store::reader::{Batch, Batches, OpenTable, expect_columns};
 use super::store::source::Source;
 use crate::motion::IntensityMeasures;
 use crate::rocking::{Bound, Structure};
@@ -36,25 +37,38 @@ pub struct Intensity {
 /// The rows of a table of intensities, some at a time.
 pub struct IntensityBatches {
     batches: Batches,
+    headings: Headings,
     structure: Option<Structure>,
     eta: Option<f64>,
 }
 
 impl IntensityBatches {
     /// Opens the table, `batch_size` rows at a time. `structure` holds for all rows; without one each row must have its
-    /// own p and alpha, and `eta` holds where it has no eta; without one it must have one.
+    /// own p and alpha, and `eta` holds where it has no eta; without one it must have one. Columns may have other `headings`.
     ///
     /// # Errors
     /// If the file is missing, unreadable, empty, of another stage, or lacks a column.
     pub fn open(
         source: impl Into<Source>,
+        headings: &Headings,
         structure: Option<Structure>,
         eta: Option<f64>,
         batch_size: usize,
     ) -> Result<IntensityBatches, TableError> {
         let columns = if structure.is_none() { READ.concat() } else { [PEAKS, PERIODS].concat() };
-        let batches = Batches::open(source, &STAGES, &columns, FEW_ROWS, batch_size)?;
-        Ok(IntensityBatches { batches, structure, eta })
+        let source = source.into();
+        if !headings.is_empty() {
+            // Of all columns, so that a message can name them.
+            let whole = OpenTable::open_at(&source, &STAGES, |_| true)?;
+            whole.schemas()?.iter().try_for_each(|(path, schema)| headings.schema(path, schema).map(drop))?;
+        }
+        let table = OpenTable::open_at(source, &STAGES, |name| headings.may_be(name, &columns))?;
+        table.expect_rows(FEW_ROWS)?;
+        for (path, schema) in table.schemas()? {
+            expect_columns(&path, &headings.schema(&path, &schema)?, &columns)?;
+        }
+        let (batches, headings) = (table.batches(batch_size)?, headings.clone());
+        Ok(IntensityBatches { batches, headings, structure, eta })
     }
 
     /// How many rows the table has.
@@ -107,7 +121,10 @@ impl Iterator for IntensityBatches {
 
     fn next(&mut self) -> Option<Self::Item> {
         let batch = self.batches.next()?;
-        Some(batch.and_then(|batch| self.intensities(&batch)))
+        Some(batch.and_then(|batch| {
+            let rows = self.headings.batch(&batch.path, batch.rows)?;
+            self.intensities(&Batch { rows, ..batch })
+        }))
     }
 }
 

@@ -4,9 +4,12 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::Context;
+use polars::prelude::DataFrame;
 use serde::{Deserialize, Serialize};
 
 use super::row::{ReadRow, table};
+use super::schema;
+use super::store::frame::read_frame;
 use super::store::text_file;
 
 /// The published transition between the two planes.
@@ -161,6 +164,17 @@ pub fn ours(path: &Path, seed: u64) -> anyhow::Result<Vec<SpreadRow>> {
         Some(SpreadRow { quantity, suite, structure, seed, value: ours? })
     };
     Ok(PaperRow::read(path)?.into_iter().filter_map(row).collect())
+}
+
+/// The rows of the comparison that hold a number of ours.
+///
+/// # Errors
+/// If the file is no comparison with the paper.
+pub fn shown(path: &Path) -> anyhow::Result<DataFrame> {
+    let frame = read_frame(path, &PAPER)?;
+    let is_ours =
+        frame.column(schema::ours.name)?.is_not_null() | frame.column(schema::t2.name)?.is_not_null();
+    Ok(frame.filter(&is_ours)?)
 }
 
 /// The comparison as a table to read; rows that hold no number of ours are left out.

@@ -11,7 +11,7 @@ use crate::rocking::Block;
 use crate::statistics::FitStatus;
 
 table! {
-    /// Regressions of the demand in safe rocking; what is no finite number is null.
+    /// Regressions of the demand in safe rocking; what is not a finite number is null.
     pub struct PexRow as PEX = "pex" by "fit-pex" {
         suite: Option<String>,
         structure: String,

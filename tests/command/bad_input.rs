@@ -176,7 +176,7 @@ fn impossible_parameters_are_named() {
     simulate("--p 0", &["p is 0", "above 0 rad/s"]);
     simulate("--alpha 1.6", &["alpha is 1.6", "between 0 and pi/2"]);
     simulate("--eta 1.2", &["eta is 1.2", "up to 1"]);
-    simulate("--p nan", &["p is no finite number"]);
+    simulate("--p nan", &["p is not a finite number"]);
     simulate("--structures none.csv", &["none.csv"]);
     std::fs::write(folder.path().join("s.yaml"), "- { name: a, p: 1 }\n").unwrap();
     simulate("--structures s.yaml", &["structure 'a'", "p, alpha and eta"]);

@@ -353,7 +353,7 @@ fn questions_without_an_answer_are_explained() {
     ask(&format!("{fits} --pga 1 --pgv 1"), 2, &["expected p, alpha and eta"]);
     ask(&format!("{fits} {structure} --pga 1"), 2, &["--pga (g) and --pgv (m/s)"]);
     ask(&format!("{fits} {structure} --pga=-1 --pgv 1"), 2, &["pga is -1"]);
-    ask(&format!("{fits} {structure} --pga nan --pgv 1"), 2, &["pga is no finite number"]);
+    ask(&format!("{fits} {structure} --pga nan --pgv 1"), 2, &["pga is not a finite number"]);
     ask(&format!("{fits} {structure} --pga 1 --pgv 1 --measure im4"), 2, &["needs --model univariate"]);
     ask(&format!("{fits} {structure} --pga 1 --pgv 1 --format parquet"), 2, &["--out"]);
     ask("--pex none.parquet --p 1 --alpha 0.2 --pga 1 --pgv 1", 1, &["none.parquet: no such file"]);

@@ -65,7 +65,7 @@ fn a_bad_file_is_named_and_the_rest_imported() {
     let call = "import-motions records none.csv --unit g";
     let expected = [
         "3 of 151 files refused",
-        "records/077.csv: line 2: 'oops' is no number",
+        "records/077.csv: line 2: 'oops' is not a number",
         "records/099.csv: not a readable Parquet file",
         "none.csv: No such file",
         "148 motions of the others are imported",

@@ -14,12 +14,14 @@ mod kill;
 mod overwrite;
 mod partitions;
 mod pipeline;
+mod printed;
 mod rank_ims;
 mod report;
 mod shipped;
 mod slips;
 #[path = "../guard/snapshot.rs"]
 mod snapshot;
+mod start;
 mod together;
 mod universal;
 mod universality;

@@ -101,7 +101,7 @@ fn what_something_else_made_is_kept_unless_it_is_given_up() {
         folder.path(),
         "fit-pex --in out/responses.parquet --out out",
         2,
-        &["out: there is something that is no file"],
+        &["out: there is something that is not a file"],
     );
     // A run says so before it does anything, and does the rest as ever.
     std::fs::remove_file(at("out/scenarios.parquet")).unwrap();

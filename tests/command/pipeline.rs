@@ -29,7 +29,7 @@ fn a_changed_parameter_runs_its_stage_and_what_follows() {
     let plan = rockfrag(folder.path()).args(["run", "--dry-run"]).output().unwrap();
     let plan = String::from_utf8(plan.stdout).unwrap();
     assert!(plan.contains("simulate             would run: structures changed"), "{plan}");
-    assert!(plan.contains("fit-pex              would run: the responses are made anew"), "{plan}");
+    assert!(plan.contains("fit-pex              would run: the responses will be made again"), "{plan}");
     let again = succeed(folder.path(), "run");
     assert_eq!(again.matches("up to date").count(), 2, "{again}");
     std::fs::write(

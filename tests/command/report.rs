@@ -73,7 +73,7 @@ fn figures_and_page_are_the_same_bytes_on_any_number_of_threads() {
             svg.contains("Made by rockfrag") && svg.contains("seed "),
             "{name} does not say what was run"
         );
-        assert!(!svg.contains("NaN") && !svg.contains("inf "), "{name} draws what is no number");
+        assert!(!svg.contains("NaN") && !svg.contains("inf "), "{name} draws what is not a number");
         let png = &one[&format!("{name}.png")];
         let side = |at: usize| f64::from(u32::from_be_bytes(png[at..at + 4].try_into().unwrap()));
         assert_eq!((&png[1..4], side(16), side(20)), (&b"PNG"[..], width.ceil(), height.ceil()), "{name}");

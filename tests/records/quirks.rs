@@ -175,7 +175,7 @@ fn missing_parts_are_named_with_their_line() {
     assert!(error("1.0\n2.0\n").contains("--dt"));
     assert!(error("0 1 2\n1 2 3\n").contains("--column"));
     assert!(error("0 1\n0.01 2\n0.02 2\n0.06 2\n").contains("line 4: a time step of 0.04"));
-    assert!(error("0 1\n0.01 2\n0.02 **\n").contains("line 3: '**' is no number"));
+    assert!(error("0 1\n0.01 2\n0.02 **\n").contains("line 3: '**' is not a number"));
 }
 
 #[test]
@@ -185,10 +185,10 @@ fn what_is_no_record_is_told_so() {
     refused("Dear colleague,\nplease find attached\n", &["line 1", "Dear colleague", "--format"]);
     let junk: Vec<u8> = (0..5000u32).map(|k| (k.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
     assert!(read(&junk, None, &Given::default()).unwrap_err().to_string().contains("binary"));
-    refused(&nga_at2(&motion(103)).replace("E-0", "X-0"), &["is no number", "line"]);
+    refused(&nga_at2(&motion(103)).replace("E-0", "X-0"), &["is not a number", "line"]);
     refused(
         &nga_at2(&motion(103)).replacen("E+0", "E+9999", 1).replacen("E-0", "E+999", 1),
-        &["is no number"],
+        &["is not a number"],
     );
 }
 

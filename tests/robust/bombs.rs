@@ -7,6 +7,7 @@ use rockfrag::rocking::Structure;
 use rockfrag::table::intensities::IntensityBatches;
 use rockfrag::table::motion_measures::MotionMeasures;
 use rockfrag::table::motion_table::MotionTable;
+use rockfrag::table::schema::headings::Headings;
 
 use crate::readers::read_as_everything;
 
@@ -49,10 +50,11 @@ fn little_that_makes_much_of_another_file_is_refused() {
     let motions = MotionTable::open(open("rows-of-motions"), None).err().unwrap().to_string();
     assert!(motions.contains("134217728 rows in a file of 154 bytes"), "{motions}");
     let structure = Structure::new("frame", 1.0, 0.15, 0.92).unwrap();
-    let peaks = IntensityBatches::open(open("rows-of-peaks"), Some(structure), Some(0.92), 64)
-        .err()
-        .unwrap()
-        .to_string();
+    let peaks =
+        IntensityBatches::open(open("rows-of-peaks"), &Headings::default(), Some(structure), Some(0.92), 64)
+            .err()
+            .unwrap()
+            .to_string();
     assert!(peaks.contains("134217728 rows in a file of 255 bytes"), "{peaks}");
 }
 

@@ -8,6 +8,7 @@ use rockfrag::stages::registry::Config;
 use rockfrag::stages::shared::structures::Structures;
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 use rockfrag::table::paper;
+use rockfrag::table::schema::headings::Headings;
 
 const PIECES: [&str; 28] = [
     "seed: 1",
@@ -53,7 +54,7 @@ proptest! {
         let mut outcomes = vec![
             ("structures.yaml", Structures::File(file("structures.yaml")).resolve().map(drop)),
             ("structures.csv", Structures::File(file("structures.csv")).resolve().map(drop)),
-            ("hazard.csv", hazard::read(&file("hazard.csv")).map(drop)),
+            ("hazard.csv", hazard::read(&file("hazard.csv"), &Headings::default()).map(drop)),
         ];
         let config = Config::read(&file("pipeline.yaml"));
         let checked = config.and_then(|config| config.stages(folder.path()).map(drop));
@@ -88,7 +89,7 @@ const READERS: [Reader; 6] = [
     ("pipeline.yaml", 1, |path| Config::read(path).map(drop)),
     ("structures.yaml", 16, |path| Structures::File(path.into()).resolve().map(drop)),
     ("structures.csv", 16, |path| Structures::File(path.into()).resolve().map(drop)),
-    ("hazard.csv", 64, |path| hazard::read(path).map(drop)),
+    ("hazard.csv", 64, |path| hazard::read(path, &Headings::default()).map(drop)),
     ("spread.csv", 1, |path| paper::spread(Some(path)).map(drop)),
     ("site.csv", 1, |path| {
         let options = SynthesizeMotionsOptions { site: path.display().to_string(), ..Default::default() };
@@ -116,7 +117,7 @@ fn files_of_any_size_are_read_up_to_a_bound() {
 
 #[test]
 fn what_has_no_end_is_read_up_to_a_bound() {
-    let words = format!("{:#}", hazard::read(Path::new("/dev/zero")).unwrap_err());
+    let words = format!("{:#}", hazard::read(Path::new("/dev/zero"), &Headings::default()).unwrap_err());
     assert!(
         words.contains("/dev/zero: larger than 64 MiB") && words.contains("expected a hazard"),
         "{words}"

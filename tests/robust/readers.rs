@@ -14,6 +14,7 @@ use rockfrag::table::motions::{Motion, MotionBatches};
 use rockfrag::table::pex::PexRow;
 use rockfrag::table::pro::ProRow;
 use rockfrag::table::row::ReadRow;
+use rockfrag::table::schema::headings::Headings;
 use rockfrag::table::store::{contents, reader};
 use rockfrag::table::universality::{PooledRow, UniversalityRow};
 use rockfrag::table::{TableError, ida, paper, scenarios, validation};
@@ -23,7 +24,8 @@ pub fn read_as_everything(path: &Path) -> Vec<(&'static str, Result<(), String>)
     vec![
         ("recorded", words(contents::recorded(path))),
         ("content", words(contents::content_of(path))),
-        ("inspect", words(inspect(path, &Terminal::PLAIN))),
+        ("inspect", words(inspect(path, None).map(|shown| shown.text(&Terminal::PLAIN)))),
+        ("inspect --head", words(inspect(path, Some(3)).map(|shown| shown.text(&Terminal::PLAIN)))),
         ("scenarios", words(scenarios::read(path))),
         ("motions", words(motions(path))),
         ("motions in parts", words(motions_in_parts(path))),
@@ -75,5 +77,6 @@ fn curves(path: &Path) -> anyhow::Result<()> {
 }
 
 fn intensities(path: &Path) -> Result<(), TableError> {
-    IntensityBatches::open(path, None, Some(0.92), 4096)?.try_for_each(|batch| batch.map(drop))
+    IntensityBatches::open(path, &Headings::default(), None, Some(0.92), 4096)?
+        .try_for_each(|batch| batch.map(drop))
 }

@@ -45,6 +45,7 @@ def evaluate(
     hazard: Any = None,
     ratio: float | None = None,
     years: float = 50.0,
+    columns: Any = None,
     format: Any = None,
     out: PathLike | None = None,
     threads: int | None = None,

@@ -17,13 +17,15 @@ pub enum RecordFileError {
     EndsEarly { line: usize, expected: &'static str },
     #[error("line {line}: no {what}; expected {expected}")]
     Missing { line: usize, what: &'static str, expected: &'static str },
-    #[error("line {line}: '{text}' is no number; expected one: correct the line or leave the file out")]
+    #[error("line {line}: '{text}' is not a number; expected one: correct the line or leave the file out")]
     NoNumber { line: usize, text: String },
     #[error(
         "line {line}: '{text}' is a date or a time of day; expected seconds: leave the column out and give the time step with --dt"
     )]
     TimeOfDay { line: usize, text: String },
-    #[error("line {line}: '{text}' is no number; expected one without thousands separators: write it plain")]
+    #[error(
+        "line {line}: '{text}' is not a number; expected one without thousands separators: write it plain"
+    )]
     Thousands { line: usize, text: String },
     #[error(
         "line {line}: '{text}' has decimal commas among blanks; expected decimal points, or columns separated by semicolons or tabs"
@@ -39,7 +41,7 @@ pub enum RecordFileError {
     )]
     Headings { line: usize, names: usize, columns: usize },
     #[error(
-        "line {line}: acceleration in '{unit}', which is no unit of it; correct the heading, or convert the numbers"
+        "line {line}: acceleration in '{unit}', which is not a unit of it; correct the heading, or convert the numbers"
     )]
     NoAccelerationUnit { line: usize, unit: String },
     #[error("line {line}: times in '{unit}'; expected them in s, ms, us or min: correct the heading")]

@@ -109,7 +109,7 @@ impl std::str::FromStr for AccelerationUnit {
     fn from_str(text: &str) -> Result<AccelerationUnit, String> {
         AccelerationUnit::named(text).ok_or_else(|| {
             format!(
-                "'{text}' is no unit of acceleration; expected g, mg, m/s2, cm/s2, gal, mm/s2, %g, ft/s2 or in/s2"
+                "'{text}' is not a unit of acceleration; expected g, mg, m/s2, cm/s2, gal, mm/s2, %g, ft/s2 or in/s2"
             )
         })
     }

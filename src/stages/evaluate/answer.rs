@@ -10,8 +10,6 @@ use crate::table::store::text;
 pub const FITS_OF: &str = "fits of ";
 /// How an answer of the universal surface begins.
 pub const UNIVERSAL: &str = "universal fragility surface";
-/// How an answer in JSON begins.
-const JSON: &str = "{\n\"warnings\": ";
 
 /// A short answer.
 pub struct Answer {
@@ -26,11 +24,7 @@ impl Answer {
     pub fn text(&self, format: Format, warnings: &[String]) -> anyhow::Result<String> {
         match format {
             Format::Csv => text::csv(&frame_of(&self.rows)?),
-            Format::Json => Ok(format!(
-                "{JSON}{},\n\"rows\": {}}}\n",
-                serde_json::json!(warnings),
-                text::json(&frame_of(&self.rows)?)
-            )),
+            Format::Json => Ok(text::json_with_warnings(warnings, &frame_of(&self.rows)?)),
             Format::Table | Format::Parquet => {
                 Ok(format!("{}\n{}", self.heading, text::aligned(&frame_of(&self.rows)?)))
             }
@@ -44,6 +38,6 @@ pub fn is_own(head: &str) -> bool {
         let names: Vec<&str> = table.columns.iter().map(|column| column.name).collect();
         head.starts_with(&(names.join(",") + "\n"))
     };
-    [FITS_OF, UNIVERSAL, JSON].iter().any(|begin| head.starts_with(begin))
+    [FITS_OF, UNIVERSAL, text::JSON].iter().any(|begin| head.starts_with(begin))
         || [ANSWER, RATES].iter().any(begins_table)
 }

@@ -1,4 +1,5 @@
-//! Hazard in CSV files: a column for each peak that it knows, and one of annual rates. Lines that begin with # are words.
+//! Hazard in CSV files: a column for each peak that it knows, and one of annual rates or of probabilities in some years. Lines that
+//! begin with # are words.
 
 use std::path::Path;
 
@@ -7,6 +8,7 @@ use csv::StringRecord;
 
 use crate::fragility::Peak;
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks};
+use crate::table::schema::headings::Headings;
 use crate::table::store::text_file::{self, CsvText};
 use crate::units::G_M_S2;
 
@@ -15,6 +17,8 @@ const INTENSITIES: [(&str, Peak, f64); 3] =
     [("pga_g", Peak::Pga, G_M_S2), ("pga_m_s2", Peak::Pga, 1.0), ("pgv_m_s", Peak::Pgv, 1.0)];
 const EXCEEDANCE: &str = "annual_rate_of_exceedance";
 const OCCURRENCE: &str = "annual_rate_of_occurrence";
+/// `probability_of_exceedance_in_50_years`, or of any other time.
+const PROBABILITY: (&str, &str) = ("probability_of_exceedance_in_", "_years");
 
 /// The largest file: a joint hazard of two million pairs.
 const MOST_MIB: u64 = 64;
@@ -28,61 +32,124 @@ pub enum Hazard {
     Joint(JointHazard),
 }
 
-/// Reads a hazard: pga_g, pga_m_s2 or pgv_m_s with annual_rate_of_exceedance; or a PGA and a PGV with
-/// annual_rate_of_occurrence.
+/// What a cell holds, as its column says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Cell {
+    /// A peak in a unit of this size, m/s2 or m/s.
+    Peak(Peak, f64),
+    /// An annual rate at which a peak is exceeded.
+    Exceedance,
+    /// The probability of that in so many years.
+    ExceedanceIn(f64),
+    /// An annual rate at which a pair of peaks occurs.
+    Occurrence,
+}
+
+impl Cell {
+    /// What the column of this name holds.
+    fn of(name: &str) -> Option<Cell> {
+        let of_peak =
+            |&(known, peak, unit): &(&str, Peak, f64)| (known == name).then_some(Cell::Peak(peak, unit));
+        let years = || {
+            let years: f64 = name.strip_prefix(PROBABILITY.0)?.strip_suffix(PROBABILITY.1)?.parse().ok()?;
+            (years > 0.0 && years.is_finite()).then_some(Cell::ExceedanceIn(years))
+        };
+        match name {
+            EXCEEDANCE => Some(Cell::Exceedance),
+            OCCURRENCE => Some(Cell::Occurrence),
+            _ => INTENSITIES.iter().find_map(of_peak).or_else(years),
+        }
+    }
+
+    /// The peak (m/s2 or m/s) or the annual rate that a text says; otherwise what was expected.
+    fn read(self, text: &str) -> Result<f64, String> {
+        let percent = text.strip_suffix('%');
+        let parsed = percent.unwrap_or(text).trim_end().parse::<f64>().ok().filter(|value| value.is_finite());
+        let Some(written) = parsed else {
+            let comma = if text.contains(',') {
+                "; with decimal commas, separate the cells by semicolons"
+            } else {
+                ""
+            };
+            return Err(format!("a finite number{comma}"));
+        };
+        let value = if percent.is_some() { written / 100.0 } else { written };
+        match self {
+            Cell::Peak(peak, unit) if percent.is_none() || (peak, unit) == (Peak::Pga, G_M_S2) => {
+                let refusal = peak.bound().refusal(value * unit / peak.usual_unit().1);
+                refusal.map_or(Ok(value * unit), Err)
+            }
+            Cell::Peak(..) => Err("a number; percent are of g, in a column pga_g".to_string()),
+            Cell::Exceedance | Cell::Occurrence if percent.is_some() => Err(format!(
+                "a rate a year, as 0.002; percent are probabilities: call the column {}50{}",
+                PROBABILITY.0, PROBABILITY.1
+            )),
+            Cell::Exceedance | Cell::Occurrence if value < 0.0 => Err("0 or more".to_string()),
+            Cell::Exceedance | Cell::Occurrence => Ok(value),
+            Cell::ExceedanceIn(years) if value > 0.0 && value < 1.0 => Ok(-(-value).ln_1p() / years),
+            Cell::ExceedanceIn(_) if value > 1.0 => {
+                Err("a probability above 0 and below 1; if it is in percent, write 10%".to_string())
+            }
+            Cell::ExceedanceIn(_) => Err("a probability above 0 and below 1".to_string()),
+        }
+    }
+}
+
+/// Reads a hazard: pga_g, pga_m_s2 or pgv_m_s with annual_rate_of_exceedance or probability_of_exceedance_in_50_years; or a PGA and
+/// a PGV with annual_rate_of_occurrence. The file may have other headings.
 ///
 /// # Errors
 /// If the file cannot be read, has other columns, or holds what is no hazard.
-pub fn read(path: &Path) -> anyhow::Result<Hazard> {
-    let read = || of(&text_file::text(path, MOST_MIB, "a hazard")?);
+pub fn read(path: &Path, headings: &Headings) -> anyhow::Result<Hazard> {
+    let read = || of(&text_file::text(path, MOST_MIB, "a hazard")?, headings);
     read().with_context(|| path.display().to_string())
 }
 
-fn of(text: &str) -> anyhow::Result<Hazard> {
-    let table = CsvText::new(text)?;
+fn of(text: &str, headings: &Headings) -> anyhow::Result<Hazard> {
+    let mut table = CsvText::new(text)?;
+    table.rename(headings).map_err(|error| anyhow!(error))?;
     let names = table.names.clone();
-    let place = |wanted: &str| names.iter().position(|name| name == wanted);
-    let intensities: Vec<(Peak, f64, usize)> =
-        INTENSITIES.iter().filter_map(|&(name, peak, unit)| Some((peak, unit, place(name)?))).collect();
-    let number = |(line, record): &(u64, StringRecord), at: usize, bound: Option<(Peak, f64)>| {
-        let (text, name) = (record.get(at).unwrap_or_default(), &names[at]);
-        let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
-        let refusal = match (value, bound) {
-            (None, _) => Some("a finite number".to_string()),
-            (Some(value), Some((peak, unit))) => peak.bound().refusal(value * unit / peak.usual_unit().1),
-            (Some(value), None) => (value < 0.0).then(|| "0 or more".to_string()),
-        };
-        match (value, refusal) {
-            (Some(value), None) => Ok(value * bound.map_or(1.0, |(_, unit)| unit)),
-            (_, refusal) => {
-                let expected = refusal.unwrap_or_default();
-                Err(anyhow!("line {line}, column '{name}': '{text}'; expected {expected}"))
-            }
-        }
+    // Peaks first, PGA before PGV.
+    let mut columns: Vec<(usize, Cell)> =
+        names.iter().enumerate().filter_map(|(at, name)| Some((at, Cell::of(name)?))).collect();
+    columns.sort_by_key(|(_, cell)| match cell {
+        Cell::Peak(Peak::Pga, _) => 0,
+        Cell::Peak(Peak::Pgv, _) => 1,
+        _ => 2,
+    });
+    let cell = |(line, record): &(u64, StringRecord), (at, cell): (usize, Cell)| {
+        let text = record.get(at).unwrap_or_default();
+        cell.read(text)
+            .map_err(|expected| anyhow!("line {line}, column '{}': '{text}'; expected {expected}", names[at]))
     };
-    match (&intensities[..], place(EXCEEDANCE), place(OCCURRENCE)) {
-        (&[(peak, unit, at)], Some(rate), None) => {
-            let point = |row| Ok((number(&row, at, Some((peak, unit)))?, number(&row, rate, None)?));
-            let points = table.rows().map(|row| point(row?)).collect::<anyhow::Result<Vec<_>>>()?;
+    let rows = table.rows().map(|row| row.map_err(|error| anyhow!(error)));
+    match columns[..] {
+        [im @ (_, Cell::Peak(peak, _)), rate @ (_, Cell::Exceedance | Cell::ExceedanceIn(_))] => {
+            let point = |row| Ok((cell(&row, im)?, cell(&row, rate)?));
+            let points = rows.map(|row| point(row?)).collect::<anyhow::Result<Vec<_>>>()?;
             Ok(Hazard::Curve(peak, HazardCurve::new(points)?))
         }
-        (&[(Peak::Pga, unit_a, a), (Peak::Pgv, unit_v, v)], None, Some(rate)) => {
+        [
+            pga @ (_, Cell::Peak(Peak::Pga, _)),
+            pgv @ (_, Cell::Peak(Peak::Pgv, _)),
+            rate @ (_, Cell::Occurrence),
+        ] => {
             let bin = |row| {
-                Ok(PairOfPeaks {
-                    pga_m_s2: number(&row, a, Some((Peak::Pga, unit_a)))?,
-                    pgv_m_s: number(&row, v, Some((Peak::Pgv, unit_v)))?,
-                    annual_rate: number(&row, rate, None)?,
-                })
+                let (pga_m_s2, pgv_m_s) = (cell(&row, pga)?, cell(&row, pgv)?);
+                Ok(PairOfPeaks { pga_m_s2, pgv_m_s, annual_rate: cell(&row, rate)? })
             };
-            let bins = table.rows().map(|row| bin(row?)).collect::<anyhow::Result<Vec<_>>>()?;
+            let bins = rows.map(|row| bin(row?)).collect::<anyhow::Result<Vec<_>>>()?;
             match bins.is_empty() {
                 true => bail!("no rows; expected bins of PGA and PGV with annual rates"),
                 false => Ok(Hazard::Joint(JointHazard { bins })),
             }
         }
         _ => bail!(
-            "columns {}; expected pga_g, pga_m_s2 or pgv_m_s with {EXCEEDANCE}, or a PGA and pgv_m_s with {OCCURRENCE}",
-            names.join(", ")
+            "columns {}; expected pga_g, pga_m_s2 or pgv_m_s with {EXCEEDANCE} or {}50{}, or a PGA and pgv_m_s with {OCCURRENCE}; \
+             --columns pga_g=HEADING takes another heading",
+            names.join(", "),
+            PROBABILITY.0,
+            PROBABILITY.1
         ),
     }
 }

@@ -93,8 +93,24 @@ pub struct Evaluate {
 impl Declare for Evaluate {
     type Options = EvaluateOptions;
     const NAME: &'static str = EVALUATED.stage;
-    const ABOUT: &'static str = "Probabilities of rocking, failure and overturning: at one intensity, at each of a table, or a \
-         year at a site";
+    const ABOUT: &'static str = "Compute probabilities of rocking, failure and overturning: at one intensity, at each row of a \
+         table, or per year at a site";
+    const EXAMPLES: &'static str = "rockfrag evaluate --model universal --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6\n\
+        rockfrag evaluate --model universal --width 0.5 --height 2.0 --hazard hazard.csv --ratio 0.36";
+    const HELPS: &'static [(&'static str, &'static str)] = &[
+        (
+            "suite",
+            "Suite of the fits or of the universal surface [default: the only one; of the surface, csgm]",
+        ),
+        (
+            "model",
+            "bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv), univariate, or universal (the surface for all structures, which needs no fits) [default: bivariate; universal if there are no fits]",
+        ),
+        (
+            "eta",
+            "Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions, or as in the fits]",
+        ),
+    ];
     const INPUTS: &'static [Input] = &[
         FIT_INPUTS[0].if_there(),
         FIT_INPUTS[1].if_there(),
@@ -102,7 +118,7 @@ impl Declare for Evaluate {
             INTENSITIES,
             "in",
             "",
-            "Parquet table with pga_m_s2 and pgv_m_s, and where they differ p_rad_s, alpha_rad, eta, tp_s, tm_s",
+            "Parquet table with pga_m_s2 and pgv_m_s, and if they vary p_rad_s, alpha_rad, eta, tp_s and tm_s",
         )
         .if_named()
         .under("Many intensities")
@@ -223,7 +239,10 @@ impl Evaluate {
         let structure = self.structure(answering)?;
         answering.warn_of_structure(&structure, console);
         match &self.options.hazard.hazard {
-            Some(path) => rates::answer(&self.options.hazard, path, answering, &structure, console),
+            Some(path) => {
+                let hazard = hazard::read(path, &self.options.headings())?;
+                rates::answer(&self.options.hazard, path, hazard, answering, &structure, console)
+            }
             None => point::answer(&self.options.point, answering, &structure, console),
         }
     }
@@ -269,7 +288,7 @@ impl Stage for Evaluate {
             (None, None) => json!(point),
         };
         let structure = &self.structure;
-        match &self.fits {
+        let mut parameters = match &self.fits {
             Some(files) => {
                 json!({ "fits": files.options, "limits": limits, "structure": structure, "question": question })
             }
@@ -277,7 +296,11 @@ impl Stage for Evaluate {
                 "model": ModelForm::Universal.as_str(), "surface": blake3::hash(universal::SURFACE.as_bytes()).to_hex().as_str(), "suite": fits.suite.as_deref().unwrap_or(Suite::Csgm.as_str()),
                 "limit-state": limit_state.unwrap_or(PAPER_LIMIT), "structure": structure, "question": question
             }),
+        };
+        if let Some(columns) = &self.options.columns {
+            parameters["columns"] = json!(columns);
         }
+        parameters
     }
 
     fn provenance(&self) -> anyhow::Result<Provenance> {
@@ -309,7 +332,7 @@ impl Stage for Evaluate {
         if let (Some(input), Some(out)) = (&self.intensities, &self.out) {
             let given = self.options.structure.structures.is_given();
             let structure = given.then(|| self.structure(&answering)).transpose()?;
-            let table = EvaluatedTable { answering, structure };
+            let table = EvaluatedTable { answering, headings: self.options.headings(), structure };
             return table.write(input, out, provenance, console);
         }
         self.deliver(&self.answer(&answering, console)?, provenance)?;

@@ -7,9 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::keyword::{self, Keyword, keywords};
 use crate::pipeline::declare::StageOptions;
-use crate::pipeline::options::{Word, defaults};
+use crate::pipeline::options::{Parsed, Word, defaults};
 use crate::stages::shared::fits::FitsOptions;
 use crate::stages::shared::structure_options::StructureOptions;
+use crate::table::schema::headings::Headings;
 use crate::table::store::source::Target;
 
 /// What is asked, of which fits and structure.
@@ -19,10 +20,11 @@ pub struct EvaluateOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub fits: FitsOptions,
-    /// delta (of the standard errors), or from the resamples of fit-pex and fit-pro --bootstrap: percentile, or bc (bias-corrected)
+    /// How to compute limits: delta (from standard errors), or from the resamples of fit-pex and fit-pro --bootstrap: percentile or
+    /// bc (bias-corrected)
     #[arg(long, default_value = "delta", help_heading = "Fits")]
     pub limits: Word<LimitsBy>,
-    /// Of the universal surface: demand |theta|max / alpha that P_ex is about, 0.02 to 0.5 [default: 0.1]
+    /// Limit state of P_ex by the universal surface: a demand |theta|max / alpha from 0.02 to 0.5 [default: 0.1]
     #[arg(long, value_name = "DEMAND", help_heading = "Fits")]
     pub limit_state: Option<f64>,
     #[command(flatten)]
@@ -34,7 +36,10 @@ pub struct EvaluateOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub hazard: HazardOptions,
-    /// table (to read), csv, json, or parquet (with --out) [default: as --out ends, or table]
+    /// Which headings of the file of --hazard or --in stand for which columns, as pga_g=PGA,annual_rate_of_exceedance=rate
+    #[arg(long, value_name = "COLUMN=HEADING,...", help_heading = "Hazard of a site")]
+    pub columns: Option<Parsed<Headings>>,
+    /// Format of the answer: table (to read), csv, json, or parquet (with --out) [default: by the ending of --out, or table]
     #[arg(long, help_heading = "Output")]
     pub format: Option<Word<Format>>,
 }
@@ -42,6 +47,13 @@ pub struct EvaluateOptions {
 impl Default for EvaluateOptions {
     fn default() -> Self {
         defaults()
+    }
+}
+
+impl EvaluateOptions {
+    /// The headings of files that are not the names of columns.
+    pub(super) fn headings(&self) -> Headings {
+        self.columns.clone().map_or(Headings::default(), |Parsed(headings)| headings)
     }
 }
 
@@ -65,10 +77,10 @@ pub struct PointOptions {
     /// Peak ground velocity, m/s
     #[arg(long, value_name = "M/S", conflicts_with = "hazard")]
     pub pgv: Option<f64>,
-    /// Period of the velocity pulse, s, where the measure needs it
+    /// Period of the velocity pulse, s, if the measure needs it
     #[arg(long, value_name = "S", conflicts_with = "hazard")]
     pub tp: Option<f64>,
-    /// Mean period, s, where the measure needs it
+    /// Mean period, s, if the measure needs it
     #[arg(long, value_name = "S", conflicts_with = "hazard")]
     pub tm: Option<f64>,
 }
@@ -78,14 +90,15 @@ pub struct PointOptions {
 #[serde(rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Hazard of a site")]
 pub struct HazardOptions {
-    /// CSV file: pga_g or pgv_m_s with annual_rate_of_exceedance, or both with annual_rate_of_occurrence
+    /// CSV file with the columns pga_g, pga_m_s2 or pgv_m_s, and annual_rate_of_exceedance or
+    /// probability_of_exceedance_in_50_years (or another number); or PGA and PGV with annual_rate_of_occurrence
     #[arg(long, value_name = "FILE")]
     pub hazard: Option<PathBuf>,
-    /// The p PGV / PGA of all motions, where the hazard knows one peak only [default: distributed as in the motions of the fits]
+    /// p PGV / PGA of all motions, for a hazard of one peak only [default: distributed as in the motions of the fits]
     #[arg(long)]
     pub ratio: Option<f64>,
     /// Time of exposure, years
-    #[arg(long, default_value = "50")]
+    #[arg(long, default_value = "50", value_name = "YEARS")]
     pub years: f64,
 }
 

@@ -13,7 +13,7 @@ use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::check;
 use crate::rocking::Structure;
-use crate::stages::evaluate::hazard::{self, Hazard};
+use crate::stages::evaluate::hazard::Hazard;
 use crate::stages::shared::structures::words;
 use crate::table::evaluated::{self, RATES, RateRow};
 use rayon::prelude::*;
@@ -28,6 +28,7 @@ const OVERTURNING: usize = 6;
 pub fn answer(
     options: &HazardOptions,
     path: &Path,
+    hazard: Hazard,
     answering: &Answering,
     structure: &Structure,
     console: &Console,
@@ -36,7 +37,7 @@ pub fn answer(
     check(years > 0.0 && years.is_finite(), "years", years, "a time above 0")?;
     let mut words_of_ratio = String::new();
     let universal = answering.beside_misfit(Scenarios::Many);
-    let rates = match hazard::read(path)? {
+    let rates = match hazard {
         Hazard::Curve(peak, curve) => {
             let line = Line::new(options.ratio, structure, peak, answering)?;
             let rates = along_line(&line, &curve, answering, console)?;

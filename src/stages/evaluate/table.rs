@@ -7,6 +7,7 @@ use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
 use crate::table::evaluated::{self, EVALUATED, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
+use crate::table::schema::headings::Headings;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::store::writer::TableWriter;
@@ -17,6 +18,8 @@ const BATCH: usize = 16_384;
 /// Probabilities at each intensity of a table.
 pub struct EvaluatedTable {
     pub answering: Answering,
+    /// Other headings of its columns.
+    pub headings: Headings,
     /// Of all rows; without it each row has its own.
     pub structure: Option<Structure>,
 }
@@ -34,7 +37,8 @@ impl EvaluatedTable {
         console: &Console,
     ) -> anyhow::Result<String> {
         let nameless = self.structure.clone().map(|structure| Structure { name: String::new(), ..structure });
-        let intensities = IntensityBatches::open(input, nameless, self.answering.eta(), BATCH)?;
+        let intensities =
+            IntensityBatches::open(input, &self.headings, nameless, self.answering.eta(), BATCH)?;
         let total = intensities.rows();
         self.answering.warn_of_fits(console);
         let mut writer = TableWriter::create(out.clone(), &EVALUATED, provenance.clone())?;

@@ -15,6 +15,7 @@ mod scaled;
 use std::path::Path;
 
 use arrow_array::RecordBatch;
+use polars::prelude::DataFrame;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -37,6 +38,7 @@ use crate::table::ida::{self, IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_W
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
 use crate::table::schema::Table;
+use crate::table::store::frame::read_frame;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::store::writer::TableWriter;
@@ -108,10 +110,12 @@ impl Ida {
 impl Declare for Ida {
     type Options = IdaOptions;
     const NAME: &'static str = IDA.stage;
-    const ABOUT: &'static str = "Incremental dynamic analysis: from which intensity of each motion on each structure overturns, and \
-         which share of larger ones does so";
+    const ABOUT: &'static str = "Run incremental dynamic analysis: find the intensity from which each motion overturns each structure, and \
+         the share of larger ones that does";
+    const EXAMPLES: &'static str =
+        "rockfrag ida --in recorded.parquet --width 0.5 --height 2.0 --measure im5";
     const INPUTS: &'static [Input] =
-        &[Input::file("motions", "in", SynthesizeMotions::OUTPUT.file, "Motions to read, as simulate does")];
+        &[Input::file("motions", "in", SynthesizeMotions::OUTPUT.file, "Motions to read, as in simulate")];
     const OUTPUT: Output = Output::file(
         "ida.parquet",
         "File of overturning intensities to write; NAME.stripes, NAME.windows, NAME.shares and NAME.fragility stand beside it [default: ida.parquet beside the input]",
@@ -149,6 +153,11 @@ impl Stage for Ida {
             Target::Path(path) => ida::show(&path),
             Target::Memory(..) => Ok(String::new()),
         }
+    }
+
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        let fragility = self.out.part(IDA_FRAGILITY.name);
+        Ok(fragility.path().map(|path| read_frame(path, &IDA_FRAGILITY)).transpose()?)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

@@ -15,29 +15,29 @@ use crate::stages::shared::structure_options::StructuresOptions;
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", default)]
 pub struct IdaOptions {
-    /// What is scaled: scale (the motion as it is), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, of each structure)
+    /// Intensity to scan: scale (the factor on the motion), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, for each structure)
     #[arg(long, default_value = "scale")]
     pub measure: Word<ScaledMeasure>,
-    /// Least intensity
-    #[arg(long, default_value = "0.1")]
+    /// Smallest intensity, in the unit of --measure
+    #[arg(long, default_value = "0.1", value_name = "IM")]
     pub from: f64,
-    /// Largest intensity
-    #[arg(long, default_value = "10")]
+    /// Largest intensity, in the unit of --measure
+    #[arg(long, default_value = "10", value_name = "IM")]
     pub to: f64,
-    /// Equal ratios between them, whose ends are the stripes
-    #[arg(long, default_value = "60")]
+    /// Steps between them, in equal ratios; their ends are the stripes
+    #[arg(long, default_value = "60", value_name = "N")]
     pub steps: usize,
-    /// How often a step is halved where the structure rocks: the resolution; four times more where a peak comes near the tipping point
-    #[arg(long, default_value = "4")]
+    /// How often to halve a step where the structure rocks, which sets the resolution; near the tipping point, four times more
+    #[arg(long, default_value = "4", value_name = "N")]
     pub halvings: u32,
-    /// Relative error of the simulated intensities at which the outcome changes
-    #[arg(long, default_value = "0.001")]
+    /// Relative error of the intensities at which the outcome changes
+    #[arg(long, default_value = "0.001", value_name = "SHARE")]
     pub tolerance: f64,
     #[command(flatten)]
     #[serde(flatten)]
     pub structure: StructuresOptions,
-    /// Vector instructions of the solver: scalar, avx2 or avx512, as in simulate [default: the fastest of this processor]
-    #[arg(long)]
+    /// Vector instructions of the solver: scalar, avx2 or avx512, as in simulate [default: the fastest that this processor has]
+    #[arg(long, help_heading = None::<&str>)]
     pub simd: Option<Word<Simd>>,
 }
 

@@ -91,6 +91,8 @@ impl Declare for ImportMotions {
     const NAME: &'static str = RECORDS.stage;
     const ABOUT: &'static str =
         "Import recorded ground motions from the files of strong-motion networks, CSV or Parquet";
+    const EXAMPLES: &'static str = "rockfrag import-motions records --out recorded.parquet\n\
+        rockfrag import-motions records --out scaled.parquet --baseline linear --scale 0.5,1,2";
     const OUTPUT: Output =
         Output::file("motions.parquet", "Motions file to write [default: motions.parquet]");
 
@@ -202,7 +204,7 @@ impl Stage for ImportMotions {
         writer.made_otherwise(incomplete(provenance, &refused));
         writer.finish()?;
         bail!(
-            "{}\n{} motions of the others are imported; with --keep-going this is no failure",
+            "{}\n{} motions of the others are imported; with --keep-going the command succeeds all the same",
             summary(&refused, self.importer.files.len()),
             seen.len()
         )

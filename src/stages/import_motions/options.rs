@@ -21,39 +21,39 @@ use crate::units::G_M_S2;
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct ImportMotionsOptions {
-    /// Files and folders of records; folders are walked
+    /// Files and folders of records, with all that is in the folders
     #[arg(value_name = "FILE|DIR")]
     pub files: Vec<PathBuf>,
     /// Format of text files: auto (by content), at2, cosmos, csmip, esm, knet, smc, or columns (plain numbers)
     #[arg(long, default_value = "auto")]
     pub format: Parsed<FormatChoice>,
-    /// Time between samples of files that do not say it, s
-    #[arg(long)]
+    /// Time between samples, s, for files that do not state it
+    #[arg(long, value_name = "S")]
     pub dt: Option<f64>,
-    /// Unit of files that do not say it: g, mg, m/s2, cm/s2 (gal), mm/s2, %g, ft/s2 or in/s2
+    /// Unit of the acceleration, for files that do not state it: g, mg, m/s2, cm/s2 (gal), mm/s2, %g, ft/s2 or in/s2
     #[arg(long)]
     pub unit: Option<Parsed<AccelerationUnit>>,
-    /// Column of plain files that holds the acceleration: its number, its name, or all where one series wraps over lines
-    /// [default: the one of that heading, or the only one besides times]
+    /// Column of the acceleration in plain files: its number, its name, or all where one series wraps over lines [default: the one
+    /// with that heading, or the only one besides times]
     #[arg(long, value_name = "N|NAME|all")]
     pub column: Option<Parsed<ColumnChoice>>,
-    /// By which share samples may miss the peak that their header gives, besides its rounding
-    #[arg(long, default_value = "0.05")]
+    /// How far the peak of the samples may be from the peak in the header, as a share of it, besides rounding
+    #[arg(long, default_value = "0.05", value_name = "SHARE")]
     pub pga_tolerance: f64,
-    /// What is removed from the acceleration: none, mean, or linear (the line of least squares)
+    /// What to remove from the acceleration: none, mean, or linear (the line of least squares)
     #[arg(long, default_value = "none")]
     pub baseline: Word<Baseline>,
     /// Corner of a zero-phase Butterworth high-pass of order 4, Hz [default: none]
     #[arg(long, value_name = "HZ")]
     pub high_pass: Option<f64>,
-    /// Another time step, s: band-limited [default: that of the file]
-    #[arg(long, value_name = "DT")]
+    /// Resample to this time step, s, band-limited [default: as in the file]
+    #[arg(long, value_name = "S")]
     pub resample: Option<f64>,
-    /// Horizontal components of one event and station at right angles become one motion: towards an azimuth in degrees, or
-    /// towards the strongest-pulse; with RotD50 and RotD100 of PGA and PGV. Other motions are left out
+    /// Rotate each pair of horizontal components of one earthquake and station into one motion, towards an azimuth (degrees) or the
+    /// strongest-pulse, and add RotD50 and RotD100 of PGA and PGV. Motions without a partner are left out
     #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
     pub rotate: Option<Parsed<Direction>>,
-    /// Factors, separated by commas or first:last:step; several make as many motions of each record
+    /// Scale by these factors, separated by commas or first:last:step; each makes a motion of each record
     #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"])]
     pub scale: Option<Steps>,
     /// Scale each motion to this PGA, g
@@ -62,24 +62,23 @@ pub struct ImportMotionsOptions {
     /// Scale each motion to this PGV, m/s
     #[arg(long, value_name = "M/S")]
     pub scale_pgv: Option<f64>,
-    /// Whether to look for a velocity pulse: find (indicator of Baker 2007, fit of Eq. 1 for tp_s), or skip
+    /// Whether to look for velocity pulses: find (indicator of Baker 2007, then a fit of Eq. 1 for tp_s), or skip
     #[arg(long, default_value = "find")]
     pub pulses: Word<PulseSearch>,
-    /// Also write each motion that holds a pulse without it, as suite residual
+    /// Also write each motion with a pulse without that pulse, as suite residual
     #[arg(long)]
     pub residual: bool,
-    /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers separated by
-    /// commas; sa_0p20_m_s2 is that at 0.2 s
-    #[arg(long)]
+    /// Add spectral accelerations (5 % damping) at these periods, s: first:last:step, or numbers separated by commas; the column
+    /// sa_0p20_m_s2 is for 0.2 s
+    #[arg(long, value_name = "S,...")]
     pub sa: Option<Steps>,
-    /// Also compute the Housner intensity, 15 times the work or more
+    /// Also compute the Housner intensity, which takes 15 times as long or more
     #[arg(long)]
     pub housner: bool,
-    /// Take motions that can hardly be those of an earthquake (PGA, PGV, time step, spikes, drift): they are named, and are no
-    /// failure
+    /// Import motions that no earthquake is likely to have made (by PGA, PGV, time step, spikes or drift), and warn of them
     #[arg(long)]
     pub accept_implausible: bool,
-    /// Files that cannot be read are named, and are no failure
+    /// Import the rest where files cannot be read, and warn of those
     #[arg(long)]
     pub keep_going: bool,
 }

@@ -4,6 +4,7 @@ pub mod verdict;
 
 use anyhow::Context;
 use clap::Args;
+use polars::prelude::DataFrame;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -33,20 +34,19 @@ use crate::table::store::source::{self, Source};
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct RankImsOptions {
-    /// Demand |theta|max / alpha whose exceedance P_ex is about
-    #[arg(long, default_value = "0.10")]
+    /// Limit state of P_ex: a demand |theta|max / alpha
+    #[arg(long, default_value = "0.10", value_name = "DEMAND")]
     pub limit_state: f64,
-    /// IM4 at which the demand breaks: found (least pooled residual of the paper's two planes in the cases at hand), or a
-    /// number
-    #[arg(long, default_value = "found")]
+    /// IM4 at which the demand breaks: a number, or found (where the pooled residual of the paper's two planes is least)
+    #[arg(long, default_value = "found", value_name = "IM4")]
     pub transition: TransitionAt,
-    /// The most measures of a model: 1 to 3
-    #[arg(long, default_value = "3")]
+    /// Largest number of measures in a model, 1 to 3
+    #[arg(long, default_value = "3", value_name = "N")]
     pub terms: usize,
-    /// The most folds of cross-validation; each leaves out whole cells of magnitude and distance, or earthquakes
-    #[arg(long, default_value = "10")]
+    /// Largest number of cross-validation folds; each holds out whole cells of magnitude and distance, or whole earthquakes
+    #[arg(long, default_value = "10", value_name = "N")]
     pub folds: usize,
-    /// Further columns of --motions that are measures; the unit at the end of the name tells how they become dimensionless, as
+    /// Further columns of --motions to rank as measures. The unit at the end of the name says how to make them dimensionless:
     /// fiv3_m_s by p v / (g tan alpha)
     #[arg(long, value_name = "COLUMN,...")]
     pub candidate: Option<Several<Parsed<OwnMeasure>>>,
@@ -154,19 +154,21 @@ fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<Ranke
 impl Declare for RankIms {
     type Options = RankImsOptions;
     const NAME: &'static str = RANKING.stage;
-    const ABOUT: &'static str = "Rank intensity measures, alone, in pairs and triples, by how well they predict unseen cells or earthquakes
+    const ABOUT: &'static str = "Rank intensity measures, alone, in pairs and triples, by how well they predict held-out cells or earthquakes
 
 Besides im1 to im6 of the paper, the measures of --motions, made dimensionless with p and g tan alpha: p D of the \
 significant durations (d5_75, d5_95); p^2 PGD / (g tan alpha) (pgd), the same of the Housner intensity (housner); \
 p CAV / (g tan alpha) (cav); p times the integral of a^2 / (g tan alpha)^2 (arias); Sa / (g tan alpha) (sa_0p50 is that at \
 0.5 s). Measures enter as a product, each to a power that the fit finds. PGA, PGV, Tm and Tp are those of im1 to im6.";
+    const EXAMPLES: &'static str = "rockfrag rank-ims --terms 2\n\
+        rockfrag rank-ims --motions motions.parquet --terms 2 --out further.parquet";
     const INPUTS: &'static [Input] = &[
         Input::file("responses", "in", Simulate::OUTPUT.file, "Responses to read"),
         Input::file(
             "motions",
             "motions",
             SynthesizeMotions::OUTPUT.file,
-            "Motions that the responses are to, for their further measures",
+            "Motions of these responses, for further measures",
         )
         .if_in_run(),
     ];
@@ -200,6 +202,10 @@ impl Stage for RankIms {
 
     fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
         self.out.path().map_or(Ok(String::new()), verdict::show)
+    }
+
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        self.out.path().map(verdict::shown).transpose()
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use polars::prelude::ChunkCompareEq;
+use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use crate::keyword::Keyword;
 use crate::table::ranking::{RANKING, RankingRow};
@@ -22,17 +22,24 @@ const CLEAR: f64 = 2.0;
 pub fn show(path: &Path) -> anyhow::Result<String> {
     let mut chosen = RankingRow::read(path)?;
     chosen.retain(|row| row.choice.is_some() || row.terms == 0);
-    let frame = read_frame(path, &RANKING)?;
-    // The rows that were chosen, and those without measures, which every structure has.
-    let shown =
-        frame.column(schema::choice.name)?.is_not_null() | frame.column(schema::terms.name)?.i64()?.equal(0);
-    let mut text = text::aligned(&frame.filter(&shown)?.select(names(&SHOWN))?);
+    let mut text = text::aligned(&shown(path)?.select(names(&SHOWN))?);
     text += "\n";
     let of = |row: &RankingRow| (row.suite.clone(), row.structure.clone(), row.target);
     for group in chosen.chunk_by(|a, b| of(a) == of(b)) {
         text += &verdict(group)?;
     }
     Ok(text)
+}
+
+/// The rows that were chosen, and those without measures, which every structure has.
+///
+/// # Errors
+/// If the file is no ranking.
+pub fn shown(path: &Path) -> anyhow::Result<DataFrame> {
+    let frame = read_frame(path, &RANKING)?;
+    let shown =
+        frame.column(schema::choice.name)?.is_not_null() | frame.column(schema::terms.name)?.i64()?.equal(0);
+    Ok(frame.filter(&shown)?)
 }
 
 /// What a reader looks at first; the file holds the rest.
@@ -83,7 +90,7 @@ fn verdict(group: &[RankingRow]) -> Result<String, std::fmt::Error> {
             let against = comparison(scalar.over_best, scalar.se_over_best);
             write!(
                 line,
-                "\n    the best of the six of Eq. 13 as one power law, {}, is {against} beside it",
+                "\n    the best of the six of Eq. 13 as one power law, {}, is {against} compared with it",
                 scalar.measures
             )?;
         }
@@ -108,7 +115,7 @@ fn verdict(group: &[RankingRow]) -> Result<String, std::fmt::Error> {
 
 /// A difference of log scores in words.
 fn comparison(value: Option<f64>, error: Option<f64>) -> String {
-    let (Some(value), Some(error)) = (value, error) else { return "of unknown worth".to_string() };
+    let (Some(value), Some(error)) = (value, error) else { return "not comparable".to_string() };
     let word = match value {
         value if value > CLEAR * error => "clearly better",
         value if value < -CLEAR * error => "clearly worse",

@@ -47,11 +47,11 @@ pub struct ReportOptions {
     /// Structure to show [default: all]
     #[arg(long)]
     pub structure: Option<String>,
-    /// Pairs of suite and structure to show at most, in the order of the file
-    #[arg(long, default_value = "4")]
+    /// Largest number of pairs of suite and structure to show, in the order of the file
+    #[arg(long, default_value = "4", value_name = "N")]
     pub groups: usize,
-    /// Motions in the browser of motions
-    #[arg(long, default_value = "40")]
+    /// Number of motions to browse in the page
+    #[arg(long, default_value = "40", value_name = "N")]
     pub motions: usize,
     /// Dots per inch of the PNG files
     #[arg(long, default_value = "300")]
@@ -185,7 +185,10 @@ fn file(path: &Path) -> Result<File, TableError> {
 impl Declare for Report {
     type Options = ReportOptions;
     const NAME: &'static str = "report";
-    const ABOUT: &'static str = "Draw all that a folder of files holds: one page to open in a browser, and each figure as SVG and PNG";
+    const ABOUT: &'static str =
+        "Draw what a folder of files holds: one page to open in a browser, and each figure as SVG and PNG";
+    const EXAMPLES: &'static str = "rockfrag report --in out\n\
+        rockfrag report --in out --suite csgm --out combined.html --dpi 150";
     const INPUTS: &'static [Input] = &[Input::file(
         "files",
         "in",

@@ -23,8 +23,8 @@ use crate::table::store::source::Source;
 
 /// The inputs of stages that start from fits.
 pub const FIT_INPUTS: [Input; 2] = [
-    Input::file("pex", "pex", FitPex::OUTPUT.file, "Regressions of fit-pex").under("Fits"),
-    Input::file("pro", "pro", FitPro::OUTPUT.file, "Curves of fit-pro").under("Fits"),
+    Input::file("pex", "pex", FitPex::OUTPUT.file, "Demand fits, from fit-pex").under("Fits"),
+    Input::file("pro", "pro", FitPro::OUTPUT.file, "Overturning curves, from fit-pro").under("Fits"),
 ];
 
 /// Which fits of the files of fit-pex and fit-pro are asked for.
@@ -32,14 +32,13 @@ pub const FIT_INPUTS: [Input; 2] = [
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Fits")]
 pub struct FitsOptions {
-    /// Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm]
+    /// Suite of the fits [default: the only one]
     #[arg(long)]
     pub suite: Option<String>,
-    /// Structure of the fits [default: the only one; of validate, all]
+    /// Structure of the fits [default: the only one]
     #[arg(long)]
     pub structure: Option<String>,
-    /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv), univariate, or in evaluate universal (the surface
-    /// for all structures, without fits) [default: bivariate; in evaluate universal where there are no fits]
+    /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate [default: bivariate]
     #[arg(long)]
     pub model: Option<Word<ModelForm>>,
     /// Measure of the univariate model, im1 to im6 [default: im5]

@@ -15,21 +15,21 @@ use crate::rocking::Structure;
 #[command(next_help_heading = "Structure")]
 pub struct StructureParameters {
     /// Frequency parameter of the structure, rad/s
-    #[arg(long)]
+    #[arg(long, value_name = "RAD/S")]
     pub p: Option<f64>,
     /// Slenderness of the structure, rad
-    #[arg(long)]
+    #[arg(long, value_name = "RAD")]
     pub alpha: Option<f64>,
-    /// Coefficient of restitution, or housner: 1 - 1.5 sin^2(alpha) [default: that of the dimensions, or of the fits]
+    /// Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions]
     #[arg(long)]
     pub eta: Option<Restitution>,
-    /// In place of p and alpha: width of the block or column, m
+    /// Width of the block or column, m; replaces p and alpha
     #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
     pub width: Option<f64>,
     /// Height of the block or column, m
     #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
     pub height: Option<f64>,
-    /// Of a frame: mass of the beam over that of all columns
+    /// For a frame: mass of the beam over the mass of all columns
     #[arg(long, value_name = "RATIO", conflicts_with_all = ["p", "alpha"])]
     pub beam_mass_ratio: Option<f64>,
 }
@@ -55,7 +55,7 @@ pub struct StructuresOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub parameters: StructureParameters,
-    /// In place of them: YAML or CSV file of structures, or the word paper for both of the paper
+    /// YAML or CSV file of structures, or the word paper for the two of the paper
     #[arg(long, value_name = "FILE", conflicts_with_all = ["p", "alpha", "eta", "width", "height", "beam_mass_ratio"])]
     pub structures: Option<Structures>,
 }
@@ -96,7 +96,7 @@ pub struct StructureOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub structures: StructuresOptions,
-    /// Name of the structure in that file [default: the only one]
+    /// Name of the structure in the file of --structures [default: the only one]
     #[arg(long, requires = "structures")]
     pub name: Option<String>,
 }

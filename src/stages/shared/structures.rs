@@ -333,8 +333,8 @@ fn from_yaml(text: &str) -> Result<Vec<StructureSpec>, String> {
 fn from_csv(text: &str) -> Result<Vec<StructureSpec>, String> {
     let table = CsvText::new(text).map_err(|error| error.to_string())?;
     let names = table.names.clone();
-    let spec = |row: csv::Result<(u64, csv::StringRecord)>| {
-        let (line, record) = row.map_err(|error| error.to_string())?;
+    let spec = |row: Result<(u64, csv::StringRecord), String>| {
+        let (line, record) = row?;
         let mut spec = StructureSpec::default();
         for (name, cell) in names.iter().zip(&record).filter(|(_, cell)| !cell.is_empty()) {
             spec.set(name, cell).map_err(|wrong| format!("line {line}, column '{name}': {wrong}"))?;

@@ -195,6 +195,8 @@ impl Declare for Simulate {
     type Options = SimulateOptions;
     const NAME: &'static str = RESPONSES.stage;
     const ABOUT: &'static str = "Simulate the rocking response of structures to motions";
+    const EXAMPLES: &'static str = "rockfrag simulate --width 0.5 --height 2.0\n\
+        rockfrag simulate --structures paper --out both.parquet";
     const INPUTS: &'static [Input] = &[Input::file(
         "motions",
         "in",

@@ -18,16 +18,16 @@ pub struct SimulateOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub structure: StructuresOptions,
-    /// Vector instructions of the solver: scalar (one motion at a time), or avx2 or avx512 (several at once), which give the same
-    /// bits and differ from scalar by rounding [default: the fastest of this processor]
-    #[arg(long)]
+    /// Vector instructions of the solver: scalar (one motion at a time), avx2 or avx512 (several at once; both give the same bits,
+    /// and differ from scalar by rounding) [default: the fastest that this processor has]
+    #[arg(long, help_heading = None::<&str>)]
     pub simd: Option<Word<Simd>>,
-    /// Motions whose response over time is written too, beside the output as NAME.trace.parquet
-    #[arg(long, value_name = "ID,...")]
+    /// Also write the rotation over time for these motions, to NAME.trace.parquet beside the output
+    #[arg(long, value_name = "ID,...", help_heading = None::<&str>)]
     pub trace: Option<Several<String>>,
-    /// Only partition i of n, i from 0 to n - 1: of a folder its file part-0000i.parquet, of a file an equal share of the motions;
-    /// the output is then a folder, too
-    #[arg(long, value_name = "I/N", conflicts_with = "trace")]
+    /// Simulate only partition i of n, with i from 0 to n - 1: the file part-0000i.parquet of a folder, or an equal share of the
+    /// motions of a file. The output is then a folder
+    #[arg(long, value_name = "I/N", conflicts_with = "trace", help_heading = None::<&str>)]
     pub partition: Option<Parsed<Partition>>,
 }
 

@@ -89,6 +89,8 @@ impl Declare for SynthesizeMotions {
     const NAME: &'static str = MOTIONS.stage;
     const ABOUT: &'static str =
         "Synthesize near-fault ground motions: coherent pulse and stochastic high frequencies";
+    const EXAMPLES: &'static str = "rockfrag synthesize-motions --in scenarios.parquet\n\
+        rockfrag synthesize-motions --suite csgm --dt 0.01 --out combined.parquet";
     const INPUTS: &'static [Input] =
         &[Input::file("scenarios", "in", SampleScenarios::OUTPUT.file, "Scenarios to read")];
     const OUTPUT: Output = Output::file(

@@ -28,46 +28,47 @@ pub struct SynthesizeMotionsOptions {
     /// Seed of the noise [default: 42]
     #[arg(long)]
     pub seed: Option<u64>,
-    /// Suites, separated by commas: pulse, csgm (pulse and high frequencies), hfc (high frequencies alone)
+    /// Suites, separated by commas: pulse (the pulse alone), csgm (pulse and high frequencies), hfc (high frequencies alone)
     #[arg(long, default_value = "pulse,csgm")]
     pub suite: Several<Word<Suite>>,
     /// Time between samples, s
-    #[arg(long, default_value = "0.005")]
+    #[arg(long, default_value = "0.005", value_name = "S")]
     pub dt: f64,
-    /// What the high frequencies keep where the pulse is the stronger: absolute, signed, clamp or none (plain sum)
+    /// How to subtract the pulse from the spectrum of the high frequencies where the pulse is stronger: absolute, signed, clamp or none
+    /// (plain sum)
     #[arg(long, default_value = "absolute")]
     pub difference: Word<Difference>,
-    /// When the pulse peaks: at the peak of the envelope, or of the acceleration or velocity of the high frequencies
-    /// (envelope-peak, pga, pgv)
+    /// When the pulse peaks: envelope-peak (at the peak of the envelope), pga or pgv (at the peak acceleration or velocity of the
+    /// high frequencies)
     #[arg(long, default_value = "envelope-peak")]
     pub epoch: Word<Epoch>,
-    /// Site amplification: rock, soil, none, or a CSV file of frequency in Hz and factor
+    /// Site amplification: rock, soil, none, or a CSV file with a column of frequencies (Hz) and one of factors
     #[arg(long, default_value = "rock")]
     pub site: String,
     /// Near-surface attenuation kappa, s
-    #[arg(long, default_value = "0.03")]
+    #[arg(long, default_value = "0.03", value_name = "S")]
     pub kappa: f64,
     /// Corner of the filter 1/sqrt(1 + (f/fmax)^8), Hz [default: none]
-    #[arg(long)]
+    #[arg(long, value_name = "HZ")]
     pub fmax: Option<f64>,
     /// Corner of the high-pass filter 1/(1 + (fc/f)^(2n)), Hz [default: none]
-    #[arg(long)]
+    #[arg(long, value_name = "HZ")]
     pub low_cut: Option<f64>,
     /// Order n of the high-pass filter
-    #[arg(long, default_value = "4")]
+    #[arg(long, default_value = "4", value_name = "N")]
     pub low_cut_order: u32,
-    /// Also compute the Housner intensity, 15 times the work or more
+    /// Also compute the Housner intensity, which takes 15 times as long or more
     #[arg(long)]
     pub housner: bool,
-    /// Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or numbers separated by
-    /// commas; sa_0p20_m_s2 is that at 0.2 s
-    #[arg(long)]
+    /// Add spectral accelerations (5 % damping) at these periods, s: first:last:step, or numbers separated by commas; the column
+    /// sa_0p20_m_s2 is for 0.2 s
+    #[arg(long, value_name = "S,...")]
     pub sa: Option<Steps>,
-    /// Scenarios in a row group: what is held in memory and read at once; the rows do not depend on it
-    #[arg(long, default_value = "128")]
+    /// Scenarios in a row group, which are held in memory together; the rows do not depend on it
+    #[arg(long, default_value = "128", value_name = "N")]
     pub row_group: usize,
-    /// Only partition i of n, i from 0 to n - 1: an equal share of the scenarios, of which the later ones take longer; the output
-    /// is then a folder, in which it is part-0000i.parquet
+    /// Make only partition i of n, with i from 0 to n - 1: an equal share of the scenarios (later ones take longer). The output is
+    /// then a folder, and the partition its file part-0000i.parquet
     #[arg(long, value_name = "I/N")]
     pub partition: Option<Parsed<Partition>>,
 }

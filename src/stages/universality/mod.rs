@@ -3,6 +3,7 @@
 mod words;
 
 use clap::Args;
+use polars::prelude::DataFrame;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -25,6 +26,7 @@ use crate::studies::{
     CurveForm, CurveSubject, PooledFit, PooledStructure, PooledTerms, Transfer, fit_pooled,
 };
 use crate::table::row::WriteRow;
+use crate::table::store::frame::read_frame;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::store::writer::TableWriter;
@@ -34,7 +36,7 @@ use crate::table::universality::{POOLED, PooledRow, UNIVERSALITY, UniversalityRo
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct UniversalityOptions {
-    /// Structure whose curves are transferred to all others
+    /// Structure whose curves to transfer to all others
     #[arg(long, default_value = "electrical-equipment", value_name = "NAME")]
     pub reference: String,
     /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate
@@ -44,10 +46,10 @@ pub struct UniversalityOptions {
     #[arg(long, value_name = "IM")]
     pub measure: Option<Word<Measure>>,
     /// IM4 at which the two planes of all structures meet
-    #[arg(long, default_value = "1.3")]
+    #[arg(long, default_value = "1.3", value_name = "IM4")]
     pub transition: f64,
-    /// Demand |theta|max / alpha whose exceedance P_ex is about
-    #[arg(long, default_value = "0.10")]
+    /// Limit state of P_ex: a demand |theta|max / alpha
+    #[arg(long, default_value = "0.10", value_name = "DEMAND")]
     pub limit_state: f64,
 }
 
@@ -226,8 +228,9 @@ fn pooled<'a>(subject: &CurveSubject, suite: &SuiteOfGroups<'a>) -> Vec<Result<P
 impl Declare for Universality {
     type Options = UniversalityOptions;
     const NAME: &'static str = UNIVERSALITY.stage;
-    const ABOUT: &'static str = "How universal the curves of one structure are: tested on the responses of all others to the \
-         same motions";
+    const ABOUT: &'static str =
+        "Test the curves of one structure on the responses of all others to the same motions";
+    const EXAMPLES: &'static str = "rockfrag universality --reference electrical-equipment";
     const INPUTS: &'static [Input] =
         &[Input::file("responses", "in", Simulate::OUTPUT.file, "Responses of all structures to read")];
     const OUTPUT: Output = Output::file(
@@ -260,6 +263,10 @@ impl Stage for Universality {
 
     fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {
         self.out.path().map_or(Ok(String::new()), words::show)
+    }
+
+    fn rows(&self) -> anyhow::Result<Option<DataFrame>> {
+        Ok(self.out.path().map(|out| read_frame(out, &UNIVERSALITY)).transpose()?)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

@@ -171,7 +171,7 @@ impl Judged<'_> {
             }
             (own > 0.0).then_some(theirs / own)
         };
-        writeln!(text, "  of what own curves tell beyond the share of events, over all cases:")?;
+        writeln!(text, "  gain in log score over the plain share of events, with own curves as 100 %:")?;
         let curves: [Named<Option<f64>>; 5] = [
             ("the transferred curve", |row| row.log_score_transferred),
             ("one line for all structures", |row| row.log_score_line),

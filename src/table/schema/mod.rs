@@ -2,12 +2,13 @@
 //!
 //! ```text
 //! column      name, type, unit, meaning
-//! dictionary  all columns
+//! dictionary  all columns; headings other names of them in files of others
 //! table       columns in order, and the stage that writes them
 //! ```
 
 mod column;
 mod dictionary;
+pub mod headings;
 mod table;
 
 pub use column::{Column, Kind};

@@ -19,6 +19,9 @@ use crate::table::schema::{Column, Table};
 /// Rows of a narrow table that are decoded at once.
 const NARROW_BATCH: usize = 8192;
 
+/// Rows of any table that are decoded at once, each of which may be a motion.
+const FEW_ROWS: usize = 64;
+
 /// A table, open at those of its columns that are wanted.
 pub struct OpenTable {
     fragments: Vec<Fragment>,
@@ -246,6 +249,21 @@ impl Iterator for Batches {
 pub fn read_any(source: impl Into<Source>) -> Result<Vec<RecordBatch>, TableError> {
     let table = OpenTable::of(&source.into(), None, |_| true)?;
     table.whole()?.map(|batch| Ok(batch?.rows)).collect()
+}
+
+/// The first rows of any table with all its columns, whoever wrote it.
+///
+/// # Errors
+/// If it is missing or unreadable.
+pub fn read_first(source: impl Into<Source>, rows: usize) -> Result<Vec<RecordBatch>, TableError> {
+    let table = OpenTable::of(&source.into(), None, |_| true)?;
+    let mut batches = Vec::new();
+    for run in table.runs(0..rows as u64) {
+        for batch in table.batches_of(run, FEW_ROWS)? {
+            batches.push(batch?.rows);
+        }
+    }
+    Ok(batches)
 }
 
 /// That a schema has those of the columns that may not be null.

@@ -8,6 +8,7 @@ use csv::{Position, Reader, ReaderBuilder, StringRecord, Trim};
 
 use super::writer::temporary_beside;
 use crate::table::TableError;
+use crate::table::schema::headings::Headings;
 
 /// The bytes of a file that may have `most_mib` MiB, and of anything else that can be read, up to that.
 ///
@@ -74,25 +75,53 @@ impl<'a> CsvText<'a> {
         let mut builder = ReaderBuilder::new();
         builder.comment(Some(b'#')).trim(Trim::All).delimiter(if has_semicolons { b';' } else { b',' });
         let mut reader = builder.from_reader(text.as_bytes());
-        let plain = |name: &str| name.to_lowercase().replace([' ', '-'], "_");
         let names = reader.headers()?.iter().map(plain).collect();
         Ok(CsvText { names, has_semicolons, reader })
     }
 
+    /// Takes other headings for columns.
+    ///
+    /// # Errors
+    /// With the first that is not there.
+    pub fn rename(&mut self, headings: &Headings) -> std::result::Result<(), String> {
+        self.names = headings.renamed(&self.names, |name, heading| name == plain(heading))?;
+        Ok(())
+    }
+
     /// The rows with their lines, in order.
-    pub fn rows(self) -> impl Iterator<Item = csv::Result<(u64, StringRecord)>> + use<'a> {
+    pub fn rows(self) -> impl Iterator<Item = std::result::Result<(u64, StringRecord), String>> + use<'a> {
         let has_semicolons = self.has_semicolons;
         self.reader.into_records().map(move |record| {
-            let record = record?;
+            let record = record.map_err(|error| explain(&error))?;
             let line = record.position().map_or(0, Position::line);
             if !has_semicolons {
                 return Ok((line, record));
             }
             let with_point = |cell: &str| {
                 let point = cell.replace(',', ".");
-                if point.parse::<f64>().is_ok() { point } else { cell.to_string() }
+                if point.trim_end_matches(['%', ' ']).parse::<f64>().is_ok() {
+                    point
+                } else {
+                    cell.to_string()
+                }
             };
             Ok((line, record.iter().map(with_point).collect()))
         })
     }
+}
+
+/// A heading as the name of a column.
+fn plain(heading: &str) -> String {
+    heading.to_lowercase().replace([' ', '-'], "_")
+}
+
+/// What is wrong with a row.
+fn explain(error: &csv::Error) -> String {
+    let csv::ErrorKind::UnequalLengths { pos, expected_len, len } = error.kind() else {
+        return error.to_string();
+    };
+    let line = pos.as_ref().map_or(0, Position::line);
+    format!(
+        "line {line}: {len} cells under {expected_len} headings; if commas are decimal signs, separate the cells by semicolons"
+    )
 }

@@ -256,7 +256,7 @@ pub(super) fn temporary_beside(path: &Path) -> Result<NamedTempFile, TableError>
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    let name = path.file_name().ok_or_else(|| failed("that is no file name".to_string()))?;
+    let name = path.file_name().ok_or_else(|| failed("that is not a file name".to_string()))?;
     let prefix = format!(".{}.", name.to_string_lossy());
     remove_strays(folder, &prefix);
     let mut partial = tempfile::Builder::new();

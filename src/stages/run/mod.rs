@@ -1,5 +1,7 @@
 //! run: all stages of pipeline.yaml in order, skipping what is up to date.
 
+pub mod findings;
+
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -31,7 +33,7 @@ pub fn dry_run(stages: &[Box<dyn Stage>], may: May) -> anyhow::Result<String> {
         let waits =
             stage.inputs().into_iter().find(|(_, source)| anew.iter().any(|path| path == source.name()));
         let state = match waits {
-            Some((role, _)) => Freshness::Stale(format!("the {role} are made anew")),
+            Some((role, _)) => Freshness::Stale(format!("the {role} will be made again")),
             None if may.force => Freshness::Stale("--force".to_string()),
             None => freshness(stage.as_ref(), &stage.provenance()?),
         };
