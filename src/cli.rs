@@ -1,10 +1,12 @@
 //! The command line: what all commands have in common, and those that are no stage.
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Command, FromArgMatches, Subcommand, ValueEnum};
+use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand, ValueEnum};
 
+use crate::allocator::keep_freed_buffers;
 use crate::pipeline::cache::May;
 use crate::pipeline::console::Console;
 use crate::pipeline::terminal::Terminal;
@@ -13,6 +15,7 @@ use crate::stages::inspect::inspect;
 use crate::stages::registry::{Config, commands};
 use crate::stages::run::{dry_run, run};
 use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
+use crate::table::store::guarded::quiet_damage;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Common options")]
@@ -87,13 +90,32 @@ fn command() -> Command {
         .about("Dimensionless fragility curves for rocking structures in near-fault earthquakes")
 }
 
-/// Parses the command line and does what it says.
-///
-/// # Errors
-/// Those of the stage that was called; [`UsageError`] for a mistake in the call.
-pub fn main() -> anyhow::Result<()> {
-    let matches = command().get_matches();
-    let common = Common::from_arg_matches(&matches)?;
+/// Does what a command line says, whose first word is the program, and gives the code to exit with: 0 done, 1 a failure, 2 a mistake in
+/// the call. The command and Python's entry point are this function; it is called once, before there are threads.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    keep_freed_buffers();
+    quiet_damage();
+    let code = match command().try_get_matches_from(arguments) {
+        Ok(matches) => match obey(&matches) {
+            Ok(()) => 0,
+            Err(error) => {
+                eprintln!("error: {error:#}");
+                if error.is::<UsageError>() { 2 } else { 1 }
+            }
+        },
+        // Help and version too.
+        Err(told) => {
+            let _ = told.print();
+            if told.use_stderr() { 2 } else { 0 }
+        }
+    };
+    // A program that is no Rust one would leave the rest of the last line unsaid.
+    let _ = std::io::stdout().flush();
+    code
+}
+
+fn obey(matches: &ArgMatches) -> anyhow::Result<()> {
+    let common = Common::from_arg_matches(matches)?;
     let console =
         Console { quiet: common.quiet, progress: common.progress == Progress::Auto, ..Console::default() };
     if let Some(threads) = common.threads {
@@ -111,7 +133,7 @@ pub fn main() -> anyhow::Result<()> {
             print(&stage.show(&Terminal::stdout())?)
         });
     }
-    match Tool::from_arg_matches(&matches)? {
+    match Tool::from_arg_matches(matches)? {
         Tool::Run { pipeline, out, seed, dry_run } => {
             let config = Config::read(&pipeline)?;
             let config = if let Some(seed) = seed { config.with_seed(seed) } else { config };
