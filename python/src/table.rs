@@ -81,15 +81,13 @@ impl PyTable {
         first
     }
 
-    /// Whether all values are the same, however the rows are cut into batches.
+    /// Whether all values are those of a table with as many rows, however these are cut into batches.
     fn has_rows_of(&self, other: &PyTable) -> bool {
         let (mut ours, mut theirs) = (self.first(usize::MAX), other.first(usize::MAX));
         ours.reverse();
         theirs.reverse();
         loop {
-            let (Some(a), Some(b)) = (ours.pop(), theirs.pop()) else {
-                return ours.is_empty() && theirs.is_empty();
-            };
+            let (Some(a), Some(b)) = (ours.pop(), theirs.pop()) else { return true };
             let rows = a.num_rows().min(b.num_rows());
             if a.slice(0, rows).columns() != b.slice(0, rows).columns() {
                 return false;
@@ -182,7 +180,8 @@ impl PyTable {
         let (ours, theirs) = (self.table.schema.fields(), other.get().table.schema.fields());
         let alike =
             |(a, b): (&Arc<Field>, &Arc<Field>)| a.name() == b.name() && a.data_type() == b.data_type();
-        let is_alike = ours.len() == theirs.len() && ours.iter().zip(theirs).all(alike);
+        let as_long = self.table.rows() == other.get().table.rows();
+        let is_alike = as_long && ours.len() == theirs.len() && ours.iter().zip(theirs).all(alike);
         is_alike && self.has_rows_of(other.get())
     }
 

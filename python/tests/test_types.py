@@ -9,11 +9,14 @@ import rockfrag
 from rockfrag._stub import stub
 
 
+CONFIG = str(pathlib.Path(__file__).parents[1] / "pyproject.toml")
+
+
 @pytest.mark.parametrize(
     "check",
     [
-        ["mypy.stubtest", "rockfrag._rockfrag", "rockfrag._stages"],
-        ["mypy", "--strict", "--ignore-missing-imports", "-p", "rockfrag"],
+        ["mypy.stubtest", "--mypy-config-file", CONFIG, "rockfrag._rockfrag", "rockfrag._stages"],
+        ["mypy", "--config-file", CONFIG, "-p", "rockfrag"],
     ],
     ids=["the stubs", "the package"],
 )

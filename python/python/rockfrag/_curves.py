@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 Floats = npt.NDArray[np.float64]
 Link = Literal["probit", "logit", "cloglog"]
 Estimator = Literal["ml", "firth"]
+Parameter = Literal["theta", "beta", "lambda"]
 
 _WHY = {
     "too_few_events": "fewer than 5 events, or fewer than 5 others; take more cases, or estimator='firth', which needs one of each",
@@ -292,7 +293,7 @@ class FragilityCurve(_Regression):
         known = self._parameters.get("lambda")
         return None if known is None else known[0]
 
-    def profile_interval(self, param: Literal["theta", "beta", "lambda"], level: float = 0.95) -> tuple[float, float]:
+    def profile_interval(self, param: Parameter, level: float = 0.95) -> tuple[float, float]:
         """Limits of confidence by the profile likelihood, which assumes no symmetry.
 
         Parameters
@@ -323,13 +324,11 @@ class FragilityCurve(_Regression):
         -------
         Summary
         """
-        rows = []
-        for name, (value, error) in self._parameters.items():
-            shown = "theta" if name == "mu" else name
-            if name == "mu":
-                value, error = float(np.exp(value)), float(np.exp(value)) * error
-            limits = self.profile_interval(shown)
-            rows.append([shown, *map(_show.number, (value, error, *limits))])
+        theta = self.theta
+        found = {**self._parameters, "theta": (theta, theta * self._parameters["mu"][1])}
+        names: tuple[Parameter, ...] = ("theta", "beta", "lambda")
+        shown: list[Parameter] = [name for name in names if name in found]
+        rows = [[name, *map(_show.number, (*found[name], *self.profile_interval(name)))] for name in shown]
         title = f"FragilityCurve: {self.outcome.sum()} events of {self.nobs} cases, {self.link}, {self.estimator}"
         scores = f"llf {self.llf:.4f}, aic {self.aic:.4f}, bic {self.bic:.4f}, auc {self.auc:.3f}, brier {self.brier:.3f}"
         return _show.Summary(title, [scores, *(f"doubt: {doubt}" for doubt in self.doubts)], ["", "estimate", "se", "low", "high"], rows)
@@ -461,7 +460,7 @@ class FailureCurve(_Curve):
         -------
         Summary
         """
-        curves = {"overturning": self.overturning, f"edp above {_show.number(self.demand.limit_state)}": self.demand}
+        curves: dict[str, FragilityCurve | DemandCurve] = {"overturning": self.overturning, f"edp above {_show.number(self.demand.limit_state)}": self.demand}
         rows = [[name, *map(_show.number, (curve.median, curve.beta)), str(curve.nobs)] for name, curve in curves.items()]
         title = f"FailureCurve: {int(self.outcome.sum())} failures of {len(self.im)} cases"
         return _show.Summary(title, [f"doubt: {doubt}" for doubt in self.doubts], ["", "median", "beta", "cases"], rows)
@@ -531,11 +530,17 @@ def fit_fragility(
     >>> forty = rockfrag.datasets.load_outcomes()
     >>> curve = rockfrag.fit_fragility(forty["pgv_m_s"], forty["overturned"], im_name="PGV, m/s")
     >>> curve
-    FragilityCurve()
+    FragilityCurve(median=1.066, beta=0.4667, link='probit', events=14, nobs=40, status='ok')
     >>> curve.probability([0.5, 1.0]).round(3)
-    array([])
+    array([0.052, 0.446])
     >>> low, high = curve.confidence_band([0.5, 1.0])
     >>> curve.summary()
+    FragilityCurve: 14 events of 40 cases, probit, ml
+           estimate      se     low   high
+    theta     1.066  0.1274  0.8583  1.503
+     beta    0.4667  0.1441  0.2765   1.02
+    llf -18.1989, aic 40.3978, bic 43.7756, auc 0.830, brier 0.154
+    doubt: few events: standard errors and conf_int are too narrow; profile_interval and confidence_band are not
     """
     measures, happened = _cases(im, outcome)
     curve = FragilityCurve(measures, happened, link=link, estimator=estimator, cluster=cluster, im_name=im_name)
@@ -579,9 +584,11 @@ def fit_demand(im: npt.ArrayLike, edp: npt.ArrayLike, *, limit_state: float, im_
     >>> forty = rockfrag.datasets.load_outcomes()
     >>> curve = rockfrag.fit_demand(forty["pgv_m_s"], forty["edp"], limit_state=0.10)
     >>> curve
-    DemandCurve()
-    >>> curve.probability(0.3).round(3), curve.demand(0.3).round(3)
-    ()
+    DemandCurve(limit_state=0.1, median=0.5808, beta=1.399, rsquared=0.078, nobs=26, status='ok')
+    >>> curve.probability([0.3, 0.6]).round(3)
+    array([0.318, 0.509])
+    >>> curve.demand([0.3, 0.6]).round(3)
+    array([0.074, 0.101])
     """
     measures, demand = _demands(im, edp)
     if not limit_state > 0.0:
@@ -631,8 +638,9 @@ def fit_failure(
     >>> forty = rockfrag.datasets.load_outcomes()
     >>> curve = rockfrag.fit_failure(forty["pgv_m_s"], forty["edp"], forty["overturned"], limit_state=0.10)
     >>> curve.probability([0.2, 0.5]).round(3)
-    array([])
-    >>> curve.summary()
+    array([0.223, 0.486])
+    >>> round(curve.overturning.median, 3), round(curve.demand.median, 3)
+    (1.066, 0.581)
     """
     measures, happened = _cases(im, overturned)
     overturning = FragilityCurve(measures, happened, link="probit", estimator=estimator, cluster=cluster, im_name=im_name)
@@ -697,4 +705,6 @@ def _quantile(level: float) -> float:
 def _same(a: object, b: object) -> bool:
     if isinstance(a, dict) and isinstance(b, dict):
         return a.keys() == b.keys() and all(_same(a[key], b[key]) for key in a)
-    return bool(np.array_equal(a, b)) if isinstance(a, np.ndarray) else bool(a == b)
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return bool(np.array_equal(a, b))
+    return bool(a == b)

@@ -29,25 +29,25 @@ _KINDS = {
     "paths": "PathLike | Iterable[PathLike]",
     "steps": "Steps",
 }
-#: and of those that take several kinds, by their names.
+_SUITES = "Literal['pulse', 'csgm', 'hfc']"
+#: and of those that take several kinds, or not all words, by their names.
 _OWN = {
     "candidate": "str | Iterable[str]",
     "column": "int | str",
     "eta": "float | Literal['housner']",
-    "event": "Literal['overturning', 'rocking']",
     "format": "Literal['auto', 'at2', 'cosmos', 'csmip', 'esm', 'knet', 'smc', 'columns']",
-    "hazard": "Hazard",
     "pairs": "str | Iterable[str]",
     "partition": "tuple[int, int]",
     "rotate": "float | Literal['strongest-pulse']",
+    "fit-pro event": "Literal['overturning', 'rocking']",
+    "hazard": "Hazard",
     "seed": "int | Generator | None",
     "structures": "Structures",
+    "synthesize-motions suite": f"{_SUITES} | Iterable[{_SUITES}]",
     "trace": "int | str | Iterable[int | str]",
     "transition": "float | Literal['found']",
     "unit": "Literal['g', 'mg', 'm/s2', 'cm/s2', 'gal', 'mm/s2', '%g', 'ft/s2', 'in/s2']",
 }
-#: What takes less, or more, than its kind tells.
-_ALWAYS_OWN = {"event", "hazard", "seed"}
 _SEED = 42
 #: What Python has other words for than the command line.
 _HELP = {
@@ -73,13 +73,16 @@ _RAISES = {
 }
 
 
+Option = Mapping[str, "str | bool | list[str] | None"]
+
+
 class Stage(NamedTuple):
     """A stage as the library describes it."""
 
     name: str
     about: str
     inputs: list[Mapping[str, str | bool]]
-    options: list[Mapping[str, str | bool | list[str] | None]]
+    options: list[Option]
     output: Mapping[str, str | list[str]]
 
     @property
@@ -108,19 +111,18 @@ class _Type(str):
     __repr__ = str.__str__
 
 
-def _annotation(option: Mapping[str, str | bool | list[str] | None]) -> str:
-    words, name = option["words"], str(option["name"])
-    if option["type"] == "any" or name in _ALWAYS_OWN:
-        return _OWN[name]
+def _annotation(stage: Stage, option: Option) -> str:
+    name, words = str(option["name"]), option["words"]
+    own = _OWN.get(f"{stage.name} {name}")
+    if own or option["type"] == "any" or name in ("hazard", "seed"):
+        return own or _OWN[name]
     if option["type"] == "word":
         assert isinstance(words, list)
-        one = f"Literal[{', '.join(map(repr, words))}]"
-        several = "," in str(option["default"] or "")
-        return f"{one} | Iterable[{one}]" if several else one
+        return f"Literal[{', '.join(map(repr, words))}]"
     return _KINDS[str(option["type"])]
 
 
-def _default(option: Mapping[str, str | bool | list[str] | None]) -> str | float | bool | None:
+def _default(option: Option) -> str | float | bool | tuple[str, ...] | None:
     """The default as Python's value; it is shown and never sent, so that the library's own one holds."""
     text, kind = option["default"], option["type"]
     if option["name"] == "seed":
@@ -128,7 +130,7 @@ def _default(option: Mapping[str, str | bool | list[str] | None]) -> str | float
     if kind == "bool":
         return False
     if kind == "word" and "," in str(text or ""):
-        return str(text)
+        return tuple(str(text).split(","))
     return {"float": float, "int": int}.get(str(kind), str)(str(text)) if text is not None else None
 
 
@@ -138,13 +140,14 @@ def _parameter(name: str, annotation: str, default: object = inspect.Parameter.e
 
 
 def _signature(stage: Stage) -> inspect.Signature:
-    tables = [_parameter(str(table["role"]), "TableLike") for table in stage.inputs if table["required"]]
-    first = [_parameter(_python(option["name"]), _annotation(option)) for option in stage.options if option["positional"]]
+    kind = "TableLike" if stage.makes_table or stage.name == "export" else "PathLike"
+    tables = [_parameter(str(table["role"]), kind) for table in stage.inputs if table["required"]]
+    first = [_parameter(_python(option["name"]), _annotation(stage, option)) for option in stage.options if option["positional"]]
     optional = [_parameter(str(table["role"]), "TableLike | None", None) for table in stage.inputs if not table["required"]]
     keywords = []
     for option in stage.options:
         if not option["positional"]:
-            default, annotation = _default(option), _annotation(option)
+            default, annotation = _default(option), _annotation(stage, option)
             annotation += " | None" if default is None else ""
             keywords.append(_parameter(_python(option["name"]), annotation, default, only_by_name=True))
     common = {name: _parameter(name, kind, default, only_by_name=True) for name, (kind, default, _) in _COMMON.items()}

@@ -19,7 +19,7 @@ import time
 import uuid
 from collections.abc import Callable
 from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, TypedDict, cast
 
 import pyarrow.fs
 import pyarrow.parquet
@@ -135,9 +135,9 @@ def _each_partition(
 ) -> list[Partition]:
     source, out = os.fspath(source), os.fspath(out)
 
-    def run(row: dict[str, int]) -> Partition:
+    def run(row: dict[str, object]) -> dict[str, object]:
         start = time.perf_counter()
-        index = int(row["index"])
+        index = row["index"]
         call = {**options, "partition": (index, partitions), "threads": num_cpus}
         file = _run(stage, source, out, filesystem, call)
         with _filesystem(filesystem).open_input_file(file) as opened:
@@ -147,7 +147,7 @@ def _each_partition(
         return {"index": index, "of": partitions, "file": file, "rows": rows, "seconds": seconds, "node": node}
 
     dataset = ray.data.from_items([{"index": index} for index in range(partitions)], override_num_blocks=partitions)
-    results: list[Partition] = dataset.map(run, num_cpus=num_cpus).take_all()
+    results = cast("list[Partition]", dataset.map(run, num_cpus=num_cpus).take_all())
     return sorted(results, key=lambda result: result["index"])
 
 
