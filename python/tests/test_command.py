@@ -1,6 +1,8 @@
 """The command that the package brings is the program: the same words, files, messages and exit codes."""
 
+import importlib.metadata
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -66,3 +68,14 @@ def test_a_reader_that_has_seen_enough_is_no_error(tmp_path):
         f'"{sys.executable}" -m rockfrag --help | head -1; exit ${{PIPESTATUS[0]}}', shell=True, executable="/bin/bash", capture_output=True
     )
     assert done.returncode == 0 and done.stderr == b""
+
+
+def test_it_is_installed_under_its_name():
+    try:
+        package = importlib.metadata.distribution("rockfrag")
+    except importlib.metadata.PackageNotFoundError:
+        pytest.skip("the package is not installed, but on the path")
+    (entry,) = package.entry_points.select(group="console_scripts")
+    assert (entry.name, entry.value) == ("rockfrag", "rockfrag.__main__:main")
+    program = pathlib.Path(sys.executable).with_name("rockfrag")
+    assert subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.startswith("rockfrag ")

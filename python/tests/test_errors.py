@@ -53,7 +53,7 @@ def test_a_table_without_rows():
         (lambda: rockfrag.simulate(motions(), structures={"q": 1}), "unknown field `q`"),
         (lambda: rockfrag.simulate(motions(), structures="paper", partition=(3, 3)), "from 0 to n - 1"),
         (lambda: rockfrag.simulate(motions()), "no structure; expected"),
-        (lambda: rockfrag.Structure.block(50.0, 200.0), "width|height"),
+        (lambda: rockfrag.Structure.block(-0.5, 2.0), "width"),
         (lambda: rockfrag.fit_pro(motions(), link="cauchit"), "cauchit"),
         (lambda: rockfrag.response([0.0, 1.0], -1.0, {"p": 2, "alpha": 0.2, "eta": 0.9}), "dt_s is -1"),
     ],

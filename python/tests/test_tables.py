@@ -93,7 +93,7 @@ def test_tables_show_what_they_are(out):
     assert len(text.splitlines()) < 15 and max(map(len, text.splitlines())) < 300
     html = responses._repr_html_()
     assert html.count("<th>") == 22 and "electrical-equipment" in html
-    assert "[" in repr(rockfrag.synthesize_motions(out / "scenarios.parquet", dt=0.01))
+    assert "values]" in rockfrag.synthesize_motions(out / "scenarios.parquet", dt=0.01)._repr_html_()
 
 
 def test_tables_say_how_they_were_made_and_what_was_warned_of(out):

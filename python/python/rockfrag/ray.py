@@ -153,13 +153,13 @@ def _each_partition(
 
 def _run(stage: Callable[..., rockfrag.Table | Path], source: str, out: str, filesystem: pyarrow.fs.FileSystem | AbstractFileSystem | None, call: dict[str, object]) -> str:
     """Runs a stage on a partition, and gives the file that it wrote."""
+    index = call["partition"]
+    assert isinstance(index, tuple)
+    name = partition_file(words_of(index))
     if filesystem is None:
-        return str(stage(source, out=out, **call))
+        return str(stage(source, out=Path(out, name), **call))
     remote = _filesystem(filesystem)
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
-        index = call["partition"]
-        assert isinstance(index, tuple)
-        name = partition_file(words_of(index))
         # A file that is there already is fetched, so that the stage can tell whether it is up to date.
         here = Path(folder, "out", name)
         there = str(PurePosixPath(out, name))
