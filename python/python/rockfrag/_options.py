@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ._structure import Structure
+from ._structure import Structure, spec_of
 from ._types import PathLike, Progress
 from .errors import OptionError
 
@@ -89,9 +89,9 @@ def _plain(value: object) -> object:
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if isinstance(value, (Structure, Mapping)):
-        return [Structure.spec(value)]
+        return [spec_of(value)]
     if isinstance(value, np.ndarray) and value.ndim == 0 or isinstance(value, np.generic):
         return value.item()
     if isinstance(value, Iterable):
-        return [Structure.spec(one) if isinstance(one, (Structure, Mapping)) else str(_plain(one)) for one in value]
+        return [spec_of(one) if isinstance(one, (Structure, Mapping)) else str(_plain(one)) for one in value]
     raise TypeError(f"{value!r} is no option; expected text, numbers or lists of them")

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _rockfrag, _show
-from ._structure import Structure
+from ._structure import spec_of
 from ._types import StructureLike
 
 if TYPE_CHECKING:
@@ -124,4 +124,4 @@ def response(acceleration_m_s2: npt.ArrayLike, dt_s: float, structure: Structure
     <rockfrag.Response: overturning, 1 impacts, 247 points in 2.432 s>
     """
     samples = np.ascontiguousarray(acceleration_m_s2, dtype=np.float64)
-    return Response(**_rockfrag.response(samples, dt_s, json.dumps(Structure.spec(structure)), tail_s))
+    return Response(**_rockfrag.response(samples, dt_s, json.dumps(spec_of(structure)), tail_s))

@@ -56,7 +56,18 @@ _HELP = {
     "partition": "(i, n): only partition i of n, i from 0 to n - 1; ``out`` is then a folder, in which it is part-0000i.parquet.",
     "seed": "Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a fresh one of the operating "
     "system, as NumPy does, and a numpy.random.Generator draws one. The seed is recorded: ``Table.metadata``, ``inspect``.",
+    "synthesize-motions suite": "Suites, one or several: pulse, csgm (pulse and high frequencies), hfc (high frequencies alone).",
     "structures": "A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.",
+}
+#: Types as a docstring has them.
+_SPOKEN = {
+    "Hazard": "path, Arrow table or mapping",
+    "PathLike": "path",
+    "Progress": "callable",
+    "Steps": "float, iterable of float, or 'first:last:step'",
+    "Structures": "Structure, iterable of Structure, or path",
+    "TableLike": "Arrow table or path",
+    "Generator": "numpy.random.Generator",
 }
 _COMMON = {
     "out": ("PathLike | None", None, "Path to write; it is returned. A file that is up to date is left as it is."),
@@ -170,7 +181,11 @@ def _docstring(stage: Stage, signature: inspect.Signature) -> str:
             kind = f"{kind}, optional"
         elif parameter.default is not parameter.empty:
             kind = f"{kind}, default {parameter.default!r}"
-        lines += [f"{parameter.name} : {kind}", *_wrapped(_HELP.get(parameter.name, helps[parameter.name]))]
+        kind = re.sub(r"Iterable\[([^\]]*)\]", r"iterable of \1", kind)
+        for name, words in _SPOKEN.items():
+            kind = re.sub(rf"\b{name}\b", words, kind)
+        help = _HELP.get(f"{stage.name} {parameter.name}") or _HELP.get(parameter.name) or helps[parameter.name]
+        lines += [f"{parameter.name} : {kind}", *_wrapped(help)]
     parts = ", ".join(f'``parts["{part}"]``' for part in stage.output["parts"])
     made = "A table in memory, or the path of ``out``." if stage.makes_table else "The path of ``out``."
     made += f" With {parts} where there are such." if parts else ""
@@ -187,6 +202,8 @@ def _docstring(stage: Stage, signature: inspect.Signature) -> str:
 def _wrapped(text: str, indent: str = "    ") -> list[str]:
     """A help of the command line in the words of Python: options without dashes, defaults where the type stands."""
     text = re.sub(r" \[default: [^\]]*\](?=\.|$)", "", text) if "[default: 42]" in text else text
+    for stage in STAGES:
+        text = text.replace(stage.name, _python(stage.name)) if "-" in stage.name else text
     text = re.sub(r"--([a-z][a-z-]*)", lambda option: f"``{_python(option[1])}``", text)
     return textwrap.wrap(text, 100, initial_indent=indent, subsequent_indent=indent)
 

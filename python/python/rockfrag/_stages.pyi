@@ -27,20 +27,20 @@ def compare_paper(
 
     Parameters
     ----------
-    pex : TableLike
-        Regressions of fit-pex.
-    pro : TableLike
-        Curves of fit-pro.
-    responses : TableLike
+    pex : Arrow table or path
+        Regressions of fit_pex.
+    pro : Arrow table or path
+        Curves of fit_pro.
+    responses : Arrow table or path
         Responses that both were fitted to.
-    spread : PathLike, optional
+    spread : path, optional
         CSV file of the numbers over seeds, as seed-spread writes it [default: the one shipped, of the
         paper's set-up].
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -133,11 +133,11 @@ def evaluate(
 
     Parameters
     ----------
-    pex : TableLike, optional
-        Regressions of fit-pex.
-    pro : TableLike, optional
-        Curves of fit-pro.
-    intensities : TableLike, optional
+    pex : Arrow table or path, optional
+        Regressions of fit_pex.
+    pro : Arrow table or path, optional
+        Curves of fit_pro.
+    intensities : Arrow table or path, optional
         Parquet table with pga_m_s2 and pgv_m_s, and where they differ p_rad_s, alpha_rad, eta, tp_s,
         tm_s.
     suite : str, optional
@@ -151,7 +151,7 @@ def evaluate(
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
         Measure of the univariate model, im1 to im6 [default: im5].
     limits : {'delta', 'percentile', 'bc'}, default 'delta'
-        delta (of the standard errors), or from the resamples of fit-pex and fit-pro ``bootstrap``:
+        delta (of the standard errors), or from the resamples of fit_pex and fit_pro ``bootstrap``:
         percentile, or bc (bias-corrected).
     limit_state : float, optional
         Of the universal surface: demand |theta|max / alpha that P_ex is about, 0.02 to 0.5 [default:
@@ -169,7 +169,7 @@ def evaluate(
         Height of the block or column, m.
     beam_mass_ratio : float, optional
         Of a frame: mass of the beam over that of all columns.
-    structures : Structures, optional
+    structures : Structure, iterable of Structure, or path, optional
         A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
     name : str, optional
         Name of the structure in that file [default: the only one].
@@ -181,7 +181,7 @@ def evaluate(
         Period of the velocity pulse, s, where the measure needs it.
     tm : float, optional
         Mean period, s, where the measure needs it.
-    hazard : Hazard, optional
+    hazard : path, Arrow table or mapping, optional
         CSV file, or table or mapping of its columns: pga_g or pgv_m_s with annual_rate_of_exceedance,
         or both with annual_rate_of_occurrence.
     ratio : float, optional
@@ -191,11 +191,11 @@ def evaluate(
         Time of exposure, years.
     format : {'table', 'csv', 'json', 'parquet'}, optional
         table (to read), csv, json, or parquet (with ``out``) [default: as ``out`` ends, or table].
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -307,10 +307,10 @@ def export(
 
     Parameters
     ----------
-    pex : TableLike
-        Regressions of fit-pex.
-    pro : TableLike
-        Curves of fit-pro.
+    pex : Arrow table or path
+        Regressions of fit_pex.
+    pro : Arrow table or path
+        Curves of fit_pro.
     suite : str, optional
         Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm].
     structure : str, optional
@@ -334,7 +334,7 @@ def export(
         Height of the block or column, m.
     beam_mass_ratio : float, optional
         Of a frame: mass of the beam over that of all columns.
-    structures : Structures, optional
+    structures : Structure, iterable of Structure, or path, optional
         A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
     name : str, optional
         Name of the structure in that file [default: the only one].
@@ -343,9 +343,9 @@ def export(
         pelicun (CSV, and JSON beside it).
     im : {'pga', 'pgv'}, default 'pga'
         Intensity: pga or pgv.
-    ratio : Steps, optional
+    ratio : float, iterable of float, or 'first:last:step', optional
         p PGV / PGA of the motions: one function for each of these numbers.
-    levels : Steps, optional
+    levels : float, iterable of float, or 'first:last:step', optional
         Intensities of the table, g or m/s, as numbers or first:last:step [default: as many as the
         tolerance needs].
     upto : float, optional
@@ -353,11 +353,11 @@ def export(
         1].
     tolerance : float, optional
         Largest error of straight lines between the levels [default: 1e-6; of pelicun 1e-5].
-    out : PathLike
+    out : path
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -396,7 +396,7 @@ def export(
     >>> import pathlib, tempfile
     >>> folder = tempfile.TemporaryDirectory()
     >>> file = pathlib.Path(folder.name, "fragility.xml")
-    >>> made = rockfrag.export(pex, pro, model="univariate", measure="im5", to="openquake", out=file)
+    >>> made = rockfrag.export(pex, pro, model="univariate", measure="im5", to="openquake", ratio=0.4, out=file)
     >>> folder.cleanup()
     """
 
@@ -420,7 +420,7 @@ def fit_pex(
 
     Parameters
     ----------
-    responses : TableLike
+    responses : Arrow table or path
         Responses to read.
     limit_state : float, default 0.1
         Demand |theta|max / alpha whose exceedance P_ex is about.
@@ -433,15 +433,15 @@ def fit_pex(
         Resamples for bootstrap limits, drawn within each cell of magnitude and distance.
     confidence : float, default 0.95
         Probability with which limits of confidence hold the truth.
-    seed : int or Generator or None, default 42
+    seed : int or numpy.random.Generator or None, default 42
         Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
         fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
         seed is recorded: ``Table.metadata``, ``inspect``.
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -521,11 +521,11 @@ def fit_pro(
 
     Parameters
     ----------
-    responses : TableLike
+    responses : Arrow table or path
         Responses to read.
     event : {'overturning', 'rocking'}, default 'overturning'
         What the probability is of: overturning (given rocking), or rocking (of all motions).
-    pairs : str or Iterable[str], default 'im4:im3_inv'
+    pairs : str or iterable of str, default 'im4:im3_inv'
         Pairs of measures that make hybrid ones, besides the six scalar measures.
     link : {'probit', 'logit', 'cloglog'}, default 'probit'
         How the index becomes a probability: probit (lognormal curve), logit or cloglog.
@@ -535,15 +535,15 @@ def fit_pro(
         Resamples for bootstrap limits, drawn within each cell of magnitude and distance.
     confidence : float, default 0.95
         Probability with which limits of confidence hold the truth.
-    seed : int or Generator or None, default 42
+    seed : int or numpy.random.Generator or None, default 42
         Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
         fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
         seed is recorded: ``Table.metadata``, ``inspect``.
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -630,7 +630,7 @@ def ida(
 
     Parameters
     ----------
-    motions : TableLike
+    motions : Arrow table or path
         Motions to read, as simulate does.
     measure : {'scale', 'pga', 'pgv', 'im4', 'im5', 'im6'}, default 'scale'
         What is scaled: scale (the motion as it is), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, of
@@ -659,16 +659,16 @@ def ida(
         Height of the block or column, m.
     beam_mass_ratio : float, optional
         Of a frame: mass of the beam over that of all columns.
-    structures : Structures, optional
+    structures : Structure, iterable of Structure, or path, optional
         A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
     simd : {'scalar', 'avx2', 'avx512'}, optional
         Vector instructions of the solver: scalar, avx2 or avx512, as in simulate [default: the fastest
         of this processor].
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -764,7 +764,7 @@ def import_motions(
 
     Parameters
     ----------
-    files : PathLike or Iterable[PathLike]
+    files : path or iterable of path
         Files and folders of records; folders are walked.
     format : {'auto', 'at2', 'cosmos', 'csmip', 'esm', 'knet', 'smc', 'columns'}, default 'auto'
         Format of text files: auto (by content), at2, cosmos, csmip, esm, knet, smc, or columns (plain
@@ -788,7 +788,7 @@ def import_motions(
         Horizontal components of one event and station at right angles become one motion: towards an
         azimuth in degrees, or towards the strongest-pulse; with RotD50 and RotD100 of PGA and PGV.
         Other motions are left out.
-    scale : Steps, optional
+    scale : float, iterable of float, or 'first:last:step', optional
         Factors, separated by commas or first:last:step; several make as many motions of each record.
     scale_pga : float, optional
         Scale each motion to this PGA, g.
@@ -799,7 +799,7 @@ def import_motions(
         skip.
     residual : bool, default False
         Also write each motion that holds a pulse without it, as suite residual.
-    sa : Steps, optional
+    sa : float, iterable of float, or 'first:last:step', optional
         Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or
         numbers separated by commas; sa_0p20_m_s2 is that at 0.2 s.
     housner : bool, default False
@@ -809,11 +809,11 @@ def import_motions(
         they are named, and are no failure.
     keep_going : bool, default False
         Files that cannot be read are named, and are no failure.
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -907,9 +907,9 @@ def rank_ims(
 
     Parameters
     ----------
-    responses : TableLike
+    responses : Arrow table or path
         Responses to read.
-    motions : TableLike, optional
+    motions : Arrow table or path, optional
         Motions that the responses are to, for their further measures.
     limit_state : float, default 0.1
         Demand |theta|max / alpha whose exceedance P_ex is about.
@@ -921,14 +921,14 @@ def rank_ims(
     folds : int, default 10
         The most folds of cross-validation; each leaves out whole cells of magnitude and distance, or
         earthquakes.
-    candidate : str or Iterable[str], optional
+    candidate : str or iterable of str, optional
         Further columns of ``motions`` that are measures; the unit at the end of the name tells how they
         become dimensionless, as fiv3_m_s by p v / (g tan alpha).
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -1004,7 +1004,7 @@ def report(
 
     Parameters
     ----------
-    files : PathLike
+    files : path
         Folder of the files: responses.parquet, and what else there is of them.
     suite : str, optional
         Suite to show [default: all].
@@ -1016,11 +1016,11 @@ def report(
         Motions in the browser of motions.
     dpi : float, default 300.0
         Dots per inch of the PNG files.
-    out : PathLike
+    out : path
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -1081,23 +1081,23 @@ def sample_scenarios(
 
     Parameters
     ----------
-    seed : int or Generator or None, default 42
+    seed : int or numpy.random.Generator or None, default 42
         Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
         fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
         seed is recorded: ``Table.metadata``, ``inspect``.
     samples : int, default 100
         Scenarios in each cell of the grid.
-    mw : Steps, default '5.5:7.5:0.5'
+    mw : float, iterable of float, or 'first:last:step', default '5.5:7.5:0.5'
         Moment magnitudes: first:last:step, or numbers separated by commas.
-    re : Steps, default '5:20:2.5'
+    re : float, iterable of float, or 'first:last:step', default '5:20:2.5'
         Distances, km: first:last:step, or numbers separated by commas.
     design : {'lhs', 'random', 'sobol'}, default 'lhs'
         How cells are sampled: lhs, random or sobol.
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -1174,7 +1174,7 @@ def simulate(
 
     Parameters
     ----------
-    motions : TableLike
+    motions : Arrow table or path
         Motions to read, a file or a folder: ours, or anyone's with motion_id, dt_s and
         acceleration_m_s2.
     p : float, optional
@@ -1190,22 +1190,22 @@ def simulate(
         Height of the block or column, m.
     beam_mass_ratio : float, optional
         Of a frame: mass of the beam over that of all columns.
-    structures : Structures, optional
+    structures : Structure, iterable of Structure, or path, optional
         A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
     simd : {'scalar', 'avx2', 'avx512'}, optional
         Vector instructions of the solver: scalar (one motion at a time), or avx2 or avx512 (several at
         once), which give the same bits and differ from scalar by rounding [default: the fastest of this
         processor].
-    trace : int or str or Iterable[int or str], optional
+    trace : int or str or iterable of int or str, optional
         Motions whose response over time is written too, beside the output as NAME.trace.parquet.
     partition : tuple[int, int], optional
         (i, n): only partition i of n, i from 0 to n - 1; ``out`` is then a folder, in which it is
         part-0000i.parquet.
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -1296,15 +1296,14 @@ def synthesize_motions(
 
     Parameters
     ----------
-    scenarios : TableLike
+    scenarios : Arrow table or path
         Scenarios to read.
-    seed : int or Generator or None, default 42
+    seed : int or numpy.random.Generator or None, default 42
         Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
         fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
         seed is recorded: ``Table.metadata``, ``inspect``.
-    suite : {'pulse', 'csgm', 'hfc'} or Iterable[{'pulse', 'csgm', 'hfc'}], default ('pulse', 'csgm')
-        Suites, separated by commas: pulse, csgm (pulse and high frequencies), hfc (high frequencies
-        alone).
+    suite : {'pulse', 'csgm', 'hfc'} or iterable of {'pulse', 'csgm', 'hfc'}, default ('pulse', 'csgm')
+        Suites, one or several: pulse, csgm (pulse and high frequencies), hfc (high frequencies alone).
     dt : float, default 0.005
         Time between samples, s.
     difference : {'absolute', 'signed', 'clamp', 'none'}, default 'absolute'
@@ -1325,7 +1324,7 @@ def synthesize_motions(
         Order n of the high-pass filter.
     housner : bool, default False
         Also compute the Housner intensity, 15 times the work or more.
-    sa : Steps, optional
+    sa : float, iterable of float, or 'first:last:step', optional
         Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or
         numbers separated by commas; sa_0p20_m_s2 is that at 0.2 s.
     row_group : int, default 128
@@ -1333,11 +1332,11 @@ def synthesize_motions(
     partition : tuple[int, int], optional
         (i, n): only partition i of n, i from 0 to n - 1; ``out`` is then a folder, in which it is
         part-0000i.parquet.
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -1421,7 +1420,7 @@ def universality(
 
     Parameters
     ----------
-    responses : TableLike
+    responses : Arrow table or path
         Responses of all structures to read.
     reference : str, default 'electrical-equipment'
         Structure whose curves are transferred to all others.
@@ -1433,11 +1432,11 @@ def universality(
         IM4 at which the two planes of all structures meet.
     limit_state : float, default 0.1
         Demand |theta|max / alpha whose exceedance P_ex is about.
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.
@@ -1514,12 +1513,12 @@ def validate(
 
     Parameters
     ----------
-    responses : TableLike
+    responses : Arrow table or path
         Responses to hold the curves against, such as those to records.
-    pex : TableLike
-        Regressions of fit-pex.
-    pro : TableLike
-        Curves of fit-pro.
+    pex : Arrow table or path
+        Regressions of fit_pex.
+    pro : Arrow table or path
+        Curves of fit_pro.
     suite : str, optional
         Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm].
     structure : str, optional
@@ -1530,11 +1529,11 @@ def validate(
         evaluate universal where there are no fits].
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
         Measure of the univariate model, im1 to im6 [default: im5].
-    out : PathLike, optional
+    out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
         All cores if not given.
-    progress : Progress, optional
+    progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
         Make even a file that is up to date.

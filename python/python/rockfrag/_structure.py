@@ -6,6 +6,8 @@ import json
 from collections.abc import Mapping
 from typing import Literal
 
+import numpy as np
+
 from . import _rockfrag
 from ._types import StructureLike
 
@@ -127,7 +129,7 @@ class Structure:
         plain = {key: value if isinstance(value, str) else float(value) for key, value in given.items()}
         self._given = plain if name is None else {**plain, "name": name}
         self._made = made
-        self._resolved = _rockfrag.structure(json.dumps(Structure.spec(self)))
+        self._resolved = _rockfrag.structure(json.dumps(spec_of(self)))
 
     @property
     def name(self) -> str:
@@ -149,29 +151,6 @@ class Structure:
         """Coefficient of restitution."""
         return self._resolved[3]
 
-    @staticmethod
-    def spec(structure: StructureLike) -> dict[str, float | str]:
-        """The parameters as given, by the names of the command line.
-
-        Parameters
-        ----------
-        structure : Structure or mapping
-            Of a mapping, the same as a dict without what is None.
-
-        Returns
-        -------
-        dict
-
-        Examples
-        --------
-        >>> from rockfrag import Structure
-        >>> Structure.spec(Structure.block(0.4, 1.6))
-        {'width': 0.4, 'height': 1.6}
-        """
-        given = structure._given if isinstance(structure, Structure) else structure
-        plain = {key: getattr(value, "item", lambda value=value: value)() for key, value in given.items() if value is not None}
-        return {key.replace("_", "-"): value for key, value in plain.items()}
-
     def __repr__(self) -> str:
         return f"{self._made}({', '.join(f'{key}={value!r}' for key, value in self._given.items())})"
 
@@ -180,3 +159,10 @@ class Structure:
 
     def __hash__(self) -> int:
         return hash(self._resolved)
+
+
+def spec_of(structure: StructureLike) -> dict[str, float | str]:
+    """The parameters as given, by the names of the command line; of a mapping, without those that are None."""
+    given = structure._given if isinstance(structure, Structure) else structure
+    numbers = {key: value.item() if isinstance(value, np.generic) else value for key, value in given.items() if value is not None}
+    return {key.replace("_", "-"): value for key, value in numbers.items()}
