@@ -1,6 +1,10 @@
 """Curves of plain arrays are those of the stages, of statsmodels and of pyFragility."""
 
+import pathlib
+
+import matplotlib
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import rockfrag
@@ -76,6 +80,20 @@ def test_pyfragility():
         assert np.allclose(curve.profile_interval(name), profiled.profile_interval(name), rtol=1e-3), name
 
 
+def test_the_same_task_in_each_package_on_the_page():
+    """docs/python.md: forty outcomes, a curve, its limits and a plot."""
+    matplotlib.use("Agg")
+    pytest.importorskip("pyFragility")
+    page = (pathlib.Path(__file__).parents[2] / "docs/python.md").read_text()
+    names, limits = {}, []
+    for block in page.split("```python\n")[1:4]:
+        exec(block.split("```")[0], names)
+        limits.append([names["low"], names["high"]])
+        assert names["axes"].lines and names["axes"].has_data()
+    assert np.allclose(limits[1:], limits[0], rtol=1e-5)
+    matplotlib.pyplot.close("all")
+
+
 @pytest.fixture(scope="module")
 def responses(out):
     table = pq.read_table(out / "responses.parquet").to_pandas()
@@ -104,8 +122,6 @@ def test_failure_is_that_of_evaluate(out, responses, recwarn):
     curve = fit_failure(responses.im5, responses.edp, responses.outcome == "overturning", limit_state=0.1)
     fits = {"suite": "csgm", "structure": "electrical-equipment", "model": "univariate", "measure": "im5"}
     intensities = {"pga_m_s2": np.array([4.0, 6.0, 9.0]), "pgv_m_s": np.array([0.3, 0.6, 0.9])}
-    import pyarrow as pa
-
     answers = rockfrag.evaluate(out / "pex.parquet", out / "pro.parquet", pa.table(intensities), **fits, p=2.5, alpha=0.2)
     im5 = 2.5 * intensities["pgv_m_s"] / (9.81 * np.tan(0.2))
     assert np.allclose(curve.probability(im5), answers["p_f"])
@@ -157,8 +173,6 @@ def test_what_cannot_be_says_so(call, message):
 
 
 def test_plots_and_summaries():
-    import matplotlib
-
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 

@@ -130,7 +130,7 @@ array([0.   , 0.264, 0.836])
 >>> import pathlib, tempfile
 >>> folder = tempfile.TemporaryDirectory()
 >>> file = pathlib.Path(folder.name, "fragility.xml")
->>> made = rockfrag.export(pex, pro, model="univariate", measure="im5", to="openquake", ratio=0.4, out=file)
+>>> made = rockfrag.export(pex, pro, model="univariate", measure="im5", structures=equipment, to="openquake", ratio=0.4, out=file)
 >>> folder.cleanup()
 """,
     "report": _RESPONSES

@@ -396,7 +396,7 @@ def export(
     >>> import pathlib, tempfile
     >>> folder = tempfile.TemporaryDirectory()
     >>> file = pathlib.Path(folder.name, "fragility.xml")
-    >>> made = rockfrag.export(pex, pro, model="univariate", measure="im5", to="openquake", ratio=0.4, out=file)
+    >>> made = rockfrag.export(pex, pro, model="univariate", measure="im5", structures=equipment, to="openquake", ratio=0.4, out=file)
     >>> folder.cleanup()
     """
 
