@@ -148,6 +148,7 @@ def test_doubts_are_warnings():
 def test_lists_scalars_and_shapes():
     curve = fit_fragility(IM.tolist(), OVERTURNED.astype(int).tolist())
     assert curve == fit_fragility(IM, OVERTURNED) and curve != fit_fragility(IM, OVERTURNED, link="logit")
+    assert curve == fit_fragility(IM[:, None], OVERTURNED)
     assert isinstance(curve.probability(1.0), float)
     assert curve.probability(GRID.reshape(2, 2)).shape == (2, 2)
     low, high = curve.limits(GRID, level=0.5)
@@ -158,6 +159,8 @@ def test_lists_scalars_and_shapes():
     "call, message",
     [
         (lambda: fit_fragility(IM, OVERTURNED[:39]), r"\(40,\), outcome \(39,\)"),
+        (lambda: fit_fragility(np.ones((40, 3)), OVERTURNED), r"expected two measures"),
+        (lambda: fit_fragility(3.0, True), r"expected \(n,\)"),
         (lambda: fit_fragility(IM, OVERTURNED * 2), "case 1 is"),
         (lambda: fit_fragility(IM - 1.0, OVERTURNED), "case 0 is .* above 0"),
         (lambda: fit_fragility(IM, OVERTURNED, link="cauchit"), "cauchit"),

@@ -29,7 +29,7 @@ Random numbers come from ``seed``: 42 unless given, so that a call gives the sam
 """
 
 import importlib
-import types
+from typing import TYPE_CHECKING
 
 from . import datasets
 from ._curves import DemandCurve, FailureCurve, FragilityCurve, fit_demand, fit_failure, fit_fragility
@@ -96,11 +96,15 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> types.ModuleType:
-    """``rockfrag.ray``, which needs Ray, when it is first asked for."""
-    if name == "ray":
-        return importlib.import_module("rockfrag.ray")
-    raise AttributeError(f"module 'rockfrag' has no attribute {name!r}")
+if TYPE_CHECKING:
+    from . import ray as ray
+else:
+
+    def __getattr__(name):
+        """``rockfrag.ray``, which needs Ray, when it is first asked for."""
+        if name == "ray":
+            return importlib.import_module("rockfrag.ray")
+        raise AttributeError(f"module 'rockfrag' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

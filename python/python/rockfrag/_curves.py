@@ -487,7 +487,7 @@ def fit_fragility(
 
     Parameters
     ----------
-    im : array_like of shape (n,) or (n, 2)
+    im : array_like of shape (n,), (n, 1) or (n, 2)
         Intensity of each case, above 0, in any unit. With two columns the curve is that of their hybrid (Eq. 23).
     outcome : array_like of shape (n,)
         Whether the event happened: bool, or 0 and 1.
@@ -672,9 +672,15 @@ def _measures(im: npt.ArrayLike, count: int) -> tuple[Floats, tuple[int, ...]]:
     return rows, shape
 
 
-def _cases(im: npt.ArrayLike, outcome: npt.ArrayLike) -> tuple[Floats, npt.NDArray[np.bool_]]:
+def _columns_of(im: npt.ArrayLike) -> Floats:
+    """Intensities of cases: of a single column the column."""
     values = np.asarray(im, dtype=np.float64)
-    measures, shape = _measures(values, 2 if values.ndim == 2 and values.shape[1] == 2 else 1)
+    return values[:, 0] if values.ndim == 2 and values.shape[1] == 1 else values
+
+
+def _cases(im: npt.ArrayLike, outcome: npt.ArrayLike) -> tuple[Floats, npt.NDArray[np.bool_]]:
+    values = _columns_of(im)
+    measures, shape = _measures(values, values.ndim)
     happened = np.asarray(outcome)
     if happened.shape != shape or len(shape) != 1:
         raise OptionError(f"im has shape {values.shape}, outcome {happened.shape}; expected (n,) or (n, 2), and (n,)")
@@ -685,8 +691,8 @@ def _cases(im: npt.ArrayLike, outcome: npt.ArrayLike) -> tuple[Floats, npt.NDArr
 
 
 def _demands(im: npt.ArrayLike, edp: npt.ArrayLike) -> tuple[Floats, Floats]:
-    values, demand = np.asarray(im, dtype=np.float64), np.asarray(edp, dtype=np.float64)
-    measures, shape = _measures(values, 2 if values.ndim == 2 and values.shape[1] == 2 else 1)
+    values, demand = _columns_of(im), np.asarray(edp, dtype=np.float64)
+    measures, shape = _measures(values, values.ndim)
     if demand.shape != shape or len(shape) != 1:
         raise OptionError(f"im has shape {values.shape}, edp {demand.shape}; expected (n,) or (n, 2), and (n,)")
     return measures, demand

@@ -161,8 +161,8 @@ class Structure:
         return hash(self._resolved)
 
 
-def spec_of(structure: StructureLike) -> dict[str, float | str]:
+def spec_of(structure: StructureLike) -> dict[str, object]:
     """The parameters as given, by the names of the command line; of a mapping, without those that are None."""
-    given = structure._given if isinstance(structure, Structure) else structure
+    given: Mapping[str, object] = structure._given if isinstance(structure, Structure) else structure
     numbers = {key: value.item() if isinstance(value, np.generic) else value for key, value in given.items() if value is not None}
     return {key.replace("_", "-"): value for key, value in numbers.items()}

@@ -31,8 +31,8 @@ class ArrowArray(Protocol):
 #: A table that speaks Arrow, or the path of a Parquet file or of a folder of them.
 TableLike = Union[PathLike, ArrowStream, ArrowArray]
 #: A structure, or its parameters by the names of the command line.
-StructureLike = Union["Structure", Mapping[str, Union[float, str]]]
+StructureLike = Union["Structure", Mapping[str, object]]
 #: Some structures, a YAML or CSV file of them, or the word paper.
 Structures = Union[StructureLike, Iterable[StructureLike], PathLike]
 #: A CSV file of annual rates, or its columns.
-Hazard = Union[PathLike, ArrowStream, Mapping[str, Iterable[float]]]
+Hazard = Union[PathLike, ArrowStream, Mapping[str, object]]
