@@ -3,6 +3,8 @@
 import inspect
 import pathlib
 import re
+import subprocess
+import sys
 
 import pytest
 import rockfrag
@@ -52,3 +54,17 @@ def test_words_that_types_name_are_those_of_the_command(name, tmp_path):
             assert not isinstance(error, rockfrag.OptionError), error
     with pytest.raises(rockfrag.OptionError, match="furlong"):
         rockfrag.import_motions(file, dt=0.01, **{"unit": "g", name: "furlong"})
+
+
+@pytest.mark.parametrize(
+    "code, expected",
+    [
+        ("print('ray' in sys.modules, 'ray' in dir(rockfrag))", "False True"),
+        ("sys.modules['ray'] = None\nprint(getattr(rockfrag, 'ray', 'none'))", "none"),
+        ("sys.modules['ray'] = None\ntry:\n    rockfrag.ray\nexcept AttributeError as error:\n    print(error)", "pip install rockfrag[ray]"),
+        ("print({'matplotlib', 'polars', 'pandas', 'pyarrow', 'scipy'} & set(sys.modules))", "set()"),
+    ],
+)
+def test_what_is_not_needed_is_not_imported(code, expected):
+    done = subprocess.run([sys.executable, "-c", f"import sys, rockfrag\n{code}"], capture_output=True, text=True, check=True)
+    assert expected in done.stdout

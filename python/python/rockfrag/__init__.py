@@ -103,7 +103,10 @@ else:
     def __getattr__(name):
         """``rockfrag.ray``, which needs Ray, when it is first asked for."""
         if name == "ray":
-            return importlib.import_module("rockfrag.ray")
+            try:
+                return importlib.import_module("rockfrag.ray")
+            except ModuleNotFoundError as missing:
+                raise AttributeError(f"rockfrag.ray needs {missing.name}: pip install rockfrag[ray]") from missing
         raise AttributeError(f"module 'rockfrag' has no attribute {name!r}")
 
 

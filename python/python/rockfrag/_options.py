@@ -75,7 +75,7 @@ def path(out: PathLike | None, *, may_be_folder: bool) -> str | None:
     if out is None:
         return None
     plain = Path(out)
-    return f"{plain}{os.sep}" if may_be_folder and not plain.suffix else str(plain)
+    return f"{plain}/" if may_be_folder and not plain.suffix else str(plain)
 
 
 def _kebab(name: str) -> str:
