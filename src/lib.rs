@@ -30,6 +30,8 @@
 //! them: a file or folder a subcommand. `docs/architecture.md` has the picture.
 
 #[cfg(feature = "pipeline")]
+mod allocator;
+#[cfg(feature = "pipeline")]
 pub mod cli;
 #[cfg(feature = "pipeline")]
 pub mod export;

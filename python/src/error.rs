@@ -4,10 +4,23 @@ use pyo3::prelude::*;
 use rockfrag::pipeline::UsageError;
 use rockfrag::table::TableError;
 
+/// A message in the words of Python: `--limit-state` is `limit_state`.
+pub fn in_python(message: &str) -> String {
+    let word = |word: &str| match word.split_once("--") {
+        Some((before, option))
+            if before.chars().all(|c| !c.is_alphanumeric()) && option.starts_with(char::is_lowercase) =>
+        {
+            format!("{before}{}", option.replace('-', "_"))
+        }
+        _ => word.to_string(),
+    };
+    message.split(' ').map(word).collect::<Vec<_>>().join(" ")
+}
+
 /// The exception for an error of the library.
 pub fn to_python(py: Python, error: &anyhow::Error) -> PyErr {
     let class = class_of(error);
-    let raise = || py.import("rockfrag.errors")?.getattr(class)?.call1((format!("{error:#}"),));
+    let raise = || py.import("rockfrag.errors")?.getattr(class)?.call1((in_python(&format!("{error:#}")),));
     raise().map_or_else(|failed| failed, PyErr::from_value)
 }
 

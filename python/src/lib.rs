@@ -2,7 +2,9 @@
 //!
 //! ```text
 //! stages    any stage: options as JSON, tables or paths in, a table or a path out
+//! tools     the commands that are no stage, and the command itself
 //! response  one structure and one motion, as NumPy arrays
+//! curves    the fits for plain arrays
 //! table     tables between Python and the stages, without a copy
 //! run       the GIL released, threads, progress, Ctrl-C
 //! error     errors as Python's exceptions
@@ -11,22 +13,30 @@
 use pyo3::prelude::*;
 use rockfrag::table::store::guarded::quiet_damage;
 
+mod curves;
 mod error;
 mod response;
 mod run;
 mod stages;
 mod table;
+mod tools;
 
 #[pymodule]
 mod _rockfrag {
     use super::*;
 
     #[pymodule_export]
-    use crate::response::response;
+    use crate::curves::{
+        exceeding, failure, fit_curve, fit_line, normal_quantile, probabilities, profile_limits, t_quantile,
+    };
+    #[pymodule_export]
+    use crate::response::{response, structure};
     #[pymodule_export]
     use crate::stages::{call, partition_file, stages};
     #[pymodule_export]
     use crate::table::PyTable;
+    #[pymodule_export]
+    use crate::tools::{command, inspect_file, run_pipeline, seed_spread};
 
     #[pymodule_init]
     fn init(module: &Bound<PyModule>) -> PyResult<()> {

@@ -11,6 +11,18 @@ use rockfrag::stages::shared::structures::StructureSpec;
 
 use crate::error::to_python;
 
+fn spec(structure: &str) -> anyhow::Result<StructureSpec> {
+    serde_json::from_str(structure).map_err(|error| UsageError::because(error.to_string()))
+}
+
+/// Name, p, alpha and eta of a structure that is given as JSON.
+#[pyfunction]
+pub fn structure(py: Python, structure: &str) -> PyResult<(String, f64, f64, f64)> {
+    let structure = spec(structure).and_then(|spec| spec.structure());
+    let structure = structure.map_err(|error| to_python(py, &error))?;
+    Ok((structure.name, structure.p_rad_s, structure.alpha_rad, structure.eta))
+}
+
 /// Rotation and velocity at every sample and event, by name of the column; and what came of it.
 #[pyfunction]
 pub fn response<'py>(
@@ -22,9 +34,7 @@ pub fn response<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let samples = acceleration_m_s2.as_slice()?;
     let solve = || -> anyhow::Result<_> {
-        let structure: StructureSpec =
-            serde_json::from_str(structure).map_err(|error| UsageError(error.to_string()))?;
-        let structure = structure.structure()?;
+        let structure = spec(structure)?.structure()?;
         check((0.0..=1000.0).contains(&tail_s), "tail_s", tail_s, "0 to 1000 s")?;
         let usage = |error: RecordError| UsageError(error.to_string());
         let record = Record::new(samples, dt_s).map_err(usage)?;

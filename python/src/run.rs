@@ -9,7 +9,7 @@ use std::time::Duration;
 use pyo3::prelude::*;
 use rockfrag::pipeline::console::{Console, Listener};
 
-use crate::error::to_python;
+use crate::error::{in_python, to_python};
 
 /// The time between two checks of signals and progress.
 const CHECK_EVERY: Duration = Duration::from_millis(50);
@@ -144,7 +144,7 @@ fn tell(py: Python, heard: &Heard) -> PyResult<()> {
             Line::Warning(warning) => {
                 let class = py.import("rockfrag.errors")?.getattr("RockfragWarning")?;
                 // The line of whoever called the package's function.
-                py.import("warnings")?.call_method1("warn", (warning, class, 2))?;
+                py.import("warnings")?.call_method1("warn", (in_python(&warning), class, 2))?;
             }
             Line::Note(note) => {
                 let log = py.import("logging")?.call_method1("getLogger", ("rockfrag",))?;

@@ -10,6 +10,7 @@ use rockfrag::stages::registry;
 use rockfrag::table::store::partition::Partition;
 use rockfrag::table::store::provenance::Provenance;
 use rockfrag::table::store::source::{MemoryTables, Source, Target};
+use serde_json::{Value, json};
 
 use crate::error::to_python;
 use crate::run::{Settings, run};
@@ -47,21 +48,25 @@ pub fn call(
         return Ok(path.into_pyobject(py)?.unbind());
     }
     let tables = MemoryTables::default();
-    let parts = run(py, &settings, |console| {
+    let (parts, made) = run(py, &settings, |console| {
         let stages = registry::create(stage, options, &inputs, Some(tables.place(MAIN)))?;
-        let mut parts = Vec::new();
+        let (mut parts, mut made) = (Vec::new(), Value::Null);
         for stage in stages {
             // What stays in memory has no file to say how it was made.
             let provenance = Provenance::new(stage.name(), stage.parameters(), BTreeMap::new());
             stage.execute(&provenance, console)?;
+            let Provenance { stage: name, version, parameters, .. } = provenance;
+            let warnings = console.warnings.all();
+            made =
+                json!({ "stage": name, "version": version, "parameters": parameters, "warnings": warnings });
             parts.extend(stage.targets().into_iter().filter_map(|target| match target {
                 Target::Memory(_, part) if part != MAIN => Some(part),
                 _ => None,
             }));
         }
-        Ok(parts)
+        Ok((parts, made))
     })?;
-    Ok(PyTable::take(py, &tables, MAIN, &parts)?.into_pyobject(py)?.unbind())
+    Ok(PyTable::take(py, &tables, MAIN, &parts, &made.to_string())?.into_pyobject(py)?.unbind())
 }
 
 /// What the file of a partition is called.

@@ -3,22 +3,45 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use arrow_array::{ArrayRef, StructArray};
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float32Type, Float64Type, Int32Type, Int64Type};
+use arrow_array::{Array, ArrayRef, RecordBatch, StructArray};
 use arrow_schema::{ArrowError, DataType, Field};
-use pyo3::exceptions::PyTypeError;
+use numpy::IntoPyArray;
+use pyo3::exceptions::{PyKeyError, PyTypeError};
 use pyo3::prelude::*;
-use pyo3::types::{PyCapsule, PyDict};
+use pyo3::types::{PyCapsule, PyDict, PyList};
 use pyo3_arrow::error::PyArrowResult;
 use pyo3_arrow::ffi::{ArrayIterator, to_schema_pycapsule, to_stream_pycapsule};
 use pyo3_arrow::input::AnyRecordBatch;
 use rockfrag::table::store::source::{MemoryTable, MemoryTables, Source};
 
-/// A table that a stage has made. Any library that speaks the Arrow PyCapsule interface takes it without a copy:
-/// ``polars.DataFrame(table)``, ``pyarrow.table(table)``, ``duckdb.sql("from table_name")``.
+/// A table that a stage has made.
+///
+/// It has the columns of the file that the command would write, in memory. ``table["edp"]`` is a column as a NumPy array.
+/// Any library that speaks the Arrow PyCapsule interface takes the whole without a copy: ``polars.DataFrame(table)``,
+/// ``pyarrow.table(table)``, ``duckdb.sql("from table")``. Two tables are equal if their columns and all values are.
+///
+/// Examples
+/// --------
+/// >>> import rockfrag
+/// >>> scenarios = rockfrag.sample_scenarios(mw="6.5", re="5", samples=3)
+/// >>> scenarios.shape
+/// (3, 9)
+/// >>> scenarios.columns[:4]
+/// ['scenario_id', 'cell', 'sample', 'mw']
+/// >>> scenarios["re_km"]
+/// array([5., 5., 5.])
+/// >>> scenarios.metadata["parameters"]["seed"]
+/// 42
+/// >>> scenarios == rockfrag.sample_scenarios(mw=6.5, re=5, samples=3, seed=42)
+/// True
 #[pyclass(frozen, module = "rockfrag", name = "Table")]
 pub struct PyTable {
     table: MemoryTable,
     parts: Vec<(String, Py<PyTable>)>,
+    /// How it was made, as JSON.
+    made: String,
 }
 
 impl PyTable {
@@ -28,33 +51,68 @@ impl PyTable {
         tables: &MemoryTables,
         main: &str,
         parts: &[String],
+        made: &str,
     ) -> PyResult<Option<PyTable>> {
+        let made = made.to_string();
         let Some(table) = tables.take(main) else { return Ok(None) };
         let part = |name: &String| {
-            let table = tables.take(name)?;
-            Some(Py::new(py, PyTable { table, parts: Vec::new() }).map(|part| (name.clone(), part)))
+            let part = PyTable { table: tables.take(name)?, parts: Vec::new(), made: made.clone() };
+            Some(Py::new(py, part).map(|part| (name.clone(), part)))
         };
         let parts = parts.iter().filter_map(part).collect::<PyResult<_>>()?;
-        Ok(Some(PyTable { table, parts }))
+        Ok(Some(PyTable { table, parts, made }))
     }
 
     fn convert<'py>(slf: &Bound<'py, Self>, module: &str, function: &str) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import(module)?.getattr(function)?.call1((slf,))
     }
+
+    /// Batches of so many of the first rows.
+    fn first(&self, rows: usize) -> Vec<RecordBatch> {
+        let mut left = rows;
+        let mut first = Vec::new();
+        for batch in self.table.batches.iter().filter(|batch| batch.num_rows() > 0) {
+            first.push(batch.slice(0, left.min(batch.num_rows())));
+            left -= first[first.len() - 1].num_rows();
+            if left == 0 {
+                break;
+            }
+        }
+        first
+    }
+
+    /// Whether all values are those of a table with as many rows, however these are cut into batches.
+    fn has_rows_of(&self, other: &PyTable) -> bool {
+        let (mut ours, mut theirs) = (self.first(usize::MAX), other.first(usize::MAX));
+        ours.reverse();
+        theirs.reverse();
+        loop {
+            let (Some(a), Some(b)) = (ours.pop(), theirs.pop()) else { return true };
+            let rows = a.num_rows().min(b.num_rows());
+            if a.slice(0, rows).columns() != b.slice(0, rows).columns() {
+                return false;
+            }
+            for (batches, batch) in [(&mut ours, a), (&mut theirs, b)] {
+                if batch.num_rows() > rows {
+                    batches.push(batch.slice(rows, batch.num_rows() - rows));
+                }
+            }
+        }
+    }
 }
 
 #[pymethods]
 impl PyTable {
-    /// How many rows there are.
+    /// The names of the columns, in order; units are in their suffixes and, with the meaning, in the metadata of the Arrow fields.
     #[getter]
-    fn num_rows(&self) -> u64 {
-        self.table.rows()
+    fn columns(&self) -> Vec<&str> {
+        self.table.schema.fields().iter().map(|field| field.name().as_str()).collect()
     }
 
-    /// The names of the columns, in order; units are in their suffixes and, with the meaning, in the metadata of the fields.
+    /// How many rows and columns there are.
     #[getter]
-    fn column_names(&self) -> Vec<&str> {
-        self.table.schema.fields().iter().map(|field| field.name().as_str()).collect()
+    fn shape(&self) -> (usize, usize) {
+        (self.__len__(), self.table.schema.fields().len())
     }
 
     /// Further tables of the same stage, by name: ``scan`` and ``bootstrap`` of fits, ``trace`` of simulate.
@@ -63,6 +121,20 @@ impl PyTable {
         let parts = PyDict::new(py);
         self.parts.iter().try_for_each(|(name, part)| parts.set_item(name, part))?;
         Ok(parts)
+    }
+
+    /// How it was made: stage, version, parameters (with the seed) and warnings.
+    #[getter]
+    fn metadata<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("json")?.getattr("loads")?.call1((&self.made,))
+    }
+
+    /// The first rows, without a copy.
+    #[pyo3(signature = (n=5))]
+    fn head(&self, py: Python, n: usize) -> PyTable {
+        let parts = self.parts.iter().map(|(name, part)| (name.clone(), part.clone_ref(py))).collect();
+        let table = MemoryTable { batches: self.first(n), ..self.table.clone() };
+        PyTable { table, parts, made: self.made.clone() }
     }
 
     /// As a ``polars.DataFrame``.
@@ -80,18 +152,45 @@ impl PyTable {
         PyTable::to_pyarrow(slf)?.call_method0("to_pandas")
     }
 
+    /// A column as a NumPy array: where a number is missing NaN, where anything else is missing None.
+    fn __getitem__<'py>(&self, py: Python<'py>, column: &str) -> PyResult<Bound<'py, PyAny>> {
+        let Some((place, field)) = self.table.schema.column_with_name(column) else {
+            let message = format!("no column '{column}'; there are {}", self.columns().join(", "));
+            return Err(PyKeyError::new_err(message));
+        };
+        let arrays: Vec<ArrayRef> =
+            self.table.batches.iter().map(|batch| batch.column(place).clone()).collect();
+        column_of(py, field.data_type(), &arrays)
+    }
+
+    fn __contains__(&self, column: &str) -> bool {
+        self.table.schema.column_with_name(column).is_some()
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(PyList::new(py, self.columns())?.try_iter()?.into_any())
+    }
+
     fn __len__(&self) -> usize {
         self.table.rows() as usize
     }
 
-    fn __repr__(&self) -> String {
-        let columns = self.column_names();
-        format!(
-            "<rockfrag.Table of {}: {} rows, {}>",
-            self.table.name.display(),
-            self.table.rows(),
-            columns.join(", ")
-        )
+    fn __eq__(&self, other: &Bound<PyAny>) -> bool {
+        let Ok(other) = other.cast::<PyTable>() else { return false };
+        let (ours, theirs) = (self.table.schema.fields(), other.get().table.schema.fields());
+        let alike =
+            |(a, b): (&Arc<Field>, &Arc<Field>)| a.name() == b.name() && a.data_type() == b.data_type();
+        let as_long = self.table.rows() == other.get().table.rows();
+        let is_alike = as_long && ours.len() == theirs.len() && ours.iter().zip(theirs).all(alike);
+        is_alike && self.has_rows_of(other.get())
+    }
+
+    fn __repr__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        PyTable::convert(slf, "rockfrag._show", "text")
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        PyTable::convert(slf, "rockfrag._show", "html")
     }
 
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyArrowResult<Bound<'py, PyCapsule>> {
@@ -114,6 +213,58 @@ impl PyTable {
         let reader = ArrayIterator::new(arrays, Arc::new(field));
         to_stream_pycapsule(py, Box::new(reader), requested_schema)
     }
+}
+
+/// A column as a NumPy array.
+fn column_of<'py>(py: Python<'py>, kind: &DataType, arrays: &[ArrayRef]) -> PyResult<Bound<'py, PyAny>> {
+    let has_nulls = arrays.iter().any(|array| array.null_count() > 0);
+    macro_rules! numbers {
+        ($type:ty, $missing:expr) => {{
+            let values = arrays.iter().flat_map(|array| array.as_primitive::<$type>().iter());
+            values.map(|value| value.unwrap_or($missing)).collect::<Vec<_>>().into_pyarray(py).into_any()
+        }};
+    }
+    Ok(match kind {
+        DataType::Float64 => numbers!(Float64Type, f64::NAN),
+        DataType::Float32 => numbers!(Float32Type, f32::NAN),
+        DataType::Int64 if !has_nulls => numbers!(Int64Type, 0),
+        DataType::Int32 if !has_nulls => numbers!(Int32Type, 0),
+        _ => {
+            let values = PyList::empty(py);
+            for array in arrays {
+                (0..array.len()).try_for_each(|row| values.append(value_of(py, array, row)?))?;
+            }
+            py.import("rockfrag._show")?.getattr("array")?.call1((values,))?
+        }
+    })
+}
+
+/// A value of a column that is not plain numbers.
+fn value_of<'py>(py: Python<'py>, array: &ArrayRef, row: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
+    if array.is_null(row) {
+        return Ok(None);
+    }
+    Ok(Some(match array.data_type() {
+        DataType::Int64 => array.as_primitive::<Int64Type>().value(row).into_pyobject(py)?.into_any(),
+        DataType::Int32 => array.as_primitive::<Int32Type>().value(row).into_pyobject(py)?.into_any(),
+        DataType::Boolean => array.as_boolean().value(row).into_pyobject(py)?.to_owned().into_any(),
+        DataType::Utf8 => array.as_string::<i32>().value(row).into_pyobject(py)?.into_any(),
+        DataType::LargeUtf8 => array.as_string::<i64>().value(row).into_pyobject(py)?.into_any(),
+        DataType::List(of) => {
+            let values = array.as_list::<i32>().value(row);
+            column_of(py, of.data_type(), &[values])?
+        }
+        DataType::LargeList(of) => {
+            let values = array.as_list::<i64>().value(row);
+            column_of(py, of.data_type(), &[values])?
+        }
+        other => {
+            let message = format!(
+                "a column of {other}; expected numbers, text or lists: take the table to polars or pyarrow"
+            );
+            return Err(PyTypeError::new_err(message));
+        }
+    }))
 }
 
 /// A table as Python gives it: a path, or anything that speaks Arrow. `name` stands for it in messages.

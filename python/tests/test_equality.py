@@ -8,7 +8,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import rockfrag
-from conftest import MOTIONS, SCENARIOS, STRUCTURES, command
+from conftest import MOTIONS, PIPELINE, SCENARIOS, STRUCTURES, command
 
 
 def same(table, file):
@@ -96,12 +96,40 @@ def test_a_file_is_that_of_the_command_and_not_made_twice(out, tmp_path):
     assert (tmp_path / "r.parquet").stat().st_mtime_ns > time
 
 
+def test_a_file_of_tables_in_memory_is_that_of_files(out, tmp_path):
+    motions = rockfrag.synthesize_motions(out / "scenarios.parquet", **MOTIONS)
+    made = rockfrag.simulate(motions, structures=STRUCTURES, out=tmp_path / "r.parquet")
+    assert made.read_bytes() == (out / "responses.parquet").read_bytes()
+    frame = rockfrag.simulate(motions, structures=STRUCTURES).to_polars()
+    fits = [rockfrag.fit_pro(frame, seed=7, out=tmp_path / "pro.parquet") for _ in range(2)]
+    time = fits[0].stat().st_mtime_ns
+    rockfrag.fit_pro(frame, seed=7, out=tmp_path / "pro.parquet")
+    assert fits[0].stat().st_mtime_ns == time
+    rockfrag.fit_pro(frame[1:], seed=7, out=tmp_path / "pro.parquet")
+    assert fits[0].stat().st_mtime_ns > time
+
+
+def test_a_run_and_a_look_into_its_files(out, tmp_path):
+    (tmp_path / "pipeline.yaml").write_text(PIPELINE)
+    assert "would run" in rockfrag.run(tmp_path / "pipeline.yaml", dry_run=True)
+    files = rockfrag.run(tmp_path / "pipeline.yaml")
+    for name in ["motions", "responses", "pro"]:
+        assert (tmp_path / f"out/{name}.parquet").read_bytes() == (out / f"{name}.parquet").read_bytes()
+    assert files["simulate"] == [tmp_path / "out/responses.parquet"]
+    info = rockfrag.inspect(tmp_path / "out/responses.parquet")
+    assert (info.stage, info.rows, info.columns[0].name) == ("simulate", 160, "motion_id")
+    assert "made by simulate" in str(info) and "<table>" in info._repr_html_()
+    assert rockfrag.run(tmp_path / "pipeline.yaml", seed=8, out=tmp_path / "other")["fit-pro"][0].parent == tmp_path / "other"
+    assert rockfrag.inspect(tmp_path / "other/scenarios.parquet").parameters["seed"] == 8
+
+
 def test_partitions_are_the_whole(out, tmp_path):
     for index in range(3):
-        call = {"partition": f"{index}/3", "out": tmp_path / "motions"}
+        call = {"partition": (index, 3), "out": tmp_path / "motions"}
         made = rockfrag.synthesize_motions(out / "scenarios.parquet", **MOTIONS, **call)
         assert made == tmp_path / f"motions/part-0000{index}.parquet"
-    rockfrag.simulate(tmp_path / "motions", structures=STRUCTURES, out=f"{tmp_path}/responses/")
+    made = rockfrag.simulate(tmp_path / "motions", structures=STRUCTURES, out=tmp_path / "responses")
+    assert made == tmp_path / "responses" and {file.suffix for file in made.iterdir()} == {".parquet"}
     same(pq.read_table(tmp_path / "responses"), out / "responses.parquet")
     same(rockfrag.simulate(tmp_path / "motions", structures=STRUCTURES), out / "responses.parquet")
 

@@ -51,7 +51,10 @@ def test_a_table_without_rows():
         (lambda: rockfrag.sample_scenarios(threads=0), "threads is 0"),
         (lambda: rockfrag.simulate(motions(), alpha=3.0), "alpha"),
         (lambda: rockfrag.simulate(motions(), structures={"q": 1}), "unknown field `q`"),
-        (lambda: rockfrag.simulate(motions(), structures="paper", partition="3/3"), "from 0 to n - 1"),
+        (lambda: rockfrag.simulate(motions(), structures="paper", partition=(3, 3)), "from 0 to n - 1"),
+        (lambda: rockfrag.simulate(motions()), "no structure; expected"),
+        (lambda: rockfrag.Structure.block(-0.5, 2.0), "width"),
+        (lambda: rockfrag.fit_pro(motions(), link="cauchit"), "cauchit"),
         (lambda: rockfrag.response([0.0, 1.0], -1.0, {"p": 2, "alpha": 0.2, "eta": 0.9}), "dt_s is -1"),
     ],
 )
@@ -63,11 +66,6 @@ def test_an_option_that_is_out_of_range(call, message):
 def test_something_that_is_no_table():
     with pytest.raises(TypeError, match="motions is int; expected a path, or a table"):
         rockfrag.simulate(3, structures="paper")
-
-
-def test_a_file_of_a_table_in_memory(tmp_path):
-    with pytest.raises(rockfrag.TableError, match="motions: a table in memory; write it"):
-        rockfrag.simulate(motions(), structures="paper", out=tmp_path / "r.parquet")
 
 
 def test_a_fit_of_nothing_says_what_is_there_and_what_would_help():

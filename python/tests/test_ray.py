@@ -44,7 +44,7 @@ def expected(file):
 
 def test_partitions_are_the_whole_and_done_ones_are_skipped(cluster, out, tmp_path):
     made = rockfrag.ray.synthesize(out / "scenarios.parquet", tmp_path / "motions", partitions=5, **MOTIONS)
-    assert [result["partition"] for result in made] == [f"{index}/5" for index in range(5)]
+    assert [(result["index"], result["of"]) for result in made] == [(index, 5) for index in range(5)]
     assert sum(result["rows"] for result in made) == 80
     assert rows(tmp_path / "motions").equals(expected(out / "motions.parquet"))
     rockfrag.ray.simulate(tmp_path / "motions", tmp_path / "responses", structures=STRUCTURES)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import polars as pl
+import pytest
 import rockfrag
 
 STRUCTURE = {"p": 2.5, "alpha": 0.2, "eta": 0.92}
@@ -47,6 +48,31 @@ def test_the_peak_is_that_of_simulate(out):
     trace = responses.parts["trace"].to_polars()
     assert trace["theta_rad"].to_list() == response.theta_rad.tolist()
     assert np.isclose(np.abs(response.theta_over_alpha).max(), response.edp, rtol=1e-3)
+
+
+def test_responses_are_equal_by_their_values_and_show_what_they_are():
+    one, same, other = (rockfrag.response(*sine(amplitude), STRUCTURE) for amplitude in (2.2, 2.2, 2.3))
+    assert one == same and one != other and one != 3
+    assert repr(one).startswith("<rockfrag.Response: safe_rocking, edp") and len(repr(one)) < 120
+    assert "safe_rocking" in one._repr_html_()
+
+
+def test_structures_are_objects(out):
+    block = rockfrag.Structure.block(0.5, 2.0, name="block")
+    assert eval(repr(block), {"Structure": rockfrag.Structure}) == block and len({block, block}) == 1
+    for structure in [block, rockfrag.Structure.frame(1.5, 9.0, 4.0), rockfrag.Structure(2.5, 0.2, "housner", name="h")]:
+        row = rockfrag.simulate(out / "motions.parquet", structures=structure)
+        assert set(row["structure"]) == {structure.name}
+        assert (row["p_rad_s"][0], row["alpha_rad"][0], row["eta"][0]) == (structure.p, structure.alpha, structure.eta)
+    assert rockfrag.simulate(out / "motions.parquet", structures=[block, STRUCTURE | {"name": "other"}])["structure"].size == 160
+    assert rockfrag.simulate(out / "motions.parquet", width=0.5, height=2.0)["edp"].tolist() == pytest.approx(
+        rockfrag.simulate(out / "motions.parquet", structures=block)["edp"].tolist(), rel=0, abs=0, nan_ok=True
+    )
+    assert rockfrag.response(*sine(5.0), block) == rockfrag.response(*sine(5.0), {"width": 0.5, "height": 2.0})
+    with pytest.raises(TypeError):
+        rockfrag.Structure()
+    with pytest.raises(rockfrag.OptionError, match="alpha"):
+        rockfrag.Structure(2.5, 20.0, 0.92)
 
 
 def test_a_block_by_its_dimensions():

@@ -2,6 +2,7 @@
 
 mod shared;
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -11,6 +12,7 @@ use clap_complete::Shell;
 use serde_json::json;
 
 use self::shared::{Common, Format, PRINTING, Printed, Progress, expect_no_idle, with_common};
+use crate::allocator::keep_freed_buffers;
 use crate::pipeline::cache::May;
 use crate::pipeline::console::Console;
 use crate::pipeline::stage::Stage;
@@ -21,6 +23,7 @@ use crate::stages::inspect::inspect;
 use crate::stages::registry::{Config, commands};
 use crate::stages::run::{dry_run, findings, run};
 use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
+use crate::table::store::guarded::quiet_damage;
 use crate::table::store::provenance::Warnings;
 use crate::table::store::text;
 
@@ -120,12 +123,28 @@ fn command() -> Command {
         .after_help(FIRST)
 }
 
-/// Parses the command line and does what it says.
-///
-/// # Errors
-/// Those of the stage that was called; [`UsageError`] for a mistake in the call.
-pub fn main() -> anyhow::Result<()> {
-    obey(&command().get_matches())
+/// Does what a command line says, whose first word is the program, and gives the code to exit with: 0 done, 1 a failure, 2 a mistake in
+/// the call. The command and Python's entry point are this function; it is called once, before there are threads.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    keep_freed_buffers();
+    quiet_damage();
+    let code = match command().try_get_matches_from(arguments) {
+        Ok(matches) => match obey(&matches) {
+            Ok(()) => 0,
+            Err(error) => {
+                eprintln!("error: {error:#}");
+                if error.is::<UsageError>() { 2 } else { 1 }
+            }
+        },
+        // Help and version too.
+        Err(told) => {
+            let _ = told.print();
+            if told.use_stderr() { 2 } else { 0 }
+        }
+    };
+    // A program that is no Rust one would leave the rest of the last line unsaid.
+    let _ = std::io::stdout().flush();
+    code
 }
 
 fn obey(matches: &ArgMatches) -> anyhow::Result<()> {

@@ -1,9 +1,9 @@
 //! The fragility of a structure: P_nr, P_ex and P_ro joined in the tree of Eq. 12.
 
 use super::case::Measure;
-use super::predictor::{OutOfRange, Predictor};
+use super::predictor::{OutOfRange, Predicted, Predictor};
 use super::probability::{Probability, ProbitIndex};
-use super::probability::{exceeding_index, p_exceeding, p_failure_given_rocking, p_no_rocking};
+use super::probability::{p_exceeding, p_failure_given_rocking, p_no_rocking};
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::normal;
@@ -20,13 +20,10 @@ pub struct DemandLaw {
 }
 
 impl DemandLaw {
-    /// The index of P_ex (Eq. 14), with the uncertainty of the median and, by the large-sample variance beta^2/(2 degrees),
-    /// of the dispersion; none where a measure is missing.
+    /// The index of P_ex (Eq. 14); none where a measure is missing.
     pub fn exceeding(&self, measures: &IntensityMeasures, limit: f64) -> Option<ProbitIndex> {
-        let ln_median = self.ln_median.at(measures)?;
-        let value = exceeding_index(ln_median.value, limit, self.beta);
-        let variance = ln_median.variance / (self.beta * self.beta) + value * value / (2.0 * self.degrees);
-        Some(ProbitIndex { value, standard_error: variance.sqrt() })
+        let Predicted { value, variance } = self.ln_median.at(measures)?;
+        Some(ProbitIndex::of_exceeding(value, variance, limit, self.beta, self.degrees))
     }
 }
 

@@ -43,6 +43,14 @@ impl ProbitIndex {
         }
     }
 
+    /// Of a demand above `limit` (Eq. 14), of the logarithm of its median and the variance of that, and of its dispersion `beta` with so
+    /// many degrees of freedom, whose large-sample variance is beta^2/(2 degrees).
+    pub fn of_exceeding(ln_median: f64, variance: f64, limit: f64, beta: f64, degrees: f64) -> ProbitIndex {
+        let value = exceeding_index(ln_median, limit, beta);
+        let variance = variance / (beta * beta) + value * value / (2.0 * degrees);
+        ProbitIndex { value, standard_error: variance.sqrt() }
+    }
+
     /// Of failure given rocking, P_ro + (1 - P_ro) P_ex (Eq. 12). Standard error by the delta method; the two are
     /// independent, since the likelihood of all cases is that of overturning times that of the demand of the others.
     pub fn of_failure(overturning: ProbitIndex, exceeding: ProbitIndex) -> ProbitIndex {

@@ -16,6 +16,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value, json};
 
 use super::UsageError;
+use super::options::Steps;
 use super::stage::{Stage, beside};
 use crate::table::store::source::{Source, Target};
 
@@ -376,7 +377,8 @@ fn new_command<S: Declare>() -> Command {
         .partition(|arg| arg.get_help_heading().is_none());
     let command = S::Options::augment_args(Command::new(S::NAME).args(own));
     // What a negative number means is said by the check of the option, not by a word on unknown flags.
-    let command = command.mut_args(|arg| arg.allow_negative_numbers(true));
+    // The words that an option knows stand in its help, each with what it means.
+    let command = command.mut_args(|arg| arg.allow_negative_numbers(true).hide_possible_values(true));
     let command = command.next_help_heading(None::<&str>).args(headed);
     let command = S::HELPS
         .iter()
@@ -397,7 +399,7 @@ pub fn description<S: Declare>() -> Value {
     let option = |arg: &Arg| {
         let default: Vec<_> = arg.get_default_values().iter().map(|value| value.to_string_lossy()).collect();
         json!({
-            "name": name_of(arg), "type": type_of(arg), "positional": arg.is_positional(),
+            "name": name_of(arg), "type": type_of(arg), "positional": arg.is_positional(), "words": words_of(arg),
             "default": default.first(), "help": arg.get_help().map(ToString::to_string)
         })
     };
@@ -418,8 +420,18 @@ fn type_of(arg: &Arg) -> &'static str {
         _ if is_any(&[TypeId::of::<f64>()]) => "float",
         _ if is_any(&[TypeId::of::<u32>(), TypeId::of::<u64>(), TypeId::of::<usize>()]) => "int",
         _ if is_any(&[TypeId::of::<String>()]) => "str",
+        _ if is_any(&[TypeId::of::<PathBuf>()]) => "path",
+        _ if is_any(&[TypeId::of::<Steps>()]) => "steps",
+        _ if !words_of(arg).is_empty() => "word",
         _ => "any",
     }
+}
+
+/// The words that an option takes, where it takes no others.
+fn words_of(arg: &Arg) -> Vec<String> {
+    let takes_words = matches!(arg.get_action(), ArgAction::Set);
+    let known = takes_words.then(|| arg.get_possible_values()).unwrap_or_default();
+    known.iter().map(|word| word.get_name().to_string()).collect()
 }
 
 /// What an argument is called in pipeline.yaml.

@@ -1,9 +1,13 @@
 //! Options as they stand on the command line and in pipeline.yaml: one struct serves both.
 
+use std::error::Error;
+use std::ffi::OsStr;
 use std::fmt;
+use std::marker::PhantomData;
 use std::str::FromStr;
 
-use clap::{Args, Command};
+use clap::builder::{PossibleValue, TypedValueParser, ValueParserFactory};
+use clap::{Arg, Args, Command};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -35,6 +39,47 @@ impl<T: Keyword> FromStr for Word<T> {
 impl<T: Keyword> fmt::Display for Word<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(self.0.as_str())
+    }
+}
+
+/// Reads what [`FromStr`] understands, and knows the words of `T` that it is made of: Python's functions name them in their types.
+pub struct WordsParser<T, V>(PhantomData<fn() -> (T, V)>);
+
+impl<T, V> Clone for WordsParser<T, V> {
+    fn clone(&self) -> Self {
+        WordsParser(PhantomData)
+    }
+}
+
+impl<T, V> TypedValueParser for WordsParser<T, V>
+where
+    T: Keyword,
+    V: FromStr<Err: Into<Box<dyn Error + Send + Sync>>> + Clone + Send + Sync + 'static,
+{
+    type Value = V;
+
+    fn parse_ref(&self, command: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<V, clap::Error> {
+        TypedValueParser::parse_ref(&V::from_str, command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(T::ALL.iter().map(|word| PossibleValue::new(word.as_str()))))
+    }
+}
+
+impl<T: Keyword + Send + Sync> ValueParserFactory for Word<T> {
+    type Parser = WordsParser<T, Word<T>>;
+
+    fn value_parser() -> Self::Parser {
+        WordsParser(PhantomData)
+    }
+}
+
+impl<T: Keyword + Send + Sync> ValueParserFactory for Several<Word<T>> {
+    type Parser = WordsParser<T, Several<Word<T>>>;
+
+    fn value_parser() -> Self::Parser {
+        WordsParser(PhantomData)
     }
 }
 

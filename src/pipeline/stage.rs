@@ -76,10 +76,17 @@ pub trait Stage {
             |(role, source): &(&str, Source)| Ok((role.to_string(), content_of_role(role, source)?));
         let sources = self.inputs();
         let inputs = sources.iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
-        let sources =
-            sources.into_iter().map(|(role, source)| (role.to_string(), source.name().into())).collect();
-        Ok(Provenance::new(self.name(), self.parameters(), inputs).of_sources(sources))
+        Ok(Provenance::new(self.name(), self.parameters(), inputs).of_sources(places(&sources)))
     }
+}
+
+/// Where inputs can be looked at again, by their roles.
+pub fn places(inputs: &[(&'static str, Source)]) -> BTreeMap<String, PathBuf> {
+    let place = |(role, source): &(&'static str, Source)| match source {
+        Source::Path(path) => Some((role.to_string(), path.clone())),
+        Source::Memory(_) => None,
+    };
+    inputs.iter().filter_map(place).collect()
 }
 
 /// What an input holds ([`content_of`]).

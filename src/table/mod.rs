@@ -139,12 +139,6 @@ pub enum TableError {
         /// What is wrong with it and what to do.
         problem: String,
     },
-    /// A file can only be made from files.
-    #[error("{}: a table in memory; write it to a Parquet file and name that, so that what is made from it can say so", name.display())]
-    InMemory {
-        /// What it is called.
-        name: PathBuf,
-    },
     /// The table has no rows.
     #[error("{}: the table is empty; expected at least one row", path.display())]
     Empty { path: PathBuf },

@@ -4,20 +4,35 @@ The system of Dimitrakopoulos & Paraskeva (2015) as functions, a stage each::
 
     scenarios = rockfrag.sample_scenarios()
     motions = rockfrag.synthesize_motions(scenarios)
-    responses = rockfrag.simulate(motions, p=2.5, alpha=0.20, eta=0.92)
+    responses = rockfrag.simulate(motions, structures=rockfrag.Structure(p=2.5, alpha=0.20, eta=0.92))
     pex, pro = rockfrag.fit_pex(responses), rockfrag.fit_pro(responses)
     answers = rockfrag.evaluate(pex, pro, intensities, suite="csgm", p=2.5, alpha=0.20)
+
+and curves of any outcomes, as arrays::
+
+    curve = rockfrag.fit_fragility(im, overturned)
+    curve.probability([0.5, 1.0]), curve.confidence_band([0.5, 1.0]), curve.plot()
 
 A table is anything that speaks Arrow (polars, pyarrow, pandas, DuckDB, :class:`Table`), or the path of a Parquet file or of a
 folder of them, which is then read as it is needed. A result is a :class:`Table`, or with ``out`` a file, which is left as it is
 where it is up to date. The rows are those of the command line, on any number of threads.
 
 Each stage of the command line is a function with its options, in the words of ``rockfrag STAGE --help``. Common to all are ``out``
-(path to write; the path is returned), ``threads`` (all cores unless given), ``progress`` (called with the number of steps done and
-of all, a few times a second) and ``force`` (make even a file that is up to date). Ctrl-C ends a call at the next batch, and what was
+(path to write; the path is returned), ``threads`` (all cores unless given), ``progress`` (called with the number of steps done and of
+all, a few times a second) and ``force`` (make even a file that is up to date). Ctrl-C ends a call at the next batch, and what was
 being written is removed. Names of columns end in their units.
+
+Random numbers come from ``seed``: 42 unless given, so that a call gives the same rows every time; ``seed=None`` takes a fresh one, which
+``Table.metadata`` and :func:`inspect` tell.
+
+``rockfrag.datasets`` has small data to try it on, ``rockfrag.ray`` partitions on a cluster.
 """
 
+import importlib
+from typing import TYPE_CHECKING
+
+from . import datasets
+from ._curves import DemandCurve, FailureCurve, FragilityCurve, fit_demand, fit_failure, fit_fragility
 from ._rocking import Response, response
 from ._rockfrag import Table, __version__
 from ._stages import (
@@ -36,31 +51,64 @@ from ._stages import (
     universality,
     validate,
 )
-from .errors import FileError, MissingFileError, OptionError, RockfragError, RockfragWarning, TableError
+from ._structure import Structure
+from ._tools import FileInfo, inspect, run, seed_spread
+from .errors import FileError, FitError, MissingFileError, OptionError, RockfragError, RockfragWarning, TableError
 
 __all__ = [
+    "DemandCurve",
+    "FailureCurve",
     "FileError",
+    "FileInfo",
+    "FitError",
+    "FragilityCurve",
     "MissingFileError",
     "OptionError",
     "Response",
     "RockfragError",
     "RockfragWarning",
+    "Structure",
     "Table",
     "TableError",
     "__version__",
     "compare_paper",
+    "datasets",
     "evaluate",
     "export",
+    "fit_demand",
+    "fit_failure",
+    "fit_fragility",
     "fit_pex",
     "fit_pro",
     "ida",
     "import_motions",
+    "inspect",
     "rank_ims",
     "report",
     "response",
+    "run",
     "sample_scenarios",
+    "seed_spread",
     "simulate",
     "synthesize_motions",
     "universality",
     "validate",
 ]
+
+
+if TYPE_CHECKING:
+    from . import ray as ray
+else:
+
+    def __getattr__(name):
+        """``rockfrag.ray``, which needs Ray, when it is first asked for."""
+        if name == "ray":
+            try:
+                return importlib.import_module("rockfrag.ray")
+            except ModuleNotFoundError as missing:
+                raise AttributeError(f"rockfrag.ray needs {missing.name}: pip install rockfrag[ray]") from missing
+        raise AttributeError(f"module 'rockfrag' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "errors", "ray"])

@@ -3,30 +3,34 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _options, _rockfrag
+from . import _rockfrag, _show
+from ._structure import spec_of
+from ._types import StructureLike
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Response:
-    """Rotation over time, at every sample and every event, and what came of it."""
+    """Rotation over time, at every sample and every event, and what came of it. Two are equal if all values are."""
 
-    #: Time from the first sample, s.
+    #: Time from the first sample, s; shape (n,).
     time_s: npt.NDArray[np.float64]
-    #: Rotation, rad.
+    #: Rotation, rad; shape (n,).
     theta_rad: npt.NDArray[np.float64]
-    #: Angular velocity, rad/s; at an impact, that after it.
+    #: Angular velocity, rad/s; at an impact, that after it; shape (n,).
     theta_dot_rad_s: npt.NDArray[np.float64]
     #: Times (s) of uplift, impact, rest and overturn, with these words.
     events: list[tuple[float, str]]
     #: no_rocking, safe_rocking or overturning.
-    outcome: str
+    outcome: Literal["no_rocking", "safe_rocking", "overturning"]
     #: Largest rotation over slenderness (Eq. 7); none if it overturns.
     edp: float | None
     #: Impacts within the duration of the record.
@@ -40,24 +44,84 @@ class Response:
 
     @property
     def theta_over_alpha(self) -> npt.NDArray[np.float64]:
-        """Rotation over slenderness."""
+        """Rotation over slenderness, shape (n,)."""
         return self.theta_rad / self.alpha_rad
 
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws rotation over slenderness over time, with a tick at each impact.
 
-def response(
-    acceleration_m_s2: npt.ArrayLike, dt_s: float, structure: Mapping[str, Any], *, tail_s: float = 10.0
-) -> Response:
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; those of a new figure if not given.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        if ax is None:
+            import matplotlib.pyplot as plt
+
+            ax = plt.subplots(layout="constrained")[1]
+        ax.plot(self.time_s, self.theta_over_alpha, lw=1)
+        impacts = [time for time, event in self.events if event == "impact"]
+        ax.plot(impacts, np.zeros(len(impacts)), "|", color="0.4")
+        ax.set(xlabel="time, s", ylabel="θ / α", title=self._words())
+        return ax
+
+    def _words(self) -> str:
+        demand = "" if self.edp is None else f", edp {_show.number(self.edp)}"
+        return f"{self.outcome}{demand}, {self.impacts} impacts"
+
+    def __repr__(self) -> str:
+        last = self.time_s[-1] if self.time_s.size else 0.0
+        return f"<rockfrag.Response: {self._words()}, {self.time_s.size} points in {_show.number(float(last))} s>"
+
+    def _repr_html_(self) -> str:
+        rows = [[name, _show.number(getattr(self, name))] for name in ("p_rad_s", "alpha_rad", "eta")]
+        return _show.Summary(f"rockfrag.Response: {self._words()}", [], ["", ""], rows)._repr_html_()
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Response):
+            return NotImplemented
+        pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+        return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in pairs)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def response(acceleration_m_s2: npt.ArrayLike, dt_s: float, structure: StructureLike, *, tail_s: float = 10.0) -> Response:
     """Solves the rocking motion of one structure in one ground motion (section 2.2).
 
-    Args:
-        acceleration_m_s2: Ground acceleration, m/s2, linear between samples.
-        dt_s: Time between samples, s.
-        structure: ``{"p": 2.5, "alpha": 0.20, "eta": 0.92}`` (rad/s, rad, 1 or ``"housner"``); or ``width`` and ``height`` of a
-            block (m), with ``beam_mass_ratio`` for a frame.
-        tail_s: Quiet time after the record, in which free rocking shows, s.
+    Parameters
+    ----------
+    acceleration_m_s2 : array_like of shape (n,)
+        Ground acceleration, m/s2, linear between samples.
+    dt_s : float
+        Time between samples, s.
+    structure : Structure or mapping
+        The structure; or its parameters, as ``{"p": 2.5, "alpha": 0.20, "eta": 0.92}``.
+    tail_s : float, default 10.0
+        Quiet time after the record, in which free rocking shows, s.
 
-    Returns:
-        Rotation and velocity over time.
+    Returns
+    -------
+    Response
+        Rotation and velocity over time, and what came of it.
+
+    Raises
+    ------
+    OptionError
+        If a parameter of the structure is missing or cannot be right, or there are no samples.
+
+    Examples
+    --------
+    >>> import numpy as np, rockfrag
+    >>> time = np.arange(0.0, 4.0, 0.01)
+    >>> pulse = np.where(time < 1.2, 4.0 * np.sin(2 * np.pi * time / 1.2), 0.0)
+    >>> block = rockfrag.Structure(p=2.5, alpha=0.20, eta=0.92)
+    >>> rockfrag.response(pulse, 0.01, block)
+    <rockfrag.Response: overturning, 1 impacts, 247 points in 2.432 s>
     """
     samples = np.ascontiguousarray(acceleration_m_s2, dtype=np.float64)
-    return Response(**_rockfrag.response(samples, dt_s, json.dumps(_options.structure(structure)), tail_s))
+    return Response(**_rockfrag.response(samples, dt_s, json.dumps(spec_of(structure)), tail_s))

@@ -1,24 +1,100 @@
 # Made by `python -m rockfrag._stub`.
 from collections.abc import Iterable
-from typing import Any
+from pathlib import Path
+from typing import Literal, overload
 
-from ._types import PathLike, Progress, TableLike
+from numpy.random import Generator
+
+from ._rockfrag import Table
+from ._types import Hazard, PathLike, Progress, Steps, Structures, TableLike
 
 __all__ = ["compare_paper", "evaluate", "export", "fit_pex", "fit_pro", "ida", "import_motions", "rank_ims", "report", "sample_scenarios", "simulate", "synthesize_motions", "universality", "validate"]
 
+@overload
 def compare_paper(
     pex: TableLike,
     pro: TableLike,
     responses: TableLike,
     *,
-    spread: Any = None,
-    out: PathLike | None = None,
+    spread: PathLike | None = None,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Compare our numbers with the published ones.
 
+    Parameters
+    ----------
+    pex : Arrow table or path
+        Regressions of fit_pex.
+    pro : Arrow table or path
+        Curves of fit_pro.
+    responses : Arrow table or path
+        Responses that both were fitted to.
+    spread : path, optional
+        CSV file of the numbers over seeds, as seed-spread writes it [default: the one shipped, of the
+        paper's set-up].
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> motions = rockfrag.synthesize_motions(rockfrag.sample_scenarios(), threads=2)
+    >>> responses = rockfrag.simulate(motions, structures="paper")
+    >>> pex, pro = rockfrag.fit_pex(responses, transition=1.3), rockfrag.fit_pro(responses)
+    >>> compared = rockfrag.compare_paper(pex, pro, responses)
+    >>> row = compared.to_polars().filter(quantity="high_b1", suite="csgm", structure="electrical-equipment")
+    >>> row["published"].item(), round(row["ours"].item(), 3)
+    (2.954, 3.088)
+    """
+@overload
+def compare_paper(
+    pex: TableLike,
+    pro: TableLike,
+    responses: TableLike,
+    *,
+    spread: PathLike | None = None,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
+
+@overload
 def evaluate(
     pex: TableLike | None = None,
     pro: TableLike | None = None,
@@ -26,33 +102,178 @@ def evaluate(
     *,
     suite: str | None = None,
     structure: str | None = None,
-    model: Any = None,
-    measure: Any = None,
-    limits: Any = 'delta',
+    model: Literal['univariate', 'bivariate', 'universal'] | None = None,
+    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
+    limits: Literal['delta', 'percentile', 'bc'] = 'delta',
     limit_state: float | None = None,
     p: float | None = None,
     alpha: float | None = None,
-    eta: Any = None,
+    eta: float | Literal['housner'] | None = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
-    structures: Any = None,
+    structures: Structures | None = None,
     name: str | None = None,
     pga: float | None = None,
     pgv: float | None = None,
     tp: float | None = None,
     tm: float | None = None,
-    hazard: Any = None,
+    hazard: Hazard | None = None,
     ratio: float | None = None,
     years: float = 50.0,
-    columns: Any = None,
-    format: Any = None,
-    out: PathLike | None = None,
+    format: Literal['table', 'csv', 'json', 'parquet'] | None = None,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Probabilities of rocking, failure and overturning: at one intensity, at each of a table, or a year
+    at a site.
+
+    Parameters
+    ----------
+    pex : Arrow table or path, optional
+        Regressions of fit_pex.
+    pro : Arrow table or path, optional
+        Curves of fit_pro.
+    intensities : Arrow table or path, optional
+        Parquet table with pga_m_s2 and pgv_m_s, and where they differ p_rad_s, alpha_rad, eta, tp_s,
+        tm_s.
+    suite : str, optional
+        Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm].
+    structure : str, optional
+        Structure of the fits [default: the only one; of validate, all].
+    model : {'univariate', 'bivariate', 'universal'}, optional
+        bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv), univariate, or in
+        evaluate universal (the surface for all structures, without fits) [default: bivariate; in
+        evaluate universal where there are no fits].
+    measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
+        Measure of the univariate model, im1 to im6 [default: im5].
+    limits : {'delta', 'percentile', 'bc'}, default 'delta'
+        delta (of the standard errors), or from the resamples of fit_pex and fit_pro ``bootstrap``:
+        percentile, or bc (bias-corrected).
+    limit_state : float, optional
+        Of the universal surface: demand |theta|max / alpha that P_ex is about, 0.02 to 0.5 [default:
+        0.1].
+    p : float, optional
+        Frequency parameter of the structure, rad/s.
+    alpha : float, optional
+        Slenderness of the structure, rad.
+    eta : float or {'housner'}, optional
+        Coefficient of restitution, or housner: 1 - 1.5 sin^2(alpha) [default: that of the dimensions,
+        or of the fits].
+    width : float, optional
+        In place of p and alpha: width of the block or column, m.
+    height : float, optional
+        Height of the block or column, m.
+    beam_mass_ratio : float, optional
+        Of a frame: mass of the beam over that of all columns.
+    structures : Structure, iterable of Structure, or path, optional
+        A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
+    name : str, optional
+        Name of the structure in that file [default: the only one].
+    pga : float, optional
+        Peak ground acceleration, g.
+    pgv : float, optional
+        Peak ground velocity, m/s.
+    tp : float, optional
+        Period of the velocity pulse, s, where the measure needs it.
+    tm : float, optional
+        Mean period, s, where the measure needs it.
+    hazard : path, Arrow table or mapping, optional
+        CSV file, or table or mapping of its columns: pga_g or pgv_m_s with annual_rate_of_exceedance,
+        or both with annual_rate_of_occurrence.
+    ratio : float, optional
+        The p PGV / PGA of all motions, where the hazard knows one peak only [default: distributed as in
+        the motions of the fits].
+    years : float, default 50.0
+        Time of exposure, years.
+    format : {'table', 'csv', 'json', 'parquet'}, optional
+        table (to read), csv, json, or parquet (with ``out``) [default: as ``out`` ends, or table].
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    Of any structure, without fits of one's own: a block at one intensity (``pga`` in g, ``pgv`` in m/s), at each of a table, or at a site.
+
+    >>> import rockfrag
+    >>> answer = rockfrag.evaluate(width=0.5, height=2.0, pga=0.5, pgv=0.6)
+    >>> dict(zip(answer["quantity"].tolist(), answer["value"].round(3).tolist()))["p_ro"]
+    0.258
+    >>> import polars as pl
+    >>> intensities = pl.DataFrame({"pga_m_s2": [3.0, 5.0, 8.0], "pgv_m_s": [0.3, 0.6, 1.0]})
+    >>> rockfrag.evaluate(intensities=intensities, width=0.5, height=2.0)["p_ro"].round(3)
+    array([0.   , 0.264, 0.836])
+    >>> site = rockfrag.evaluate(width=0.5, height=2.0, hazard=rockfrag.datasets.load_hazard(), ratio=0.4)
+    >>> site["state"].tolist()
+    ['LS1', 'LS2', 'LS3']
+    """
+@overload
+def evaluate(
+    pex: TableLike | None = None,
+    pro: TableLike | None = None,
+    intensities: TableLike | None = None,
+    *,
+    suite: str | None = None,
+    structure: str | None = None,
+    model: Literal['univariate', 'bivariate', 'universal'] | None = None,
+    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
+    limits: Literal['delta', 'percentile', 'bc'] = 'delta',
+    limit_state: float | None = None,
+    p: float | None = None,
+    alpha: float | None = None,
+    eta: float | Literal['housner'] | None = None,
+    width: float | None = None,
+    height: float | None = None,
+    beam_mass_ratio: float | None = None,
+    structures: Structures | None = None,
+    name: str | None = None,
+    pga: float | None = None,
+    pgv: float | None = None,
+    tp: float | None = None,
+    tm: float | None = None,
+    hazard: Hazard | None = None,
+    ratio: float | None = None,
+    years: float = 50.0,
+    format: Literal['table', 'csv', 'json', 'parquet'] | None = None,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
 
 def export(
     pex: TableLike,
@@ -60,20 +281,20 @@ def export(
     *,
     suite: str | None = None,
     structure: str | None = None,
-    model: Any = None,
-    measure: Any = None,
+    model: Literal['univariate', 'bivariate', 'universal'] | None = None,
+    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     p: float | None = None,
     alpha: float | None = None,
-    eta: Any = None,
+    eta: float | Literal['housner'] | None = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
-    structures: Any = None,
+    structures: Structures | None = None,
     name: str | None = None,
-    to: Any = None,
-    im: Any = 'pga',
-    ratio: Any = None,
-    levels: Any = None,
+    to: Literal['openquake', 'openquake-continuous', 'pelicun'] | None = None,
+    im: Literal['pga', 'pgv'] = 'pga',
+    ratio: Steps | None = None,
+    levels: Steps | None = None,
     upto: float | None = None,
     tolerance: float | None = None,
     out: PathLike,
@@ -81,45 +302,310 @@ def export(
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Path:
+    """Write the fragility of a structure for OpenQuake or pelicun.
 
+    Parameters
+    ----------
+    pex : Arrow table or path
+        Regressions of fit_pex.
+    pro : Arrow table or path
+        Curves of fit_pro.
+    suite : str, optional
+        Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm].
+    structure : str, optional
+        Structure of the fits [default: the only one; of validate, all].
+    model : {'univariate', 'bivariate', 'universal'}, optional
+        bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv), univariate, or in
+        evaluate universal (the surface for all structures, without fits) [default: bivariate; in
+        evaluate universal where there are no fits].
+    measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
+        Measure of the univariate model, im1 to im6 [default: im5].
+    p : float, optional
+        Frequency parameter of the structure, rad/s.
+    alpha : float, optional
+        Slenderness of the structure, rad.
+    eta : float or {'housner'}, optional
+        Coefficient of restitution, or housner: 1 - 1.5 sin^2(alpha) [default: that of the dimensions,
+        or of the fits].
+    width : float, optional
+        In place of p and alpha: width of the block or column, m.
+    height : float, optional
+        Height of the block or column, m.
+    beam_mass_ratio : float, optional
+        Of a frame: mass of the beam over that of all columns.
+    structures : Structure, iterable of Structure, or path, optional
+        A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
+    name : str, optional
+        Name of the structure in that file [default: the only one].
+    to : {'openquake', 'openquake-continuous', 'pelicun'}, optional
+        openquake (NRML 0.5), openquake-continuous (the same, overturning alone as a lognormal curve) or
+        pelicun (CSV, and JSON beside it).
+    im : {'pga', 'pgv'}, default 'pga'
+        Intensity: pga or pgv.
+    ratio : float, iterable of float, or 'first:last:step', optional
+        p PGV / PGA of the motions: one function for each of these numbers.
+    levels : float, iterable of float, or 'first:last:step', optional
+        Intensities of the table, g or m/s, as numbers or first:last:step [default: as many as the
+        tolerance needs].
+    upto : float, optional
+        Largest intensity, g or m/s [default: that of the data; of pelicun, where all probabilities are
+        1].
+    tolerance : float, optional
+        Largest error of straight lines between the levels [default: 1e-6; of pelicun 1e-5].
+    out : path
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    pathlib.Path
+        The path of ``out``.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw="6.5:7.5:0.5", re="5,10", samples=20)
+    >>> motions = rockfrag.synthesize_motions(scenarios, suite="csgm", dt=0.01)
+    >>> equipment = rockfrag.Structure(p=2.5, alpha=0.20, eta=0.92, name="equipment")
+    >>> responses = rockfrag.simulate(motions, structures=equipment)
+    >>> pex, pro = rockfrag.fit_pex(responses, transition=1.3), rockfrag.fit_pro(responses)
+    >>> import pathlib, tempfile
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> file = pathlib.Path(folder.name, "fragility.xml")
+    >>> made = rockfrag.export(pex, pro, model="univariate", measure="im5", structures=equipment, to="openquake", ratio=0.4, out=file)
+    >>> folder.cleanup()
+    """
+
+@overload
 def fit_pex(
     responses: TableLike,
     *,
     limit_state: float = 0.1,
-    transition: Any = 'found',
+    transition: float | Literal['found'] = 'found',
     demand_floor: float | None = None,
     bootstrap: int = 0,
     confidence: float = 0.95,
-    seed: int | None = None,
-    out: PathLike | None = None,
+    seed: int | Generator | None = 42,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Fit the demand in safe rocking: P_ex.
 
+    Parameters
+    ----------
+    responses : Arrow table or path
+        Responses to read.
+    limit_state : float, default 0.1
+        Demand |theta|max / alpha whose exceedance P_ex is about.
+    transition : float or {'found'}, default 'found'
+        IM4 at which the two planes meet: found (least pooled residual), or a number.
+    demand_floor : float, optional
+        Least demand that counts as seen: smaller ones in safe rocking are raised to it, as a solver of
+        finite tolerance would [default: none].
+    bootstrap : int, default 0
+        Resamples for bootstrap limits, drawn within each cell of magnitude and distance.
+    confidence : float, default 0.95
+        Probability with which limits of confidence hold the truth.
+    seed : int or numpy.random.Generator or None, default 42
+        Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
+        fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
+        seed is recorded: ``Table.metadata``, ``inspect``.
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``. With ``parts["scan"]``, ``parts["bootstrap"]`` where
+        there are such.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw="6.5:7.5:0.5", re="5,10", samples=20)
+    >>> motions = rockfrag.synthesize_motions(scenarios, suite="csgm", dt=0.01)
+    >>> equipment = rockfrag.Structure(p=2.5, alpha=0.20, eta=0.92, name="equipment")
+    >>> responses = rockfrag.simulate(motions, structures=equipment)
+    >>> pex = rockfrag.fit_pex(responses, transition=1.3)
+    >>> plane = pex.to_polars().filter(model="plane")
+    >>> round(plane["b1"].item(), 1), round(plane["r2"].item(), 2)
+    (2.1, 0.37)
+    """
+@overload
+def fit_pex(
+    responses: TableLike,
+    *,
+    limit_state: float = 0.1,
+    transition: float | Literal['found'] = 'found',
+    demand_floor: float | None = None,
+    bootstrap: int = 0,
+    confidence: float = 0.95,
+    seed: int | Generator | None = 42,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
+
+@overload
 def fit_pro(
     responses: TableLike,
     *,
-    event: Any = 'overturning',
-    pairs: Any = 'im4:im3_inv',
-    link: Any = 'probit',
-    estimator: Any = 'ml',
+    event: Literal['overturning', 'rocking'] = 'overturning',
+    pairs: str | Iterable[str] = 'im4:im3_inv',
+    link: Literal['probit', 'logit', 'cloglog'] = 'probit',
+    estimator: Literal['ml', 'firth'] = 'ml',
     bootstrap: int = 0,
     confidence: float = 0.95,
-    seed: int | None = None,
-    out: PathLike | None = None,
+    seed: int | Generator | None = 42,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Fit the probability of overturning: P_ro.
 
+    Parameters
+    ----------
+    responses : Arrow table or path
+        Responses to read.
+    event : {'overturning', 'rocking'}, default 'overturning'
+        What the probability is of: overturning (given rocking), or rocking (of all motions).
+    pairs : str or iterable of str, default 'im4:im3_inv'
+        Pairs of measures that make hybrid ones, besides the six scalar measures.
+    link : {'probit', 'logit', 'cloglog'}, default 'probit'
+        How the index becomes a probability: probit (lognormal curve), logit or cloglog.
+    estimator : {'ml', 'firth'}, default 'ml'
+        What is maximised: ml (the likelihood), or firth (penalised, for few events or separation).
+    bootstrap : int, default 0
+        Resamples for bootstrap limits, drawn within each cell of magnitude and distance.
+    confidence : float, default 0.95
+        Probability with which limits of confidence hold the truth.
+    seed : int or numpy.random.Generator or None, default 42
+        Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
+        fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
+        seed is recorded: ``Table.metadata``, ``inspect``.
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``. With ``parts["bootstrap"]`` where there are such.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw="6.5:7.5:0.5", re="5,10", samples=20)
+    >>> motions = rockfrag.synthesize_motions(scenarios, suite="csgm", dt=0.01)
+    >>> equipment = rockfrag.Structure(p=2.5, alpha=0.20, eta=0.92, name="equipment")
+    >>> responses = rockfrag.simulate(motions, structures=equipment)
+    >>> pro = rockfrag.fit_pro(responses, link="logit")
+    >>> dict(zip(pro["im_x"].tolist(), pro["status"].tolist()))["im5"]
+    'ok'
+    """
+@overload
+def fit_pro(
+    responses: TableLike,
+    *,
+    event: Literal['overturning', 'rocking'] = 'overturning',
+    pairs: str | Iterable[str] = 'im4:im3_inv',
+    link: Literal['probit', 'logit', 'cloglog'] = 'probit',
+    estimator: Literal['ml', 'firth'] = 'ml',
+    bootstrap: int = 0,
+    confidence: float = 0.95,
+    seed: int | Generator | None = 42,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
+
+@overload
 def ida(
     motions: TableLike,
     *,
-    measure: Any = 'scale',
+    measure: Literal['scale', 'pga', 'pgv', 'im4', 'im5', 'im6'] = 'scale',
     from_: float = 0.1,
     to: float = 10.0,
     steps: int = 60,
@@ -127,65 +613,380 @@ def ida(
     tolerance: float = 0.001,
     p: float | None = None,
     alpha: float | None = None,
-    eta: Any = None,
+    eta: float | Literal['housner'] | None = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
-    structures: Any = None,
-    simd: Any = None,
-    out: PathLike | None = None,
+    structures: Structures | None = None,
+    simd: Literal['scalar', 'avx2', 'avx512'] | None = None,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Incremental dynamic analysis: from which intensity of each motion on each structure overturns, and
+    which share of larger ones does so.
 
+    Parameters
+    ----------
+    motions : Arrow table or path
+        Motions to read, as simulate does.
+    measure : {'scale', 'pga', 'pgv', 'im4', 'im5', 'im6'}, default 'scale'
+        What is scaled: scale (the motion as it is), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, of
+        each structure).
+    from_ : float, default 0.1
+        Least intensity.
+    to : float, default 10.0
+        Largest intensity.
+    steps : int, default 60
+        Equal ratios between them, whose ends are the stripes.
+    halvings : int, default 4
+        How often a step is halved where the structure rocks: the resolution; four times more where a
+        peak comes near the tipping point.
+    tolerance : float, default 0.001
+        Relative error of the simulated intensities at which the outcome changes.
+    p : float, optional
+        Frequency parameter of the structure, rad/s.
+    alpha : float, optional
+        Slenderness of the structure, rad.
+    eta : float or {'housner'}, optional
+        Coefficient of restitution, or housner: 1 - 1.5 sin^2(alpha) [default: that of the dimensions,
+        or of the fits].
+    width : float, optional
+        In place of p and alpha: width of the block or column, m.
+    height : float, optional
+        Height of the block or column, m.
+    beam_mass_ratio : float, optional
+        Of a frame: mass of the beam over that of all columns.
+    structures : Structure, iterable of Structure, or path, optional
+        A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
+    simd : {'scalar', 'avx2', 'avx512'}, optional
+        Vector instructions of the solver: scalar, avx2 or avx512, as in simulate [default: the fastest
+        of this processor].
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``. With ``parts["stripes"]``, ``parts["windows"]``,
+        ``parts["shares"]``, ``parts["fragility"]`` where there are such.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw=7.0, re=5, samples=3)
+    >>> motions = rockfrag.synthesize_motions(scenarios, suite="pulse", dt=0.01)
+    >>> ida = rockfrag.ida(motions, structures=rockfrag.Structure.block(0.5, 2.0))
+    >>> len(ida)
+    3
+    """
+@overload
+def ida(
+    motions: TableLike,
+    *,
+    measure: Literal['scale', 'pga', 'pgv', 'im4', 'im5', 'im6'] = 'scale',
+    from_: float = 0.1,
+    to: float = 10.0,
+    steps: int = 60,
+    halvings: int = 4,
+    tolerance: float = 0.001,
+    p: float | None = None,
+    alpha: float | None = None,
+    eta: float | Literal['housner'] | None = None,
+    width: float | None = None,
+    height: float | None = None,
+    beam_mass_ratio: float | None = None,
+    structures: Structures | None = None,
+    simd: Literal['scalar', 'avx2', 'avx512'] | None = None,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
+
+@overload
 def import_motions(
     files: PathLike | Iterable[PathLike],
     *,
-    format: Any = 'auto',
+    format: Literal['auto', 'at2', 'cosmos', 'csmip', 'esm', 'knet', 'smc', 'columns'] = 'auto',
     dt: float | None = None,
-    unit: Any = None,
-    column: Any = None,
+    unit: Literal['g', 'mg', 'm/s2', 'cm/s2', 'gal', 'mm/s2', '%g', 'ft/s2', 'in/s2'] | None = None,
+    column: int | str | None = None,
     pga_tolerance: float = 0.05,
-    baseline: Any = 'none',
+    baseline: Literal['none', 'mean', 'linear'] = 'none',
     high_pass: float | None = None,
     resample: float | None = None,
-    rotate: Any = None,
-    scale: Any = None,
+    rotate: float | Literal['strongest-pulse'] | None = None,
+    scale: Steps | None = None,
     scale_pga: float | None = None,
     scale_pgv: float | None = None,
-    pulses: Any = 'find',
+    pulses: Literal['find', 'skip'] = 'find',
     residual: bool = False,
-    sa: Any = None,
+    sa: Steps | None = None,
     housner: bool = False,
     accept_implausible: bool = False,
     keep_going: bool = False,
-    out: PathLike | None = None,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Import recorded ground motions from the files of strong-motion networks, CSV or Parquet.
 
+    Parameters
+    ----------
+    files : path or iterable of path
+        Files and folders of records; folders are walked.
+    format : {'auto', 'at2', 'cosmos', 'csmip', 'esm', 'knet', 'smc', 'columns'}, default 'auto'
+        Format of text files: auto (by content), at2, cosmos, csmip, esm, knet, smc, or columns (plain
+        numbers).
+    dt : float, optional
+        Time between samples of files that do not say it, s.
+    unit : {'g', 'mg', 'm/s2', 'cm/s2', 'gal', 'mm/s2', '%g', 'ft/s2', 'in/s2'}, optional
+        Unit of files that do not say it: g, mg, m/s2, cm/s2 (gal), mm/s2, %g, ft/s2 or in/s2.
+    column : int or str, optional
+        Column of plain files that holds the acceleration: its number, its name, or all where one series
+        wraps over lines [default: the one of that heading, or the only one besides times].
+    pga_tolerance : float, default 0.05
+        By which share samples may miss the peak that their header gives, besides its rounding.
+    baseline : {'none', 'mean', 'linear'}, default 'none'
+        What is removed from the acceleration: none, mean, or linear (the line of least squares).
+    high_pass : float, optional
+        Corner of a zero-phase Butterworth high-pass of order 4, Hz [default: none].
+    resample : float, optional
+        Another time step, s: band-limited [default: that of the file].
+    rotate : float or {'strongest-pulse'}, optional
+        Horizontal components of one event and station at right angles become one motion: towards an
+        azimuth in degrees, or towards the strongest-pulse; with RotD50 and RotD100 of PGA and PGV.
+        Other motions are left out.
+    scale : float, iterable of float, or 'first:last:step', optional
+        Factors, separated by commas or first:last:step; several make as many motions of each record.
+    scale_pga : float, optional
+        Scale each motion to this PGA, g.
+    scale_pgv : float, optional
+        Scale each motion to this PGV, m/s.
+    pulses : {'find', 'skip'}, default 'find'
+        Whether to look for a velocity pulse: find (indicator of Baker 2007, fit of Eq. 1 for tp_s), or
+        skip.
+    residual : bool, default False
+        Also write each motion that holds a pulse without it, as suite residual.
+    sa : float, iterable of float, or 'first:last:step', optional
+        Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or
+        numbers separated by commas; sa_0p20_m_s2 is that at 0.2 s.
+    housner : bool, default False
+        Also compute the Housner intensity, 15 times the work or more.
+    accept_implausible : bool, default False
+        Take motions that can hardly be those of an earthquake (PGA, PGV, time step, spikes, drift):
+        they are named, and are no failure.
+    keep_going : bool, default False
+        Files that cannot be read are named, and are no failure.
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import numpy as np, pathlib, rockfrag, tempfile
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> file = pathlib.Path(folder.name, "mine.txt")
+    >>> np.savetxt(file, 0.4 * np.sin(np.linspace(0.0, 60.0, 2001)) * np.hanning(2001))
+    >>> motions = rockfrag.import_motions(file, dt=0.01, unit="g")
+    >>> motions["pga_m_s2"].round(2)
+    array([3.92])
+    >>> folder.cleanup()
+    """
+@overload
+def import_motions(
+    files: PathLike | Iterable[PathLike],
+    *,
+    format: Literal['auto', 'at2', 'cosmos', 'csmip', 'esm', 'knet', 'smc', 'columns'] = 'auto',
+    dt: float | None = None,
+    unit: Literal['g', 'mg', 'm/s2', 'cm/s2', 'gal', 'mm/s2', '%g', 'ft/s2', 'in/s2'] | None = None,
+    column: int | str | None = None,
+    pga_tolerance: float = 0.05,
+    baseline: Literal['none', 'mean', 'linear'] = 'none',
+    high_pass: float | None = None,
+    resample: float | None = None,
+    rotate: float | Literal['strongest-pulse'] | None = None,
+    scale: Steps | None = None,
+    scale_pga: float | None = None,
+    scale_pgv: float | None = None,
+    pulses: Literal['find', 'skip'] = 'find',
+    residual: bool = False,
+    sa: Steps | None = None,
+    housner: bool = False,
+    accept_implausible: bool = False,
+    keep_going: bool = False,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
+
+@overload
 def rank_ims(
     responses: TableLike,
     motions: TableLike | None = None,
     *,
     limit_state: float = 0.1,
-    transition: Any = 'found',
+    transition: float | Literal['found'] = 'found',
     terms: int = 3,
     folds: int = 10,
-    candidate: Any = None,
-    out: PathLike | None = None,
+    candidate: str | Iterable[str] | None = None,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Rank intensity measures, alone, in pairs and triples, by how well they predict unseen cells or
+    earthquakes  Besides im1 to im6 of the paper, the measures of ``motions``, made dimensionless with p
+    and g tan alpha: p D of the significant durations (d5_75, d5_95); p^2 PGD / (g tan alpha) (pgd), the
+    same of the Housner intensity (housner); p CAV / (g tan alpha) (cav); p times the integral of a^2 /
+    (g tan alpha)^2 (arias); Sa / (g tan alpha) (sa_0p50 is that at 0.5 s). Measures enter as a product,
+    each to a power that the fit finds. PGA, PGV, Tm and Tp are those of im1 to im6.
+
+    Parameters
+    ----------
+    responses : Arrow table or path
+        Responses to read.
+    motions : Arrow table or path, optional
+        Motions that the responses are to, for their further measures.
+    limit_state : float, default 0.1
+        Demand |theta|max / alpha whose exceedance P_ex is about.
+    transition : float or {'found'}, default 'found'
+        IM4 at which the demand breaks: found (least pooled residual of the paper's two planes in the
+        cases at hand), or a number.
+    terms : int, default 3
+        The most measures of a model: 1 to 3.
+    folds : int, default 10
+        The most folds of cross-validation; each leaves out whole cells of magnitude and distance, or
+        earthquakes.
+    candidate : str or iterable of str, optional
+        Further columns of ``motions`` that are measures; the unit at the end of the name tells how they
+        become dimensionless, as fiv3_m_s by p v / (g tan alpha).
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``. With ``parts["reliability"]`` where there are such.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw="6.5:7.5:0.5", re="5,10", samples=20)
+    >>> motions = rockfrag.synthesize_motions(scenarios, suite="csgm", dt=0.01)
+    >>> equipment = rockfrag.Structure(p=2.5, alpha=0.20, eta=0.92, name="equipment")
+    >>> responses = rockfrag.simulate(motions, structures=equipment)
+    >>> ranking = rockfrag.rank_ims(responses)
+    >>> ranking.columns[:4]
+    ['suite', 'structure', 'target', 'measures']
+    """
+@overload
+def rank_ims(
+    responses: TableLike,
+    motions: TableLike | None = None,
+    *,
+    limit_state: float = 0.1,
+    transition: float | Literal['found'] = 'found',
+    terms: int = 3,
+    folds: int = 10,
+    candidate: str | Iterable[str] | None = None,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
 
 def report(
-    files: TableLike,
+    files: PathLike,
     *,
     suite: str | None = None,
     structure: str | None = None,
@@ -197,81 +998,501 @@ def report(
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Path:
+    """Draw all that a folder of files holds: one page to open in a browser, and each figure as SVG and
+    PNG.
 
+    Parameters
+    ----------
+    files : path
+        Folder of the files: responses.parquet, and what else there is of them.
+    suite : str, optional
+        Suite to show [default: all].
+    structure : str, optional
+        Structure to show [default: all].
+    groups : int, default 4
+        Pairs of suite and structure to show at most, in the order of the file.
+    motions : int, default 40
+        Motions in the browser of motions.
+    dpi : float, default 300.0
+        Dots per inch of the PNG files.
+    out : path
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    pathlib.Path
+        The path of ``out``.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw="6.5:7.5:0.5", re="5,10", samples=20)
+    >>> motions = rockfrag.synthesize_motions(scenarios, suite="csgm", dt=0.01)
+    >>> equipment = rockfrag.Structure(p=2.5, alpha=0.20, eta=0.92, name="equipment")
+    >>> responses = rockfrag.simulate(motions, structures=equipment)
+    >>> import pathlib, tempfile
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> responses.to_polars().write_parquet(pathlib.Path(folder.name, "responses.parquet"))
+    >>> rockfrag.report(folder.name, out=pathlib.Path(folder.name, "report.html")).name
+    'report.html'
+    >>> folder.cleanup()
+    """
+
+@overload
 def sample_scenarios(
     *,
-    seed: int | None = None,
+    seed: int | Generator | None = 42,
     samples: int = 100,
-    mw: Any = '5.5:7.5:0.5',
-    re: Any = '5:20:2.5',
-    design: Any = 'lhs',
-    out: PathLike | None = None,
+    mw: Steps = '5.5:7.5:0.5',
+    re: Steps = '5:20:2.5',
+    design: Literal['lhs', 'random', 'sobol'] = 'lhs',
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Sample earthquake scenarios on a magnitude-distance grid.
 
+    Parameters
+    ----------
+    seed : int or numpy.random.Generator or None, default 42
+        Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
+        fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
+        seed is recorded: ``Table.metadata``, ``inspect``.
+    samples : int, default 100
+        Scenarios in each cell of the grid.
+    mw : float, iterable of float, or 'first:last:step', default '5.5:7.5:0.5'
+        Moment magnitudes: first:last:step, or numbers separated by commas.
+    re : float, iterable of float, or 'first:last:step', default '5:20:2.5'
+        Distances, km: first:last:step, or numbers separated by commas.
+    design : {'lhs', 'random', 'sobol'}, default 'lhs'
+        How cells are sampled: lhs, random or sobol.
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw=[6.5, 7.0], re=10, samples=5, seed=1)
+    >>> scenarios.shape
+    (10, 9)
+    >>> scenarios["mw"]
+    array([6.5, 6.5, 6.5, 6.5, 6.5, 7. , 7. , 7. , 7. , 7. ])
+    """
+@overload
+def sample_scenarios(
+    *,
+    seed: int | Generator | None = 42,
+    samples: int = 100,
+    mw: Steps = '5.5:7.5:0.5',
+    re: Steps = '5:20:2.5',
+    design: Literal['lhs', 'random', 'sobol'] = 'lhs',
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
+
+@overload
 def simulate(
     motions: TableLike,
     *,
     p: float | None = None,
     alpha: float | None = None,
-    eta: Any = None,
+    eta: float | Literal['housner'] | None = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
-    structures: Any = None,
-    simd: Any = None,
-    trace: Any = None,
-    partition: Any = None,
-    out: PathLike | None = None,
+    structures: Structures | None = None,
+    simd: Literal['scalar', 'avx2', 'avx512'] | None = None,
+    trace: int | str | Iterable[int | str] | None = None,
+    partition: tuple[int, int] | None = None,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Simulate the rocking response of structures to motions.
 
+    Parameters
+    ----------
+    motions : Arrow table or path
+        Motions to read, a file or a folder: ours, or anyone's with motion_id, dt_s and
+        acceleration_m_s2.
+    p : float, optional
+        Frequency parameter of the structure, rad/s.
+    alpha : float, optional
+        Slenderness of the structure, rad.
+    eta : float or {'housner'}, optional
+        Coefficient of restitution, or housner: 1 - 1.5 sin^2(alpha) [default: that of the dimensions,
+        or of the fits].
+    width : float, optional
+        In place of p and alpha: width of the block or column, m.
+    height : float, optional
+        Height of the block or column, m.
+    beam_mass_ratio : float, optional
+        Of a frame: mass of the beam over that of all columns.
+    structures : Structure, iterable of Structure, or path, optional
+        A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
+    simd : {'scalar', 'avx2', 'avx512'}, optional
+        Vector instructions of the solver: scalar (one motion at a time), or avx2 or avx512 (several at
+        once), which give the same bits and differ from scalar by rounding [default: the fastest of this
+        processor].
+    trace : int or str or iterable of int or str, optional
+        Motions whose response over time is written too, beside the output as NAME.trace.parquet.
+    partition : tuple[int, int], optional
+        (i, n): only partition i of n, i from 0 to n - 1; ``out`` is then a folder, in which it is
+        part-0000i.parquet.
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``. With ``parts["trace"]`` where there are such.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw="6.5:7.5:0.5", re="5,10", samples=20)
+    >>> motions = rockfrag.synthesize_motions(scenarios, suite="csgm", dt=0.01)
+    >>> block = rockfrag.Structure.block(0.5, 2.0, name="block")
+    >>> responses = rockfrag.simulate(motions, structures=block)
+    >>> len(responses), sum(responses["outcome"] == "overturning").item()
+    (120, 23)
+    >>> rockfrag.simulate(motions)
+    Traceback (most recent call last):
+    rockfrag.errors.OptionError: no structure; ...
+    """
+@overload
+def simulate(
+    motions: TableLike,
+    *,
+    p: float | None = None,
+    alpha: float | None = None,
+    eta: float | Literal['housner'] | None = None,
+    width: float | None = None,
+    height: float | None = None,
+    beam_mass_ratio: float | None = None,
+    structures: Structures | None = None,
+    simd: Literal['scalar', 'avx2', 'avx512'] | None = None,
+    trace: int | str | Iterable[int | str] | None = None,
+    partition: tuple[int, int] | None = None,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
+
+@overload
 def synthesize_motions(
     scenarios: TableLike,
     *,
-    seed: int | None = None,
-    suite: Any = 'pulse,csgm',
+    seed: int | Generator | None = 42,
+    suite: Literal['pulse', 'csgm', 'hfc'] | Iterable[Literal['pulse', 'csgm', 'hfc']] = ('pulse', 'csgm'),
     dt: float = 0.005,
-    difference: Any = 'absolute',
-    epoch: Any = 'envelope-peak',
+    difference: Literal['absolute', 'signed', 'clamp', 'none'] = 'absolute',
+    epoch: Literal['envelope-peak', 'pga', 'pgv'] = 'envelope-peak',
     site: str = 'rock',
     kappa: float = 0.03,
     fmax: float | None = None,
     low_cut: float | None = None,
     low_cut_order: int = 4,
     housner: bool = False,
-    sa: Any = None,
+    sa: Steps | None = None,
     row_group: int = 128,
-    partition: Any = None,
-    out: PathLike | None = None,
+    partition: tuple[int, int] | None = None,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Synthesize near-fault ground motions: coherent pulse and stochastic high frequencies.
 
+    Parameters
+    ----------
+    scenarios : Arrow table or path
+        Scenarios to read.
+    seed : int or numpy.random.Generator or None, default 42
+        Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
+        fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
+        seed is recorded: ``Table.metadata``, ``inspect``.
+    suite : {'pulse', 'csgm', 'hfc'} or iterable of {'pulse', 'csgm', 'hfc'}, default ('pulse', 'csgm')
+        Suites, one or several: pulse, csgm (pulse and high frequencies), hfc (high frequencies alone).
+    dt : float, default 0.005
+        Time between samples, s.
+    difference : {'absolute', 'signed', 'clamp', 'none'}, default 'absolute'
+        What the high frequencies keep where the pulse is the stronger: absolute, signed, clamp or none
+        (plain sum).
+    epoch : {'envelope-peak', 'pga', 'pgv'}, default 'envelope-peak'
+        When the pulse peaks: at the peak of the envelope, or of the acceleration or velocity of the
+        high frequencies (envelope-peak, pga, pgv).
+    site : str, default 'rock'
+        Site amplification: rock, soil, none, or a CSV file of frequency in Hz and factor.
+    kappa : float, default 0.03
+        Near-surface attenuation kappa, s.
+    fmax : float, optional
+        Corner of the filter 1/sqrt(1 + (f/fmax)^8), Hz [default: none].
+    low_cut : float, optional
+        Corner of the high-pass filter 1/(1 + (fc/f)^(2n)), Hz [default: none].
+    low_cut_order : int, default 4
+        Order n of the high-pass filter.
+    housner : bool, default False
+        Also compute the Housner intensity, 15 times the work or more.
+    sa : float, iterable of float, or 'first:last:step', optional
+        Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or
+        numbers separated by commas; sa_0p20_m_s2 is that at 0.2 s.
+    row_group : int, default 128
+        Scenarios in a row group: what is held in memory and read at once; the rows do not depend on it.
+    partition : tuple[int, int], optional
+        (i, n): only partition i of n, i from 0 to n - 1; ``out`` is then a folder, in which it is
+        part-0000i.parquet.
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw=6.5, re=10, samples=5)
+    >>> motions = rockfrag.synthesize_motions(scenarios, suite=["pulse", "csgm"])
+    >>> len(motions), motions["suite"][:2].tolist()
+    (10, ['pulse', 'csgm'])
+    >>> motions["acceleration_m_s2"][0].shape == motions["acceleration_m_s2"][1].shape
+    True
+    """
+@overload
+def synthesize_motions(
+    scenarios: TableLike,
+    *,
+    seed: int | Generator | None = 42,
+    suite: Literal['pulse', 'csgm', 'hfc'] | Iterable[Literal['pulse', 'csgm', 'hfc']] = ('pulse', 'csgm'),
+    dt: float = 0.005,
+    difference: Literal['absolute', 'signed', 'clamp', 'none'] = 'absolute',
+    epoch: Literal['envelope-peak', 'pga', 'pgv'] = 'envelope-peak',
+    site: str = 'rock',
+    kappa: float = 0.03,
+    fmax: float | None = None,
+    low_cut: float | None = None,
+    low_cut_order: int = 4,
+    housner: bool = False,
+    sa: Steps | None = None,
+    row_group: int = 128,
+    partition: tuple[int, int] | None = None,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
+
+@overload
 def universality(
     responses: TableLike,
     *,
     reference: str = 'electrical-equipment',
-    model: Any = 'bivariate',
-    measure: Any = None,
+    model: Literal['univariate', 'bivariate', 'universal'] = 'bivariate',
+    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     transition: float = 1.3,
     limit_state: float = 0.1,
-    out: PathLike | None = None,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """How universal the curves of one structure are: tested on the responses of all others to the same
+    motions.
 
+    Parameters
+    ----------
+    responses : Arrow table or path
+        Responses of all structures to read.
+    reference : str, default 'electrical-equipment'
+        Structure whose curves are transferred to all others.
+    model : {'univariate', 'bivariate', 'universal'}, default 'bivariate'
+        bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate.
+    measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
+        Measure of the univariate model, im1 to im6 [default: im5].
+    transition : float, default 1.3
+        IM4 at which the two planes of all structures meet.
+    limit_state : float, default 0.1
+        Demand |theta|max / alpha whose exceedance P_ex is about.
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``. With ``parts["pooled"]`` where there are such.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw="6.5:7.5:0.5", re="5,10", samples=20)
+    >>> motions = rockfrag.synthesize_motions(scenarios, suite="csgm", dt=0.01)
+    >>> structures = [rockfrag.Structure(p=p, alpha=0.2, eta=0.92, name=f"p{p}") for p in (2.0, 2.5)]
+    >>> responses = rockfrag.simulate(motions, structures=structures)
+    >>> verdicts = rockfrag.universality(responses, reference="p2.5")
+    >>> verdicts["verdict"].tolist()
+    ['bends', 'holds', 'fails', 'holds']
+    """
+@overload
+def universality(
+    responses: TableLike,
+    *,
+    reference: str = 'electrical-equipment',
+    model: Literal['univariate', 'bivariate', 'universal'] = 'bivariate',
+    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
+    transition: float = 1.3,
+    limit_state: float = 0.1,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...
+
+@overload
 def validate(
     responses: TableLike,
     pex: TableLike,
@@ -279,11 +1500,95 @@ def validate(
     *,
     suite: str | None = None,
     structure: str | None = None,
-    model: Any = None,
-    measure: Any = None,
-    out: PathLike | None = None,
+    model: Literal['univariate', 'bivariate', 'universal'] | None = None,
+    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
+    out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
-) -> Any: ...
+) -> Table:
+    """Test fits on responses they were not made from, such as those to records: counts seen and expected,
+    scores.
+
+    Parameters
+    ----------
+    responses : Arrow table or path
+        Responses to hold the curves against, such as those to records.
+    pex : Arrow table or path
+        Regressions of fit_pex.
+    pro : Arrow table or path
+        Curves of fit_pro.
+    suite : str, optional
+        Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm].
+    structure : str, optional
+        Structure of the fits [default: the only one; of validate, all].
+    model : {'univariate', 'bivariate', 'universal'}, optional
+        bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv), univariate, or in
+        evaluate universal (the surface for all structures, without fits) [default: bivariate; in
+        evaluate universal where there are no fits].
+    measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
+        Measure of the univariate model, im1 to im6 [default: im5].
+    out : path, optional
+        Path to write; it is returned. A file that is up to date is left as it is.
+    threads : int, optional
+        All cores if not given.
+    progress : callable, optional
+        Called with the number of steps done and of all, a few times a second.
+    force : bool, default False
+        Make even a file that is up to date.
+    overwrite : bool, default False
+        Write over a file that another stage or program has made.
+
+    Returns
+    -------
+    Table or pathlib.Path
+        A table in memory, or the path of ``out``.
+
+    Raises
+    ------
+    OptionError
+        If an option is unknown, out of range, or does not go with another.
+    TableError
+        If a table lacks a column or rows, or holds a value that cannot be used.
+    MissingFileError
+        If a file is not there.
+    FileError
+        If a file cannot be read or written, or is not this stage's to write over.
+
+    Warns
+    -----
+    RockfragWarning
+        Of each result to be looked at twice.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> scenarios = rockfrag.sample_scenarios(mw="6.5:7.5:0.5", re="5,10", samples=20)
+    >>> motions = rockfrag.synthesize_motions(scenarios, suite="csgm", dt=0.01)
+    >>> equipment = rockfrag.Structure(p=2.5, alpha=0.20, eta=0.92, name="equipment")
+    >>> responses = rockfrag.simulate(motions, structures=equipment)
+    >>> pex, pro = rockfrag.fit_pex(responses, transition=1.3), rockfrag.fit_pro(responses)
+    >>> others = rockfrag.sample_scenarios(mw="6.5:7.5:0.5", re="5,10", samples=5, seed=1)
+    >>> unseen = rockfrag.simulate(rockfrag.synthesize_motions(others, suite="csgm", dt=0.01, seed=1), structures=equipment)
+    >>> validation = rockfrag.validate(unseen, pex, pro, model="univariate", measure="im5")
+    >>> validation.columns[:4]
+    ['suite', 'structure', 'fits_suite', 'event']
+    """
+@overload
+def validate(
+    responses: TableLike,
+    pex: TableLike,
+    pro: TableLike,
+    *,
+    suite: str | None = None,
+    structure: str | None = None,
+    model: Literal['univariate', 'bivariate', 'universal'] | None = None,
+    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
+    out: PathLike,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    force: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    ...

@@ -2,6 +2,7 @@
 
 __all__ = [
     "FileError",
+    "FitError",
     "MissingFileError",
     "OptionError",
     "RockfragError",
@@ -20,6 +21,14 @@ class OptionError(RockfragError, ValueError):
 
 class TableError(RockfragError, ValueError):
     """A table lacks a column or rows, or holds a value that cannot be used."""
+
+
+class FitError(RockfragError, ValueError):
+    """There is no curve to be had of the data. ``status`` is the word that the tables of fits have for the reason."""
+
+    def __init__(self, message: str, status: str = "") -> None:
+        super().__init__(message)
+        self.status = status
 
 
 class FileError(RockfragError, OSError):

@@ -19,62 +19,103 @@ import time
 import uuid
 from collections.abc import Callable
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import TYPE_CHECKING, TypedDict, cast
 
 import pyarrow.fs
 import pyarrow.parquet
 import ray.data
 
 import rockfrag
+from rockfrag._options import partition as words_of
 from rockfrag._rockfrag import partition_file
+from rockfrag._types import PathLike
 
-__all__ = ["simulate", "synthesize"]
+if TYPE_CHECKING:
+    from fsspec import AbstractFileSystem
+
+__all__ = ["Partition", "simulate", "synthesize"]
+
+
+class Partition(TypedDict):
+    """A partition that is done."""
+
+    #: Which, from 0 on,
+    index: int
+    #: and of how many.
+    of: int
+    file: str
+    rows: int
+    seconds: float
+    #: The node of Ray that made it.
+    node: str
 
 
 def synthesize(
-    scenarios: str | os.PathLike[str],
-    out: str | os.PathLike[str],
+    scenarios: PathLike,
+    out: PathLike,
     *,
     partitions: int,
-    filesystem: Any = None,
+    filesystem: pyarrow.fs.FileSystem | AbstractFileSystem | None = None,
     num_cpus: int = 1,
-    **options: Any,
-) -> list[dict[str, Any]]:
+    **options: object,
+) -> list[Partition]:
     """Synthesizes motions in partitions.
 
-    Args:
-        scenarios: File of scenarios.
-        out: Folder of the partitions.
-        partitions: How many.
-        filesystem: Where both are, if not in a folder that all nodes see: a filesystem of pyarrow or fsspec.
-        num_cpus: Threads of a task.
-        options: Those of :func:`rockfrag.synthesize_motions`.
+    Parameters
+    ----------
+    scenarios : path
+        File of scenarios.
+    out : path
+        Folder of the partitions.
+    partitions : int
+        How many.
+    filesystem : pyarrow.fs.FileSystem or fsspec.AbstractFileSystem, optional
+        Where both are, if not in a folder that all nodes see.
+    num_cpus : int, default 1
+        Threads of a task.
+    **options
+        Those of :func:`rockfrag.synthesize_motions`.
 
-    Returns:
-        For each partition its name, file, rows, seconds and node.
+    Returns
+    -------
+    list of Partition
+        In order.
     """
     return _each_partition(rockfrag.synthesize_motions, scenarios, out, partitions, filesystem, num_cpus, options)
 
 
 def simulate(
-    motions: str | os.PathLike[str],
-    out: str | os.PathLike[str],
+    motions: PathLike,
+    out: PathLike,
     *,
-    filesystem: Any = None,
+    filesystem: pyarrow.fs.FileSystem | AbstractFileSystem | None = None,
     num_cpus: int = 1,
-    **options: Any,
-) -> list[dict[str, Any]]:
+    **options: object,
+) -> list[Partition]:
     """Simulates the response to the motions of each partition.
 
-    Args:
-        motions: Folder of the partitions that :func:`synthesize` made.
-        out: Folder of the partitions of responses.
-        filesystem: Where both are, if not in a folder that all nodes see: a filesystem of pyarrow or fsspec.
-        num_cpus: Threads of a task.
-        options: Those of :func:`rockfrag.simulate`.
+    Parameters
+    ----------
+    motions : path
+        Folder of the partitions that :func:`synthesize` made.
+    out : path
+        Folder of the partitions of responses.
+    filesystem : pyarrow.fs.FileSystem or fsspec.AbstractFileSystem, optional
+        Where both are, if not in a folder that all nodes see.
+    num_cpus : int, default 1
+        Threads of a task.
+    **options
+        Those of :func:`rockfrag.simulate`.
 
-    Returns:
-        For each partition its name, file, rows, seconds and node.
+    Returns
+    -------
+    list of Partition
+        In order.
+
+    Raises
+    ------
+    TableError
+        If the folder has no partitions.
     """
     files = _filesystem(filesystem).get_file_info(pyarrow.fs.FileSelector(os.fspath(motions)))
     partitions = sum(file.extension == "parquet" and file.base_name[0] not in "._" for file in files)
@@ -84,38 +125,41 @@ def simulate(
 
 
 def _each_partition(
-    stage: Callable[..., Any],
-    source: str | os.PathLike[str],
-    out: str | os.PathLike[str],
+    stage: Callable[..., rockfrag.Table | Path],
+    source: PathLike,
+    out: PathLike,
     partitions: int,
-    filesystem: Any,
+    filesystem: pyarrow.fs.FileSystem | AbstractFileSystem | None,
     num_cpus: int,
-    options: dict[str, Any],
-) -> list[dict[str, Any]]:
-    names = [{"partition": f"{index}/{partitions}"} for index in range(partitions)]
+    options: dict[str, object],
+) -> list[Partition]:
     source, out = os.fspath(source), os.fspath(out)
 
-    def run(row: dict[str, Any]) -> dict[str, Any]:
+    def run(row: dict[str, object]) -> dict[str, object]:
         start = time.perf_counter()
-        call = {**options, "partition": row["partition"], "threads": num_cpus}
+        index = row["index"]
+        call = {**options, "partition": (index, partitions), "threads": num_cpus}
         file = _run(stage, source, out, filesystem, call)
         with _filesystem(filesystem).open_input_file(file) as opened:
             rows = pyarrow.parquet.read_metadata(opened).num_rows
         node = ray.get_runtime_context().get_node_id()
-        return {**row, "file": file, "rows": rows, "seconds": time.perf_counter() - start, "node": node}
+        seconds = time.perf_counter() - start
+        return {"index": index, "of": partitions, "file": file, "rows": rows, "seconds": seconds, "node": node}
 
-    dataset = ray.data.from_items(names, override_num_blocks=partitions)
-    results = dataset.map(run, num_cpus=num_cpus).take_all()
-    return sorted(results, key=lambda result: int(result["partition"].split("/")[0]))
+    dataset = ray.data.from_items([{"index": index} for index in range(partitions)], override_num_blocks=partitions)
+    results = cast("list[Partition]", dataset.map(run, num_cpus=num_cpus).take_all())
+    return sorted(results, key=lambda result: result["index"])
 
 
-def _run(stage: Callable[..., Any], source: str, out: str, filesystem: Any, call: dict[str, Any]) -> str:
+def _run(stage: Callable[..., rockfrag.Table | Path], source: str, out: str, filesystem: pyarrow.fs.FileSystem | AbstractFileSystem | None, call: dict[str, object]) -> str:
     """Runs a stage on a partition, and gives the file that it wrote."""
+    index = call["partition"]
+    assert isinstance(index, tuple)
+    name = partition_file(words_of(index))
     if filesystem is None:
-        return str(stage(source, out=f"{out}/", **call))
+        return str(stage(source, out=Path(out, name), **call))
     remote = _filesystem(filesystem)
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
-        name = partition_file(call["partition"])
         # A file that is there already is fetched, so that the stage can tell whether it is up to date.
         here = Path(folder, "out", name)
         there = str(PurePosixPath(out, name))
@@ -150,7 +194,7 @@ def _send(remote: pyarrow.fs.FileSystem, file: Path, path: str) -> None:
     remote.move(partial, path)
 
 
-def _filesystem(given: Any) -> pyarrow.fs.FileSystem:
+def _filesystem(given: pyarrow.fs.FileSystem | AbstractFileSystem | None) -> pyarrow.fs.FileSystem:
     if given is None:
         return pyarrow.fs.LocalFileSystem()
     if isinstance(given, pyarrow.fs.FileSystem):

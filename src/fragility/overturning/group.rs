@@ -88,6 +88,36 @@ const REJECTED: f64 = 0.01;
 const SMALL_GAP: f64 = 0.05;
 
 impl Curve {
+    /// Fits the curve of a sample of these measures, and tests it.
+    pub fn new(
+        sample: &EventSample,
+        event: Event,
+        im_x: Measure,
+        im_y: Option<Measure>,
+        model: CurveModel,
+    ) -> Curve {
+        let fit = fit_overturning(sample, &model);
+        let needed = |bent: fn(&EventSample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
+            let straight = &fit.as_ref().ok().filter(|_| model.estimator == Estimator::Ml)?.regression;
+            Some(likelihood_ratio(straight, &bent(sample, &model).ok()?))
+        };
+        let (spline, interaction) = (needed(fit_with_spline), needed(fit_with_interaction));
+        Curve {
+            event,
+            im_x,
+            im_y,
+            n: sample.happened.len(),
+            events: sample.events(),
+            data_ranges: ranges(&sample.predictors()),
+            model,
+            fit,
+            spline,
+            interaction,
+            inference: Vec::new(),
+            replicates: Vec::new(),
+        }
+    }
+
     /// Whether there is a curve, and if not, why.
     pub fn status(&self) -> FitStatus {
         match &self.fit {
@@ -176,27 +206,7 @@ impl CurveOptions {
     fn curve(&self, cases: &[Case], im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
         let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
         let sample = EventSample::new(cases, &measures, |case| self.event.happened(case, f64::INFINITY));
-        let fit = fit_overturning(&sample, &self.model);
-        let needed = |bent: fn(&EventSample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
-            let straight = &fit.as_ref().ok().filter(|_| self.model.estimator == Estimator::Ml)?.regression;
-            Some(likelihood_ratio(straight, &bent(&sample, &self.model).ok()?))
-        };
-        let (spline, interaction) = (needed(fit_with_spline), needed(fit_with_interaction));
-        let curve = Curve {
-            event: self.event,
-            im_x,
-            im_y,
-            n: sample.happened.len(),
-            events: sample.events(),
-            data_ranges: ranges(&sample.predictors()),
-            model: self.model,
-            fit,
-            spline,
-            interaction,
-            inference: Vec::new(),
-            replicates: Vec::new(),
-        };
-        (curve, sample)
+        (Curve::new(&sample, self.event, im_x, im_y, self.model), sample)
     }
 
     /// Adds the coefficients in each resample.

@@ -33,7 +33,7 @@ use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::files::hash;
 use crate::pipeline::options::{Word, check};
-use crate::pipeline::stage::{Stage, beside, content_of_role};
+use crate::pipeline::stage::{Stage, beside, content_of_role, places};
 use crate::pipeline::terminal::Terminal;
 use crate::rocking::Structure;
 use crate::stages::fit_pex::FitPex;
@@ -315,8 +315,7 @@ impl Stage for Evaluate {
             let content = hash(hazard).with_context(|| hazard.display().to_string())?;
             inputs.insert("hazard".to_string(), content);
         }
-        let places = sources.into_iter().map(|(role, source)| (role.to_string(), source.name().into()));
-        Ok(Provenance::new(Self::NAME, self.parameters(), inputs).of_sources(places.collect()))
+        Ok(Provenance::new(Self::NAME, self.parameters(), inputs).of_sources(places(&sources)))
     }
 
     fn show(&self, _terminal: &Terminal) -> anyhow::Result<String> {

@@ -2,13 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use parquet::arrow::ArrowWriter;
 use serde_json::Value;
 
+use super::fingerprint::Fingerprint;
 use super::folder;
 use super::footer::{Footer, of_file};
 use super::partition::PARAMETER;
 use super::provenance::{Provenance, Recorded, recorded_in_file};
-use super::source::Source;
+use super::source::{MemoryTable, Source};
 use crate::table::TableError;
 
 /// Reads only the end of a Parquet file, or of each in a folder.
@@ -47,11 +49,10 @@ pub fn recorded(path: &Path) -> Result<Option<Recorded>, TableError> {
 }
 
 /// The fingerprint of what an input holds: as recorded by rockfrag, or the hash of its bytes if another program wrote
-/// it.
+/// it. A table in memory with the columns of one of our files has that of the file.
 ///
 /// # Errors
-/// As [`recorded`], or if a file is unreadable; or if the table is in memory, so that no file could say of
-/// itself what it was made from.
+/// As [`recorded`], or if a file is unreadable, or a table holds what Parquet does not.
 pub fn content_of(source: impl Into<Source>) -> Result<String, TableError> {
     match source.into() {
         Source::Path(path) => {
@@ -63,8 +64,25 @@ pub fn content_of(source: impl Into<Source>) -> Result<String, TableError> {
                 Ok(contents.concat())
             }
         }
-        Source::Memory(table) => Err(TableError::InMemory { name: table.name.clone() }),
+        Source::Memory(table) => content_of_table(&table),
     }
+}
+
+fn content_of_table(table: &MemoryTable) -> Result<String, TableError> {
+    if table.schema.fields().iter().all(|field| Fingerprint::knows(field.data_type())) {
+        let mut fingerprint = Fingerprint::new(table.schema.clone());
+        table.batches.iter().for_each(|batch| fingerprint.update(batch));
+        return Ok(fingerprint.finish());
+    }
+    let mut hasher = blake3::Hasher::new();
+    let encode = |hasher: &mut blake3::Hasher| {
+        let mut writer = ArrowWriter::try_new(hasher, table.schema.clone(), None)?;
+        table.batches.iter().try_for_each(|batch| writer.write(batch))?;
+        writer.close()
+    };
+    encode(&mut hasher)
+        .map_err(|error| TableError::Read { path: table.name.clone(), message: error.to_string() })?;
+    Ok(format!("bytes:{}", hasher.finalize().to_hex()))
 }
 
 fn hash_of_all<'a>(contents: impl Iterator<Item = &'a str>) -> String {

@@ -19,6 +19,15 @@ impl Fingerprint {
         Fingerprint { schema, columns, rows: 0 }
     }
 
+    /// Whether a column of this type can be hashed: those of our files can.
+    pub fn knows(kind: &DataType) -> bool {
+        match kind {
+            DataType::Int64 | DataType::Int32 | DataType::Float64 | DataType::Utf8 => true,
+            DataType::List(samples) => *samples.data_type() == DataType::Float32,
+            _ => false,
+        }
+    }
+
     /// Adds the rows of a batch of this schema.
     pub fn update(&mut self, batch: &RecordBatch) {
         self.rows += batch.num_rows() as u64;

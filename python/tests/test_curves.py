@@ -1,0 +1,193 @@
+"""Curves of plain arrays are those of the stages, of statsmodels and of pyFragility."""
+
+import pathlib
+
+import matplotlib
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import rockfrag
+from rockfrag import FitError, OptionError, RockfragWarning, fit_demand, fit_failure, fit_fragility
+
+sm = pytest.importorskip("statsmodels.api")
+FORTY = rockfrag.datasets.load_outcomes()
+IM, OVERTURNED, EDP = FORTY["pgv_m_s"], FORTY["overturned"], FORTY["edp"]
+GRID = np.array([0.3, 0.7, 1.0, 1.5])
+
+pytestmark = pytest.mark.filterwarnings("ignore:few events:rockfrag.RockfragWarning")
+
+
+def design(im):
+    return np.column_stack([np.ones(len(im)), np.log(im)])
+
+
+@pytest.mark.parametrize("link", ["probit", "logit"])
+def test_statsmodels_discrete_models(link):
+    curve = fit_fragility(IM, OVERTURNED, link=link)
+    model = {"probit": sm.Probit, "logit": sm.Logit}[link]
+    theirs = model(OVERTURNED.astype(float), design(IM)).fit(disp=False, tol=1e-12)
+    for name in ["params", "bse", "llf", "aic", "bic", "nobs"]:
+        assert np.allclose(getattr(curve, name), getattr(theirs, name), rtol=1e-6), name
+    assert np.allclose(curve.cov_params(), theirs.cov_params(), rtol=1e-6)
+    assert np.allclose(curve.conf_int(), theirs.conf_int(), rtol=1e-6)
+    assert np.allclose(curve.conf_int(alpha=0.2), theirs.conf_int(alpha=0.2), rtol=1e-6)
+    assert np.allclose(curve.probability(GRID), theirs.predict(design(GRID)), rtol=1e-6)
+    index = theirs.get_prediction(design(GRID), which="linear")
+    assert np.allclose(curve.confidence_band(GRID), theirs.model.cdf(index.conf_int().T), rtol=1e-6)
+
+
+def test_statsmodels_cloglog():
+    curve = fit_fragility(IM, OVERTURNED, link="cloglog")
+    family = sm.families.Binomial(sm.families.links.CLogLog())
+    theirs = sm.GLM(OVERTURNED.astype(float), design(IM), family=family).fit(tol=1e-12)
+    assert np.allclose(curve.params, theirs.params, rtol=1e-5)
+    assert np.isclose(curve.llf, theirs.llf)
+    assert np.isclose(curve.probability(curve.median), 0.5)
+
+
+def test_statsmodels_clusters():
+    cluster = np.arange(40) // 4
+    curve = fit_fragility(IM, OVERTURNED, cluster=[f"station {label}" for label in cluster])
+    model = sm.Probit(OVERTURNED.astype(float), design(IM))
+    theirs = model.fit(disp=False, tol=1e-12, cov_type="cluster", cov_kwds={"groups": cluster})
+    assert np.allclose(curve.bse, theirs.bse, rtol=1e-6)
+
+
+def test_statsmodels_demand():
+    curve = fit_demand(IM, EDP, limit_state=0.1)
+    seen = ~OVERTURNED
+    theirs = sm.OLS(np.log(EDP[seen]), design(IM[seen])).fit()
+    for name in ["params", "bse", "rsquared", "nobs", "df_resid"]:
+        assert np.allclose(getattr(curve, name), getattr(theirs, name)), name
+    assert np.allclose(curve.conf_int(), theirs.conf_int())
+    assert np.isclose(curve.dispersion, theirs.scale**0.5)
+    assert np.isclose(curve.probability(curve.median), 0.5)
+
+
+def test_pyfragility():
+    pf = pytest.importorskip("pyFragility")
+    curve = fit_fragility(IM, OVERTURNED)
+    theirs = pf.fit_field_data(IM, OVERTURNED)
+    assert curve.param_names == ("intercept", "ln(im)") == theirs.param_names
+    assert np.allclose(curve.probability(GRID), theirs.probability(GRID), rtol=1e-5)
+    band = theirs.confidence_band(GRID, 0.9, "mle")
+    assert np.allclose(curve.confidence_band(GRID, 0.9), band, rtol=1e-5)
+    lognormal = theirs.lognormal_parameters("mle")
+    assert np.allclose([curve.theta, curve.beta], [lognormal.theta, lognormal.beta], rtol=1e-5)
+    profiled = pf.fit_binomial(IM, OVERTURNED.astype(float), np.ones(40), parametrization="lognormal")
+    for name in ["theta", "beta"]:
+        assert np.allclose(curve.profile_interval(name), profiled.profile_interval(name), rtol=1e-3), name
+
+
+def test_the_same_task_in_each_package_on_the_page():
+    """docs/python.md: forty outcomes, a curve, its limits and a plot."""
+    matplotlib.use("Agg")
+    pytest.importorskip("pyFragility")
+    page = (pathlib.Path(__file__).parents[2] / "docs/python.md").read_text()
+    names, limits = {}, []
+    for block in page.split("```python\n")[1:4]:
+        exec(block.split("```")[0], names)
+        limits.append([names["low"], names["high"]])
+        assert names["axes"].lines and names["axes"].has_data()
+    assert np.allclose(limits[1:], limits[0], rtol=1e-5)
+    matplotlib.pyplot.close("all")
+
+
+@pytest.fixture(scope="module")
+def responses(out):
+    table = pq.read_table(out / "responses.parquet").to_pandas()
+    return table[(table.suite == "csgm") & (table.structure == "electrical-equipment") & (table.outcome != "no_rocking")]
+
+
+def test_the_stages(out, responses):
+    overturned = responses.outcome == "overturning"
+    curve = fit_fragility(responses.im5, overturned)
+    demand = fit_demand(responses.im5, responses.edp, limit_state=0.1)
+    of = lambda fits: fits[(fits.suite == "csgm") & (fits.structure == "electrical-equipment") & (fits.im_x == "im5")].iloc[0]
+    pro, pex = of(pq.read_table(out / "pro.parquet").to_pandas()), of(pq.read_table(out / "pex.parquet").to_pandas())
+    assert (curve.theta, curve.beta, curve.llf, curve.status) == (pro.theta, pro.beta, pro.log_likelihood, pro.status)
+    assert (demand.params[0], demand.params[1], demand.dispersion) == (pex.ln_a, pex.b1, pex.beta)
+    assert np.isclose(demand.beta, pex.zeta)
+    hybrid = fit_fragility(np.column_stack([responses.im4, 1 / responses.im3]), overturned)
+    row = pq.read_table(out / "pro.parquet").to_pandas().query(
+        "suite == 'csgm' and structure == 'electrical-equipment' and im_y == 'im3_inv'"
+    )
+    assert np.isclose(hybrid.exponent, row["lambda"].item()) and np.isclose(hybrid.theta, row.theta.item())
+    with pytest.raises(OptionError, match="no single axis"):
+        hybrid.plot()
+
+
+def test_failure_is_that_of_evaluate(out, responses, recwarn):
+    curve = fit_failure(responses.im5, responses.edp, responses.outcome == "overturning", limit_state=0.1)
+    fits = {"suite": "csgm", "structure": "electrical-equipment", "model": "univariate", "measure": "im5"}
+    intensities = {"pga_m_s2": np.array([4.0, 6.0, 9.0]), "pgv_m_s": np.array([0.3, 0.6, 0.9])}
+    answers = rockfrag.evaluate(out / "pex.parquet", out / "pro.parquet", pa.table(intensities), **fits, p=2.5, alpha=0.2)
+    im5 = 2.5 * intensities["pgv_m_s"] / (9.81 * np.tan(0.2))
+    assert np.allclose(curve.probability(im5), answers["p_f"])
+    assert np.allclose(curve.confidence_band(im5), [answers["p_f_r_low"], answers["p_f_r_high"]])
+
+
+def test_separated_outcomes_have_a_curve_with_firth_only():
+    im, happened = np.geomspace(0.1, 10.0, 40), np.arange(40) >= 20
+    with pytest.raises(FitError, match="estimator='firth'") as caught:
+        fit_fragility(im, happened)
+    assert caught.value.status == "separated" and isinstance(caught.value, ValueError)
+    curve = fit_fragility(im, happened, estimator="firth")
+    assert 0.9 < curve.median < 1.1
+    low, high = curve.confidence_band(curve.median)
+    assert low < 0.5 < high
+
+
+def test_doubts_are_warnings():
+    with pytest.warns(RockfragWarning, match="falls as the measure grows"):
+        curve = fit_fragility(1.0 / IM, OVERTURNED)
+    assert curve.status == "falling" and any("falls" in doubt for doubt in curve.doubts)
+
+
+def test_lists_scalars_and_shapes():
+    curve = fit_fragility(IM.tolist(), OVERTURNED.astype(int).tolist())
+    assert curve == fit_fragility(IM, OVERTURNED) and curve != fit_fragility(IM, OVERTURNED, link="logit")
+    assert curve == fit_fragility(IM[:, None], OVERTURNED)
+    assert isinstance(curve.probability(1.0), float)
+    assert curve.probability(GRID.reshape(2, 2)).shape == (2, 2)
+    low, high = curve.limits(GRID, level=0.5)
+    assert (low < curve.probability(GRID)).all() and (curve.probability(GRID) < high).all()
+
+
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda: fit_fragility(IM, OVERTURNED[:39]), r"\(40,\), outcome \(39,\)"),
+        (lambda: fit_fragility(np.ones((40, 3)), OVERTURNED), r"expected two measures"),
+        (lambda: fit_fragility(3.0, True), r"expected \(n,\)"),
+        (lambda: fit_fragility(IM, OVERTURNED * 2), "case 1 is"),
+        (lambda: fit_fragility(IM - 1.0, OVERTURNED), "case 0 is .* above 0"),
+        (lambda: fit_fragility(IM, OVERTURNED, link="cauchit"), "cauchit"),
+        (lambda: fit_fragility(IM, OVERTURNED, cluster=[1, 2]), "label for each of 40"),
+        (lambda: fit_fragility(IM, OVERTURNED).confidence_band(1.0, level=95), "level is 95"),
+        (lambda: fit_fragility(IM, OVERTURNED).profile_interval("gamma"), "gamma"),
+        (lambda: fit_demand(IM, EDP, limit_state=-1.0), "limit_state is -1"),
+    ],
+)
+def test_what_cannot_be_says_so(call, message):
+    with pytest.raises(OptionError, match=message):
+        call()
+
+
+def test_plots_and_summaries():
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    for curve in [
+        fit_fragility(IM, OVERTURNED, im_name="PGV, m/s"),
+        fit_demand(IM, EDP, limit_state=0.1),
+        fit_failure(IM, EDP, OVERTURNED, limit_state=0.1),
+    ]:
+        figure, axis = plt.subplots()
+        assert curve.plot(axis) is axis
+        assert len(axis.lines) == 2 and len(axis.collections) == 1
+        plt.close(figure)
+        assert type(curve).__name__ in repr(curve)
+        assert "<table>" in curve._repr_html_()
+        assert str(curve.summary()).count("\n") >= 2
