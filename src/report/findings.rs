@@ -10,12 +10,11 @@ use crate::studies::wilson_limits;
 
 /// The most rows on the first page; the table of curves has all.
 const MOST_ROWS: usize = 8;
-/// The most warnings of a file there; the others are folded.
-const MOST_WARNINGS: usize = 6;
 /// The most structures whose parameters are told one by one.
 const MOST_STRUCTURES: usize = 4;
-/// The order in which the warnings of stages matter to a reader.
-const BY_WEIGHT: [&str; 4] = ["evaluate", "validate", "fit-pro", "fit-pex"];
+/// Stages in the order in which their warnings matter to a reader, and how many are told on the first page; the others are folded.
+const BY_WEIGHT: [(&str, usize); 4] = [("evaluate", 6), ("validate", 4), ("fit-pro", 3), ("fit-pex", 0)];
+const MOST_WARNINGS: usize = 2;
 
 /// Writes the section.
 pub fn findings(html: &mut String, data: &ReportData) {
@@ -26,13 +25,13 @@ pub fn findings(html: &mut String, data: &ReportData) {
     for rates in &data.rates {
         at_site(html, rates);
     }
-    html.push_str("<h3>How sure this is</h3>\n");
-    doubts(html, data);
     let _ = writeln!(
         html,
-        "<h3>By what method</h3>\n<p>Each motion is computed or recorded, the rocking of each structure in it is integrated, and curves are fitted to how it ended, as in Dimitrakopoulos &amp; Paraskeva (2015). <a href=\"#method\">Method, symbols and references</a> say more. {}</p>\n</section>",
+        "<h3>By what method</h3>\n<p>Each motion is computed or recorded, the rocking of each structure in it is integrated, and curves are fitted to how it ended, as in Dimitrakopoulos &amp; Paraskeva (2015). <a href=\"#method\">Method, symbols and references</a> say more. {}</p>\n<h3>How sure this is</h3>",
         escape(&data.made())
     );
+    doubts(html, data);
+    html.push_str("</section>\n");
 }
 
 fn asked(data: &ReportData) -> String {
@@ -123,15 +122,21 @@ fn came_out(html: &mut String, data: &ReportData) {
         cells.extend([median, status]);
         cells
     };
-    let shown = &data.summaries[..data.summaries.len().min(MOST_ROWS)];
-    answers(html, "What came out", &heads, shown.iter().map(row));
-    let more = data.summaries.len() - shown.len();
-    if more > 0 {
+    let mut rows: Vec<&Summary> = data.summaries.iter().collect();
+    if rows.len() > MOST_ROWS {
+        let share = |summary: &Summary| summary.overturned as f64 / summary.rocked.max(1) as f64;
+        rows.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    }
+    let (first, others) = rows.split_at(rows.len().min(MOST_ROWS));
+    answers(html, "What came out", &heads, first.iter().map(|summary| row(summary)));
+    if !others.is_empty() {
         let _ = writeln!(
             html,
-            "<p>{} further pairs of structure and motions are in <a href=\"#figure-medians\">the figure of all</a> and in the tables.</p>",
-            number::count(more)
+            "<details><summary>{} further pairs of structure and motions, of which fewer overturn</summary>",
+            number::count(others.len())
         );
+        answers(html, "What came out, further", &heads, others.iter().map(|summary| row(summary)));
+        html.push_str("</details>\n");
     }
     html.push_str("<p>Shares are of those that rock. The velocity is where the curve over p PGV/(g tan α) gives one half; how likely it is at another intensity is in <a href=\"#curves\">the curves</a> and the <a href=\"#calculator\">calculator</a>.</p>\n");
 }
@@ -183,7 +188,7 @@ fn doubts(html: &mut String, data: &ReportData) {
     let own = own_doubts(data);
     let weight = |file: &&File| {
         let stage = file.stage.as_deref().unwrap_or_default();
-        BY_WEIGHT.iter().position(|other| *other == stage).unwrap_or(BY_WEIGHT.len())
+        BY_WEIGHT.iter().position(|(other, _)| *other == stage).unwrap_or(BY_WEIGHT.len())
     };
     let mut files: Vec<&File> = data.files.iter().filter(|file| !file.warnings.is_empty()).collect();
     files.sort_by_key(weight);
@@ -195,18 +200,21 @@ fn doubts(html: &mut String, data: &ReportData) {
     for doubt in own {
         let _ = writeln!(html, "<li>{}</li>", escape(&doubt));
     }
-    for File { name, stage, warnings, .. } in files {
+    for file in files {
+        let File { name, stage, warnings, .. } = file;
+        let most = BY_WEIGHT.get(weight(&file)).map_or(MOST_WARNINGS, |(_, most)| *most);
         let stage = escape(stage.as_deref().unwrap_or(name));
         let line = |html: &mut String, warning: &String| {
             let _ = writeln!(html, "<li><code>{stage}</code>: {}</li>", escape(warning));
         };
-        let (first, others) = warnings.split_at(warnings.len().min(MOST_WARNINGS));
+        let (first, others) = warnings.split_at(warnings.len().min(most));
         first.iter().for_each(|warning| line(html, warning));
         if !others.is_empty() {
             let _ = writeln!(
                 html,
-                "<li><details><summary>{} more warnings of <code>{stage}</code></summary><ul>",
-                number::count(others.len())
+                "<li><details><summary>{} {} of <code>{stage}</code></summary><ul>",
+                number::count(others.len()),
+                if first.is_empty() { "warnings" } else { "more warnings" }
             );
             others.iter().for_each(|warning| line(html, warning));
             html.push_str("</ul></details></li>\n");

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::fragility::{DemandLaw, DemandModel, Measure, Peak, Predictor};
 use crate::keyword::Keyword;
 use crate::motion::intensity::velocity;
-use crate::report::axis::Axis;
+use crate::report::axis::{Axis, range};
 use crate::report::data::{Group, Model, Motion, Planes, ReportData, Trace};
 use crate::report::drawing::Ink;
 use crate::report::figure::{Envelope, Figure, envelope};
@@ -44,13 +44,31 @@ fn figure(of: &Figure) -> Value {
 
 fn panel(Plotted { title, corner, size, axes, series }: &Plotted) -> Value {
     let axis = |axis: &Axis| json!({ "is": axis.label.words(), "log": axis.is_log(), "low": axis.low, "high": axis.high, "names": axis.names });
-    let of_series = |Series { name, further, values }: &Series| {
-        // Seven digits are enough to be read.
-        let bytes: Vec<u8> = values.iter().flat_map(|value| (*value as f32).to_le_bytes()).collect();
-        json!({ "name": name, "further": further, "values": BASE64_STANDARD.encode(&bytes) })
+    let of_series = |of: &Series| match of.further {
+        [] => cloud(of, axes),
+        further => {
+            // Seven digits are enough to be read.
+            let bytes: Vec<u8> = of.values.iter().flat_map(|value| (*value as f32).to_le_bytes()).collect();
+            json!({ "name": of.name, "further": further, "values": BASE64_STANDARD.encode(&bytes) })
+        }
     };
     json!({ "title": title.words(), "corner": corner, "size": size, "x": axis(&axes[0]), "y": axis(&axes[1]),
         "series": series.iter().map(of_series).collect::<Vec<_>>() })
+}
+
+/// Points without anything besides, of which there may be many: sixteen bits a coordinate, from end to end of their own.
+fn cloud(of: &Series, axes: &[Axis; 2]) -> Value {
+    let scaled =
+        |point: &[f64]| [0, 1].map(|axis| if axes[axis].is_log() { point[axis].ln() } else { point[axis] });
+    let finite = |point: &[f64; 2]| point.iter().all(|part| part.is_finite());
+    let points: Vec<[f64; 2]> = of.points().map(scaled).filter(finite).collect();
+    let ends = [0, 1].map(|axis| range(points.iter().map(|point| point[axis])));
+    let part = |(value, [low, high]): (&f64, &[f64; 2])| {
+        let share = (value - low) / (high - low).max(f64::MIN_POSITIVE);
+        ((share * f64::from(u16::MAX)).round() as u16).to_le_bytes()
+    };
+    let bytes: Vec<u8> = points.iter().flat_map(|point| point.iter().zip(&ends).flat_map(part)).collect();
+    json!({ "name": of.name, "further": [], "ends": ends, "values": BASE64_STANDARD.encode(&bytes) })
 }
 
 fn bound(Bound { parameter, range, expected, slip }: Bound) -> Value {

@@ -203,14 +203,14 @@ pub mod number {
         format!("{} ({} to {})", readable(value, digits), readable(low, digits), readable(high, digits))
     }
 
-    /// Writes a share of a count: `12 (34 %)`.
+    /// Writes a share of a count: `12 (34 %)`, in which no line breaks before the sign.
     pub fn share(of: usize, all: usize) -> String {
         if all == 0 {
             return count(of);
         }
         let percent = 100.0 * of as f64 / all as f64;
         let decimals = if percent > 0.0 && percent < 9.95 { 1 } else { 0 };
-        format!("{} ({} %)", count(of), fixed(percent, decimals))
+        format!("{} ({}\u{a0}%)", count(of), fixed(percent, decimals))
     }
 
     /// Writes a count, its thousands apart.

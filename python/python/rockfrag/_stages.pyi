@@ -185,7 +185,11 @@ def rank_ims(
 
 def report(
     files: TableLike,
+    rates: TableLike | None = None,
     *,
+    title: str | None = None,
+    author: str | None = None,
+    date: str | None = None,
     suite: str | None = None,
     structure: str | None = None,
     groups: int = 4,

@@ -5,11 +5,20 @@
     const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
     return new Float32Array(bytes.buffer);
   };
+  /** Points of sixteen bits a coordinate, between ends that are logarithms where the axis has them. */
+  const cloud = (axes, ends, text) => {
+    const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+    return Float32Array.from(new Uint16Array(bytes.buffer), (part, k) => {
+      const [low, high] = ends[k % 2];
+      const value = low + (part / 65535) * (high - low);
+      return axes[k % 2].log ? Math.exp(value) : value;
+    });
+  };
   const digits = (value, count) => (Number.isFinite(value) ? String(Number(value.toPrecision(count))) : "");
 
   /** All points of a panel: their series, values in the order x, y and further ones. */
-  const points = ({ series }) => series.flatMap(({ name, further, values }) => {
-    const [all, width] = [numbers(values), 2 + further.length];
+  const points = ({ x, y, series }) => series.flatMap(({ name, further, values, ends }) => {
+    const [all, width] = [ends ? cloud([x, y], ends, values) : numbers(values), 2 + further.length];
     return Array.from({ length: all.length / width }, (_, k) => ({ name, further, at: all.subarray(k * width, (k + 1) * width) }));
   });
   const place = ({ names }, value, count) => names[Math.round(value)] ?? digits(value, count);
@@ -20,7 +29,7 @@
     for (const panel of panels) {
       for (const { name, further, at } of points(panel)) {
         const rest = ["low", "high", "n"].map((head) => (further.includes(head) ? digits(at[2 + further.indexOf(head)], 7) : ""));
-        rows.push([panel.title, name, panel.x.is, place(panel.x, at[0], 7), panel.y.is, place(panel.y, at[1], 7), ...rest]);
+        rows.push([panel.title, name, panel.x.is, place(panel.x, at[0], further.length ? 7 : 4), panel.y.is, place(panel.y, at[1], further.length ? 7 : 4), ...rest]);
       }
     }
     return `${rows.map((row) => row.map(quoted).join(",")).join("\n")}\n`;

@@ -17,8 +17,10 @@ use crate::studies::wilson_limits;
 
 /// Number of points of a curve.
 const STEPS: usize = 160;
-/// Number of bins of the data.
+/// The most bins of the data, the fewest, and how many cases there should be for each.
 const BINS: usize = 14;
+const FEWEST_BINS: usize = 4;
+const CASES: usize = 8;
 /// Radii of the dots of the emptiest and of the fullest bin, points.
 const RADII: [f64; 2] = [0.9, 3.6];
 /// How far beyond the data a curve is drawn at most, as a ratio, and where it counts as at its end.
@@ -252,9 +254,10 @@ fn end_of_curve(largest: f64, at: impl Fn(f64) -> Option<Probability>) -> (f64, 
 /// Puts cases into bins of equal ratio of the measure.
 fn bins(cases: &[(f64, bool, Option<f64>)], [low, high]: [f64; 2]) -> Vec<Bin> {
     let ratio = (high / low).ln().max(f64::MIN_POSITIVE);
-    let place = |value: f64| (((value / low).ln() / ratio * BINS as f64) as usize).min(BINS - 1);
+    let count = (cases.len() / CASES).clamp(FEWEST_BINS, BINS);
+    let place = |value: f64| (((value / low).ln() / ratio * count as f64) as usize).min(count - 1);
     let members: Vec<Vec<&(f64, bool, Option<f64>)>> =
-        (0..BINS).map(|bin| cases.iter().filter(|(value, ..)| place(*value) == bin).collect()).collect();
+        (0..count).map(|bin| cases.iter().filter(|(value, ..)| place(*value) == bin).collect()).collect();
     let most = members.iter().map(Vec::len).max().unwrap_or(1).max(1) as f64;
     let bin = |inside: &Vec<&(f64, bool, Option<f64>)>| {
         let (n, events) = (inside.len(), inside.iter().filter(|(_, event, _)| *event).count());

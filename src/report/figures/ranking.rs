@@ -21,7 +21,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         title: "Other measures beside those of the paper".to_string(),
         caption: "Gain in log score on held-out cases over the model of Dimitrakopoulos & Paraskeva (2015), with 95 % limits: to the right of the line a set of measures predicts better. Drawn are the best of one, two and three measures and the steps of forward selection; all others are in the table.".to_string(),
         made: String::new(),
-        drawing: dots::draw(&panels, 1),
+        drawing: dots::draw(&panels, panels.len().min(2)),
     }]
 }
 

@@ -1,7 +1,7 @@
 //! A figure of our own: annual rates of the limit states at a site.
 
 use super::dots::{self, Dots};
-use crate::report::axis::Axis;
+use crate::report::axis::{Axis, range};
 use crate::report::data::{Rates, ReportData};
 use crate::report::drawing::Ink;
 use crate::report::figure::Figure;
@@ -12,8 +12,11 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
     if data.rates.is_empty() {
         return Vec::new();
     }
-    let ends = data.rates.iter().flat_map(|rates| &rates.states).flat_map(|state| state.annual_rate);
-    let x = Axis::log_over(ends.flat_map(|rate| [rate / 1.3, 1.3 * rate]), Label::plain("annual rate"));
+    let rates = data.rates.iter().flat_map(|rates| &rates.states).flat_map(|state| state.annual_rate);
+    let [least, largest] = range(rates.filter(|rate| *rate > 0.0));
+    let decade = |power: f64| 10_f64.powf(power);
+    let ends = [decade(least.log10().floor()), decade(largest.log10().ceil())];
+    let x = Axis::log(ends, Label::plain("annual rate"));
     let panel = |rates: &Rates| Dots {
         title: Label::plain(rates.name.as_str()),
         x: x.clone(),

@@ -283,7 +283,13 @@ impl Declare for Report {
         else {
             return Err(UsageError::because("report writes a page; expected the name of a file"));
         };
-        let rates = files.optional(RATES).map(|rates| rates.name().to_path_buf());
+        let rates = match files.optional(RATES) {
+            Some(Source::Memory(_)) => {
+                return Err(UsageError::because("rates: a table in memory; expected a file of evaluate"));
+            }
+            Some(Source::Path(rates)) => Some(rates),
+            None => None,
+        };
         Report::new(options, folder, rates, out)
     }
 }

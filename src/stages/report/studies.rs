@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::keyword::Keyword;
 use crate::report::data::{Analysis, Level, Ranking, Rates, StateRate, Validated, name_of};
-use crate::studies::Verdict;
+use crate::studies::{Target, Verdict};
 use crate::table::evaluated::AnnualRate;
 use crate::table::ida::{Lognormal, Share};
 use crate::table::ranking::RankingRow;
@@ -26,24 +26,33 @@ pub fn rates(path: &Path) -> anyhow::Result<Vec<Rates>> {
     folder::files(path)?.iter().map(|file| rates_of(file)).collect()
 }
 
+/// Parameters of a structure, with what stands before and after each.
+const OF_STRUCTURE: [(&str, &str, &str); 6] = [
+    ("name", "", ""),
+    ("p", "p = ", " rad/s"),
+    ("alpha", "α = ", " rad"),
+    ("width", "", " m wide"),
+    ("height", "", " m high"),
+    ("eta", "η = ", ""),
+];
+
 fn rates_of(file: &Path) -> anyhow::Result<Rates> {
     let rows = AnnualRate::read(file)?;
     let parameters = recorded(file)?.map_or(Value::Null, |recorded| recorded.provenance.parameters);
-    let words = |of: &Value, names: &[&str]| {
-        let given = names.iter().filter_map(|name| {
-            let value = of.get(name).filter(|value| !value.is_null())?;
-            let value = value.as_str().map_or(value.to_string(), str::to_string);
-            Some(if *name == "name" { value } else { format!("{name} {value}") })
+    let words = |of: &Value, parts: &[(&str, &str, &str)]| {
+        let given = parts.iter().filter_map(|(key, before, after)| {
+            let value = of.get(key).filter(|value| !value.is_null())?;
+            Some(format!("{before}{}{after}", value.as_str().map_or(value.to_string(), str::to_string)))
         });
         given.collect::<Vec<_>>().join(", ")
     };
-    let structure = words(&parameters["structure"], &["name", "p", "alpha", "width", "height", "eta"]);
+    let structure = words(&parameters["structure"], &OF_STRUCTURE);
     let fits = match parameters.get("fits") {
-        Some(fits) => words(fits, &["structure", "suite"]),
-        None => words(&parameters, &["model", "suite"]),
+        Some(fits) => words(fits, &[("structure", "fits of ", ""), ("suite", "", "")]),
+        None => words(&parameters, &[("model", "the ", " surface"), ("suite", "", "")]),
     };
     let state = |row: &AnnualRate| StateRate {
-        words: format!("{} {}", row.state.as_str(), row.meaning),
+        words: format!("{} {}", row.state.as_str(), row.meaning.replace("|theta|max / alpha", "|θ|max/α")),
         annual_rate: [row.annual_rate, row.annual_rate_low, row.annual_rate_high],
         probability: [row.p, row.p_low, row.p_high],
     };
@@ -100,8 +109,14 @@ pub fn rankings(path: &Path) -> anyhow::Result<Vec<Ranking>> {
         let (Some(choice), Some(gain), Some(error)) = (&row.choice, row.over_paper, row.se_over_paper) else {
             continue;
         };
+        if row.terms == 0 {
+            continue;
+        }
         let name = name_of(&row.structure, row.suite.as_deref());
-        let name = format!("{name}: {}", row.target.as_str());
+        let name = match row.target {
+            Target::Demand => format!("{name}: demand"),
+            Target::Overturning => format!("{name}: overturning"),
+        };
         let candidate = (format!("{} ({choice})", row.measures), gain, error);
         match rankings.iter_mut().find(|ranking| ranking.name == name) {
             Some(ranking) => ranking.candidates.push(candidate),
