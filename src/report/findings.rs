@@ -96,7 +96,7 @@ fn came_out(html: &mut String, data: &ReportData) {
     let above = data.limit.map(|limit| format!("reach {} α or overturn", number::plain(limit)));
     let mut heads = vec!["structure", "motions", "number", "rock"];
     heads.extend(above.as_deref());
-    heads.extend(["overturn", "95 % limits", "half overturn at PGV (m/s)", "its curve"]);
+    heads.extend(["overturn", "its 95 % limits", "half overturn at PGV (m/s)", "its curve"]);
     let row = |summary: &Summary| {
         let Summary { suite, structure, n, rocked, overturned, exceeded, curve } = summary;
         let mut cells = vec![

@@ -69,7 +69,8 @@ pub struct Page<'a> {
 
 /// Writes the page.
 pub fn page(data: &ReportData, Page { figures, folder, provenance }: Page) -> String {
-    let title = escape(data.title.as_deref().unwrap_or(TITLE));
+    let given = data.title.as_deref().filter(|title| !title.trim().is_empty());
+    let title = escape(given.unwrap_or(TITLE));
     let mut html = String::with_capacity(1 << 20);
     html.push_str("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
     // Read back by the stage: it must stay near the start.

@@ -65,11 +65,10 @@ fn over_one(data: &ReportData, measure: Measure, name: &str) -> Option<Figure> {
 fn over_hybrids(name: &str, hybrids: &[(&Group, Curve)]) -> Option<Figure> {
     let exponents = hybrids.iter().map(|(group, Curve { index, .. })| {
         let [_, b1, b2] = index.coefficients;
-        let measures = index.measures().map(Keyword::as_str).collect::<Vec<_>>().join(", ");
-        format!("{}: {measures}, λ = {}", group.name(), number::short(b1 / b2))
+        format!("{} {}", group.name(), number::short(b1 / b2))
     });
     let words = format!(
-        "the hybrid measure x^(λ/(1+λ)) y^(1/(1+λ)) of Eq. 23 ({}), with limits at the median y of the data",
+        "the hybrid measure x^(λ/(1+λ)) y^(1/(1+λ)) of Eq. 23, with limits at the median y (λ: {})",
         exponents.collect::<Vec<_>>().join("; ")
     );
     let curves: Vec<_> = hybrids.iter().map(|(group, curve)| (*group, Some(*curve))).collect();
@@ -137,7 +136,7 @@ fn figure(
         name: name.to_string(),
         title: title.to_string(),
         caption: format!(
-            "Probability of overturning given rocking over {measure}. Dots are the shares of overturning in bins, larger where they hold more motions, with their own 95 % limits (Wilson); the band is that of the curve alone, so that dots of few motions lie outside of it. {off}. Beyond the data a curve goes on until it ends, or it says where it is at {} times the largest measure.{left_out} {}",
+            "Probability of overturning given rocking over {measure}. Dots are shares in bins, larger where they hold more motions, with their own 95 % limits (Wilson); the band is that of the curve alone, and dots of few motions lie outside of it. {off}. Beyond the data a curve goes on until it ends, or says where it is at {} times the largest measure.{left_out} {}",
             number::plain(FURTHEST),
             super::of_paper(of_paper)
         ),

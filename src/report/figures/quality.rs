@@ -15,13 +15,14 @@ const MOST_ZETA: f64 = 5.0;
 /// A measure of quality.
 struct Quality {
     title: &'static str,
+    symbol: &'static str,
     of: fn(&Regression) -> Option<f64>,
 }
 
 const QUALITIES: [Quality; 3] = [
-    Quality { title: "*R*^{2}, more is better", of: |regression| Some(regression.r2) },
-    Quality { title: "*β*, less is better", of: |regression| Some(regression.law.beta) },
-    Quality { title: "*ζ* = *β* / *b*, less is better", of: zeta },
+    Quality { title: "more is better", symbol: "*R*^{2}", of: |regression| Some(regression.r2) },
+    Quality { title: "less is better", symbol: "*β*", of: |regression| Some(regression.law.beta) },
+    Quality { title: "less is better", symbol: "*ζ* = *β* / *b*", of: zeta },
 ];
 
 fn zeta(regression: &Regression) -> Option<f64> {
@@ -38,7 +39,7 @@ fn figure(group: &Group) -> Figure {
     let names: Vec<String> = (1..=Measure::SCALAR.len()).map(|k| format!("IM{k}")).collect();
     let panels: Vec<Dots> = QUALITIES
         .iter()
-        .map(|Quality { title, of }| {
+        .map(|Quality { title, symbol, of }| {
             let values: Vec<(usize, f64)> = Measure::SCALAR
                 .iter()
                 .enumerate()
@@ -56,8 +57,8 @@ fn figure(group: &Group) -> Figure {
                 radius: 2.2,
             };
             Dots {
-                title: Label::marked(title),
-                x: Axis::linear([0.0, end], Label::default()),
+                title: Label::plain(*title),
+                x: Axis::linear([0.0, end], Label::marked(symbol)),
                 names: names.clone(),
                 series: vec![("regression", Ink::Data(0), values.into_iter().map(point).collect())],
                 mark: None,
