@@ -129,7 +129,10 @@ def check_hover():
             const [x, y] = [box.left + (k % 50) / 50 * box.width, box.top + Math.floor(k / 50) / 50 * box.height];
             arguments[0].dispatchEvent(new PointerEvent('pointermove', {clientX: x, clientY: y}));
             const tip = document.getElementById('tip');
-            if (!tip.hidden) return tip.textContent;
+            if (tip.hidden) continue;
+            const told = tip.textContent;
+            arguments[0].dispatchEvent(new PointerEvent('pointerleave'));
+            return told;
         }"""
     assert ";" in (browser.execute_script(script, picture) or ""), "pointing at the first figure tells nothing"
 

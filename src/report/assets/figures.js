@@ -69,7 +69,7 @@
   };
 
   const tip = Object.assign(document.createElement("div"), { id: "tip", hidden: true });
-  document.body.append(tip);
+  document.querySelector("main").append(tip);
   /** Where a value lies along an axis, from 0 to 1. */
   const share = ({ log, low, high }, value) => (log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low));
   const NEAR = 12;
