@@ -12,6 +12,8 @@ pub struct Axis {
     pub high: f64,
     /// Name and unit of what it measures.
     pub label: Label,
+    /// What stands at 0, 1 and so on, from the far end on; none on an axis of numbers.
+    pub names: Vec<String>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,14 +34,20 @@ impl Axis {
     /// Makes an axis in equal steps.
     pub fn linear([low, high]: [f64; 2], label: Label) -> Axis {
         let high = if high > low { high } else { low + 1.0 };
-        Axis { scale: Scale::Linear, low, high, label }
+        Axis { scale: Scale::Linear, low, high, label, names: Vec::new() }
     }
 
     /// Makes an axis in equal ratios.
     pub fn log([low, high]: [f64; 2], label: Label) -> Axis {
         let low = if low > 0.0 && low.is_finite() { low } else { 0.1 };
         let high = if high > low && high.is_finite() { high } else { 10.0 * low };
-        Axis { scale: Scale::Log, low, high, label }
+        Axis { scale: Scale::Log, low, high, label, names: Vec::new() }
+    }
+
+    /// Makes an axis of names, one below the other.
+    pub fn names(names: Vec<String>) -> Axis {
+        let low = names.len() as f64 - 0.5;
+        Axis { scale: Scale::Linear, low, high: -0.5, label: Label::default(), names }
     }
 
     /// Makes an axis in equal ratios over all values that have a logarithm, with a margin.
@@ -70,11 +78,22 @@ impl Axis {
     }
 
     pub fn holds(&self, value: f64) -> bool {
-        (self.low..=self.high).contains(&value)
+        (self.low.min(self.high)..=self.low.max(self.high)).contains(&value)
+    }
+
+    pub fn is_log(&self) -> bool {
+        self.scale == Scale::Log
     }
 
     /// Places the ticks, of which `most` or fewer have labels.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
+        if !self.names.is_empty() {
+            let tick = |(k, name): (usize, &String)| Tick {
+                value: k as f64,
+                label: Some(Label::plain(name.as_str())),
+            };
+            return self.names.iter().enumerate().map(tick).collect();
+        }
         match self.scale {
             Scale::Linear => linear_ticks(self.low, self.high, most),
             Scale::Log => log_ticks(self.low, self.high, most),

@@ -5,13 +5,21 @@ use serde_json::Value;
 use super::text::Label;
 use crate::fragility::{Case, DemandLaw, FragilityModel, Measure, Predictor};
 use crate::rocking::{Outcome, Structure, TracePoint};
+use crate::statistics::{FitStatus, Gap};
 
 /// The data of a report.
 #[derive(Debug, Clone, Default)]
 pub struct ReportData {
+    /// What the user calls the report; a name of its own where none is given.
+    pub title: Option<String>,
+    pub author: Option<String>,
+    /// The date in the user's words: there is no clock, so that the same files give the same bytes.
+    pub date: Option<String>,
     /// The responses that the figures show, by suite and structure.
     pub groups: Vec<Group>,
-    /// Number of further pairs of suite and structure in the file.
+    /// What came out for each suite and structure that is asked for, those with figures first.
+    pub summaries: Vec<Summary>,
+    /// Number of further pairs of suite and structure in the file, without figures.
     pub left_out: usize,
     /// Limit state of P_ex, |theta|max / alpha, if there are regressions.
     pub limit: Option<f64>,
@@ -21,9 +29,103 @@ pub struct ReportData {
     pub motions: Vec<Motion>,
     /// A combined motion and its pulse.
     pub parts: Option<Parts>,
+    /// Annual rates at a site.
+    pub rates: Vec<Rates>,
+    pub analyses: Vec<Analysis>,
+    pub validations: Vec<Validated>,
+    pub rankings: Vec<Ranking>,
+    /// How many curves of overturning hold, bend and fail on other structures.
+    pub transfers: Option<[usize; 3]>,
     pub tables: Vec<Table>,
     /// The files, in the order of the pipeline.
     pub files: Vec<File>,
+}
+
+/// What came of a structure under a suite.
+#[derive(Debug, Clone)]
+pub struct Summary {
+    pub suite: Option<String>,
+    pub structure: Structure,
+    /// Number of motions.
+    pub n: usize,
+    pub rocked: usize,
+    pub overturned: usize,
+    /// Cases above the limit state that did not overturn, if there is one.
+    pub exceeded: Option<usize>,
+    /// The curve of overturning over p PGV / (g tan alpha), if there is a row of it.
+    pub curve: Option<Median>,
+}
+
+/// The middle of a curve of overturning, and what its tests say.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Median {
+    pub status: FitStatus,
+    /// PGV (m/s) at which half of the rocking structures overturn, with limits; none if there is no curve.
+    pub pgv_m_s: Option<[f64; 3]>,
+    /// Where the curve is off most.
+    pub gap: Option<Gap>,
+}
+
+/// Annual rates of the limit states of a structure at a site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rates {
+    /// The structure and the fits, in words.
+    pub name: String,
+    pub years: f64,
+    pub states: Vec<StateRate>,
+}
+
+/// Value, lower and upper limit of a limit state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StateRate {
+    pub words: String,
+    pub annual_rate: [f64; 3],
+    /// That it is reached in the years of the rates.
+    pub probability: [f64; 3],
+}
+
+/// Shares of motions that overturn a structure when they are scaled.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Analysis {
+    pub name: String,
+    /// What is scaled.
+    pub measure: String,
+    pub levels: Vec<Level>,
+    /// Median of the lowest overturning intensity, with limits.
+    pub theta: Option<[f64; 3]>,
+}
+
+/// One intensity of an analysis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Level {
+    pub intensity: f64,
+    pub n: usize,
+    /// Share that overturns, with limits.
+    pub share: [f64; 3],
+    /// The lognormal curve of the lowest overturning intensities.
+    pub lognormal: Option<f64>,
+}
+
+/// An event seen, and predicted by curves of other motions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Validated {
+    pub name: String,
+    pub n: usize,
+    /// Share seen, with limits.
+    pub seen: [f64; 3],
+    /// Share predicted, with limits of the fits.
+    pub expected: [f64; 3],
+    /// Probability of a count as far out.
+    pub chance_p: f64,
+}
+
+/// Measures by how well they predict held-out cases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranking {
+    /// Structure, suite and what is predicted.
+    pub name: String,
+    /// Measures, gain in log score over the model of the paper, and its standard error.
+    pub candidates: Vec<(String, f64, f64)>,
 }
 
 /// The responses of one structure to one suite.
@@ -60,6 +162,9 @@ pub struct Regression {
     pub rises: bool,
 }
 
+/// The least R2 of a regression that is worth a look.
+pub const USEFUL_R2: f64 = 0.1;
+
 /// The two planes of the demand (Eqs. 17 and 18).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Planes {
@@ -73,6 +178,9 @@ pub struct Planes {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curve {
     pub index: Predictor,
+    pub status: FitStatus,
+    /// Where it is off most.
+    pub gap: Option<Gap>,
 }
 
 /// Fits joined into the tree of Eq. 12.
@@ -125,16 +233,21 @@ pub struct Parts {
 /// A table out of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
+    /// Name of its file.
+    pub name: String,
     pub title: String,
     pub columns: Vec<Column>,
     pub rows: Vec<Vec<String>>,
     /// Number of further rows in the file.
     pub left_out: usize,
+    /// The same rows in full, as comma-separated values.
+    pub csv: String,
 }
 
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
+    /// Its head, in words.
     pub name: String,
     pub description: String,
     pub numeric: bool,
@@ -153,12 +266,14 @@ pub struct File {
     /// Fingerprint of its content.
     pub content: String,
     pub rows: usize,
+    /// What its stage warned of.
+    pub warnings: Vec<String>,
 }
 
 /// Number of letters of a name that fit above a panel.
 const LONGEST_NAME: usize = 44;
 
-/// Options that a caption names.
+/// Options that the method names.
 const NAMED: [&str; 12] = [
     "seed",
     "design",
@@ -206,14 +321,7 @@ impl ReportData {
 impl Group {
     /// Names the group in titles, cut to their width.
     pub fn name(&self) -> String {
-        let name = match &self.suite {
-            Some(suite) => format!("{}, {suite}", self.structure.name),
-            None => self.structure.name.clone(),
-        };
-        if name.chars().count() <= LONGEST_NAME {
-            return name;
-        }
-        name.chars().take(LONGEST_NAME - 1).chain(['\u{2026}']).collect()
+        name_of(&self.structure.name, self.suite.as_deref())
     }
 
     /// Iterates over the responses that rocked, and whether they overturned.
@@ -241,6 +349,15 @@ impl Group {
     pub fn curve(&self, im_x: Measure, im_y: Option<Measure>) -> Option<&Curve> {
         self.curves.iter().find(|curve| (curve.index.im_x, curve.index.im_y) == (im_x, im_y))
     }
+}
+
+/// Names a structure and a suite, cut to the width of a title.
+pub fn name_of(structure: &str, suite: Option<&str>) -> String {
+    let name = suite.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"));
+    if name.chars().count() <= LONGEST_NAME {
+        return name;
+    }
+    name.chars().take(LONGEST_NAME - 1).chain(['\u{2026}']).collect()
 }
 
 /// Labels a measure on an axis or in a legend.

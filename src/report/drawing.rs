@@ -1,5 +1,6 @@
 //! Drawings, whatever they are written as: paths, dots and text in points of 1/72 inch, y downwards.
 
+use super::plotted::{Plotted, Series};
 use super::text::Label;
 
 /// Width of a figure in one column of a journal, 88 mm.
@@ -16,6 +17,10 @@ pub struct Drawing {
     pub height: f64,
     /// Items, each over those before.
     pub items: Vec<Item>,
+    /// What its panels show, as data.
+    pub plotted: Vec<Plotted>,
+    /// The series of the panel that is not finished yet.
+    pub series: Vec<Series>,
 }
 
 /// A colour by its role: light and dark pages give it different values.
@@ -141,6 +146,26 @@ impl Ink {
         }
     }
 
+    /// All that differ.
+    pub const ALL: [Ink; 10] = [
+        Ink::Text,
+        Ink::Muted,
+        Ink::Rule,
+        Ink::Paper,
+        Ink::Data(0),
+        Ink::Data(1),
+        Ink::Data(2),
+        Ink::Data(3),
+        Ink::Data(4),
+        Ink::Data(5),
+    ];
+
+    /// Returns the colour on white paper as style sheets write it.
+    pub fn hex(self) -> String {
+        let [r, g, b] = self.on_white();
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+
     /// Returns red, green and blue on white paper.
     pub fn on_white(self) -> [u8; 3] {
         match self {
@@ -177,7 +202,7 @@ impl Dash {
 
 impl Drawing {
     pub fn new(width: f64, height: f64) -> Drawing {
-        Drawing { width, height, items: Vec::new() }
+        Drawing { width, height, ..Drawing::default() }
     }
 
     /// Draws a line through points.
@@ -201,6 +226,13 @@ impl Drawing {
     pub fn path(&mut self, steps: Vec<Step>, fill: Option<Paint>, stroke: Option<Stroke>) {
         if !steps.is_empty() {
             self.items.push(Item::Path { steps, fill, stroke });
+        }
+    }
+
+    /// Keeps what is drawn as data: values of x and y, and what else there is of each point.
+    pub fn record(&mut self, name: &str, further: &'static [&'static str], values: Vec<f64>) {
+        if !values.is_empty() {
+            self.series.push(Series { name: name.to_string(), further, values });
         }
     }
 

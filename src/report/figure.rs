@@ -9,7 +9,16 @@ pub struct Figure {
     pub name: String,
     pub title: String,
     pub caption: String,
+    /// What made it, in a sentence: for its files, which may be alone.
+    pub made: String,
     pub drawing: Drawing,
+}
+
+impl Figure {
+    /// Joins the caption and what made the figure.
+    pub fn description(&self) -> String {
+        format!("{} {}", self.caption, self.made).trim_end().to_string()
+    }
 }
 
 /// The places of panels side by side: one in a column, or two across the page.

@@ -6,8 +6,11 @@ use serde_json::{Value, json};
 use crate::fragility::{DemandLaw, DemandModel, Measure, Peak, Predictor};
 use crate::keyword::Keyword;
 use crate::motion::intensity::velocity;
+use crate::report::axis::{Axis, range};
 use crate::report::data::{Group, Model, Motion, Planes, ReportData, Trace};
-use crate::report::figure::{Envelope, envelope};
+use crate::report::drawing::Ink;
+use crate::report::figure::{Envelope, Figure, envelope};
+use crate::report::plotted::{Plotted, Series};
 use crate::rocking::{BOUNDS, Bound, SolverEvent, Structure};
 use crate::units::G_M_S2;
 
@@ -19,7 +22,7 @@ const MOST_VALUES: usize = 3000;
 const MOST_IN_SPACE: usize = 2500;
 
 /// Writes all data. `<` is escaped, so that no name can end the script.
-pub fn json(data: &ReportData) -> String {
+pub fn json(data: &ReportData, figures: &[&Figure]) -> String {
     let all = json!({
         "g": G_M_S2,
         "bounds": BOUNDS.iter().copied().chain([Peak::Pga, Peak::Pgv].map(Peak::bound)).map(bound).collect::<Vec<_>>(),
@@ -27,8 +30,45 @@ pub fn json(data: &ReportData) -> String {
         "models": data.models.iter().map(model).collect::<Vec<_>>(),
         "planes": data.groups.iter().filter_map(in_space).collect::<Vec<_>>(),
         "motions": data.motions.iter().map(motion).collect::<Vec<_>>(),
+        "figures": figures.iter().map(|of| (of.name.clone(), figure(of))).collect::<serde_json::Map<_, _>>(),
+        "inks": Ink::ALL.iter().map(|ink| (ink.variable(), json!(ink.hex()))).collect::<serde_json::Map<_, _>>(),
     });
     all.to_string().replace('<', "\\u003c")
+}
+
+/// Writes what a figure shows, and what its files say.
+fn figure(of: &Figure) -> Value {
+    let panels: Vec<Value> = of.drawing.plotted.iter().map(panel).collect();
+    json!({ "title": of.title, "about": of.description(), "panels": panels })
+}
+
+fn panel(Plotted { title, corner, size, axes, series }: &Plotted) -> Value {
+    let axis = |axis: &Axis| json!({ "is": axis.label.words(), "log": axis.is_log(), "low": axis.low, "high": axis.high, "names": axis.names });
+    let of_series = |of: &Series| match of.further {
+        [] => cloud(of, axes),
+        further => {
+            // Seven digits are enough to be read.
+            let bytes: Vec<u8> = of.values.iter().flat_map(|value| (*value as f32).to_le_bytes()).collect();
+            json!({ "name": of.name, "further": further, "values": BASE64_STANDARD.encode(&bytes) })
+        }
+    };
+    json!({ "title": title.words(), "corner": corner, "size": size, "x": axis(&axes[0]), "y": axis(&axes[1]),
+        "series": series.iter().map(of_series).collect::<Vec<_>>() })
+}
+
+/// Points without anything besides, of which there may be many: sixteen bits a coordinate, from end to end of their own.
+fn cloud(of: &Series, axes: &[Axis; 2]) -> Value {
+    let scaled =
+        |point: &[f64]| [0, 1].map(|axis| if axes[axis].is_log() { point[axis].ln() } else { point[axis] });
+    let finite = |point: &[f64; 2]| point.iter().all(|part| part.is_finite());
+    let points: Vec<[f64; 2]> = of.points().map(scaled).filter(finite).collect();
+    let ends = [0, 1].map(|axis| range(points.iter().map(|point| point[axis])));
+    let part = |(value, [low, high]): (&f64, &[f64; 2])| {
+        let share = (value - low) / (high - low).max(f64::MIN_POSITIVE);
+        ((share * f64::from(u16::MAX)).round() as u16).to_le_bytes()
+    };
+    let bytes: Vec<u8> = points.iter().flat_map(|point| point.iter().zip(&ends).flat_map(part)).collect();
+    json!({ "name": of.name, "further": [], "ends": ends, "values": BASE64_STANDARD.encode(&bytes) })
 }
 
 fn bound(Bound { parameter, range, expected, slip }: Bound) -> Value {

@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::drawing::{Anchor, Drawing, Ink, Paint, Point, Step, Stroke, rectangle};
+use super::plotted::Plotted;
 use super::text::Label;
 
 /// Height of the letters of axes and legends, points.
@@ -79,10 +80,19 @@ impl Panel {
         let middle = [0.5 * (left + right), bottom + 21.5];
         drawing.text(middle, Anchor::Middle, LETTERS, Ink::Text, self.x.label.clone());
         drawing.text_upwards([left - 27.0, 0.5 * (top + bottom)], LETTERS, self.y.label.clone());
-        drawing.text([left, top - 5.0], Anchor::Start, LETTERS, Ink::Text, title);
+        drawing.text([left, top - 5.0], Anchor::Start, LETTERS, Ink::Text, title.clone());
+        let series = std::mem::take(&mut drawing.series);
+        let (size, axes) = ([self.width, self.height], [self.x.clone(), self.y.clone()]);
+        drawing.plotted.push(Plotted { title, corner: self.corner, size, axes, series });
     }
 
-    /// Draws a curve, as far as it lies within.
+    /// Draws a curve of the data, as far as it lies within.
+    pub fn curve(&self, drawing: &mut Drawing, name: &str, values: &[[f64; 2]], stroke: Stroke) {
+        drawing.record(name, &[], values.concat());
+        self.line(drawing, values, stroke);
+    }
+
+    /// Draws a line, as far as it lies within.
     pub fn line(&self, drawing: &mut Drawing, values: &[[f64; 2]], stroke: Stroke) {
         let mut piece: Vec<Point> = Vec::new();
         for pair in values.windows(2) {
@@ -118,16 +128,17 @@ impl Panel {
     }
 
     /// Draws points, or their density where there are too many of them.
-    pub fn scatter(&self, drawing: &mut Drawing, values: &[[f64; 2]], radius: f64, paint: Paint) {
+    pub fn scatter(&self, drawing: &mut Drawing, name: &str, values: &[[f64; 2]], radius: f64, paint: Paint) {
         if values.len() > MOST_POINTS {
-            return self.density(drawing, values, paint.ink);
+            return self.density(drawing, name, values, paint.ink);
         }
+        drawing.record(name, &[], values.concat());
         let inside = values.iter().filter(|&&value| self.holds(value));
         drawing.dots(inside.map(|&value| self.at(value)).collect(), radius, paint);
     }
 
     /// Draws squares as dark as they are full of points.
-    pub fn density(&self, drawing: &mut Drawing, values: &[[f64; 2]], ink: Ink) {
+    pub fn density(&self, drawing: &mut Drawing, name: &str, values: &[[f64; 2]], ink: Ink) {
         let points = values.iter().filter(|&&value| self.holds(value)).map(|&value| self.at(value));
         let [left, top] = self.corner;
         let (columns, rows) = ((self.width / SQUARE) as usize + 1, (self.height / SQUARE) as usize + 1);
@@ -136,6 +147,13 @@ impl Panel {
             let (column, row) = (((x - left) / SQUARE) as usize, ((y - top) / SQUARE) as usize);
             counts[row.min(rows - 1) * columns + column.min(columns - 1)] += 1;
         }
+        let middle = |square: usize| {
+            let along = |place: usize, length: f64| (place as f64 + 0.5) * SQUARE / length;
+            let (x, y) = (along(square % columns, self.width), along(square / columns, self.height));
+            [self.x.value(x), self.y.value(1.0 - y), f64::from(counts[square])]
+        };
+        let full = (0..counts.len()).filter(|&square| counts[square] > 0);
+        drawing.record(name, &["n"], full.flat_map(middle).collect());
         let most = counts.iter().copied().max().unwrap_or(0);
         let shade = |count: u32| match count {
             0 => None,
@@ -157,19 +175,26 @@ impl Panel {
         }
     }
 
-    /// Draws discs with an outline: `(value, radius)`.
-    pub fn circles(&self, drawing: &mut Drawing, circles: &[([f64; 2], f64)], ink: Ink) {
-        let steps = circles.iter().filter(|(value, _)| self.holds(*value));
-        let steps = steps.map(|&(value, radius)| Step::Circle(self.at(value), radius)).collect();
-        drawing.path(steps, Some(ink.thin(0.25)), Some(ink.line(0.6)));
+    /// Draws estimates as points, with bars from limit to limit: along y, or along x where rows have names.
+    pub fn estimates(&self, drawing: &mut Drawing, name: &str, estimates: &[Estimate], ink: Ink) {
+        let row = |of: &Estimate| [of.at[0], of.at[1], of.low, of.high, of.n];
+        drawing.record(name, &["low", "high", "n"], estimates.iter().flat_map(row).collect());
+        for &Estimate { at: [x, y], low, high, radius, .. } in estimates.iter().filter(|of| self.holds(of.at))
+        {
+            let ends = [low, high].map(|end| match self.y.names.is_empty() {
+                true => [x, end.clamp(self.y.low, self.y.high)],
+                false => [end.clamp(self.x.low, self.x.high), y],
+            });
+            drawing.line(&ends.map(|end| self.at(end)), ink.line(0.8));
+            drawing.dots(vec![self.at([x, y])], radius, ink.full());
+        }
     }
 
-    /// Draws vertical bars with a point in the middle: `(value, low, high)`.
-    pub fn bars(&self, drawing: &mut Drawing, bars: &[([f64; 2], f64, f64)], ink: Ink) {
-        for &([x, y], low, high) in bars.iter().filter(|(value, ..)| self.holds(*value)) {
-            let ends = [low, high].map(|end| self.at([x, end.clamp(self.y.low, self.y.high)]));
-            drawing.line(&ends, ink.line(0.8));
-            drawing.dots(vec![self.at([x, y])], 1.8, ink.full());
+    /// Draws faint lines through the rows that have names.
+    pub fn rows(&self, drawing: &mut Drawing) {
+        for row in 0..self.y.names.len() {
+            let y = row as f64;
+            self.line(drawing, &[[self.x.low, y], [self.x.high, y]], Ink::Rule.line(0.3));
         }
     }
 
@@ -178,6 +203,18 @@ impl Panel {
         let [left, top] = self.corner;
         drawing.text([left + x * self.width, top + y * self.height], anchor, TICK_LETTERS, Ink::Muted, label);
     }
+}
+
+/// A point with limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    pub at: [f64; 2],
+    pub low: f64,
+    pub high: f64,
+    /// Number of cases; not a number where none are counted.
+    pub n: f64,
+    /// Of its dot, points.
+    pub radius: f64,
 }
 
 /// By how much dots are larger where there are few of them.
@@ -216,9 +253,8 @@ fn clipped([from, to]: [Point; 2]) -> Option<[Point; 2]> {
 pub enum Mark {
     Dot(Paint),
     Line(Stroke),
-    Area(Paint),
-    /// Circles sized by count.
-    Circle(Ink),
+    /// A point with a bar.
+    Bar(Ink),
 }
 
 const MARK_WIDTH: f64 = 14.0;
@@ -232,14 +268,10 @@ pub fn legend(drawing: &mut Drawing, at: Point, entries: &[(Mark, Label)]) {
         match *mark {
             Mark::Dot(paint) => drawing.dots(vec![middle], 2.0, Paint { opacity: 1.0, ..paint }),
             Mark::Line(stroke) => drawing.line(&[[left, middle[1]], [left + MARK_WIDTH, middle[1]]], stroke),
-            Mark::Area(paint) => {
-                let corner = [left, middle[1] - 3.0];
-                let steps = rectangle(corner, MARK_WIDTH, 6.0);
-                drawing.path(steps.to_vec(), Some(paint), None);
-            }
-            Mark::Circle(ink) => {
-                let circle = vec![Step::Circle(middle, 3.0)];
-                drawing.path(circle, Some(ink.thin(0.25)), Some(ink.line(0.6)));
+            Mark::Bar(ink) => {
+                let ends = [-4.5, 4.5].map(|height| [middle[0], middle[1] + height]);
+                drawing.line(&ends, ink.line(0.8));
+                drawing.dots(vec![middle], 1.8, ink.full());
             }
         }
         x += MARK_WIDTH + 3.0;

@@ -4,10 +4,9 @@ use tiny_skia::{
     FillRule, LineCap, LineJoin, Paint as SkiaPaint, PathBuilder, Pixmap, StrokeDash, Transform,
 };
 
-use super::drawing::{Item, Paint, Point, Step, Stroke};
+use super::drawing::{Anchor, Item, Paint, Point, Step, Stroke, Text};
 use super::figure::Figure;
 use super::font::Pen;
-use super::svg::outlines;
 
 /// Points in an inch.
 const POINTS_PER_INCH: f64 = 72.0;
@@ -19,7 +18,7 @@ const INCHES_PER_METRE: f64 = 39.370_078_74;
 /// # Errors
 /// If the picture is too large to hold.
 pub fn png(figure: &Figure, dpi: f64) -> anyhow::Result<Vec<u8>> {
-    let Figure { title, caption, drawing, .. } = figure;
+    let Figure { title, drawing, .. } = figure;
     let scale = dpi / POINTS_PER_INCH;
     let pixels = |length: f64| (length * scale).ceil() as u32;
     let (width, height) = (pixels(drawing.width), pixels(drawing.height));
@@ -30,7 +29,7 @@ pub fn png(figure: &Figure, dpi: f64) -> anyhow::Result<Vec<u8>> {
     for item in &drawing.items {
         canvas.item(item);
     }
-    encode(&canvas.picture, [title, caption], dpi)
+    encode(&canvas.picture, [title, &figure.description()], dpi)
 }
 
 fn encode(picture: &Pixmap, [title, caption]: [&str; 2], dpi: f64) -> anyhow::Result<Vec<u8>> {
@@ -124,6 +123,22 @@ fn add(path: &mut PathBuilder, step: &Step) {
         Step::Line([x, y]) => path.line_to(x as f32, y as f32),
         Step::Close => path.close(),
         Step::Circle([x, y], radius) => path.push_circle(x as f32, y as f32, radius as f32),
+    }
+}
+
+/// Draws a text with a pen, not turned.
+fn outlines(text: &Text, pen: &mut dyn Pen) {
+    let width = text.label.width(text.size);
+    let [mut x, y] = text.at;
+    x -= match text.anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => 0.5 * width,
+        Anchor::End => width,
+    };
+    for run in &text.label.runs {
+        let size = text.size * run.level.scale();
+        run.face.outline(&run.words, size, [x, y + run.level.drop() * text.size], pen);
+        x += run.face.width(&run.words, size);
     }
 }
 

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use super::drawing::{Anchor, Drawing, Ink, Item, Paint, Point, Step, Stroke, Text};
+use super::drawing::{Anchor, Drawing, Ink, Item, Paint, Step, Stroke, Text};
 use super::figure::Figure;
-use super::font::{Face, Pen};
+use super::font::Face;
 use super::text::{Level, escape};
 
 /// Where the SVG stands.
@@ -12,13 +12,16 @@ use super::text::{Level, escape};
 pub enum Place {
     /// In the page, which has the fonts and the colours, light and dark.
     Page,
-    /// In a file of its own, on white, its letters as outlines: it looks the same everywhere.
+    /// In a file of its own, on white, with the fonts that its reader has: Fira Sans, or one like it.
     File,
 }
 
+/// The fonts of a file: the first that its reader has.
+const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif";
+
 /// Draws a figure as SVG.
 pub fn svg(figure: &Figure, place: Place) -> String {
-    let Figure { title, caption, drawing: Drawing { width, height, items }, .. } = figure;
+    let Figure { title, drawing: Drawing { width, height, items, .. }, .. } = figure;
     let mut text = String::new();
     let name = escape(title);
     let _ = match place {
@@ -30,10 +33,10 @@ pub fn svg(figure: &Figure, place: Place) -> String {
         ),
         Place::File => write!(
             text,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}pt\" height=\"{1}pt\" viewBox=\"0 0 {0} {1}\">\n<title>{name}</title>\n<desc>{2}</desc>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}pt\" height=\"{1}pt\" viewBox=\"0 0 {0} {1}\" font-family=\"{FONTS}\" style=\"white-space:pre\">\n<title>{name}</title>\n<desc>{2}</desc>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>",
             r(*width),
             r(*height),
-            escape(caption)
+            escape(&figure.description())
         ),
     };
     text.push('\n');
@@ -55,10 +58,7 @@ impl Writer {
     fn colour(&self, ink: Ink) -> String {
         match self.place {
             Place::Page => format!("var({})", ink.variable()),
-            Place::File => {
-                let [r, g, b] = ink.on_white();
-                format!("#{r:02x}{g:02x}{b:02x}")
-            }
+            Place::File => ink.hex(),
         }
     }
 
@@ -128,12 +128,6 @@ impl Writer {
             String::new()
         };
         let colour = self.colour(text.ink);
-        if self.place == Place::File {
-            let mut outline = OutlineWriter(String::new());
-            outlines(text, &mut outline);
-            let _ = write!(self.text, "<path d=\"{}\" fill=\"{colour}\"{turn}/>", outline.0);
-            return;
-        }
         let anchor = match text.anchor {
             Anchor::Start => "",
             Anchor::Middle => " text-anchor=\"middle\"",
@@ -164,46 +158,6 @@ impl Writer {
             let _ = write!(self.text, "<tspan{style}>{}</tspan>", escape(&run.words));
         }
         self.text.push_str("</text>");
-    }
-}
-
-/// Draws a text with a pen, not turned.
-pub fn outlines(text: &Text, pen: &mut dyn Pen) {
-    let width = text.label.width(text.size);
-    let [mut x, y] = text.at;
-    x -= match text.anchor {
-        Anchor::Start => 0.0,
-        Anchor::Middle => 0.5 * width,
-        Anchor::End => width,
-    };
-    for run in &text.label.runs {
-        let size = text.size * run.level.scale();
-        run.face.outline(&run.words, size, [x, y + run.level.drop() * text.size], pen);
-        x += run.face.width(&run.words, size);
-    }
-}
-
-struct OutlineWriter(String);
-
-impl Pen for OutlineWriter {
-    fn start(&mut self, [x, y]: Point) {
-        let _ = write!(self.0, "M{} {}", r(x), r(y));
-    }
-
-    fn line(&mut self, [x, y]: Point) {
-        let _ = write!(self.0, "L{} {}", r(x), r(y));
-    }
-
-    fn quadratic(&mut self, [a, b]: Point, [x, y]: Point) {
-        let _ = write!(self.0, "Q{} {} {} {}", r(a), r(b), r(x), r(y));
-    }
-
-    fn cubic(&mut self, [[a, b], [c, d]]: [Point; 2], [x, y]: Point) {
-        let _ = write!(self.0, "C{} {} {} {} {} {}", r(a), r(b), r(c), r(d), r(x), r(y));
-    }
-
-    fn close(&mut self) {
-        self.0.push('Z');
     }
 }
 

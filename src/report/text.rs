@@ -90,6 +90,11 @@ impl Label {
         self
     }
 
+    /// Returns the words without styles.
+    pub fn words(&self) -> String {
+        self.runs.iter().map(|run| run.words.as_str()).collect()
+    }
+
     pub fn is_empty(&self) -> bool {
         self.runs.iter().all(|run| run.words.is_empty())
     }
@@ -156,6 +161,56 @@ pub mod number {
             magnitude @ -4..6 => fixed(value, (digits - 1 - magnitude).max(0) as usize),
             _ => minus(format!("{value:.*e}", (digits - 1).max(0) as usize)),
         }
+    }
+
+    /// Writes a number for programs, nothing where there is none.
+    pub fn machine(value: f64) -> String {
+        if value.is_finite() { value.to_string() } else { String::new() }
+    }
+
+    /// Writes a number for tables, with so many significant digits; what is too large or too small to be read says so.
+    pub fn readable(value: f64, digits: i32) -> String {
+        let size = value.abs();
+        match () {
+            () if !value.is_finite() => "\u{2013}".to_string(),
+            () if size >= LARGEST && value < 0.0 => "< \u{2212}10\u{2076}".to_string(),
+            () if size >= LARGEST => "> 10\u{2076}".to_string(),
+            () if value != 0.0 && size < SMALLEST => scientific(value, digits),
+            () => significant(value, digits),
+        }
+    }
+
+    /// The largest number that is written in full.
+    const LARGEST: f64 = 1e6;
+    /// The smallest.
+    const SMALLEST: f64 = 1e-3;
+
+    /// Writes a number with a power of ten: 6.5 × 10⁻⁴.
+    fn scientific(value: f64, digits: i32) -> String {
+        let text = format!("{value:.*e}", (digits - 1).max(0) as usize);
+        let (factor, power) = text.split_once('e').unwrap_or((&text, "0"));
+        let raised = power.chars().map(|letter| match letter {
+            '-' => '\u{207b}',
+            digit => {
+                ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit.to_digit(10).unwrap_or(0) as usize]
+            }
+        });
+        format!("{} × 10{}", minus(factor.to_string()), raised.collect::<String>())
+    }
+
+    /// Writes a value with its limits.
+    pub fn with_limits([value, low, high]: [f64; 3], digits: i32) -> String {
+        format!("{} ({} to {})", readable(value, digits), readable(low, digits), readable(high, digits))
+    }
+
+    /// Writes a share of a count: `12 (34 %)`, in which no line breaks before the sign.
+    pub fn share(of: usize, all: usize) -> String {
+        if all == 0 {
+            return count(of);
+        }
+        let percent = 100.0 * of as f64 / all as f64;
+        let decimals = if percent > 0.0 && percent < 9.95 { 1 } else { 0 };
+        format!("{} ({}\u{a0}%)", count(of), fixed(percent, decimals))
     }
 
     /// Writes a count, its thousands apart.

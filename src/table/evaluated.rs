@@ -54,6 +54,21 @@ table! {
     }
 }
 
+table! {
+    /// Annual rates as they are read.
+    pub struct AnnualRate of RATES {
+        state: LimitState,
+        annual_rate: f64,
+        annual_rate_low: f64,
+        annual_rate_high: f64,
+        years: f64,
+        p: f64,
+        p_low: f64,
+        p_high: f64,
+        meaning: String,
+    }
+}
+
 /// Probabilities of one structure at one intensity, as a row among many.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EvaluatedRow {

@@ -101,6 +101,33 @@ table! {
     }
 }
 
+table! {
+    /// Shares as they are read.
+    pub struct Share of IDA_SHARES {
+        suite: Option<String>,
+        structure: String,
+        measure: String,
+        intensity: f64,
+        n: usize,
+        share: f64,
+        share_low: f64,
+        share_high: f64,
+        lognormal: Option<f64>,
+    }
+}
+
+table! {
+    /// Lognormal distributions as they are read.
+    pub struct Lognormal of IDA_FRAGILITY {
+        suite: Option<String>,
+        structure: String,
+        measure: String,
+        theta: Option<f64>,
+        theta_low: Option<f64>,
+        theta_high: Option<f64>,
+    }
+}
+
 /// What a scan says of a structure under a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CapacityRow<'a> {

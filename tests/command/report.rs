@@ -5,36 +5,44 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::{ArrayRef, Float64Array, Int32Array, Int64Array, StringArray};
+use rockfrag::fragility::{Measure, p_overturning};
 use rockfrag::pipeline::terminal::{Terminal, Weight};
+use rockfrag::statistics::Link;
+use rockfrag::table::pro::ProRow;
+use rockfrag::table::row::ReadRow;
 
-use crate::common::{fail, succeed, write};
-use crate::evaluate::run_folder;
+use crate::common::{fail, rockfrag, small_pipeline, succeed, write};
+use crate::evaluate::{fitted, run_folder};
 
-/// The figures that every run of both suites and structures has.
-const FIGURES: [&str; 23] = [
-    "motion",
+/// The figures that every run of both suites and structures has, in the order of the page.
+const FIGURES: [&str; 27] = [
+    "overturning",
+    "overturning-hybrid",
+    "exceedance",
+    "medians",
+    "reliability",
+    "tree",
     "outcomes-frame",
     "outcomes-electrical-equipment",
     "demand-frame-pulse",
     "demand-frame-csgm",
     "demand-electrical-equipment-pulse",
     "demand-electrical-equipment-csgm",
+    "motion",
     "histories",
     "similarity",
-    "tree",
+    "overturning-im4",
+    "overturning-hybrid-im5",
+    "planes",
+    "planes-pulse",
+    "quality-frame-pulse",
+    "quality-frame-csgm",
+    "quality-electrical-equipment-pulse",
+    "quality-electrical-equipment-csgm",
     "regressions-frame-pulse",
     "regressions-frame-csgm",
     "regressions-electrical-equipment-pulse",
     "regressions-electrical-equipment-csgm",
-    "radar",
-    "planes-pulse",
-    "planes",
-    "exceedance",
-    "overturning",
-    "overturning-im4",
-    "overturning-hybrid",
-    "overturning-hybrid-im5",
-    "reliability",
 ];
 
 /// All files of a report by name.
@@ -65,6 +73,14 @@ fn figures_and_page_are_the_same_bytes_on_any_number_of_threads() {
     let [one, two] = ["1", "2"].map(|threads| files(&folder.path().join(threads), "report"));
     assert!(one == two);
     let page = String::from_utf8(one["page"].clone()).unwrap();
+    let places: Vec<usize> =
+        FIGURES.iter().filter_map(|name| page.find(&format!("id=\"figure-{name}\""))).collect();
+    assert!(places.is_sorted() && page.find("id=\"findings\"").unwrap() < places[0]);
+    assert_eq!(
+        page.matches("Made by rockfrag").count(),
+        1 + FIGURES.len(),
+        "once to read, and once for each file"
+    );
     for name in FIGURES {
         assert!(page.contains(&format!("id=\"figure-{name}\"")), "{name} is not in the page");
         let svg = String::from_utf8(one[&format!("{name}.svg")].clone()).unwrap();
@@ -74,15 +90,199 @@ fn figures_and_page_are_the_same_bytes_on_any_number_of_threads() {
             "{name} does not say what was run"
         );
         assert!(!svg.contains("NaN") && !svg.contains("inf "), "{name} draws what is not a number");
+        assert!(svg.contains("<text ") && svg.contains("font-family=\"Fira Sans, "), "{name} has no text");
+        assert!(
+            one[&format!("{name}.csv")].starts_with(b"panel,series,x_is,x,y_is,y,low,high,n\n"),
+            "{name}"
+        );
         let png = &one[&format!("{name}.png")];
         let side = |at: usize| f64::from(u32::from_be_bytes(png[at..at + 4].try_into().unwrap()));
         assert_eq!((&png[1..4], side(16), side(20)), (&b"PNG"[..], width.ceil(), height.ceil()), "{name}");
     }
-    assert_eq!(one.len(), 2 * FIGURES.len() + 1);
+    assert_eq!(one.len(), 3 * FIGURES.len() + 1);
     assert!(
         !page.contains("http://")
             || page.matches("http://").count() == page.matches("http://www.w3.org/").count()
     );
+}
+
+/// The rows of the table of a figure.
+fn rows(folder: &Path, figure: &str) -> Vec<Vec<String>> {
+    let mut reader = csv::Reader::from_path(folder.join(format!("report/{figure}.csv"))).unwrap();
+    reader.records().map(|row| row.unwrap().iter().map(str::to_string).collect()).collect()
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().unwrap()
+}
+
+#[test]
+fn the_tables_of_figures_hold_the_curves_and_all_that_overturned() {
+    let folder = tempfile::tempdir().unwrap();
+    succeed(
+        folder.path(),
+        &format!("report --in {} --out report.html --dpi 50 --motions 1", run_folder().display()),
+    );
+    let fits = ProRow::read(run_folder().join("pro.parquet")).unwrap();
+    let fit = |panel: &str| {
+        let is_its = |row: &&ProRow| {
+            panel == format!("{}, {}", row.structure, row.suite.as_deref().unwrap())
+                && (row.im_x, row.im_y) == (Measure::Im5, None)
+        };
+        fits.iter().find(is_its).unwrap()
+    };
+    let mut curves = 0;
+    for row in rows(folder.path(), "overturning") {
+        if row[1].starts_with("curve") {
+            let expected = p_overturning(
+                number(&row[3]),
+                fit(&row[0]).mu.unwrap(),
+                fit(&row[0]).beta.unwrap(),
+                Link::Probit,
+            );
+            assert!((number(&row[5]) - expected).abs() < 1e-9, "{row:?}, expected {expected}");
+            assert!(number(&row[6]) <= expected && expected <= number(&row[7]), "{row:?}");
+            curves += 1;
+        }
+    }
+    assert!(curves > 300, "{curves} points of curves");
+    for structure in ["frame", "electrical-equipment"] {
+        let demand = rows(folder.path(), &format!("demand-{structure}-csgm"));
+        let overturned = fit(&format!("{structure}, csgm")).n_events;
+        let drawn = demand.iter().filter(|row| row[1].starts_with("overturning") && row[2] == "PGV (m/s)");
+        assert_eq!(drawn.count(), overturned, "{structure}");
+        // Most demands lie within the axis.
+        assert!(demand.iter().any(|row| number(&row[5]) > 0.3), "{structure}");
+    }
+}
+
+#[test]
+fn findings_say_who_asked_and_what_to_doubt() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = run_folder().display();
+    let mut call = rockfrag(folder.path());
+    call.args(["report", "--in", &run.to_string(), "--out", "report.html", "--dpi", "50", "--motions", "1"]);
+    call.args(["--title", "Statue <A> & co", "--author", "J. Doe", "--date", "May 2026"]);
+    assert!(call.output().unwrap().status.success());
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(page.contains("<title>Statue &lt;A&gt; &amp; co</title>") && page.contains("J. Doe · May 2026"));
+    let findings = page.split("id=\"findings\"").nth(1).unwrap().split("</section>").next().unwrap();
+    for said in
+        ["What was asked", "What came out", "How sure", "By what method", "Dimitrakopoulos", "R² below 0.1"]
+    {
+        assert!(findings.contains(said), "{said} is not in {findings}");
+    }
+    let warnings =
+        rockfrag::table::store::contents::recorded(&run_folder().join("pro.parquet")).unwrap().unwrap();
+    let warnings = warnings.provenance.warnings.all();
+    assert!(!warnings.is_empty() && warnings.iter().all(|words| findings.contains(words)), "{findings}");
+}
+
+#[test]
+fn rates_of_a_site_stand_in_the_findings() {
+    let (folder, fits) = fitted();
+    let at = |name: &str| folder.path().join(name);
+    let ask = format!(
+        "evaluate {fits} --p 2.5 --alpha 0.2 --hazard {}/data/hazard.csv",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    std::fs::create_dir(at("out")).unwrap();
+    for file in ["responses.parquet", "pex.parquet", "pro.parquet"] {
+        std::fs::copy(run_folder().join(file), at("out").join(file)).unwrap();
+    }
+    succeed(folder.path(), &format!("{ask} --out out/evaluated.parquet"));
+    succeed(folder.path(), "report --in out --out one/report.html --dpi 50");
+    succeed(folder.path(), &format!("{ask} --out rates/a.parquet"));
+    std::fs::remove_file(at("out/evaluated.parquet")).unwrap();
+    succeed(folder.path(), "report --in out --rates rates --out two/report.html --dpi 50");
+    let csv =
+        rockfrag(folder.path()).args(ask.split_whitespace()).args(["--format", "csv"]).output().unwrap();
+    let answer = String::from_utf8(csv.stdout).unwrap();
+    let rates: Vec<f64> =
+        answer.lines().skip(1).map(|line| number(line.split(',').nth(1).unwrap())).collect();
+    for folder in ["one", "two"] {
+        let drawn: Vec<f64> = rows(&at(folder), "rates").iter().map(|row| number(&row[3])).collect();
+        assert_eq!(drawn, rates, "{folder}");
+        let page = std::fs::read_to_string(at(folder).join("report.html")).unwrap();
+        let findings = page.split("id=\"findings\"").nth(1).unwrap().split("</section>").next().unwrap();
+        assert!(
+            findings.contains("At the site") && findings.contains("probability in 50 years"),
+            "{findings}"
+        );
+        assert!(
+            findings.contains("by the universal surface"),
+            "the warnings of evaluate are not in {findings}"
+        );
+    }
+}
+
+#[test]
+fn partitions_give_the_report_of_the_whole() {
+    let (folder, _) = small_pipeline();
+    let at = |name: &str| folder.path().join(name);
+    succeed(folder.path(), "run --out whole");
+    for i in 0..2 {
+        let cut = format!("--partition {i}/2 --config pipeline.yaml");
+        succeed(
+            folder.path(),
+            &format!("synthesize-motions --in whole/scenarios.parquet --out out/motions {cut}"),
+        );
+        succeed(folder.path(), &format!("simulate --in out/motions --out out/responses {cut}"));
+    }
+    for file in ["pex.parquet", "pro.parquet"] {
+        std::fs::copy(at("whole").join(file), at("out").join(file)).unwrap();
+    }
+    for (name, from) in [("whole", "whole"), ("run", "out"), ("parts", "out/responses")] {
+        succeed(folder.path(), &format!("report --in {from} --out {name}-page/report.html --dpi 50"));
+    }
+    let page = |name: &str| files(&at(&format!("{name}-page")), "report");
+    let figures = |name: &str| {
+        let drawn = page(name).into_iter().filter(|(file, _)| file.ends_with(".csv"));
+        drawn.collect::<BTreeMap<_, _>>()
+    };
+    assert!(!figures("whole").is_empty());
+    assert!(figures("run") == figures("whole") && figures("parts") == figures("whole"));
+}
+
+#[test]
+fn motions_without_a_period_are_counted_by_how_they_ended() {
+    let folder = tempfile::tempdir().unwrap();
+    let outcomes =
+        ["no_rocking", "safe_rocking", "safe_rocking", "overturning", "safe_rocking", "overturning"];
+    let numbers =
+        |of: fn(usize) -> f64| -> ArrayRef { Arc::new(Float64Array::from_iter_values((0..6).map(of))) };
+    let some =
+        |of: fn(usize) -> Option<f64>| -> ArrayRef { Arc::new(Float64Array::from_iter((0..6).map(of))) };
+    write(
+        &folder.path().join("responses.parquet"),
+        vec![
+            ("motion_id", Arc::new(Int64Array::from_iter_values(0..6))),
+            ("structure", Arc::new(StringArray::from(vec!["pier"; 6]))),
+            ("p_rad_s", numbers(|_| 2.0)),
+            ("alpha_rad", numbers(|_| 0.2)),
+            ("eta", numbers(|_| 0.9)),
+            ("outcome", Arc::new(StringArray::from(outcomes.to_vec()))),
+            ("edp", some(|k| [1, 2, 4].contains(&k).then_some(0.1))),
+            ("impacts", Arc::new(Int32Array::from(vec![3; 6]))),
+            ("pga_m_s2", numbers(|k| 1.0 + k as f64)),
+            ("pgv_m_s", numbers(|k| 0.1 + 0.1 * k as f64)),
+            ("tp_s", some(|k| (k % 2 == 0).then_some(1.0 + k as f64))),
+            ("im4", numbers(|k| 1.0 + k as f64)),
+            ("im5", numbers(|k| 0.1 + k as f64)),
+        ],
+    );
+    succeed(folder.path(), "report --in . --dpi 72");
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    let caption = |figure: &str| {
+        let figure = page.split(&format!("id=\"figure-{figure}\"")).nth(1).unwrap();
+        figure.split("<figcaption>").nth(1).unwrap().split("</figcaption>").next().unwrap().to_string()
+    };
+    let outcomes = caption("outcomes-pier");
+    assert!(
+        outcomes.contains("3 without a pulse period Tp are left out (1 safe rocking, 2 overturning)"),
+        "{outcomes}"
+    );
+    assert!(page.contains("3 of 6 responses are to motions without a pulse period"));
 }
 
 #[test]

@@ -986,8 +986,12 @@ def rank_ims(
     ...
 
 def report(
-    files: PathLike,
+    files: TableLike,
+    rates: TableLike | None = None,
     *,
+    title: str | None = None,
+    author: str | None = None,
+    date: str | None = None,
     suite: str | None = None,
     structure: str | None = None,
     groups: int = 4,

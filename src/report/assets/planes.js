@@ -17,6 +17,14 @@
     const [low, high] = [Math.min(...values), Math.max(...values)];
     return { low, high, middle: (low + high) / 2, half: (high - low) / 2 || 1 };
   });
+  // Round numbers from end to end of an axis, five or so.
+  const ticks = ({ low, high }) => {
+    const rough = (high - low) / 5;
+    const power = 10 ** Math.floor(Math.log10(rough));
+    const step = [1, 2, 5, 10].map((factor) => factor * power).find((size) => size >= rough);
+    const first = Math.ceil(low / step);
+    return Array.from({ length: Math.floor(high / step) - first + 1 }, (_, k) => (first + k) * step);
+  };
   const scaled = (box, point) => point.map((value, axis) => (value - box[axis].middle) / box[axis].half);
 
   // The eye turns around the vertical axis of the demand, then tilts.
@@ -84,8 +92,21 @@
     ];
     edges.forEach((edge, axis) => {
       const [left, top] = at(edge);
-      const [right, down] = axis < 2 ? [0, 18] : [-34, 0];
+      const [right, down] = axis < 2 ? [0, 34] : [-58, 0];
+      context.font = "14px 'Fira Sans', sans-serif";
       context.fillText(AXES[axis], left + right, top + down);
+      context.font = "12px 'Fira Sans', sans-serif";
+      context.strokeStyle = colour("--ink");
+      for (const value of ticks(box[axis])) {
+        const point = [...edge];
+        point[axis] = (value - box[axis].middle) / box[axis].half;
+        const [x, y] = at(point);
+        const [aside, below] = axis < 2 ? [0, 16] : [-20, 4];
+        context.beginPath();
+        context.arc(x, y, 1.5, 0, 2 * Math.PI);
+        context.stroke();
+        context.fillText(String(Number(value.toPrecision(3))).replace("-", "−"), x + aside, y + below);
+      }
     });
   };
   let colours = [];

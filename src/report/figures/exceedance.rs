@@ -67,12 +67,13 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
             std::iter::once(from).chain(inside).chain([to]).filter_map(at).collect()
         };
         let only = curve(1.0, &DemandModel::Everywhere(*alone), 1.0, largest);
-        super::draw_curve(&mut drawing, &panel, &only, Ink::Muted.line(1.2));
+        super::draw_curve(&mut drawing, &panel, "by IM4 alone", &only, Ink::Muted.line(1.2));
         let below = planes.transition * (1.0 - f64::EPSILON);
         for (index, share) in SHARES.iter().enumerate() {
             for (from, to) in [(1.0, below), (planes.transition, largest)] {
                 let values = curve(quantile(&im3, *share), &model, from, to);
-                super::draw_curve(&mut drawing, &panel, &values, stroke(index));
+                let name = format!("IM3 at its {} % quantile", number::plain(100.0 * share));
+                super::draw_curve(&mut drawing, &panel, &name, &values, stroke(index));
             }
         }
         panel.frame(&mut drawing, Label::plain(group.name()).bold());
@@ -83,14 +84,16 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         format!("{}: {values}", group.name())
     });
     let caption = format!(
-        "Probability of a demand above {} in safe rocking: by the two planes over IM4 and IM3 = PGA/(p PGV), at the three values of IM3 below which 10, 50 and 90 % of the cases lie, and by the regression on IM4 alone. Bands are 95 % limits. The curves jump where the planes part. IM3 of {}. As Figure 10 of the paper.",
+        "Probability of a demand above {} in safe rocking: by the two planes over IM4 and IM3 = PGA/(p PGV), at the three values of IM3 below which 10, 50 and 90 % of the cases lie, and by the regression on IM4 alone. Bands are 95 % limits. The curves jump where the planes part. IM3 of {}. {}",
         number::plain(limit),
-        quantiles.collect::<Vec<_>>().join("; ")
+        quantiles.collect::<Vec<_>>().join("; "),
+        super::of_paper("Figure 10")
     );
     vec![Figure {
         name: "exceedance".to_string(),
         title: "Exceeding the limit state: two measures and one".to_string(),
         caption,
+        made: String::new(),
         drawing,
     }]
 }

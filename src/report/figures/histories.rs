@@ -82,8 +82,8 @@ fn figure(motion: &Motion, pair: &[History; 2]) -> Figure {
         let (corner, width) = grid.place(index);
         let y = Axis::linear([1.08 * low, 1.08 * high], y);
         let panel = Panel { corner, width, height: grid.panel_height, x: Axis::linear([0.0, last], x), y };
-        for (line, stroke) in lines.iter().zip(strokes) {
-            panel.line(&mut drawing, line, stroke);
+        for ((line, stroke), history) in lines.iter().zip(strokes).zip(pair) {
+            panel.curve(&mut drawing, &words(history).words(), line, stroke);
         }
         panel.frame(&mut drawing, Label::plain(title).bold());
     }
@@ -91,15 +91,17 @@ fn figure(motion: &Motion, pair: &[History; 2]) -> Figure {
         name: "histories".to_string(),
         title: "Similarity: two responses that are one".to_string(),
         caption: format!(
-            "Rotation of {}{} and of a structure of {} times its p and {} times its tan α, under the same motion {} times as fast and {} times as strong, so that ωp/p and PGA/(g tan α) are equal; η is {} for both. Left in their own units, right in dimensionless ones: there the two differ by what α adds beyond these measures. As Figure 5 of the paper.",
+            "Rotation of {}{} and of a structure of {} times its p and {} times its tan α, under the same motion {} times as fast and {} times as strong, so that ωp/p and PGA/(g tan α) are equal; η is {} for both. Left in their own units, right in dimensionless ones: there the two differ by what α adds beyond these measures. {}",
             pair[0].structure.name,
             motion.words,
             number::plain(FASTER),
             number::short(STOCKIER),
             number::plain(FASTER),
             number::short(STOCKIER),
-            number::plain(pair[0].structure.eta)
+            number::plain(pair[0].structure.eta),
+            super::of_paper("Figure 5")
         ),
+        made: String::new(),
         drawing,
     }
 }

@@ -1,45 +1,96 @@
 //! One file a figure; each makes of the data the figures that they suffice for.
 
+mod analysis;
 mod demand;
+mod dots;
 mod exceedance;
 mod histories;
+mod medians;
 mod motion;
 mod outcomes;
 mod overturning;
 mod planes;
-mod radar;
+mod quality;
+mod ranking;
+mod rates;
 mod regressions;
 mod reliability;
 mod similarity;
 mod tree;
+mod validation;
 
-use super::data::{Group, ReportData};
+use super::data::{Group, ReportData, ReportResponse};
 use super::drawing::{Drawing, Stroke};
 use super::figure::Figure;
 use super::panel::Panel;
 use super::text::number;
 use crate::fragility::{Measure, Probability};
+use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
-use crate::rocking::Structure;
+use crate::rocking::{Outcome, Structure};
 
 /// Draws the figures of one kind that the data suffice for.
 pub type Draw = fn(&ReportData) -> Vec<Figure>;
 
-/// All kinds of figures, in the order of the page, which is that of the paper.
-pub const ALL: [Draw; 12] = [
-    motion::figures,
-    outcomes::figures,
-    demand::figures,
-    histories::figures,
-    similarity::figures,
-    tree::figures,
-    regressions::figures,
-    radar::figures,
-    planes::figures,
-    exceedance::figures,
-    overturning::figures,
-    reliability::figures,
+/// The parts of the page that hold figures, in its order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// What most readers come for.
+    Curves,
+    /// Annual rates, where there are some.
+    Site,
+    /// How far the curves can be trusted.
+    Checks,
+    /// Motions and what the structures did, for the screen.
+    Responses,
+    /// What stands behind the rest, folded.
+    Background,
+}
+
+/// All kinds of figures, in the order of the page.
+pub const ALL: [(Part, Draw); 19] = [
+    (Part::Curves, overturning::figures),
+    (Part::Curves, exceedance::figures),
+    (Part::Curves, medians::figures),
+    (Part::Site, rates::figures),
+    (Part::Checks, reliability::figures),
+    (Part::Checks, validation::figures),
+    (Part::Checks, analysis::figures),
+    (Part::Checks, ranking::figures),
+    (Part::Responses, tree::figures),
+    (Part::Responses, outcomes::figures),
+    (Part::Responses, demand::figures),
+    (Part::Responses, motion::figures),
+    (Part::Responses, histories::figures),
+    (Part::Responses, similarity::figures),
+    (Part::Background, overturning::further),
+    (Part::Background, planes::over_measures),
+    (Part::Background, planes::over_pulse),
+    (Part::Background, quality::figures),
+    (Part::Background, regressions::figures),
 ];
+
+/// Names the figure of the paper that shows the same.
+fn of_paper(figure: &str) -> String {
+    format!("Compare {figure} of Dimitrakopoulos & Paraskeva (2015).")
+}
+
+/// Says how many of these have no pulse period and how they ended, in a sentence; nothing where all have one.
+fn without_period<'r>(responses: impl Iterator<Item = &'r ReportResponse>) -> String {
+    let mut counts = [0; Outcome::ALL.len()];
+    for response in responses.filter(|response| response.tp_s.is_none()) {
+        counts[Outcome::ALL.iter().position(|other| *other == response.case.outcome).unwrap_or(0)] += 1;
+    }
+    let all: usize = counts.iter().sum();
+    if all == 0 {
+        return String::new();
+    }
+    let counts = Outcome::ALL.iter().zip(counts).filter(|(_, count)| *count > 0);
+    let words: Vec<String> = counts
+        .map(|(outcome, count)| format!("{} {}", number::count(count), outcome.as_str().replace('_', " ")))
+        .collect();
+    format!(" {} without a pulse period Tp are left out ({}).", number::count(all), words.join(", "))
+}
 
 /// Measures of which none is known.
 const NOTHING: IntensityMeasures =
@@ -59,7 +110,15 @@ fn with(measures: IntensityMeasures, measure: Measure, value: f64) -> IntensityM
 }
 
 /// Draws probabilities over a measure, with their limits as a band.
-fn draw_curve(drawing: &mut Drawing, panel: &Panel, curve: &[(f64, Probability)], stroke: Stroke) {
+fn draw_curve(
+    drawing: &mut Drawing,
+    panel: &Panel,
+    name: &str,
+    curve: &[(f64, Probability)],
+    stroke: Stroke,
+) {
+    let row = |(x, p): &(f64, Probability)| [*x, p.value, p.low, p.high];
+    drawing.record(name, &["low", "high"], curve.iter().flat_map(row).collect());
     let band: Vec<[f64; 3]> = curve.iter().map(|(x, p)| [*x, p.low, p.high]).collect();
     panel.band(drawing, &band, stroke.paint.ink.thin(0.2));
     let line: Vec<[f64; 2]> = curve.iter().map(|(x, p)| [*x, p.value]).collect();

@@ -3,7 +3,7 @@
 use crate::motion::intensity::velocity;
 use crate::report::axis::{Axis, range};
 use crate::report::data::{Parts, ReportData};
-use crate::report::drawing::{Drawing, Ink, ONE_COLUMN, Stroke};
+use crate::report::drawing::{Drawing, Ink, Stroke, TWO_COLUMNS};
 use crate::report::figure::{Figure, envelope};
 use crate::report::panel::{Mark, Panel, legend};
 use crate::report::text::Label;
@@ -24,14 +24,15 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
 
 /// A series of a panel.
 struct Series {
+    name: &'static str,
     values: Vec<f64>,
     stroke: Stroke,
 }
 
 fn figure(parts: &Parts) -> Figure {
     let Parts { words, dt_s, pulse_m_s2, whole_m_s2 } = parts;
-    let whole = |values| Series { values, stroke: Ink::Data(0).line(LINE) };
-    let coherent = |values| Series { values, stroke: Ink::Data(1).line(1.1) };
+    let whole = |values| Series { name: "whole", values, stroke: Ink::Data(0).line(LINE) };
+    let coherent = |values| Series { name: "pulse", values, stroke: Ink::Data(1).line(1.1) };
     let unit = "*a* (m/s^{2})";
     let mut rows: Vec<(&str, &str, Vec<Series>)> = Vec::new();
     let mut velocities = vec![whole(velocity(whole_m_s2, *dt_s))];
@@ -41,13 +42,13 @@ fn figure(parts: &Parts) -> Figure {
         rows.push((
             "high frequencies as they are combined",
             unit,
-            vec![Series { values: kept, stroke: Ink::Muted.line(LINE) }],
+            vec![Series { name: "high frequencies", values: kept, stroke: Ink::Muted.line(LINE) }],
         ));
         velocities.push(coherent(velocity(pulse, *dt_s)));
     }
     rows.push(("whole motion", unit, vec![whole(whole_m_s2.clone())]));
     rows.push(("velocity", "*v* (m/s)", velocities));
-    let mut drawing = Drawing::new(ONE_COLUMN, PITCH * rows.len() as f64 + 22.0);
+    let mut drawing = Drawing::new(TWO_COLUMNS, PITCH * rows.len() as f64 + 22.0);
     if pulse_m_s2.is_some() {
         let entries = [
             (Mark::Line(Ink::Data(0).line(1.0)), Label::plain("whole")),
@@ -66,17 +67,17 @@ fn figure(parts: &Parts) -> Figure {
         let y = Axis::linear([-1.08 * peak, 1.08 * peak], Label::marked(unit));
         let panel = Panel {
             corner: [40.0, PITCH * index as f64 + 17.0],
-            width: ONE_COLUMN - 49.0,
+            width: TWO_COLUMNS - 49.0,
             height: HEIGHT,
             x,
             y,
         };
-        for Series { values, stroke } in series {
+        for Series { name, values, stroke } in series {
             let drawn = envelope(values, MOST_VALUES);
             let step_s = drawn.each as f64 * dt_s;
             let line: Vec<[f64; 2]> =
                 drawn.values.iter().enumerate().map(|(k, value)| [k as f64 * step_s, *value]).collect();
-            panel.line(&mut drawing, &line, *stroke);
+            panel.curve(&mut drawing, name, &line, *stroke);
         }
         panel.frame(&mut drawing, Label::plain(*title).bold());
     }
@@ -89,7 +90,8 @@ fn figure(parts: &Parts) -> Figure {
     Figure {
         name: "motion".to_string(),
         title: "A ground motion and its parts".to_string(),
-        caption: format!("Acceleration and velocity of {words}. {made} As Figure 1 of the paper."),
+        caption: format!("Acceleration and velocity of {words}. {made} {}", super::of_paper("Figure 1")),
+        made: String::new(),
         drawing,
     }
 }

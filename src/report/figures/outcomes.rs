@@ -51,16 +51,16 @@ fn figure(groups: &[&Group]) -> Figure {
         let (corner, width) = grid.place(index);
         let panel = Panel { corner, width, height: grid.panel_height, x: x.clone(), y: y.clone() };
         let crowded = group.responses.len() > MOST_POINTS;
-        for (outcome, _, paint, radius) in CLASSES {
+        for (outcome, words, paint, radius) in CLASSES {
             let of_class =
                 group.responses.iter().filter(|response| response.case.outcome == outcome).map(place);
             let mut points: Vec<[f64; 2]> = of_class.collect();
             if crowded && !points.is_empty() {
                 // All classes of a panel are drawn in the same way.
-                panel.density(&mut drawing, &points, paint.ink);
+                panel.density(&mut drawing, words, &points, paint.ink);
                 points.clear();
             }
-            panel.scatter(&mut drawing, &points, radius * dot_scale(group.responses.len()), paint);
+            panel.scatter(&mut drawing, words, &points, radius * dot_scale(group.responses.len()), paint);
         }
         let suite = group.suite.clone().unwrap_or_else(|| "all motions".to_string());
         panel.frame(&mut drawing, Label::plain(suite).bold());
@@ -73,14 +73,19 @@ fn figure(groups: &[&Group]) -> Figure {
         format!("{}: {counts}", group.suite.as_deref().unwrap_or("all motions"))
     });
     let counts = counts.collect::<Vec<_>>().join("; ");
+    let left_out = match with_period {
+        true => super::without_period(groups.iter().flat_map(|group| &group.responses)),
+        false => String::new(),
+    };
     Figure {
         name: format!("outcomes-{}", super::file_words(&structure.name)),
         title: format!("How {} comes through each motion", structure.name),
         caption: format!(
-            "Each dot is a motion; squares stand for many of them where there are more than {} in a panel. {}. {counts}. A figure of our own.",
-            MOST_POINTS,
+            "Each dot is a motion; squares stand for many of them where there are more than {} in a panel. {}. {counts}.{left_out} A figure of our own.",
+            number::count(MOST_POINTS),
             super::structure_words(structure),
         ),
+        made: String::new(),
         drawing,
     }
 }

@@ -11,15 +11,24 @@ use crate::statistics::least_squares;
 
 type Vector = [f64; 3];
 
+const SIDES: [&str; 2] = ["below the transition", "above it"];
+const SEEN: &str = "seen along the line in which the planes meet: both are edge-on, and what lies off them is their residual.";
+
 /// Two planes in some coordinates, below the transition and from there on: the cases, and ln a, b1 and b2.
 struct Sides {
     points: [Vec<Vector>; 2],
     planes: [Vector; 2],
 }
 
-/// Draws the figure of the paper for the groups whose motions have a period, and one over the measures of the planes.
-pub fn figures(data: &ReportData) -> Vec<Figure> {
-    let of_measures = |group: &Group| {
+/// Says at which IM4 the planes part.
+fn parted(data: &ReportData) -> String {
+    let parted = data.groups.iter().find_map(|group| group.planes).map(|planes| planes.transition);
+    parted.map_or(String::new(), |im4| format!("They part at IM4 = {}.", number::plain(im4)))
+}
+
+/// Draws the planes over their own measures.
+pub fn over_measures(data: &ReportData) -> Vec<Figure> {
+    let sides = |group: &Group| {
         let fitted = group.planes?;
         let point = |response: &ReportResponse| {
             let ln = |measure: Measure| measure.of(&response.case).map(f64::ln);
@@ -28,7 +37,16 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         let planes = fitted.sides.map(|side| side.law.ln_median.coefficients);
         Some(Sides { points: points(group, fitted.transition, point), planes })
     };
-    let of_velocity_and_period = |group: &Group| {
+    let caption = format!(
+        "Demand in safe rocking in the space of ln IM4, ln IM3 and ln EDP, {SEEN} The planes are those of Eqs. 17 and 18 and Table II. {} The page turns them in space. A figure of our own.",
+        parted(data)
+    );
+    figure(data, "planes", &caption, ["ln IM4", "ln IM3", "ln EDP"], sides).into_iter().collect()
+}
+
+/// Draws the figure of the paper for the groups whose motions have a period.
+pub fn over_pulse(data: &ReportData) -> Vec<Figure> {
+    let sides = |group: &Group| {
         let point = |response: &ReportResponse| {
             Some([response.pgv_m_s.ln(), response.tp_s?.ln(), response.case.edp.ln()])
         };
@@ -36,22 +54,14 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         let planes = [plane_through(&points[0])?, plane_through(&points[1])?];
         Some(Sides { points, planes })
     };
-    let parted = data.groups.iter().find_map(|group| group.planes).map(|planes| planes.transition);
-    let parted = parted.map_or(String::new(), |im4| format!("They part at IM4 = {}.", number::plain(im4)));
-    let seen = "seen along the line in which the planes meet: both are edge-on, and what lies off them is their residual.";
-    let over_pulse = format!(
-        "Demand in safe rocking in the space of ln PGV, ln Tp and ln EDP, {seen} The planes are fitted in this space. {parted} As Figure 9 of the paper; there the velocity is Vp, which PGV is under pulses alone."
+    let of_planes = data.groups.iter().filter(|group| group.planes.is_some());
+    let caption = format!(
+        "Demand in safe rocking in the space of ln PGV, ln Tp and ln EDP, {SEEN} The planes are fitted in this space. {}{} {} There the velocity is Vp, which PGV is under pulses alone.",
+        parted(data),
+        super::without_period(of_planes.flat_map(Group::safe)),
+        super::of_paper("Figure 9")
     );
-    let over_measures = format!(
-        "Demand in safe rocking in the space of ln IM4, ln IM3 and ln EDP, {seen} The planes are those of Eqs. 17 and 18 and Table II. {parted} The page turns them in space. A figure of our own."
-    );
-    [
-        figure(data, "planes-pulse", &over_pulse, ["ln PGV", "ln Tp", "ln EDP"], of_velocity_and_period),
-        figure(data, "planes", &over_measures, ["ln IM4", "ln IM3", "ln EDP"], of_measures),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    figure(data, "planes-pulse", &caption, ["ln PGV", "ln Tp", "ln EDP"], sides).into_iter().collect()
 }
 
 /// One panel a group that has both planes.
@@ -70,8 +80,8 @@ fn figure(
     let grid = Grid::of(groups.len(), 125.0).with_legend();
     let mut drawing = grid.drawing();
     let entries = [
-        (Mark::Dot(Ink::Data(2).full()), Label::plain("below the transition")),
-        (Mark::Dot(Ink::Data(0).full()), Label::plain("above it")),
+        (Mark::Dot(Ink::Data(2).full()), Label::plain(SIDES[0])),
+        (Mark::Dot(Ink::Data(0).full()), Label::plain(SIDES[1])),
         (Mark::Line(Ink::Text.line(1.2)), Label::plain("planes")),
     ];
     legend(&mut drawing, grid.legend_at(), &entries);
@@ -92,21 +102,21 @@ fn figure(
             x: Axis::linear(ends(0), words_of(&view.right, axes)),
             y: Axis::linear(ends(1), words_of(&view.up, axes)),
         };
-        for (places, ink) in places.iter().zip([Ink::Data(2), Ink::Data(0)]) {
-            panel.scatter(&mut drawing, places, 0.7, ink.thin(0.5));
+        for ((places, ink), name) in places.iter().zip([Ink::Data(2), Ink::Data(0)]).zip(SIDES) {
+            panel.scatter(&mut drawing, name, places, 0.7, ink.thin(0.5));
         }
         for ([ln_a, b1, b2], points) in planes.iter().zip(points) {
             let on_plane = points.iter().map(|[x, y, _]| view.of(&[*x, *y, ln_a + b1 * x + b2 * y]));
             let mut on_plane: Vec<[f64; 2]> = on_plane.collect();
             on_plane.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
             if let (Some(first), Some(last)) = (on_plane.first(), on_plane.last()) {
-                panel.line(&mut drawing, &[*first, *last], Ink::Text.line(1.2));
+                panel.curve(&mut drawing, "plane", &[*first, *last], Ink::Text.line(1.2));
             }
         }
         panel.frame(&mut drawing, Label::plain(group.name()).bold());
     }
     let title = format!("Two planes over {} and {}, seen edge-on", axes[0], axes[1]);
-    Some(Figure { name: name.to_string(), title, caption: caption.to_string(), drawing })
+    Some(Figure { name: name.to_string(), title, caption: caption.to_string(), made: String::new(), drawing })
 }
 
 /// Collects the cases below the transition, and those from there on.

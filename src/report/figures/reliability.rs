@@ -6,7 +6,7 @@ use crate::report::axis::Axis;
 use crate::report::data::{Group, ReportData, ReportResponse};
 use crate::report::drawing::{Dash, Ink};
 use crate::report::figure::{Figure, Grid};
-use crate::report::panel::{Mark, Panel, legend};
+use crate::report::panel::{Estimate, Mark, Panel, legend};
 use crate::report::text::Label;
 use crate::studies::wilson_limits;
 
@@ -31,8 +31,8 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
     let mut drawing = grid.drawing();
     let inks = [Ink::Data(1), Ink::Data(0)];
     let entries = [
-        (Mark::Dot(inks[0].full()), Label::marked("*P*_{ro}")),
-        (Mark::Dot(inks[1].full()), Label::marked("*P*_{ex}")),
+        (Mark::Bar(inks[0]), Label::marked("*P*_{ro}")),
+        (Mark::Bar(inks[1]), Label::marked("*P*_{ex}")),
         (Mark::Line(Ink::Muted.dashed(0.7, Dash::Short)), Label::plain("predicted = observed")),
     ];
     legend(&mut drawing, grid.legend_at(), &entries);
@@ -47,8 +47,8 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
             y: axis("share seen"),
         };
         panel.line(&mut drawing, &[[0.0, 0.0], [1.0, 1.0]], Ink::Muted.dashed(0.7, Dash::Short));
-        for (forecasts, ink) in forecasts.iter().zip(inks) {
-            panel.bars(&mut drawing, &shares(forecasts), ink);
+        for ((forecasts, ink), name) in forecasts.iter().zip(inks).zip(["P_ro", "P_ex"]) {
+            panel.estimates(&mut drawing, name, &shares(forecasts), ink);
         }
         panel.frame(&mut drawing, Label::plain(group.name()).bold());
     }
@@ -56,6 +56,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         name: "reliability".to_string(),
         title: "Reliability of the curves".to_string(),
         caption: "Cases gathered by the probability that the fits give them, in tenths: the mean of these against the share in which it happened, with 95 % limits (Wilson). Overturning by the hybrid curve (or over p PGV/(g tan α) where there is none), exceeding the limit state by the two planes. These are the cases that the curves were fitted to; the stage validate takes others.".to_string(),
+        made: String::new(),
         drawing,
     }]
 }
@@ -83,14 +84,16 @@ fn exceeding(group: &Group, limit: Option<f64>) -> Forecasts {
 }
 
 /// Gathers forecasts by class: mean probability and observed share, with the limits of the share.
-fn shares(forecasts: &[(f64, bool)]) -> Vec<([f64; 2], f64, f64)> {
+fn shares(forecasts: &[(f64, bool)]) -> Vec<Estimate> {
     let class = |probability: f64| ((probability * CLASSES as f64) as usize).min(CLASSES - 1);
     let of = |wanted: usize| {
         let inside: Vec<&(f64, bool)> = forecasts.iter().filter(|(p, _)| class(*p) == wanted).collect();
         let (count, events) = (inside.len(), inside.iter().filter(|(_, event)| *event).count());
         let mean = inside.iter().map(|(p, _)| p).sum::<f64>() / count as f64;
         let limits = wilson_limits(events, count);
-        (count > 0).then(|| ([mean, events as f64 / count as f64], limits.low, limits.high))
+        let at = [mean, events as f64 / count as f64];
+        let (low, high, n) = (limits.low, limits.high, count as f64);
+        (count > 0).then_some(Estimate { at, low, high, n, radius: 1.8 })
     };
     (0..CLASSES).filter_map(of).collect()
 }

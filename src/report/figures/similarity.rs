@@ -83,14 +83,21 @@ fn figure(groups: &[&Group]) -> Figure {
             y: Axis::log(ends(1), y),
         };
         for (index, cloud) in clouds.iter().enumerate() {
-            panel.scatter(&mut drawing, cloud, 0.6, Ink::Data(index).thin(0.3));
+            panel.scatter(
+                &mut drawing,
+                &groups[index].structure.name,
+                cloud,
+                0.6,
+                Ink::Data(index).thin(0.3),
+            );
         }
         for (index, cloud) in clouds.iter().enumerate() {
             let bins = by_ratio(cloud, [panel.x.low, panel.x.high], BINS);
             let medians = bins.into_iter().filter(|(_, inside)| inside.len() >= LEAST);
             let medians: Vec<[f64; 2]> =
                 medians.map(|(x, inside)| [x, quantile(&sorted(inside.into_iter()), 0.5)]).collect();
-            panel.line(&mut drawing, &medians, stroke(index));
+            let name = format!("{}, medians", groups[index].structure.name);
+            panel.curve(&mut drawing, &name, &medians, stroke(index));
         }
         panel.frame(&mut drawing, Label::plain(title).bold());
     }
@@ -102,9 +109,11 @@ fn figure(groups: &[&Group]) -> Figure {
         name: "similarity".to_string(),
         title: "Similarity: one curve for all structures".to_string(),
         caption: format!(
-            "Demand in safe rocking{suite} above the transition of the planes, with medians of bins of PGV. Left in units that each structure has its own curve in, right in dimensionless ones, in which the curves come together. {}. A figure of our own, of what Figure 5 of the paper shows of two responses.",
-            structures.collect::<Vec<_>>().join("; ")
+            "Demand in safe rocking{suite} above the transition of the planes, with medians of bins of PGV. Left in units that each structure has its own curve in, right in dimensionless ones, in which the curves come together. {}. A figure of our own. {}",
+            structures.collect::<Vec<_>>().join("; "),
+            super::of_paper("Figure 5, which shows it of two responses,")
         ),
+        made: String::new(),
         drawing,
     }
 }

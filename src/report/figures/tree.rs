@@ -1,8 +1,10 @@
 //! Figure 6: the tree of outcomes with its numbers.
 
+use crate::report::axis::Axis;
 use crate::report::data::{Group, ReportData};
 use crate::report::drawing::{Anchor, Drawing, Ink, Point, rectangle};
 use crate::report::figure::{Figure, Grid};
+use crate::report::plotted::Plotted;
 use crate::report::text::{Label, number};
 use crate::rocking::Outcome;
 
@@ -17,11 +19,15 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         let ([left, top], width) = grid.place(index);
         tree(&mut drawing, group, data.limit, [left - 30.0, top], width + 30.0);
     }
-    let caption = "Motions, and the share of those of the box before. The share of failure is of those that rock: they overturn or exceed the limit state (Eq. 12). As Figure 6 of the paper.";
+    let caption = format!(
+        "Motions, and the share of those of the box before. The share of failure is of those that rock: they overturn or exceed the limit state (Eq. 12). {}",
+        super::of_paper("Figure 6")
+    );
     vec![Figure {
         name: "tree".to_string(),
         title: "The tree of outcomes".to_string(),
-        caption: caption.to_string(),
+        caption,
+        made: String::new(),
         drawing,
     }]
 }
@@ -96,5 +102,14 @@ fn tree(drawing: &mut Drawing, group: &Group, limit: Option<f64>, [left, top]: P
         let label = Label::plain(format!("{}{share}", number::count(*count)));
         drawing.text([middle, y + 20.0], Anchor::Middle, 6.6, Ink::Text, label);
     }
-    drawing.text([left, top - 7.0], Anchor::Start, 8.0, Ink::Text, Label::plain(group.name()).bold());
+    let title = Label::plain(group.name()).bold();
+    drawing.text([left, top - 7.0], Anchor::Start, 8.0, Ink::Text, title.clone());
+    let names: Vec<String> = nodes.iter().map(|node| node.words.words()).collect();
+    let counts = nodes.iter().enumerate().flat_map(|(row, node)| [node.count as f64, row as f64]);
+    drawing.record("motions", &[], counts.collect());
+    let (series, axes) = (
+        std::mem::take(&mut drawing.series),
+        [Axis::linear([0.0, 1.0], Label::plain("count")), Axis::names(names)],
+    );
+    drawing.plotted.push(Plotted { title, corner: [left, top], size: [0.0, 0.0], axes, series });
 }

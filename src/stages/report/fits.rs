@@ -5,21 +5,23 @@ use crate::fragility::demand::Form;
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
-use crate::report::data::{Curve, Group, Model, Planes, Regression};
+use crate::report::data::{Curve, Group, Median, Model, Planes, Regression, Summary};
+use crate::rocking::Structure;
 use crate::stages::shared::chosen_fits::{ChosenFits, Misfit};
 use crate::stages::shared::fits::{FitFiles, FitsOptions, ModelForm};
+use crate::statistics::Gap;
 use crate::table::fits::{self, GroupKey};
 use crate::table::pex::PexRow;
 use crate::table::pro::ProRow;
 use crate::table::row::ReadRow;
+use crate::units::G_M_S2;
 
 fn key(group: &Group) -> GroupKey {
     (group.suite.clone(), group.structure.name.clone())
 }
 
-/// Gives each group its regressions; the demand that P_ex is about.
-pub fn add_regressions(path: &Path, groups: &mut [Group]) -> anyhow::Result<Option<f64>> {
-    let rows = PexRow::read(path)?;
+/// Gives each group its regressions.
+pub fn add_regressions(rows: &[PexRow], groups: &mut [Group]) {
     for group in groups {
         let key = key(group);
         let of_group = || rows.iter().filter(|row| row.group() == key);
@@ -30,7 +32,6 @@ pub fn add_regressions(path: &Path, groups: &mut [Group]) -> anyhow::Result<Opti
         group.univariate =
             of_group().filter(|row| row.model == Form::Univariate).filter_map(regression).collect();
     }
-    Ok(rows.first().map(|row| row.limit_state))
 }
 
 /// A row that holds a regression, whether it rises or falls.
@@ -39,19 +40,46 @@ fn regression(row: &PexRow) -> Option<Regression> {
     Some(Regression { law, r2: row.r2?, rises: row.is_ok() })
 }
 
-/// Gives each group its curves of overturning.
-pub fn add_curves(path: &Path, groups: &mut [Group], console: &Console) -> anyhow::Result<()> {
+/// Gives each group its curves of overturning, and each summary the middle of one.
+pub fn add_curves(
+    path: &Path,
+    groups: &mut [Group],
+    summaries: &mut [Summary],
+    console: &Console,
+) -> anyhow::Result<()> {
     let mut rows = ProRow::read(path)?;
-    rows.retain(|row| row.is_of_overturning() && row.is_ok());
+    rows.retain(ProRow::is_of_overturning);
+    for summary in summaries {
+        let of_summary =
+            |row: &&ProRow| row.suite == summary.suite && row.structure == summary.structure.name;
+        let over_velocity = |row: &&ProRow| row.im_x == Measure::Im5 && row.im_y.is_none();
+        summary.curve = rows.iter().filter(over_velocity).find(of_summary).map(|row| median(row, summary));
+    }
+    rows.retain(ProRow::is_ok);
     if let Some(Err(why)) = rows.first().map(ProRow::probit) {
         console.warn(&format!("no curves of overturning in the figures: {}: {why}", path.display()));
     }
     for group in groups {
         let key = key(group);
         let of_group = rows.iter().filter(|row| row.group() == key);
-        group.curves = of_group.filter_map(|row| row.probit().ok()).map(|index| Curve { index }).collect();
+        let curve =
+            |row: &ProRow| Some(Curve { index: row.probit().ok()?, status: row.status, gap: gap(row) });
+        group.curves = of_group.filter_map(curve).collect();
     }
     Ok(())
+}
+
+fn gap(row: &ProRow) -> Option<Gap> {
+    Some(Gap { predicted: row.gap_predicted?, observed: row.gap_observed? })
+}
+
+/// The middle of a curve over p PGV / (g tan alpha), as a PGV.
+fn median(row: &ProRow, summary: &Summary) -> Median {
+    let Structure { p_rad_s, alpha_rad, .. } = summary.structure;
+    let pgv_m_s = |im5: f64| im5 * G_M_S2 * alpha_rad.tan() / p_rad_s;
+    let limits = || Some([row.theta?, row.theta_low.unwrap_or(0.0), row.theta_high.unwrap_or(f64::INFINITY)]);
+    let there = limits().filter(|_| row.is_ok());
+    Median { status: row.status, pgv_m_s: there.map(|limits| limits.map(pgv_m_s)), gap: gap(row) }
 }
 
 /// The fits of each group joined: bivariate, and over each measure that has both fits; of a group, the best first.

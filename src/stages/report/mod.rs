@@ -4,6 +4,7 @@ mod fits;
 mod motions;
 mod provenance;
 mod responses;
+mod studies;
 mod tables;
 
 use std::collections::HashSet;
@@ -15,8 +16,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::compare_paper::ComparePaper;
+use super::evaluate::Evaluate;
 use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
+use super::ida::Ida;
 use super::rank_ims::RankIms;
 use super::sample_scenarios::SampleScenarios;
 use super::simulate::Simulate;
@@ -27,12 +30,16 @@ use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{check, defaults};
-use crate::pipeline::stage::Stage;
+use crate::pipeline::stage::{Stage, folder_of};
 use crate::report::data::{File, ReportData};
-use crate::report::{ALL, Draw, Figure, Page, Place, page, png, svg};
+use crate::report::{ALL, Draw, Figure, Page, Part, Place, csv, page, png, svg};
 use crate::table::TableError;
+use crate::table::pex::PexRow;
+use crate::table::row::ReadRow;
 use crate::table::store::contents;
 use crate::table::store::contents::footer;
+use crate::table::store::folder;
+use crate::table::store::partition::Partition;
 use crate::table::store::provenance::{Provenance, Recorded};
 use crate::table::store::source::{Source, Target};
 use crate::table::store::text_file;
@@ -41,13 +48,22 @@ use crate::table::store::text_file;
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct ReportOptions {
+    /// Title of the page [default: Rocking fragility]
+    #[arg(long)]
+    pub title: Option<String>,
+    /// Author, below the title
+    #[arg(long)]
+    pub author: Option<String>,
+    /// Date, in words of your own: the page takes none from a clock
+    #[arg(long)]
+    pub date: Option<String>,
     /// Suite to show [default: all]
     #[arg(long)]
     pub suite: Option<String>,
     /// Structure to show [default: all]
     #[arg(long)]
     pub structure: Option<String>,
-    /// Largest number of pairs of suite and structure to show, in the order of the file
+    /// Largest number of pairs of suite and structure to draw, in the order of the file; findings and tables hold all
     #[arg(long, default_value = "4", value_name = "N")]
     pub groups: usize,
     /// Number of motions to browse in the page
@@ -68,11 +84,15 @@ impl StageOptions for ReportOptions {}
 
 /// The role of the responses, which must be there.
 const RESPONSES: &str = "responses";
+/// The role of annual rates.
+const RATES: &str = "rates";
 
 /// The stage, ready to run.
 pub struct Report {
     options: ReportOptions,
     folder: PathBuf,
+    /// Annual rates, if they are named.
+    rates: Option<PathBuf>,
     out: PathBuf,
 }
 
@@ -81,7 +101,12 @@ impl Report {
     ///
     /// # Errors
     /// If an option is out of range.
-    pub fn new(options: &ReportOptions, folder: PathBuf, out: PathBuf) -> anyhow::Result<Report> {
+    pub fn new(
+        options: &ReportOptions,
+        folder: PathBuf,
+        rates: Option<PathBuf>,
+        out: PathBuf,
+    ) -> anyhow::Result<Report> {
         check(options.groups >= 1, "groups", options.groups, "1 or more")?;
         check(
             options.motions <= 200,
@@ -92,7 +117,7 @@ impl Report {
         let ending = out.extension().unwrap_or_default().to_string_lossy();
         check(ending == "html", "out", out.display(), "the name of a page that ends in .html")?;
         check((36.0..=1200.0).contains(&options.dpi), "dpi", options.dpi, "36 to 1200 dots per inch")?;
-        Ok(Report { options: options.clone(), folder, out })
+        Ok(Report { options: options.clone(), folder, rates, out })
     }
 
     /// The responses, and of the other files that a report can show those that are there, in the order of the pipeline, by the
@@ -109,23 +134,50 @@ impl Report {
             ("ranking", RankIms::OUTPUT),
             ("universality", Universality::OUTPUT),
         ];
-        let places = known.map(|(role, output)| (role, self.folder.join(output.file)));
-        places.into_iter().filter(|(role, path)| *role == RESPONSES || path.is_file()).collect()
+        let mut places = known.map(|(role, output)| (role, self.place(output.file))).to_vec();
+        let part =
+            |part: &str| self.place(&Ida::OUTPUT.file.replace(".parquet", &format!(".{part}.parquet")));
+        places.extend([("ida shares", part("shares")), ("ida fragility", part("fragility"))]);
+        let in_folder = || Some(self.place(Evaluate::OUTPUT.file)).filter(|path| studies::are_rates(path));
+        places.extend(self.rates.clone().or_else(in_folder).map(|rates| (RATES, rates)));
+        places.into_iter().filter(|(role, path)| [RESPONSES, RATES].contains(role) || path.exists()).collect()
+    }
+
+    /// Where a file is: in the folder by its name, or as a folder of partitions without the ending. The folder may be that of the
+    /// partitions of the responses; then the others are beside it.
+    fn place(&self, file: &str) -> PathBuf {
+        let is_of_partitions = self.is_of_partitions();
+        let folder = if is_of_partitions { folder_of(&self.folder) } else { &self.folder };
+        let whole = folder.join(file);
+        let parts = whole.with_extension("");
+        match () {
+            () if is_of_partitions && file == Simulate::OUTPUT.file => self.folder.clone(),
+            () if !whole.exists() && parts.is_dir() => parts,
+            () => whole,
+        }
+    }
+
+    /// Whether the folder holds partitions rather than the files of a run.
+    fn is_of_partitions(&self) -> bool {
+        let first = Partition { index: 0, of: 1 }.file_name();
+        self.folder.join(first).is_file()
     }
 
     fn read_data(&self, console: &Console) -> anyhow::Result<ReportData> {
         let inputs = self.there();
         let there =
             |role: &str| inputs.iter().find(|(other, _)| *other == role).map(|(_, path)| path.as_path());
-        let (mut groups, left_out) =
-            responses::read(&self.folder.join(Simulate::OUTPUT.file), &self.options)?;
-        let mut data = ReportData { left_out, ..ReportData::default() };
-        if let Some(pex) = there("pex") {
-            data.limit = fits::add_regressions(pex, &mut groups)?;
-        }
+        let regressions = there("pex").map(PexRow::read).transpose()?.unwrap_or_default();
+        let limit = regressions.first().map(|row| row.limit_state);
+        let responses = self.place(Simulate::OUTPUT.file);
+        let (mut groups, mut summaries, left_out) = responses::read(&responses, &self.options, limit)?;
+        fits::add_regressions(&regressions, &mut groups);
         if let Some(pro) = there("pro") {
-            fits::add_curves(pro, &mut groups, console)?;
+            fits::add_curves(pro, &mut groups, &mut summaries, console)?;
         }
+        let ReportOptions { title, author, date, .. } = self.options.clone();
+        let mut data =
+            ReportData { title, author, date, summaries, limit, left_out, ..ReportData::default() };
         if let (Some(pex), Some(pro)) = (there("pex"), there("pro")) {
             data.models = fits::models(pex, pro, &groups);
         }
@@ -133,6 +185,12 @@ impl Report {
             let structures = motions::structures(&groups);
             (data.motions, data.parts) = motions::read(path, &structures, self.options.motions)?;
         }
+        data.rates = there(RATES).map(studies::rates).transpose()?.unwrap_or_default();
+        let shares = there("ida shares").map(|shares| studies::analyses(shares, there("ida fragility")));
+        data.analyses = shares.transpose()?.unwrap_or_default();
+        data.validations = there("validation").map(studies::validations).transpose()?.unwrap_or_default();
+        data.rankings = there("ranking").map(studies::rankings).transpose()?.unwrap_or_default();
+        data.transfers = there("universality").map(studies::transfers).transpose()?;
         data.tables = tables::read(&inputs)?;
         data.files = inputs.iter().map(|(_, path)| file(path)).collect::<Result<_, TableError>>()?;
         data.groups = groups;
@@ -145,14 +203,14 @@ impl Report {
     }
 }
 
-/// Gives each figure a name of its own, whatever structures are called, and says in its caption what was run.
-fn finish(figures: &mut [Figure], made: &str) {
+/// Gives each figure a name of its own, whatever structures are called, and what its files say of how it was made.
+fn finish(figures: &mut [(Part, Figure)], made: &str) {
     let mut names = HashSet::new();
-    for (index, figure) in figures.iter_mut().enumerate() {
+    for (index, (_, figure)) in figures.iter_mut().enumerate() {
         if !names.insert(figure.name.clone()) {
             figure.name = format!("{}-{}", figure.name, index + 1);
         }
-        figure.caption = format!("{} {made}", figure.caption);
+        figure.made = made.to_string();
     }
 }
 
@@ -162,6 +220,13 @@ fn file(path: &Path) -> Result<File, TableError> {
     let recorded = contents::recorded(path)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let rows = usize::try_from(footer.rows).unwrap_or(0);
+    let mut warnings = Vec::new();
+    for part in folder::files(path)? {
+        let of_part = contents::recorded(&part)?.map(|recorded| recorded.provenance.warnings.all());
+        warnings.extend(of_part.unwrap_or_default());
+    }
+    warnings.sort();
+    warnings.dedup();
     Ok(match recorded {
         Some(Recorded { provenance, content, .. }) => File {
             name,
@@ -170,6 +235,7 @@ fn file(path: &Path) -> Result<File, TableError> {
             parameters: provenance.parameters,
             content,
             rows,
+            warnings,
         },
         None => File {
             name,
@@ -178,6 +244,7 @@ fn file(path: &Path) -> Result<File, TableError> {
             parameters: Value::Null,
             content: contents::content_of(path)?,
             rows,
+            warnings,
         },
     })
 }
@@ -185,17 +252,25 @@ fn file(path: &Path) -> Result<File, TableError> {
 impl Declare for Report {
     type Options = ReportOptions;
     const NAME: &'static str = "report";
-    const ABOUT: &'static str =
-        "Draw what a folder of files holds: one page to open in a browser, and each figure as SVG and PNG";
+    const ABOUT: &'static str = "Draw what a folder of files holds: one page to open in a browser, and each figure as SVG, PNG and CSV";
     const EXAMPLES: &'static str = "rockfrag report --in out\n\
         rockfrag report --in out --suite csgm --out combined.html --dpi 150";
-    const INPUTS: &'static [Input] = &[Input::file(
-        "files",
-        "in",
-        "",
-        "Folder of the files: responses.parquet, and what else there is of them",
-    )
-    .folder("out")];
+    const INPUTS: &'static [Input] = &[
+        Input::file(
+            "files",
+            "in",
+            "",
+            "Folder of the files: responses.parquet or its partitions, and what else there is of them",
+        )
+        .folder("out"),
+        Input::file(
+            RATES,
+            "rates",
+            "",
+            "Annual rates of evaluate --hazard, in a Parquet file or a folder of them [default: evaluated.parquet in the folder]",
+        )
+        .if_named(),
+    ];
     const OUTPUT: Output = Output::file(
         "report.html",
         "Page to write; its figures go into a folder of the same name [default: report.html in the input]",
@@ -210,7 +285,14 @@ impl Declare for Report {
         else {
             return Err(UsageError::because("report writes a page; expected the name of a file"));
         };
-        Report::new(options, folder, out)
+        let rates = match files.optional(RATES) {
+            Some(Source::Memory(_)) => {
+                return Err(UsageError::because("rates: a table in memory; expected a file of evaluate"));
+            }
+            Some(Source::Path(rates)) => Some(rates),
+            None => None,
+        };
+        Report::new(options, folder, rates, out)
     }
 }
 
@@ -228,8 +310,7 @@ impl Stage for Report {
     }
 
     fn parameters(&self) -> Value {
-        let ReportOptions { suite, structure, groups, motions, dpi } = &self.options;
-        json!({ "suite": suite, "structure": structure, "groups": groups, "motions": motions, "dpi": dpi })
+        json!(self.options)
     }
 
     fn recorded(&self, output: &Path) -> Result<Option<Recorded>, TableError> {
@@ -239,13 +320,17 @@ impl Stage for Report {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let data = self.read_data(console)?;
         contents::expect_unchanged(provenance)?;
-        let mut figures: Vec<Figure> = ALL.par_iter().flat_map_iter(|draw: &Draw| draw(&data)).collect();
+        let drawn = ALL.par_iter().flat_map_iter(|&(part, draw): &(Part, Draw)| {
+            draw(&data).into_iter().map(move |figure| (part, figure))
+        });
+        let mut figures: Vec<(Part, Figure)> = drawn.collect();
         finish(&mut figures, &data.made());
         let folder = self.figures();
         std::fs::create_dir_all(&folder).map_err(|source| TableError::io(&folder, source))?;
-        figures.par_iter().try_for_each(|figure| -> anyhow::Result<()> {
+        figures.par_iter().try_for_each(|(_, figure)| -> anyhow::Result<()> {
             let path = |extension: &str| folder.join(format!("{}.{extension}", figure.name));
             text_file::write(&path("svg"), svg(figure, Place::File))?;
+            text_file::write(&path("csv"), csv(&figure.drawing.plotted)?)?;
             Ok(text_file::write(&path("png"), &png(figure, self.options.dpi)?)?)
         })?;
         let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();

@@ -3,20 +3,26 @@ use std::sync::Arc;
 
 use super::ReportOptions;
 use crate::pipeline::UsageError;
-use crate::report::data::{Group, ReportResponse};
+use crate::report::data::{Group, ReportResponse, Summary};
+use crate::rocking::Outcome;
 use crate::table::responses::{RESPONSES, ResponseCase};
 use crate::table::row::Row;
 use crate::table::store::reader::Batches;
 
-/// The responses of the suites and structures that are to be shown, and how many others there are.
-pub fn read(path: &Path, options: &ReportOptions) -> anyhow::Result<(Vec<Group>, usize)> {
-    let mut sorted = Sorted::default();
+/// The responses of the suites and structures that are to be drawn, what came of all that are asked for, and how many pairs
+/// of both are not drawn.
+pub fn read(
+    path: &Path,
+    options: &ReportOptions,
+    limit: Option<f64>,
+) -> anyhow::Result<(Vec<Group>, Vec<Summary>, usize)> {
+    let mut sorted = Sorted { limit, ..Sorted::default() };
     for batch in Batches::open_whole(path, &ResponseCase::TABLE, &[RESPONSES.stage])? {
         for row in ResponseCase::checked(&batch?.columns())? {
             sorted.add(&row, options);
         }
     }
-    let Sorted { mut groups, names } = sorted;
+    let Sorted { mut groups, names, summaries, .. } = sorted;
     if groups.is_empty() {
         let known =
             names.iter().map(|(suite, structure)| format!("{} {structure}", suite.as_deref().unwrap_or("-")));
@@ -30,7 +36,7 @@ pub fn read(path: &Path, options: &ReportOptions) -> anyhow::Result<(Vec<Group>,
     // Suites of one structure stand beside each other.
     let structures: Vec<String> = groups.iter().map(|group| group.structure.name.clone()).collect();
     groups.sort_by_key(|group| structures.iter().position(|name| *name == group.structure.name));
-    Ok((groups, left_out))
+    Ok((groups, summaries.into_iter().flatten().collect(), left_out))
 }
 
 type Name = (Option<Arc<str>>, Arc<str>);
@@ -40,36 +46,59 @@ struct Sorted {
     groups: Vec<Group>,
     /// Of all groups of the file; those that are shown first, in the same order as `groups`.
     names: Vec<Name>,
+    /// What came of them, in the same order; nothing of those that are not asked for.
+    summaries: Vec<Option<Summary>>,
+    /// The limit state.
+    limit: Option<f64>,
 }
 
 impl Sorted {
     fn add(&mut self, row: &ResponseCase, options: &ReportOptions) {
-        let Some(group) = self.group(row, options) else { return };
+        let place = self.place(row, options);
+        let case = row.case();
+        if let Some(summary) = &mut self.summaries[place] {
+            summary.n += 1;
+            summary.rocked += usize::from(case.outcome != Outcome::NoRocking);
+            summary.overturned += usize::from(case.outcome == Outcome::Overturning);
+            let above = |limit: f64| usize::from(case.outcome == Outcome::SafeRocking && case.edp > limit);
+            summary.exceeded = self.limit.map(|limit| summary.exceeded.unwrap_or(0) + above(limit));
+        }
+        let Some(group) = self.groups.get_mut(place) else { return };
         group.responses.push(ReportResponse {
-            case: row.case(),
+            case,
             pga_m_s2: row.pga_m_s2,
             pgv_m_s: row.pgv_m_s,
             tp_s: row.tp_s,
         });
     }
 
-    /// The group of a response, if it is to be shown.
-    fn group(&mut self, row: &ResponseCase, options: &ReportOptions) -> Option<&mut Group> {
+    /// The place of the suite and structure of a response; those that are drawn come first.
+    fn place(&mut self, row: &ResponseCase, options: &ReportOptions) -> usize {
         let is_its = |(suite, structure): &Name| *suite == row.suite && *structure == row.structure;
-        let known = self.names.iter().position(is_its);
-        if let Some(index) = known {
-            return self.groups.get_mut(index);
+        if let Some(index) = self.names.iter().position(is_its) {
+            return index;
         }
         let name = (row.suite.clone(), row.structure.clone());
-        let wanted = (options.suite.is_none() || options.suite.as_deref() == name.0.as_deref())
-            && options.structure.as_ref().is_none_or(|wanted| **wanted == *name.1);
-        if !(wanted && self.groups.len() < options.groups) {
+        let asked = (options.suite.is_none() || options.suite.as_deref() == name.0.as_deref())
+            && options.structure.as_ref().is_none_or(|asked| **asked == *name.1);
+        let suite = name.0.as_deref().map(str::to_string);
+        let summary = asked.then(|| Summary {
+            suite: suite.clone(),
+            structure: row.structure(),
+            n: 0,
+            rocked: 0,
+            overturned: 0,
+            exceeded: None,
+            curve: None,
+        });
+        if !(asked && self.groups.len() < options.groups) {
             self.names.push(name);
-            return None;
+            self.summaries.push(summary);
+            return self.names.len() - 1;
         }
         let index = self.groups.len();
         self.groups.push(Group {
-            suite: name.0.as_deref().map(str::to_string),
+            suite,
             structure: row.structure(),
             responses: Vec::new(),
             univariate: Vec::new(),
@@ -77,6 +106,7 @@ impl Sorted {
             curves: Vec::new(),
         });
         self.names.insert(index, name);
-        self.groups.last_mut()
+        self.summaries.insert(index, summary);
+        index
     }
 }

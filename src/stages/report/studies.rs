@@ -1,0 +1,134 @@
+//! What other stages have left in the folder: annual rates, incremental dynamic analyses, validations, rankings.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::keyword::Keyword;
+use crate::report::data::{Analysis, Level, Ranking, Rates, StateRate, Validated, name_of};
+use crate::studies::{Target, Verdict};
+use crate::table::evaluated::AnnualRate;
+use crate::table::ida::{Lognormal, Share};
+use crate::table::ranking::RankingRow;
+use crate::table::row::ReadRow;
+use crate::table::store::contents::{footer, recorded};
+use crate::table::store::folder;
+use crate::table::universality::UniversalityRow;
+use crate::table::validation::ValidationRow;
+
+/// Whether a file of evaluate holds annual rates, rather than probabilities of many motions.
+pub fn are_rates(path: &Path) -> bool {
+    footer(path).is_ok_and(|footer| footer.schema.field_with_name("annual_rate").is_ok())
+}
+
+/// The annual rates of a file, or of each in a folder.
+pub fn rates(path: &Path) -> anyhow::Result<Vec<Rates>> {
+    folder::files(path)?.iter().map(|file| rates_of(file)).collect()
+}
+
+/// Parameters of a structure, with what stands before and after each.
+const OF_STRUCTURE: [(&str, &str, &str); 6] = [
+    ("name", "", ""),
+    ("p", "p = ", " rad/s"),
+    ("alpha", "α = ", " rad"),
+    ("width", "", " m wide"),
+    ("height", "", " m high"),
+    ("eta", "η = ", ""),
+];
+
+fn rates_of(file: &Path) -> anyhow::Result<Rates> {
+    let rows = AnnualRate::read(file)?;
+    let parameters = recorded(file)?.map_or(Value::Null, |recorded| recorded.provenance.parameters);
+    let words = |of: &Value, parts: &[(&str, &str, &str)]| {
+        let given = parts.iter().filter_map(|(key, before, after)| {
+            let value = of.get(key).filter(|value| !value.is_null())?;
+            Some(format!("{before}{}{after}", value.as_str().map_or(value.to_string(), str::to_string)))
+        });
+        given.collect::<Vec<_>>().join(", ")
+    };
+    let structure = words(&parameters["structure"], &OF_STRUCTURE);
+    let fits = match parameters.get("fits") {
+        Some(fits) => words(fits, &[("structure", "fits of ", ""), ("suite", "", "")]),
+        None => words(&parameters, &[("model", "the ", " surface"), ("suite", "", "")]),
+    };
+    let state = |row: &AnnualRate| StateRate {
+        words: format!("{} {}", row.state.as_str(), row.meaning.replace("|theta|max / alpha", "|θ|max/α")),
+        annual_rate: [row.annual_rate, row.annual_rate_low, row.annual_rate_high],
+        probability: [row.p, row.p_low, row.p_high],
+    };
+    Ok(Rates {
+        name: format!("{structure}; by {fits}"),
+        years: rows.first().map_or(f64::NAN, |row| row.years),
+        states: rows.iter().map(state).collect(),
+    })
+}
+
+/// The shares of an analysis, by suite and structure, with the medians in the file of fragility beside it.
+pub fn analyses(shares: &Path, fragility: Option<&Path>) -> anyhow::Result<Vec<Analysis>> {
+    let fits = fragility.map(Lognormal::read).transpose()?.unwrap_or_default();
+    let mut analyses: Vec<Analysis> = Vec::new();
+    for row in Share::read(shares)? {
+        let name = name_of(&row.structure, row.suite.as_deref());
+        let level = Level {
+            intensity: row.intensity,
+            n: row.n,
+            share: [row.share, row.share_low, row.share_high],
+            lognormal: row.lognormal,
+        };
+        if let Some(last) = analyses.last_mut().filter(|last| last.name == name) {
+            last.levels.push(level);
+            continue;
+        }
+        let is_its = |fit: &&Lognormal| fit.suite == row.suite && fit.structure == row.structure;
+        let theta =
+            fits.iter().find(is_its).and_then(|fit| Some([fit.theta?, fit.theta_low?, fit.theta_high?]));
+        analyses.push(Analysis { name, measure: row.measure, levels: vec![level], theta });
+    }
+    Ok(analyses)
+}
+
+/// What was seen and expected, row by row.
+pub fn validations(path: &Path) -> anyhow::Result<Vec<Validated>> {
+    let validated = |row: &ValidationRow| {
+        let share = |count: f64| count / row.n as f64;
+        Validated {
+            name: format!("{}: {}", name_of(&row.structure, row.suite.as_deref()), row.event.as_str()),
+            n: row.n,
+            seen: [row.share, row.share_low, row.share_high],
+            expected: [share(row.expected), share(row.expected_low), share(row.expected_high)],
+            chance_p: row.chance_p,
+        }
+    };
+    Ok(ValidationRow::read(path)?.iter().map(validated).collect())
+}
+
+/// The candidates that stand out, by suite, structure and target.
+pub fn rankings(path: &Path) -> anyhow::Result<Vec<Ranking>> {
+    let mut rankings: Vec<Ranking> = Vec::new();
+    for row in RankingRow::read(path)? {
+        let (Some(choice), Some(gain), Some(error)) = (&row.choice, row.over_paper, row.se_over_paper) else {
+            continue;
+        };
+        if row.terms == 0 {
+            continue;
+        }
+        let name = name_of(&row.structure, row.suite.as_deref());
+        let name = match row.target {
+            Target::Demand => format!("{name}: demand"),
+            Target::Overturning => format!("{name}: overturning"),
+        };
+        let candidate = (format!("{} ({choice})", row.measures), gain, error);
+        match rankings.iter_mut().find(|ranking| ranking.name == name) {
+            Some(ranking) => ranking.candidates.push(candidate),
+            None => rankings.push(Ranking { name, candidates: vec![candidate] }),
+        }
+    }
+    Ok(rankings)
+}
+
+/// How many curves hold, bend and fail on other structures.
+pub fn transfers(path: &Path) -> anyhow::Result<[usize; 3]> {
+    let rows = UniversalityRow::read(path)?;
+    let count = |verdict| rows.iter().filter(|row| row.verdict == verdict).count();
+    Ok([Verdict::Holds, Verdict::Bends, Verdict::Fails].map(count))
+}
