@@ -54,7 +54,7 @@ fn a_page_does_not_either() {
     copy("traced.parquet", &responses);
     let options = ReportOptions { dpi: 36.0, groups: 1, motions: 0, ..ReportOptions::default() };
     let stage =
-        Report::new(&options, folder.path().to_path_buf(), folder.path().join("report.html")).unwrap();
+        Report::new(&options, folder.path().to_path_buf(), None, folder.path().join("report.html")).unwrap();
     expect_refusal(&stage, || copy("responses.parquet", &responses));
     assert!(folder.path().join("report").is_dir());
 }
