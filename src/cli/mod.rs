@@ -221,7 +221,8 @@ fn stages_of(config: &Config, pipeline: &Path, out: Option<PathBuf>) -> anyhow::
 
 /// Runs stages, then prints what they found: in words, and their tables.
 fn run_all(stages: &[Box<dyn Stage>], format: Format, may: May, console: &Console) -> anyhow::Result<()> {
-    let expected = Config::is_of_paper(stages)?.then(Warnings::default);
+    let is_of_paper = Config::is_of_paper(stages)?;
+    let expected = is_of_paper.then(Warnings::default);
     run(stages, may, &Console { expected: expected.clone(), ..console.clone() })?;
     let expected = expected.map_or(0, |expected| expected.all().len());
     if expected > 0 {
@@ -230,7 +231,7 @@ fn run_all(stages: &[Box<dyn Stage>], format: Format, may: May, console: &Consol
              `rockfrag inspect FILE` shows those of a file"
         ));
     }
-    let findings = findings::of(stages)?;
+    let findings = findings::of(stages, is_of_paper)?;
     match format {
         Format::Table => {
             let terminal = Terminal::stdout();

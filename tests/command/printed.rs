@@ -69,7 +69,8 @@ fn a_run_is_printed_for_programs() {
     let rows = printed["compare-paper"]["rows"].as_array().unwrap();
     assert!(rows.iter().any(|row| row["quantity"] == "im5_theta"), "{printed}");
     assert!(!printed["fit-pro"]["warnings"].as_array().unwrap().is_empty(), "{printed}");
-    assert!(printed["findings"][0].as_str().unwrap().contains("published numbers"), "{printed}");
+    // The published numbers are compared with those of the paper's set-up, which this is not.
+    assert!(!printed["findings"].to_string().contains("published numbers"), "{printed}");
 }
 
 #[test]
@@ -138,7 +139,8 @@ fn a_run_of_the_paper_says_first_what_it_found() {
     let kept = json(folder.path(), "inspect out/pro.parquet");
     assert!(kept["warnings"].as_array().unwrap().len() > 3, "{kept}");
     // Any other set-up has its warnings one by one.
-    let (_, said) = call(folder.path(), "run --seed 7 --out other");
+    let (printed, said) = call(folder.path(), "run --seed 7 --out other");
+    assert!(printed.starts_with("at PGA 0.5 g and PGV 0.6 m/s"), "{printed}");
     assert!(said.contains("warning: ") && !said.contains("expected of the paper's"), "{said}");
 }
 

@@ -8,14 +8,14 @@ use crate::common::{content, fail, rockfrag, succeed};
 use crate::evaluate::{fitted, run_folder};
 
 #[test]
-fn fitted_curves_foretell_the_counts_they_were_fitted_to() {
+fn fitted_curves_predict_the_counts_they_were_fitted_to() {
     let (folder, fits) = fitted();
     let run = run_folder().display();
     let call = format!("validate --in {run}/responses.parquet {fits} --out own.parquet");
     let output = rockfrag(folder.path()).args(call.split_whitespace()).output().unwrap();
     let table = String::from_utf8(output.stdout).unwrap();
     let told = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(told.matches("was fitted to the very responses of").count(), 2, "{told}");
+    assert_eq!(told.matches("was fitted to these responses").count(), 2, "{told}");
     assert!(output.status.success() && table.contains("overturning"), "{table}");
     let file = std::fs::File::open(folder.path().join("own.parquet")).unwrap();
     let rows =
@@ -67,7 +67,7 @@ fn responses_of_other_structures_are_refused() {
     succeed(folder.path(), "synthesize-motions --suite csgm --dt 0.01");
     succeed(folder.path(), "simulate --structures s.csv");
     let told = succeed(folder.path(), &format!("validate {fits}"));
-    assert!(!told.contains("very responses") && told.contains("counts of"), "{told}");
+    assert!(!told.contains("was fitted to") && told.contains("counts of"), "{told}");
     let pex = format!("--pex {run}/pex.parquet --pro {run}/pro.parquet");
     let call = format!("validate --in {run}/responses.parquet {pex} --suite csmg");
     fail(folder.path(), &call, 2, &["--suite csgm"]);

@@ -126,7 +126,7 @@ impl Declare for Evaluate {
     ];
     const OUTPUT: Output = Output::file(
         "evaluated.parquet",
-        "File to write [default: stdout; of a table: evaluated.parquet beside it]",
+        "File to write [default: stdout; with --in, evaluated.parquet beside the table]",
     )
     .under("Output");
 

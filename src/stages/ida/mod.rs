@@ -118,7 +118,7 @@ impl Declare for Ida {
         &[Input::file("motions", "in", SynthesizeMotions::OUTPUT.file, "Motions to read, as in simulate")];
     const OUTPUT: Output = Output::file(
         "ida.parquet",
-        "File of overturning intensities to write; NAME.stripes, NAME.windows, NAME.shares and NAME.fragility stand beside it [default: ida.parquet beside the input]",
+        "File of overturning intensities to write; NAME.stripes, NAME.windows, NAME.shares and NAME.fragility are written beside it [default: ida.parquet beside the input]",
     )
     .with_parts(&[IDA_STRIPES.name, IDA_WINDOWS.name, IDA_SHARES.name, IDA_FRAGILITY.name]);
 

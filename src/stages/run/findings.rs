@@ -28,14 +28,15 @@ const ROUNDING: f64 = 1e-9;
 /// A published plane whose probability is below this is not reproduced.
 const LEAST_P: f64 = 0.05;
 
-/// What the files of these stages say.
+/// What the files of these stages say; of the published numbers, only if the stages are of the paper's set-up, as the spread over
+/// seeds is.
 ///
 /// # Errors
 /// If one cannot be read.
-pub fn of(stages: &[Box<dyn Stage>]) -> anyhow::Result<Vec<String>> {
+pub fn of(stages: &[Box<dyn Stage>], is_of_paper: bool) -> anyhow::Result<Vec<String>> {
     let output = |name: &str| stages.iter().find(|stage| stage.name() == name)?.outputs().pop();
     let mut findings = Vec::new();
-    if let Some(paper) = output(ComparePaper::NAME) {
+    if let Some(paper) = output(ComparePaper::NAME).filter(|_| is_of_paper) {
         findings.extend(of_paper(&PaperRow::read(paper)?));
     }
     if let (Some(pex), Some(pro)) = (output(FitPex::NAME), output(FitPro::NAME)) {

@@ -205,7 +205,7 @@ impl Declare for Simulate {
     )];
     const OUTPUT: Output = Output::file(
         "responses.parquet",
-        "Responses file to write, or folder of partitions [default: responses.parquet beside the input, responses of partitions]",
+        "Responses file to write, or folder of partitions [default: responses.parquet beside the input; for partitions, the folder responses]",
     )
     .with_parts(&["trace"]);
 

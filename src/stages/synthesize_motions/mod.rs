@@ -95,7 +95,7 @@ impl Declare for SynthesizeMotions {
         &[Input::file("scenarios", "in", SampleScenarios::OUTPUT.file, "Scenarios to read")];
     const OUTPUT: Output = Output::file(
         "motions.parquet",
-        "Motions file to write, or folder of partitions [default: motions.parquet beside the input, motions of partitions]",
+        "Motions file to write, or folder of partitions [default: motions.parquet beside the input; for partitions, the folder motions]",
     );
 
     fn create(options: &SynthesizeMotionsOptions, files: &Files) -> anyhow::Result<SynthesizeMotions> {
