@@ -31,7 +31,8 @@ def test_each_option_is_a_parameter_with_a_type(stage):
     common = {"out", "threads", "progress", "force", "overwrite"}
     assert options | common == {name.rstrip("_") for name in signature.parameters}
     for parameter in signature.parameters.values():
-        assert "Any" not in parameter.annotation
+        # Of an option that takes several kinds, rockfrag/_stages.py tells the type.
+        assert "Any" not in parameter.annotation and "object" not in parameter.annotation, parameter
     assert signature.return_annotation in ("Table | Path", "Path")
 
 

@@ -126,7 +126,7 @@ def _annotation(stage: Stage, option: Option) -> str:
     name, words = str(option["name"]), option["words"]
     own = _OWN.get(f"{stage.name} {name}")
     if own or option["type"] == "any" or name in ("hazard", "seed"):
-        return own or _OWN[name]
+        return own or _OWN.get(name, "object")
     if option["type"] == "word":
         assert isinstance(words, list)
         return f"Literal[{', '.join(map(repr, words))}]"
@@ -194,7 +194,7 @@ def _docstring(stage: Stage, signature: inspect.Signature) -> str:
     for error, reason in _RAISES.items():
         lines += [error, *_wrapped(reason)]
     lines += ["", "Warns", "-----", "RockfragWarning", *_wrapped("Of each result to be looked at twice.")]
-    example = textwrap.dedent(EXAMPLES[stage.name]).strip()
+    example = EXAMPLES.get(stage.name, "").strip()
     about = _wrapped(f"{stage.about}.".replace("..", "."), indent="")
     return "\n".join([*about, "", *lines, "", "Examples", "--------", *example.splitlines()]) + "\n"
 
