@@ -187,6 +187,7 @@ fn rates_of_a_site_stand_in_the_findings() {
         env!("CARGO_MANIFEST_DIR")
     );
     std::fs::create_dir(at("out")).unwrap();
+    std::fs::create_dir(at("rates")).unwrap();
     for file in ["responses.parquet", "pex.parquet", "pro.parquet"] {
         std::fs::copy(run_folder().join(file), at("out").join(file)).unwrap();
     }
@@ -198,6 +199,9 @@ fn rates_of_a_site_stand_in_the_findings() {
     let csv =
         rockfrag(folder.path()).args(ask.split_whitespace()).args(["--format", "csv"]).output().unwrap();
     let answer = String::from_utf8(csv.stdout).unwrap();
+    let made = rockfrag::table::store::contents::recorded(&at("rates/a.parquet")).unwrap().unwrap();
+    let warnings = made.provenance.warnings.all();
+    assert!(!warnings.is_empty());
     let rates: Vec<f64> =
         answer.lines().skip(1).map(|line| number(line.split(',').nth(1).unwrap())).collect();
     for folder in ["one", "two"] {
@@ -209,10 +213,7 @@ fn rates_of_a_site_stand_in_the_findings() {
             findings.contains("At the site") && findings.contains("probability in 50 years"),
             "{findings}"
         );
-        assert!(
-            findings.contains("by the universal surface"),
-            "the warnings of evaluate are not in {findings}"
-        );
+        assert!(warnings.iter().all(|words| findings.contains(words)), "{warnings:?} are not in {findings}");
     }
 }
 
@@ -237,7 +238,9 @@ fn partitions_give_the_report_of_the_whole() {
     }
     let page = |name: &str| files(&at(&format!("{name}-page")), "report");
     let figures = |name: &str| {
-        let drawn = page(name).into_iter().filter(|(file, _)| file.ends_with(".csv"));
+        // Which motion is shown with its parts depends on the row groups.
+        let is_of_rows = |file: &str| file.ends_with(".csv") && file != "motion.csv";
+        let drawn = page(name).into_iter().filter(|(file, _)| is_of_rows(file));
         drawn.collect::<BTreeMap<_, _>>()
     };
     assert!(!figures("whole").is_empty());
