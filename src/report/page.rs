@@ -14,10 +14,11 @@ use super::text::{escape, number};
 const STYLE: &str = include_str!("assets/page.css");
 const PLOT_STYLE: &str = include_str!("assets/uPlot.min.css");
 const PLOT_LICENSE: &str = include_str!("assets/uPlot.LICENSE");
-const SCRIPTS: [&str; 6] = [
+const SCRIPTS: [&str; 7] = [
     include_str!("assets/uPlot.iife.min.js"),
     include_str!("assets/normal.js"),
     include_str!("assets/fragility.js"),
+    include_str!("assets/universal.js"),
     include_str!("assets/calculator.js"),
     include_str!("assets/planes.js"),
     include_str!("assets/motions.js"),

@@ -1,6 +1,6 @@
 //! One curve for all structures: what they differ in as covariates, and how well it predicts structures that it has not seen.
 
-use super::folds::{Folds, MOST_FOLDS};
+use crate::resampling::folds::{Folds, MOST_FOLDS};
 use super::transfer::CurveSubject;
 use crate::fragility::case::{Case, Event, Measure};
 use crate::fragility::demand::inference::DemandInference;

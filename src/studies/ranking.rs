@@ -2,7 +2,7 @@
 
 use crate::statistics::FitStatus;
 use crate::studies::candidate::{Candidate, Form};
-use crate::studies::folds::{Folds, Gain, gain};
+use crate::resampling::folds::{Folds, Gain, gain};
 use crate::studies::ranking_sample::{RankingSample, Target};
 use crate::studies::rating::Rating;
 use crate::studies::rating::rate_overturning;

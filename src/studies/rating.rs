@@ -20,7 +20,7 @@ use crate::statistics::goodness::{auc, brier_score, log_score, rising_groups};
 use crate::statistics::link::Link;
 use crate::statistics::separation::is_separated;
 use crate::studies::candidate::{Candidate, Form};
-use crate::studies::folds::Folds;
+use crate::resampling::folds::Folds;
 use crate::studies::ranking_sample::RankingSample;
 
 /// Groups of a reliability curve.

@@ -1,6 +1,6 @@
 //! How the curve of one structure fares on another: is it universal?
 
-use super::folds::{Folds, Gain, MOST_FOLDS, gain};
+use crate::resampling::folds::{Folds, Gain, MOST_FOLDS, gain};
 use super::transfer::{Curve, CurveSubject};
 use super::validation::Forecast;
 use super::validation::{Validation, calibration_slope};
