@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! stages    any stage: options as JSON, tables or paths in, a table or a path out
-//! response  one structure and one motion, as NumPy arrays
+//! response  one structure and one motion, as NumPy arrays; probability: the universal surface
 //! table     tables between Python and the stages, without a copy
 //! run       the GIL released, threads, progress, Ctrl-C
 //! error     errors as Python's exceptions
@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 use rockfrag::table::store::guarded::quiet_damage;
 
 mod error;
+mod probability;
 mod response;
 mod run;
 mod stages;
@@ -21,6 +22,8 @@ mod table;
 mod _rockfrag {
     use super::*;
 
+    #[pymodule_export]
+    use crate::probability::probability;
     #[pymodule_export]
     use crate::response::response;
     #[pymodule_export]

@@ -18,6 +18,7 @@ of all, a few times a second) and ``force`` (make even a file that is up to date
 being written is removed. Names of columns end in their units.
 """
 
+from ._probability import Probability, probability
 from ._rocking import Response, response
 from ._rockfrag import Table, __version__
 from ._stages import (
@@ -42,6 +43,7 @@ __all__ = [
     "FileError",
     "MissingFileError",
     "OptionError",
+    "Probability",
     "Response",
     "RockfragError",
     "RockfragWarning",
@@ -55,6 +57,7 @@ __all__ = [
     "fit_pro",
     "ida",
     "import_motions",
+    "probability",
     "rank_ims",
     "report",
     "response",

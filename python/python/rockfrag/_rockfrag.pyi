@@ -3,7 +3,7 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Table", "__version__", "call", "partition_file", "response", "stages"]
+__all__ = ["Table", "__version__", "call", "partition_file", "probability", "response", "stages"]
 __version__: str
 
 @final
@@ -28,4 +28,11 @@ def call(
 ) -> Any: ...
 def response(
     acceleration_m_s2: npt.NDArray[np.float64], dt_s: float, structure: str, tail_s: float
+) -> dict[str, Any]: ...
+def probability(
+    structure: dict[str, npt.NDArray[np.float64]],
+    pga_g: npt.NDArray[np.float64],
+    pgv_m_s: npt.NDArray[np.float64],
+    suite: str | None,
+    limit_state: float | None,
 ) -> dict[str, Any]: ...

@@ -9,7 +9,7 @@ use super::answer::Answer;
 use super::hazard::{self, Hazard};
 use super::options::HazardOptions;
 use crate::fragility::universal::Scenarios;
-use crate::fragility::{Fragility, FragilityModel, JointPeaks, LimitState, Peak, Probability, Slice, doubt_of_peaks};
+use crate::fragility::{Fragility, FragilityModel, JointPeaks, LimitState, Peak, PeaksDoubt, Probability, Slice, doubt_of_peaks};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -252,10 +252,13 @@ fn over_pairs(
         let all = joint.bins.len();
         console.warn(&format!("{outside} of {all} bins lie outside of the data: extrapolated"));
     }
-    console.warn_each(joint.bins.iter().filter_map(|bin| {
-        let doubt = doubt_of_peaks(bin.pga_m_s2, bin.pgv_m_s)?;
-        Some((format!("bins have {}", doubt.words()), format!("PGA {:.3} m/s2", bin.pga_m_s2)))
-    }));
+    for doubt in PeaksDoubt::ALL {
+        let is_so = |bin: &&PairOfPeaks| doubt_of_peaks(bin.pga_m_s2, bin.pgv_m_s) == Some(doubt);
+        let doubtful = joint.bins.iter().filter(is_so).count();
+        if doubtful > 0 {
+            console.warn(&format!("{doubtful} of {} bins have {}", joint.bins.len(), doubt.words()));
+        }
+    }
     Ok(over_bins(structure, joint, model))
 }
 
