@@ -23,7 +23,7 @@ const FILES: [(&str, &str); 15] = [
 ];
 
 /// In place of RUN: a folder of files; of FITS: the fits of a structure in it.
-const CALLS: [(&str, i32, &[&str]); 60] = [
+const CALLS: [(&str, i32, &[&str]); 66] = [
     // No structure is anyone's unless it is named.
     ("simulate --in RUN/motions.parquet", 2, &["no structure", "--width", "--structures FILE", "paper"]),
     ("ida --in RUN/motions.parquet", 2, &["no structure", "--p, --alpha and --eta"]),
