@@ -19,7 +19,17 @@ use rockfrag::units::G_M_S2;
 use crate::error::to_python;
 
 const NAMES: [&str; 12] = [
-    "p_nr", "p_ex", "p_ex_low", "p_ex_high", "p_ro", "p_ro_low", "p_ro_high", "p_f", "p_f_low", "p_f_high", "distance",
+    "p_nr",
+    "p_ex",
+    "p_ex_low",
+    "p_ex_high",
+    "p_ro",
+    "p_ro_low",
+    "p_ro_high",
+    "p_f",
+    "p_f_low",
+    "p_f_high",
+    "distance",
     "eta",
 ];
 
@@ -61,11 +71,15 @@ pub fn probability<'py>(
     let count = |is: &dyn Fn(&Row) -> bool| rows.iter().filter(|row| is(row)).count();
     let doubts = PeaksDoubt::ALL.map(|doubt| (count(&|row| row.doubt == Some(doubt)), doubt.words()));
     let others = [
-        (count(&|row| row.is_outside), "a structure or a measure outside of those of the surface: extrapolated"),
+        (
+            count(&|row| row.is_outside),
+            "a structure or a measure outside of those of the surface: extrapolated",
+        ),
         (count(&|row| row.doubtful_size), "a p of a solid block of 90 m and more: are dimensions in cm?"),
     ];
     let warnings = doubts.into_iter().chain(others).filter(|(rows, _)| *rows > 0);
-    let warnings: Vec<String> = warnings.map(|(rows, words)| format!("{rows} of {}: {words}", pga_g.len())).collect();
+    let warnings: Vec<String> =
+        warnings.map(|(rows, words)| format!("{rows} of {}: {words}", pga_g.len())).collect();
     result.set_item("warnings", warnings)?;
     Ok(result)
 }
@@ -94,13 +108,28 @@ fn row(surface: &Surface, spec: &StructureSpec, pga_g: f64, pgv_m_s: f64) -> any
     let said = surface.model().of_structure(&structure, &measures);
     let none = Probability::exact(f64::NAN);
     let given = said.given_rocking;
-    let [p_ex, p_ro] = [given.map(|given| given.p_ex), given.map(|given| given.p_ro)].map(|p| p.unwrap_or(none));
+    let [p_ex, p_ro] =
+        [given.map(|given| given.p_ex), given.map(|given| given.p_ro)].map(|p| p.unwrap_or(none));
     let p_f = said.limit_states().map_or(none, |[_, failure, _]| failure);
     let distance = surface.model().distance(&structure, &measures).map_or(f64::NAN, |(distance, _)| distance);
     let three = |Probability { value, low, high }: Probability| [value, low, high];
-    let ([ex, ex_low, ex_high], [ro, ro_low, ro_high], [f, f_low, f_high]) = (three(p_ex), three(p_ro), three(p_f));
+    let ([ex, ex_low, ex_high], [ro, ro_low, ro_high], [f, f_low, f_high]) =
+        (three(p_ex), three(p_ro), three(p_f));
     Ok(Row {
-        numbers: [said.p_nr, ex, ex_low, ex_high, ro, ro_low, ro_high, f, f_low, f_high, distance, structure.eta],
+        numbers: [
+            said.p_nr,
+            ex,
+            ex_low,
+            ex_high,
+            ro,
+            ro_low,
+            ro_high,
+            f,
+            f_low,
+            f_high,
+            distance,
+            structure.eta,
+        ],
         is_outside: !surface.model().outside(&measures).is_empty() || surface.is_other_structure(&structure),
         doubt: doubt_of_peaks(pga_g * G_M_S2, pgv_m_s),
         doubtful_size: structure.doubt().is_some(),

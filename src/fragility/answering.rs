@@ -50,7 +50,9 @@ impl Fragility for FragilityModel {
     fn distance(&self, _: &Structure, measures: &IntensityMeasures) -> Option<(f64, &'static str)> {
         let fits = [&self.demand.law(measures).ln_median, &self.overturning];
         let known = fits.into_iter().flat_map(|fit| fit.measures().zip(fit.ranges));
-        farthest(known.filter_map(|(measure, range)| Some((measure.as_str(), measure.among(measures)?, range))))
+        farthest(
+            known.filter_map(|(measure, range)| Some((measure.as_str(), measure.among(measures)?, range))),
+        )
     }
 
     fn lognormal(&self, slice: &Slice) -> Option<Lognormal> {
@@ -91,9 +93,7 @@ impl Fragility for UniversalModel {
     }
 }
 
-fn farthest(
-    coordinates: impl Iterator<Item = (&'static str, f64, [f64; 2])>,
-) -> Option<(f64, &'static str)> {
+fn farthest(coordinates: impl Iterator<Item = (&'static str, f64, [f64; 2])>) -> Option<(f64, &'static str)> {
     let distance = |(name, value, [least, largest]): (&'static str, f64, [f64; 2])| {
         let [value, least, largest] = match name {
             "eta" => [value, least, largest],

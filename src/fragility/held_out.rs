@@ -45,12 +45,7 @@ impl HeldOut {
     }
 
     /// Of indices that come from other clusters each.
-    pub fn of_indices(
-        indices: &[f64],
-        happened: &[bool],
-        clusters: &[usize],
-        link: Link,
-    ) -> Option<HeldOut> {
+    pub fn of_indices(indices: &[f64], happened: &[bool], clusters: &[usize], link: Link) -> Option<HeldOut> {
         let mut distinct: Vec<usize> = clusters.to_vec();
         distinct.sort_unstable();
         distinct.dedup();
@@ -74,7 +69,8 @@ impl HeldOut {
             }
         }
         let integrated = |spread: f64| -> f64 {
-            let weights: Vec<f64> = shifts.iter().map(|u| (-0.5 * (u / spread) * (u / spread)).exp()).collect();
+            let weights: Vec<f64> =
+                shifts.iter().map(|u| (-0.5 * (u / spread) * (u / spread)).exp()).collect();
             let total: f64 = weights.iter().sum();
             let of_cluster = |values: &Vec<f64>| {
                 let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -83,7 +79,8 @@ impl HeldOut {
             };
             likelihoods.iter().map(of_cluster).sum()
         };
-        let tried = (0..SPREADS).map(|k| LEAST_SPREAD * RATIO.powi(k)).map(|spread| (integrated(spread), spread));
+        let tried =
+            (0..SPREADS).map(|k| LEAST_SPREAD * RATIO.powi(k)).map(|spread| (integrated(spread), spread));
         let best = std::iter::once((log_score, 0.0)).chain(tried).max_by(|a, b| a.0.total_cmp(&b.0));
         let spread = best.map_or(0.0, |(_, spread)| spread);
         Some(HeldOut { log_score: log_score / happened.len() as f64, spread })

@@ -44,13 +44,13 @@ pub use demand::{
     rms_difference, transition_limits,
 };
 pub use group::{CaseGroup, Progress, Uncertainty, unwatched};
+pub use held_out::HeldOut;
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
 pub use overturning::{
-    BentFit, CurveInference, CurveModel, CurveParameter, CurveRefits, EventSample, Gap, OverturningFit, fit_overturning,
-    fit_with_interaction, fit_with_spline, has_few_events,
+    BentFit, CurveInference, CurveModel, CurveParameter, CurveRefits, EventSample, Gap, OverturningFit,
+    fit_overturning, fit_with_interaction, fit_with_spline, has_few_events,
 };
 pub use peaks::{JointPeaks, RatioGiven};
-pub use held_out::HeldOut;
 pub use predictor::{BENT_TERMS, Bend, OutOfRange, Predicted, Predictor, ranges};
 pub use probability::{Probability, ProbitIndex};
 pub use probability::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};

@@ -32,7 +32,8 @@ impl RatioGiven {
         let spline = |knots: [f64; 3]| -> Vec<f64> {
             ln_peak.iter().map(|&u| restricted_splines(u, &knots).sum()).collect()
         };
-        let bent = knots.and_then(|knots| Some((knots, least_squares(&[ln_peak, &spline(knots)], ln_ratio).ok()?)));
+        let bent =
+            knots.and_then(|knots| Some((knots, least_squares(&[ln_peak, &spline(knots)], ln_ratio).ok()?)));
         let (knots, fit) = match bent {
             Some(bent) => bent,
             None => ([0.0, 1.0, 2.0], least_squares(&[ln_peak], ln_ratio).ok()?),

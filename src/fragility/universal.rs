@@ -115,8 +115,10 @@ impl UniversalModel {
         structure: &Structure,
         measures: &IntensityMeasures,
     ) -> Vec<(&'static str, f64, [f64; 2])> {
-        let measured = MEASURES.into_iter().filter_map(|measure| Some((measure.as_str(), measure.among(measures)?)));
-        let all = measured.chain(parameters(structure)).map(|(name, value)| (name, value, PARSED.range(name)));
+        let measured =
+            MEASURES.into_iter().filter_map(|measure| Some((measure.as_str(), measure.among(measures)?)));
+        let all =
+            measured.chain(parameters(structure)).map(|(name, value)| (name, value, PARSED.range(name)));
         all.collect()
     }
 
@@ -186,8 +188,12 @@ struct Term {
 impl Surface {
     /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which tests find.
     fn parse(text: &'static str) -> Surface {
-        let mut surface =
-            Surface { knots: Default::default(), domain: Vec::new(), peaks: Vec::new(), curves: Default::default() };
+        let mut surface = Surface {
+            knots: Default::default(),
+            domain: Vec::new(),
+            peaks: Vec::new(),
+            curves: Default::default(),
+        };
         let mut coordinate = 0;
         for line in text.lines().filter(|line| !line.starts_with('#')) {
             let cells: Vec<&str> = line.split(',').collect();
@@ -259,6 +265,9 @@ impl Curve {
 fn splines(u: f64, knots: &[f64]) -> [f64; FUNCTIONS] {
     let mut functions = [0.0; FUNCTIONS];
     (functions[0], functions[1]) = (1.0, u);
-    functions[2..].iter_mut().zip(restricted_splines(u, knots)).for_each(|(function, value)| *function = value);
+    functions[2..]
+        .iter_mut()
+        .zip(restricted_splines(u, knots))
+        .for_each(|(function, value)| *function = value);
     functions
 }

@@ -146,7 +146,10 @@ impl Structure {
     pub fn doubt(&self) -> Option<String> {
         let height = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s) * self.alpha_rad.cos();
         (self.p_rad_s < DOUBTFUL_P).then(|| {
-            format!("p {:.3} rad/s is that of a solid block {height:.0} m high: are its dimensions in cm?", self.p_rad_s)
+            format!(
+                "p {:.3} rad/s is that of a solid block {height:.0} m high: are its dimensions in cm?",
+                self.p_rad_s
+            )
         })
     }
 

@@ -238,12 +238,7 @@ impl Stage for Export {
 
 impl Export {
     /// One slice, tabulated.
-    fn function(
-        &self,
-        slice: &Slice,
-        answers: &dyn Answers,
-        console: &Console,
-    ) -> anyhow::Result<Function> {
+    fn function(&self, slice: &Slice, answers: &dyn Answers, console: &Console) -> anyhow::Result<Function> {
         let model = answers.model();
         let jumps = model.jumps(slice);
         let reaching = |intensity: f64| {

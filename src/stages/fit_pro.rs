@@ -196,7 +196,9 @@ fn doubt(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> Option<(Str
                     format!("{of} ({straight:.2} for {bent:.2}; the bent one answers)")
                 }
                 (Some(BentFit { gap: Gap { straight, bent }, .. }), None) => {
-                    format!("{of} ({straight:.2} for {bent:.2}; the bent one does no better on cells left out)")
+                    format!(
+                        "{of} ({straight:.2} for {bent:.2}; the bent one does no better on cells left out)"
+                    )
                 }
                 (None, _) => of,
             },

@@ -18,8 +18,8 @@ pub(crate) mod transfer;
 pub(crate) mod universality;
 pub(crate) mod validation;
 
-pub use candidate::{Candidate, Form};
 pub use crate::resampling::{Folds, Gain, gain};
+pub use candidate::{Candidate, Form};
 pub use pooled::{PooledFit, PooledPart, PooledStructure, PooledTerm, PooledTerms, fit_pooled};
 pub use ranking::{MeasureRanking, RankingRules};
 pub use ranking::{OfPaper, Ranked};

@@ -93,7 +93,11 @@ impl ProRow {
     pub fn bent_probit(&self) -> Option<Predictor> {
         let (terms, knots) = (self.bent?, self.bent_knots?);
         let straight = self.probit().ok()?;
-        let bend = Bend { knots: rows(&knots), coefficients: [terms[3], terms[4], terms[5]], covariance: rows(&self.bent_covariance?) };
+        let bend = Bend {
+            knots: rows(&knots),
+            coefficients: [terms[3], terms[4], terms[5]],
+            covariance: rows(&self.bent_covariance?),
+        };
         Some(Predictor {
             coefficients: [terms[0], terms[1], terms[2]],
             bend: Some(bend),

@@ -2,7 +2,8 @@
 
 use rockfrag::fragility::overturning::{Curve, CurveOptions, Pair};
 use rockfrag::fragility::{
-    Bend, Case, CaseGroup, CurveModel, Event, HeldOut, JointPeaks, Measure, Peak, Predictor, Uncertainty, unwatched,
+    Bend, Case, CaseGroup, CurveModel, Event, HeldOut, JointPeaks, Measure, Peak, Predictor, Uncertainty,
+    unwatched,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -113,8 +114,11 @@ fn a_peak_says_of_the_ratio_what_a_regression_says() {
     let n = 400;
     let ln_pga: Vec<f64> = (0..n).map(|k| -1.0 + 3.0 * f64::from(k) / f64::from(n)).collect();
     // A straight line with a wiggle as large above as below.
-    let ln_ratio: Vec<f64> =
-        ln_pga.iter().enumerate().map(|(k, u)| -2.0 + 0.3 * u + if k % 2 == 0 { 0.4 } else { -0.4 }).collect();
+    let ln_ratio: Vec<f64> = ln_pga
+        .iter()
+        .enumerate()
+        .map(|(k, u)| -2.0 + 0.3 * u + if k % 2 == 0 { 0.4 } else { -0.4 })
+        .collect();
     let pga: Vec<f64> = ln_pga.iter().map(|u| u.exp()).collect();
     let pgv: Vec<f64> = ln_pga.iter().zip(&ln_ratio).map(|(u, r)| (u + r).exp()).collect();
     let peaks = JointPeaks::of(&pga, &pgv).unwrap();

@@ -3,9 +3,8 @@
 use crate::paper_model::{BETA, LAMBDA, MU, equipment, model};
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Fragility,
-    DemandLaw, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits, ResampledModel, Slice,
-    p_exceeding, p_failure_given_rocking, p_overturning, ranges,
+    DemandLaw, Fragility, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits,
+    ResampledModel, Slice, p_exceeding, p_failure_given_rocking, p_overturning, ranges,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;

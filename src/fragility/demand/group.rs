@@ -12,6 +12,7 @@ use super::sample::DemandSample;
 use super::smooth::{SmoothFit, fit_smooth};
 use super::transition::{ScanPoint, TransitionSearch, transition_limits};
 use crate::fragility::case::{Case, Measure};
+use crate::fragility::clusters::are_many;
 use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
 use crate::fragility::held_out::HeldOut;
 use crate::fragility::predictor::ranges;
@@ -71,7 +72,7 @@ pub struct Regression {
     pub confidence: f64,
     /// Standard errors of the coefficients where cases of one cluster may depend on each other.
     pub clustered_errors: Vec<f64>,
-    /// Their covariance likewise.
+    /// Their covariance likewise, if there are many clusters.
     pub clustered_covariance: Option<DMatrix<f64>>,
     /// What cases say that were left out, of a demand above the limit state.
     pub held_out: Option<HeldOut>,
@@ -301,8 +302,9 @@ impl RegressionOptions {
         let sample = regression.sample(group.cases);
         let inference = DemandInference::new(&sample, fit);
         regression.reset = reset(&sample.predictors(), &sample.ln_edp, fit);
-        regression.clustered_errors = inference.clustered_errors(group.clusters);
-        regression.clustered_covariance = Some(inference.clustered_covariance(group.clusters));
+        let clustered = inference.clustered_covariance(group.clusters);
+        regression.clustered_errors = clustered.diagonal().iter().map(|variance| variance.sqrt()).collect();
+        regression.clustered_covariance = are_many(group.clusters, &sample.rows).then_some(clustered);
         regression.held_out = inference.held_out(group.clusters, self.limit);
         if regression.replicates.is_empty() {
             return;

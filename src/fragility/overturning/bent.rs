@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::curves::CurveModel;
 use super::sample::EventSample;
+use crate::fragility::clusters::are_many;
 use crate::fragility::held_out::HeldOut;
 use crate::fragility::predictor::{BENT_TERMS, Bend};
 use crate::resampling::{Resamples, TOGETHER};
@@ -43,7 +44,7 @@ pub struct BentFit {
     pub knots: [[f64; 3]; 2],
     /// As [`Bend`] has them, those of the line first; 0 for what a curve of one measure lacks.
     pub coefficients: [f64; BENT_TERMS],
-    /// Their covariance, where cases of one cluster may depend on each other.
+    /// Their covariance, where cases of one cluster may depend on each other, if there are many clusters.
     pub covariance: [[f64; BENT_TERMS]; BENT_TERMS],
     /// What cases say that were left out.
     pub held_out: Option<HeldOut>,
@@ -66,14 +67,17 @@ impl<'a> BentSample<'a> {
     /// Of the cases of a curve by maximum likelihood; none of another estimator, or where a measure has too few values for knots.
     pub fn new(sample: &'a EventSample, model: &CurveModel) -> Option<BentSample<'a>> {
         let measures = sample.predictors();
-        let knots = measures.iter().map(|values| quantile_knots(values, KNOTS)).collect::<Option<Vec<_>>>()?;
+        let knots =
+            measures.iter().map(|values| quantile_knots(values, KNOTS)).collect::<Option<Vec<_>>>()?;
         let knots = [knots[0], knots.get(1).copied().unwrap_or([0.0; 3])];
         let bends = |case: usize| Bend::terms(&knots, measures[0][case], measures.get(1).map(|y| y[case]));
         let bends: Vec<[f64; 3]> = (0..sample.happened.len()).map(bends).collect();
         let column = |k: usize| bends.iter().map(|bend| bend[k]).collect::<Vec<f64>>();
         let (columns, terms): (Vec<Vec<f64>>, &[usize]) = match measures[..] {
             [x] => (vec![x.to_vec(), column(0)], &[0, 1, 3]),
-            [x, y, ..] => (vec![x.to_vec(), y.to_vec(), column(0), column(1), column(2)], &[0, 1, 2, 3, 4, 5]),
+            [x, y, ..] => {
+                (vec![x.to_vec(), y.to_vec(), column(0), column(1), column(2)], &[0, 1, 2, 3, 4, 5])
+            }
             [] => return None,
         };
         let variance = |values: &[f64]| {
@@ -96,7 +100,14 @@ impl<'a> BentSample<'a> {
         let penalty = DVector::from_vec(penalty.collect());
         let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let design = DesignMatrix::new(&columns, sample.happened.len());
-        (model.estimator == Estimator::Ml).then_some(BentSample { sample, design, knots, terms, penalty, model: *model })
+        (model.estimator == Estimator::Ml).then_some(BentSample {
+            sample,
+            design,
+            knots,
+            terms,
+            penalty,
+            model: *model,
+        })
     }
 
     /// The fit to all cases, beside the straight line; none where the iterations do not end.
@@ -106,6 +117,7 @@ impl<'a> BentSample<'a> {
         start.rows_mut(0, straight.coefficients.len()).copy_from(&straight.coefficients);
         let Maximum { at, objective, .. } = self.maximum(&once_each, &start, 0.0)?;
         let bread = objective.information.cholesky()?.inverse();
+        let many = are_many(clusters, &self.sample.rows);
         let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
         let fit = BinaryFit {
             link: self.model.link,
@@ -116,7 +128,8 @@ impl<'a> BentSample<'a> {
             objective: objective.value,
         };
         let influence = Influence::of_regression(&fit, &self.design, &self.sample.happened);
-        let covariance = influence.clustered_covariance(&self.design, &bread, &clusters);
+        let clustered = || influence.clustered_covariance(&self.design, &bread, &clusters);
+        let covariance = if many { clustered() } else { bread.clone() };
         let refit = |weights: &[f64]| Some(self.maximum(weights, &at, TOLERANCE)?.at);
         let held_out = HeldOut::new(&self.design, &self.sample.happened, &clusters, self.model.link, refit);
         let (coefficients, covariance) = (self.placed(&at), self.placed_covariance(&covariance));
@@ -170,7 +183,8 @@ impl<'a> BentSample<'a> {
         let probabilities = |fit: &BinaryFit, design: &DesignMatrix| -> Vec<f64> {
             fit.indices(design).into_iter().map(|index| fit.link.probability(index)).collect()
         };
-        let both = probabilities(straight, &self.sample.design()).into_iter().zip(probabilities(bent, &self.design));
+        let both =
+            probabilities(straight, &self.sample.design()).into_iter().zip(probabilities(bent, &self.design));
         let mut gaps: Vec<Gap> = both.map(|(straight, bent)| Gap { straight, bent }).collect();
         gaps.sort_by(|a, b| b.size().total_cmp(&a.size()));
         gaps[gaps.len() / SELDOM]

@@ -14,6 +14,7 @@ use super::inference::CurveRefits;
 use super::parameter::CurveParameter;
 use super::sample::EventSample;
 use crate::fragility::case::{Event, Measure};
+use crate::fragility::clusters::are_many;
 use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
 use crate::fragility::held_out::HeldOut;
 use crate::fragility::predictor::{BENT_TERMS, ranges};
@@ -68,7 +69,7 @@ pub struct Curve {
     pub interaction: Option<Test>,
     /// What cases say that were left out.
     pub held_out: Option<HeldOut>,
-    /// The covariance of the coefficients where cases of one cluster may depend on each other.
+    /// The covariance of the coefficients where cases of one cluster may depend on each other, if there are many clusters.
     pub clustered_covariance: Option<DMatrix<f64>>,
     /// The curve that bends, where a test rejects the straight one.
     pub bent: Option<BentFit>,
@@ -125,7 +126,8 @@ impl Curve {
     pub fn bent_answer(&self) -> Option<&BentFit> {
         let bent = self.bent.as_ref().filter(|_| self.status() == FitStatus::Misfit)?;
         let log_score = |held_out: Option<HeldOut>| held_out.map(|held_out| held_out.log_score);
-        let is_better = log_score(bent.held_out).zip(log_score(self.held_out)).is_none_or(|(bent, own)| bent > own);
+        let is_better =
+            log_score(bent.held_out).zip(log_score(self.held_out)).is_none_or(|(bent, own)| bent > own);
         is_better.then_some(bent)
     }
 
@@ -176,7 +178,9 @@ impl<'a> Refits<'a> {
     fn replicates(&self, resamples: &Resamples) -> [Replicate; TOGETHER] {
         let mut straight = self.straight.coefficients(resamples);
         let bent = self.bent.as_ref().map(|(sample, fit)| sample.refits(fit, resamples));
-        std::array::from_fn(|resample| (straight[resample].take(), bent.as_ref().and_then(|bent| bent[resample])))
+        std::array::from_fn(|resample| {
+            (straight[resample].take(), bent.as_ref().and_then(|bent| bent[resample]))
+        })
     }
 }
 
@@ -214,7 +218,8 @@ impl CurveOptions {
 
     fn curve(&self, group: &CaseGroup, im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
         let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
-        let sample = EventSample::new(group.cases, &measures, |case| self.event.happened(case, f64::INFINITY));
+        let sample =
+            EventSample::new(group.cases, &measures, |case| self.event.happened(case, f64::INFINITY));
         let fit = fit_overturning(&sample, &self.model);
         let needed = |bent: fn(&EventSample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
             let straight = &fit.as_ref().ok().filter(|_| self.model.estimator == Estimator::Ml)?.regression;
@@ -243,7 +248,8 @@ impl CurveOptions {
             let straight = &fit.regression;
             let inference = CurveInference::new(&sample, straight);
             curve.held_out = inference.held_out(group.clusters);
-            curve.clustered_covariance = Some(inference.clustered_covariance(group.clusters));
+            let many = are_many(group.clusters, &sample.rows);
+            curve.clustered_covariance = many.then(|| inference.clustered_covariance(group.clusters));
             let bent = || BentSample::new(&sample, &self.model)?.fit(straight, group.clusters);
             curve.bent = curve.is_rejected().then(bent).flatten();
         }
@@ -286,14 +292,14 @@ impl CurveOptions {
         let (inference, confidence) =
             (CurveInference::new(sample, &fit.regression), self.uncertainty.confidence);
         let strata = Strata::new(group.cells);
-        let clustered = curve.clustered_covariance.as_ref();
+        let clustered = inference.clustered_covariance(group.clusters);
         let of = |parameter: &CurveParameter| {
             let replicates = inference.parameters(*parameter, &curve.replicates);
             let acceleration = inference.acceleration(*parameter, &strata);
             let estimate = inference.fitted(*parameter);
             ParameterInference {
                 parameter: *parameter,
-                clustered_error: clustered.map_or(f64::NAN, |covariance| inference.standard_error(*parameter, covariance)),
+                clustered_error: inference.standard_error(*parameter, &clustered),
                 profile: inference.profile_limits(*parameter, confidence),
                 bootstrap: bootstrap_limits(estimate, &replicates, acceleration, confidence),
             }

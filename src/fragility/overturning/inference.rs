@@ -2,10 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::fragility::held_out::HeldOut;
 use crate::fragility::overturning::expansion::{Expansion, NearMaximum};
 use crate::fragility::overturning::parameter::CurveParameter;
 use crate::fragility::overturning::profile::profile_limits;
-use crate::fragility::held_out::HeldOut;
 use crate::fragility::overturning::sample::EventSample;
 use crate::resampling::bootstrap::{Resamples, Strata, TOGETHER};
 use crate::resampling::limits::acceleration;

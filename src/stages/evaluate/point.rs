@@ -80,7 +80,8 @@ pub fn answer(
         rows.push(besides("p_ro_universal", Some(p_ro.value), Some((p_ro.low, p_ro.high)), meaning));
     }
     if let Some((distance, coordinate)) = answers.model().distance(structure, &measures) {
-        let meaning = format!("from the middle of the data (0) to their rim (1) and beyond, farthest in {coordinate}");
+        let meaning =
+            format!("from the middle of the data (0) to their rim (1) and beyond, farthest in {coordinate}");
         rows.push(besides("distance", Some(distance), None, meaning));
     }
     rows.push(besides("model", None, None, answers.words()));

@@ -9,7 +9,9 @@ use super::answer::Answer;
 use super::hazard::{self, Hazard};
 use super::options::HazardOptions;
 use crate::fragility::universal::Scenarios;
-use crate::fragility::{Fragility, FragilityModel, JointPeaks, LimitState, Peak, PeaksDoubt, Probability, Slice, doubt_of_peaks};
+use crate::fragility::{
+    Fragility, FragilityModel, JointPeaks, LimitState, Peak, PeaksDoubt, Probability, Slice, doubt_of_peaks,
+};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -291,11 +293,16 @@ fn with_limits(
     let of = |model: &Option<FragilityModel>| model.as_ref().map(|model| rates_of(model));
     let replicates: Vec<Option<Rates>> = resampled.replicates.par_iter().map(of).collect();
     let limited = |rate_of: fn(&Rates) -> Probability| {
-        let values: Vec<Option<f64>> = replicates.iter().map(|rates| Some(rate_of(rates.as_ref()?).value)).collect();
+        let values: Vec<Option<f64>> =
+            replicates.iter().map(|rates| Some(rate_of(rates.as_ref()?).value)).collect();
         resampled.about(rate_of(&rates).value, &values)
     };
     // Of rocking, which is certain from uplift on, the limits are the rate itself.
-    Rates { failure: limited(|rates| rates.failure), overturning: limited(|rates| rates.overturning), ..rates }
+    Rates {
+        failure: limited(|rates| rates.failure),
+        overturning: limited(|rates| rates.overturning),
+        ..rates
+    }
 }
 
 fn measures_of(structure: &Structure, bin: &PairOfPeaks) -> IntensityMeasures {

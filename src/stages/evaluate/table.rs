@@ -1,10 +1,10 @@
 use rayon::prelude::*;
 
-use crate::stages::shared::answers::Answers;
 use crate::fragility::{PeaksDoubt, doubt_of_peaks};
 use crate::pipeline::console::Console;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
+use crate::stages::shared::answers::Answers;
 use crate::table::evaluated::{self, EVALUATED, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
 use crate::table::store::provenance::Provenance;

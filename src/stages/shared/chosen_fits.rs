@@ -57,9 +57,13 @@ pub enum Line {
 impl Misfit {
     /// By how much the line is off, which tests reject it, and what answers in its place.
     pub fn words(&self) -> String {
-        let tests = self.tests.iter().map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
+        let tests =
+            self.tests.iter().map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
         let off = self.gap.map_or(String::new(), |Gap { straight, bent }| {
-            format!(", off by {:.2} and more at one case of twenty ({straight:.2} for {bent:.2})", (straight - bent).abs())
+            format!(
+                ", off by {:.2} and more at one case of twenty ({straight:.2} for {bent:.2})",
+                (straight - bent).abs()
+            )
         });
         let scores = self.log_scores.map_or(String::new(), |[straight, bent]| {
             format!(", whose log score on cells left out is {bent:.4} for {straight:.4}")

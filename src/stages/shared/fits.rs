@@ -114,7 +114,9 @@ impl FitFiles {
     pub fn new(options: &FitsOptions, files: &Files) -> anyhow::Result<FitFiles> {
         let model = options.model.or(Some(Word(ModelForm::Bivariate)));
         if model == Some(Word(ModelForm::Universal)) {
-            return Err(UsageError::because("model universal has no fits; expected bivariate, univariate or paper"));
+            return Err(UsageError::because(
+                "model universal has no fits; expected bivariate, univariate or paper",
+            ));
         }
         let options = FitsOptions { model, ..options.clone() };
         Ok(FitFiles { pex: files.input("pex")?, pro: files.input("pro")?, options })

@@ -191,7 +191,8 @@ pub fn words(structure: &Structure) -> String {
 
 /// Warns of structures of a size that none has.
 pub fn warn_of_size<'s>(structures: impl IntoIterator<Item = &'s Structure>, console: &Console) {
-    let doubts = structures.into_iter().filter_map(|structure| Some((structure.doubt()?, structure.name.clone())));
+    let doubts =
+        structures.into_iter().filter_map(|structure| Some((structure.doubt()?, structure.name.clone())));
     console.warn_each(doubts);
 }
 

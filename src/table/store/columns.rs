@@ -240,7 +240,10 @@ impl<'a> Columns<'a> {
             let numbers = self.numbers_of(&list(row), column)?.into_iter();
             let finite = |number: Option<f64>| number.filter(|number| number.is_finite());
             let problem = || self.value_error(row, column, "a number is missing or not finite");
-            numbers.map(|number| finite(number).ok_or_else(problem)).collect::<Result<Vec<f64>, _>>().map(Some)
+            numbers
+                .map(|number| finite(number).ok_or_else(problem))
+                .collect::<Result<Vec<f64>, _>>()
+                .map(Some)
         };
         (0..self.rows()).map(each).collect()
     }
