@@ -27,7 +27,7 @@ const LARGEST_PEAK: f64 = 20.0;
 /// that of a pulse of 12 s alone reaches 2 s.
 const LARGEST_PEAKS_RATIO_S: f64 = 2.0;
 
-/// PGA, m/s2, above all that was recorded (`records/plausibility.rs` has the sources).
+/// PGA, m/s2, above all that was recorded: 4.36 g as a vector of three components (`records/plausibility.rs`).
 const STRONGEST_PGA_M_S2: f64 = 4.5 * G_M_S2;
 
 impl Peak {
