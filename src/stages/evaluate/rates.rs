@@ -70,7 +70,7 @@ pub fn answer(
     check(years > 0.0 && years.is_finite(), "years", years, "a time above 0")?;
     let mut words_of_ratio = String::new();
     let surface = answers.surface(Scenarios::Many);
-    let surface = surface.as_ref().map(|surface| surface.model());
+    let surface = surface.as_ref().map(|surface| surface as &dyn Fragility);
     let (rates, by_surface) = match hazard::read(path)? {
         Hazard::Curve(peak, curve) => {
             let line = Line::new(options.ratio, structure, peak, answers)?;

@@ -1,9 +1,12 @@
 //! The fits as chosen: in words, and where they do not hold.
 
+use super::answers::Answers;
+use super::surface::Surface;
 use super::transfers;
+use crate::fragility::universal::Scenarios;
 use crate::fragility::{
-    DemandModel, FragilityModel, Gap, JointPeaks, Measure, OutOfRange, Probabilities, ReplicateLimits,
-    ResampledModel, Slice,
+    DemandModel, Fragility, FragilityModel, Gap, JointPeaks, LimitState, Measure, OutOfRange, Probabilities,
+    ReplicateLimits, ResampledModel, Slice, UniversalModel,
 };
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -195,5 +198,93 @@ impl ChosenFits {
     /// Whether this coefficient of restitution is another one than that of the fits.
     pub fn is_other_eta(&self, eta: f64) -> bool {
         (eta - self.model.eta).abs() > SAME_ETA
+    }
+}
+
+impl Answers for ChosenFits {
+    fn model(&self) -> &dyn Fragility {
+        &self.model
+    }
+
+    fn probabilities(&self, _: &Structure, measures: &IntensityMeasures) -> Probabilities {
+        self.with_limits(measures)
+    }
+
+    fn resampled(&self) -> Option<&ResampledModel> {
+        self.resampled.as_ref()
+    }
+
+    fn eta(&self) -> Option<f64> {
+        Some(self.model.eta)
+    }
+
+    fn limit(&self) -> f64 {
+        self.model.limit
+    }
+
+    fn hybrid_measure(&self, measures: &IntensityMeasures) -> Option<f64> {
+        let overturning = &self.model.overturning;
+        overturning.im_y.and_then(|_| overturning.hybrid_measure(measures))
+    }
+
+    fn words(&self) -> String {
+        format!("fits of {}", ChosenFits::words(self))
+    }
+
+    fn words_of_limits(&self) -> String {
+        ChosenFits::words_of_limits(self)
+    }
+
+    fn meaning(&self, state: LimitState) -> String {
+        match state {
+            LimitState::Rocking => "rocking".to_string(),
+            LimitState::Failure => format!("|theta|max / alpha above {}, or overturning", self.model.limit),
+            LimitState::Overturning => "overturning".to_string(),
+        }
+    }
+
+    fn words_of_missing(&self) -> &'static str {
+        "the fits need a measure that is missing: give --pgv above 0, --tp or --tm"
+    }
+
+    fn surface(&self, scenarios: Scenarios) -> Option<UniversalModel> {
+        Some(Surface::beside(self.suite.as_deref(), self.model.limit, scenarios).0)
+    }
+
+    fn peaks(&self) -> Option<JointPeaks> {
+        self.peaks
+    }
+
+    fn words_of_motions(&self) -> &'static str {
+        "of the fits"
+    }
+
+    fn warn(&self, console: &Console) {
+        self.warn_of_few_events(console);
+        self.warn_of_misfit(console);
+    }
+
+    fn is_other_block(&self, structure: &Structure) -> bool {
+        ChosenFits::is_other_block(self, structure)
+    }
+
+    fn is_other_structure(&self, structure: &Structure) -> bool {
+        self.is_other_eta(structure.eta)
+    }
+
+    fn words_of_others(&self) -> String {
+        format!("another eta than the fits ({}): they depend on it", self.model.eta)
+    }
+
+    fn warn_of_structure(&self, structure: &Structure, console: &Console) {
+        ChosenFits::warn_of_structure(self, structure, console);
+    }
+
+    fn warn_of_range(&self, measures: &IntensityMeasures, subject: &str, console: &Console) {
+        ChosenFits::warn_of_range(self, measures, subject, console);
+    }
+
+    fn warn_of_slice(&self, slice: &Slice, to: f64, subject: &str, console: &Console) {
+        ChosenFits::warn_of_slice(self, slice, to, subject, console);
     }
 }
