@@ -153,9 +153,12 @@ def fill(name, value):
 
 def evaluate(fit, form, block, asked):
     structure, _, suite = fit.rpartition(", ") if ", " in fit else (fit, "", "")
-    call = [rockfrag, "evaluate", "--quiet", "--format", "json", "--pex", f"{run}/pex.parquet", "--pro", f"{run}/pro.parquet"]
-    call += ["--structure", structure] + (["--suite", suite] if suite else [])
-    call += ["--model", "bivariate"] if form == "bivariate" else ["--model", "univariate", "--measure", form]
+    call = [rockfrag, "evaluate", "--quiet", "--format", "json"] + (["--suite", suite] if suite else [])
+    if form == "universal":
+        call += ["--model", "universal"]
+    else:
+        call += ["--pex", f"{run}/pex.parquet", "--pro", f"{run}/pro.parquet", "--structure", structure]
+        call += ["--model", "bivariate"] if form == "bivariate" else ["--model", "univariate", "--measure", form]
     names = ["width", "height"] if block else ["p", "alpha"]
     call += [word for name in names + ["eta", "pga", "pgv", "tp", "tm"] for word in (f"--{name}", repr(asked[name]))]
     rows = json.loads(subprocess.run(call, check=True, capture_output=True, text=True).stdout)["rows"]
@@ -170,7 +173,7 @@ def check_calculator():
         fit = fits[question % len(fits)]
         Select(browser.find_element(By.ID, "fit")).select_by_visible_text(fit)
         forms = [option.get_attribute("value") for option in Select(browser.find_element(By.ID, "form")).options]
-        form = forms[draw.randrange(len(forms))] if question % 2 else forms[0]
+        form = [forms[0], forms[draw.randrange(len(forms))], "universal"][question % 3]
         Select(browser.find_element(By.ID, "form")).select_by_value(form)
         block = question % 5 == 4
         browser.execute_script("document.querySelector(`[name=by][value=${arguments[0]}]`).click()", "block" if block else "parameters")

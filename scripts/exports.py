@@ -21,8 +21,8 @@ def run(subcommand, *arguments):
     return subprocess.run(call, check=True, capture_output=True, text=True).stdout
 
 
-def reached(pga_g, pgv):
+def reached(pga_g, pgv, *more):
     """The probability of reaching LS1, LS2 and LS3, as `evaluate` has it."""
-    rows = csv.DictReader(run("evaluate", f"--pga={pga_g!r}", f"--pgv={pgv!r}", "--format=csv").splitlines())
+    rows = csv.DictReader(run("evaluate", f"--pga={pga_g!r}", f"--pgv={pgv!r}", "--format=csv", *more).splitlines())
     answer = {row["quantity"]: float(row["value"] or 0) for row in rows}
     return [1 - answer["p_nr"], answer["p_f"], answer["p_ro"]]

@@ -3,7 +3,7 @@
 //! ```text
 //! stages    any stage: options as JSON, tables or paths in, a table or a path out
 //! tools     the commands that are no stage, and the command itself
-//! response  one structure and one motion, as NumPy arrays
+//! response  one structure and one motion, as NumPy arrays; probability: the universal surface
 //! curves    the fits for plain arrays
 //! table     tables between Python and the stages, without a copy
 //! run       the GIL released, threads, progress, Ctrl-C
@@ -15,6 +15,7 @@ use rockfrag::table::store::guarded::quiet_damage;
 
 mod curves;
 mod error;
+mod probability;
 mod response;
 mod run;
 mod stages;
@@ -29,6 +30,8 @@ mod _rockfrag {
     use crate::curves::{
         exceeding, failure, fit_curve, fit_line, normal_quantile, probabilities, profile_limits, t_quantile,
     };
+    #[pymodule_export]
+    use crate::probability::probability;
     #[pymodule_export]
     use crate::response::{response, structure};
     #[pymodule_export]

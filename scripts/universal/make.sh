@@ -21,6 +21,7 @@ done
 call simulate --in motions.parquet --structures part.csv --out equipment.parquet
 
 python3 "$here/fit.py" "$root/data/universal.csv" "$root/tests/reference/fits/universal_answers.csv" motions.parquet responses_?.parquet
+python3 "$here/peaks.py" "$root/data/universal.csv" rock.parquet soil.parquet
 
 # How well it does, for docs/universal.md; with records.parquet of scripts/near_fault_records.py in the folder, on these too:
 #     simulate --in records.parquet --structures structures.csv --out records_responses.parquet

@@ -13,6 +13,8 @@ HEAD = """\
 # frequencies alone. Functions: 0 is 1, 1 the coordinate itself, from 2 on restricted cubic splines over its knots.
 # domain: name, least, largest. knots: coordinate, knots. spread: curve, standard deviation between
 # structures at one magnitude and distance, and over many.
+# peaks: kind of motion and peak, ln(PGV/PGA) given its logarithm: three knots, coefficients of 1, the logarithm and its natural spline,
+# standard deviation.
 # term: curve, function of each coordinate, coefficient, its deviations in {replicates} fits to resampled structures and cells.
 """
 

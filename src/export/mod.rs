@@ -45,8 +45,8 @@ pub struct Function {
     pub levels: Vec<f64>,
     /// Probability of each limit state at the levels.
     pub probabilities: Vec<[f64; 3]>,
-    /// Overturning as a lognormal curve over the intensity, above uplift.
-    pub overturning: Lognormal,
+    /// Overturning as a lognormal curve over the intensity, above uplift; none of a curve that bends, or of the surface.
+    pub overturning: Option<Lognormal>,
     /// Intensity at uplift, and the largest one for which there are data.
     pub range_of_data: [f64; 2],
 }

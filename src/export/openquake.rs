@@ -38,12 +38,13 @@ pub fn discrete(model: &Model, functions: &[Function]) -> String {
     })
 }
 
-/// Writes overturning alone, the one limit state that is lognormal, by the arithmetic mean and standard deviation of the
+/// Writes overturning alone, the one limit state that can be lognormal (functions that are not are left out), by the arithmetic mean and standard deviation of the
 /// capacity, as NRML has it. At and below uplift the no-damage limit makes the probability 0; above `maxIML`, the largest
 /// intensity of the table, OpenQuake keeps it.
 pub fn continuous(model: &Model, functions: &[Function]) -> String {
     let state = LimitState::Overturning;
     document(model, &[state], functions, |function| {
+        let Some(overturning) = function.overturning else { return String::new() };
         let (imt, unit) = measure(function.peak);
         let uplift = function.range_of_data[0] / unit;
         let largest = function.levels.last().map_or(uplift, |level| level / unit);
@@ -51,8 +52,8 @@ pub fn continuous(model: &Model, functions: &[Function]) -> String {
         format!(
             "    <fragilityFunction id=\"{id}\" format=\"continuous\" shape=\"logncdf\">\n      <imls imt=\"{imt}\" noDamageLimit=\"{uplift}\" minIML=\"{uplift}\" maxIML=\"{largest}\"/>\n      <params ls=\"{}\" mean=\"{}\" stddev=\"{}\"/>\n",
             state.as_str(),
-            function.overturning.mean() / unit,
-            function.overturning.standard_deviation() / unit,
+            overturning.mean() / unit,
+            overturning.standard_deviation() / unit,
         )
     })
 }

@@ -70,6 +70,15 @@ impl Clusters {
     }
 }
 
+/// Fewer clusters say too little of how they differ: limits that allow for it come out too narrow (Cameron & Miller 2015, section VI).
+const MANY: usize = 20;
+
+/// Whether these cases are of many clusters, the clusters being those of all cases.
+pub(crate) fn are_many(clusters: &[usize], rows: &[usize]) -> bool {
+    let distinct: BTreeSet<usize> = rows.iter().map(|&row| clusters[row]).collect();
+    distinct.len() >= MANY
+}
+
 /// Numbers the cells of magnitude and distance in the order in which they first appear; responses that have neither are in one cell.
 pub fn cells(mw: &[Option<f64>], re_km: &[Option<f64>]) -> Vec<usize> {
     let mut numbers = HashMap::new();

@@ -8,19 +8,23 @@
 //! demand       P_ex: regressions of the demand in safe rocking (Eqs. 14 to 18), their inference and resamples
 //! overturning  P_ro: curves of scalar and hybrid measures (Eqs. 19 to 24), their inference and resamples
 //! probability  the tree that joins them (Eq. 12), and limits of probabilities by the delta method
-//! predictor    a fit as a linear function of ln IM, with the range of its data
+//! held_out     how curves do on magnitudes and distances that they have not seen
+//! predictor    a fit as a function of ln IM, straight or bent, with the range of its data
 //! model        the fits joined: all probabilities at an intensity; resampled their limits from resampled fits
 //! peaks        how PGA and PGV of motions go together
 //! slice        the same along one peak, PGA or PGV, at a fixed p PGV / PGA
 //! universal    the surface that is shipped: the same probabilities for any structure, without fits of one's own
+//! answering    what these two have in common: fits, or the surface
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
 
+mod answering;
 pub(crate) mod capacity;
 pub(crate) mod case;
 pub(crate) mod clusters;
 pub mod demand;
 pub(crate) mod group;
+pub(crate) mod held_out;
 pub(crate) mod model;
 pub mod overturning;
 mod peaks;
@@ -30,6 +34,7 @@ pub(crate) mod resampled;
 pub(crate) mod slice;
 pub mod universal;
 
+pub use answering::Fragility;
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Event, Measure};
 pub use clusters::{Clusters, SharedBy, cells};
@@ -39,15 +44,16 @@ pub use demand::{
     rms_difference, transition_limits,
 };
 pub use group::{CaseGroup, Progress, Uncertainty, unwatched};
+pub use held_out::HeldOut;
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
 pub use overturning::{
-    CurveInference, CurveModel, CurveParameter, CurveRefits, EventSample, OverturningFit, fit_overturning,
-    fit_with_interaction, fit_with_spline, has_few_events,
+    BentFit, CurveInference, CurveModel, CurveParameter, CurveRefits, EventSample, Gap, OverturningFit,
+    fit_overturning, fit_with_interaction, fit_with_spline, has_few_events,
 };
-pub use peaks::JointPeaks;
-pub use predictor::{OutOfRange, Predicted, Predictor, ranges};
+pub use peaks::{JointPeaks, RatioGiven};
+pub use predictor::{BENT_TERMS, Bend, OutOfRange, Predicted, Predictor, ranges};
 pub use probability::{Probability, ProbitIndex};
 pub use probability::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use resampled::{ReplicateLimits, ResampledModel};
-pub use slice::{DOUBTFUL_PEAKS, Lognormal, Peak, Slice, are_doubtful};
+pub use slice::{Lognormal, Peak, PeaksDoubt, Slice, doubt_of_peaks};
 pub use universal::UniversalModel;

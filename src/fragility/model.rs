@@ -173,6 +173,18 @@ impl FragilityModel {
         out_of_range(&self.overturning, measures)
     }
 
+    /// The same for many magnitudes and distances, among which their differences average out.
+    pub fn over_many_cells(mut self) -> FragilityModel {
+        self.overturning.spread = 0.0;
+        match &mut self.demand {
+            DemandModel::Everywhere(law) => law.ln_median.spread = 0.0,
+            DemandModel::Biplanar { low, high, .. } => {
+                (low.ln_median.spread, high.ln_median.spread) = (0.0, 0.0);
+            }
+        }
+        self
+    }
+
     /// Where P_ex jumps from one law to the other.
     pub fn transition_im4(&self) -> Option<f64> {
         match self.demand {

@@ -1,9 +1,10 @@
-//! What both fits are at heart: b0 + b1 ln IMx + b2 ln IMy.
+//! What both fits are at heart: b0 + b1 ln IMx + b2 ln IMy, and how that may bend.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::case::Measure;
 use crate::motion::IntensityMeasures;
+use crate::statistics::design::restricted_splines;
 
 /// A linear function of the logarithms of one measure or two, with the uncertainty of its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +19,34 @@ pub struct Predictor {
     pub covariance: [[f64; 3]; 3],
     /// Least and largest value of each measure in the data.
     pub ranges: [[f64; 2]; 2],
+    /// What makes it bend; none of a straight line.
+    pub bend: Option<Bend>,
+    /// Standard deviation of its value between magnitudes and distances, none of which it has seen; 0 where their differences
+    /// average out.
+    pub spread: f64,
+}
+
+/// How many terms a bent index has: those of the line and those of the bend.
+pub const BENT_TERMS: usize = 6;
+
+/// What makes a linear function bend: a natural cubic spline of the logarithm of each measure, and the product of both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bend {
+    /// Three for each measure; beyond the outer ones the spline is straight.
+    pub knots: [[f64; 3]; 2],
+    /// Of the two splines and the product.
+    pub coefficients: [f64; 3],
+    /// Covariance of all coefficients, those of the line first.
+    pub covariance: [[f64; BENT_TERMS]; BENT_TERMS],
+}
+
+impl Bend {
+    /// The two splines and the product; without a second measure only the first is other than 0.
+    pub fn terms(knots: &[[f64; 3]; 2], ln_x: f64, ln_y: Option<f64>) -> [f64; 3] {
+        let spline = |u: f64, knots: &[f64; 3]| restricted_splines(u, knots).next().unwrap_or(0.0);
+        let of_second = ln_y.map_or([0.0; 2], |ln_y| [spline(ln_y, &knots[1]), ln_x * ln_y]);
+        [spline(ln_x, &knots[0]), of_second[0], of_second[1]]
+    }
 }
 
 /// The value of a predictor at an intensity.
@@ -66,6 +95,8 @@ impl Predictor {
             coefficients: [0, 1, 2].map(at),
             covariance: [0, 1, 2].map(|i| [0, 1, 2].map(|j| of_both(i, j))),
             ranges: [0, 1].map(|k| ranges.get(k).copied().unwrap_or([0.0; 2])),
+            bend: None,
+            spread: 0.0,
         }
     }
 
@@ -77,13 +108,26 @@ impl Predictor {
         };
         let row = [1.0, self.im_x.among(measures)?.ln(), ln_y];
         let dot = |a: &[f64; 3]| a[0] * row[0] + a[1] * row[1] + a[2] * row[2];
-        let variance = dot(&[0, 1, 2].map(|i| dot(&self.covariance[i])));
-        Some(Predicted { value: dot(&self.coefficients), variance })
+        let line = dot(&self.coefficients);
+        let (value, variance) = match &self.bend {
+            None => (line, dot(&[0, 1, 2].map(|i| dot(&self.covariance[i])))),
+            Some(bend) => {
+                let terms = Bend::terms(&bend.knots, row[1], self.im_y.map(|_| row[2]));
+                let bent: f64 = terms.iter().zip(&bend.coefficients).map(|(term, b)| term * b).sum();
+                let all = [row[0], row[1], row[2], terms[0], terms[1], terms[2]];
+                let dot = |a: &[f64; BENT_TERMS]| a.iter().zip(&all).map(|(a, term)| a * term).sum::<f64>();
+                (line + bent, dot(&bend.covariance.each_ref().map(dot)))
+            }
+        };
+        Some(Predicted { value, variance: variance + self.spread * self.spread })
     }
 
     /// The one measure that it is a function of: the hybrid IMx^(b1/(b1 + b2)) IMy^(b2/(b1 + b2)) of two (Eq. 23, with
-    /// lambda = b1/b2). None where a measure is missing.
+    /// lambda = b1/b2). None where a measure is missing, or the function bends.
     pub fn hybrid_measure(&self, measures: &IntensityMeasures) -> Option<f64> {
+        if self.bend.is_some() {
+            return None;
+        }
         let [b0, b1, b2] = self.coefficients;
         Some(((self.at(measures)?.value - b0) / (b1 + b2)).exp())
     }

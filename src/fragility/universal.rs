@@ -5,10 +5,13 @@ use std::sync::LazyLock;
 
 use super::case::Measure;
 use super::model::{GivenRocking, Probabilities};
+use super::peaks::{JointPeaks, RatioGiven};
 use super::predictor::OutOfRange;
 use super::probability::{Probability, Z_95, p_failure_given_rocking, p_no_rocking};
+use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Suite};
 use crate::rocking::Structure;
+use crate::statistics::design::restricted_splines;
 
 /// The surface as it is shipped: knots, domain and coefficients.
 pub const SURFACE: &str = include_str!("../../data/universal.csv");
@@ -100,18 +103,46 @@ impl UniversalModel {
     /// The measures that lie outside of the motions of the surface; none without rocking.
     pub fn out_of_range(&self, measures: &IntensityMeasures) -> impl Iterator<Item = OutOfRange> {
         let rocks = p_no_rocking(measures.im4) == 0.0;
-        let known = [("im4", Measure::Im4), ("im3", Measure::Im3), ("im5", Measure::Im5)];
-        known.into_iter().filter_map(move |(name, measure)| {
-            let (value, range) = (measure.among(measures)?, PARSED.range(name));
+        MEASURES.into_iter().filter_map(move |measure| {
+            let (value, range) = (measure.among(measures)?, PARSED.range(measure.as_str()));
             (rocks && is_outside(value, range)).then_some(OutOfRange { measure, value, range })
         })
     }
+
+    /// What bounds the domain: the measures and the parameters of a structure, each with its least and largest value.
+    pub fn coordinates(
+        &self,
+        structure: &Structure,
+        measures: &IntensityMeasures,
+    ) -> Vec<(&'static str, f64, [f64; 2])> {
+        let measured =
+            MEASURES.into_iter().filter_map(|measure| Some((measure.as_str(), measure.among(measures)?)));
+        let all =
+            measured.chain(parameters(structure)).map(|(name, value)| (name, value, PARSED.range(name)));
+        all.collect()
+    }
+
+    /// How PGA and PGV go together in the motions of the surface.
+    pub fn peaks(&self) -> Option<JointPeaks> {
+        let of = |peak: &str| {
+            let name = format!("{}_{peak}", self.motions.as_str());
+            let known = PARSED.peaks.iter().find(|(other, _)| *other == name)?;
+            Some(RatioGiven::of_numbers(known.1))
+        };
+        Some(JointPeaks { given_pga: of("pga")?, given_pgv: of("pgv")? })
+    }
+}
+
+/// The measures that bound the domain.
+const MEASURES: [Measure; 3] = [Measure::Im4, Measure::Im3, Measure::Im5];
+
+fn parameters(structure: &Structure) -> [(&'static str, f64); 3] {
+    [("p", structure.p_rad_s), ("alpha", structure.alpha_rad), ("eta", structure.eta)]
 }
 
 /// The parameters of a structure that lie outside of those of the surface.
 pub fn other_structure(structure: &Structure) -> impl Iterator<Item = OtherStructure> {
-    let parameters = [("p", structure.p_rad_s), ("alpha", structure.alpha_rad), ("eta", structure.eta)];
-    parameters.into_iter().filter_map(|(parameter, value)| {
+    parameters(structure).into_iter().filter_map(|(parameter, value)| {
         let range = PARSED.range(parameter);
         is_outside(value, range).then_some(OtherStructure { parameter, value, range })
     })
@@ -134,6 +165,8 @@ fn logistic(index: f64) -> f64 {
 struct Surface {
     knots: [Vec<f64>; COORDINATES],
     domain: Vec<(&'static str, [f64; 2])>,
+    /// What each peak of each kind of motion says of PGV / PGA.
+    peaks: Vec<(&'static str, [f64; 7])>,
     /// Of overturning and of exceeding.
     curves: [Curve; 2],
 }
@@ -155,8 +188,12 @@ struct Term {
 impl Surface {
     /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which tests find.
     fn parse(text: &'static str) -> Surface {
-        let mut surface =
-            Surface { knots: Default::default(), domain: Vec::new(), curves: Default::default() };
+        let mut surface = Surface {
+            knots: Default::default(),
+            domain: Vec::new(),
+            peaks: Vec::new(),
+            curves: Default::default(),
+        };
         let mut coordinate = 0;
         for line in text.lines().filter(|line| !line.starts_with('#')) {
             let cells: Vec<&str> = line.split(',').collect();
@@ -168,6 +205,7 @@ impl Surface {
                     surface.knots[coordinate] = numbers;
                     coordinate += 1;
                 }
+                "peaks" => surface.peaks.push((cells[1], std::array::from_fn(|k| numbers[k]))),
                 "spread" => curve.spread = [numbers[0], numbers[1]],
                 _ => curve.terms.push(Term {
                     functions: std::array::from_fn(|k| numbers[k] as usize),
@@ -223,18 +261,13 @@ impl Curve {
     }
 }
 
-/// 1, the coordinate, and restricted cubic splines: cubic between the knots, linear outside of them (Harrell, Regression modeling
-/// strategies, section 2.4.5).
+/// 1, the coordinate, and restricted cubic splines.
 fn splines(u: f64, knots: &[f64]) -> [f64; FUNCTIONS] {
     let mut functions = [0.0; FUNCTIONS];
     (functions[0], functions[1]) = (1.0, u);
-    if let [first, .., before, last] = *knots {
-        let cube = |knot: f64| (u - knot).max(0.0).powi(3);
-        let width = (last - first) * (last - first);
-        for (function, &knot) in functions[2..].iter_mut().zip(&knots[..knots.len() - 2]) {
-            let (a, b) = ((last - knot) / (last - before), (before - knot) / (last - before));
-            *function = (cube(knot) - a * cube(before) + b * cube(last)) / width;
-        }
-    }
+    functions[2..]
+        .iter_mut()
+        .zip(restricted_splines(u, knots))
+        .for_each(|(function, value)| *function = value);
     functions
 }

@@ -6,9 +6,11 @@ use crate::units::G_M_S2;
 
 /// Time steps of records, s: from instruments of 200 to 500 samples a second down to film digitised by hand, with a margin.
 const STEPS_S: (f64, f64) = (1e-4, 0.1);
-/// The largest recorded PGA of a component is 3.95 g (Iwate-Miyagi 2008, IWTH25, vertical); with a margin, m/s2.
+/// The largest recorded PGA is that of Iwate-Miyagi 2008, IWTH25: 4278 cm/s2 as the vector of all three components (Yamada, Mori & Heaton
+/// 2009, The slapdown phase in high-acceleration records of large earthquakes, Seismological Research Letters 80), and so less of one;
+/// with a margin, m/s2.
 const LARGEST_PGA_M_S2: f64 = 5.0 * G_M_S2;
-/// The largest recorded PGV of a component is about 3 m/s, of both 3.9 m/s (Chi-Chi 1999, TCU068); with a margin, m/s.
+/// The largest recorded PGV of a component is about 3 m/s, of both 3.9 m/s (Chi-Chi 1999, TCU068; not checked in a source); with a margin, m/s.
 const LARGEST_PGV_M_S: f64 = 5.0;
 /// The range of PGV/PGA, s: TCU068 has 0.8, sites on deep sediments up to 0.9, and sines of 30 Hz 0.005; the records of FEMA
 /// P695 have 0.06 to 0.47.

@@ -21,6 +21,7 @@ const SCRIPTS: [&str; 7] = [
     include_str!("assets/uPlot.iife.min.js"),
     include_str!("assets/normal.js"),
     include_str!("assets/fragility.js"),
+    include_str!("assets/universal.js"),
     include_str!("assets/calculator.js"),
     include_str!("assets/planes.js"),
     include_str!("assets/motions.js"),

@@ -3,7 +3,7 @@
 use base64::prelude::{BASE64_STANDARD, Engine};
 use serde_json::{Value, json};
 
-use crate::fragility::{DemandLaw, DemandModel, Measure, Peak, Predictor};
+use crate::fragility::{DemandLaw, DemandModel, Measure, Peak, PeaksDoubt, Predictor, universal};
 use crate::keyword::Keyword;
 use crate::motion::intensity::velocity;
 use crate::report::axis::{Axis, range};
@@ -28,6 +28,8 @@ pub fn json(data: &ReportData, figures: &[&Figure]) -> String {
         "bounds": BOUNDS.iter().copied().chain([Peak::Pga, Peak::Pgv].map(Peak::bound)).map(bound).collect::<Vec<_>>(),
         "structures": data.groups.iter().map(structure).collect::<Vec<_>>(),
         "models": data.models.iter().map(model).collect::<Vec<_>>(),
+        "surface": universal::SURFACE,
+        "doubts": PeaksDoubt::ALL.map(|doubt| json!({ "words": doubt.words(), "bounds": doubt.bounds() })),
         "planes": data.groups.iter().filter_map(in_space).collect::<Vec<_>>(),
         "motions": data.motions.iter().map(motion).collect::<Vec<_>>(),
         "figures": figures.iter().map(|of| (of.name.clone(), figure(of))).collect::<serde_json::Map<_, _>>(),
@@ -96,8 +98,14 @@ fn law(law: &DemandLaw) -> Value {
 }
 
 fn predictor(of: &Predictor) -> Value {
-    json!({ "x": of.im_x.as_str(), "y": of.im_y.map(Keyword::as_str), "b": of.coefficients,
-        "covariance": of.covariance, "ranges": of.ranges })
+    let (mut b, mut covariance) = (of.coefficients.to_vec(), of.covariance.map(|row| row.to_vec()).to_vec());
+    if let Some(bend) = &of.bend {
+        b.extend(bend.coefficients);
+        covariance = bend.covariance.map(|row| row.to_vec()).to_vec();
+    }
+    covariance[0][0] += of.spread * of.spread;
+    json!({ "x": of.im_x.as_str(), "y": of.im_y.map(Keyword::as_str), "b": b, "covariance": covariance,
+        "knots": of.bend.map(|bend| bend.knots), "ranges": of.ranges })
 }
 
 /// Writes the cloud of a group in ln IM4, ln IM3 and ln EDP, and its two planes.

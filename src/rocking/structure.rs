@@ -138,7 +138,21 @@ pub fn judge(structure: &str, given: &[(&'static str, f64)]) -> Result<(), Struc
     }
 }
 
+/// Below this p, rad/s, a solid block is higher than some 90 m.
+const DOUBTFUL_P: f64 = 0.4;
+
 impl Structure {
+    /// What may be wrong with its size, which no solid block that stands has; none where nothing is.
+    pub fn doubt(&self) -> Option<String> {
+        let height = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s) * self.alpha_rad.cos();
+        (self.p_rad_s < DOUBTFUL_P).then(|| {
+            format!(
+                "p {:.3} rad/s is that of a solid block {height:.0} m high: are its dimensions in cm?",
+                self.p_rad_s
+            )
+        })
+    }
+
     /// Returns its size and slenderness.
     pub fn block(&self) -> Block {
         Block { p_rad_s: self.p_rad_s, alpha_rad: self.alpha_rad }

@@ -6,11 +6,13 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::shared::chosen_fits::ChosenFits;
+use super::shared::answers::Answers;
 use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions};
 use super::shared::structure_options::StructureOptions;
-use super::shared::structures::{StructureSpec, words};
+use super::shared::structures::{StructureSpec, warn_of_size, words};
+use super::shared::surface::Surface;
 use crate::export::{self, Function, Model, plain_id};
+use crate::fragility::universal::Scenarios;
 use crate::fragility::{LimitState, Peak, Slice};
 use crate::keyword::keywords;
 use crate::pipeline::UsageError;
@@ -92,7 +94,8 @@ pub struct Export {
     program: Program,
     tolerance: f64,
     ratios: Vec<f64>,
-    fits: FitFiles,
+    /// The fits; without them the surface that is shipped.
+    fits: Option<FitFiles>,
     structure: StructureSpec,
     out: PathBuf,
 }
@@ -106,7 +109,7 @@ impl Declare for Export {
         "eta",
         "Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions, or as in the fits]",
     )];
-    const INPUTS: &'static [Input] = &FIT_INPUTS;
+    const INPUTS: &'static [Input] = &[FIT_INPUTS[0].if_there(), FIT_INPUTS[1].if_there()];
     const OUTPUT: Output =
         Output::file("fragility.xml", "File to write [default: fragility.xml or fragility.csv]")
             .under("Export");
@@ -142,7 +145,7 @@ impl Declare for Export {
             program,
             tolerance,
             ratios: ratio.values.clone(),
-            fits: FitFiles::new(&options.fits, files)?,
+            fits: FitFiles::if_asked(&options.fits, files)?,
             structure: options.structure.spec()?,
             out,
         })
@@ -162,7 +165,8 @@ impl Stage for Export {
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        vec![("pex", self.fits.pex.clone()), ("pro", self.fits.pro.clone())]
+        let files = |fits: &FitFiles| vec![("pex", fits.pex.clone()), ("pro", fits.pro.clone())];
+        self.fits.as_ref().map(files).unwrap_or_default()
     }
 
     fn targets(&self) -> Vec<Target> {
@@ -172,7 +176,7 @@ impl Stage for Export {
     fn parameters(&self) -> Value {
         let ExportOptions { to, im, ratio, levels, upto, .. } = &self.options;
         json!({
-            "fits": self.fits.options, "structure": self.structure, "to": to, "im": im, "ratio": ratio, "levels": levels,
+            "fits": self.fits.as_ref().map_or(&self.options.fits, |fits| &fits.options), "structure": self.structure, "to": to, "im": im, "ratio": ratio, "levels": levels,
             "upto": upto, "tolerance": self.tolerance
         })
     }
@@ -190,25 +194,32 @@ impl Stage for Export {
     }
 
     fn execute(&self, _provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let fits = self.fits.choose()?;
-        let structure = self.structure.structure_with_eta(fits.model.eta)?;
-        fits.warn_of_misfit(console);
-        fits.warn_of_structure(&structure, console);
+        let answers: Box<dyn Answers> = match &self.fits {
+            Some(fits) => Box::new(fits.choose()?),
+            None => Box::new(Surface::new(self.options.fits.suite.as_deref(), None, Scenarios::Many)?),
+        };
+        let structure = match answers.eta() {
+            Some(eta) => self.structure.structure_with_eta(eta)?,
+            None => self.structure.structure()?,
+        };
+        answers.warn(console);
+        warn_of_size([&structure], console);
+        answers.warn_of_structure(&structure, console);
         let functions = self.ratios.iter().map(|&ratio| {
             let slice = Slice { structure: structure.clone(), peak: self.options.im.0, ratio };
-            self.function(&slice, &fits, console)
+            self.function(&slice, &*answers, console)
         });
         let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
         let model = Model {
             id: format!("{}{}", export::OWN_ID, plain_id(&structure.name)),
             description: format!(
-                "rockfrag {}: fits of {}; structure of {}",
+                "rockfrag {}: {}; structure of {}",
                 env!("CARGO_PKG_VERSION"),
-                fits.words(),
+                answers.words(),
                 words(&structure)
             ),
             limit_states: [LimitState::Rocking, LimitState::Failure, LimitState::Overturning]
-                .map(|state| fits.meaning(state)),
+                .map(|state| answers.meaning(state)),
         };
         let content = match self.program {
             Program::OpenQuake => export::discrete(&model, &functions),
@@ -232,25 +243,30 @@ impl Stage for Export {
 
 impl Export {
     /// One slice, tabulated.
-    fn function(&self, slice: &Slice, fits: &ChosenFits, console: &Console) -> anyhow::Result<Function> {
-        let model = &fits.model;
-        let needs_period = || {
-            UsageError::because(
-                "these fits do not grow with the peak along a slice, or need the period of each motion: use the bivariate model, or --measure im4 or im5",
-            )
-        };
-        let overturning = slice.overturning(&model.overturning).ok_or_else(needs_period)?;
-        let jumps = slice.jumps(model);
-        slice.limit_states(model, jumps[0]).ok_or_else(needs_period)?;
+    fn function(&self, slice: &Slice, answers: &dyn Answers, console: &Console) -> anyhow::Result<Function> {
+        let model = answers.model();
+        let jumps = model.jumps(slice);
         let reaching = |intensity: f64| {
-            slice.limit_states(model, intensity).map_or([f64::NAN; 3], |states| states.map(|p| p.value))
+            model.limit_states(slice, intensity).map_or([f64::NAN; 3], |states| states.map(|p| p.value))
         };
-        let range_of_data = [jumps[0], slice.largest_in_data(model)];
+        let range_of_data = [jumps[0], model.largest_in_data(slice)];
+        let overturning = |intensity: f64| reaching(intensity)[2];
+        if !(overturning(jumps[0]) < overturning(range_of_data[1])) {
+            return Err(UsageError::because(
+                "these fits do not grow with the peak along a slice, or need the period of each motion: use the bivariate model, or --measure im4 or im5",
+            ));
+        }
+        let lognormal = model.lognormal(slice);
+        if self.program == Program::OpenQuakeContinuous && lognormal.is_none() {
+            return Err(UsageError::because(
+                "P_ro is not lognormal: it bends, or is the surface's; expected --to openquake, which takes a table, or --model paper, the straight line",
+            ));
+        }
         let levels = self.levels(&jumps, range_of_data[1], reaching)?;
         let id = plain_id(&format!("{}{}{}", slice.structure.name, export::OF_RATIO, slice.ratio));
-        fits.warn_of_slice(slice, levels[levels.len() - 1], &format!("{id}: "), console);
+        answers.warn_of_slice(slice, levels[levels.len() - 1], &format!("{id}: "), console);
         let probabilities = levels.iter().map(|&level| reaching(level)).collect();
-        Ok(Function { id, peak: slice.peak, levels, probabilities, overturning, range_of_data })
+        Ok(Function { id, peak: slice.peak, levels, probabilities, overturning: lognormal, range_of_data })
     }
 
     /// Rising from uplift, m/s2 or m/s.
@@ -263,6 +279,11 @@ impl Export {
         // pelicun knows a whole distribution or none.
         let whole = (self.program == Program::Pelicun)
             .then(|| export::whole_curve_end(jumps[0], self.tolerance, &reaching));
+        if whole.is_some_and(|whole| !whole.is_finite()) {
+            return Err(UsageError::because(
+                "pelicun needs curves that end at a probability of 1, which these never reach; expected --to openquake, or --model paper",
+            ));
+        }
         let end = self.options.upto.map_or(whole.unwrap_or(largest_in_data), |upto| upto * self.unit());
         let mut levels = match &self.options.levels {
             Some(steps) => {

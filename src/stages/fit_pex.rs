@@ -137,7 +137,7 @@ impl FitPex {
         let transition = options.transition.im4();
         let uncertainty = uncertainty(options.bootstrap, options.confidence, options.seed)?;
         let options = FitPexOptions { seed: Some(uncertainty.seed), ..options.clone() };
-        let regressions = RegressionOptions { transition, uncertainty };
+        let regressions = RegressionOptions { transition, limit, uncertainty };
         Ok(FitPex { options, regressions, input: input.into(), out: out.into() })
     }
 

@@ -10,14 +10,14 @@ use serde_json::{Value, json};
 use super::shared::groups::{self, Group};
 use super::shared::uncertainty::uncertainty;
 use super::simulate::Simulate;
-use crate::fragility::overturning::{Curve, CurveOptions, LEAST_EVENTS, Pair};
+use crate::fragility::overturning::{BentFit, Curve, CurveOptions, Gap, LEAST_EVENTS, Pair};
 use crate::fragility::{CaseGroup, CurveModel, Event};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
 use crate::pipeline::stage::Stage;
-use crate::statistics::{Estimator, FitStatus, Gap, Link};
+use crate::statistics::{Estimator, FitStatus, Link};
 use crate::table::pro::{GroupCurve, PRO, PRO_BOOTSTRAP, ProReplicateRow, ProRow};
 use crate::table::row::WriteRow;
 use crate::table::store::provenance::Provenance;
@@ -191,13 +191,20 @@ fn doubt(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> Option<(Str
     let (event, of) = (curve.event.as_str(), measures(curve));
     let fit = curve.fit.as_ref().ok()?;
     match curve.status() {
-        FitStatus::Misfit => {
-            let Gap { predicted, observed } = fit.largest_gap?;
-            Some((
-                format!("curves of {event} for {suite}, {structure}, fit badly (tests reject them)"),
-                format!("{of} (predicted {predicted:.2}, observed {observed:.2})"),
-            ))
-        }
+        FitStatus::Misfit => Some((
+            format!("straight curves of {event} for {suite}, {structure}, fit badly (tests reject them)"),
+            match (&curve.bent, curve.bent_answer()) {
+                (Some(BentFit { gap: Gap { straight, bent }, .. }), Some(_)) => {
+                    format!("{of} ({straight:.2} for {bent:.2}; the bent one answers)")
+                }
+                (Some(BentFit { gap: Gap { straight, bent }, .. }), None) => {
+                    format!(
+                        "{of} ({straight:.2} for {bent:.2}; the bent one does no better on cells left out)"
+                    )
+                }
+                (None, _) => of,
+            },
+        )),
         FitStatus::FarMedian => Some((
             format!(
                 "medians of {event} for {suite}, {structure}, lie far outside of the data, so that these measures say little"

@@ -4,10 +4,12 @@ use polars::prelude::DataFrame;
 use serde_json::{Value, json};
 
 use super::shared::chosen_fits::ChosenFits;
-use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions};
+use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions, ModelForm};
 use super::shared::groups::{self, Group};
+use super::shared::surface::{PAPER_LIMIT, Surface};
 use super::simulate::Simulate;
 use crate::fragility::Event;
+use crate::fragility::universal::Scenarios;
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output};
@@ -26,7 +28,9 @@ const RESPONSES_ROLE: &str = "responses";
 
 /// The stage, ready to run.
 pub struct Validate {
-    fits: FitFiles,
+    /// The fits; without them the surface that is shipped.
+    fits: Option<FitFiles>,
+    options: FitsOptions,
     input: Source,
     out: Target,
 }
@@ -59,11 +63,12 @@ impl Validate {
     /// Warns if the curves were fitted to the responses they are tested on.
     fn warn_of_own_responses(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<()> {
         let responses = provenance.inputs.get(RESPONSES_ROLE);
-        for fits in [&self.fits.pex, &self.fits.pro] {
+        let files = |fits: &FitFiles| vec![fits.pex.clone(), fits.pro.clone()];
+        for fits in self.fits.as_ref().map(files).unwrap_or_default() {
             // A table in memory does not say what it was made from.
             let Source::Path(path) = fits else { continue };
             let fitted_to =
-                recorded(path)?.and_then(|recorded| recorded.provenance.inputs.get(RESPONSES_ROLE).cloned());
+                recorded(&path)?.and_then(|recorded| recorded.provenance.inputs.get(RESPONSES_ROLE).cloned());
             if fitted_to.as_ref() == responses {
                 console.warn(&format!(
                     "{} was fitted to these responses, {}: that they agree proves nothing",
@@ -73,6 +78,41 @@ impl Validate {
             }
         }
         Ok(())
+    }
+
+    fn by_fits(
+        &self,
+        fits: &FitFiles,
+        groups: &[Group],
+        provenance: &Provenance,
+        console: &Console,
+    ) -> anyhow::Result<Vec<ValidationRow>> {
+        let choice = Choice(fits.choose_each()?);
+        choice.warn(groups, console);
+        self.warn_of_own_responses(provenance, console)?;
+        let of_group = |group: &Group| -> Vec<ValidationRow> {
+            let fits = choice.usable().filter(|fits| fits.structure == group.structure);
+            fits.flat_map(|fits| rows(group, fits)).collect()
+        };
+        Ok(groups.iter().flat_map(of_group).collect())
+    }
+
+    /// Of each group, as motions of the suite that is asked for, or of its own; combined ones where that is none of the surface.
+    fn by_surface(&self, groups: &[Group]) -> anyhow::Result<Vec<ValidationRow>> {
+        let asked = self.options.suite.as_deref();
+        let mut rows = Vec::new();
+        for group in groups {
+            let surface = match asked {
+                Some(_) => Surface::new(asked, None, Scenarios::One)?,
+                None => Surface::beside(group.suite.as_deref(), PAPER_LIMIT, Scenarios::One),
+            };
+            for event in EVENTS {
+                let structure = |row: usize| group.structure_of(row);
+                let forecasts = Forecasts::by_surface(&surface.0, &group.cases, event, structure);
+                rows.extend(row(group, Some(surface.0.motions.as_str()), event, surface.0.limit, &forecasts));
+            }
+        }
+        Ok(rows)
     }
 
     /// Warns if something happened which the curves hold impossible.
@@ -110,8 +150,8 @@ impl Declare for Validate {
             Simulate::OUTPUT.file,
             "Responses to test the fits on, such as those to records",
         ),
-        FIT_INPUTS[0],
-        FIT_INPUTS[1],
+        FIT_INPUTS[0].if_there(),
+        FIT_INPUTS[1].if_there(),
     ];
     const OUTPUT: Output = Output::file(
         "validation.parquet",
@@ -120,24 +160,39 @@ impl Declare for Validate {
 
     fn create(options: &FitsOptions, files: &Files) -> anyhow::Result<Validate> {
         let (input, out) = (files.input(RESPONSES_ROLE)?, files.out(Self::OUTPUT.file));
-        Ok(Validate { fits: FitFiles::new(options, files)?, input, out })
+        Ok(Validate { fits: FitFiles::if_asked(options, files)?, options: options.clone(), input, out })
     }
 }
 
+const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
+
 /// All events of a group by the fits of one suite; those that cannot happen in any case are left out.
 fn rows<'a>(group: &'a Group, fits: &'a ChosenFits) -> impl Iterator<Item = ValidationRow> + 'a {
-    [Event::Overturning, Event::Exceeding, Event::Failure].into_iter().filter_map(|event| {
-        let Forecasts { forecasts, without_measure } = Forecasts::new(&fits.model, &group.cases, event);
-        Some(ValidationRow::new(
-            group.suite.as_deref(),
-            &group.structure,
-            fits.suite.as_deref(),
-            event,
-            fits.model.limit,
-            &Validation::of(&forecasts)?,
-            without_measure,
-        ))
+    // Many magnitudes and distances: the limits are of the fits.
+    let model = fits.model.over_many_cells();
+    EVENTS.into_iter().filter_map(move |event| {
+        let forecasts = Forecasts::new(&model, &group.cases, event);
+        row(group, fits.suite.as_deref(), event, model.limit, &forecasts)
     })
+}
+
+fn row(
+    group: &Group,
+    suite: Option<&str>,
+    event: Event,
+    limit: f64,
+    Forecasts { forecasts, without_measure }: &Forecasts,
+) -> Option<ValidationRow> {
+    let validation = Validation::of(forecasts)?;
+    Some(ValidationRow::new(
+        group.suite.as_deref(),
+        &group.structure,
+        suite,
+        event,
+        limit,
+        &validation,
+        *without_measure,
+    ))
 }
 
 impl Stage for Validate {
@@ -146,8 +201,10 @@ impl Stage for Validate {
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        let FitFiles { pex, pro, .. } = self.fits.clone();
-        vec![("pex", pex), ("pro", pro), (RESPONSES_ROLE, self.input.clone())]
+        let files = |fits: &FitFiles| vec![("pex", fits.pex.clone()), ("pro", fits.pro.clone())];
+        let mut inputs = self.fits.as_ref().map(files).unwrap_or_default();
+        inputs.push((RESPONSES_ROLE, self.input.clone()));
+        inputs
     }
 
     fn targets(&self) -> Vec<Target> {
@@ -155,7 +212,10 @@ impl Stage for Validate {
     }
 
     fn parameters(&self) -> Value {
-        json!(self.fits.options)
+        match &self.fits {
+            Some(fits) => json!(fits.options),
+            None => json!({ "model": ModelForm::Universal.as_str(), "suite": self.options.suite }),
+        }
     }
 
     fn show(&self, terminal: &Terminal) -> anyhow::Result<String> {
@@ -167,27 +227,19 @@ impl Stage for Validate {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let choice = Choice(self.fits.choose_each()?);
         let groups = groups::read(&self.input)?;
-        choice.warn(&groups, console);
-        self.warn_of_own_responses(provenance, console)?;
-        let of_structure = |fits: &&ChosenFits, structure: &str| fits.structure == structure;
-        let rows: Vec<ValidationRow> = groups
-            .iter()
-            .flat_map(|group| {
-                let fits = choice.usable().filter(move |fits| of_structure(fits, &group.structure));
-                fits.flat_map(move |fits| rows(group, fits))
-            })
-            .collect();
+        let (rows, by) = match &self.fits {
+            Some(fits) => (self.by_fits(fits, &groups, provenance, console)?, ""),
+            None => (self.by_surface(&groups)?, " by the universal surface"),
+        };
         if rows.is_empty() {
             anyhow::bail!(
-                "{}: nothing that the fits of {} predict; expected rocking responses of the same structures",
-                self.input.name().display(),
-                self.fits.pex.name().display()
+                "{}: nothing that the fits predict; expected rocking responses of the same structures",
+                self.input.name().display()
             );
         }
         self.warn_of_impossible(&rows, console);
         ValidationRow::write(&rows, self.out.clone(), provenance)?;
-        Ok(format!("{} counts of {} groups of responses", rows.len(), groups.len()))
+        Ok(format!("{} counts of {} groups of responses{by}", rows.len(), groups.len()))
     }
 }

@@ -118,3 +118,28 @@ fn knots(values: &[f64]) -> [f64; 4] {
     sorted.sort_by(f64::total_cmp);
     KNOTS.map(|share| quantile(&sorted, share))
 }
+
+/// The cubic functions that let a line in one value bend: cubic between the knots, linear outside of them, one less than there are
+/// gaps between knots; none of fewer than three (Harrell 2015, Regression modeling strategies, section 2.4.5).
+pub fn restricted_splines(u: f64, knots: &[f64]) -> impl Iterator<Item = f64> + '_ {
+    let ends = match *knots {
+        [first, .., before, last] => Some((first, before, last)),
+        _ => None,
+    };
+    ends.into_iter().flat_map(move |(first, before, last)| {
+        let cube = move |knot: f64| (u - knot).max(0.0).powi(3);
+        let width = (last - first) * (last - first);
+        knots[..knots.len() - 2].iter().map(move |&knot| {
+            let (a, b) = ((last - knot) / (last - before), (before - knot) / (last - before));
+            (cube(knot) - a * cube(before) + b * cube(last)) / width
+        })
+    })
+}
+
+/// Knots with these shares of the values below them; none where two of them coincide.
+pub fn quantile_knots<const N: usize>(values: &[f64], shares: [f64; N]) -> Option<[f64; N]> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let knots = shares.map(|share| quantile(&sorted, share));
+    knots.windows(2).all(|pair| pair[1] - pair[0] > 1e-6).then_some(knots)
+}

@@ -42,37 +42,6 @@ pub fn hosmer_lemeshow(probabilities: &[f64], events: &[bool]) -> Option<Test> {
     statistic.is_finite().then_some(test)
 }
 
-/// What a model predicts of a group of cases, and what was observed in it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gap {
-    /// Mean predicted probability.
-    pub predicted: f64,
-    /// Share of the cases in which the event happened.
-    pub observed: f64,
-}
-
-impl Gap {
-    /// The size of the difference, in probability.
-    pub fn size(&self) -> f64 {
-        (self.predicted - self.observed).abs()
-    }
-}
-
-/// The largest gap among ten groups of rising probability, those of [`hosmer_lemeshow`]. None with fewer than two cases a group.
-pub fn largest_gap(probabilities: &[f64], events: &[bool]) -> Option<Gap> {
-    if probabilities.len() < 2 * GROUPS {
-        return None;
-    }
-    let of_group = |rows: &Vec<usize>| {
-        let n = rows.len() as f64;
-        let predicted = rows.iter().map(|&row| probabilities[row]).sum::<f64>() / n;
-        let observed = rows.iter().filter(|&&row| events[row]).count() as f64 / n;
-        Gap { predicted, observed }
-    };
-    let gaps = rising_groups(probabilities, GROUPS).iter().map(of_group).collect::<Vec<_>>();
-    gaps.into_iter().max_by(|a, b| a.size().total_cmp(&b.size()))
-}
-
 /// The likelihood-ratio test of a binary regression against a larger one that contains it.
 pub fn likelihood_ratio(restricted: &BinaryFit, full: &BinaryFit) -> Test {
     let statistic = (2.0 * (full.log_likelihood - restricted.log_likelihood)).max(0.0);

@@ -31,7 +31,7 @@ pub use design::natural_spline;
 pub use distribution::PoissonBinomial;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
 pub use estimate::{Estimate, Limits};
-pub use goodness::{Gap, Test, hosmer_lemeshow, largest_gap, likelihood_ratio, reset};
+pub use goodness::{Test, hosmer_lemeshow, likelihood_ratio, reset};
 pub use goodness::{auc, brier_score, expected_log_score, log_score};
 pub use link::ln_probability_series;
 pub use link::{Information, Link};

@@ -2,14 +2,13 @@
 //!
 //! ```text
 //! candidate     sets of measures; ranking_sample: the cases in which they are ranked
-//! rating        how well a set predicts; folds: which clusters are left out together; ranking: the order of all sets
+//! rating        how well a set predicts; ranking: the order of all sets
 //! transfer      the curve of one structure, asked about another; universality: how it does; pooled: one curve for all
 //! validation    forecasts of cases that were not fitted, tested on what happened
 //! paper         how ours stands to what the paper prints
 //! ```
 
 pub(crate) mod candidate;
-pub(crate) mod folds;
 pub mod paper;
 pub(crate) mod pooled;
 pub(crate) mod ranking;
@@ -19,8 +18,8 @@ pub(crate) mod transfer;
 pub(crate) mod universality;
 pub(crate) mod validation;
 
+pub use crate::resampling::{Folds, Gain, gain};
 pub use candidate::{Candidate, Form};
-pub use folds::{Folds, Gain, gain};
 pub use pooled::{PooledFit, PooledPart, PooledStructure, PooledTerm, PooledTerms, fit_pooled};
 pub use ranking::{MeasureRanking, RankingRules};
 pub use ranking::{OfPaper, Ranked};

@@ -1,6 +1,5 @@
 //! One curve for all structures: what they differ in as covariates, and how well it predicts structures that it has not seen.
 
-use super::folds::{Folds, MOST_FOLDS};
 use super::transfer::CurveSubject;
 use crate::fragility::case::{Case, Event, Measure};
 use crate::fragility::demand::inference::DemandInference;
@@ -10,6 +9,7 @@ use crate::fragility::overturning::sample::EventSample;
 use crate::fragility::probability::exceeding_index;
 use crate::keyword::{Keyword, keywords};
 use crate::normal;
+use crate::resampling::folds::{Folds, MOST_FOLDS};
 use crate::statistics::FitStatus;
 use crate::statistics::binary::Estimator;
 use crate::statistics::binary::binary_regression;

@@ -1,8 +1,8 @@
 //! Which measures predict best: alone, in pairs and in triples, and by forward selection.
 
+use crate::resampling::folds::{Folds, Gain, gain};
 use crate::statistics::FitStatus;
 use crate::studies::candidate::{Candidate, Form};
-use crate::studies::folds::{Folds, Gain, gain};
 use crate::studies::ranking_sample::{RankingSample, Target};
 use crate::studies::rating::Rating;
 use crate::studies::rating::rate_overturning;

@@ -13,6 +13,7 @@ use crate::fragility::demand::transition::TransitionSearch;
 use crate::fragility::overturning::curves::{CurveModel, fit_overturning};
 use crate::fragility::overturning::inference::CurveInference;
 use crate::fragility::overturning::sample::EventSample;
+use crate::resampling::folds::Folds;
 use crate::statistics::FitStatus;
 use crate::statistics::binary::{Estimator, binary_regression};
 use crate::statistics::design::dot;
@@ -20,7 +21,6 @@ use crate::statistics::goodness::{auc, brier_score, log_score, rising_groups};
 use crate::statistics::link::Link;
 use crate::statistics::separation::is_separated;
 use crate::studies::candidate::{Candidate, Form};
-use crate::studies::folds::Folds;
 use crate::studies::ranking_sample::RankingSample;
 
 /// Groups of a reliability curve.

@@ -1,12 +1,12 @@
 //! How the curve of one structure fares on another: is it universal?
 
-use super::folds::{Folds, Gain, MOST_FOLDS, gain};
 use super::transfer::{Curve, CurveSubject};
 use super::validation::Forecast;
 use super::validation::{Validation, calibration_slope};
 use crate::fragility::case::Case;
 use crate::keyword::keywords;
 use crate::normal;
+use crate::resampling::folds::{Folds, Gain, MOST_FOLDS, gain};
 use crate::statistics::FitStatus;
 use crate::statistics::goodness::expected_log_score;
 

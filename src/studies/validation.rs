@@ -3,8 +3,10 @@
 use crate::fragility::case::{Case, Event};
 use crate::fragility::model::{FragilityModel, Probabilities};
 use crate::fragility::probability::{Probability, Z_95};
+use crate::fragility::universal::{UniversalModel, other_structure};
 use crate::motion::IntensityMeasures;
 use crate::normal;
+use crate::rocking::Structure;
 use crate::statistics::binary::{Estimator, binary_regression};
 use crate::statistics::design::is_constant;
 use crate::statistics::distribution::PoissonBinomial;
@@ -156,15 +158,40 @@ pub struct Forecasts {
 impl Forecasts {
     /// Forecasts of an event in those of the cases that count for it.
     pub fn new(model: &FragilityModel, cases: &[Case], event: Event) -> Forecasts {
+        let of_case = |_: usize, measures: &IntensityMeasures| {
+            (model.probabilities(measures), is_out_of_range(event, model, measures))
+        };
+        Forecasts::of(cases, event, model.limit, of_case)
+    }
+
+    /// The same by the surface, each case of the structure that `structure` knows.
+    pub fn by_surface(
+        model: &UniversalModel,
+        cases: &[Case],
+        event: Event,
+        structure: impl Fn(usize) -> Structure,
+    ) -> Forecasts {
+        let of_case = |row: usize, measures: &IntensityMeasures| {
+            let structure = structure(row);
+            let outside =
+                model.out_of_range(measures).next().is_some() || other_structure(&structure).next().is_some();
+            (model.probabilities(&structure, measures), outside)
+        };
+        Forecasts::of(cases, event, model.limit, of_case)
+    }
+
+    fn of(
+        cases: &[Case],
+        event: Event,
+        limit: f64,
+        of_case: impl Fn(usize, &IntensityMeasures) -> (Probabilities, bool),
+    ) -> Forecasts {
         let (mut forecasts, mut without_measure) = (Vec::new(), 0);
-        for case in cases {
-            let Some(happened) = event.happened(case, model.limit) else { continue };
-            match probability(event, &model.probabilities(&case.measures)) {
-                Some(probability) => forecasts.push(Forecast {
-                    probability,
-                    happened,
-                    is_extrapolated: is_out_of_range(event, model, &case.measures),
-                }),
+        for (row, case) in cases.iter().enumerate() {
+            let Some(happened) = event.happened(case, limit) else { continue };
+            let (probabilities, is_extrapolated) = of_case(row, &case.measures);
+            match probability(event, &probabilities) {
+                Some(probability) => forecasts.push(Forecast { probability, happened, is_extrapolated }),
                 None => without_measure += 1,
             }
         }

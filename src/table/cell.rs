@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use arrow_array::builder::{Float32Builder, ListBuilder};
+use arrow_array::builder::{Float32Builder, Float64Builder, ListBuilder};
 use arrow_array::{ArrayRef, Float64Array, Int32Array, Int64Array, StringArray};
 use arrow_schema::{DataType, Field};
 
@@ -312,5 +312,46 @@ impl ReadValue for Samples {
 
     fn read_optional(columns: &Columns, column: &Column) -> Result<Vec<Option<Samples>>, TableError> {
         Ok(columns.samples(column)?.into_iter().map(Some).collect())
+    }
+}
+
+/// So many numbers, one list a row.
+impl<const N: usize> Value for [f64; N] {
+    const KIND: Kind = Kind::Numbers;
+}
+
+impl<const N: usize> WriteValue for [f64; N] {
+    fn optional_array<'r>(rows: impl Iterator<Item = Option<&'r Self>>, _: bool) -> ArrayRef {
+        let item = Field::new("item", DataType::Float64, false);
+        let mut list = ListBuilder::new(Float64Builder::new()).with_field(item);
+        for numbers in rows {
+            list.values().append_slice(numbers.map_or(&[], |numbers| numbers));
+            list.append(numbers.is_some());
+        }
+        Arc::new(list.finish())
+    }
+}
+
+impl<const N: usize> ReadValue for [f64; N] {
+    fn read(columns: &Columns, column: &Column) -> Result<Vec<Self>, TableError> {
+        let rows = Self::read_optional(columns, column)?.into_iter().enumerate();
+        rows.map(|(row, numbers)| {
+            numbers.ok_or_else(|| columns.value_error(row, column, &format!("null; expected {N} numbers")))
+        })
+        .collect()
+    }
+
+    fn read_optional(columns: &Columns, column: &Column) -> Result<Vec<Option<Self>>, TableError> {
+        let rows = columns.optional_lists(column)?.into_iter().enumerate();
+        let each = |(row, numbers): (usize, Option<Vec<f64>>)| {
+            let sized = |numbers: Vec<f64>| {
+                let wrong = |numbers: Vec<f64>| {
+                    columns.value_error(row, column, &format!("{} numbers; expected {N}", numbers.len()))
+                };
+                <[f64; N]>::try_from(numbers).map_err(wrong)
+            };
+            numbers.map(sized).transpose()
+        };
+        rows.map(each).collect()
     }
 }

@@ -3,7 +3,7 @@
 use super::pex::PexRow;
 use super::pro::ProRow;
 use crate::fragility::demand::Form;
-use crate::fragility::{DemandLaw, DemandModel, Event, JointPeaks, Measure, Predictor};
+use crate::fragility::{Bend, DemandLaw, DemandModel, Event, JointPeaks, Measure, Predictor, RatioGiven};
 use crate::keyword::Keyword;
 use crate::rocking::Block;
 use crate::statistics::{FitStatus, Link};
@@ -44,10 +44,12 @@ impl PexRow {
     /// If a number of it is null.
     pub fn demand(&self) -> Result<DemandLaw, Unusable> {
         let names = (self.structure.as_str(), self.im_x, self.im_y);
-        let ln_median = predictor(
+        let mut ln_median = predictor(
             names,
             named!(self; ln_a b1 b2 se_ln_a se_b1 se_b2 cov_ln_a_b1 cov_ln_a_b2 cov_b1_b2 im_x_low im_x_high im_y_low im_y_high),
         )?;
+        ln_median.covariance = self.clustered_covariance.map_or(ln_median.covariance, |flat| rows(&flat));
+        ln_median.spread = self.cell_spread.unwrap_or(0.0) * self.beta.unwrap_or(0.0);
         let degrees = self.n as f64 - 1.0 - ln_median.measures().count() as f64;
         Ok(DemandLaw { ln_median, beta: number(names, ("beta", self.beta))?, degrees })
     }
@@ -84,11 +86,25 @@ impl ProRow {
     /// How PGA and PGV go together in the motions of the cases.
     pub fn peaks(&self) -> Option<JointPeaks> {
         Some(JointPeaks {
-            ln_pga_mean: self.ln_pga_mean?,
-            ln_pga_sd: self.ln_pga_sd?,
-            ln_pgv_mean: self.ln_pgv_mean?,
-            ln_pgv_sd: self.ln_pgv_sd?,
-            correlation: self.ln_pga_pgv_correlation?,
+            given_pga: RatioGiven::of_numbers(self.ratio_given_pga?),
+            given_pgv: RatioGiven::of_numbers(self.ratio_given_pgv?),
+        })
+    }
+
+    /// The probit index of the curve that bends; none where there is none, or it does no better on cells left out.
+    pub fn bent_probit(&self) -> Option<Predictor> {
+        let (terms, knots) = (self.bent?, self.bent_knots?);
+        let straight = self.probit().ok()?;
+        let bend = Bend {
+            knots: rows(&knots),
+            coefficients: [terms[3], terms[4], terms[5]],
+            covariance: rows(&self.bent_covariance?),
+        };
+        Some(Predictor {
+            coefficients: [terms[0], terms[1], terms[2]],
+            bend: Some(bend),
+            spread: self.bent_cell_spread.unwrap_or(0.0),
+            ..straight
         })
     }
 
@@ -116,10 +132,13 @@ impl ProRow {
                 expected: "probit: fit with --link probit",
             });
         }
-        predictor(
+        let mut index = predictor(
             (self.structure.as_str(), self.im_x, self.im_y),
             named!(self; b0 b1 b2 se_b0 se_b1 se_b2 cov_b0_b1 cov_b0_b2 cov_b1_b2 im_x_low im_x_high im_y_low im_y_high),
-        )
+        )?;
+        index.covariance = self.clustered_covariance.map_or(index.covariance, |flat| rows(&flat));
+        index.spread = self.cell_spread.unwrap_or(0.0);
+        Ok(index)
     }
 }
 
@@ -156,7 +175,14 @@ fn predictor(names: Names, numbers: [(&'static str, Option<f64>); 13]) -> Result
         coefficients: [b0, b1, b2],
         covariance: [[se_0 * se_0, c01, c02], [c01, se_1 * se_1, c12], [c02, c12, se_2 * se_2]],
         ranges: [[x_low, x_high], [y_low, y_high]],
+        bend: None,
+        spread: 0.0,
     })
+}
+
+/// Numbers as the rows of a matrix.
+fn rows<const ALL: usize, const N: usize, const K: usize>(flat: &[f64; ALL]) -> [[f64; K]; N] {
+    std::array::from_fn(|row| std::array::from_fn(|column| flat[row * K + column]))
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use super::pro::padded;
 use super::row::table;
 use crate::fragility::Measure;
 use crate::fragility::demand::{Form, Regression};
@@ -46,6 +47,8 @@ table! {
         se_ln_a_clustered: Option<f64>,
         se_b1_clustered: Option<f64>,
         se_b2_clustered: Option<f64>,
+        clustered_covariance: Option<[f64; 9]>,
+        cell_spread: Option<f64>,
         confidence: f64,
         replicates: usize,
         ln_a_percentile_low: Option<f64>,
@@ -172,6 +175,8 @@ impl From<&GroupRegression> for PexRow {
             se_ln_a_clustered: regression.clustered_errors.first().copied(),
             se_b1_clustered: regression.clustered_errors.get(1).copied(),
             se_b2_clustered: regression.clustered_errors.get(2).copied(),
+            clustered_covariance: regression.clustered_covariance.as_ref().map(padded),
+            cell_spread: regression.held_out.map(|held_out| held_out.spread),
             confidence: regression.confidence,
             replicates: regression.replicates.iter().flatten().count(),
             ln_a_percentile_low: ln_a_limits[0],

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use nalgebra::DMatrix;
+
 use super::row::table;
 use crate::fragility::overturning::Curve;
-use crate::fragility::{CurveParameter, Event, JointPeaks, Measure};
+use crate::fragility::{CurveParameter, Event, HeldOut, JointPeaks, Measure};
 use crate::rocking::Block;
 use crate::statistics::{Estimator, FitStatus, Link};
 
@@ -77,17 +79,22 @@ table! {
         hosmer_lemeshow_p: Option<f64>,
         spline_p: Option<f64>,
         interaction_p: Option<f64>,
-        gap_predicted: Option<f64>,
-        gap_observed: Option<f64>,
+        clustered_covariance: Option<[f64; 9]>,
+        cell_spread: Option<f64>,
+        held_out_log_score: Option<f64>,
+        gap_straight: Option<f64>,
+        gap_bent: Option<f64>,
+        bent: Option<[f64; 6]>,
+        bent_knots: Option<[f64; 6]>,
+        bent_covariance: Option<[f64; 36]>,
+        bent_cell_spread: Option<f64>,
+        bent_held_out_log_score: Option<f64>,
         im_x_low: Option<f64>,
         im_x_high: Option<f64>,
         im_y_low: Option<f64>,
         im_y_high: Option<f64>,
-        ln_pga_mean: Option<f64>,
-        ln_pga_sd: Option<f64>,
-        ln_pgv_mean: Option<f64>,
-        ln_pgv_sd: Option<f64>,
-        ln_pga_pgv_correlation: Option<f64>,
+        ratio_given_pga: Option<[f64; 7]>,
+        ratio_given_pgv: Option<[f64; 7]>,
         p_rad_s: Option<f64> = fitted_p_rad_s,
         alpha_rad: Option<f64> = fitted_alpha_rad,
         eta: Option<f64>,
@@ -107,6 +114,7 @@ table! {
         b0: Option<f64>,
         b1: Option<f64> = index_b1,
         b2: Option<f64> = index_b2,
+        bent: Option<[f64; 6]>,
     }
 }
 
@@ -138,7 +146,11 @@ impl From<&GroupCurve> for ProRow {
             parameter.and_then(|parameter| parameter.bootstrap).map_or([None; 4], |limits| limits.in_order())
         });
         let hosmer_lemeshow = fit.and_then(|fit| fit.hosmer_lemeshow);
-        let gap = fit.and_then(|fit| fit.largest_gap);
+        let gap = curve.bent.as_ref().map(|bent| bent.gap);
+        let bent = curve.bent_answer();
+        let held_out = |of: Option<HeldOut>| (of.map(|of| of.spread), of.map(|of| of.log_score));
+        let (cell_spread, held_out_log_score) = held_out(curve.held_out);
+        let (bent_cell_spread, bent_held_out_log_score) = held_out(bent.and_then(|bent| bent.held_out));
         let ends = |measure: usize| curve.data_ranges.get(measure).copied();
         ProRow {
             suite: row.suite.clone(),
@@ -207,17 +219,22 @@ impl From<&GroupCurve> for ProRow {
             hosmer_lemeshow_p: hosmer_lemeshow.map(|test| test.p),
             spline_p: curve.spline.map(|test| test.p),
             interaction_p: curve.interaction.map(|test| test.p),
-            gap_predicted: gap.map(|gap| gap.predicted),
-            gap_observed: gap.map(|gap| gap.observed),
+            clustered_covariance: curve.clustered_covariance.as_ref().map(padded),
+            cell_spread,
+            held_out_log_score,
+            gap_straight: gap.map(|gap| gap.straight),
+            gap_bent: gap.map(|gap| gap.bent),
+            bent: bent.map(|bent| bent.coefficients),
+            bent_knots: bent.map(|bent| flat(&bent.knots)),
+            bent_covariance: bent.map(|bent| flat(&bent.covariance)),
+            bent_cell_spread,
+            bent_held_out_log_score,
             im_x_low: ends(0).map(|[low, _]| low),
             im_x_high: ends(0).map(|[_, high]| high),
             im_y_low: ends(1).map(|[low, _]| low),
             im_y_high: ends(1).map(|[_, high]| high),
-            ln_pga_mean: row.peaks.map(|peaks| peaks.ln_pga_mean),
-            ln_pga_sd: row.peaks.map(|peaks| peaks.ln_pga_sd),
-            ln_pgv_mean: row.peaks.map(|peaks| peaks.ln_pgv_mean),
-            ln_pgv_sd: row.peaks.map(|peaks| peaks.ln_pgv_sd),
-            ln_pga_pgv_correlation: row.peaks.map(|peaks| peaks.correlation),
+            ratio_given_pga: row.peaks.map(|peaks| peaks.given_pga.to_numbers()),
+            ratio_given_pgv: row.peaks.map(|peaks| peaks.given_pgv.to_numbers()),
             p_rad_s: row.block.map(|block| block.p_rad_s),
             alpha_rad: row.block.map(|block| block.alpha_rad),
             eta: Some(row.eta),
@@ -231,7 +248,8 @@ impl GroupCurve {
     pub fn replicates(&self) -> impl Iterator<Item = ProReplicateRow> {
         let (suite, structure): (Option<Arc<str>>, Arc<str>) =
             (self.suite.as_deref().map(Arc::from), self.structure.as_str().into());
-        self.curve.replicates.iter().enumerate().map(move |(replicate, coefficients)| {
+        let replicates = self.curve.replicates.iter().zip(&self.curve.bent_replicates).enumerate();
+        replicates.map(move |(replicate, (coefficients, bent))| {
             let coefficient = |k: usize| coefficients.as_ref()?.get(k).copied();
             ProReplicateRow {
                 suite: suite.clone(),
@@ -243,7 +261,18 @@ impl GroupCurve {
                 b0: coefficient(0),
                 b1: coefficient(1),
                 b2: coefficient(2),
+                bent: *bent,
             }
         })
     }
+}
+
+/// A matrix row by row.
+pub(super) fn flat<const N: usize, const K: usize, const ALL: usize>(rows: &[[f64; K]; N]) -> [f64; ALL] {
+    std::array::from_fn(|at| rows[at / K][at % K])
+}
+
+/// A covariance of up to three coefficients row by row, 0 where there are fewer.
+pub(super) fn padded(covariance: &DMatrix<f64>) -> [f64; 9] {
+    std::array::from_fn(|at| covariance.get((at / 3, at % 3)).copied().unwrap_or(0.0))
 }

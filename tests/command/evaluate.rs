@@ -174,8 +174,12 @@ fn a_table_of_anyone_will_do() {
 
 /// The motions of a hazard of PGA, in bins of PGA and of PGV given it: what a joint hazard of them is.
 fn joint_bins(pro: &ProRow, rate_of_exceedance: impl Fn(f64) -> f64) -> String {
-    let peaks = [pro.ln_pga_mean, pro.ln_pga_sd, pro.ln_pgv_mean, pro.ln_pgv_sd, pro.ln_pga_pgv_correlation];
-    let [pga_mean, pga_sd, pgv_mean, pgv_sd, r] = peaks.map(Option::unwrap);
+    let [k0, k1, k2, b0, b1, b2, sd] = pro.ratio_given_pga.unwrap();
+    let cube = |u: f64| u.max(0.0).powi(3);
+    let bend = |u: f64| {
+        let outer = ((k2 - k0) * cube(u - k1) - (k1 - k0) * cube(u - k2)) / (k2 - k1);
+        (cube(u - k0) - outer) / (k2 - k0).powi(2)
+    };
     let mut text = String::from("pga_m_s2,pgv_m_s,annual_rate_of_occurrence\n");
     let edges: Vec<f64> = (0..=600).map(|k| 0.5 * (100.0f64).powf(f64::from(k) / 600.0)).collect();
     for edge in edges.windows(2) {
@@ -183,8 +187,7 @@ fn joint_bins(pro: &ProRow, rate_of_exceedance: impl Fn(f64) -> f64) -> String {
             ((edge[0] * edge[1]).sqrt(), rate_of_exceedance(edge[0]) - rate_of_exceedance(edge[1]));
         for z in (-40..=40).map(|k| 0.1 * f64::from(k)) {
             let weight = 0.1 * (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt();
-            let ln_pgv =
-                pgv_mean + r * pgv_sd / pga_sd * (pga.ln() - pga_mean) + z * pgv_sd * (1.0 - r * r).sqrt();
+            let ln_pgv = pga.ln() + b0 + b1 * pga.ln() + b2 * bend(pga.ln()) + z * sd;
             // What is larger is refused, and too rare to matter.
             if ln_pgv.exp() < 20.0 {
                 text += &format!("{pga},{},{}\n", ln_pgv.exp(), rate * weight);
@@ -225,7 +228,7 @@ fn without_a_ratio_a_hazard_of_one_peak_is_the_joint_one_of_the_motions_of_the_f
 #[test]
 fn a_curve_that_its_tests_reject_says_by_how_much_it_is_off() {
     let rows = ProRow::read(run_folder().join("pro.parquet")).unwrap();
-    let gap = |row: &ProRow| Some((row.gap_predicted? - row.gap_observed?).abs());
+    let gap = |row: &ProRow| Some((row.gap_straight? - row.gap_bent?).abs());
     for row in &rows {
         let least = [row.hosmer_lemeshow_p, row.spline_p, row.interaction_p]
             .into_iter()

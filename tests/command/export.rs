@@ -13,7 +13,7 @@ fn each_program_gets_its_files() {
     let told = export("--to openquake --ratio 0.2,0.4");
     assert!(told.contains("2 functions") && told.contains("fragility.xml"), "{told}");
     assert_eq!(read("fragility.xml").matches("<fragilityFunction ").count(), 2);
-    let told = export("--to openquake-continuous --im pgv --ratio 0.3 --out c.xml");
+    let told = export("--to openquake-continuous --im pgv --ratio 0.3 --model paper --out c.xml");
     assert!(told.contains("1 functions: c.xml"), "a curve has no levels: {told}");
     assert!(read("c.xml").contains("imt=\"PGV\""));
     export("--to pelicun --ratio 0.3 --out p.csv");
@@ -54,6 +54,20 @@ fn what_cannot_be_exported_is_explained() {
     export("--to pelicun --ratio 0.3 --tolerance 1e-6", &["tolerance is 0.000001", "1e-5", "six digits"]);
     export("--to openquake --ratio 0.3 --levels 0.1,0.2", &["above uplift, 0.2027"]);
     export("--to openquake --ratio 0.3 --model univariate --measure im6", &["use the bivariate model"]);
+    export("--to openquake-continuous --ratio 0.3", &["not lognormal", "--model paper"]);
     export("--to openquake", &["--ratio"]);
     assert!(!folder.path().join("fragility.xml").exists());
+}
+
+#[test]
+fn the_surface_is_exported_where_there_are_no_fits() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = "export --width 0.5 --height 2.0 --ratio 0.25,0.4 --tolerance 1e-3";
+    let told = succeed(folder.path(), &format!("{block} --to openquake"));
+    assert!(told.contains("2 functions"), "{told}");
+    let xml = std::fs::read_to_string(folder.path().join("fragility.xml")).unwrap();
+    assert!(xml.contains("universal fragility surface") && !xml.contains("NaN"), "{xml}");
+    fail(folder.path(), &format!("{block} --to openquake-continuous"), 2, &["not lognormal"]);
+    succeed(folder.path(), &format!("{block} --to openquake --model universal --suite pulse --out p.xml"));
+    fail(folder.path(), &format!("{block} --to openquake --model paper"), 2, &["no pex.parquet"]);
 }

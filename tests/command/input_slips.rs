@@ -23,7 +23,7 @@ const FILES: [(&str, &str); 15] = [
 ];
 
 /// In place of RUN: a folder of files; of FITS: the fits of a structure in it.
-const CALLS: [(&str, i32, &[&str]); 60] = [
+const CALLS: [(&str, i32, &[&str]); 66] = [
     // No structure is anyone's unless it is named.
     ("simulate --in RUN/motions.parquet", 2, &["no structure", "--width", "--structures FILE", "paper"]),
     ("ida --in RUN/motions.parquet", 2, &["no structure", "--p, --alpha and --eta"]),
@@ -73,6 +73,20 @@ const CALLS: [(&str, i32, &[&str]); 60] = [
     ("evaluate FITS --p 2.5 --alpha 0.2 --pga 50 --pgv 0.6", 2, &["pga is 50", "percent of g?"]),
     ("evaluate FITS --p 2.5 --alpha 0.2 --pga 0.5 --pgv 60", 2, &["pgv is 60", "cm/s?"]),
     ("evaluate FITS --p 2.5 --alpha 0.2 --pga 0.05 --pgv 5", 0, &["warning", "PGV", "exchanged"]),
+    ("evaluate FITS --p 2.5 --alpha 0.2 --pga 4.9 --pgv 0.6", 0, &["warning", "m/s2 in place of g"]),
+    ("evaluate --width 0.5 --height 2.0 --pga 4.9 --pgv 0.6", 0, &["warning", "m/s2 in place of g"]),
+    ("evaluate --width 0.5 --height 2.0 --pga 4.9 --pgv 0.8", 0, &["warning", "more than was ever recorded"]),
+    ("evaluate --width 50 --height 200 --pga 0.5 --pgv 0.6", 0, &["warning", "200 m high", "in cm?"]),
+    (
+        "simulate --in RUN/motions.parquet --out big.parquet --width 50 --height 200",
+        0,
+        &["200 m high", "in cm?"],
+    ),
+    (
+        "export --width 50 --height 200 --to openquake --ratio 0.3 --tolerance 0.01 --out big.xml",
+        0,
+        &["in cm?"],
+    ),
     ("evaluate FITS --p 2.5 --alpha 0.2 --pga 0.5 --pgv 0.6 --tp -2", 2, &["tp is -2", "above 0 s"]),
     ("evaluate FITS --p 2.5 --alpha 0.2 --pga 0.5 --pgv 0.6 --tm 500", 2, &["tm is 500", "up to 60"]),
     ("export FITS --p 2.5 --alpha 0.2 --to openquake --ratio -0.3", 2, &["ratio is -0.3", "above 0"]),

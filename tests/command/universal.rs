@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::Float64Type;
+use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{ArrayRef, Float64Array};
 
 use crate::clusters::rows as rows_of;
 use crate::common::{fail, rockfrag, succeed, write};
-use crate::evaluate::fitted;
+use crate::evaluate::{fitted, run_folder};
 
 const BLOCK: &str = "evaluate --width 0.5 --height 2.0";
 
@@ -68,7 +68,36 @@ fn fits_answer_where_they_are_or_are_asked_for() {
         2,
         &["fit-pex --limit-state"],
     );
-    fail(folder.path(), &format!("validate {fits} --model universal"), 2, &["only evaluate takes it"]);
+}
+
+#[test]
+fn own_fits_say_how_far_they_are_from_the_surface() {
+    let (folder, fits) = fitted();
+    let structure = "--p 2.5 --alpha 0.2 --eta 0.92 --pga 0.5 --pgv 0.6";
+    let own = json(folder.path(), &format!("evaluate {fits} {structure}"));
+    let surface = json(folder.path(), &format!("evaluate --model universal {structure}"));
+    let besides = value(&own, "p_ro_universal", "value");
+    assert_eq!(besides, value(&surface, "p_ro", "value"));
+    let apart = besides - value(&own, "p_ro", "value");
+    assert!(own.to_string().contains(&format!("{apart:+.3} from the fits")), "{own}");
+    assert!(!surface.to_string().contains("p_ro_universal"));
+}
+
+#[test]
+fn responses_validate_the_surface() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = run_folder().display();
+    let told = succeed(folder.path(), &format!("validate --in {run}/responses.parquet --out v.parquet"));
+    assert!(told.contains("by the universal surface"), "{told}");
+    let table = rows_of(&folder.path().join("v.parquet"));
+    let [seen, expected] = ["seen", "expected"].map(|name| table.column_by_name(name).unwrap().clone());
+    let seen = seen.as_primitive::<Int64Type>();
+    let expected = expected.as_primitive::<Float64Type>();
+    for row in 0..table.num_rows() {
+        // Motions of the same kind: what is seen is what is expected, within the limits of the surface.
+        let (seen, expected) = (seen.value(row) as f64, expected.value(row));
+        assert!((seen - expected).abs() < 0.25 * expected + 6.0, "row {row}: {seen} for {expected}");
+    }
 }
 
 #[test]
@@ -82,6 +111,18 @@ fn what_the_surface_does_not_know_is_said() {
     assert_eq!(succeed(folder.path(), &format!("{BLOCK} {motion}")), "");
     let small = succeed(folder.path(), &format!("evaluate --p 20 --alpha 0.2 --eta 0.9 {motion}"));
     assert!(small.contains("p is 20.0000, outside of 0.4 to 8"), "{small}");
+    // Three questions of which it knows nothing, and how far they are.
+    for (question, outside) in [
+        ("--p 2.5 --alpha 0.6 --eta 0.9 --pga 0.9 --pgv 0.6", "alpha is 0.6000, outside of 0.04 to 0.5"),
+        ("--p 2.5 --alpha 0.2 --eta 0.5 --pga 0.5 --pgv 0.6", "eta is 0.5000, outside of 0.7 to 0.999"),
+        ("--p 2.5 --alpha 0.2 --eta 0.9 --pga 0.5 --pgv 0.02", "im3 is 98.1000, outside of 0.233 to 72.52"),
+    ] {
+        let told = succeed(folder.path(), &format!("evaluate {question}"));
+        assert!(told.contains(outside), "{told}");
+        let answer = json(folder.path(), &format!("evaluate {question}"));
+        assert!(value(&answer, "distance", "value") > 1.0, "{answer}");
+    }
+    assert!(value(&json(folder.path(), &format!("{BLOCK} {motion}")), "distance", "value") < 1.0);
     let strong = succeed(folder.path(), &format!("{BLOCK} --pga 19 --pgv 19"));
     assert!(strong.contains("im4 is") && strong.contains("extrapolated"), "{strong}");
 }
@@ -117,7 +158,11 @@ fn a_table_is_answered_row_by_row() {
 fn a_hazard_gives_rates() {
     let folder = tempfile::tempdir().unwrap();
     let data = concat!(env!("CARGO_MANIFEST_DIR"), "/data");
-    for hazard in [format!("{data}/hazard.csv --ratio 0.25"), format!("{data}/hazard_joint.csv")] {
+    for hazard in [
+        format!("{data}/hazard.csv --ratio 0.25"),
+        format!("{data}/hazard.csv"),
+        format!("{data}/hazard_joint.csv"),
+    ] {
         let answer =
             json(folder.path(), &format!("evaluate --p 2.5 --alpha 0.2 --eta 0.92 --hazard {hazard}"));
         let rates: Vec<f64> = (0..3).map(|k| answer[k]["annual_rate"].as_f64().unwrap()).collect();

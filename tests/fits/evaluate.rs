@@ -3,8 +3,8 @@
 use crate::paper_model::{BETA, LAMBDA, MU, equipment, model};
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    DemandLaw, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits, ResampledModel, Slice,
-    p_exceeding, p_failure_given_rocking, p_overturning, ranges,
+    DemandLaw, Fragility, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits,
+    ResampledModel, Slice, p_exceeding, p_failure_given_rocking, p_overturning, ranges,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
@@ -58,6 +58,8 @@ fn the_variance_of_a_prediction_is_that_of_the_textbook() {
         coefficients: [fit.coefficients[0].value, fit.coefficients[1].value, 0.0],
         covariance: std::array::from_fn(|i| std::array::from_fn(|j| covariance(i, j))),
         ranges: [[1.0, x[11].exp()], [0.0; 2]],
+        bend: None,
+        spread: 0.0,
     };
     let measures = at(1.5 * equipment().uplift_acceleration_m_s2(), 1.0);
     let (n, mean) = (12.0, x.iter().sum::<f64>() / 12.0);
@@ -96,7 +98,7 @@ fn a_slice_is_lognormal_in_either_peak() {
         let curve = slice.overturning(&model().overturning).unwrap();
         for k in 1..20 {
             let intensity = slice.intensity_at_im4(1.0 + 0.3 * f64::from(k));
-            let p_ro = slice.limit_states(&model(), intensity).unwrap()[2].value;
+            let p_ro = model().limit_states(&slice, intensity).unwrap()[2].value;
             assert!(
                 (p_overturning(intensity, curve.theta.ln(), curve.beta, Link::Probit) - p_ro).abs() < 1e-12
             );

@@ -4,14 +4,14 @@ use crate::paper_model::{equipment, model};
 use rockfrag::export::{
     Function, GAP, Model, continuous, discrete, levels, metadata, parameters, plain_id, whole_curve_end,
 };
-use rockfrag::fragility::{Peak, Slice};
+use rockfrag::fragility::{Fragility, Peak, Slice};
 
 fn slice(peak: Peak) -> Slice {
     Slice { structure: equipment(), peak, ratio: 0.4 }
 }
 
 fn reaching(slice: &Slice, intensity: f64) -> [f64; 3] {
-    slice.limit_states(&model(), intensity).unwrap().map(|p| p.value)
+    model().limit_states(slice, intensity).unwrap().map(|p| p.value)
 }
 
 fn function(peak: Peak, tolerance: f64) -> Function {
@@ -25,7 +25,7 @@ fn function(peak: Peak, tolerance: f64) -> Function {
         peak,
         probabilities: levels.iter().map(|&level| reaching(&slice, level)).collect(),
         levels,
-        overturning: slice.overturning(&model().overturning).unwrap(),
+        overturning: slice.overturning(&model().overturning),
         range_of_data: [edges[0], slice.largest_in_data(&model())],
     }
 }
@@ -92,7 +92,8 @@ fn nrml_has_the_levels_in_g_or_cm_s_and_a_no_damage_limit() {
 fn the_continuous_form_has_the_arithmetic_moments() {
     let function = function(Peak::Pga, 1e-3);
     let xml = continuous(&words(), std::slice::from_ref(&function));
-    let (mean, sd) = (function.overturning.mean() / 9.81, function.overturning.standard_deviation() / 9.81);
+    let overturning = function.overturning.unwrap();
+    let (mean, sd) = (overturning.mean() / 9.81, overturning.standard_deviation() / 9.81);
     assert!(xml.contains(&format!("<params ls=\"LS3\" mean=\"{mean}\" stddev=\"{sd}\"/>")), "{xml}");
     assert!(xml.contains("<limitStates>LS3</limitStates>") && !xml.contains("LS1"), "{xml}");
 }

@@ -1,5 +1,6 @@
 //! The fits, their limits and what is made of them, against statsmodels, scipy and closed forms.
 
+mod bent;
 mod coverage;
 mod evaluate;
 #[cfg(feature = "pipeline")]

@@ -17,6 +17,8 @@ fn plane(coefficients: [f64; 3], errors: [f64; 3], range_x: [f64; 2]) -> DemandL
         coefficients,
         covariance: [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]],
         ranges: [range_x, [0.8, 20.0]],
+        bend: None,
+        spread: 0.0,
     };
     DemandLaw { ln_median, beta: 1.0, degrees: 400.0 }
 }
@@ -34,6 +36,8 @@ pub fn model() -> FragilityModel {
         coefficients: [-MU / BETA, weight / BETA, (1.0 - weight) / BETA],
         covariance: [[0.015, -0.009, 0.005], [-0.009, 0.026, 0.011], [0.005, 0.011, 0.013]],
         ranges: [[1.0, 7.4], [0.05, 1.1]],
+        bend: None,
+        spread: 0.0,
     };
     let demand = DemandModel::Biplanar {
         transition: 1.3,

@@ -235,7 +235,7 @@ fn all_fits_of_a_group_follow_from_slices_of_its_cases() {
     let cells: Vec<usize> = (0..cases[0].len()).map(|case| case % 20).collect();
     let groups = cases.each_ref().map(|cases| CaseGroup { cases, cells: &cells, clusters: &cells });
     let uncertainty = Uncertainty { replicates: 100, confidence: 0.95, seed: 42 };
-    let options = RegressionOptions { transition: None, uncertainty };
+    let options = RegressionOptions { transition: None, limit: 0.1, uncertainty };
     let Ok(fitted) = options.fit(&groups, &unwatched);
     for (Regressions { fits, .. }, (low, high)) in fitted.iter().zip(table) {
         let planes: Vec<&Regression> = fits.iter().filter(|fit| fit.form == Form::Biplanar).collect();

@@ -33,6 +33,7 @@ from typing import TYPE_CHECKING
 
 from . import datasets
 from ._curves import DemandCurve, FailureCurve, FragilityCurve, fit_demand, fit_failure, fit_fragility
+from ._probability import Probability, probability
 from ._rocking import Response, response
 from ._rockfrag import Table, __version__
 from ._stages import (
@@ -64,6 +65,7 @@ __all__ = [
     "FragilityCurve",
     "MissingFileError",
     "OptionError",
+    "Probability",
     "Response",
     "RockfragError",
     "RockfragWarning",
@@ -83,6 +85,7 @@ __all__ = [
     "ida",
     "import_motions",
     "inspect",
+    "probability",
     "rank_ims",
     "report",
     "response",

@@ -24,6 +24,7 @@ __all__ = [
     "normal_quantile",
     "partition_file",
     "probabilities",
+    "probability",
     "profile_limits",
     "response",
     "run_pipeline",
@@ -120,3 +121,10 @@ def normal_quantile(share: float) -> float: ...
 def t_quantile(share: float, degrees: float) -> float: ...
 def exceeding(ln_median: _Floats, variance: _Floats, limit: float, beta: float, degrees: float) -> tuple[_Floats, _Floats]: ...
 def failure(overturning: tuple[_Floats, _Floats], exceeding: tuple[_Floats, _Floats]) -> tuple[_Floats, _Floats]: ...
+def probability(
+    structure: dict[str, _Floats],
+    pga_g: _Floats,
+    pgv_m_s: _Floats,
+    suite: str | None,
+    limit_state: float | None,
+) -> tuple[dict[str, _Floats], list[str]]: ...

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::inference::DemandRefits;
@@ -11,7 +12,9 @@ use super::sample::DemandSample;
 use super::smooth::{SmoothFit, fit_smooth};
 use super::transition::{ScanPoint, TransitionSearch, transition_limits};
 use crate::fragility::case::{Case, Measure};
+use crate::fragility::clusters::are_many;
 use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
+use crate::fragility::held_out::HeldOut;
 use crate::fragility::predictor::ranges;
 use crate::keyword::keywords;
 use crate::resampling::{BootstrapLimits, Resamples, Strata, TOGETHER, bootstrap_limits};
@@ -69,6 +72,10 @@ pub struct Regression {
     pub confidence: f64,
     /// Standard errors of the coefficients where cases of one cluster may depend on each other.
     pub clustered_errors: Vec<f64>,
+    /// Their covariance likewise, if there are many clusters.
+    pub clustered_covariance: Option<DMatrix<f64>>,
+    /// What cases say that were left out, of a demand above the limit state.
+    pub held_out: Option<HeldOut>,
     /// Bootstrap limits of the coefficients, then of the dispersion; empty without replicates.
     pub limits: Vec<Option<BootstrapLimits>>,
     /// The regression in each resample, where it has one.
@@ -149,6 +156,8 @@ pub struct Regressions {
 pub struct RegressionOptions {
     /// The IM4 at which two planes meet, if not where their pooled residual is least.
     pub transition: Option<f64>,
+    /// The demand that P_ex is about.
+    pub limit: f64,
     /// The limits that are asked for.
     pub uncertainty: Uncertainty,
 }
@@ -252,6 +261,8 @@ impl RegressionOptions {
             fit: fit.map(|fit| fit.at_confidence(confidence)),
             confidence,
             clustered_errors: Vec::new(),
+            clustered_covariance: None,
+            held_out: None,
             limits: Vec::new(),
             replicates: Vec::new(),
         }
@@ -291,7 +302,10 @@ impl RegressionOptions {
         let sample = regression.sample(group.cases);
         let inference = DemandInference::new(&sample, fit);
         regression.reset = reset(&sample.predictors(), &sample.ln_edp, fit);
-        regression.clustered_errors = inference.clustered_errors(group.clusters);
+        let clustered = inference.clustered_covariance(group.clusters);
+        regression.clustered_errors = clustered.diagonal().iter().map(|variance| variance.sqrt()).collect();
+        regression.clustered_covariance = are_many(group.clusters, &sample.rows).then_some(clustered);
+        regression.held_out = inference.held_out(group.clusters, self.limit);
         if regression.replicates.is_empty() {
             return;
         }

@@ -5,12 +5,16 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use crate::fragility::demand::sample::DemandSample;
+use crate::fragility::held_out::HeldOut;
+use crate::fragility::probability::exceeding_index;
 use crate::resampling::bootstrap::{Resamples, Strata, TOGETHER};
 use crate::resampling::case_terms::CaseTerms;
+use crate::resampling::folds::{Folds, MOST_FOLDS};
 use crate::resampling::limits::acceleration;
 use crate::resampling::normal_equations::{LeastSquares, NormalEquations};
 use crate::statistics::design::DesignMatrix;
 use crate::statistics::influence::Influence;
+use crate::statistics::link::Link;
 use crate::statistics::regression::LinearFit;
 
 /// A regression of resampled cases.
@@ -56,12 +60,29 @@ impl<'a> DemandInference<'a> {
         DemandInference { sample, coefficients, residual_sd, bread, rss, n, design, residuals, influence }
     }
 
-    /// Standard errors of the coefficients where cases of one cluster may depend on each other; `clusters` are those of
-    /// all cases. Of the sample of the fit.
-    pub fn clustered_errors(&self, clusters: &[usize]) -> Vec<f64> {
+    /// The covariance of the coefficients where cases of one cluster may depend on each other; `clusters` are those of all
+    /// cases. Of the sample of the fit.
+    pub fn clustered_covariance(&self, clusters: &[usize]) -> DMatrix<f64> {
         let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
-        let covariance = self.influence.clustered_covariance(&self.design, &self.bread, &clusters);
-        covariance.diagonal().iter().map(|variance| variance.sqrt()).collect()
+        self.influence.clustered_covariance(&self.design, &self.bread, &clusters)
+    }
+
+    /// The standard errors that follow from it.
+    pub fn clustered_errors(&self, clusters: &[usize]) -> Vec<f64> {
+        self.clustered_covariance(clusters).diagonal().iter().map(|variance| variance.sqrt()).collect()
+    }
+
+    /// What cases say that were left out, of a demand above `limit`; `clusters` are those of all cases.
+    pub fn held_out(&self, clusters: &[usize], limit: f64) -> Option<HeldOut> {
+        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
+        let folds = Folds::new(&clusters, MOST_FOLDS)?;
+        let indices = folds.leave_out(|_, weights| {
+            let DemandReplicate { coefficients, residual_sd } = self.refit(weights)?;
+            let means = self.design.indices(&coefficients);
+            Some(move |case: usize| exceeding_index(means[case], limit, residual_sd))
+        })?;
+        let happened: Vec<bool> = self.sample.ln_edp.iter().map(|ln_edp| *ln_edp > limit.ln()).collect();
+        HeldOut::of_indices(&indices, &happened, &clusters, Link::Probit)
     }
 
     /// The fit itself.

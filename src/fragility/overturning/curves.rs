@@ -7,7 +7,7 @@ use crate::statistics::FitStatus;
 use crate::statistics::binary::{BinaryFit, Estimator, binary_regression};
 use crate::statistics::design::{Dependence, dependence, natural_spline};
 use crate::statistics::estimate::Estimate;
-use crate::statistics::goodness::{Gap, Test, auc, brier_score, hosmer_lemeshow, largest_gap};
+use crate::statistics::goodness::{Test, auc, brier_score, hosmer_lemeshow};
 use crate::statistics::link::Link;
 use crate::statistics::separation::is_separated;
 
@@ -69,8 +69,6 @@ pub struct OverturningFit {
     pub brier: f64,
     /// Hosmer and Lemeshow's test of the probabilities, where there are cases enough.
     pub hosmer_lemeshow: Option<Test>,
-    /// What it predicts and what was observed in the tenth of the cases where they differ most, where there are cases enough.
-    pub largest_gap: Option<Gap>,
     /// Least and largest index of the cases.
     pub index_range: [f64; 2],
     /// Cases used.
@@ -137,7 +135,6 @@ pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<Overt
         auc: auc(&scores, &sample.happened),
         brier: brier_score(&probabilities, &sample.happened),
         hosmer_lemeshow: hosmer_lemeshow(&probabilities, &sample.happened),
-        largest_gap: largest_gap(&probabilities, &sample.happened),
         index_range: [
             scores.iter().copied().fold(f64::INFINITY, f64::min),
             scores.iter().copied().fold(f64::NEG_INFINITY, f64::max),

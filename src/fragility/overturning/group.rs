@@ -3,20 +3,23 @@
 use std::fmt;
 use std::str::FromStr;
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::bent::{BentFit, BentSample};
 use super::curves::{CurveModel, OverturningFit, fit_overturning, has_few_events};
 use super::curves::{fit_with_interaction, fit_with_spline};
 use super::inference::CurveInference;
 use super::inference::CurveRefits;
 use super::parameter::CurveParameter;
 use super::sample::EventSample;
-use crate::fragility::case::{Case, Event, Measure};
+use crate::fragility::case::{Event, Measure};
+use crate::fragility::clusters::are_many;
 use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
-use crate::fragility::predictor::ranges;
+use crate::fragility::held_out::HeldOut;
+use crate::fragility::predictor::{BENT_TERMS, ranges};
 use crate::keyword::{self, Keyword};
-use crate::resampling::{BootstrapLimits, Strata, bootstrap_limits};
+use crate::resampling::{BootstrapLimits, Resamples, Strata, TOGETHER, bootstrap_limits};
 use crate::statistics::{BinaryFit, Estimator, FitStatus, Limits, Test, likelihood_ratio};
 
 /// Two measures that make a hybrid one (Eq. 23), written as `im4:im3_inv`.
@@ -64,10 +67,18 @@ pub struct Curve {
     pub spline: Option<Test>,
     /// The same against one with an interaction.
     pub interaction: Option<Test>,
+    /// What cases say that were left out.
+    pub held_out: Option<HeldOut>,
+    /// The covariance of the coefficients where cases of one cluster may depend on each other, if there are many clusters.
+    pub clustered_covariance: Option<DMatrix<f64>>,
+    /// The curve that bends, where a test rejects the straight one.
+    pub bent: Option<BentFit>,
     /// How uncertain each of its parameters is.
     pub inference: Vec<ParameterInference>,
     /// The coefficients in each resample, where it has a curve.
     pub replicates: Vec<Option<DVector<f64>>>,
+    /// Those of the curve that bends.
+    pub bent_replicates: Vec<Option<[f64; BENT_TERMS]>>,
 }
 
 /// How uncertain a parameter of a curve is, besides the errors and limits of the model.
@@ -88,7 +99,7 @@ const REJECTED: f64 = 0.01;
 const SMALL_GAP: f64 = 0.05;
 
 impl Curve {
-    /// Fits the curve of a sample of these measures, and tests it.
+    /// Fits the curve of a sample of these measures, and tests it; what cases left out and resamples say is not asked.
     pub fn new(
         sample: &EventSample,
         event: Event,
@@ -113,8 +124,12 @@ impl Curve {
             fit,
             spline,
             interaction,
+            held_out: None,
+            clustered_covariance: None,
+            bent: None,
             inference: Vec::new(),
             replicates: Vec::new(),
+            bent_replicates: Vec::new(),
         }
     }
 
@@ -132,11 +147,22 @@ impl Curve {
     /// Whether a test rejects the curve, and the curve is off by more than a little. Many cases reject any model, few none: so
     /// both are asked.
     fn is_misfit(&self) -> bool {
+        self.is_rejected() && self.bent.as_ref().is_none_or(|bent| bent.gap.size() > SMALL_GAP)
+    }
+
+    fn is_rejected(&self) -> bool {
         let tests =
             [self.fit.as_ref().ok().and_then(|fit| fit.hosmer_lemeshow), self.spline, self.interaction];
-        let rejected = tests.into_iter().flatten().any(|test| test.p < REJECTED / tests.len() as f64);
-        let gap = self.fit.as_ref().ok().and_then(|fit| fit.largest_gap);
-        rejected && gap.is_some_and(|gap| gap.size() > SMALL_GAP)
+        tests.into_iter().flatten().any(|test| test.p < REJECTED / tests.len() as f64)
+    }
+
+    /// The curve that bends, if it is to answer: the straight one fits badly, and this one does better on cases left out.
+    pub fn bent_answer(&self) -> Option<&BentFit> {
+        let bent = self.bent.as_ref().filter(|_| self.status() == FitStatus::Misfit)?;
+        let log_score = |held_out: Option<HeldOut>| held_out.map(|held_out| held_out.log_score);
+        let is_better =
+            log_score(bent.held_out).zip(log_score(self.held_out)).is_none_or(|(bent, own)| bent > own);
+        is_better.then_some(bent)
     }
 
     /// How uncertain a parameter is.
@@ -167,8 +193,29 @@ pub struct CurveOptions {
 /// A curve with the cases that it was fitted to.
 type SampledCurve = (Curve, EventSample);
 
-fn refits((curve, sample): &SampledCurve) -> Option<CurveRefits<'_>> {
-    Some(CurveRefits::new(sample, &curve.fit.as_ref().ok()?.regression))
+/// A curve, to be fitted in resamples of its cases.
+struct Refits<'a> {
+    straight: CurveRefits<'a>,
+    bent: Option<(BentSample<'a>, &'a BentFit)>,
+}
+
+/// The coefficients of a curve in a resample.
+type Replicate = (Option<DVector<f64>>, Option<[f64; BENT_TERMS]>);
+
+impl<'a> Refits<'a> {
+    fn new((curve, sample): &'a SampledCurve) -> Option<Refits<'a>> {
+        let straight = CurveRefits::new(sample, &curve.fit.as_ref().ok()?.regression);
+        let bent = curve.bent_answer().and_then(|fit| Some((BentSample::new(sample, &curve.model)?, fit)));
+        Some(Refits { straight, bent })
+    }
+
+    fn replicates(&self, resamples: &Resamples) -> [Replicate; TOGETHER] {
+        let mut straight = self.straight.coefficients(resamples);
+        let bent = self.bent.as_ref().map(|(sample, fit)| sample.refits(fit, resamples));
+        std::array::from_fn(|resample| {
+            (straight[resample].take(), bent.as_ref().and_then(|bent| bent[resample]))
+        })
+    }
 }
 
 impl CurveOptions {
@@ -184,7 +231,7 @@ impl CurveOptions {
     fn fit_alike<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Vec<Curve>>, E> {
         let curves = |group: &CaseGroup| {
             progress(1)?;
-            Ok(self.curves(group.cases))
+            Ok(self.curves(group))
         };
         let mut fitted = groups.par_iter().map(curves).collect::<Result<Vec<_>, E>>()?;
         if self.uncertainty.replicates > 0 {
@@ -197,16 +244,27 @@ impl CurveOptions {
         Ok(fitted.into_par_iter().zip(groups).map(infer).collect())
     }
 
-    fn curves(&self, cases: &[Case]) -> Vec<SampledCurve> {
+    fn curves(&self, group: &CaseGroup) -> Vec<SampledCurve> {
         let scalar = Measure::SCALAR.into_iter().map(|measure| (measure, None));
         let measures = scalar.chain(self.pairs.iter().map(|&Pair(x, y)| (x, Some(y))));
-        measures.map(|(im_x, im_y)| self.curve(cases, im_x, im_y)).collect()
+        measures.map(|(im_x, im_y)| self.curve(group, im_x, im_y)).collect()
     }
 
-    fn curve(&self, cases: &[Case], im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
+    fn curve(&self, group: &CaseGroup, im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
         let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
-        let sample = EventSample::new(cases, &measures, |case| self.event.happened(case, f64::INFINITY));
-        (Curve::new(&sample, self.event, im_x, im_y, self.model), sample)
+        let sample =
+            EventSample::new(group.cases, &measures, |case| self.event.happened(case, f64::INFINITY));
+        let mut curve = Curve::new(&sample, self.event, im_x, im_y, self.model);
+        if let Ok(fit) = &curve.fit {
+            let straight = &fit.regression;
+            let inference = CurveInference::new(&sample, straight);
+            curve.held_out = inference.held_out(group.clusters);
+            let many = are_many(group.clusters, &sample.rows);
+            curve.clustered_covariance = many.then(|| inference.clustered_covariance(group.clusters));
+            let bent = || BentSample::new(&sample, &self.model)?.fit(straight, group.clusters);
+            curve.bent = curve.is_rejected().then(bent).flatten();
+        }
+        (curve, sample)
     }
 
     /// Adds the coefficients in each resample.
@@ -216,18 +274,24 @@ impl CurveOptions {
         progress: Progress<E>,
         fitted: &mut [Vec<SampledCurve>],
     ) -> Result<(), E> {
-        let groups: Vec<Vec<Option<CurveRefits>>> =
-            fitted.par_iter().map(|curves| curves.iter().map(refits).collect()).collect();
+        let groups: Vec<Vec<Option<Refits>>> =
+            fitted.par_iter().map(|curves| curves.iter().map(Refits::new).collect()).collect();
         let resampled = self.uncertainty.bootstrap(cells, &groups, progress, |refits, resamples| {
-            let of_all = |refits: &Option<CurveRefits>| Some(refits.as_ref()?.coefficients(resamples));
-            let mut fits: Vec<_> = refits.iter().map(of_all).collect();
-            std::array::from_fn(|resample| -> Vec<_> {
-                fits.iter_mut().map(|fit| fit.as_mut()?[resample].take()).collect()
+            let of_all = |refits: &Option<Refits>| Some(refits.as_ref()?.replicates(resamples));
+            let mut fits: Vec<Option<[Replicate; TOGETHER]>> = refits.iter().map(of_all).collect();
+            std::array::from_fn(|resample| -> Vec<Replicate> {
+                let of_curve = |fit: &mut Option<[Replicate; TOGETHER]>| {
+                    fit.as_mut().map(|fits| std::mem::take(&mut fits[resample])).unwrap_or_default()
+                };
+                fits.iter_mut().map(of_curve).collect()
             })
         })?;
         for (curves, replicates) in fitted.iter_mut().zip(resampled) {
             for fits in replicates {
-                curves.iter_mut().zip(fits).for_each(|((curve, _), fit)| curve.replicates.push(fit));
+                for ((curve, _), (straight, bent)) in curves.iter_mut().zip(fits) {
+                    curve.replicates.push(straight);
+                    curve.bent_replicates.push(bent);
+                }
             }
         }
         Ok(())
@@ -238,7 +302,8 @@ impl CurveOptions {
         let Ok(fit) = &curve.fit else { return curve };
         let (inference, confidence) =
             (CurveInference::new(sample, &fit.regression), self.uncertainty.confidence);
-        let (strata, clustered) = (Strata::new(group.cells), inference.clustered_covariance(group.clusters));
+        let strata = Strata::new(group.cells);
+        let clustered = inference.clustered_covariance(group.clusters);
         let of = |parameter: &CurveParameter| {
             let replicates = inference.parameters(*parameter, &curve.replicates);
             let acceleration = inference.acceleration(*parameter, &strata);

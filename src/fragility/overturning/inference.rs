@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::fragility::held_out::HeldOut;
 use crate::fragility::overturning::expansion::{Expansion, NearMaximum};
 use crate::fragility::overturning::parameter::CurveParameter;
 use crate::fragility::overturning::profile::profile_limits;
@@ -43,6 +44,13 @@ impl<'a> CurveInference<'a> {
     pub fn clustered_covariance(&self, clusters: &[usize]) -> DMatrix<f64> {
         let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
         self.influence.clustered_covariance(&self.design, &self.fit.covariance, &clusters)
+    }
+
+    /// What cases say that were left out; `clusters` are those of all cases.
+    pub fn held_out(&self, clusters: &[usize]) -> Option<HeldOut> {
+        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
+        let refit = |weights: &[f64]| self.coefficients(weights);
+        HeldOut::new(&self.design, &self.sample.happened, &clusters, self.fit.link, refit)
     }
 
     /// The standard error of a parameter that follows from a covariance of the coefficients.

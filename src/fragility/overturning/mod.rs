@@ -3,10 +3,12 @@
 //! ```text
 //! sample     the cases of a curve
 //! curves     scalar and hybrid curves, and curves with terms more, against which they are tested
+//! bent       the same with an index that bends, where tests reject the straight one
 //! parameter  lambda, mu and beta from the coefficients of the regression; profile: their limits by the profile likelihood
 //! inference  how uncertain a curve is, and refits in resamples; expansion: what makes these fast
 //! group      all curves of a group of cases
 //! ```
+pub(crate) mod bent;
 pub(crate) mod curves;
 pub(crate) mod expansion;
 pub(crate) mod group;
@@ -15,6 +17,7 @@ pub(crate) mod parameter;
 pub(crate) mod profile;
 pub(crate) mod sample;
 
+pub use bent::{BentFit, Gap};
 pub use curves::{CurveModel, LEAST_EVENTS, OverturningFit, fit_overturning, has_few_events};
 pub use curves::{fit_with_interaction, fit_with_spline};
 pub use group::{Curve, CurveOptions, Pair, ParameterInference};

@@ -11,8 +11,9 @@ const data = JSON.parse(document.getElementById("data").textContent);
     ["p_f_r", "P<sub>f|r</sub>", "failure given rocking: the one or the other"],
     ["p_f", "P<sub>f</sub>", "failure over the whole tree"],
   ];
+  const surface = universal.parse(data.surface);
   const NAMES = {
-    bivariate: "bivariate: IM4 and IM3, hybrid measure", im1: "IM1: ωp / p", im2: "IM2: ωm / p", im3: "IM3: PGA / (p PGV)",
+    universal: "universal: the surface for every structure", bivariate: "bivariate: IM4 and IM3, hybrid measure", im1: "IM1: ωp / p", im2: "IM2: ωm / p", im3: "IM3: PGA / (p PGV)",
     im4: "IM4: PGA / (g tan α)", im5: "IM5: p PGV / (g tan α)", im6: "IM6: ωm PGV / (g tan α)",
   };
   const nameOf = ({ suite, structure }) => (suite === null ? structure : `${structure}, ${suite}`);
@@ -20,7 +21,11 @@ const data = JSON.parse(document.getElementById("data").textContent);
   const option = (value, words) => new Option(words, value);
   field("fit").replaceChildren(...names.map((name) => option(name, name)));
 
-  const modelsOf = (name) => data.models.filter((model) => nameOf(model) === name);
+  const modelsOf = (name) => {
+    const models = data.models.filter((model) => nameOf(model) === name);
+    const [{ suite, structure, limit }] = models;
+    return [...models, { suite, structure, form: "universal", limit: Math.min(Math.max(limit, 0.02), 0.5), motions: suite, eta: null, doubt: null }];
+  };
   const short = (value) => (value === 0 || value === 1 ? String(value) : value < 1e-4 ? value.toExponential(2) : value.toPrecision(4));
 
   const chooseFit = () => {
@@ -60,15 +65,20 @@ const data = JSON.parse(document.getElementById("data").textContent);
       warnings.push(Number.isNaN(value) ? `Expected ${parameter}: ${expected}.` : `${parameter} is ${value}; expected ${expected}${value > 0 ? `; ${slip}` : "."}`);
     }
     const right = !exchanged && !refused.length;
-    if (right && motion.pgv > 2 * motion.pga) warnings.push("A PGV (m/s) more than twice the PGA (m/s2): are they exchanged, or in other units?");
+    const doubt = data.doubts.find(({ bounds: [above, below, strongest] }) =>
+      (above === null || motion.pgv > above * motion.pga) && (below === null || (motion.pgv > 0 && motion.pgv < below * motion.pga)) &&
+      (strongest === null || motion.pga > strongest));
+    if (right && doubt) warnings.push(doubt.words);
     const of = fragility.measures(data.g, { p, alpha, ...motion });
-    const answers = right ? fragility.evaluate(model, of) : {};
+    const block = { p, alpha, eta: number("eta") };
+    const byFits = model.form !== "universal";
+    const answers = !right ? {} : byFits ? fragility.evaluate(model, of) : universal.evaluate(surface, block, model, of);
     if (right && model.doubt) warnings.push(`${model.doubt}.`);
     if (right && answers.p_f === null) warnings.push("The fits need a measure that is missing: give PGV, and the period if there is a field for it, above 0.");
-    if (right && Math.abs(number("eta") - model.eta) > 0.005) {
+    if (right && byFits && Math.abs(number("eta") - model.eta) > 0.005) {
       warnings.push(`The fits are of η ${model.eta}, on which the curves depend: simulate and fit with this η.`);
     }
-    for (const { name, value, least, largest } of right ? fragility.outOfRange(model, of) : []) {
+    for (const { name, value, least, largest } of !right ? [] : byFits ? fragility.outOfRange(model, of) : universal.outOfRange(surface, block, of)) {
       warnings.push(`${name} is ${value.toPrecision(4)}, outside of ${least.toPrecision(4)} to ${largest.toPrecision(4)} in the data: extrapolated.`);
     }
     const rows = ROWS.map(([key, symbol, words]) => {

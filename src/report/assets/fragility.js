@@ -27,12 +27,21 @@ const fragility = (() => {
 
   const usable = (value) => (value !== null && Number.isFinite(value) && value > 0 ? value : null);
 
-  /** b0 + b1 ln IMx + b2 ln IMy and its variance; null where a measure is missing. */
-  const predict = ({ x, y, b, covariance }, of) => {
+  /** The cubic function of a natural spline over three knots. */
+  const spline = (u, [first, before, last]) => {
+    const cube = (knot) => Math.max(u - knot, 0) ** 3;
+    const [a, b] = [(last - first) / (last - before), (before - first) / (last - before)];
+    return (cube(first) - a * cube(before) + b * cube(last)) / ((last - first) * (last - first));
+  };
+
+  /** b0 + b1 ln IMx + b2 ln IMy, the bend if there is one, and its variance; null where a measure is missing. */
+  const predict = ({ x, y, b, covariance, knots }, of) => {
     const [imX, imY] = [usable(of[x]), y === null ? 1 : usable(of[y])];
     if (imX === null || imY === null) return null;
-    const row = [1, Math.log(imX), Math.log(imY)];
-    const dot = (a) => a[0] * row[0] + a[1] * row[1] + a[2] * row[2];
+    const [lnX, lnY] = [Math.log(imX), Math.log(imY)];
+    const bend = knots === null ? [] : y === null ? [spline(lnX, knots[0]), 0, 0] : [spline(lnX, knots[0]), spline(lnY, knots[1]), lnX * lnY];
+    const row = [1, lnX, lnY, ...bend];
+    const dot = (a) => a.reduce((sum, value, k) => sum + value * row[k], 0);
     return { value: dot(b), variance: dot(covariance.map(dot)) };
   };
 

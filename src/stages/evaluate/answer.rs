@@ -1,15 +1,16 @@
 use arrow_array::RecordBatch;
 
 use super::options::Format;
+use crate::stages::shared::surface::UNIVERSAL;
 use crate::table::evaluated::{ANSWER, RATES};
 use crate::table::schema::Table;
 use crate::table::store::frame::frame_of;
 use crate::table::store::text;
 
 /// How an answer of fits begins.
-pub const FITS_OF: &str = "fits of ";
-/// How an answer of the universal surface begins.
-pub const UNIVERSAL: &str = "universal fragility surface";
+const FITS_OF: &str = "fits of ";
+/// How an answer in JSON begins.
+const JSON: &str = "{\n\"warnings\": ";
 
 /// A short answer.
 pub struct Answer {

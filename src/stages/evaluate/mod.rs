@@ -1,7 +1,6 @@
 //! evaluate: probabilities at one intensity, at each of a table, or over the hazard of a site.
 
 mod answer;
-mod answering;
 pub mod hazard;
 mod options;
 mod point;
@@ -9,35 +8,33 @@ mod rates;
 mod table;
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::Context;
 use serde_json::{Value, json};
 
 use self::answer::Answer;
-use self::answering::Answering;
 use self::options::Format;
 pub use self::options::{EvaluateOptions, HazardOptions, LimitsBy, PointOptions};
 use self::table::EvaluatedTable;
+use super::shared::answers::Answers;
 use super::shared::chosen_fits::ChosenFits;
-use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions, ModelForm};
+use super::shared::fits::{FIT_INPUTS, FitFiles, ModelForm};
 use super::shared::resampled_fits;
-use super::shared::structures::StructureSpec;
+use super::shared::structures::{StructureSpec, warn_of_size};
+use super::shared::surface::{PAPER_LIMIT, Surface};
 use crate::fragility::universal::{self, Scenarios};
-use crate::fragility::{ReplicateLimits, ResampledModel, UniversalModel};
-use crate::keyword::{self, Keyword};
+use crate::fragility::{ReplicateLimits, ResampledModel};
+use crate::keyword::Keyword;
 use crate::motion::Suite;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::files::hash;
-use crate::pipeline::options::{Word, check};
+use crate::pipeline::options::Word;
 use crate::pipeline::stage::{Stage, beside, content_of_role, places};
 use crate::pipeline::terminal::Terminal;
 use crate::rocking::Structure;
-use crate::stages::fit_pex::FitPex;
-use crate::stages::fit_pro::FitPro;
 use crate::table::TableError;
 use crate::table::evaluated::EVALUATED;
 use crate::table::store::provenance::Provenance;
@@ -47,9 +44,6 @@ use crate::table::store::writer::TableWriter;
 
 /// The role of a table of intensities.
 const INTENSITIES: &str = "intensities";
-
-/// The limit state of the paper: what P_ex of the universal surface is about unless another demand is asked for.
-const PAPER_LIMIT: f64 = 0.1;
 
 impl LimitsBy {
     /// The fits, with their resamples where limits need them.
@@ -103,10 +97,6 @@ impl Declare for Evaluate {
             "Suite of the fits or of the universal surface [default: the only one; of the surface, csgm]",
         ),
         (
-            "model",
-            "bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv), univariate, or universal (the surface for all structures, which needs no fits) [default: bivariate; universal if there are no fits]",
-        ),
-        (
             "eta",
             "Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions, or as in the fits]",
         ),
@@ -131,7 +121,7 @@ impl Declare for Evaluate {
     .under("Output");
 
     fn create(options: &EvaluateOptions, files: &Files) -> anyhow::Result<Evaluate> {
-        let fits = fits(&options.fits, files)?;
+        let fits = FitFiles::if_asked(&options.fits, files)?;
         let intensities = files.optional(INTENSITIES);
         let beside_table = || Some(beside(intensities.as_ref()?.name(), Self::OUTPUT.file).into());
         let format = options.format.map(|Word(format)| format);
@@ -158,92 +148,54 @@ impl Declare for Evaluate {
     }
 }
 
-/// The fits that are asked for; none where the universal surface is, by its name, or because there are none and nothing is said
-/// of them.
-fn fits(options: &FitsOptions, files: &Files) -> anyhow::Result<Option<FitFiles>> {
-    let FitsOptions { suite: _, structure, model, measure } = options;
-    let unspecified = model.is_none() && structure.is_none() && measure.is_none();
-    let none = FIT_INPUTS.iter().all(|input| files.optional(input.role).is_none());
-    if *model == Some(Word(ModelForm::Universal)) || (unspecified && none) {
-        return Ok(None);
-    }
-    if none {
-        return Err(UsageError::because(
-            "no pex.parquet and pro.parquet here; expected --pex FILE and --pro FILE, or --model universal, which needs no fits",
-        ));
-    }
-    // Of one file alone, the other is where it always is.
-    let mut files = files.clone();
-    for (role, file) in [("pex", FitPex::OUTPUT.file), ("pro", FitPro::OUTPUT.file)] {
-        if files.optional(role).is_none() {
-            files.inputs.push((role, Path::new(file).into()));
-        }
-    }
-    FitFiles::new(options, &files).map(Some)
-}
-
 impl Evaluate {
     /// What answers.
-    fn answering(&self) -> anyhow::Result<Answering> {
+    fn answers(&self) -> anyhow::Result<Box<dyn Answers>> {
         let (limits, limit) = (self.options.limits.0, self.options.limit_state);
-        if let Some(fits) = &self.fits {
-            if limit.is_some() {
-                return Err(UsageError::because(
-                    "limit-state is of the universal surface; that of fits is chosen by fit-pex --limit-state",
-                ));
-            }
-            return Ok(Answering::Fits(Box::new(limits.choose(fits)?)));
-        }
-        if limits != LimitsBy::Delta {
-            return Err(UsageError::because(
-                "limits percentile and bc are of fits; the universal surface has its own",
-            ));
-        }
-        let limit = limit.unwrap_or(PAPER_LIMIT);
-        let [least, largest] = universal::limits();
-        check(
-            limit >= least && limit <= largest,
-            "limit-state",
-            limit,
-            &format!("a demand |theta|max / alpha from {least} to {largest}"),
-        )?;
-        let motions = match &self.options.fits.suite {
-            None => Suite::Csgm,
-            Some(word) => keyword::parse(word)
-                .ok()
-                .filter(|suite| Suite::SYNTHETIC.contains(suite))
-                .ok_or_else(|| {
-                    UsageError::because(format!(
-                        "suite '{word}' is none of the universal surface; expected pulse, csgm or hfc"
-                    ))
-                })?,
-        };
         let scenarios = match self.options.hazard.hazard {
             Some(_) => Scenarios::Many,
             None => Scenarios::One,
         };
-        Ok(Answering::Universal(UniversalModel { limit, motions, scenarios }))
+        let Some(fits) = &self.fits else {
+            if limits != LimitsBy::Delta {
+                return Err(UsageError::because(
+                    "limits percentile and bc are of fits; the universal surface has its own",
+                ));
+            }
+            return Ok(Box::new(Surface::new(self.options.fits.suite.as_deref(), limit, scenarios)?));
+        };
+        if limit.is_some() {
+            return Err(UsageError::because(
+                "limit-state is of the universal surface; that of fits is chosen by fit-pex --limit-state",
+            ));
+        }
+        let mut chosen = limits.choose(fits)?;
+        if scenarios == Scenarios::Many {
+            chosen.model = chosen.model.over_many_cells();
+        }
+        Ok(Box::new(chosen))
     }
 
-    /// The structure; `answering` may know an eta where none is given.
-    fn structure(&self, answering: &Answering) -> anyhow::Result<Structure> {
-        match answering.eta() {
+    /// The structure; `answers` may know an eta where none is given.
+    fn structure(&self, answers: &dyn Answers) -> anyhow::Result<Structure> {
+        match answers.eta() {
             Some(eta) => self.structure.structure_with_eta(eta),
             None => self.structure.structure(),
         }
     }
 
     /// Answers for one intensity or one site.
-    fn answer(&self, answering: &Answering, console: &Console) -> anyhow::Result<Answer> {
-        answering.warn_of_fits(console);
-        let structure = self.structure(answering)?;
-        answering.warn_of_structure(&structure, console);
+    fn answer(&self, answers: &dyn Answers, console: &Console) -> anyhow::Result<Answer> {
+        answers.warn(console);
+        let structure = self.structure(answers)?;
+        warn_of_size([&structure], console);
+        answers.warn_of_structure(&structure, console);
         match &self.options.hazard.hazard {
             Some(path) => {
                 let hazard = hazard::read(path, &self.options.headings())?;
-                rates::answer(&self.options.hazard, path, hazard, answering, &structure, console)
+                rates::answer(&self.options.hazard, path, hazard, answers, &structure, console)
             }
-            None => point::answer(&self.options.point, answering, &structure, console),
+            None => point::answer(&self.options.point, answers, &structure, console),
         }
     }
 
@@ -327,14 +279,15 @@ impl Stage for Evaluate {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let answering = self.answering()?;
+        let answers = self.answers()?;
         if let (Some(input), Some(out)) = (&self.intensities, &self.out) {
             let given = self.options.structure.structures.is_given();
-            let structure = given.then(|| self.structure(&answering)).transpose()?;
-            let table = EvaluatedTable { answering, headings: self.options.headings(), structure };
+            let structure = given.then(|| self.structure(&*answers)).transpose()?;
+            warn_of_size(&structure, console);
+            let table = EvaluatedTable { answers, headings: self.options.headings(), structure };
             return table.write(input, out, provenance, console);
         }
-        self.deliver(&self.answer(&answering, console)?, provenance)?;
+        self.deliver(&self.answer(&*answers, console)?, provenance)?;
         Ok(String::new())
     }
 }

@@ -1,13 +1,13 @@
 use super::answer::Answer;
-use super::answering::Answering;
 use super::options::PointOptions;
 use crate::fragility::universal::Scenarios;
-use crate::fragility::{DOUBTFUL_PEAKS, Peak, Probability, are_doubtful};
+use crate::fragility::{GivenRocking, Peak, Probability, doubt_of_peaks};
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, check_bound};
 use crate::rocking::Structure;
+use crate::stages::shared::answers::Answers;
 use crate::stages::shared::structures::words;
 use crate::table::evaluated::{self, ANSWER, AnswerRow};
 use crate::table::schema::{self, Column};
@@ -16,7 +16,7 @@ use crate::units::G_M_S2;
 /// All probabilities at one intensity.
 pub fn answer(
     options: &PointOptions,
-    answering: &Answering,
+    answers: &dyn Answers,
     structure: &Structure,
     console: &Console,
 ) -> anyhow::Result<Answer> {
@@ -35,26 +35,16 @@ pub fn answer(
             "a period above 0 s, up to 60",
         )?;
     }
-    if are_doubtful(pga_g * G_M_S2, pgv_m_s) {
-        console.warn(DOUBTFUL_PEAKS);
+    if let Some(doubt) = doubt_of_peaks(pga_g * G_M_S2, pgv_m_s) {
+        console.warn(doubt.words());
     }
     let measures = IntensityMeasures::new(structure, pga_g * G_M_S2, pgv_m_s, options.tp, options.tm);
-    let probabilities = answering.probabilities(structure, &measures);
+    let probabilities = answers.probabilities(structure, &measures);
     let failure = probabilities.limit_states().map(|[_, failure, _]| failure);
     if failure.is_none() {
-        console.warn(match answering {
-            Answering::Fits(_) => "the fits need a measure that is missing: give --pgv above 0, --tp or --tm",
-            Answering::Universal(_) => "the surface needs a velocity: give --pgv above 0",
-        });
+        console.warn(answers.words_of_missing());
     }
-    answering.warn_of_range(&measures, "", console);
-    let universal = answering.beside_misfit(Scenarios::One);
-    if let Some(given) = universal.and_then(|model| model.probabilities(structure, &measures).given_rocking) {
-        let Probability { value, low, high } = given.p_ro;
-        console.warn(&format!(
-            "the universal surface (--model universal) has P_ro {value:.3} ({low:.3} to {high:.3})"
-        ));
-    }
+    answers.warn_of_range(&measures, "", console);
     let row = |column: Column, value: Option<f64>, p: Option<Probability>| AnswerRow {
         quantity: column.name,
         value: value.or(p.map(|p| p.value)),
@@ -69,7 +59,7 @@ pub fn answer(
         row(schema::p_f_r, None, given.map(|given| given.p_failure)),
         row(schema::p_f, None, failure),
     ];
-    let hybrid = answering.hybrid_measure(&measures);
+    let hybrid = answers.hybrid_measure(&measures);
     let measured = [
         (schema::im1, measures.im1),
         (schema::im2, measures.im2),
@@ -82,19 +72,28 @@ pub fn answer(
     rows.extend(
         measured.into_iter().filter(|(_, value)| value.is_some()).map(|(im, value)| row(im, value, None)),
     );
-    if let Answering::Universal(_) = answering {
-        // Other formats than the table have no heading.
-        rows.push(AnswerRow { quantity: "model", value: None, limits: None, meaning: answering.words() });
+    let besides = |quantity, value, limits, meaning| AnswerRow { quantity, value, limits, meaning };
+    let surface = answers.surface(Scenarios::One).map(|surface| surface.probabilities(structure, &measures));
+    if let Some(GivenRocking { p_ro, .. }) = surface.and_then(|surface| surface.given_rocking) {
+        let apart = given.map_or(f64::NAN, |given| p_ro.value - given.p_ro.value);
+        let meaning = format!("P_ro by the universal surface (--model universal): {apart:+.3} from the fits");
+        rows.push(besides("p_ro_universal", Some(p_ro.value), Some((p_ro.low, p_ro.high)), meaning));
     }
+    if let Some((distance, coordinate)) = answers.model().distance(structure, &measures) {
+        let meaning =
+            format!("from the middle of the data (0) to their rim (1) and beyond, farthest in {coordinate}");
+        rows.push(besides("distance", Some(distance), None, meaning));
+    }
+    rows.push(besides("model", None, None, answers.words()));
     Ok(Answer {
         table: ANSWER,
         rows: evaluated::answer(&rows)?,
         heading: format!(
             "{}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % limits of confidence, {}\n",
-            answering.words(),
+            answers.words(),
             words(structure),
-            answering.limit(),
-            answering.words_of_limits(),
+            answers.limit(),
+            answers.words_of_limits(),
         ),
     })
 }

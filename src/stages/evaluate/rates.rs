@@ -1,11 +1,17 @@
+//! Annual rates over the hazard of a site.
+
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::answer::Answer;
-use super::answering::{Answering, Model};
+use super::hazard::{self, Hazard};
 use super::options::HazardOptions;
 use crate::fragility::universal::Scenarios;
-use crate::fragility::{DOUBTFUL_PEAKS, JointPeaks, LimitState, Peak, Probability, Slice, are_doubtful};
+use crate::fragility::{
+    Fragility, FragilityModel, JointPeaks, LimitState, Peak, PeaksDoubt, Probability, Slice, doubt_of_peaks,
+};
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -14,14 +20,43 @@ use crate::pipeline::console::Console;
 use crate::pipeline::options::check;
 use crate::rocking::Structure;
 use crate::stages::evaluate::hazard::Hazard;
+use crate::stages::shared::answers::Answers;
 use crate::stages::shared::structures::words;
 use crate::table::evaluated::{self, RATES, RateRow};
-use rayon::prelude::*;
 
-/// Value, lower and upper limit of each limit state in turn.
-type Rates = [f64; 9];
-/// The place of the rate of overturning among them.
-const OVERTURNING: usize = 6;
+/// The annual rate of each limit state, with its limits.
+#[derive(Clone, Copy)]
+struct Rates {
+    rocking: Probability,
+    failure: Probability,
+    overturning: Probability,
+}
+
+impl Rates {
+    /// Of the sums over a hazard.
+    fn of(parts: [f64; 9]) -> Rates {
+        let rate = |k: usize| Probability { value: parts[k], low: parts[k + 1], high: parts[k + 2] };
+        Rates { rocking: rate(0), failure: rate(3), overturning: rate(6) }
+    }
+
+    fn of_state(&self, state: LimitState) -> Probability {
+        match state {
+            LimitState::Rocking => self.rocking,
+            LimitState::Failure => self.failure,
+            LimitState::Overturning => self.overturning,
+        }
+    }
+}
+
+/// The terms of those sums: value and limits of each limit state in turn.
+fn parts(states: Option<[Probability; 3]>) -> [f64; 9] {
+    states.map_or([f64::NAN; 9], |states| {
+        let mut parts = [0.0; 9];
+        let all = states.into_iter().flat_map(|p| [p.value, p.low, p.high]);
+        parts.iter_mut().zip(all).for_each(|(part, value)| *part = value);
+        parts
+    })
+}
 
 /// The annual rate of each limit state over the hazard of a site. By the delta method the limits are those of the probabilities at
 /// every intensity at once, as if all were too high or too low together; by resamples, those of the rate itself.
@@ -29,55 +64,56 @@ pub fn answer(
     options: &HazardOptions,
     path: &Path,
     hazard: Hazard,
-    answering: &Answering,
+    answers: &dyn Answers,
     structure: &Structure,
     console: &Console,
 ) -> anyhow::Result<Answer> {
     let years = options.years;
     check(years > 0.0 && years.is_finite(), "years", years, "a time above 0")?;
     let mut words_of_ratio = String::new();
-    let universal = answering.beside_misfit(Scenarios::Many);
-    let rates = match hazard {
+    let surface = answers.surface(Scenarios::Many);
+    let surface = surface.as_ref().map(|surface| surface as &dyn Fragility);
+    let (rates, by_surface) = match hazard {
         Hazard::Curve(peak, curve) => {
-            let line = Line::new(options.ratio, structure, peak, answering)?;
-            let rates = along_line(&line, &curve, answering, console)?;
-            words_of_ratio = line.words(&curve, answering);
-            if let Some(model) = &universal {
-                warn_of_universal(&over_curve(&line, &curve, Model::Universal(model)), console);
-            }
-            with_limits(rates, answering, |model| over_curve(&line, &curve, model))
+            let line = Line::new(options.ratio, structure, peak, answers)?;
+            let rates = along_line(&line, &curve, answers, console)?;
+            words_of_ratio = line.words(&curve, answers);
+            let of = |model: &dyn Fragility| over_curve(&line, &curve, model);
+            (with_limits(rates, answers, of), surface.map(of))
         }
         Hazard::Joint(joint) => {
-            let rates = over_pairs(structure, &joint, answering, console)?;
-            if let Some(model) = &universal {
-                warn_of_universal(&over_bins(structure, &joint, Model::Universal(model)), console);
-            }
-            with_limits(rates, answering, |model| over_bins(structure, &joint, model))
+            let rates = over_pairs(structure, &joint, answers, console)?;
+            let of = |model: &dyn Fragility| over_bins(structure, &joint, model);
+            (with_limits(rates, answers, of), surface.map(of))
         }
     };
-    let row = |(index, &state): (usize, &LimitState)| {
-        let annual_rate = [0, 1, 2].map(|part| rates[3 * index + part]);
+    let words_of_surface = by_surface.map_or(String::new(), |Rates { overturning: Probability { value, low, high }, .. }| {
+        let words = format!(
+            "by the universal surface (--model universal) the annual rate of overturning is {value:.1e} ({low:.1e} to {high:.1e})"
+        );
+        if !(low..=high).contains(&rates.overturning.value) {
+            console.warn(&words);
+        }
+        words + "\n"
+    });
+    let row = |&state: &LimitState| {
+        let Probability { value, low, high } = rates.of_state(state);
+        let annual_rate = [value, low, high];
         let probability = annual_rate.map(|rate| probability_in_years(rate, years));
-        RateRow { state, annual_rate, years, probability, meaning: answering.meaning(state) }
+        RateRow { state, annual_rate, years, probability, meaning: answers.meaning(state) }
     };
-    let rows: Vec<RateRow> = LimitState::ALL.iter().enumerate().map(row).collect();
+    let rows: Vec<RateRow> = LimitState::ALL.iter().map(row).collect();
     Ok(Answer {
         table: RATES,
         rows: evaluated::rates(&rows)?,
         heading: format!(
-            "{}\nstructure of {}, over {}\n{words_of_ratio}low and high are 95 % limits of confidence, {}; they do not hold the hazard's own error\n",
-            answering.words(),
+            "{}\nstructure of {}, over {}\n{words_of_ratio}{words_of_surface}low and high are 95 % limits of confidence, {}; they do not hold the hazard's own error\n",
+            answers.words(),
             words(structure),
             path.display(),
-            answering.words_of_limits()
+            answers.words_of_limits()
         ),
     })
-}
-
-fn warn_of_universal([.., rate, low, high]: &Rates, console: &Console) {
-    console.warn(&format!(
-        "by the universal surface (--model universal) the annual rate of overturning is {rate:.1e} ({low:.1e} to {high:.1e})"
-    ));
 }
 
 /// Motions of one peak, and what their other peak is.
@@ -107,9 +143,9 @@ impl Line {
         ratio: Option<f64>,
         structure: &Structure,
         peak: Peak,
-        answering: &Answering,
+        answers: &dyn Answers,
     ) -> anyhow::Result<Line> {
-        let ratio = match (ratio, answering.peaks()) {
+        let ratio = match (ratio, answers.peaks()) {
             (Some(ratio), _) => {
                 check(ratio > 0.0 && ratio.is_finite(), "ratio", ratio, "a p PGV / PGA above 0")?;
                 Ratio::Single(ratio)
@@ -154,16 +190,17 @@ impl Line {
     }
 
     /// Where the ratio comes from, and what another one would change.
-    fn words(&self, curve: &HazardCurve, answering: &Answering) -> String {
+    fn words(&self, curve: &HazardCurve, answers: &dyn Answers) -> String {
         let Ratio::Distributed(_) = self.ratio else {
             return "p PGV / PGA is the one of --ratio at all intensities; low and high do not hold its error\n".to_string();
         };
         let overturning =
-            |deviations| over_curve(&self.quantile(deviations), curve, answering.model())[OVERTURNING];
+            |deviations| over_curve(&self.quantile(deviations), curve, answers.model()).overturning.value;
         let [low, median, high] = [-1.0, 0.0, 1.0].map(overturning);
         let at_uplift = |deviations| self.quantile(deviations).ratios(self.slice.intensity_at_im4(1.0))[0].0;
         format!(
-            "p PGV / PGA is distributed as in the motions of the fits: {:.2} at uplift, {:.2} to {:.2} in two of three motions; with these ratios alone, overturning would have the annual rates {median:.1e}, {low:.1e} and {high:.1e} (--ratio takes one)\n",
+            "p PGV / PGA is distributed as in the motions {}: {:.2} at uplift, {:.2} to {:.2} in two of three motions; with these ratios alone, overturning would have the annual rates {median:.1e}, {low:.1e} and {high:.1e} (--ratio takes one)\n",
+            answers.words_of_motions(),
             at_uplift(0.0),
             at_uplift(-1.0),
             at_uplift(1.0)
@@ -174,14 +211,14 @@ impl Line {
 fn along_line(
     line: &Line,
     curve: &HazardCurve,
-    answering: &Answering,
+    answers: &dyn Answers,
     console: &Console,
 ) -> anyhow::Result<Rates> {
     let slice = &line.slice;
-    let (model, [(first, _), (last, rate_beyond)]) = (answering.model(), curve.ends());
-    let Some(at_last) = limit_states(slice, model, last) else { return Err(periods_needed()) };
+    let (model, [(first, _), (last, rate_beyond)]) = (answers.model(), curve.ends());
+    let Some(at_last) = model.limit_states(slice, last) else { return Err(periods_needed()) };
     let rates = over_curve(line, curve, model);
-    answering.warn_of_slice(slice, last, "the hazard: ", console);
+    answers.warn_of_slice(slice, last, "the hazard: ", console);
     let (uplift, (unit, size)) = (slice.intensity_at_im4(1.0), slice.peak.usual_unit());
     if first > uplift {
         console.warn(&format!(
@@ -190,7 +227,7 @@ fn along_line(
             uplift / size
         ));
     }
-    let overturning = rates[OVERTURNING];
+    let overturning = rates.overturning.value;
     let uncounted = rate_beyond * (1.0 - at_last[2].value);
     if uncounted > 0.01 * overturning {
         console.warn(&format!(
@@ -204,75 +241,74 @@ fn along_line(
 fn over_pairs(
     structure: &Structure,
     joint: &JointHazard,
-    answering: &Answering,
+    answers: &dyn Answers,
     console: &Console,
 ) -> anyhow::Result<Rates> {
-    let model = answering.model();
+    let model = answers.model();
     let measures = |bin: &PairOfPeaks| measures_of(structure, bin);
-    let states = |bin: &PairOfPeaks| model.probabilities(structure, &measures(bin)).limit_states();
+    let states = |bin: &PairOfPeaks| model.of_structure(structure, &measures(bin)).limit_states();
     if joint.bins.iter().any(|bin| states(bin).is_none()) {
         return Err(periods_needed());
     }
-    let is_outside = |bin: &&PairOfPeaks| !model.out_of_range(&measures(bin)).is_empty();
+    let is_outside = |bin: &&PairOfPeaks| !model.outside(&measures(bin)).is_empty();
     let outside = joint.bins.iter().filter(is_outside).count();
     if outside > 0 {
         let all = joint.bins.len();
         console.warn(&format!("{outside} of {all} bins lie outside of the data: extrapolated"));
     }
-    let doubtful = joint.bins.iter().filter(|bin| are_doubtful(bin.pga_m_s2, bin.pgv_m_s)).count();
-    if doubtful > 0 {
-        console.warn(&format!("{doubtful} of {} bins have {DOUBTFUL_PEAKS}", joint.bins.len()));
+    for doubt in PeaksDoubt::ALL {
+        let is_so = |bin: &&PairOfPeaks| doubt_of_peaks(bin.pga_m_s2, bin.pgv_m_s) == Some(doubt);
+        let doubtful = joint.bins.iter().filter(is_so).count();
+        if doubtful > 0 {
+            console.warn(&format!("{doubtful} of {} bins have {}", joint.bins.len(), doubt.words()));
+        }
     }
     Ok(over_bins(structure, joint, model))
 }
 
-fn over_curve(line: &Line, curve: &HazardCurve, model: Model) -> Rates {
-    curve.mean_annual_rates(&model.jumps(&line.slice), |intensity| {
+fn over_curve(line: &Line, curve: &HazardCurve, model: &dyn Fragility) -> Rates {
+    Rates::of(curve.mean_annual_rates(&model.jumps(&line.slice), |intensity| {
         let mut slice = line.slice.clone();
         let mut mean = [0.0; 9];
         for (ratio, weight) in line.ratios(intensity) {
             slice.ratio = ratio;
-            let states = flat(limit_states(&slice, model, intensity));
+            let states = parts(model.limit_states(&slice, intensity));
             mean.iter_mut().zip(states).for_each(|(mean, state)| *mean += weight * state);
         }
         mean
-    })
+    }))
 }
 
-fn over_bins(structure: &Structure, joint: &JointHazard, model: Model) -> Rates {
-    joint.mean_annual_rates(|bin| {
-        flat(model.probabilities(structure, &measures_of(structure, bin)).limit_states())
-    })
+fn over_bins(structure: &Structure, joint: &JointHazard, model: &dyn Fragility) -> Rates {
+    Rates::of(joint.mean_annual_rates(|bin| {
+        parts(model.of_structure(structure, &measures_of(structure, bin)).limit_states())
+    }))
 }
 
 /// The rates with limits from those of each resample, if there are any.
-fn with_limits(rates: Rates, answering: &Answering, rates_of: impl Fn(Model) -> Rates + Sync) -> Rates {
-    let Some(resampled) = answering.resampled() else { return rates };
-    let replicates: Vec<Option<Rates>> =
-        resampled.replicates.par_iter().map(|model| model.as_ref().map(Model::Fits).map(&rates_of)).collect();
-    let mut limited = rates;
+fn with_limits(
+    rates: Rates,
+    answers: &dyn Answers,
+    rates_of: impl Fn(&dyn Fragility) -> Rates + Sync,
+) -> Rates {
+    let Some(resampled) = answers.resampled() else { return rates };
+    let of = |model: &Option<FragilityModel>| model.as_ref().map(|model| rates_of(model));
+    let replicates: Vec<Option<Rates>> = resampled.replicates.par_iter().map(of).collect();
+    let limited = |rate_of: fn(&Rates) -> Probability| {
+        let values: Vec<Option<f64>> =
+            replicates.iter().map(|rates| Some(rate_of(rates.as_ref()?).value)).collect();
+        resampled.about(rate_of(&rates).value, &values)
+    };
     // Of rocking, which is certain from uplift on, the limits are the rate itself.
-    for (k, state) in limited.chunks_exact_mut(3).enumerate().skip(1) {
-        let values: Vec<Option<f64>> = replicates.iter().map(|rates| Some(rates.as_ref()?[3 * k])).collect();
-        let Probability { low, high, .. } = resampled.about(state[0], &values);
-        (state[1], state[2]) = (low, high);
+    Rates {
+        failure: limited(|rates| rates.failure),
+        overturning: limited(|rates| rates.overturning),
+        ..rates
     }
-    limited
-}
-
-fn limit_states(slice: &Slice, model: Model, intensity: f64) -> Option<[Probability; 3]> {
-    model.probabilities(&slice.structure, &slice.measures(intensity)).limit_states()
 }
 
 fn measures_of(structure: &Structure, bin: &PairOfPeaks) -> IntensityMeasures {
     IntensityMeasures::new(structure, bin.pga_m_s2, bin.pgv_m_s, None, None)
-}
-
-fn flat(states: Option<[Probability; 3]>) -> Rates {
-    let parts = states.map(|states| states.map(|p| [p.value, p.low, p.high]));
-    let mut flat = [f64::NAN; 9];
-    flat.iter_mut().zip(parts.iter().flatten().flatten()).for_each(|(cell, part)| *cell = *part);
-    flat
 }
 
 fn periods_needed() -> anyhow::Error {

@@ -1,10 +1,10 @@
 use rayon::prelude::*;
 
-use super::answering::Answering;
-use crate::fragility::{DOUBTFUL_PEAKS, are_doubtful};
+use crate::fragility::{PeaksDoubt, doubt_of_peaks};
 use crate::pipeline::console::Console;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
+use crate::stages::shared::answers::Answers;
 use crate::table::evaluated::{self, EVALUATED, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
 use crate::table::schema::headings::Headings;
@@ -17,7 +17,7 @@ const BATCH: usize = 16_384;
 
 /// Probabilities at each intensity of a table.
 pub struct EvaluatedTable {
-    pub answering: Answering,
+    pub answers: Box<dyn Answers>,
     /// Other headings of its columns.
     pub headings: Headings,
     /// Of all rows; without it each row has its own.
@@ -38,9 +38,9 @@ impl EvaluatedTable {
     ) -> anyhow::Result<String> {
         let nameless = self.structure.clone().map(|structure| Structure { name: String::new(), ..structure });
         let intensities =
-            IntensityBatches::open(input, &self.headings, nameless, self.answering.eta(), BATCH)?;
+            IntensityBatches::open(input, &self.headings, nameless, self.answers.eta(), BATCH)?;
         let total = intensities.rows();
-        self.answering.warn_of_fits(console);
+        self.answers.warn(console);
         let mut writer = TableWriter::create(out.clone(), &EVALUATED, provenance.clone())?;
         let mut suspect = Suspect::default();
         let bar = console.bar(&provenance.stage, total);
@@ -48,7 +48,7 @@ impl EvaluatedTable {
             intensities.map(|batch| Ok(batch?)),
             |intensities| {
                 let rows: Vec<EvaluatedRow> = intensities.par_iter().map(|one| self.row(one)).collect();
-                let suspect = Suspect::among(&rows, &intensities, &self.answering);
+                let suspect = Suspect::among(&rows, &intensities, &*self.answers);
                 bar.inc(rows.len() as u64)?;
                 Ok((evaluated::batch(&rows)?, suspect))
             },
@@ -58,24 +58,21 @@ impl EvaluatedTable {
             },
         )?;
         bar.finish();
-        suspect.warn(&self.answering, console);
+        suspect.warn(&*self.answers, console);
         writer.finish()?;
-        Ok(match &self.answering {
-            Answering::Fits(_) => format!("{total} rows"),
-            universal @ Answering::Universal(_) => format!("{total} rows by the {}", universal.words()),
-        })
+        Ok(format!("{total} rows by the {}", self.answers.words()))
     }
 
     fn row(&self, intensity: &Intensity) -> EvaluatedRow {
         let measures = &intensity.measures;
-        let probabilities = self.answering.probabilities(&intensity.structure, measures);
+        let probabilities = self.answers.probabilities(&intensity.structure, measures);
         EvaluatedRow {
             p_rad_s: intensity.structure.p_rad_s,
             alpha_rad: intensity.structure.alpha_rad,
             pga_m_s2: intensity.pga_m_s2,
             pgv_m_s: intensity.pgv_m_s,
             probabilities,
-            out_of_range: self.answering.model().out_of_range(measures).first().map(|out| out.measure),
+            out_of_range: self.answers.model().outside(measures).first().map(|out| out.measure),
         }
     }
 }
@@ -87,19 +84,24 @@ struct Suspect {
     other_structure: usize,
     other_block: usize,
     without_measure: usize,
-    doubtful: usize,
+    doubtful_size: usize,
+    doubtful: [usize; PeaksDoubt::ALL.len()],
 }
 
 impl Suspect {
-    fn among(rows: &[EvaluatedRow], intensities: &[Intensity], answering: &Answering) -> Suspect {
+    fn among(rows: &[EvaluatedRow], intensities: &[Intensity], answers: &dyn Answers) -> Suspect {
         let has_no_measure =
             |row: &&EvaluatedRow| row.probabilities.p_nr == 0.0 && row.probabilities.given_rocking.is_none();
-        let is_other = |intensity: &&Intensity| answering.is_other_structure(&intensity.structure);
+        let is_other = |intensity: &&Intensity| answers.is_other_structure(&intensity.structure);
         Suspect {
             out_of_range: rows.iter().filter(|row| row.out_of_range.is_some()).count(),
             other_structure: intensities.iter().filter(is_other).count(),
-            other_block: intensities.iter().filter(|one| answering.is_other_block(&one.structure)).count(),
-            doubtful: rows.iter().filter(|row| are_doubtful(row.pga_m_s2, row.pgv_m_s)).count(),
+            other_block: intensities.iter().filter(|one| answers.is_other_block(&one.structure)).count(),
+            doubtful_size: intensities.iter().filter(|one| one.structure.doubt().is_some()).count(),
+            doubtful: PeaksDoubt::ALL.map(|doubt| {
+                let is_so = |row: &&EvaluatedRow| doubt_of_peaks(row.pga_m_s2, row.pgv_m_s) == Some(doubt);
+                rows.iter().filter(is_so).count()
+            }),
             without_measure: rows.iter().filter(has_no_measure).count(),
         }
     }
@@ -109,14 +111,12 @@ impl Suspect {
         self.other_structure += more.other_structure;
         self.other_block += more.other_block;
         self.without_measure += more.without_measure;
-        self.doubtful += more.doubtful;
+        self.doubtful_size += more.doubtful_size;
+        self.doubtful.iter_mut().zip(more.doubtful).for_each(|(sum, more)| *sum += more);
     }
 
-    fn warn(&self, answering: &Answering, console: &Console) {
-        let other = match answering.eta() {
-            Some(eta) => format!("another eta than the fits ({eta}): they depend on it"),
-            None => "a structure outside of those of the surface: extrapolated".to_string(),
-        };
+    fn warn(&self, answers: &dyn Answers, console: &Console) {
+        let other = answers.words_of_others();
         for (rows, reason) in [
             (self.out_of_range, "a measure outside of the data (column out_of_range): extrapolated"),
             (self.other_structure, &other),
@@ -124,9 +124,12 @@ impl Suspect {
                 self.other_block,
                 "another p or alpha than the fits: curves taken to other structures often fail",
             ),
-            (self.doubtful, DOUBTFUL_PEAKS),
+            (self.doubtful_size, "a p of a solid block of 90 m and more: were its dimensions in cm?"),
             (self.without_measure, "no value of a measure that the fits need: their probabilities are null"),
-        ] {
+        ]
+        .into_iter()
+        .chain(self.doubtful.into_iter().zip(PeaksDoubt::ALL.map(PeaksDoubt::words)))
+        {
             if rows > 0 {
                 console.warn(&format!("{rows} rows have {reason}"));
             }

@@ -23,7 +23,7 @@ use self::counts::Counts;
 pub use self::options::IdaOptions;
 use super::shared::motions::{DistinctIds, Judge};
 use super::shared::reasons::{Case, Reasons};
-use super::shared::structures::parameters;
+use super::shared::structures::{parameters, warn_of_size};
 use super::simulate::simd;
 use super::synthesize_motions::SynthesizeMotions;
 use crate::keyword::Keyword;
@@ -161,6 +161,7 @@ impl Stage for Ida {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        warn_of_size(&self.structures, console);
         let file = MotionTable::open(&self.input, None)?;
         let (total, by_name) = (file.rows(), file.ids_are_names());
         let part = |table: &Table| self.out.part(table.name);

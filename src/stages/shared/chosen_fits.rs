@@ -1,16 +1,18 @@
 //! The fits as chosen: in words, and where they do not hold.
 
+use super::answers::Answers;
+use super::surface::Surface;
 use super::transfers;
+use crate::fragility::universal::Scenarios;
 use crate::fragility::{
-    DemandModel, FragilityModel, JointPeaks, LimitState, Measure, OutOfRange, Probabilities, ReplicateLimits,
-    ResampledModel, Slice,
+    DemandModel, Fragility, FragilityModel, Gap, JointPeaks, LimitState, Measure, OutOfRange, Probabilities,
+    ReplicateLimits, ResampledModel, Slice, UniversalModel,
 };
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::console::Console;
 use crate::rocking::Block;
 use crate::rocking::Structure;
-use crate::statistics::Gap;
 
 /// The fits as chosen.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,23 +37,48 @@ pub struct ChosenFits {
     pub peaks: Option<JointPeaks>,
 }
 
-/// What the tests of a curve say against it.
+/// What the tests of the straight line say against it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Misfit {
-    /// What it predicts and what was observed, where they differ most.
-    pub gap: Gap,
+    /// How far it is from the curve that bends, if there is one.
+    pub gap: Option<Gap>,
     /// The tests that were made, with their probabilities.
     pub tests: Vec<(&'static str, f64)>,
+    /// Mean log scores of cells that were left out, of the line and of the curve that bends.
+    pub log_scores: Option<[f64; 2]>,
+    /// Which of the two answers.
+    pub answer: Line,
+}
+
+/// Whether an index is straight or bends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Line {
+    Straight,
+    Bent,
 }
 
 impl Misfit {
-    /// By how much the curve is off, and which tests reject it.
+    /// By how much the line is off, which tests reject it, and what answers in its place.
     pub fn words(&self) -> String {
-        let Misfit { gap: Gap { predicted, observed }, tests } = self;
-        let tests = tests.iter().map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
-        format!(
-            "P_ro fits its own cases badly: where it predicts {predicted:.3}, {observed:.3} overturned ({tests}); low and high do not hold this error"
-        )
+        let tests =
+            self.tests.iter().map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
+        let off = self.gap.map_or(String::new(), |Gap { straight, bent }| {
+            format!(
+                ", off by {:.2} and more at one case of twenty ({straight:.2} for {bent:.2})",
+                (straight - bent).abs()
+            )
+        });
+        let scores = self.log_scores.map_or(String::new(), |[straight, bent]| {
+            format!(", whose log score on cells left out is {bent:.4} for {straight:.4}")
+        });
+        match self.answer {
+            Line::Bent => format!(
+                "tests reject the paper's straight line for P_ro ({tests}){off}: the bent curve answers{scores}; --model paper takes the line"
+            ),
+            Line::Straight => format!(
+                "P_ro is the paper's straight line, which its tests reject ({tests}){off}; low and high do not hold this error"
+            ),
+        }
     }
 }
 
@@ -60,32 +87,32 @@ const SAME_ETA: f64 = 0.005;
 
 impl ChosenFits {
     /// The probabilities at an intensity, with limits by the replicates if there are any.
-    pub fn probabilities(&self, measures: &IntensityMeasures) -> Probabilities {
+    pub fn with_limits(&self, measures: &IntensityMeasures) -> Probabilities {
         let probabilities = self.model.probabilities(measures);
         let Some(resampled) = &self.resampled else { return probabilities };
         let given_rocking = probabilities.given_rocking.map(|given| resampled.with_limits(&given, measures));
         Probabilities { given_rocking, ..probabilities }
     }
 
-    /// How the limits come about, and what they do not hold, in words.
+    /// How the limits come about, and what they hold, in words.
     pub fn words_of_limits(&self) -> String {
-        let by = self.way_of_limits();
-        if self.misfit.is_some() {
-            format!("{by}, of the fitted model alone, which its tests reject")
-        } else {
-            by
-        }
-    }
-
-    fn way_of_limits(&self) -> String {
-        match &self.resampled {
+        let by = match &self.resampled {
+            None if self.model.overturning.spread > 0.0 => {
+                "by the delta method, for one magnitude and distance that the fits have not seen".to_string()
+            }
             None => "by the delta method".to_string(),
             Some(ResampledModel { replicates, limits: ReplicateLimits::Percentile }) => {
-                format!("percentiles of {} resamples", replicates.len())
+                format!("percentiles of {} resamples, of the fits alone", replicates.len())
             }
             Some(ResampledModel { replicates, limits: ReplicateLimits::BiasCorrected }) => {
-                format!("bias-corrected percentiles of {} resamples", replicates.len())
+                format!("bias-corrected percentiles of {} resamples, of the fits alone", replicates.len())
             }
+        };
+        match &self.misfit {
+            Some(Misfit { answer: Line::Straight, .. }) => {
+                format!("{by}, of the fitted line alone, which its tests reject")
+            }
+            _ => by,
         }
     }
 
@@ -117,17 +144,9 @@ impl ChosenFits {
             }
         };
         let overturning = of(&mut model.overturning.measures());
+        let bent = if model.overturning.bend.is_some() { ", bent" } else { "" };
         let suite = self.suite.as_deref().map_or(String::new(), |suite| format!(", {suite}"));
-        format!("{}{suite}: P_ex of {demand}{planes}, P_ro of {overturning}", self.structure)
-    }
-
-    /// What a limit state is, in words.
-    pub fn meaning(&self, state: LimitState) -> String {
-        match state {
-            LimitState::Rocking => "rocking".to_string(),
-            LimitState::Failure => format!("|theta|max / alpha above {}, or overturning", self.model.limit),
-            LimitState::Overturning => "overturning".to_string(),
-        }
+        format!("{}{suite}: P_ex of {demand}{planes}, P_ro of {overturning}{bent}", self.structure)
     }
 
     /// Warns if the structure is not the one that was simulated: by what is known of such transfers, or of its eta.
@@ -179,5 +198,93 @@ impl ChosenFits {
     /// Whether this coefficient of restitution is another one than that of the fits.
     pub fn is_other_eta(&self, eta: f64) -> bool {
         (eta - self.model.eta).abs() > SAME_ETA
+    }
+}
+
+impl Answers for ChosenFits {
+    fn model(&self) -> &dyn Fragility {
+        &self.model
+    }
+
+    fn probabilities(&self, _: &Structure, measures: &IntensityMeasures) -> Probabilities {
+        self.with_limits(measures)
+    }
+
+    fn resampled(&self) -> Option<&ResampledModel> {
+        self.resampled.as_ref()
+    }
+
+    fn eta(&self) -> Option<f64> {
+        Some(self.model.eta)
+    }
+
+    fn limit(&self) -> f64 {
+        self.model.limit
+    }
+
+    fn hybrid_measure(&self, measures: &IntensityMeasures) -> Option<f64> {
+        let overturning = &self.model.overturning;
+        overturning.im_y.and_then(|_| overturning.hybrid_measure(measures))
+    }
+
+    fn words(&self) -> String {
+        format!("fits of {}", ChosenFits::words(self))
+    }
+
+    fn words_of_limits(&self) -> String {
+        ChosenFits::words_of_limits(self)
+    }
+
+    fn meaning(&self, state: LimitState) -> String {
+        match state {
+            LimitState::Rocking => "rocking".to_string(),
+            LimitState::Failure => format!("|theta|max / alpha above {}, or overturning", self.model.limit),
+            LimitState::Overturning => "overturning".to_string(),
+        }
+    }
+
+    fn words_of_missing(&self) -> &'static str {
+        "the fits need a measure that is missing: give --pgv above 0, --tp or --tm"
+    }
+
+    fn surface(&self, scenarios: Scenarios) -> Option<UniversalModel> {
+        Some(Surface::beside(self.suite.as_deref(), self.model.limit, scenarios).0)
+    }
+
+    fn peaks(&self) -> Option<JointPeaks> {
+        self.peaks
+    }
+
+    fn words_of_motions(&self) -> &'static str {
+        "of the fits"
+    }
+
+    fn warn(&self, console: &Console) {
+        self.warn_of_few_events(console);
+        self.warn_of_misfit(console);
+    }
+
+    fn is_other_block(&self, structure: &Structure) -> bool {
+        ChosenFits::is_other_block(self, structure)
+    }
+
+    fn is_other_structure(&self, structure: &Structure) -> bool {
+        self.is_other_eta(structure.eta)
+    }
+
+    fn words_of_others(&self) -> String {
+        format!("another eta than the fits ({}): they depend on it", self.model.eta)
+    }
+
+    fn warn_of_structure(&self, structure: &Structure, console: &Console) {
+        ChosenFits::warn_of_structure(self, structure, console);
+    }
+
+    fn warn_of_range(&self, measures: &IntensityMeasures, subject: &str, console: &Console) {
+        ChosenFits::warn_of_range(self, measures, subject, console);
+    }
+
+    fn warn_of_slice(&self, slice: &Slice, to: f64, subject: &str, console: &Console) {
+        ChosenFits::warn_of_slice(self, slice, to, subject, console);
     }
 }

@@ -5,16 +5,16 @@ use std::path::Path;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use super::chosen_fits::{ChosenFits, Misfit};
+use super::chosen_fits::{ChosenFits, Line, Misfit};
 use crate::fragility::demand::Form;
-use crate::fragility::{DemandModel, FragilityModel, Measure, has_few_events};
+use crate::fragility::{DemandModel, FragilityModel, Gap, Measure, has_few_events};
 use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
 use crate::pipeline::declare::{Declare, Files, Input, StageOptions};
 use crate::pipeline::options::{Word, defaults};
 use crate::stages::fit_pex::FitPex;
 use crate::stages::fit_pro::FitPro;
-use crate::statistics::{FitStatus, Gap};
+use crate::statistics::FitStatus;
 use crate::table::fits::{self, GroupKey, Unusable};
 use crate::table::pex::PexRow;
 use crate::table::pro::ProRow;
@@ -38,10 +38,12 @@ pub struct FitsOptions {
     /// Structure of the fits [default: the only one]
     #[arg(long)]
     pub structure: Option<String>,
-    /// bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate [default: bivariate]
+    /// bivariate (two planes over im4 and im3, curve of im4 and im3_inv) or univariate, whose curve bends where tests reject the
+    /// straight line; paper (the straight line always; univariate with --measure); or universal (the surface for all structures,
+    /// without fits) [default: bivariate; universal where there are no fits]
     #[arg(long)]
     pub model: Option<Word<ModelForm>>,
-    /// Measure of the univariate model, im1 to im6 [default: im5]
+    /// Measure of the univariate model, im1 to im6 [default: im5, or the two of paper]
     #[arg(long, value_name = "IM")]
     pub measure: Option<Word<Measure>>,
 }
@@ -53,6 +55,8 @@ pub enum ModelForm {
     Univariate,
     /// Of two.
     Bivariate,
+    /// Straight lines as in the paper, of two measures or one.
+    Paper,
     /// None of one's own: the surface that is shipped.
     Universal,
 }
@@ -65,7 +69,7 @@ pub struct FitFiles {
     pub options: FitsOptions,
 }
 
-keywords!(ModelForm { Univariate = "univariate", Bivariate = "bivariate", Universal = "universal" });
+keywords!(ModelForm { Univariate = "univariate", Bivariate = "bivariate", Paper = "paper", Universal = "universal" });
 
 impl Default for FitsOptions {
     fn default() -> Self {
@@ -76,6 +80,33 @@ impl Default for FitsOptions {
 impl StageOptions for FitsOptions {}
 
 impl FitFiles {
+    /// The fits that are asked for; none where the universal surface is, by its name, or because there are none and nothing is said
+    /// of them.
+    ///
+    /// # Errors
+    /// If fits are asked for and there are none.
+    pub fn if_asked(options: &FitsOptions, files: &Files) -> anyhow::Result<Option<FitFiles>> {
+        let FitsOptions { suite: _, structure, model, measure } = options;
+        let unspecified = model.is_none() && structure.is_none() && measure.is_none();
+        let none = FIT_INPUTS.iter().all(|input| files.optional(input.role).is_none());
+        if *model == Some(Word(ModelForm::Universal)) || (unspecified && none) {
+            return Ok(None);
+        }
+        if none {
+            return Err(UsageError::because(
+                "no pex.parquet and pro.parquet here; expected --pex FILE and --pro FILE, or --model universal, which needs no fits",
+            ));
+        }
+        // Of one file alone, the other is where it always is.
+        let mut files = files.clone();
+        for (role, file) in [("pex", FitPex::OUTPUT.file), ("pro", FitPro::OUTPUT.file)] {
+            if files.optional(role).is_none() {
+                files.inputs.push((role, Path::new(file).into()));
+            }
+        }
+        FitFiles::new(options, &files).map(Some)
+    }
+
     /// Joins the options and the files of a stage.
     ///
     /// # Errors
@@ -83,7 +114,9 @@ impl FitFiles {
     pub fn new(options: &FitsOptions, files: &Files) -> anyhow::Result<FitFiles> {
         let model = options.model.or(Some(Word(ModelForm::Bivariate)));
         if model == Some(Word(ModelForm::Universal)) {
-            return Err(UsageError::because("model universal has no fits; only evaluate takes it"));
+            return Err(UsageError::because(
+                "model universal has no fits; expected bivariate, univariate or paper",
+            ));
         }
         let options = FitsOptions { model, ..options.clone() };
         Ok(FitFiles { pex: files.input("pex")?, pro: files.input("pro")?, options })
@@ -146,10 +179,10 @@ impl FitFiles {
             (ModelForm::Bivariate, Some(measure)) => {
                 return Err(UsageError::because(format!("measure {measure} needs --model univariate")));
             }
-            (ModelForm::Bivariate, None) => {
+            (ModelForm::Bivariate | ModelForm::Paper, None) => {
                 (self.biplanar(&regressions)?, (Measure::Im4, Some(Measure::Im3Inverse)))
             }
-            (ModelForm::Univariate, measure) => {
+            (ModelForm::Univariate | ModelForm::Paper, measure) => {
                 let measure = measure.map_or(Measure::Im5, |word| word.0);
                 (self.univariate(&regressions, measure)?, (measure, None))
             }
@@ -158,12 +191,15 @@ impl FitFiles {
         let Some(eta) = curve.eta else {
             anyhow::bail!("{}: eta is null; expected the output of fit-pro", self.pro.name().display())
         };
-        let overturning = curve.probit().map_err(|why| in_file(self.pro.name(), &why))?;
+        let straight = curve.probit().map_err(|why| in_file(self.pro.name(), &why))?;
+        let bent = curve.bent_probit().filter(|_| model != ModelForm::Paper);
+        let answer = if bent.is_some() { Line::Bent } else { Line::Straight };
+        let overturning = bent.unwrap_or(straight);
         let limit = regressions.first().map_or(f64::NAN, |row| row.limit_state);
         let few_events = has_few_events(curve.n_events, curve.n, overturning.measures().count());
         let model = FragilityModel { demand, limit, overturning, eta };
         let (suite, structure) = group.clone();
-        let (misfit, block) = (misfit_of(curve), curve.block());
+        let (misfit, block) = (misfit_of(curve, answer), curve.block());
         Ok(ChosenFits {
             suite,
             structure,
@@ -225,15 +261,17 @@ impl FitRows {
     }
 }
 
-fn misfit_of(curve: &ProRow) -> Option<Misfit> {
-    let gap = Gap { predicted: curve.gap_predicted?, observed: curve.gap_observed? };
+fn misfit_of(curve: &ProRow, answer: Line) -> Option<Misfit> {
+    let gap = curve.gap_straight.zip(curve.gap_bent).map(|(straight, bent)| Gap { straight, bent });
     let tests = [
         ("Hosmer-Lemeshow", curve.hosmer_lemeshow_p),
         ("spline", curve.spline_p),
         ("interaction", curve.interaction_p),
     ];
     let tests = tests.into_iter().filter_map(|(test, p)| Some((test, p?))).collect();
-    (curve.status == FitStatus::Misfit).then_some(Misfit { gap, tests })
+    let log_scores = curve.held_out_log_score.zip(curve.bent_held_out_log_score);
+    let log_scores = log_scores.map(|(straight, bent)| [straight, bent]);
+    (curve.status == FitStatus::Misfit).then_some(Misfit { gap, tests, log_scores, answer })
 }
 
 fn in_file(path: &Path, why: &Unusable) -> anyhow::Error {

@@ -9,9 +9,11 @@
 //! uncertainty        the limits of confidence that are asked for
 //! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
 //! resampled_fits     the same in each resample
+//! answers            what answers, fits or the surface; surface: that of all structures
 //! transfers          how curves did on other structures than their own
 //! ```
 
+pub mod answers;
 pub mod chosen_fits;
 pub mod fits;
 pub mod groups;
@@ -22,5 +24,6 @@ pub mod reasons;
 pub mod resampled_fits;
 pub mod structure_options;
 pub mod structures;
+pub mod surface;
 pub mod transfers;
 pub mod uncertainty;

@@ -8,7 +8,7 @@ use super::chosen_fits::ChosenFits;
 use super::fits::FitFiles;
 use crate::fragility::Event;
 use crate::fragility::demand::Form;
-use crate::fragility::{DemandLaw, DemandModel, FragilityModel, Predictor};
+use crate::fragility::{Bend, DemandLaw, DemandModel, FragilityModel, Predictor};
 use crate::pipeline::UsageError;
 use crate::table::pex::PexReplicateRow;
 use crate::table::pro::ProReplicateRow;
@@ -138,7 +138,13 @@ fn curves(path: &Path, chosen: &ChosenFits) -> anyhow::Result<Vec<Option<Predict
     let fit = &chosen.model.overturning;
     let wanted = (Event::Overturning, fit.im_x, fit.im_y);
     let same = rows.iter().filter(|row| (row.event, row.im_x, row.im_y) == wanted);
-    Ok(same.map(|row| with_coefficients(fit, [row.b0, row.b1, row.b2])).collect())
+    Ok(same.map(|row| resampled_curve(row, fit)).collect())
+}
+
+fn resampled_curve(row: &ProReplicateRow, fit: &Predictor) -> Option<Predictor> {
+    let Some(bend) = fit.bend else { return with_coefficients(fit, [row.b0, row.b1, row.b2]) };
+    let [b0, b1, b2, bends @ ..] = row.bent?;
+    Some(Predictor { coefficients: [b0, b1, b2], bend: Some(Bend { coefficients: bends, ..bend }), ..*fit })
 }
 
 /// The suite and the structure of a row.

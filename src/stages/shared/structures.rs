@@ -10,6 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
 use crate::pipeline::UsageError;
+use crate::pipeline::console::Console;
 use crate::pipeline::options::{explain, from_scalar};
 use crate::rocking::{Structure, StructureError, housner_eta, judge};
 use crate::table::store::text_file::{self, CsvText};
@@ -186,6 +187,13 @@ pub fn words(structure: &Structure) -> String {
     let four_decimals = |value: f64| (value * 1e4).round() / 1e4;
     let [p, alpha, eta] = [structure.p_rad_s, structure.alpha_rad, structure.eta].map(four_decimals);
     format!("p {p} rad/s, alpha {alpha} rad, eta {eta}")
+}
+
+/// Warns of structures of a size that none has.
+pub fn warn_of_size<'s>(structures: impl IntoIterator<Item = &'s Structure>, console: &Console) {
+    let doubts =
+        structures.into_iter().filter_map(|structure| Some((structure.doubt()?, structure.name.clone())));
+    console.warn_each(doubts);
 }
 
 /// The parameters of structures, as a file records them.

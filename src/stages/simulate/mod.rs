@@ -13,7 +13,7 @@ pub use self::options::{SimulateOptions, simd};
 use super::shared::motions::{DistinctIds, FOR_RANKING, Judge, Peaks, note_passed_over, record};
 use super::shared::partitions::{PartitionedInput, is_folder, out_of_partition};
 use super::shared::reasons::{Case, Reasons};
-use super::shared::structures::parameters;
+use super::shared::structures::{parameters, warn_of_size};
 use super::synthesize_motions::SynthesizeMotions;
 use crate::motion::IntensityScratch;
 use crate::pipeline::UsageError;
@@ -267,6 +267,7 @@ impl Stage for Simulate {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        warn_of_size(&self.structures, console);
         let motions = MotionTable::open(&self.input.source, self.input.rows)?;
         note_passed_over(&self.input.source, &own_columns(&self.input.source)?, FOR_RANKING, console);
         let (total, by_name) = (motions.rows(), motions.ids_are_names());

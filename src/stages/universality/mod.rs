@@ -97,10 +97,11 @@ impl Universality {
         check_bound(&LIMIT_STATE, limit)?;
         check(transition > 1.0 && transition < 100.0, "transition", transition, "an IM4 above 1")?;
         let form = match (options.model.0, options.measure) {
-            (ModelForm::Universal, _) => {
-                return Err(UsageError::because(
-                    "model universal has no fits; expected bivariate or univariate",
-                ));
+            (form @ (ModelForm::Universal | ModelForm::Paper), _) => {
+                return Err(UsageError::because(format!(
+                    "model {} is none of this study; expected bivariate or univariate, whose lines are straight here",
+                    form.as_str()
+                )));
             }
             (ModelForm::Bivariate, Some(measure)) => {
                 return Err(UsageError::because(format!("measure {measure} needs --model univariate")));

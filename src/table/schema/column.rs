@@ -18,6 +18,8 @@ pub enum Kind {
     Text,
     /// A list of 32-bit floating-point samples in each row.
     Samples,
+    /// A list of 64-bit floating-point numbers in each row, as long in each.
+    Numbers,
 }
 
 impl Kind {
@@ -29,6 +31,7 @@ impl Kind {
             Kind::Float64 => DataType::Float64,
             Kind::Text => DataType::Utf8,
             Kind::Samples => DataType::List(Arc::new(Field::new("item", DataType::Float32, false))),
+            Kind::Numbers => DataType::List(Arc::new(Field::new("item", DataType::Float64, false))),
         }
     }
 
@@ -39,7 +42,7 @@ impl Kind {
             Kind::Int32 => "32-bit integers",
             Kind::Float64 => "64-bit floating-point numbers",
             Kind::Text => "text",
-            Kind::Samples => "lists of floating-point numbers",
+            Kind::Samples | Kind::Numbers => "lists of floating-point numbers",
         }
     }
 }

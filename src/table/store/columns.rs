@@ -220,6 +220,34 @@ impl<'a> Columns<'a> {
         }
     }
 
+    /// Lists of finite numbers, or `None` where the column or the list is missing.
+    ///
+    /// # Errors
+    /// If the column has another type, or a number is null or not finite.
+    pub fn optional_lists(&self, column: &Column) -> Result<Vec<Option<Vec<f64>>>, TableError> {
+        let Some(array) = self.batch.column_by_name(column.name) else {
+            return Ok(vec![None; self.rows()]);
+        };
+        let list: Box<dyn Fn(usize) -> ArrayRef> = match array.data_type() {
+            DataType::List(_) => Box::new(|row| array.as_list::<i32>().value(row)),
+            DataType::LargeList(_) => Box::new(|row| array.as_list::<i64>().value(row)),
+            _ => return Err(self.wrong_type(array, column)),
+        };
+        let each = |row| {
+            if array.is_null(row) {
+                return Ok(None);
+            }
+            let numbers = self.numbers_of(&list(row), column)?.into_iter();
+            let finite = |number: Option<f64>| number.filter(|number| number.is_finite());
+            let problem = || self.value_error(row, column, "a number is missing or not finite");
+            numbers
+                .map(|number| finite(number).ok_or_else(problem))
+                .collect::<Result<Vec<f64>, _>>()
+                .map(Some)
+        };
+        (0..self.rows()).map(each).collect()
+    }
+
     /// The samples of each row.
     ///
     /// # Errors

@@ -64,8 +64,13 @@ fn update_column(hasher: &mut blake3::Hasher, array: &dyn Array) {
             }
             DataType::Utf8 => push(&mut bytes, array.as_string::<i32>().value(row).as_bytes()),
             _ => {
-                let samples = array.as_list::<i32>().value(row);
-                push(&mut bytes, samples.as_primitive::<Float32Type>().values().inner().as_slice());
+                let list = array.as_list::<i32>().value(row);
+                match list.data_type() {
+                    DataType::Float64 => {
+                        push(&mut bytes, list.as_primitive::<Float64Type>().values().inner().as_slice())
+                    }
+                    _ => push(&mut bytes, list.as_primitive::<Float32Type>().values().inner().as_slice()),
+                }
             }
         }
     }

@@ -53,7 +53,7 @@ fn data_type(kind: Kind) -> DataType {
     match kind {
         Kind::Float64 => DataType::Float64,
         Kind::Int64 | Kind::Int32 => DataType::Int64,
-        Kind::Text | Kind::Samples => DataType::String,
+        Kind::Text | Kind::Samples | Kind::Numbers => DataType::String,
     }
 }
 

@@ -1,0 +1,111 @@
+"""Probabilities by the universal fragility surface, of many structures and motions at once."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _rockfrag
+from ._structure import Structure
+from .errors import OptionError, RockfragWarning
+
+Numbers = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Probability:
+    """Probabilities with 95 % limits, each of the shape of the question; NaN where there is none, such as P_ro without rocking."""
+
+    #: No rocking: 1 below uplift, 0 from there on.
+    p_nr: Numbers
+    #: A demand above the limit state, in safe rocking.
+    p_ex: Numbers
+    p_ex_low: Numbers
+    p_ex_high: Numbers
+    #: Overturning, given rocking.
+    p_ro: Numbers
+    p_ro_low: Numbers
+    p_ro_high: Numbers
+    #: Failure over the whole tree, the one or the other.
+    p_f: Numbers
+    p_f_low: Numbers
+    p_f_high: Numbers
+    #: From the middle of the surface's domain (0) to its rim (1) and beyond.
+    distance: Numbers
+    #: Coefficient of restitution of the structure.
+    eta: Numbers
+
+
+def probability(
+    structure: Structure | None = None,
+    *,
+    pga: npt.ArrayLike,
+    pgv: npt.ArrayLike,
+    width: npt.ArrayLike | None = None,
+    height: npt.ArrayLike | None = None,
+    p: npt.ArrayLike | None = None,
+    alpha: npt.ArrayLike | None = None,
+    eta: npt.ArrayLike | None = None,
+    suite: Literal["csgm", "pulse", "hfc"] | None = None,
+    limit_state: float | None = None,
+) -> Probability:
+    """How likely structures are to rock too far and to overturn, by the surface that ``rockfrag evaluate`` has without fits.
+
+    All arrays broadcast against each other.
+
+    Parameters
+    ----------
+    structure : Structure, optional
+        One structure, in place of its parameters.
+    pga, pgv : array_like
+        Peak ground acceleration, g, and velocity, m/s.
+    width, height : array_like, optional
+        Of solid blocks, m.
+    p, alpha, eta : array_like, optional
+        Frequency parameter, rad/s, slenderness, rad, and coefficient of restitution, in place of dimensions. ``eta`` may also be
+        given with dimensions; by default it is that of a rectangular block (Housner 1963).
+    suite : {'csgm', 'pulse', 'hfc'}, optional
+        Kind of motion: a pulse with high frequencies (the default), or one of the two alone.
+    limit_state : float, optional
+        Demand |theta|max / alpha that P_ex is about, 0.02 to 0.5; 0.1 if not given.
+
+    Returns
+    -------
+    Probability
+        A :class:`RockfragWarning` says what is extrapolated or can hardly be meant.
+
+    Raises
+    ------
+    OptionError
+        If a number cannot be right, or there are neither dimensions nor p, alpha and eta.
+
+    Examples
+    --------
+    >>> import rockfrag
+    >>> rockfrag.probability(width=0.5, height=2.0, pga=[0.3, 0.5, 0.8], pgv=0.6).p_ro.round(2)
+    array([0.34, 0.26, 0.13])
+    >>> rockfrag.probability(rockfrag.Structure.block(0.5, 2.0), pga=0.5, pgv=0.6).p_ro.round(2)
+    array(0.26)
+    """
+    given = {"width": width, "height": height, "p": p, "alpha": alpha, "eta": eta}
+    if structure is not None:
+        if any(values is not None for values in given.values()):
+            raise OptionError("a structure and parameters of one; expected one of the two")
+        given = {"p": structure.p, "alpha": structure.alpha, "eta": structure.eta}
+    names = [name for name, values in given.items() if values is not None]
+    if {"width", "height"} - set(names) and {"p", "alpha", "eta"} - set(names):
+        raise OptionError("no structure; expected a Structure, width and height (m), or p, alpha and eta")
+    arrays = [np.asarray(values, dtype=np.float64) for values in (pga, pgv, *(given[name] for name in names))]
+    try:
+        shaped = np.broadcast_arrays(*arrays)
+    except ValueError as error:
+        raise OptionError(f"arrays of different lengths: {error}") from error
+    flat = [np.ascontiguousarray(array).reshape(-1) for array in shaped]
+    said, doubts = _rockfrag.probability(dict(zip(names, flat[2:], strict=True)), flat[0], flat[1], suite, limit_state)
+    for words in doubts:
+        warnings.warn(words, RockfragWarning, stacklevel=2)
+    return Probability(**{name: values.reshape(shaped[0].shape) for name, values in said.items()})
