@@ -3,9 +3,9 @@
 use serde_json::Value;
 
 use super::text::Label;
-use crate::fragility::{Case, DemandLaw, FragilityModel, Measure, Predictor};
+use crate::fragility::{Case, DemandLaw, FragilityModel, Gap, Measure, Predictor};
 use crate::rocking::{Outcome, Structure, TracePoint};
-use crate::statistics::{FitStatus, Gap};
+use crate::statistics::FitStatus;
 
 /// The data of a report.
 #[derive(Debug, Clone, Default)]

@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use super::data::{File, Median, Rates, ReportData, Summary, USEFUL_R2, name_of};
 use super::text::{escape, number};
+use crate::fragility::Gap;
 use crate::keyword::Keyword;
-use crate::statistics::{FitStatus, Gap};
+use crate::statistics::FitStatus;
 use crate::studies::wilson_limits;
 
 /// The most rows on the first page; the table of curves has all.
@@ -145,8 +146,8 @@ fn came_out(html: &mut String, data: &ReportData) {
 fn judgement(status: FitStatus, gap: Option<Gap>) -> String {
     match (status, gap) {
         (FitStatus::Ok, _) => "no test speaks against it".to_string(),
-        (FitStatus::Misfit, Some(Gap { predicted, observed })) => {
-            format!("misfit: predicts {predicted:.2} where {observed:.2} overturned")
+        (FitStatus::Misfit, Some(Gap { straight, bent })) => {
+            format!("misfit: {straight:.2} where a curve that bends has {bent:.2}")
         }
         (FitStatus::FarMedian, _) => "median far outside of the data".to_string(),
         (FitStatus::TooFewEvents, _) => "none: too few overturn".to_string(),

@@ -17,7 +17,7 @@ use super::text::{escape, number};
 const STYLE: &str = include_str!("assets/page.css");
 const PLOT_STYLE: &str = include_str!("assets/uPlot.min.css");
 const PLOT_LICENSE: &str = include_str!("assets/uPlot.LICENSE");
-const SCRIPTS: [&str; 7] = [
+const SCRIPTS: [&str; 8] = [
     include_str!("assets/uPlot.iife.min.js"),
     include_str!("assets/normal.js"),
     include_str!("assets/fragility.js"),

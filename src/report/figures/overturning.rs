@@ -1,7 +1,7 @@
 //! Figures 11 and 12: the probability of overturning, with the data in bins.
 
 use super::sorted;
-use crate::fragility::{Measure, Predictor, Probability, ProbitIndex};
+use crate::fragility::{Gap, Measure, Predictor, Probability, ProbitIndex};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::normal;
@@ -11,8 +11,8 @@ use crate::report::drawing::{Anchor, Dash, Drawing, Ink};
 use crate::report::figure::{Figure, Grid};
 use crate::report::panel::{Estimate, Mark, Panel, legend};
 use crate::report::text::{Label, number};
+use crate::statistics::FitStatus;
 use crate::statistics::estimate::quantile;
-use crate::statistics::{FitStatus, Gap};
 use crate::studies::wilson_limits;
 
 /// Number of points of a curve.
@@ -226,8 +226,8 @@ fn doubt(curve: Option<Curve>) -> Option<String> {
         return Some("no curve: see its status in the table".to_string());
     };
     match (status, gap) {
-        (FitStatus::Misfit, Some(Gap { predicted, observed })) => {
-            Some(format!("misfit: {predicted:.2} predicted, {observed:.2} seen"))
+        (FitStatus::Misfit, Some(Gap { straight, bent })) => {
+            Some(format!("misfit: {straight:.2} where a bent curve has {bent:.2}"))
         }
         (FitStatus::Ok, _) => None,
         (status, _) => Some(status.as_str().replace('_', " ")),

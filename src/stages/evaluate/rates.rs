@@ -6,7 +6,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::answer::Answer;
-use super::hazard::{self, Hazard};
+use super::hazard::Hazard;
 use super::options::HazardOptions;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{
@@ -19,7 +19,6 @@ use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::check;
 use crate::rocking::Structure;
-use crate::stages::evaluate::hazard::Hazard;
 use crate::stages::shared::answers::Answers;
 use crate::stages::shared::structures::words;
 use crate::table::evaluated::{self, RATES, RateRow};

@@ -37,8 +37,7 @@ impl EvaluatedTable {
         console: &Console,
     ) -> anyhow::Result<String> {
         let nameless = self.structure.clone().map(|structure| Structure { name: String::new(), ..structure });
-        let intensities =
-            IntensityBatches::open(input, &self.headings, nameless, self.answers.eta(), BATCH)?;
+        let intensities = IntensityBatches::open(input, &self.headings, nameless, self.answers.eta(), BATCH)?;
         let total = intensities.rows();
         self.answers.warn(console);
         let mut writer = TableWriter::create(out.clone(), &EVALUATED, provenance.clone())?;

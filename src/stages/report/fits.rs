@@ -1,7 +1,7 @@
 use std::path::Path;
 
-use crate::fragility::Measure;
 use crate::fragility::demand::Form;
+use crate::fragility::{Gap, Measure};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::Word;
@@ -9,7 +9,6 @@ use crate::report::data::{Curve, Group, Median, Model, Planes, Regression, Summa
 use crate::rocking::Structure;
 use crate::stages::shared::chosen_fits::{ChosenFits, Misfit};
 use crate::stages::shared::fits::{FitFiles, FitsOptions, ModelForm};
-use crate::statistics::Gap;
 use crate::table::fits::{self, GroupKey};
 use crate::table::pex::PexRow;
 use crate::table::pro::ProRow;
@@ -70,7 +69,7 @@ pub fn add_curves(
 }
 
 fn gap(row: &ProRow) -> Option<Gap> {
-    Some(Gap { predicted: row.gap_predicted?, observed: row.gap_observed? })
+    Some(Gap { straight: row.gap_straight?, bent: row.gap_bent? })
 }
 
 /// The middle of a curve over p PGV / (g tan alpha), as a PGV.

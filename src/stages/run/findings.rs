@@ -10,7 +10,8 @@ use crate::rocking::Structure;
 use crate::stages::compare_paper::ComparePaper;
 use crate::stages::fit_pex::FitPex;
 use crate::stages::fit_pro::FitPro;
-use crate::stages::shared::chosen_fits::ChosenFits;
+use crate::stages::shared::answers::Answers;
+use crate::stages::shared::chosen_fits::{ChosenFits, Line};
 use crate::stages::shared::fits::{FitFiles, FitsOptions};
 use crate::table::paper::PaperRow;
 use crate::table::row::ReadRow;
@@ -89,9 +90,12 @@ fn probability(fits: &ChosenFits) -> Option<String> {
     if p_no_rocking(measures.im4) == 1.0 {
         return Some(format!("0 for {}, which does not rock", structure.name));
     }
-    let p = fits.probabilities(&measures).given_rocking?.p_ro;
+    let p = fits.probabilities(&structure, &measures).given_rocking?.p_ro;
     let doubts = [
-        fits.misfit.as_ref().map(|_| "its tests reject the curve"),
+        fits.misfit.as_ref().map(|misfit| match misfit.answer {
+            Line::Bent => "by a curve that bends: its tests reject the straight one",
+            Line::Straight => "its tests reject the curve",
+        }),
         fits.model.out_of_range(&measures).next().map(|_| "outside of its data"),
     ];
     let doubts: String = doubts.into_iter().flatten().map(|doubt| format!("; {doubt}")).collect();
