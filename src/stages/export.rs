@@ -104,7 +104,8 @@ impl Declare for Export {
     type Options = ExportOptions;
     const NAME: &'static str = "export";
     const ABOUT: &'static str = "Write the fragility of a structure for OpenQuake or pelicun";
-    const EXAMPLES: &'static str = "rockfrag export --to openquake --suite csgm --structure electrical-equipment --p 2.5 --alpha 0.20 --ratio 0.3";
+    const EXAMPLES: &'static str = "rockfrag export --to openquake --ratio 0.3 --suite csgm --structure electrical-equipment \\
+    --p 2.5 --alpha 0.20";
     const HELPS: &'static [(&'static str, &'static str)] = &[(
         "eta",
         "Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions, or as in the fits]",

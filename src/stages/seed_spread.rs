@@ -9,6 +9,7 @@ use clap::Args;
 use super::compare_paper::ComparePaper;
 use super::registry::Config;
 use super::run::run;
+use crate::pipeline::UsageError;
 use crate::pipeline::cache::May;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::Declare;
@@ -38,6 +39,12 @@ pub fn seed_spread(
     console: &Console,
 ) -> anyhow::Result<()> {
     let config = Config::read(pipeline)?;
+    if config.compare_paper.is_none() {
+        return Err(UsageError::because(format!(
+            "{}: no compare-paper, whose numbers seed-spread gathers; add 'compare-paper: {{}}'",
+            pipeline.display()
+        )));
+    }
     let out = options.out.as_path();
     if !may.overwrite && !is_new_or_own(out) {
         return Err(replace::refusal(out, replace::FOREIGN, "seed-spread"));

@@ -27,6 +27,7 @@ fn stdout(folder: &Path, arguments: &str) -> String {
 
 /// The commands of a help or a page: lines that are indented and call the program.
 fn commands(text: &str) -> Vec<String> {
+    let text = text.replace("\\\n", "");
     let calls = text.lines().filter(|line| line.starts_with("  "));
     calls.filter_map(|line| Some(line.trim().strip_prefix("rockfrag ")?.to_string())).collect()
 }
@@ -101,6 +102,8 @@ fn a_run_of_nothing_leads_to_a_start() {
     let folder = tempfile::tempdir().unwrap();
     fail(folder.path(), "run", 2, &["no pipeline.yaml here", "rockfrag init"]);
     fail(folder.path(), "run other.yaml", 2, &["other.yaml"]);
+    stdout(folder.path(), "init records");
+    fail(folder.path(), "seed-spread", 2, &["pipeline.yaml", "no compare-paper", "add 'compare-paper: {}'"]);
 }
 
 /// The names of all commands.

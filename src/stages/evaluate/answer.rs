@@ -9,8 +9,6 @@ use crate::table::store::text;
 
 /// How an answer of fits begins.
 const FITS_OF: &str = "fits of ";
-/// How an answer in JSON begins.
-const JSON: &str = "{\n\"warnings\": ";
 
 /// A short answer.
 pub struct Answer {
