@@ -1,4 +1,4 @@
-//! The fits of the library for plain arrays: what `rockfrag/_curves.py` makes its curves of.
+//! The fits of the library for plain arrays: what `rockfrag/_curves.py` is made of.
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -98,8 +98,6 @@ pub fn fit_curve<'py>(
     told.set_item("hosmer_lemeshow_p", p(fit.hosmer_lemeshow))?;
     told.set_item("spline_p", p(curve.spline))?;
     told.set_item("few_events", curve.has_few_events())?;
-    told.set_item("factor_of_median", fit.factor_of_median())?;
-    told.set_item("gap", fit.largest_gap.map(|gap| (gap.predicted, gap.observed)))?;
     Ok(told)
 }
 

@@ -32,7 +32,8 @@ import importlib
 from typing import TYPE_CHECKING
 
 from . import datasets
-from ._curves import DemandCurve, FailureCurve, FragilityCurve, fit_demand, fit_failure, fit_fragility
+from ._curves import DemandCurve, FailureCurve, FragilityCurve
+from ._fits import fit_demand, fit_failure, fit_fragility
 from ._probability import Probability, probability
 from ._rocking import Response, response
 from ._rockfrag import Table, __version__

@@ -1,0 +1,218 @@
+"""What all curves can do: probabilities with limits, drawing, comparing; and regressions on logarithms of measures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _rockfrag, _show
+from .errors import OptionError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Floats = npt.NDArray[np.float64]
+Link = Literal["probit", "logit", "cloglog"]
+
+
+class Curve:
+    """A probability over a measure of intensity: what all curves can do."""
+
+    im: Floats
+    im_name: str
+    #: The points to draw: where each case lies, and whether the event happened.
+    outcome: npt.NDArray[np.bool_]
+
+    def _index(self, im: Floats) -> tuple[Floats, Floats]:
+        raise NotImplementedError
+
+    def _link(self) -> Link:
+        return "probit"
+
+    def probability(self, im: npt.ArrayLike) -> Floats:
+        """The probability at intensities.
+
+        Parameters
+        ----------
+        im : array_like of shape (m,) or (m, 2)
+            Intensities, in the unit of the fit; a column each of two measures.
+
+        Returns
+        -------
+        ndarray of shape (m,)
+        """
+        measures, shape = measures_of(im, self._count())
+        return probabilities(self._link(), self._index(measures)[0]).reshape(shape)[()]
+
+    def confidence_band(self, im: npt.ArrayLike, level: float = 0.95) -> tuple[Floats, Floats]:
+        """Limits of confidence of the probability, each intensity on its own.
+
+        They are those of the index by the delta method, and so lie between 0 and 1.
+
+        Parameters
+        ----------
+        im : array_like of shape (m,) or (m, 2)
+            Intensities.
+        level : float, default 0.95
+            Probability with which the limits hold the truth.
+
+        Returns
+        -------
+        low, high : ndarray of shape (m,)
+        """
+        measures, shape = measures_of(im, self._count())
+        index, error = self._index(measures)
+        half = quantile(level) * error
+        low, high = (probabilities(self._link(), bound).reshape(shape)[()] for bound in (index - half, index + half))
+        return low, high
+
+    #: The same as :meth:`confidence_band`.
+    limits = confidence_band
+
+    def plot(self, ax: Axes | None = None, *, im: npt.ArrayLike | None = None, level: float = 0.95) -> Axes:
+        """Draws the curve, its limits of confidence, and the cases at 0 and 1.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; those of a new figure if not given. matplotlib is needed.
+        im : array_like of shape (m,), optional
+            Intensities at which to draw; those of the cases, and a tenth beyond, if not given.
+        level : float, default 0.95
+            Of the limits.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        OptionError
+            If the curve is one of two measures, which has no single axis.
+        """
+        if self._count() == 2:
+            raise OptionError("a curve of two measures has no single axis; draw probability(im) over the one that you want")
+        if ax is None:
+            import matplotlib.pyplot as plt
+
+            ax = plt.subplots(layout="constrained")[1]
+        where = np.geomspace(self.im.min() / 1.1, self.im.max() * 1.1, 200) if im is None else np.asarray(im, dtype=float)
+        (line,) = ax.plot(where, self.probability(where), label=self._label())
+        low, high = self.confidence_band(where, level)
+        ax.fill_between(where, low, high, color=line.get_color(), alpha=0.2, lw=0, label=f"{100 * level:g} % limits")
+        ax.plot(self.im[:, 0], self.outcome.astype(float), "o", mfc="none", color=line.get_color(), alpha=0.5, label="cases")
+        ax.set(xlabel=self.im_name, ylabel="probability", ylim=(-0.03, 1.03))
+        return ax
+
+    def _count(self) -> int:
+        return int(self.im.shape[1])
+
+    def _label(self) -> str:
+        return "fitted"
+
+    def summary(self) -> _show.Summary:
+        """What was fitted, with errors and limits, to print or to show in a notebook.
+
+        Returns
+        -------
+        Summary
+        """
+        raise NotImplementedError
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return _same(vars(self), vars(other))
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class Regression(Curve):
+    """A curve whose index is linear in the logarithms of the measures."""
+
+    #: Coefficients: intercept, then the slope on each ln IM; shape (k,).
+    params: Floats
+    #: Their names.
+    param_names: tuple[str, ...]
+    _cov_params: Floats
+
+    def cov_params(self) -> Floats:
+        """Covariance of the coefficients.
+
+        Returns
+        -------
+        ndarray of shape (k, k)
+        """
+        return self._cov_params.copy()
+
+    @property
+    def bse(self) -> Floats:
+        """Standard errors of the coefficients, shape (k,)."""
+        errors: Floats = np.sqrt(np.diag(self._cov_params))
+        return errors
+
+    @property
+    def nobs(self) -> int:
+        """Cases used."""
+        return int(self.im.shape[0])
+
+    def conf_int(self, alpha: float = 0.05) -> Floats:
+        """Limits of confidence of the coefficients, by their standard errors.
+
+        Parameters
+        ----------
+        alpha : float, default 0.05
+            Probability with which the limits miss the truth.
+
+        Returns
+        -------
+        ndarray of shape (k, 2)
+        """
+        half = self._error_quantile(1.0 - alpha) * self.bse
+        limits: Floats = np.column_stack([self.params - half, self.params + half])
+        return limits
+
+    def _error_quantile(self, level: float) -> float:
+        return quantile(level)
+
+    def _linear(self, im: Floats) -> tuple[Floats, Floats]:
+        rows = np.column_stack([np.ones(len(im)), np.log(im)])
+        return rows @ self.params, np.einsum("ij,jk,ik->i", rows, self._cov_params, rows)
+
+
+def measures_of(im: npt.ArrayLike, count: int) -> tuple[Floats, tuple[int, ...]]:
+    """Intensities as rows, and the shape of what is asked at them."""
+    values = np.asarray(im, dtype=np.float64)
+    if count == 2:
+        if values.shape[-1:] != (2,):
+            raise OptionError(f"im has shape {values.shape}; expected two measures, shape (m, 2)")
+        rows, shape = values.reshape(-1, 2), values.shape[:-1]
+    else:
+        rows, shape = values.reshape(-1, 1), values.shape
+    wrong = np.flatnonzero(~(rows > 0.0).all(axis=1))
+    if wrong.size:
+        raise OptionError(f"im: case {wrong[0]} is {rows[wrong[0]].tolist()}; expected numbers above 0")
+    return rows, shape
+
+
+def probabilities(link: Link, index: Floats) -> Floats:
+    return _rockfrag.probabilities(link, np.ascontiguousarray(index))
+
+
+def quantile(level: float) -> float:
+    if not 0.0 < level < 1.0:
+        raise OptionError(f"level is {level}; expected a probability between 0 and 1, such as 0.95")
+    return _rockfrag.normal_quantile(0.5 * (1.0 + level))
+
+
+def _same(a: object, b: object) -> bool:
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(_same(a[key], b[key]) for key in a)
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return bool(np.array_equal(a, b))
+    return bool(a == b)
