@@ -265,7 +265,7 @@ fn motions_without_a_period_are_counted_by_how_they_ended() {
             ("alpha_rad", numbers(|_| 0.2)),
             ("eta", numbers(|_| 0.9)),
             ("outcome", Arc::new(StringArray::from(outcomes.to_vec()))),
-            ("edp", some(|k| [1, 2, 4].contains(&k).then_some(0.1))),
+            ("edp", some(|k| (![3, 5].contains(&k)).then_some(if k == 0 { 0.0 } else { 0.1 }))),
             ("impacts", Arc::new(Int32Array::from(vec![3; 6]))),
             ("pga_m_s2", numbers(|k| 1.0 + k as f64)),
             ("pgv_m_s", numbers(|k| 0.1 + 0.1 * k as f64)),
