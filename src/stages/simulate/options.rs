@@ -18,8 +18,8 @@ pub struct SimulateOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub structure: StructuresOptions,
-    /// Vector instructions of the solver: scalar (one motion at a time), or avx2 or avx512 (several at once), which give the same
-    /// bits and differ from scalar by rounding [default: the fastest of this processor]
+    /// Vector instructions of the solver: scalar, neon, avx2 or avx512; all give the same bits [default: the fastest of this
+    /// processor]
     #[arg(long)]
     pub simd: Option<Word<Simd>>,
     /// Motions whose response over time is written too, beside the output as NAME.trace.parquet
