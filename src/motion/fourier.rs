@@ -5,10 +5,11 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use pulp::{Simd, WithSimd, bytemuck};
-use realfft::num_complex::Complex64;
 
 use super::butterfly::{Parts, Pass, Turns};
 use crate::wide::widest_registers;
+
+pub type Complex64 = nalgebra::Complex<f64>;
 
 /// The Fourier transforms of real series of one length, even and without prime factors above 5.
 ///
