@@ -102,13 +102,23 @@ fn transpose(columns: usize, turns: &Turns, from: &mut Parts, to: &mut Parts) {
     {
         (*re, *im) = (*re * cos - *im * sin, *re * sin + *im * cos);
     }
-    let rows = from.re.len() / columns;
     for (from, to) in [(&*from.re, &mut *to.re), (&*from.im, &mut *to.im)] {
-        for first in (0..rows).step_by(TILE) {
-            let tile = TILE.min(rows - first);
+        let rows = from.len() / columns;
+        let tiles = from.chunks_exact(TILE * columns);
+        for (row, from) in (rows / TILE * TILE..rows).zip(tiles.remainder().chunks_exact(columns)) {
+            for (to, from) in to[row..].iter_mut().step_by(rows).zip(from) {
+                *to = *from;
+            }
+        }
+        for (tile, from) in tiles.enumerate() {
+            let mut of_row = [from; TILE];
+            for k in 0..TILE {
+                of_row[k] = &from[k * columns..][..columns];
+            }
             for column in 0..columns {
-                for (k, to) in to[column * rows + first..][..tile].iter_mut().enumerate() {
-                    *to = from[(first + k) * columns + column];
+                let to = &mut to[column * rows + tile * TILE..][..TILE];
+                for k in 0..TILE {
+                    to[k] = of_row[k][column];
                 }
             }
         }
