@@ -53,7 +53,7 @@ pub fn run_pipeline(
 #[pyfunction]
 pub fn inspect_file(py: Python, file: PathBuf) -> PyResult<(String, String)> {
     let look = || -> anyhow::Result<_> {
-        let text = inspect::inspect(&file, &Terminal::PLAIN)?;
+        let text = inspect::inspect(&file, None)?.text(&Terminal::PLAIN);
         let footer = contents::footer(&file)?;
         let made = contents::recorded(&file)?.map(|recorded| {
             let made = recorded.provenance;
