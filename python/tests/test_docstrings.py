@@ -13,7 +13,7 @@ OPTIONS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE | doctest.IGNORE_EXCEP
 
 def public():
     """What the package offers, but for exceptions and what only comes out of functions."""
-    results = {"DemandCurve", "FailureCurve", "FileInfo", "FragilityCurve", "Response", "Hazard", "Outcomes", "Published"}
+    results = {"Probability", "DemandCurve", "FailureCurve", "FileInfo", "FragilityCurve", "Response", "Hazard", "Outcomes", "Published"}
     for module in map(importlib.import_module, MODULES):
         for name in module.__all__:
             value = getattr(module, name)

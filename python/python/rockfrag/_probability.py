@@ -87,9 +87,9 @@ def probability(
     --------
     >>> import rockfrag
     >>> rockfrag.probability(width=0.5, height=2.0, pga=[0.3, 0.5, 0.8], pgv=0.6).p_ro.round(2)
-    array([0.34, 0.26, 0.13])
+    array([0.  , 0.26, 0.21])
     >>> rockfrag.probability(rockfrag.Structure.block(0.5, 2.0), pga=0.5, pgv=0.6).p_ro.round(2)
-    array(0.26)
+    np.float64(0.26)
     """
     given = {"width": width, "height": height, "p": p, "alpha": alpha, "eta": eta}
     if structure is not None:

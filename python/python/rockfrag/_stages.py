@@ -34,6 +34,7 @@ _SUITES = "Literal['pulse', 'csgm', 'hfc']"
 _OWN = {
     "candidate": "str | Iterable[str]",
     "column": "int | str",
+    "columns": "str",
     "eta": "float | Literal['housner']",
     "format": "Literal['auto', 'at2', 'cosmos', 'csmip', 'esm', 'knet', 'smc', 'columns']",
     "pairs": "str | Iterable[str]",

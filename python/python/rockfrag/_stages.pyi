@@ -23,19 +23,19 @@ def compare_paper(
     force: bool = False,
     overwrite: bool = False,
 ) -> Table:
-    """Compare our numbers with the published ones.
+    """Compare our numbers with those that the paper publishes.
 
     Parameters
     ----------
     pex : Arrow table or path
-        Regressions of fit_pex.
+        Demand fits, from fit_pex.
     pro : Arrow table or path
-        Curves of fit_pro.
+        Overturning curves, from fit_pro.
     responses : Arrow table or path
-        Responses that both were fitted to.
+        Responses that both were fitted to, from simulate.
     spread : path, optional
-        CSV file of the numbers over seeds, as seed-spread writes it [default: the one shipped, of the
-        paper's set-up].
+        CSV file of our numbers over seeds, from seed-spread [default: the built-in one, for the paper's
+        set-up].
     out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
@@ -100,15 +100,13 @@ def evaluate(
     pro: TableLike | None = None,
     intensities: TableLike | None = None,
     *,
-    suite: str | None = None,
     structure: str | None = None,
-    model: Literal['univariate', 'bivariate', 'universal'] | None = None,
+    model: Literal['univariate', 'bivariate', 'paper', 'universal'] | None = None,
     measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     limits: Literal['delta', 'percentile', 'bc'] = 'delta',
     limit_state: float | None = None,
     p: float | None = None,
     alpha: float | None = None,
-    eta: float | Literal['housner'] | None = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
@@ -121,76 +119,84 @@ def evaluate(
     hazard: Hazard | None = None,
     ratio: float | None = None,
     years: float = 50.0,
+    columns: str | None = None,
     format: Literal['table', 'csv', 'json', 'parquet'] | None = None,
+    suite: str | None = None,
+    eta: float | Literal['housner'] | None = None,
     out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
 ) -> Table:
-    """Probabilities of rocking, failure and overturning: at one intensity, at each of a table, or a year
-    at a site.
+    """Compute probabilities of rocking, failure and overturning: at one intensity, at each row of a table,
+    or per year at a site.
 
     Parameters
     ----------
     pex : Arrow table or path, optional
-        Regressions of fit_pex.
+        Demand fits, from fit_pex.
     pro : Arrow table or path, optional
-        Curves of fit_pro.
+        Overturning curves, from fit_pro.
     intensities : Arrow table or path, optional
-        Parquet table with pga_m_s2 and pgv_m_s, and where they differ p_rad_s, alpha_rad, eta, tp_s,
+        Parquet table with pga_m_s2 and pgv_m_s, and if they vary p_rad_s, alpha_rad, eta, tp_s and
         tm_s.
-    suite : str, optional
-        Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm].
     structure : str, optional
-        Structure of the fits [default: the only one; of validate, all].
-    model : {'univariate', 'bivariate', 'universal'}, optional
-        bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv), univariate, or in
-        evaluate universal (the surface for all structures, without fits) [default: bivariate; in
-        evaluate universal where there are no fits].
+        Structure of the fits [default: the only one].
+    model : {'univariate', 'bivariate', 'paper', 'universal'}, optional
+        bivariate (two planes over im4 and im3, curve of im4 and im3_inv) or univariate, whose curve
+        bends where tests reject the straight line; paper (the straight line always; univariate with
+        ``measure``); or universal (the surface for all structures, without fits) [default: bivariate;
+        universal where there are no fits].
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
-        Measure of the univariate model, im1 to im6 [default: im5].
+        Measure of the univariate model, im1 to im6 [default: im5, or the two of paper].
     limits : {'delta', 'percentile', 'bc'}, default 'delta'
-        delta (of the standard errors), or from the resamples of fit_pex and fit_pro ``bootstrap``:
-        percentile, or bc (bias-corrected).
+        How to compute limits: delta (from standard errors), or from the resamples of fit_pex and
+        fit_pro ``bootstrap``: percentile or bc (bias-corrected).
     limit_state : float, optional
-        Of the universal surface: demand |theta|max / alpha that P_ex is about, 0.02 to 0.5 [default:
-        0.1].
+        Limit state of P_ex by the universal surface: a demand |theta|max / alpha from 0.02 to 0.5
+        [default: 0.1].
     p : float, optional
         Frequency parameter of the structure, rad/s.
     alpha : float, optional
         Slenderness of the structure, rad.
-    eta : float or {'housner'}, optional
-        Coefficient of restitution, or housner: 1 - 1.5 sin^2(alpha) [default: that of the dimensions,
-        or of the fits].
     width : float, optional
-        In place of p and alpha: width of the block or column, m.
+        Width of the block or column, m; replaces p and alpha.
     height : float, optional
         Height of the block or column, m.
     beam_mass_ratio : float, optional
-        Of a frame: mass of the beam over that of all columns.
+        For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
         A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
     name : str, optional
-        Name of the structure in that file [default: the only one].
+        Name of the structure in the file of ``structures`` [default: the only one].
     pga : float, optional
         Peak ground acceleration, g.
     pgv : float, optional
         Peak ground velocity, m/s.
     tp : float, optional
-        Period of the velocity pulse, s, where the measure needs it.
+        Period of the velocity pulse, s, if the measure needs it.
     tm : float, optional
-        Mean period, s, where the measure needs it.
+        Mean period, s, if the measure needs it.
     hazard : path, Arrow table or mapping, optional
         CSV file, or table or mapping of its columns: pga_g or pgv_m_s with annual_rate_of_exceedance,
         or both with annual_rate_of_occurrence.
     ratio : float, optional
-        The p PGV / PGA of all motions, where the hazard knows one peak only [default: distributed as in
-        the motions of the fits].
+        p PGV / PGA of all motions, for a hazard of one peak only [default: distributed as in the
+        motions of the fits].
     years : float, default 50.0
         Time of exposure, years.
+    columns : str, optional
+        Which headings of the file of ``hazard`` or ``in_`` stand for which columns, as
+        pga_g=PGA,annual_rate_of_exceedance=rate.
     format : {'table', 'csv', 'json', 'parquet'}, optional
-        table (to read), csv, json, or parquet (with ``out``) [default: as ``out`` ends, or table].
+        Format of the answer: table (to read), csv, json, or parquet (with ``out``) [default: by the
+        ending of ``out``, or table].
+    suite : str, optional
+        Suite of the fits or of the universal surface [default: the only one; of the surface, csgm].
+    eta : float or {'housner'}, optional
+        Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the
+        dimensions, or as in the fits].
     out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
@@ -245,15 +251,13 @@ def evaluate(
     pro: TableLike | None = None,
     intensities: TableLike | None = None,
     *,
-    suite: str | None = None,
     structure: str | None = None,
-    model: Literal['univariate', 'bivariate', 'universal'] | None = None,
+    model: Literal['univariate', 'bivariate', 'paper', 'universal'] | None = None,
     measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     limits: Literal['delta', 'percentile', 'bc'] = 'delta',
     limit_state: float | None = None,
     p: float | None = None,
     alpha: float | None = None,
-    eta: float | Literal['housner'] | None = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
@@ -266,7 +270,10 @@ def evaluate(
     hazard: Hazard | None = None,
     ratio: float | None = None,
     years: float = 50.0,
+    columns: str | None = None,
     format: Literal['table', 'csv', 'json', 'parquet'] | None = None,
+    suite: str | None = None,
+    eta: float | Literal['housner'] | None = None,
     out: PathLike,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -276,16 +283,15 @@ def evaluate(
     ...
 
 def export(
-    pex: TableLike,
-    pro: TableLike,
+    pex: TableLike | None = None,
+    pro: TableLike | None = None,
     *,
     suite: str | None = None,
     structure: str | None = None,
-    model: Literal['univariate', 'bivariate', 'universal'] | None = None,
+    model: Literal['univariate', 'bivariate', 'paper', 'universal'] | None = None,
     measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     p: float | None = None,
     alpha: float | None = None,
-    eta: float | Literal['housner'] | None = None,
     width: float | None = None,
     height: float | None = None,
     beam_mass_ratio: float | None = None,
@@ -297,6 +303,7 @@ def export(
     levels: Steps | None = None,
     upto: float | None = None,
     tolerance: float | None = None,
+    eta: float | Literal['housner'] | None = None,
     out: PathLike,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -307,52 +314,53 @@ def export(
 
     Parameters
     ----------
-    pex : Arrow table or path
-        Regressions of fit_pex.
-    pro : Arrow table or path
-        Curves of fit_pro.
+    pex : Arrow table or path, optional
+        Demand fits, from fit_pex.
+    pro : Arrow table or path, optional
+        Overturning curves, from fit_pro.
     suite : str, optional
-        Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm].
+        Suite of the fits [default: the only one].
     structure : str, optional
-        Structure of the fits [default: the only one; of validate, all].
-    model : {'univariate', 'bivariate', 'universal'}, optional
-        bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv), univariate, or in
-        evaluate universal (the surface for all structures, without fits) [default: bivariate; in
-        evaluate universal where there are no fits].
+        Structure of the fits [default: the only one].
+    model : {'univariate', 'bivariate', 'paper', 'universal'}, optional
+        bivariate (two planes over im4 and im3, curve of im4 and im3_inv) or univariate, whose curve
+        bends where tests reject the straight line; paper (the straight line always; univariate with
+        ``measure``); or universal (the surface for all structures, without fits) [default: bivariate;
+        universal where there are no fits].
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
-        Measure of the univariate model, im1 to im6 [default: im5].
+        Measure of the univariate model, im1 to im6 [default: im5, or the two of paper].
     p : float, optional
         Frequency parameter of the structure, rad/s.
     alpha : float, optional
         Slenderness of the structure, rad.
-    eta : float or {'housner'}, optional
-        Coefficient of restitution, or housner: 1 - 1.5 sin^2(alpha) [default: that of the dimensions,
-        or of the fits].
     width : float, optional
-        In place of p and alpha: width of the block or column, m.
+        Width of the block or column, m; replaces p and alpha.
     height : float, optional
         Height of the block or column, m.
     beam_mass_ratio : float, optional
-        Of a frame: mass of the beam over that of all columns.
+        For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
         A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
     name : str, optional
-        Name of the structure in that file [default: the only one].
+        Name of the structure in the file of ``structures`` [default: the only one].
     to : {'openquake', 'openquake-continuous', 'pelicun'}, optional
-        openquake (NRML 0.5), openquake-continuous (the same, overturning alone as a lognormal curve) or
-        pelicun (CSV, and JSON beside it).
+        Program to write for: openquake (NRML 0.5), openquake-continuous (the same, with overturning
+        alone as a lognormal curve) or pelicun (CSV, and JSON beside it).
     im : {'pga', 'pgv'}, default 'pga'
-        Intensity: pga or pgv.
+        Intensity of the functions: pga (g) or pgv (m/s).
     ratio : float, iterable of float, or 'first:last:step', optional
         p PGV / PGA of the motions: one function for each of these numbers.
     levels : float, iterable of float, or 'first:last:step', optional
-        Intensities of the table, g or m/s, as numbers or first:last:step [default: as many as the
-        tolerance needs].
+        Intensities of the table, g or m/s: first:last:step, or numbers separated by commas [default: as
+        many as ``tolerance`` needs].
     upto : float, optional
-        Largest intensity, g or m/s [default: that of the data; of pelicun, where all probabilities are
+        Largest intensity, g or m/s [default: as in the data; for pelicun, where all probabilities are
         1].
     tolerance : float, optional
-        Largest error of straight lines between the levels [default: 1e-6; of pelicun 1e-5].
+        Largest error of linear interpolation between levels [default: 1e-6; for pelicun 1e-5].
+    eta : float or {'housner'}, optional
+        Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the
+        dimensions, or as in the fits].
     out : path
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
@@ -423,16 +431,16 @@ def fit_pex(
     responses : Arrow table or path
         Responses to read.
     limit_state : float, default 0.1
-        Demand |theta|max / alpha whose exceedance P_ex is about.
+        Limit state of P_ex: a demand |theta|max / alpha.
     transition : float or {'found'}, default 'found'
-        IM4 at which the two planes meet: found (least pooled residual), or a number.
+        IM4 at which the two planes meet: a number, or found (where the pooled residual is least).
     demand_floor : float, optional
-        Least demand that counts as seen: smaller ones in safe rocking are raised to it, as a solver of
-        finite tolerance would [default: none].
+        Raise smaller demands in safe rocking to this one, as a solver of finite tolerance does
+        [default: none].
     bootstrap : int, default 0
-        Resamples for bootstrap limits, drawn within each cell of magnitude and distance.
+        Number of bootstrap resamples, drawn within each cell of magnitude and distance.
     confidence : float, default 0.95
-        Probability with which limits of confidence hold the truth.
+        Confidence level of all limits.
     seed : int or numpy.random.Generator or None, default 42
         Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
         fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
@@ -524,17 +532,18 @@ def fit_pro(
     responses : Arrow table or path
         Responses to read.
     event : {'overturning', 'rocking'}, default 'overturning'
-        What the probability is of: overturning (given rocking), or rocking (of all motions).
+        Event of the probability: overturning (given rocking) or rocking (of all motions).
     pairs : str or iterable of str, default 'im4:im3_inv'
-        Pairs of measures that make hybrid ones, besides the six scalar measures.
+        Pairs of measures for hybrid curves, besides the curves of the six single measures.
     link : {'probit', 'logit', 'cloglog'}, default 'probit'
-        How the index becomes a probability: probit (lognormal curve), logit or cloglog.
+        Shape of the curve: probit (lognormal), logit or cloglog.
     estimator : {'ml', 'firth'}, default 'ml'
-        What is maximised: ml (the likelihood), or firth (penalised, for few events or separation).
+        What to maximise: ml (the likelihood) or firth (the penalised likelihood, for few events or
+        separation).
     bootstrap : int, default 0
-        Resamples for bootstrap limits, drawn within each cell of magnitude and distance.
+        Number of bootstrap resamples, drawn within each cell of magnitude and distance.
     confidence : float, default 0.95
-        Probability with which limits of confidence hold the truth.
+        Confidence level of all limits.
     seed : int or numpy.random.Generator or None, default 42
         Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
         fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
@@ -618,52 +627,51 @@ def ida(
     height: float | None = None,
     beam_mass_ratio: float | None = None,
     structures: Structures | None = None,
-    simd: Literal['scalar', 'avx2', 'avx512'] | None = None,
+    simd: Literal['scalar', 'neon', 'avx2', 'avx512'] | None = None,
     out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
 ) -> Table:
-    """Incremental dynamic analysis: from which intensity of each motion on each structure overturns, and
-    which share of larger ones does so.
+    """Run incremental dynamic analysis: find the intensity from which each motion overturns each
+    structure, and the share of larger ones that does.
 
     Parameters
     ----------
     motions : Arrow table or path
-        Motions to read, as simulate does.
+        Motions to read, as in simulate.
     measure : {'scale', 'pga', 'pgv', 'im4', 'im5', 'im6'}, default 'scale'
-        What is scaled: scale (the motion as it is), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, of
-        each structure).
+        Intensity to scan: scale (the factor on the motion), pga (g), pgv (m/s), im4, im5 or im6 (Eq.
+        13, for each structure).
     from_ : float, default 0.1
-        Least intensity.
+        Smallest intensity, in the unit of ``measure``.
     to : float, default 10.0
-        Largest intensity.
+        Largest intensity, in the unit of ``measure``.
     steps : int, default 60
-        Equal ratios between them, whose ends are the stripes.
+        Steps between them, in equal ratios; their ends are the stripes.
     halvings : int, default 4
-        How often a step is halved where the structure rocks: the resolution; four times more where a
-        peak comes near the tipping point.
+        How often to halve a step where the structure rocks, which sets the resolution; near the tipping
+        point, four times more.
     tolerance : float, default 0.001
-        Relative error of the simulated intensities at which the outcome changes.
+        Relative error of the intensities at which the outcome changes.
     p : float, optional
         Frequency parameter of the structure, rad/s.
     alpha : float, optional
         Slenderness of the structure, rad.
     eta : float or {'housner'}, optional
-        Coefficient of restitution, or housner: 1 - 1.5 sin^2(alpha) [default: that of the dimensions,
-        or of the fits].
+        Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the
+        dimensions].
     width : float, optional
-        In place of p and alpha: width of the block or column, m.
+        Width of the block or column, m; replaces p and alpha.
     height : float, optional
         Height of the block or column, m.
     beam_mass_ratio : float, optional
-        Of a frame: mass of the beam over that of all columns.
+        For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
         A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
-    simd : {'scalar', 'avx2', 'avx512'}, optional
-        Vector instructions of the solver: scalar, avx2 or avx512, as in simulate [default: the fastest
-        of this processor].
+    simd : {'scalar', 'neon', 'avx2', 'avx512'}, optional
+        Vector instructions of the solver, as in simulate [default: the fastest of this processor].
     out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
@@ -723,7 +731,7 @@ def ida(
     height: float | None = None,
     beam_mass_ratio: float | None = None,
     structures: Structures | None = None,
-    simd: Literal['scalar', 'avx2', 'avx512'] | None = None,
+    simd: Literal['scalar', 'neon', 'avx2', 'avx512'] | None = None,
     out: PathLike,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -765,50 +773,53 @@ def import_motions(
     Parameters
     ----------
     files : path or iterable of path
-        Files and folders of records; folders are walked.
+        Files and folders of records, with all that is in the folders.
     format : {'auto', 'at2', 'cosmos', 'csmip', 'esm', 'knet', 'smc', 'columns'}, default 'auto'
         Format of text files: auto (by content), at2, cosmos, csmip, esm, knet, smc, or columns (plain
         numbers).
     dt : float, optional
-        Time between samples of files that do not say it, s.
+        Time between samples, s, for files that do not state it.
     unit : {'g', 'mg', 'm/s2', 'cm/s2', 'gal', 'mm/s2', '%g', 'ft/s2', 'in/s2'}, optional
-        Unit of files that do not say it: g, mg, m/s2, cm/s2 (gal), mm/s2, %g, ft/s2 or in/s2.
+        Unit of the acceleration, for files that do not state it: g, mg, m/s2, cm/s2 (gal), mm/s2, %g,
+        ft/s2 or in/s2.
     column : int or str, optional
-        Column of plain files that holds the acceleration: its number, its name, or all where one series
-        wraps over lines [default: the one of that heading, or the only one besides times].
+        Column of the acceleration in plain files: its number, its name, or all where one series wraps
+        over lines [default: the one with that heading, or the only one besides times].
     pga_tolerance : float, default 0.05
-        By which share samples may miss the peak that their header gives, besides its rounding.
+        How far the peak of the samples may be from the peak in the header, as a share of it, besides
+        rounding.
     baseline : {'none', 'mean', 'linear'}, default 'none'
-        What is removed from the acceleration: none, mean, or linear (the line of least squares).
+        What to remove from the acceleration: none, mean, or linear (the line of least squares).
     high_pass : float, optional
         Corner of a zero-phase Butterworth high-pass of order 4, Hz [default: none].
     resample : float, optional
-        Another time step, s: band-limited [default: that of the file].
+        Resample to this time step, s, band-limited [default: as in the file].
     rotate : float or {'strongest-pulse'}, optional
-        Horizontal components of one event and station at right angles become one motion: towards an
-        azimuth in degrees, or towards the strongest-pulse; with RotD50 and RotD100 of PGA and PGV.
-        Other motions are left out.
+        Rotate each pair of horizontal components of one earthquake and station into one motion, towards
+        an azimuth (degrees) or the strongest-pulse, and add RotD50 and RotD100 of PGA and PGV. Motions
+        without a partner are left out.
     scale : float, iterable of float, or 'first:last:step', optional
-        Factors, separated by commas or first:last:step; several make as many motions of each record.
+        Scale by these factors, separated by commas or first:last:step; each makes a motion of each
+        record.
     scale_pga : float, optional
         Scale each motion to this PGA, g.
     scale_pgv : float, optional
         Scale each motion to this PGV, m/s.
     pulses : {'find', 'skip'}, default 'find'
-        Whether to look for a velocity pulse: find (indicator of Baker 2007, fit of Eq. 1 for tp_s), or
-        skip.
+        Whether to look for velocity pulses: find (indicator of Baker 2007, then a fit of Eq. 1 for
+        tp_s), or skip.
     residual : bool, default False
-        Also write each motion that holds a pulse without it, as suite residual.
+        Also write each motion with a pulse without that pulse, as suite residual.
     sa : float, iterable of float, or 'first:last:step', optional
-        Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or
-        numbers separated by commas; sa_0p20_m_s2 is that at 0.2 s.
+        Add spectral accelerations (5 % damping) at these periods, s: first:last:step, or numbers
+        separated by commas; the column sa_0p20_m_s2 is for 0.2 s.
     housner : bool, default False
-        Also compute the Housner intensity, 15 times the work or more.
+        Also compute the Housner intensity, which takes 15 times as long or more.
     accept_implausible : bool, default False
-        Take motions that can hardly be those of an earthquake (PGA, PGV, time step, spikes, drift):
-        they are named, and are no failure.
+        Import motions that no earthquake is likely to have made (by PGA, PGV, time step, spikes or
+        drift), and warn of them.
     keep_going : bool, default False
-        Files that cannot be read are named, and are no failure.
+        Import the rest where files cannot be read, and warn of those.
     out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
@@ -898,7 +909,7 @@ def rank_ims(
     force: bool = False,
     overwrite: bool = False,
 ) -> Table:
-    """Rank intensity measures, alone, in pairs and triples, by how well they predict unseen cells or
+    """Rank intensity measures, alone, in pairs and triples, by how well they predict held-out cells or
     earthquakes  Besides im1 to im6 of the paper, the measures of ``motions``, made dimensionless with p
     and g tan alpha: p D of the significant durations (d5_75, d5_95); p^2 PGD / (g tan alpha) (pgd), the
     same of the Housner intensity (housner); p CAV / (g tan alpha) (cav); p times the integral of a^2 /
@@ -910,20 +921,20 @@ def rank_ims(
     responses : Arrow table or path
         Responses to read.
     motions : Arrow table or path, optional
-        Motions that the responses are to, for their further measures.
+        Motions of these responses, for further measures.
     limit_state : float, default 0.1
-        Demand |theta|max / alpha whose exceedance P_ex is about.
+        Limit state of P_ex: a demand |theta|max / alpha.
     transition : float or {'found'}, default 'found'
-        IM4 at which the demand breaks: found (least pooled residual of the paper's two planes in the
-        cases at hand), or a number.
+        IM4 at which the demand breaks: a number, or found (where the pooled residual of the paper's two
+        planes is least).
     terms : int, default 3
-        The most measures of a model: 1 to 3.
+        Largest number of measures in a model, 1 to 3.
     folds : int, default 10
-        The most folds of cross-validation; each leaves out whole cells of magnitude and distance, or
-        earthquakes.
+        Largest number of cross-validation folds; each holds out whole cells of magnitude and distance,
+        or whole earthquakes.
     candidate : str or iterable of str, optional
-        Further columns of ``motions`` that are measures; the unit at the end of the name tells how they
-        become dimensionless, as fiv3_m_s by p v / (g tan alpha).
+        Further columns of ``motions`` to rank as measures. The unit at the end of the name says how to
+        make them dimensionless: fiv3_m_s by p v / (g tan alpha).
     out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
@@ -986,7 +997,7 @@ def rank_ims(
     ...
 
 def report(
-    files: TableLike,
+    files: PathLike,
     rates: TableLike | None = None,
     *,
     title: str | None = None,
@@ -1003,21 +1014,31 @@ def report(
     force: bool = False,
     overwrite: bool = False,
 ) -> Path:
-    """Draw all that a folder of files holds: one page to open in a browser, and each figure as SVG and
-    PNG.
+    """Draw what a folder of files holds: one page to open in a browser, and each figure as SVG, PNG and
+    CSV.
 
     Parameters
     ----------
     files : path
-        Folder of the files: responses.parquet, and what else there is of them.
+        Folder of the files: responses.parquet or its partitions, and what else there is of them.
+    rates : Arrow table or path, optional
+        Annual rates of evaluate ``hazard``, in a Parquet file or a folder of them [default:
+        evaluated.parquet in the folder].
+    title : str, optional
+        Title of the page [default: Rocking fragility].
+    author : str, optional
+        Author, below the title.
+    date : str, optional
+        Date, in words of your own: the page takes none from a clock.
     suite : str, optional
         Suite to show [default: all].
     structure : str, optional
         Structure to show [default: all].
     groups : int, default 4
-        Pairs of suite and structure to show at most, in the order of the file.
+        Largest number of pairs of suite and structure to draw, in the order of the file; findings and
+        tables hold all.
     motions : int, default 40
-        Motions in the browser of motions.
+        Number of motions to browse in the page.
     dpi : float, default 300.0
         Dots per inch of the PNG files.
     out : path
@@ -1096,7 +1117,7 @@ def sample_scenarios(
     re : float, iterable of float, or 'first:last:step', default '5:20:2.5'
         Distances, km: first:last:step, or numbers separated by commas.
     design : {'lhs', 'random', 'sobol'}, default 'lhs'
-        How cells are sampled: lhs, random or sobol.
+        How to sample each cell: lhs (Latin hypercube), random or sobol.
     out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
@@ -1165,7 +1186,7 @@ def simulate(
     height: float | None = None,
     beam_mass_ratio: float | None = None,
     structures: Structures | None = None,
-    simd: Literal['scalar', 'avx2', 'avx512'] | None = None,
+    simd: Literal['scalar', 'neon', 'avx2', 'avx512'] | None = None,
     trace: int | str | Iterable[int | str] | None = None,
     partition: tuple[int, int] | None = None,
     out: None = None,
@@ -1186,22 +1207,21 @@ def simulate(
     alpha : float, optional
         Slenderness of the structure, rad.
     eta : float or {'housner'}, optional
-        Coefficient of restitution, or housner: 1 - 1.5 sin^2(alpha) [default: that of the dimensions,
-        or of the fits].
+        Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the
+        dimensions].
     width : float, optional
-        In place of p and alpha: width of the block or column, m.
+        Width of the block or column, m; replaces p and alpha.
     height : float, optional
         Height of the block or column, m.
     beam_mass_ratio : float, optional
-        Of a frame: mass of the beam over that of all columns.
+        For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
         A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
-    simd : {'scalar', 'avx2', 'avx512'}, optional
-        Vector instructions of the solver: scalar (one motion at a time), or avx2 or avx512 (several at
-        once), which give the same bits and differ from scalar by rounding [default: the fastest of this
-        processor].
+    simd : {'scalar', 'neon', 'avx2', 'avx512'}, optional
+        Vector instructions of the solver: scalar, neon, avx2 or avx512; all give the same bits
+        [default: the fastest of this processor].
     trace : int or str or iterable of int or str, optional
-        Motions whose response over time is written too, beside the output as NAME.trace.parquet.
+        Also write the rotation over time for these motions, to NAME.trace.parquet beside the output.
     partition : tuple[int, int], optional
         (i, n): only partition i of n, i from 0 to n - 1; ``out`` is then a folder, in which it is
         part-0000i.parquet.
@@ -1261,7 +1281,7 @@ def simulate(
     height: float | None = None,
     beam_mass_ratio: float | None = None,
     structures: Structures | None = None,
-    simd: Literal['scalar', 'avx2', 'avx512'] | None = None,
+    simd: Literal['scalar', 'neon', 'avx2', 'avx512'] | None = None,
     trace: int | str | Iterable[int | str] | None = None,
     partition: tuple[int, int] | None = None,
     out: PathLike,
@@ -1311,13 +1331,14 @@ def synthesize_motions(
     dt : float, default 0.005
         Time between samples, s.
     difference : {'absolute', 'signed', 'clamp', 'none'}, default 'absolute'
-        What the high frequencies keep where the pulse is the stronger: absolute, signed, clamp or none
-        (plain sum).
+        How to subtract the pulse from the spectrum of the high frequencies where the pulse is stronger:
+        absolute, signed, clamp or none (plain sum).
     epoch : {'envelope-peak', 'pga', 'pgv'}, default 'envelope-peak'
-        When the pulse peaks: at the peak of the envelope, or of the acceleration or velocity of the
-        high frequencies (envelope-peak, pga, pgv).
+        When the pulse peaks: envelope-peak (at the peak of the envelope), pga or pgv (at the peak
+        acceleration or velocity of the high frequencies).
     site : str, default 'rock'
-        Site amplification: rock, soil, none, or a CSV file of frequency in Hz and factor.
+        Site amplification: rock, soil, none, or a CSV file with a column of frequencies (Hz) and one of
+        factors.
     kappa : float, default 0.03
         Near-surface attenuation kappa, s.
     fmax : float, optional
@@ -1327,12 +1348,12 @@ def synthesize_motions(
     low_cut_order : int, default 4
         Order n of the high-pass filter.
     housner : bool, default False
-        Also compute the Housner intensity, 15 times the work or more.
+        Also compute the Housner intensity, which takes 15 times as long or more.
     sa : float, iterable of float, or 'first:last:step', optional
-        Periods of spectral accelerations (5 % damping) that become columns, s: first:last:step, or
-        numbers separated by commas; sa_0p20_m_s2 is that at 0.2 s.
+        Add spectral accelerations (5 % damping) at these periods, s: first:last:step, or numbers
+        separated by commas; the column sa_0p20_m_s2 is for 0.2 s.
     row_group : int, default 128
-        Scenarios in a row group: what is held in memory and read at once; the rows do not depend on it.
+        Scenarios in a row group, which are held in memory together; the rows do not depend on it.
     partition : tuple[int, int], optional
         (i, n): only partition i of n, i from 0 to n - 1; ``out`` is then a folder, in which it is
         part-0000i.parquet.
@@ -1409,7 +1430,7 @@ def universality(
     responses: TableLike,
     *,
     reference: str = 'electrical-equipment',
-    model: Literal['univariate', 'bivariate', 'universal'] = 'bivariate',
+    model: Literal['univariate', 'bivariate', 'paper', 'universal'] = 'bivariate',
     measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     transition: float = 1.3,
     limit_state: float = 0.1,
@@ -1419,23 +1440,22 @@ def universality(
     force: bool = False,
     overwrite: bool = False,
 ) -> Table:
-    """How universal the curves of one structure are: tested on the responses of all others to the same
-    motions.
+    """Test the curves of one structure on the responses of all others to the same motions.
 
     Parameters
     ----------
     responses : Arrow table or path
         Responses of all structures to read.
     reference : str, default 'electrical-equipment'
-        Structure whose curves are transferred to all others.
-    model : {'univariate', 'bivariate', 'universal'}, default 'bivariate'
+        Structure whose curves to transfer to all others.
+    model : {'univariate', 'bivariate', 'paper', 'universal'}, default 'bivariate'
         bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate.
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
         Measure of the univariate model, im1 to im6 [default: im5].
     transition : float, default 1.3
         IM4 at which the two planes of all structures meet.
     limit_state : float, default 0.1
-        Demand |theta|max / alpha whose exceedance P_ex is about.
+        Limit state of P_ex: a demand |theta|max / alpha.
     out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
@@ -1484,7 +1504,7 @@ def universality(
     responses: TableLike,
     *,
     reference: str = 'electrical-equipment',
-    model: Literal['univariate', 'bivariate', 'universal'] = 'bivariate',
+    model: Literal['univariate', 'bivariate', 'paper', 'universal'] = 'bivariate',
     measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     transition: float = 1.3,
     limit_state: float = 0.1,
@@ -1499,40 +1519,41 @@ def universality(
 @overload
 def validate(
     responses: TableLike,
-    pex: TableLike,
-    pro: TableLike,
+    pex: TableLike | None = None,
+    pro: TableLike | None = None,
     *,
+    model: Literal['univariate', 'bivariate', 'paper', 'universal'] | None = None,
+    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     suite: str | None = None,
     structure: str | None = None,
-    model: Literal['univariate', 'bivariate', 'universal'] | None = None,
-    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     out: None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     force: bool = False,
     overwrite: bool = False,
 ) -> Table:
-    """Test fits on responses they were not made from, such as those to records: counts seen and expected,
-    scores.
+    """Test fits on responses they were not fitted to, such as those to records: observed and expected
+    counts, scores.
 
     Parameters
     ----------
     responses : Arrow table or path
-        Responses to hold the curves against, such as those to records.
-    pex : Arrow table or path
-        Regressions of fit_pex.
-    pro : Arrow table or path
-        Curves of fit_pro.
-    suite : str, optional
-        Suite of the fits [default: the only one; of validate, all; of the universal surface, csgm].
-    structure : str, optional
-        Structure of the fits [default: the only one; of validate, all].
-    model : {'univariate', 'bivariate', 'universal'}, optional
-        bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv), univariate, or in
-        evaluate universal (the surface for all structures, without fits) [default: bivariate; in
-        evaluate universal where there are no fits].
+        Responses to test the fits on, such as those to records.
+    pex : Arrow table or path, optional
+        Demand fits, from fit_pex.
+    pro : Arrow table or path, optional
+        Overturning curves, from fit_pro.
+    model : {'univariate', 'bivariate', 'paper', 'universal'}, optional
+        bivariate (two planes over im4 and im3, curve of im4 and im3_inv) or univariate, whose curve
+        bends where tests reject the straight line; paper (the straight line always; univariate with
+        ``measure``); or universal (the surface for all structures, without fits) [default: bivariate;
+        universal where there are no fits].
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
-        Measure of the univariate model, im1 to im6 [default: im5].
+        Measure of the univariate model, im1 to im6 [default: im5, or the two of paper].
+    suite : str, optional
+        Suite of the fits [default: all].
+    structure : str, optional
+        Structure of the fits [default: all].
     out : path, optional
         Path to write; it is returned. A file that is up to date is left as it is.
     threads : int, optional
@@ -1582,13 +1603,13 @@ def validate(
 @overload
 def validate(
     responses: TableLike,
-    pex: TableLike,
-    pro: TableLike,
+    pex: TableLike | None = None,
+    pro: TableLike | None = None,
     *,
+    model: Literal['univariate', 'bivariate', 'paper', 'universal'] | None = None,
+    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     suite: str | None = None,
     structure: str | None = None,
-    model: Literal['univariate', 'bivariate', 'universal'] | None = None,
-    measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     out: PathLike,
     threads: int | None = None,
     progress: Progress | None = None,
