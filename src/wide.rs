@@ -63,6 +63,7 @@ pub fn widest_registers<T>(work: impl WithSimd<Output = T>) -> T {
 }
 
 /// Does the same with these registers, or with single numbers where the processor lacks them.
+#[allow(clippy::needless_return, reason = "what comes last depends on the processor")]
 pub fn registers<T>(simd: Simd, work: impl WithSimd<Output = T>) -> T {
     #[cfg(target_arch = "x86_64")]
     match (simd, V3::try_new(), V4::try_new()) {

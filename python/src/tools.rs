@@ -16,6 +16,9 @@ use serde_json::json;
 use crate::error::to_python;
 use crate::run::{Settings, run};
 
+/// The name of a stage, and the files that it writes.
+type StageFiles = (String, Vec<PathBuf>);
+
 /// Does what the words of a command line say, in this process, and gives the code to exit with.
 #[pyfunction]
 pub fn command(py: Python, arguments: Vec<OsString>) -> u8 {
@@ -31,7 +34,7 @@ pub fn run_pipeline(
     seed: Option<u64>,
     dry_run: bool,
     settings: Settings,
-) -> PyResult<(Vec<(String, Vec<PathBuf>)>, String)> {
+) -> PyResult<(Vec<StageFiles>, String)> {
     run(py, &settings, |console| {
         let config = Config::read(&pipeline)?;
         let config = if let Some(seed) = seed { config.with_seed(seed) } else { config };

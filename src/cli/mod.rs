@@ -244,9 +244,8 @@ fn run_all(stages: &[Box<dyn Stage>], format: Format, may: May, console: &Consol
             ))
         }
         Format::Json => {
-            let each =
-                |stage: &Box<dyn Stage>| Ok(format!("\"{}\": {}", stage.name(), json(stage.as_ref())?));
-            let each = stages.iter().map(each).collect::<anyhow::Result<Vec<_>>>()?;
+            let each = |stage: &dyn Stage| Ok(format!("\"{}\": {}", stage.name(), json(stage)?));
+            let each = stages.iter().map(|stage| each(stage.as_ref())).collect::<anyhow::Result<Vec<_>>>()?;
             print(&format!("{{\n\"findings\": {},\n{}}}\n", json!(findings), each.join(",\n")))
         }
     }

@@ -29,6 +29,7 @@ impl DemandLaw {
 
 /// How the demand depends on the intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "few are held at once")]
 pub enum DemandModel {
     /// One law everywhere (Eqs. 15 and 16).
     Everywhere(DemandLaw),

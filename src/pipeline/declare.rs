@@ -430,7 +430,7 @@ fn type_of(arg: &Arg) -> &'static str {
 /// The words that an option takes, where it takes no others.
 fn words_of(arg: &Arg) -> Vec<String> {
     let takes_words = matches!(arg.get_action(), ArgAction::Set);
-    let known = takes_words.then(|| arg.get_possible_values()).unwrap_or_default();
+    let known = if takes_words { arg.get_possible_values() } else { Vec::new() };
     known.iter().map(|word| word.get_name().to_string()).collect()
 }
 

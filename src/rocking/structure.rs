@@ -144,7 +144,7 @@ const DOUBTFUL_P: f64 = 0.4;
 impl Structure {
     /// What may be wrong with its size, which no solid block that stands has; none where nothing is.
     pub fn doubt(&self) -> Option<String> {
-        let height = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s) * self.alpha_rad.cos();
+        let height = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s) * libm::cos(self.alpha_rad);
         (self.p_rad_s < DOUBTFUL_P).then(|| {
             format!(
                 "p {:.3} rad/s is that of a solid block {height:.0} m high: are its dimensions in cm?",

@@ -252,7 +252,8 @@ impl Export {
         };
         let range_of_data = [jumps[0], model.largest_in_data(slice)];
         let overturning = |intensity: f64| reaching(intensity)[2];
-        if !(overturning(jumps[0]) < overturning(range_of_data[1])) {
+        let rises = overturning(jumps[0]) < overturning(range_of_data[1]);
+        if !rises {
             return Err(UsageError::because(
                 "these fits do not grow with the peak along a slice, or need the period of each motion: use the bivariate model, or --measure im4 or im5",
             ));

@@ -239,8 +239,11 @@ fn nothing_fits(rows: &[GroupCurve]) -> String {
 fn few_events(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> String {
     let suite = suite.as_deref().unwrap_or("the motions");
     format!(
-        "few events for {suite}, {structure} ({} of {} cases), so that limits by standard errors are too narrow; take the profile limits",
-        curve.events, curve.n
+        "few {} for {suite}, {structure} ({} of {} cases): standard errors of parameters are too small, their profile limits \
+         (columns *_profile_*) are not; for probabilities, evaluate --limits delta holds what it says",
+        if 2 * curve.events > curve.n { "cases without the event" } else { "events" },
+        curve.events.min(curve.n - curve.events),
+        curve.n
     )
 }
 

@@ -36,6 +36,7 @@ pub struct CurveSubject {
 
 /// A fitted curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "few are held at once")]
 pub enum Curve {
     /// P_ro.
     Overturning(Predictor),

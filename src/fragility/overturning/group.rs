@@ -94,7 +94,7 @@ pub struct ParameterInference {
 }
 
 /// The level of the tests of a curve, all together.
-const REJECTED: f64 = 0.01;
+pub(crate) const REJECTED: f64 = 0.01;
 /// A difference in probability that matters to nobody.
 const SMALL_GAP: f64 = 0.05;
 

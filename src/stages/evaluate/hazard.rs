@@ -122,7 +122,10 @@ fn of(text: &str, headings: &Headings) -> anyhow::Result<Hazard> {
         cell.read(text)
             .map_err(|expected| anyhow!("line {line}, column '{}': '{text}'; expected {expected}", names[at]))
     };
+    // A spreadsheet may leave empty rows at the end.
+    let is_empty = |row: &(u64, StringRecord)| row.1.iter().all(|cell| cell.trim().is_empty());
     let rows = table.rows().map(|row| row.map_err(|error| anyhow!(error)));
+    let rows = rows.filter(|row| !row.as_ref().is_ok_and(is_empty));
     match columns[..] {
         [im @ (_, Cell::Peak(peak, _)), rate @ (_, Cell::Exceedance | Cell::ExceedanceIn(_))] => {
             let point = |row| Ok((cell(&row, im)?, cell(&row, rate)?));

@@ -42,12 +42,18 @@ fn rates_of(file: &Path) -> anyhow::Result<Rates> {
     let words = |of: &Value, parts: &[(&str, &str, &str)]| {
         let given = parts.iter().filter_map(|(key, before, after)| {
             let value = of.get(key).filter(|value| !value.is_null())?;
-            Some(format!("{before}{}{after}", value.as_str().map_or(value.to_string(), str::to_string)))
+            let text = || {
+                value.as_f64().map_or(value.to_string(), |number| ((number * 1e4).round() / 1e4).to_string())
+            };
+            Some(format!("{before}{}{after}", value.as_str().map_or_else(text, str::to_string)))
         });
         given.collect::<Vec<_>>().join(", ")
     };
     let structure = words(&parameters["structure"], &OF_STRUCTURE);
     let fits = match parameters.get("fits") {
+        Some(fits) if fits["structure"].is_null() && fits["suite"].is_null() => {
+            "the fits of the folder".to_string()
+        }
         Some(fits) => words(fits, &[("structure", "fits of ", ""), ("suite", "", "")]),
         None => words(&parameters, &[("model", "the ", " surface"), ("suite", "", "")]),
     };

@@ -3,6 +3,7 @@
 use super::answers::Answers;
 use super::surface::Surface;
 use super::transfers;
+use crate::fragility::overturning::group::REJECTED;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{
     DemandModel, Fragility, FragilityModel, Gap, JointPeaks, LimitState, Measure, OutOfRange, Probabilities,
@@ -60,8 +61,8 @@ pub enum Line {
 impl Misfit {
     /// By how much the line is off, which tests reject it, and what answers in its place.
     pub fn words(&self) -> String {
-        let tests =
-            self.tests.iter().map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
+        let reject = self.tests.iter().filter(|(_, p)| *p < REJECTED / self.tests.len() as f64);
+        let tests = reject.map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
         let off = self.gap.map_or(String::new(), |Gap { straight, bent }| {
             format!(
                 ", off by {:.2} and more at one case of twenty ({straight:.2} for {bent:.2})",
@@ -116,8 +117,17 @@ impl ChosenFits {
         }
     }
 
-    /// That the limits come from resamples of too few events.
+    /// That the limits come from resamples of too few events, or that too many of these have no fit.
     pub fn warn_of_few_events(&self, console: &Console) {
+        if let Some(ResampledModel { replicates, .. }) = &self.resampled {
+            let missing = replicates.iter().filter(|model| model.is_none()).count();
+            if missing > replicates.len() / 20 {
+                console.warn(&format!(
+                    "{missing} of {} resamples have no fit, so that they give no limits; take --limits delta",
+                    replicates.len()
+                ));
+            }
+        }
         if self.resampled.is_some() && self.few_events {
             console.warn("P_ro comes from fewer than 10 events, or non-events, for each coefficient: where it is small, limits by resamples are too narrow, those of --limits delta are not");
         }

@@ -217,6 +217,14 @@ impl FitFiles {
         let planes = fits::planes(rows.iter().copied());
         let plane = |index: usize, side: &str| {
             let row = planes.map(|planes| (planes[index], planes[index].status));
+            let status = rows.iter().find(|row| row.model == Form::Biplanar).map(|row| row.status);
+            if let (None, Some(status)) = (row, status) {
+                return Err(UsageError::because(format!(
+                    "{}: fit-pex found no two planes ({}); take --model univariate, or fit-pex --transition 1.3",
+                    self.pex.name().display(),
+                    status.as_str()
+                )));
+            }
             found(row, self.pex.name(), &format!("plane {side} the transition"))
         };
         fits::biplanar([plane(0, "below")?, plane(1, "above")?]).map_err(|why| in_file(self.pex.name(), &why))
