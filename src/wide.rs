@@ -1,23 +1,76 @@
-//! Plain loops, compiled for the widest vector registers of the processor.
+//! Work in the vector registers of the processor. Its results have the same bits on any processor: each number of a register goes
+//! through the same operations in the same order, nothing is reordered, and what is fused is so everywhere.
 
+#[cfg(target_arch = "aarch64")]
+use pulp::aarch64::Neon;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
-use pulp::{NullaryFnOnce, Scalar, Simd, WithSimd};
+use pulp::{NullaryFnOnce, Scalar, WithSimd};
+
+use crate::keyword::keywords;
+
+/// Vector instructions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Simd {
+    /// None: one number at a time.
+    Scalar,
+    /// Two numbers in a register of 128 bits: aarch64.
+    Neon,
+    /// Four numbers in a register of 256 bits.
+    Avx2,
+    /// Eight numbers in a register of 512 bits.
+    Avx512,
+}
+
+keywords!(Simd { Scalar = "scalar", Neon = "neon", Avx2 = "avx2", Avx512 = "avx512" });
+
+impl Simd {
+    /// Returns the widest that this processor has.
+    pub fn fastest() -> Simd {
+        let wide = [Simd::Avx512, Simd::Avx2, Simd::Neon];
+        wide.into_iter().find(|simd| simd.is_available()).unwrap_or(Simd::Scalar)
+    }
+
+    /// Whether this processor has the registers.
+    pub fn is_available(self) -> bool {
+        match self {
+            Simd::Scalar => true,
+            #[cfg(target_arch = "aarch64")]
+            Simd::Neon => Neon::try_new().is_some(),
+            #[cfg(target_arch = "x86_64")]
+            Simd::Avx2 => V3::try_new().is_some(),
+            #[cfg(target_arch = "x86_64")]
+            Simd::Avx512 => V4::try_new().is_some(),
+            #[allow(unreachable_patterns, reason = "those of other processors")]
+            _ => false,
+        }
+    }
+}
 
 /// Runs `work` compiled for the widest registers that the processor has; its loops, and what it calls, must be inlined to
-/// gain by it. A closure that changes what it captures is inlined only if it is short; a struct always is. The results have
-/// the same bits on any processor: what is fused is so everywhere, and nothing is reordered.
+/// gain by it. A closure that changes what it captures is inlined only if it is short; a struct always is.
 pub fn widest<T>(work: impl NullaryFnOnce<Output = T>) -> T {
     widest_registers(Plain(work))
 }
 
 /// Does the same for work that names the registers itself.
 pub fn widest_registers<T>(work: impl WithSimd<Output = T>) -> T {
+    registers(Simd::fastest(), work)
+}
+
+/// Does the same with these registers, or with single numbers where the processor lacks them.
+pub fn registers<T>(simd: Simd, work: impl WithSimd<Output = T>) -> T {
     #[cfg(target_arch = "x86_64")]
-    if let Some(machine) = V4::try_new() {
-        return Simd::vectorize(machine, work);
-    } else if let Some(machine) = V3::try_new() {
-        return Simd::vectorize(machine, work);
+    match (simd, V3::try_new(), V4::try_new()) {
+        (Simd::Avx512, _, Some(machine)) => return pulp::Simd::vectorize(machine, work),
+        (Simd::Avx2, Some(machine), _) => return pulp::Simd::vectorize(machine, work),
+        // Without the instructions of AVX2 each fused operation is a call.
+        (_, Some(machine), _) => return pulp::Simd::vectorize(machine, Single(work)),
+        _ => {}
+    }
+    #[cfg(target_arch = "aarch64")]
+    if let (Simd::Neon, Some(machine)) = (simd, Neon::try_new()) {
+        return pulp::Simd::vectorize(machine, work);
     }
     work.with_simd(Scalar)
 }
@@ -29,7 +82,21 @@ impl<F: NullaryFnOnce> WithSimd for Plain<F> {
     type Output = F::Output;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> F::Output {
+    fn with_simd<S: pulp::Simd>(self, _: S) -> F::Output {
         self.0.call()
+    }
+}
+
+/// Work on single numbers, with the other instructions of the processor.
+#[cfg(target_arch = "x86_64")]
+struct Single<W>(W);
+
+#[cfg(target_arch = "x86_64")]
+impl<W: WithSimd> WithSimd for Single<W> {
+    type Output = W::Output;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> W::Output {
+        self.0.with_simd(Scalar)
     }
 }

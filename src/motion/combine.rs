@@ -1,6 +1,6 @@
 //! High frequencies and pulse into one motion (section 2.1.3).
 
-use realfft::num_complex::Complex64;
+use super::fourier::Complex64;
 
 use crate::keyword::keywords;
 use crate::wide::widest;

@@ -3,9 +3,8 @@
 use std::f64::consts::PI;
 
 use pulp::NullaryFnOnce;
-use realfft::num_complex::Complex64;
 
-use super::fourier::{ByLength, Transform, even_smooth_at_least};
+use super::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
 use crate::units::G_M_S2;
 use crate::wide::widest;
 

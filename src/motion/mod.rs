@@ -10,11 +10,12 @@
 //! synthesis      all of it for one scenario, on one time axis
 //! intensity      measures of any motion
 //! dimensionless  the six measures of Eq. 13, and how all others become dimensionless
-//! fourier        transforms of real series, planned once for each length
+//! fourier        transforms of real series, planned once for each length; butterfly: their passes over registers
 //! ```
 
 #![deny(clippy::disallowed_methods)]
 
+mod butterfly;
 mod combine;
 mod design;
 mod dimensionless;

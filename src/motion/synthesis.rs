@@ -2,16 +2,13 @@
 
 use std::sync::Arc;
 
-use rand_distr::{Distribution, StandardNormal};
-use realfft::num_complex::Complex64;
-
 use super::combine::{Difference, Epoch, combine};
-use super::fourier::{ByLength, Transform, even_smooth_at_least};
+use super::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
 use super::intensity::velocity;
 use super::pulse::Pulse;
 use super::scenario::{Scenario, Suite};
 use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window, quality_exponent};
-use crate::random::{Purpose, stream};
+use crate::random::{Purpose, normals, stream};
 use crate::units::CM_PER_M;
 use crate::wide::widest;
 
@@ -202,8 +199,7 @@ impl Synthesizer {
         samples.resize(timeline.samples, 0.0);
         let windowed = &mut samples[timeline.onset + 1..][..weights.len()];
         let noise = stream(self.model.seed, Purpose::Noise, scenario.scenario_id as u64);
-        let normals = Distribution::<f64>::sample_iter(StandardNormal, noise);
-        for ((sample, normal), weight) in windowed.iter_mut().zip(normals).zip(weights) {
+        for ((sample, normal), weight) in windowed.iter_mut().zip(normals(noise)).zip(weights) {
             *sample = normal * weight;
         }
     }

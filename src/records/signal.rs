@@ -2,10 +2,8 @@
 
 use std::f64::consts::PI;
 
-use realfft::num_complex::Complex64;
-
 use crate::keyword::keywords;
-use crate::motion::fourier::{ByLength, Transform, even_smooth_at_least};
+use crate::motion::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
 use crate::motion::intensity::{peak, velocity};
 
 /// Order n of the high-pass, each way.

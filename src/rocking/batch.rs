@@ -1,15 +1,14 @@
-//! Simulates many structures and records at once, one in each lane of the processor's vector registers.
+//! Simulates structures and records, one in each lane of the processor's vector registers.
 
 use pulp::WithSimd;
 
-use super::lane_step::Events;
 use super::lanes::{Lanes, each};
-use super::march::simulate;
-use super::real::Vector;
 use super::record::Record;
 use super::response::{Response, Tail, free_rocking};
+use super::step::Events;
 use super::structure::Structure;
-use crate::keyword::keywords;
+use super::vector::Vector;
+use crate::wide::{Simd, registers};
 
 /// A structure, at rest at first, and the ground motion that shakes it.
 #[derive(Debug, Clone, Copy)]
@@ -18,65 +17,15 @@ pub struct Problem<'a> {
     pub record: Record<'a>,
 }
 
-/// The vector instructions of the solver. AVX2 and AVX-512 give the same bits; the scalar code differs from them by rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Simd {
-    /// One problem at a time.
-    Scalar,
-    /// Four problems in a register of 256 bits.
-    Avx2,
-    /// Eight problems in a register of 512 bits.
-    Avx512,
+/// Simulates a structure, at rest at first, through a record and the free rocking that follows it.
+pub fn simulate(structure: &Structure, record: &Record) -> Response {
+    let problem = Problem { structure, record: *record };
+    simulate_all(&[problem], Simd::Scalar)[0]
 }
 
-keywords!(Simd { Scalar = "scalar", Avx2 = "avx2", Avx512 = "avx512" });
-
-impl Simd {
-    /// Returns the widest that this processor has.
-    pub fn fastest() -> Simd {
-        [Simd::Avx512, Simd::Avx2].into_iter().find(|simd| simd.is_available()).unwrap_or(Simd::Scalar)
-    }
-
-    /// Whether this processor has the registers.
-    pub fn is_available(self) -> bool {
-        match self {
-            Simd::Scalar => true,
-            #[cfg(target_arch = "x86_64")]
-            Simd::Avx2 => pulp::x86::V3::try_new().is_some(),
-            #[cfg(target_arch = "x86_64")]
-            Simd::Avx512 => pulp::x86::V4::try_new().is_some(),
-            #[cfg(not(target_arch = "x86_64"))]
-            Simd::Avx2 | Simd::Avx512 => false,
-        }
-    }
-
-    /// Names what decides the bits of the results: `scalar` or `vector`.
-    pub fn arithmetic(self) -> &'static str {
-        match self {
-            Simd::Scalar => "scalar",
-            Simd::Avx2 | Simd::Avx512 => "vector",
-        }
-    }
-}
-
-/// Simulates each problem, in order, as [`simulate`] does. Falls back to the scalar code where the processor lacks `simd`.
+/// Simulates each problem, in order. Vector instructions do not change the responses.
 pub fn simulate_all(problems: &[Problem], simd: Simd) -> Vec<Response> {
-    let batch = Batch { problems };
-    #[cfg(target_arch = "x86_64")]
-    match simd {
-        Simd::Scalar => {}
-        Simd::Avx2 => {
-            if let Some(machine) = pulp::x86::V3::try_new() {
-                return pulp::Simd::vectorize(machine, batch);
-            }
-        }
-        Simd::Avx512 => {
-            if let Some(machine) = pulp::x86::V4::try_new() {
-                return pulp::Simd::vectorize(machine, batch);
-            }
-        }
-    }
-    batch.problems.iter().map(|problem| simulate(problem.structure, &problem.record)).collect()
+    registers(simd, Batch { problems })
 }
 
 struct Batch<'a> {
@@ -88,11 +37,7 @@ impl WithSimd for Batch<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, registers: S) -> Vec<Response> {
-        let mut queue = Queue {
-            problems: self.problems,
-            next: 0,
-            responses: vec![Response::NO_ROCKING; self.problems.len()],
-        };
+        let mut queue = Queue::new(self.problems);
         let mut lanes = Lanes::new(registers);
         (0..Vector::<S>::LANES).for_each(|lane| queue.refill(lane, &mut lanes));
         while !lanes.are_idle() {
@@ -107,16 +52,20 @@ impl WithSimd for Batch<'_> {
 }
 
 /// The problems that wait for a lane, and the responses so far.
-struct Queue<'a> {
+pub struct Queue<'a> {
     problems: &'a [Problem<'a>],
     next: usize,
-    responses: Vec<Response>,
+    pub responses: Vec<Response>,
 }
 
 impl<'a> Queue<'a> {
+    pub fn new(problems: &'a [Problem<'a>]) -> Queue<'a> {
+        Queue { problems, next: 0, responses: vec![Response::NO_ROCKING; problems.len()] }
+    }
+
     /// Finishes or restarts the lanes that cannot go on by themselves.
     #[inline(never)]
-    fn handle<S: pulp::Simd>(&mut self, events: Events, lanes: &mut Lanes<'a, S>) {
+    pub fn handle<S: pulp::Simd>(&mut self, events: Events, lanes: &mut Lanes<'a, S>) {
         for lane in each(events.overturned) {
             self.finish(lane, Tail::Overturns, lanes);
         }
@@ -140,7 +89,7 @@ impl<'a> Queue<'a> {
     }
 
     /// Gives a lane the next problem in which the structure rocks.
-    fn refill<S: pulp::Simd>(&mut self, lane: usize, lanes: &mut Lanes<'a, S>) {
+    pub fn refill<S: pulp::Simd>(&mut self, lane: usize, lanes: &mut Lanes<'a, S>) {
         while let Some(Problem { structure, record }) = self.problems.get(self.next) {
             self.next += 1;
             if lanes.occupy(lane, self.next - 1, structure, record) {

@@ -4,13 +4,13 @@
 //! structure    p, alpha, eta and where they come from
 //! record       the ground acceleration as a piecewise-linear function of time
 //! taylor       the equation of motion (Eqs. 8 to 11): the rotation over one step as a Taylor polynomial
-//! polynomial   roots of such polynomials: impacts, peaks and overturning are found as these
-//! march        one structure through one record: uplift, impact, rest, overturning
+//! uplift       where a structure at rest leaves its base
+//! vector       the numbers in which all of this is written: one or several to a register, a lane each
+//! lanes        the states of the structures in the lanes: rest, uplift, rocking
+//! step         a step of all lanes: impact, peak, overturning
+//! roots        where these are: roots of the step's polynomials; polynomial: of one lane, by Bernstein coefficients
 //! response     the outcome, the demand (Eq. 7), and free rocking after the record in closed form
-//! observer     callbacks for the events of a simulation; trace: rotation, velocity and events over time
-//! batch        many structures and records at once, one in each lane of a vector register
-//! lanes        the states of the lanes; lane_step: what march does, for all of them; lane_roots: their roots
-//! real         the numbers in which all of this is written: f64, or a vector of lanes
+//! batch        many structures and records, as lanes come free; trace: one, with rotation, velocity and events over time
 //! incremental  one motion at rising intensity: where a structure overturns, and which stronger motions it survives
 //! ```
 
@@ -18,25 +18,25 @@
 
 mod batch;
 mod incremental;
-mod lane_roots;
-mod lane_step;
 mod lanes;
-mod march;
-mod observer;
 mod polynomial;
-mod real;
 mod record;
 mod response;
+mod roots;
+mod step;
 mod structure;
 mod taylor;
 mod trace;
+mod uplift;
+mod vector;
 
-pub use batch::{Problem, Simd, simulate_all};
+pub use batch::{Problem, simulate, simulate_all};
 pub use incremental::{Capacity, CapacityStatus, SafeWindow, Scan, ScanPoint, ScanResponse};
-pub use march::simulate;
 pub use record::{Record, RecordError};
 pub use response::{Outcome, Response};
 pub use structure::{
     BOUNDS, Block, Bound, Structure, StructureError, frame_eta, frame_p, housner_eta, judge, rectangular_p,
 };
 pub use trace::{SolverEvent, TracePoint, trace, with_tail};
+
+pub use crate::wide::Simd;

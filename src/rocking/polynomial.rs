@@ -1,8 +1,6 @@
-//! Real roots of a polynomial on the unit interval, by the signs of its Bernstein coefficients.
+//! Real roots of one polynomial on the unit interval, by the signs of its Bernstein coefficients.
 
 use std::ops::ControlFlow;
-
-use super::real::Real;
 
 /// The order of the Taylor series of a step.
 pub const ORDER: usize = 8;
@@ -17,37 +15,14 @@ const NARROWEST_BRACKET: f64 = 1e-12;
 const MOST_NEWTON_STEPS: usize = 64;
 
 /// Evaluates the polynomial at `x` (Horner).
-#[inline(always)]
-pub fn value<T: Real>(c: &Polynomial<T>, x: T) -> T {
-    let mut sum = c[ORDER];
-    for k in (0..ORDER).rev() {
-        sum = sum.mul_add(x, c[k]);
-    }
-    sum
-}
-
-/// Evaluates the slope at `x` (Horner).
-#[inline(always)]
-pub fn slope<T: Real>(c: &Polynomial<T>, x: T) -> T {
-    let mut sum = c[ORDER] * ORDER as f64;
-    for k in (1..ORDER).rev() {
-        sum = sum.mul_add(x, c[k] * k as f64);
-    }
-    sum
+pub fn value(c: &Polynomial, x: f64) -> f64 {
+    c.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
 /// Differentiates, into a polynomial of the same length.
 #[inline]
 pub fn derivative(c: &Polynomial) -> Polynomial {
     std::array::from_fn(|k| if k < ORDER { (k + 1) as f64 * c[k + 1] } else { 0.0 })
-}
-
-/// Bounds the values on [0, 1]: cheaply, widely and certainly.
-#[inline]
-pub fn bounds(c: &Polynomial) -> (f64, f64) {
-    c[1..].iter().fold((c[0], c[0]), |(low, high), &coefficient| {
-        (low + coefficient.min(0.0), high + coefficient.max(0.0))
-    })
 }
 
 /// Finds the first root in (0, 1). Roots at 0 do not count.

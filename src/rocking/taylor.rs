@@ -15,9 +15,11 @@
 //! The second form keeps the full relative precision of a small rotation, and of the excess e of the ground
 //! acceleration over the uplift threshold, which is negative while the ground lifts the structure further.
 
+use pulp::Simd;
+
 use super::polynomial::{ORDER, Polynomial};
-use super::real::{Real, unrolled};
 use super::structure::tan;
+use super::vector::{Vector, unrolled};
 
 /// Functions of the slenderness alpha.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +39,7 @@ impl Slenderness {
 
 /// The excess e of the ground acceleration over the uplift threshold, linear from the start of a step to its end.
 #[derive(Debug, Clone, Copy)]
-pub struct Excess<T = f64> {
+pub struct Excess<T> {
     pub start: T,
     pub end: T,
 }
@@ -53,12 +55,12 @@ pub struct State<T = f64> {
 ///
 /// The series of sin r and cos r follow from s' = r' c and c' = -r' s, term by term.
 #[inline(always)]
-pub fn series<T: Real>(
-    slenderness: &Slenderness<T>,
-    excess: Excess<T>,
-    state: State<T>,
-    h: T,
-) -> Polynomial<T> {
+pub fn series<S: Simd>(
+    slenderness: &Slenderness<Vector<S>>,
+    excess: Excess<Vector<S>>,
+    state: State<Vector<S>>,
+    h: Vector<S>,
+) -> Polynomial<Vector<S>> {
     // -h^2 A and -h^2 B, linear in the fraction of the step.
     let Slenderness { sin, cos, secant, .. } = *slenderness;
     let minus_h2 = -(h * h);
@@ -87,7 +89,7 @@ pub fn series<T: Real>(
 
 /// Returns term k of x r' f, from the terms of x r' and of f up to k. The newest term of f comes last: it is the one to wait for.
 #[inline(always)]
-fn product<T: Real>(rate: &[T; ORDER - 1], f: &[T; ORDER - 1], k: usize) -> T {
+fn product<S: Simd>(rate: &[Vector<S>; ORDER - 1], f: &[Vector<S>; ORDER - 1], k: usize) -> Vector<S> {
     let mut sum = rate[k] * f[0];
     for j in (1..k).rev() {
         sum = rate[j].mul_add(f[k - j], sum);

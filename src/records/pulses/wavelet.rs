@@ -3,9 +3,7 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use realfft::num_complex::Complex64;
-
-use crate::motion::fourier::{ByLength, Transform, even_smooth_at_least};
+use crate::motion::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
 
 /// Daubechies' scaling filter with four vanishing moments (Daubechies 1992, Table 6.1), of sum sqrt 2.
 const FILTER: [f64; 8] = [

@@ -144,7 +144,7 @@ impl Stage for Ida {
         let IdaOptions { from, to, steps, halvings, tolerance, .. } = self.options;
         json!({
             "measure": self.measure(), "from": from, "to": to, "steps": steps, "halvings": halvings,
-            "tolerance": tolerance, "structures": parameters(&self.structures), "simd": self.simd.arithmetic()
+            "tolerance": tolerance, "structures": parameters(&self.structures)
         })
     }
 

@@ -36,7 +36,7 @@ pub struct IdaOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub structure: StructuresOptions,
-    /// Vector instructions of the solver: scalar, avx2 or avx512, as in simulate [default: the fastest that this processor has]
+    /// Vector instructions of the solver, as in simulate [default: the fastest of this processor]
     #[arg(long, help_heading = None::<&str>)]
     pub simd: Option<Word<Simd>>,
 }

@@ -260,9 +260,7 @@ impl Stage for Simulate {
     }
 
     fn parameters(&self) -> Value {
-        let parameters = json!({
-            "structures": parameters(&self.structures), "trace": self.traced, "simd": self.simd.arithmetic()
-        });
+        let parameters = json!({ "structures": parameters(&self.structures), "trace": self.traced });
         Partition::add_to(self.input.partition, parameters)
     }
 

@@ -18,8 +18,8 @@ pub struct SimulateOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub structure: StructuresOptions,
-    /// Vector instructions of the solver: scalar (one motion at a time), avx2 or avx512 (several at once; both give the same bits,
-    /// and differ from scalar by rounding) [default: the fastest that this processor has]
+    /// Vector instructions of the solver: scalar, neon, avx2 or avx512; all give the same bits [default: the fastest of this
+    /// processor]
     #[arg(long, help_heading = None::<&str>)]
     pub simd: Option<Word<Simd>>,
     /// Also write the rotation over time for these motions, to NAME.trace.parquet beside the output

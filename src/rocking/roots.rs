@@ -1,9 +1,13 @@
-//! Roots and maxima of several polynomials at once.
+//! Roots and maxima of the rotation over a step: of all lanes at once where the signs of slope or curvature tell that there is one,
+//! and else of one lane alone.
+
+use std::f64::consts::FRAC_PI_2;
+use std::ops::ControlFlow;
 
 use pulp::Simd;
 
-use super::polynomial::{ORDER, Polynomial};
-use super::real::{Mask, Real, Vector};
+use super::polynomial::{self, ORDER, Polynomial};
+use super::vector::{Mask, Vector};
 
 /// When Halley's step is this small, relative to the root, the next one is below rounding.
 const CONVERGED: f64 = 4e-6;
@@ -14,6 +18,26 @@ const MAXIMUM_CONVERGED: f64 = 1e-5;
 
 /// More iterations than any root takes: bisection alone would have narrowed the bracket to rounding.
 const MOST_ITERATIONS: usize = 64;
+
+/// Evaluates the polynomials at `x` (Horner).
+#[inline(always)]
+pub fn values<S: Simd>(c: &Polynomial<Vector<S>>, x: Vector<S>) -> Vector<S> {
+    let mut sum = c[ORDER];
+    for k in (0..ORDER).rev() {
+        sum = sum.mul_add(x, c[k]);
+    }
+    sum
+}
+
+/// Evaluates the slopes at `x` (Horner).
+#[inline(always)]
+pub fn slopes<S: Simd>(c: &Polynomial<Vector<S>>, x: Vector<S>) -> Vector<S> {
+    let mut sum = c[ORDER] * ORDER as f64;
+    for k in (1..ORDER).rev() {
+        sum = sum.mul_add(x, c[k] * k as f64);
+    }
+    sum
+}
 
 /// Finds the root of each lane of `wanted`, which falls through zero once in (0, 1) and may start at zero: Halley's iterations,
 /// kept inside the shrinking bracket by bisection. A lane's iterations do not depend on the other lanes.
@@ -112,4 +136,30 @@ pub fn maxima<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Maxima<S> 
         }
     }
     Maxima { x, found: wanted & !active }
+}
+
+/// Finds the first return to the base. A rotation that starts downwards from 0 strikes at once.
+pub fn first_impact(rotation: &Polynomial) -> Option<f64> {
+    let leading = rotation.iter().find(|&&coefficient| coefficient != 0.0)?;
+    if *leading < 0.0 { Some(0.0) } else { polynomial::first_root(rotation) }
+}
+
+/// Finds where the rotation first reaches pi/2.
+pub fn first_overturning(rotation: &Polynomial) -> Option<f64> {
+    let mut margin = rotation.map(|coefficient| -coefficient);
+    margin[0] += FRAC_PI_2;
+    polynomial::first_root(&margin)
+}
+
+/// Finds the largest rotation from the start of the step to `until`.
+pub fn largest(rotation: &Polynomial, until: f64) -> f64 {
+    let mut largest = rotation[0].max(polynomial::value(rotation, until));
+    let _ = polynomial::visit_roots(&polynomial::derivative(rotation), |x| {
+        if x > until {
+            return ControlFlow::Break(());
+        }
+        largest = largest.max(polynomial::value(rotation, x));
+        ControlFlow::Continue(())
+    });
+    largest
 }

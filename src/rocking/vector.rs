@@ -1,4 +1,5 @@
-//! The numbers in which the equation of motion is written: one `f64`, or a [`Vector`] of several, a lane each.
+//! The numbers in which the equation of motion is written: [`Vector`]s of several, a lane each. Registers of any width, one number
+//! among them, give a lane the same bits: each operation is exact, or rounded once.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -16,35 +17,10 @@ macro_rules! unrolled {
 }
 pub(super) use unrolled;
 
-/// A real number, or several at once.
-pub trait Real:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Mul<f64, Output = Self>
-    + Neg<Output = Self>
-{
-    /// `self * factor + addend`, rounded once where the processor can.
-    fn mul_add(self, factor: Self, addend: Self) -> Self;
-
-    /// Sine and cosine of an angle from 0 to pi/2.
-    fn sin_cos(self) -> (Self, Self);
-}
-
-impl Real for f64 {
-    #[inline]
-    fn mul_add(self, factor: f64, addend: f64) -> f64 {
-        self * factor + addend
-    }
-
-    #[inline]
-    fn sin_cos(self) -> (f64, f64) {
-        libm::sincos(self)
-    }
-}
-
 const REGISTERS: usize = 2;
+
+/// Whether the processor's own minimum and maximum of vectors take the other number where neither is smaller or larger.
+const TAKES_THE_OTHER: bool = cfg!(target_arch = "x86_64");
 
 /// Upper bound of [`Vector::LANES`], of registers of 512 bits.
 pub const MOST_LANES: usize = REGISTERS * 8;
@@ -113,14 +89,37 @@ impl<S: Simd> Vector<S> {
         Vector { registers: in_each!(k: self.simd.abs_f64s(self.registers[k])), ..self }
     }
 
+    /// Takes the smaller number, and the other one where neither is: zeros of different sign, or none at all.
     #[inline(always)]
     pub fn min(self, other: Vector<S>) -> Vector<S> {
-        Vector { registers: in_each!(k: self.simd.min_f64s(self.registers[k], other.registers[k])), ..self }
+        if TAKES_THE_OTHER && !S::IS_SCALAR {
+            return Vector {
+                registers: in_each!(k: self.simd.min_f64s(self.registers[k], other.registers[k])),
+                ..self
+            };
+        }
+        self.lt(other).select(self, other)
     }
 
+    /// Takes the larger number, and the other one where neither is.
     #[inline(always)]
     pub fn max(self, other: Vector<S>) -> Vector<S> {
-        Vector { registers: in_each!(k: self.simd.max_f64s(self.registers[k], other.registers[k])), ..self }
+        if TAKES_THE_OTHER && !S::IS_SCALAR {
+            return Vector {
+                registers: in_each!(k: self.simd.max_f64s(self.registers[k], other.registers[k])),
+                ..self
+            };
+        }
+        other.lt(self).select(self, other)
+    }
+
+    /// Computes `self * factor + addend`, rounded once.
+    #[inline(always)]
+    pub fn mul_add(self, factor: Vector<S>, addend: Vector<S>) -> Vector<S> {
+        Vector {
+            registers: in_each!(k: self.simd.mul_add_f64s(self.registers[k], factor.registers[k], addend.registers[k])),
+            ..self
+        }
     }
 
     #[inline(always)]
@@ -270,17 +269,10 @@ fn horner<S: Simd>(c: &[f64; 6], z: Vector<S>) -> Vector<S> {
     sum
 }
 
-impl<S: Simd> Real for Vector<S> {
+impl<S: Simd> Vector<S> {
+    /// Computes sine and cosine of an angle from 0 to pi/2.
     #[inline(always)]
-    fn mul_add(self, factor: Vector<S>, addend: Vector<S>) -> Vector<S> {
-        Vector {
-            registers: in_each!(k: self.simd.mul_add_f64s(self.registers[k], factor.registers[k], addend.registers[k])),
-            ..self
-        }
-    }
-
-    #[inline(always)]
-    fn sin_cos(self) -> (Vector<S>, Vector<S>) {
+    pub fn sin_cos(self) -> (Vector<S>, Vector<S>) {
         // Above pi/4 sine and cosine of the complement, whose polynomials converge, exchanged.
         let beyond = self.like(std::f64::consts::FRAC_PI_4).lt(self);
         let complement = (self.like(HALF_PI.0) - self) + self.like(HALF_PI.1);

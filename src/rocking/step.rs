@@ -1,20 +1,23 @@
-//! A step of all lanes at once: what [`march`](super::march) does for one structure. The Taylor polynomial to the next sample, its
-//! first root if it strikes before, the peak. Where the curvature or the slope keeps its sign over the step, which is nearly
-//! always, the ends tell all; what is rare is left to the scalar code for the lane that needs it.
+//! A step of all lanes at once: the Taylor polynomial to the next sample, its first root if the structure strikes before, the impact,
+//! the peak, overturning. Where the curvature or the slope keeps its sign over the step, which is nearly always, the ends tell all;
+//! what is rare is worked out for the lane that needs it alone.
 //!
-//! The event rules of `march` stand here a second time; `tests/solver/simd.rs` and `tests/solver/numbers.rs` hold the two together.
+//! `tests/solver/truth.rs` holds this against quadruple precision, in registers of every width.
 
 use std::f64::consts::FRAC_PI_2;
 
 use pulp::Simd;
 
-use super::lane_roots::{falling_root, maxima};
 use super::lanes::{Lanes, each};
-use super::march::{REST_VELOCITY, first_impact, first_overturning, largest};
 use super::polynomial::{self, Polynomial};
-use super::real::{Mask, Real, Vector};
+use super::roots::{falling_root, first_impact, first_overturning, largest, maxima, slopes, values};
 use super::taylor::{Excess, State, series};
+use super::vector::{Mask, Vector};
 use crate::units::PER_G;
+
+/// After an impact, a velocity eta |theta'| below this fraction of p counts as none: the structure rests, or uplifts at once if the
+/// ground demands it.
+pub const REST_VELOCITY: f64 = 1e-6;
 
 /// The lanes to which something happened during a step, a bit for each.
 #[derive(Debug, Clone, Copy, Default)]
@@ -53,6 +56,18 @@ pub struct Step<S: Simd> {
 }
 
 impl<S: Simd> Step<S> {
+    /// Finds the fraction of the step at which the rotation of a lane reaches pi/2.
+    pub fn overturning(&self, lane: usize) -> Option<f64> {
+        first_overturning(&of_lane(&self.rotation, lane))
+    }
+
+    /// Returns p t and the velocity at a fraction of the step, in a lane.
+    pub fn at(&self, lane: usize, fraction: f64) -> (f64, f64) {
+        let slope = polynomial::value(&polynomial::derivative(&of_lane(&self.rotation, lane)), fraction);
+        let per_h = self.per_h.lane(lane);
+        (fraction / per_h, slope * per_h)
+    }
+
     /// Finds the lanes of `asked` whose curvature or slope keeps its sign over the whole step. Asks for the slope only where the
     /// curvature does not.
     #[inline(always)]
@@ -99,8 +114,8 @@ impl<S: Simd> Lanes<'_, S> {
         for (k, coefficient) in r.iter().enumerate().skip(3) {
             change = change + coefficient.abs() * (k * (k - 1) / 2) as f64;
         }
-        let last = polynomial::value(&r, one);
-        let velocity = polynomial::slope(&r, one) * per_h;
+        let last = values(&r, one);
+        let velocity = slopes(&r, one) * per_h;
         Step {
             rotation: r,
             per_h,
@@ -114,7 +129,7 @@ impl<S: Simd> Lanes<'_, S> {
         }
     }
 
-    /// Advances the lanes by a step, or as far as the first impact in it: `March::rock` and `March::impact` of [`super::march`].
+    /// Advances the lanes by a step, or as far as the first impact in it (section 2.2).
     #[inline(always)]
     pub fn advance(&mut self, step: &Step<S>) -> Events {
         let one = Vector::splat(self.simd, 1.0);
@@ -173,7 +188,7 @@ impl<S: Simd> Lanes<'_, S> {
                 lanes = lanes | Mask::of_lane(self.simd, lane);
             }
         }
-        let velocity = polynomial::slope(c, until) * step.per_h;
+        let velocity = slopes(c, until) * step.per_h;
         lanes.any().then_some(Impacts { lanes, until, velocity })
     }
 
@@ -181,9 +196,7 @@ impl<S: Simd> Lanes<'_, S> {
     #[inline(never)]
     fn overturned(&self, step: &Step<S>, until: Vector<S>) -> u32 {
         let high = Vector::splat(self.simd, FRAC_PI_2).le(step.high).bits() & self.busy;
-        let overturns = |lane: &usize| {
-            first_overturning(&of_lane(&step.rotation, *lane)).is_some_and(|x| x <= until.lane(*lane))
-        };
+        let overturns = |lane: &usize| step.overturning(*lane).is_some_and(|x| x <= until.lane(*lane));
         each(high).filter(overturns).fold(0, |bits, lane| bits | 1 << lane)
     }
 
@@ -199,13 +212,15 @@ impl<S: Simd> Lanes<'_, S> {
         let mut left = higher & !ends;
         if (left & turns).any() {
             let maxima = maxima(r, left & turns);
-            let highest = polynomial::value(r, maxima.x.min(until));
+            let highest = values(r, maxima.x.min(until));
             self.peak = maxima.found.select(self.peak.max(highest), self.peak);
             left = left & !maxima.found;
         }
         for lane in each(left.bits()) {
             let highest = largest(&of_lane(r, lane), until.lane(lane));
-            self.peak.set(lane, self.peak.lane(lane).max(highest));
+            if highest > self.peak.lane(lane) {
+                self.peak.set(lane, highest);
+            }
         }
     }
 

@@ -1,5 +1,10 @@
 //! Counter-based random streams: the numbers of a row do not depend on which other rows are made.
 
+#![deny(clippy::disallowed_methods)]
+
+mod normal;
+
+pub use normal::normals;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
