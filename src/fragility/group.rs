@@ -1,21 +1,11 @@
-//! What all fits of a group of cases share: the cases, the limits that are asked for, and progress.
+//! What all fits of a group of cases share: the limits that are asked for, and progress.
 
 use std::convert::Infallible;
 
 use rayon::prelude::*;
 
-use super::case::Case;
+use super::cases::CaseTable;
 use crate::resampling::{Resamples, Strata, TOGETHER, bootstrap_each};
-
-/// The cases of one structure under one suite of motions.
-#[derive(Debug, Clone, Copy)]
-pub struct CaseGroup<'a> {
-    pub cases: &'a [Case],
-    /// The number of the cell of magnitude and distance of each, within which the bootstrap resamples.
-    pub cells: &'a [usize],
-    /// The number of the cluster of each: cases of one cluster may depend on each other.
-    pub clusters: &'a [usize],
-}
 
 /// Limits of confidence and the bootstrap behind them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,14 +54,27 @@ impl Uncertainty {
 /// Groups that are resampled jointly, at most: what is known of all their cases is held at once.
 const JOINTLY: usize = 8;
 
-/// Fits all groups. `fit` is given groups that follow each other and have the same cells: they have the same resamples, which
-/// need be drawn only once.
-pub(super) fn fit_jointly<'a, T: Send, E: Send>(
-    groups: &[CaseGroup<'a>],
-    fit: impl Fn(&[CaseGroup<'a>]) -> Result<Vec<T>, E> + Sync + Send,
+/// Fits all groups. `fit` is given groups that follow each other, and the cells of their cases if they are to be resampled: these
+/// are the same, and so are the resamples, which need be drawn only once. Groups of many cases come one after the other, so that only
+/// the samples of one are held.
+pub(super) fn fit_jointly<T: Send, E: Send>(
+    groups: &[&CaseTable],
+    uncertainty: &Uncertainty,
+    fit: impl Fn(&[&CaseTable], &[usize]) -> Result<Vec<T>, E> + Sync + Send,
 ) -> Result<Vec<T>, E> {
-    let alike = groups.chunk_by(|a, b| a.cells == b.cells);
-    let jointly: Vec<&[CaseGroup]> = alike.flat_map(|alike| alike.chunks(JOINTLY)).collect();
-    let fitted = jointly.into_par_iter().map(fit).collect::<Result<Vec<Vec<T>>, E>>()?;
-    Ok(fitted.into_iter().flatten().collect())
+    let cells = |group: &&CaseTable| if uncertainty.replicates > 0 { group.cells() } else { Vec::new() };
+    let cells: Vec<Vec<usize>> = groups.iter().map(cells).collect();
+    let mut jointly: Vec<(&[&CaseTable], &[usize])> = Vec::new();
+    let mut first = 0;
+    for alike in cells.chunk_by(|a, b| a == b && uncertainty.replicates > 0) {
+        let (of_alike, cells) = (&groups[first..first + alike.len()], &alike[0]);
+        jointly.extend(of_alike.chunks(JOINTLY).map(|groups| (groups, &cells[..])));
+        first += alike.len();
+    }
+    let fitted = if groups.iter().all(|group| group.is_small()) {
+        jointly.into_par_iter().map(|(groups, cells)| fit(groups, cells)).collect::<Result<Vec<Vec<T>>, E>>()
+    } else {
+        jointly.into_iter().map(|(groups, cells)| fit(groups, cells)).collect()
+    };
+    Ok(fitted?.into_iter().flatten().collect())
 }

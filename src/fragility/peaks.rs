@@ -1,6 +1,8 @@
 //! How PGA and PGV of motions go together: what one of them says of the other.
 
 use super::slice::Peak;
+use crate::statistics::columns::Columns;
+use crate::statistics::design::{Design, Moments, columns_of};
 
 /// A joint lognormal distribution of the two peaks, PGA in m/s2 and PGV in m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,19 +23,19 @@ impl JointPeaks {
     /// The distribution with the moments of these motions; none with fewer than three, or if a peak is not above 0 or the same
     /// in all.
     pub fn of(pga_m_s2: &[f64], pgv_m_s: &[f64]) -> Option<JointPeaks> {
-        let n = pga_m_s2.len() as f64;
         let ln = |values: &[f64]| values.iter().map(|value| value.ln()).collect::<Vec<f64>>();
-        let (ln_pga, ln_pgv) = (ln(pga_m_s2), ln(pgv_m_s));
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / n;
-        let (ln_pga_mean, ln_pgv_mean) = (mean(&ln_pga), mean(&ln_pgv));
-        let covariance = |a: &[f64], a_mean: f64, b: &[f64], b_mean: f64| {
-            a.iter().zip(b).map(|(a, b)| (a - a_mean) * (b - b_mean)).sum::<f64>() / (n - 1.0)
-        };
-        let ln_pga_sd = covariance(&ln_pga, ln_pga_mean, &ln_pga, ln_pga_mean).sqrt();
-        let ln_pgv_sd = covariance(&ln_pgv, ln_pgv_mean, &ln_pgv, ln_pgv_mean).sqrt();
-        let correlation = covariance(&ln_pga, ln_pga_mean, &ln_pgv, ln_pgv_mean) / (ln_pga_sd * ln_pgv_sd);
+        JointPeaks::of_logarithms(&columns_of(&[&ln(pga_m_s2)], ln(pgv_m_s)))
+    }
+
+    /// The same of columns of the logarithms of both.
+    pub fn of_logarithms(peaks: &Columns) -> Option<JointPeaks> {
+        let moments = Moments::of(&Design::new(peaks, 1));
+        let covariance = |i: usize, j: usize| moments.product(i, j) / (moments.n as f64 - 1.0);
+        let [ln_pga_sd, ln_pgv_sd] = [0, 1].map(|peak| covariance(peak, peak).sqrt());
+        let correlation = covariance(0, 1) / (ln_pga_sd * ln_pgv_sd);
+        let (ln_pga_mean, ln_pgv_mean) = (moments.means[0], moments.means[1]);
         let peaks = JointPeaks { ln_pga_mean, ln_pga_sd, ln_pgv_mean, ln_pgv_sd, correlation };
-        (pga_m_s2.len() > 2 && correlation.is_finite()).then_some(peaks)
+        (moments.n > 2 && correlation.is_finite()).then_some(peaks)
     }
 
     /// PGV / PGA (s) of motions with this intensity (m/s2 or m/s of the given peak), so many standard deviations above its median.

@@ -7,11 +7,11 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::shared::groups::{self, Group};
+use super::shared::groups;
 use super::shared::uncertainty::uncertainty;
 use super::simulate::Simulate;
 use crate::fragility::overturning::{Curve, CurveOptions, LEAST_EVENTS, Pair};
-use crate::fragility::{CaseGroup, CurveModel, Event};
+use crate::fragility::{CaseTable, CurveModel, Event};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
@@ -135,7 +135,7 @@ impl Stage for FitPro {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
         let bar = console.bar(self.name(), groups.len() as u64 * self.curves.uncertainty.steps());
-        let to_fit: Vec<CaseGroup> = groups.iter().map(Group::to_fit).collect();
+        let to_fit: Vec<&CaseTable> = groups.iter().map(|group| &group.cases).collect();
         let fitted = self.curves.fit(&to_fit, &|steps| bar.inc(steps))?;
         bar.finish();
         let mut rows = Vec::new();
@@ -190,7 +190,7 @@ fn doubt(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> Option<(Str
     let fit = curve.fit.as_ref().ok()?;
     match curve.status() {
         FitStatus::Misfit => {
-            let Gap { predicted, observed } = fit.largest_gap?;
+            let Gap { predicted, observed } = fit.goodness.largest_gap?;
             Some((
                 format!("curves of {event} for {suite}, {structure}, fit badly (tests reject them)"),
                 format!("{of} (predicted {predicted:.2}, observed {observed:.2})"),

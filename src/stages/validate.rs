@@ -12,7 +12,7 @@ use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
-use crate::studies::{Forecasts, Validation};
+use crate::studies::Forecasts;
 use crate::table::row::WriteRow;
 use crate::table::store::contents::recorded;
 use crate::table::store::provenance::Provenance;
@@ -119,15 +119,15 @@ impl Declare for Validate {
 /// All events of a group by the fits of one suite; those that cannot happen in any case are left out.
 fn rows<'a>(group: &'a Group, fits: &'a ChosenFits) -> impl Iterator<Item = ValidationRow> + 'a {
     [Event::Overturning, Event::Exceeding, Event::Failure].into_iter().filter_map(|event| {
-        let Forecasts { forecasts, without_measure } = Forecasts::new(&fits.model, &group.cases, event);
+        let forecasts = Forecasts::new(&fits.model, &group.cases, event);
         Some(ValidationRow::new(
             group.suite.as_deref(),
             &group.structure,
             fits.suite.as_deref(),
             event,
             fits.model.limit,
-            &Validation::of(&forecasts)?,
-            without_measure,
+            &forecasts.validation()?,
+            forecasts.without_measure,
         ))
     })
 }

@@ -12,7 +12,7 @@ use crate::fragility::demand::regressions::PLANE;
 use crate::fragility::demand::transition::TransitionSearch;
 use crate::fragility::overturning::curves::{CurveModel, fit_overturning};
 use crate::fragility::overturning::inference::CurveInference;
-use crate::fragility::overturning::sample::EventSample;
+use crate::fragility::sample::Sample;
 use crate::statistics::FitStatus;
 use crate::statistics::binary::{Estimator, binary_regression};
 use crate::statistics::design::dot;
@@ -239,7 +239,8 @@ pub fn rate_demand(
     let regression = cases.fit()?;
     let inference = DemandInference::new(&cases, &regression);
     let design = cases.design();
-    let rows: Vec<DVector<f64>> = design.rows().collect();
+    let rows: Vec<DVector<f64>> =
+        design.fold(0, |rows| rows.each().collect::<Vec<_>>(), |all, part| all.extend(part));
     let ln_im4 = &sample.ln_im[sample.place(Measure::Im4).ok_or(FitStatus::TooFewCases)?];
     let law = |break_at: Option<f64>, weights: &[f64]| {
         Law::fit(&inference, candidate.form, break_at, ln_im4, weights)
@@ -292,7 +293,7 @@ pub fn rate_overturning(
     candidate: &Candidate,
     folds: Option<&Folds>,
 ) -> Result<Rating, FitStatus> {
-    let events = EventSample::of_columns(sample.columns(&candidate.measures), sample.happened.clone());
+    let events = Sample::of_happened(sample.columns(&candidate.measures), &sample.happened);
     let fit = fit_overturning(&events, &CurveModel::default())?;
     let inference = CurveInference::new(&events, &fit.regression);
     let design = events.design();
@@ -312,7 +313,7 @@ pub fn rate_overturning(
         log_likelihood: fit.regression.log_likelihood,
         aic: fit.aic,
         bic: fit.bic,
-        fitted: Skill { auc: fit.auc, brier: fit.brier },
+        fitted: Skill { auc: fit.goodness.auc, brier: fit.goodness.brier },
         beta: fit.beta.value,
         zeta: None,
         held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened)),

@@ -7,15 +7,16 @@ use rayon::prelude::*;
 use super::inference::DemandRefits;
 use super::inference::{DemandInference, DemandReplicate};
 use super::regressions::{Biplanar, PLANE, fit_biplanar, fit_plane, fit_univariate};
-use super::sample::DemandSample;
 use super::smooth::{SmoothFit, fit_smooth};
 use super::transition::{ScanPoint, TransitionSearch, transition_limits};
-use crate::fragility::case::{Case, Measure};
-use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
-use crate::fragility::predictor::ranges;
+use crate::fragility::case::Measure;
+use crate::fragility::cases::CaseTable;
+use crate::fragility::group::{Progress, Uncertainty, fit_jointly};
+use crate::fragility::sample::Sample;
 use crate::keyword::keywords;
 use crate::resampling::{BootstrapLimits, Resamples, Strata, TOGETHER, bootstrap_limits};
-use crate::statistics::{Estimate, FitStatus, Limits, LinearFit, Test, reset};
+use crate::statistics::goodness::reset_of;
+use crate::statistics::{Estimate, FitStatus, Limits, LinearFit, Test};
 
 /// All values of a measure.
 const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
@@ -129,9 +130,9 @@ impl Regression {
     }
 
     /// The cases that it was fitted to.
-    fn sample(&self, cases: &[Case]) -> DemandSample {
+    fn sample(&self, cases: &CaseTable) -> Sample {
         let measures: Vec<Measure> = std::iter::once(self.im_x).chain(self.im_y).collect();
-        DemandSample::new(cases, &measures, self.range.clone())
+        Sample::of_demands(cases, &measures, self.range.clone())
     }
 }
 
@@ -159,44 +160,46 @@ impl RegressionOptions {
     ///
     /// # Errors
     /// Those of `progress`.
-    pub fn fit<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Regressions>, E> {
-        fit_jointly(groups, |groups| self.fit_alike(groups, progress))
+    pub fn fit<E: Send>(&self, groups: &[&CaseTable], progress: Progress<E>) -> Result<Vec<Regressions>, E> {
+        fit_jointly(groups, &self.uncertainty, |groups, cells| self.fit_alike(groups, cells, progress))
     }
 
     /// Of groups with the same cells.
-    fn fit_alike<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Regressions>, E> {
-        let regressions = |group: &CaseGroup| {
+    fn fit_alike<E: Send>(
+        &self,
+        groups: &[&CaseTable],
+        cells: &[usize],
+        progress: Progress<E>,
+    ) -> Result<Vec<Regressions>, E> {
+        let regressions = |group: &&CaseTable| {
             progress(1)?;
-            Ok(self.regressions(group.cases))
+            Ok(self.regressions(group))
         };
         let mut fitted = groups.par_iter().map(regressions).collect::<Result<Vec<_>, E>>()?;
         if self.uncertainty.replicates > 0 {
-            self.resample(groups, progress, &mut fitted)?;
+            self.resample(groups, cells, progress, &mut fitted)?;
         }
         fitted.par_iter_mut().zip(groups).for_each(|(Regressions { fits, .. }, group)| {
-            fits.iter_mut().for_each(|regression| self.infer(group, regression));
-            fits.extend(self.smooth(group.cases));
-            for regression in fits {
-                regression.data_ranges = ranges(&regression.sample(group.cases).predictors());
-            }
+            fits.extend(self.smooth(group));
+            fits.par_iter_mut().for_each(|regression| self.infer(group, cells, regression));
         });
         Ok(fitted)
     }
 
-    fn regressions(&self, cases: &[Case]) -> Regressions {
+    fn regressions(&self, cases: &CaseTable) -> Regressions {
         let univariate = |&measure: &Measure| Regression {
             im_x: measure,
             im_y: None,
             ..self.regression(Form::Univariate, EVERYWHERE, fit_univariate(cases, measure))
         };
-        let mut fits: Vec<Regression> = Measure::SCALAR.iter().map(univariate).collect();
+        let mut fits: Vec<Regression> = Measure::SCALAR.par_iter().map(univariate).collect();
         fits.push(self.regression(Form::Plane, ABOVE_UPLIFT, fit_plane(cases, ABOVE_UPLIFT)));
         let (biplanar, scan) = self.biplanar(cases);
         fits.extend(biplanar);
         Regressions { fits, scan }
     }
 
-    fn biplanar(&self, cases: &[Case]) -> (Vec<Regression>, Vec<ScanPoint>) {
+    fn biplanar(&self, cases: &CaseTable) -> (Vec<Regression>, Vec<ScanPoint>) {
         let Biplanar { transition, found, low, high, r2_pooled, r2_overall, scan } =
             match fit_biplanar(cases, self.transition) {
                 Ok(biplanar) => biplanar,
@@ -214,8 +217,8 @@ impl RegressionOptions {
         (vec![side(1.0..transition, low), side(transition..f64::INFINITY, high)], scan)
     }
 
-    fn smooth(&self, cases: &[Case]) -> Vec<Regression> {
-        let sample = DemandSample::new(cases, &PLANE, EVERYWHERE);
+    fn smooth(&self, cases: &CaseTable) -> Vec<Regression> {
+        let sample = Sample::of_demands(cases, &PLANE, EVERYWHERE);
         let SmoothFit { transition, width, low, high, reset } =
             match fit_smooth(&sample, self.uncertainty.confidence) {
                 Ok(smooth) => smooth,
@@ -260,14 +263,14 @@ impl RegressionOptions {
     /// Adds the regressions of each resample.
     fn resample<E: Send>(
         &self,
-        groups: &[CaseGroup],
+        groups: &[&CaseTable],
+        cells: &[usize],
         progress: Progress<E>,
         fitted: &mut [Regressions],
     ) -> Result<(), E> {
         let pairs = groups.par_iter().zip(&*fitted);
         let refits: Vec<Refits> =
-            pairs.map(|(group, fitted)| Refits::new(group.cases, &fitted.fits, self.transition)).collect();
-        let cells = groups[0].cells;
+            pairs.map(|(group, fitted)| Refits::new(group, &fitted.fits, self.transition)).collect();
         let resampled = self.uncertainty.bootstrap(cells, &refits, progress, Refits::resampled)?;
         for (Regressions { fits, .. }, resampled) in fitted.iter_mut().zip(resampled) {
             let found: Vec<Option<f64>> = resampled.iter().map(|resample| resample.found).collect();
@@ -285,13 +288,17 @@ impl RegressionOptions {
         Ok(())
     }
 
-    /// Adds Ramsey's test, clustered errors, and limits from the replicates if there are any.
-    fn infer(&self, group: &CaseGroup, regression: &mut Regression) {
+    /// Adds the ranges of the data, Ramsey's test, clustered errors, and limits from the replicates if there are any.
+    fn infer(&self, group: &CaseTable, cells: &[usize], regression: &mut Regression) {
+        let sample = regression.sample(group);
+        regression.data_ranges = sample.ranges();
         let Ok(fit) = &regression.fit else { return };
-        let sample = regression.sample(group.cases);
+        if regression.form == Form::Smooth {
+            return;
+        }
         let inference = DemandInference::new(&sample, fit);
-        regression.reset = reset(&sample.predictors(), &sample.ln_edp, fit);
-        regression.clustered_errors = inference.clustered_errors(group.clusters);
+        regression.reset = reset_of(&sample.columns, sample.measures, fit);
+        regression.clustered_errors = inference.errors_by_cluster();
         if regression.replicates.is_empty() {
             return;
         }
@@ -300,7 +307,7 @@ impl RegressionOptions {
             let replicates: Vec<Option<f64>> = regression.replicates.iter().map(parameter).collect();
             bootstrap_limits(estimate, &replicates, acceleration, self.uncertainty.confidence)
         };
-        let accelerations = inference.accelerations(&Strata::new(group.cells));
+        let accelerations = inference.accelerations(&Strata::new(cells));
         let parameters = inference.fitted();
         regression.limits = parameters.parameters().zip(accelerations).enumerate().map(limits).collect();
     }
@@ -333,7 +340,7 @@ struct Resampled {
 }
 
 impl<'a> Refits<'a> {
-    fn new(cases: &[Case], regressions: &'a [Regression], transition: Option<f64>) -> Refits<'a> {
+    fn new(cases: &CaseTable, regressions: &'a [Regression], transition: Option<f64>) -> Refits<'a> {
         let refit = |regression: &Regression| {
             regression.fit.as_ref().ok()?;
             Some(match (regression.form, transition) {
@@ -342,7 +349,7 @@ impl<'a> Refits<'a> {
                 _ => Refit::SameCases(DemandRefits::new(&regression.sample(cases))),
             })
         };
-        let search = TransitionSearch::new(&DemandSample::new(cases, &PLANE, EVERYWHERE));
+        let search = TransitionSearch::new(&Sample::of_demands(cases, &PLANE, EVERYWHERE));
         Refits { regressions, transition, search, refits: regressions.iter().map(refit).collect() }
     }
 

@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::fragility::demand::sample::DemandSample;
+use crate::fragility::sample::Sample;
 use crate::resampling::bootstrap::{Resamples, Strata, TOGETHER};
 use crate::resampling::case_terms::CaseTerms;
 use crate::resampling::limits::acceleration;
 use crate::resampling::normal_equations::{LeastSquares, NormalEquations};
-use crate::statistics::design::DesignMatrix;
+use crate::statistics::design::{Moments, Rows};
 use crate::statistics::influence::Influence;
 use crate::statistics::regression::LinearFit;
 
@@ -31,36 +31,40 @@ impl DemandReplicate {
 
 /// A regression with cases: those it was fitted to, or for refits a larger sample.
 pub struct DemandInference<'a> {
-    sample: &'a DemandSample,
+    sample: &'a Sample,
     coefficients: DVector<f64>,
     residual_sd: f64,
     /// The inverse of X'X.
     bread: DMatrix<f64>,
     rss: f64,
     n: usize,
-    design: DesignMatrix,
-    residuals: Vec<f64>,
     influence: Influence,
 }
 
 impl<'a> DemandInference<'a> {
     /// Of a regression to any sample of the same measures. Least squares being quadratic, one Newton step leads from
     /// one sample to another.
-    pub fn new(sample: &'a DemandSample, fit: &LinearFit) -> DemandInference<'a> {
-        let (design, coefficients) = (sample.design(), fit.values());
-        let fitted = design.indices(coefficients.as_slice());
-        let residuals: Vec<f64> = sample.ln_edp.iter().zip(fitted).map(|(y, fitted)| y - fitted).collect();
-        let influence = Influence::of_residuals(residuals.clone());
+    pub fn new(sample: &'a Sample, fit: &LinearFit) -> DemandInference<'a> {
+        let coefficients = fit.values();
+        let influence = Influence::of_least_squares(coefficients.clone());
         let bread = &fit.covariance / fit.residual_sd.powi(2);
         let LinearFit { residual_sd, rss, n, .. } = *fit;
-        DemandInference { sample, coefficients, residual_sd, bread, rss, n, design, residuals, influence }
+        DemandInference { sample, coefficients, residual_sd, bread, rss, n, influence }
     }
 
     /// Standard errors of the coefficients where cases of one cluster may depend on each other; `clusters` are those of
     /// all cases. Of the sample of the fit.
     pub fn clustered_errors(&self, clusters: &[usize]) -> Vec<f64> {
-        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
-        let covariance = self.influence.clustered_covariance(&self.design, &self.bread, &clusters);
+        self.errors(|rows, case| clusters[rows.labels[0][case] as usize])
+    }
+
+    /// The same, of the clusters of the sample.
+    pub fn errors_by_cluster(&self) -> Vec<f64> {
+        self.errors(|rows, case| rows.labels[1][case] as usize)
+    }
+
+    fn errors(&self, cluster: impl Fn(&Rows, usize) -> usize + Sync) -> Vec<f64> {
+        let covariance = self.influence.clustered_covariance(&self.sample.design(), &self.bread, cluster);
         covariance.diagonal().iter().map(|variance| variance.sqrt()).collect()
     }
 
@@ -72,13 +76,17 @@ impl<'a> DemandInference<'a> {
 
     /// The regression where each case of the sample counts so often; none if they do not determine it.
     pub fn refit(&self, weights: &[f64]) -> Option<DemandReplicate> {
-        let change = self.influence.step(&self.design, weights)?;
-        let degrees = weights.iter().sum::<f64>() - change.len() as f64;
-        let shifts = self.design.indices(change.as_slice());
-        let square = |((residual, shift), weight): ((&f64, f64), &f64)| weight * (residual - shift).powi(2);
-        let rss: f64 = self.residuals.iter().zip(shifts).zip(weights).map(square).sum();
+        let design = self.sample.design();
+        let coefficients = &self.coefficients + self.influence.step(&design, weights)?;
+        let degrees = weights.iter().sum::<f64>() - coefficients.len() as f64;
+        let squares = |rows: &Rows| {
+            let fitted = rows.indices(coefficients.as_slice());
+            let square = |((fitted, y), weight): ((f64, &f64), &f64)| weight * (y - fitted).powi(2);
+            fitted.into_iter().zip(rows.y).zip(&weights[rows.first..]).map(square).sum::<f64>()
+        };
+        let rss = design.fold(0, squares, |sum, part| *sum += part);
         (degrees > 0.0).then(|| DemandReplicate {
-            coefficients: (&self.coefficients + change).as_slice().to_vec(),
+            coefficients: coefficients.as_slice().to_vec(),
             residual_sd: (rss / degrees).sqrt(),
         })
     }
@@ -88,11 +96,17 @@ impl<'a> DemandInference<'a> {
         let fit = self.fitted();
         let mut without_each = vec![fit.clone(); strata.rows()];
         let degrees = (self.n - 1 - fit.coefficients.len()) as f64;
-        let changes = self.influence.without_each(&self.design, &self.bread);
-        let cases = self.sample.rows.iter().zip(&self.residuals).zip(self.design.rows());
-        for (((&row, residual), x), change) in cases.zip(changes) {
-            let rss = self.rss - residual * (residual - x.dot(&change));
-            without_each[row].residual_sd = (rss / degrees).sqrt();
+        let design = self.sample.design();
+        let changes = self.influence.without_each(&design, &self.bread);
+        let of_block = |rows: &Rows| {
+            let fitted = rows.indices(self.coefficients.as_slice());
+            let residuals = rows.y.iter().zip(fitted).map(|(y, fitted)| y - fitted);
+            let cases = residuals.zip(rows.each()).zip(&changes[rows.first..]);
+            cases.map(|((residual, x), change)| residual * (residual - x.dot(change))).collect::<Vec<f64>>()
+        };
+        let shares = design.fold(0, of_block, |all, part| all.extend(part));
+        for ((row, share), change) in self.sample.rows().into_iter().zip(shares).zip(changes) {
+            without_each[row].residual_sd = ((self.rss - share) / degrees).sqrt();
             without_each[row].coefficients.iter_mut().zip(&change).for_each(|(b, change)| *b += change);
         }
         let parameter = |k: usize| -> Vec<f64> {
@@ -111,15 +125,17 @@ pub struct DemandRefits {
 
 impl DemandRefits {
     /// Of the cases of a sample.
-    pub fn new(sample: &DemandSample) -> DemandRefits {
-        DemandRefits::in_order(sample, &(0..sample.rows.len()).collect::<Vec<_>>())
+    pub fn new(sample: &Sample) -> DemandRefits {
+        let (means, columns) = (Moments::of(&sample.design()).means, sample.predictors());
+        let columns: Vec<Vec<f64>> = columns.into_iter().chain([sample.observed()]).collect();
+        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let rows = sample.rows();
+        DemandRefits::in_order(means, &columns, &rows, &(0..rows.len()).collect::<Vec<_>>())
     }
 
-    /// The same with the cases in this order.
-    pub fn in_order(sample: &DemandSample, order: &[usize]) -> DemandRefits {
-        let columns: Vec<&[f64]> = sample.predictors().into_iter().chain([&sample.ln_edp[..]]).collect();
-        let mean = |column: &&[f64]| column.iter().sum::<f64>() / column.len() as f64;
-        let means: Vec<f64> = columns.iter().map(mean).collect();
+    /// Of cases with these logarithms of measures and demands, which all have such means, in an order; `rows` are their rows among
+    /// all.
+    pub fn in_order(means: Vec<f64>, columns: &[&[f64]], rows: &[usize], order: &[usize]) -> DemandRefits {
         let products = |&case: &usize| -> Vec<f64> {
             let centred = columns.iter().zip(&means).map(|(column, mean)| column[case] - mean);
             let z: Vec<f64> = std::iter::once(1.0).chain(centred).collect();
@@ -128,7 +144,7 @@ impl DemandRefits {
                 .map(|(i, zj)| z[i] * zj)
                 .collect()
         };
-        let rows: Vec<usize> = order.iter().map(|&case| sample.rows[case]).collect();
+        let rows: Vec<usize> = order.iter().map(|&case| rows[case]).collect();
         let terms = NormalEquations::empty(means.len()).products.len();
         DemandRefits { products: CaseTerms::new(&rows, terms, order.iter().map(products)), means }
     }

@@ -11,10 +11,10 @@ use super::curves::{fit_with_interaction, fit_with_spline};
 use super::inference::CurveInference;
 use super::inference::CurveRefits;
 use super::parameter::CurveParameter;
-use super::sample::EventSample;
-use crate::fragility::case::{Case, Event, Measure};
-use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
-use crate::fragility::predictor::ranges;
+use crate::fragility::case::{Event, Measure};
+use crate::fragility::cases::CaseTable;
+use crate::fragility::group::{Progress, Uncertainty, fit_jointly};
+use crate::fragility::sample::Sample;
 use crate::keyword::{self, Keyword};
 use crate::resampling::{BootstrapLimits, Strata, bootstrap_limits};
 use crate::statistics::{BinaryFit, Estimator, FitStatus, Limits, Test, likelihood_ratio};
@@ -102,10 +102,13 @@ impl Curve {
     /// Whether a test rejects the curve, and the curve is off by more than a little. Many cases reject any model, few none: so
     /// both are asked.
     fn is_misfit(&self) -> bool {
-        let tests =
-            [self.fit.as_ref().ok().and_then(|fit| fit.hosmer_lemeshow), self.spline, self.interaction];
+        let tests = [
+            self.fit.as_ref().ok().and_then(|fit| fit.goodness.hosmer_lemeshow),
+            self.spline,
+            self.interaction,
+        ];
         let rejected = tests.into_iter().flatten().any(|test| test.p < REJECTED / tests.len() as f64);
-        let gap = self.fit.as_ref().ok().and_then(|fit| fit.largest_gap);
+        let gap = self.fit.as_ref().ok().and_then(|fit| fit.goodness.largest_gap);
         rejected && gap.is_some_and(|gap| gap.size() > SMALL_GAP)
     }
 
@@ -135,7 +138,7 @@ pub struct CurveOptions {
 }
 
 /// A curve with the cases that it was fitted to.
-type SampledCurve = (Curve, EventSample);
+type SampledCurve = (Curve, Sample);
 
 fn refits((curve, sample): &SampledCurve) -> Option<CurveRefits<'_>> {
     Some(CurveRefits::new(sample, &curve.fit.as_ref().ok()?.regression))
@@ -146,38 +149,47 @@ impl CurveOptions {
     ///
     /// # Errors
     /// Those of `progress`.
-    pub fn fit<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Vec<Curve>>, E> {
-        fit_jointly(groups, |groups| self.fit_alike(groups, progress))
+    pub fn fit<E: Send>(&self, groups: &[&CaseTable], progress: Progress<E>) -> Result<Vec<Vec<Curve>>, E> {
+        fit_jointly(groups, &self.uncertainty, |groups, cells| self.fit_alike(groups, cells, progress))
     }
 
     /// Of groups with the same cells.
-    fn fit_alike<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Vec<Curve>>, E> {
-        let curves = |group: &CaseGroup| {
+    fn fit_alike<E: Send>(
+        &self,
+        groups: &[&CaseTable],
+        cells: &[usize],
+        progress: Progress<E>,
+    ) -> Result<Vec<Vec<Curve>>, E> {
+        let curves = |group: &&CaseTable| {
             progress(1)?;
-            Ok(self.curves(group.cases))
+            Ok(self.curves(group))
         };
         let mut fitted = groups.par_iter().map(curves).collect::<Result<Vec<_>, E>>()?;
         if self.uncertainty.replicates > 0 {
-            self.resample(groups[0].cells, progress, &mut fitted)?;
+            self.resample(cells, progress, &mut fitted)?;
         }
-        let infer = |(curves, group): (Vec<SampledCurve>, &CaseGroup)| {
-            let inferred = |(curve, sample)| self.infer(group, curve, &sample);
-            curves.into_iter().map(inferred).collect()
+        let strata = Strata::new(cells);
+        let infer = |curves: Vec<SampledCurve>| {
+            curves.into_par_iter().map(|(curve, sample)| self.infer(&strata, curve, &sample)).collect()
         };
-        Ok(fitted.into_par_iter().zip(groups).map(infer).collect())
+        Ok(fitted.into_par_iter().map(infer).collect())
     }
 
-    fn curves(&self, cases: &[Case]) -> Vec<SampledCurve> {
+    fn curves(&self, cases: &CaseTable) -> Vec<SampledCurve> {
         let scalar = Measure::SCALAR.into_iter().map(|measure| (measure, None));
         let measures = scalar.chain(self.pairs.iter().map(|&Pair(x, y)| (x, Some(y))));
-        measures.map(|(im_x, im_y)| self.curve(cases, im_x, im_y)).collect()
+        measures
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|(im_x, im_y)| self.curve(cases, im_x, im_y))
+            .collect()
     }
 
-    fn curve(&self, cases: &[Case], im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
+    fn curve(&self, cases: &CaseTable, im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
         let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
-        let sample = EventSample::new(cases, &measures, |case| self.event.happened(case, f64::INFINITY));
+        let sample = Sample::of_events(cases, &measures, |case| self.event.happened(case, f64::INFINITY));
         let fit = fit_overturning(&sample, &self.model);
-        let needed = |bent: fn(&EventSample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
+        let needed = |bent: fn(&Sample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
             let straight = &fit.as_ref().ok().filter(|_| self.model.estimator == Estimator::Ml)?.regression;
             Some(likelihood_ratio(straight, &bent(&sample, &self.model).ok()?))
         };
@@ -186,9 +198,9 @@ impl CurveOptions {
             event: self.event,
             im_x,
             im_y,
-            n: sample.happened.len(),
+            n: sample.cases(),
             events: sample.events(),
-            data_ranges: ranges(&sample.predictors()),
+            data_ranges: sample.ranges(),
             model: self.model,
             fit,
             spline,
@@ -224,20 +236,22 @@ impl CurveOptions {
     }
 
     /// Adds clustered errors, profile-likelihood limits, and limits from the replicates if there are any.
-    fn infer(&self, group: &CaseGroup, mut curve: Curve, sample: &EventSample) -> Curve {
+    fn infer(&self, strata: &Strata, mut curve: Curve, sample: &Sample) -> Curve {
         let Ok(fit) = &curve.fit else { return curve };
         let (inference, confidence) =
             (CurveInference::new(sample, &fit.regression), self.uncertainty.confidence);
-        let (strata, clustered) = (Strata::new(group.cells), inference.clustered_covariance(group.clusters));
+        let clustered = inference.covariance_by_cluster();
         let of = |parameter: &CurveParameter| {
-            let replicates = inference.parameters(*parameter, &curve.replicates);
-            let acceleration = inference.acceleration(*parameter, &strata);
-            let estimate = inference.fitted(*parameter);
+            let of_replicates = || {
+                let replicates = inference.parameters(*parameter, &curve.replicates);
+                let acceleration = inference.acceleration(*parameter, strata);
+                bootstrap_limits(inference.fitted(*parameter), &replicates, acceleration, confidence)
+            };
             ParameterInference {
                 parameter: *parameter,
                 clustered_error: inference.standard_error(*parameter, &clustered),
                 profile: inference.profile_limits(*parameter, confidence),
-                bootstrap: bootstrap_limits(estimate, &replicates, acceleration, confidence),
+                bootstrap: if curve.replicates.is_empty() { None } else { of_replicates() },
             }
         };
         curve.inference = inference.curve_parameters().iter().map(of).collect();

@@ -2,7 +2,6 @@
 
 pub mod verdict;
 
-use anyhow::Context;
 use clap::Args;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -115,22 +114,19 @@ impl RankIms {
 }
 
 /// The measures of a group that its motions have besides those of Eq. 13.
-fn further(group: &Group, motions: &MotionMeasures) -> anyhow::Result<Vec<FurtherMeasure>> {
-    let ids = group.motion_ids.iter().zip(&group.pga_m_s2);
-    let rows = ids.map(|(id, &pga)| motions.row(id, pga)).collect::<anyhow::Result<Vec<usize>>>()?;
+fn further(group: &Group, rows: &[usize], motions: &MotionMeasures) -> Vec<FurtherMeasure> {
     let measures = motions.further.iter().map(|measure| FurtherMeasure {
         name: measure.name.clone(),
         ln: rows
             .iter()
-            .enumerate()
-            .map(|(response, &row)| {
-                let structure = group.structure_of(response);
+            .zip(group.structures())
+            .map(|(&row, structure)| {
                 let value = measure.quantity.dimensionless(measure.values[row]?, &structure);
                 Some(value).filter(|value| *value > 0.0).map(f64::ln)
             })
             .collect(),
     });
-    Ok(measures.collect())
+    measures.collect()
 }
 
 /// All candidates for one target in a group.
@@ -145,7 +141,7 @@ fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<Ranke
         target,
         n,
         events,
-        clustered_by: group.clusters.shared.as_str(),
+        clustered_by: group.shared.as_str(),
         ranked,
     };
     ranking.rank(ratings).into_iter().map(row).collect()
@@ -203,7 +199,6 @@ impl Stage for RankIms {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let groups = groups::read(&self.input)?;
         let own: Vec<OwnMeasure> =
             self.options.candidate.iter().flat_map(|Several(own)| own.iter().map(|own| own.0)).collect();
         let motions = match &self.motions {
@@ -213,14 +208,30 @@ impl Stage for RankIms {
             }
             None => None,
         };
+        // The row of the motion of each response of each group, or the first that has none.
+        let mut rows_of: Vec<anyhow::Result<Vec<usize>>> = Vec::new();
+        let groups = groups::read_each(&self.input, |group, response| {
+            let Some(motions) = &motions else { return };
+            rows_of.resize_with(rows_of.len().max(group + 1), || Ok(Vec::new()));
+            if let Ok(rows) = &mut rows_of[group] {
+                match motions.row(&response.motion_id.to_string(), response.pga_m_s2) {
+                    Ok(row) => rows.push(row),
+                    Err(error) => {
+                        let of = format!("responses of '{}'", response.structure);
+                        rows_of[group] = Err(error.context(of));
+                    }
+                }
+            }
+        })?;
+        let mut rows_of = rows_of.into_iter();
         let mut samples: Vec<(&Group, RankingSample)> = Vec::new();
         for group in &groups {
-            let further = motions.as_ref().map_or(Ok(Vec::new()), |motions| further(group, motions));
-            let further = further.with_context(|| format!("responses of '{}'", group.structure))?;
+            let rows = rows_of.next().transpose()?.unwrap_or_default();
+            let further = motions.as_ref().map_or(Vec::new(), |motions| further(group, &rows, motions));
+            let (cases, clusters) = (group.cases.to_vec(), group.cases.clusters());
             let sample = |&target: &Target| {
-                let clusters = &group.clusters.numbers;
                 let limit_state = self.options.limit_state;
-                (group, RankingSample::new(target, &group.cases, clusters, &further, limit_state))
+                (group, RankingSample::new(target, &cases, &clusters, &further, limit_state))
             };
             samples.extend(Target::ALL.iter().map(sample));
         }
