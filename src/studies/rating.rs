@@ -4,8 +4,6 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::DVector;
-
 use crate::fragility::case::Measure;
 use crate::fragility::demand::inference::{DemandInference, DemandReplicate};
 use crate::fragility::demand::regressions::PLANE;
@@ -15,7 +13,6 @@ use crate::fragility::overturning::inference::CurveInference;
 use crate::fragility::sample::Sample;
 use crate::statistics::FitStatus;
 use crate::statistics::binary::{Estimator, binary_regression};
-use crate::statistics::design::dot;
 use crate::statistics::goodness::{auc, brier_score, log_score, rising_groups};
 use crate::statistics::link::Link;
 use crate::statistics::separation::is_separated;
@@ -170,11 +167,13 @@ impl Breaks {
 }
 
 /// One power law, or one each side of a break.
+#[derive(Clone)]
 struct Law {
     parts: Vec<Part>,
 }
 
 /// A power law below an ln IM4.
+#[derive(Clone)]
 struct Part {
     below: f64,
     fit: DemandReplicate,
@@ -218,9 +217,9 @@ impl Law {
         Some(Law { parts: edges.into_iter().map(part).collect::<Option<_>>()? })
     }
 
-    fn at(&self, ln_im4: f64) -> &DemandReplicate {
-        let last = self.parts.len() - 1;
-        &self.parts.iter().find(|part| ln_im4 < part.below).unwrap_or(&self.parts[last]).fit
+    /// Which part holds at this ln IM4.
+    fn part_at(&self, ln_im4: f64) -> usize {
+        self.parts.iter().position(|part| ln_im4 < part.below).unwrap_or(self.parts.len() - 1)
     }
 }
 
@@ -239,28 +238,30 @@ pub fn rate_demand(
     let regression = cases.fit()?;
     let inference = DemandInference::new(&cases, &regression);
     let design = cases.design();
-    let rows: Vec<DVector<f64>> =
-        design.fold(0, |rows| rows.each().collect::<Vec<_>>(), |all, part| all.extend(part));
     let ln_im4 = &sample.ln_im[sample.place(Measure::Im4).ok_or(FitStatus::TooFewCases)?];
     let law = |break_at: Option<f64>, weights: &[f64]| {
         Law::fit(&inference, candidate.form, break_at, ln_im4, weights)
     };
-    let foresee = |law: &Law, case: usize| {
-        let DemandReplicate { coefficients, residual_sd } = law.at(ln_im4[case]);
-        let mean = dot(rows[case].as_slice(), coefficients);
-        let z = (sample.ln_edp[case] - mean) / residual_sd;
-        Prediction {
-            log_score: -0.5 * (z * z + (2.0 * PI).ln()) - residual_sd.ln(),
-            index: (mean - sample.ln_limit) / residual_sd,
+    let foresee = |law: &Law| {
+        let laws: Vec<(Vec<f64>, f64)> = law
+            .parts
+            .iter()
+            .map(|part| (design.indices(&part.fit.coefficients), part.fit.residual_sd))
+            .collect();
+        let law = law.clone();
+        move |case: usize| {
+            let (means, residual_sd) = &laws[law.part_at(ln_im4[case])];
+            let z = (sample.ln_edp[case] - means[case]) / residual_sd;
+            Prediction {
+                log_score: -0.5 * (z * z + (2.0 * PI).ln()) - residual_sd.ln(),
+                index: (means[case] - sample.ln_limit) / residual_sd,
+            }
         }
     };
     let whole = law(breaks.all, &vec![1.0; n]).ok_or(FitStatus::TooFewCases)?;
-    let fitted: Vec<Prediction> = (0..n).map(|case| foresee(&whole, case)).collect();
+    let fitted: Vec<Prediction> = (0..n).map(foresee(&whole)).collect();
     let held_out = folds.and_then(|folds| {
-        folds.leave_out(|fold, weights| {
-            let (law, foresee) = (law(breaks.without[fold], weights)?, &foresee);
-            Some(move |case| foresee(&law, case))
-        })
+        folds.leave_out(|fold, weights| Some(foresee(&law(breaks.without[fold], weights)?)))
     });
     let parts = whole.parts.len() as f64;
     // Coefficients and the variance of each part, and the break.
