@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::case::Case;
 use crate::motion::IntensityMeasures;
+use crate::resampling::Sizes;
 use crate::rocking::Outcome;
 use crate::statistics::columns::{BLOCK, Columns, Scratch};
 
@@ -96,6 +97,35 @@ impl CaseTable {
         self.columns.is_small()
     }
 
+    /// How many blocks hold them.
+    pub fn blocks(&self) -> usize {
+        self.columns.blocks()
+    }
+
+    /// Those of a block.
+    pub fn block(&self, block: usize) -> Vec<Case> {
+        let some = |first: usize, columns: &[&[f64]]| self.placed(first, columns);
+        self.columns.with_block(block, WIDTH, some).into_iter().map(|placed| placed.case).collect()
+    }
+
+    /// The cells of those of a block.
+    pub fn cells_of(&self, block: usize) -> Vec<usize> {
+        self.columns.with_block(block, WIDTH - 1, |_, columns| {
+            columns[WIDTH - 2].iter().map(|cell| *cell as usize).collect()
+        })
+    }
+
+    /// How many cases each cell has.
+    pub fn cell_sizes(&self) -> Sizes {
+        let mut sizes = Sizes::new();
+        for block in 0..self.blocks() {
+            for cell in self.cells_of(block) {
+                *sizes.entry(cell).or_default() += 1;
+            }
+        }
+        sizes
+    }
+
     /// All of them, in memory.
     pub fn to_vec(&self) -> Vec<Case> {
         let mut all = Vec::with_capacity(self.len());
@@ -113,6 +143,29 @@ impl CaseTable {
         self.columns.column(WIDTH - 1).into_iter().map(|cluster| self.cluster(cluster)).collect()
     }
 
+    fn placed(&self, first: usize, columns: &[&[f64]]) -> Vec<Placed> {
+        let case = |at: usize| {
+            let value = |place: usize| columns[place][at];
+            let known = |place: usize| Some(value(place)).filter(|value| !value.is_nan());
+            let outcome = match value(1) {
+                0.0 => Outcome::NoRocking,
+                1.0 => Outcome::SafeRocking,
+                _ => Outcome::Overturning,
+            };
+            let measures = IntensityMeasures {
+                im1: known(2),
+                im2: known(3),
+                im3: known(4),
+                im4: value(5),
+                im5: value(6),
+                im6: known(7),
+            };
+            let case = Case { outcome, edp: value(0), measures };
+            Placed { row: first + at, case, cluster: self.cluster(value(9)) }
+        };
+        (0..columns[0].len()).map(case).collect()
+    }
+
     fn cluster(&self, pushed: f64) -> usize {
         self.clusters.get(pushed as usize).copied().unwrap_or(pushed as usize)
     }
@@ -120,28 +173,7 @@ impl CaseTable {
 
 impl Cases for CaseTable {
     fn each<S: Send>(&self, work: impl Fn(&[Placed]) -> S + Sync, take: impl FnMut(S)) {
-        let of_block = |first: usize, columns: &[&[f64]]| {
-            let case = |at: usize| {
-                let value = |place: usize| columns[place][at];
-                let known = |place: usize| Some(value(place)).filter(|value| !value.is_nan());
-                let outcome = match value(1) {
-                    0.0 => Outcome::NoRocking,
-                    1.0 => Outcome::SafeRocking,
-                    _ => Outcome::Overturning,
-                };
-                let measures = IntensityMeasures {
-                    im1: known(2),
-                    im2: known(3),
-                    im3: known(4),
-                    im4: value(5),
-                    im5: value(6),
-                    im6: known(7),
-                };
-                let case = Case { outcome, edp: value(0), measures };
-                Placed { row: first + at, case, cluster: self.cluster(value(9)) }
-            };
-            work(&(0..columns[0].len()).map(case).collect::<Vec<_>>())
-        };
+        let of_block = |first: usize, columns: &[&[f64]]| work(&self.placed(first, columns));
         self.columns.each(WIDTH, of_block, take);
     }
 }

@@ -6,5 +6,5 @@ pub(crate) mod limits;
 pub(crate) mod monomials;
 pub(crate) mod normal_equations;
 
-pub use bootstrap::{Resamples, Strata, TOGETHER, bootstrap, bootstrap_each};
+pub use bootstrap::{Draws, Resamples, Sizes, Strata, TOGETHER, bootstrap, bootstrap_each};
 pub use limits::{BootstrapLimits, acceleration, bootstrap_limits};

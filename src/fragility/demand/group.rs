@@ -5,16 +5,18 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::inference::DemandRefits;
-use super::inference::{DemandInference, DemandReplicate};
+use super::inference::{DemandInference, DemandReplicate, solutions};
 use super::regressions::{Biplanar, PLANE, fit_biplanar, fit_plane, fit_univariate};
 use super::smooth::{SmoothFit, fit_smooth};
-use super::transition::{ScanPoint, TransitionSearch, transition_limits};
-use crate::fragility::case::Measure;
-use crate::fragility::cases::CaseTable;
-use crate::fragility::group::{Progress, Uncertainty, fit_jointly};
+use super::transition::{ScanPoint, TransitionSearch, breaks, no_parts, transition_limits};
+use crate::fragility::case::{Case, Measure};
+use crate::fragility::cases::{CaseTable, Cases};
+use crate::fragility::group::{Progress, Refits, Uncertainty, fit_jointly};
 use crate::fragility::sample::Sample;
 use crate::keyword::keywords;
+use crate::resampling::normal_equations::NormalEquations;
 use crate::resampling::{BootstrapLimits, Resamples, Strata, TOGETHER, bootstrap_limits};
+use crate::statistics::design::Moments;
 use crate::statistics::goodness::reset_of;
 use crate::statistics::{Estimate, FitStatus, Limits, LinearFit, Test};
 
@@ -130,7 +132,7 @@ impl Regression {
     }
 
     /// The cases that it was fitted to.
-    fn sample(&self, cases: &CaseTable) -> Sample {
+    fn sample<C: Cases + ?Sized>(&self, cases: &C) -> Sample {
         let measures: Vec<Measure> = std::iter::once(self.im_x).chain(self.im_y).collect();
         Sample::of_demands(cases, &measures, self.range.clone())
     }
@@ -177,7 +179,7 @@ impl RegressionOptions {
         };
         let mut fitted = groups.par_iter().map(regressions).collect::<Result<Vec<_>, E>>()?;
         if self.uncertainty.replicates > 0 {
-            self.resample(groups, cells, progress, &mut fitted)?;
+            self.resample(groups, progress, &mut fitted)?;
         }
         fitted.par_iter_mut().zip(groups).for_each(|(Regressions { fits, .. }, group)| {
             fits.extend(self.smooth(group));
@@ -264,14 +266,14 @@ impl RegressionOptions {
     fn resample<E: Send>(
         &self,
         groups: &[&CaseTable],
-        cells: &[usize],
         progress: Progress<E>,
         fitted: &mut [Regressions],
     ) -> Result<(), E> {
         let pairs = groups.par_iter().zip(&*fitted);
-        let refits: Vec<Refits> =
-            pairs.map(|(group, fitted)| Refits::new(group, &fitted.fits, self.transition)).collect();
-        let resampled = self.uncertainty.bootstrap(cells, &refits, progress, Refits::resampled)?;
+        let refits: Vec<RegressionRefits> = pairs
+            .map(|(group, fitted)| RegressionRefits::new(group, &fitted.fits, self.transition))
+            .collect();
+        let resampled = self.uncertainty.bootstrap(groups, &refits, progress)?;
         for (Regressions { fits, .. }, resampled) in fitted.iter_mut().zip(resampled) {
             let found: Vec<Option<f64>> = resampled.iter().map(|resample| resample.found).collect();
             for resample in resampled {
@@ -314,18 +316,19 @@ impl RegressionOptions {
 }
 
 /// The regressions of a group, to be made anew in resamples of its cases.
-struct Refits<'a> {
+struct RegressionRefits<'a> {
     regressions: &'a [Regression],
     /// The IM4 at which two planes meet, if it is not searched anew.
     transition: Option<f64>,
-    search: TransitionSearch,
+    /// Means of the cases of the search for it.
+    means: Vec<f64>,
     refits: Vec<Option<Refit>>,
 }
 
 /// How a regression is made anew.
 enum Refit {
-    /// From the resampled among the cases that it was fitted to.
-    SameCases(DemandRefits),
+    /// From the resampled among the cases that it was fitted to, which have these means.
+    SameCases(Vec<f64>),
     /// Below the transition of the resample.
     Below,
     /// Above it.
@@ -339,29 +342,78 @@ struct Resampled {
     fits: Vec<Option<Replicate>>,
 }
 
-impl<'a> Refits<'a> {
-    fn new(cases: &CaseTable, regressions: &'a [Regression], transition: Option<f64>) -> Refits<'a> {
+impl<'a> RegressionRefits<'a> {
+    fn new(
+        cases: &CaseTable,
+        regressions: &'a [Regression],
+        transition: Option<f64>,
+    ) -> RegressionRefits<'a> {
+        let means = |sample: Sample| Moments::of(&sample.design()).means;
         let refit = |regression: &Regression| {
             regression.fit.as_ref().ok()?;
             Some(match (regression.form, transition) {
                 (Form::Biplanar, None) if regression.range.end.is_finite() => Refit::Below,
                 (Form::Biplanar, None) => Refit::Above,
-                _ => Refit::SameCases(DemandRefits::new(&regression.sample(cases))),
+                _ => Refit::SameCases(means(regression.sample(cases))),
             })
         };
-        let search = TransitionSearch::new(&Sample::of_demands(cases, &PLANE, EVERYWHERE));
-        Refits { regressions, transition, search, refits: regressions.iter().map(refit).collect() }
+        RegressionRefits {
+            regressions,
+            transition,
+            means: means(Sample::of_demands(cases, &PLANE, EVERYWHERE)),
+            refits: regressions.iter().map(refit).collect(),
+        }
     }
 
-    fn resampled(&self, resamples: &Resamples) -> [Resampled; TOGETHER] {
-        let breaks = self.search.breaks(resamples);
-        let of_all = |refit: &Option<Refit>| match refit {
-            Some(Refit::SameCases(refits)) => refits.replicates(resamples),
-            Some(Refit::Below) => breaks.each_ref().map(|at| at.as_ref()?.low.clone()),
-            Some(Refit::Above) => breaks.each_ref().map(|at| at.as_ref()?.high.clone()),
-            None => [const { None }; TOGETHER],
+    /// Of each refit what `of` makes of those that are made from the same cases.
+    fn of_same_cases<T>(&self, of: impl Fn(&Regression, &[f64]) -> T) -> Vec<Option<T>> {
+        let of_each = |(regression, refit): (&Regression, &Option<Refit>)| match refit {
+            Some(Refit::SameCases(means)) => Some(of(regression, means)),
+            _ => None,
         };
-        let mut fits: Vec<_> = self.refits.iter().map(of_all).collect();
+        self.regressions.iter().zip(&self.refits).map(of_each).collect()
+    }
+}
+
+impl Refits for RegressionRefits<'_> {
+    type Terms = (Vec<Option<DemandRefits>>, TransitionSearch);
+    type Sums = (Vec<Option<NormalEquations>>, Vec<NormalEquations>);
+    type Refit = Resampled;
+
+    fn terms(&self, cases: &[Case]) -> Self::Terms {
+        let search = Sample::of_demands(cases, &PLANE, EVERYWHERE);
+        let of_same_cases = self.of_same_cases(|regression, means| {
+            DemandRefits::about(means.to_vec(), &regression.sample(cases))
+        });
+        (of_same_cases, TransitionSearch::about(self.means.clone(), &search))
+    }
+
+    fn none(&self) -> Self::Sums {
+        let empty = self.of_same_cases(|_, means| NormalEquations::empty(means.len()));
+        (empty, no_parts(self.means.len()))
+    }
+
+    fn add(&self, (refits, search): &Self::Terms, resamples: &Resamples, sums: &mut Self::Sums) {
+        for (sum, refits) in sums.0.iter_mut().flatten().zip(refits.iter().flatten()) {
+            sum.add(&refits.equations(0..refits.cases(), resamples));
+        }
+        sums.1.iter_mut().zip(search.parts(resamples)).for_each(|(sum, part)| sum.add(&part));
+    }
+
+    fn refits<'w>(
+        &self,
+        (equations, parts): Self::Sums,
+        _: &(dyn Fn() -> &'w Resamples + 'w),
+    ) -> [Resampled; TOGETHER] {
+        let breaks = breaks(&self.means, &parts);
+        let of_all = |(refit, equations): (&Option<Refit>, &Option<NormalEquations>)| match (refit, equations)
+        {
+            (Some(Refit::SameCases(means)), Some(equations)) => solutions(means, equations),
+            (Some(Refit::Below), _) => breaks.each_ref().map(|at| at.as_ref()?.low.clone()),
+            (Some(Refit::Above), _) => breaks.each_ref().map(|at| at.as_ref()?.high.clone()),
+            _ => [const { None }; TOGETHER],
+        };
+        let mut fits: Vec<_> = self.refits.iter().zip(&equations).map(of_all).collect();
         std::array::from_fn(|resample| {
             let found = breaks[resample].as_ref().map(|at| at.im4);
             let replicate = |(regression, fits): (&Regression, &mut [Option<DemandReplicate>; TOGETHER])| {

@@ -126,8 +126,12 @@ pub struct DemandRefits {
 impl DemandRefits {
     /// Of the cases of a sample.
     pub fn new(sample: &Sample) -> DemandRefits {
-        let (means, columns) = (Moments::of(&sample.design()).means, sample.predictors());
-        let columns: Vec<Vec<f64>> = columns.into_iter().chain([sample.observed()]).collect();
+        DemandRefits::about(Moments::of(&sample.design()).means, sample)
+    }
+
+    /// Of some of the cases that have these means.
+    pub fn about(means: Vec<f64>, sample: &Sample) -> DemandRefits {
+        let columns: Vec<Vec<f64>> = sample.predictors().into_iter().chain([sample.observed()]).collect();
         let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let rows = sample.rows();
         DemandRefits::in_order(means, &columns, &rows, &(0..rows.len()).collect::<Vec<_>>())
@@ -154,9 +158,9 @@ impl DemandRefits {
         self.products.cases()
     }
 
-    /// How many coefficients there are.
-    pub fn coefficients(&self) -> usize {
-        self.means.len()
+    /// The means.
+    pub fn means(&self) -> &[f64] {
+        &self.means
     }
 
     /// The normal equations of some of the cases.
@@ -166,22 +170,22 @@ impl DemandRefits {
 
     /// The regression in each resample; none where its cases do not determine it.
     pub fn replicates(&self, resamples: &Resamples) -> [Option<DemandReplicate>; TOGETHER] {
-        self.solutions(&NormalEquations { products: self.products.sums(resamples) })
+        solutions(&self.means, &self.equations(0..self.cases(), resamples))
     }
+}
 
-    /// The regressions that normal equations lead to.
-    pub fn solutions(&self, equations: &NormalEquations) -> [Option<DemandReplicate>; TOGETHER] {
-        let k = self.coefficients();
-        let LeastSquares { coefficients, rss } = equations.solve(k);
-        std::array::from_fn(|resample| {
-            let mut b: Vec<f64> = coefficients.iter().map(|b| b[resample]).collect();
-            let (of_response, of_predictors) = self.means.split_last()?;
-            let shift: f64 = of_predictors.iter().zip(&b[1..]).map(|(mean, b)| mean * b).sum();
-            b[0] += of_response - shift;
-            let degrees = equations.products[0][resample] - k as f64;
-            let residual_sd = (rss[resample].max(0.0) / degrees).sqrt();
-            let replicate = DemandReplicate { coefficients: b, residual_sd };
-            (degrees > 0.0 && replicate.parameters().all(f64::is_finite)).then_some(replicate)
-        })
-    }
+/// The regressions that normal equations of deviations from these means lead to.
+pub fn solutions(means: &[f64], equations: &NormalEquations) -> [Option<DemandReplicate>; TOGETHER] {
+    let k = means.len();
+    let LeastSquares { coefficients, rss } = equations.solve(k);
+    std::array::from_fn(|resample| {
+        let mut b: Vec<f64> = coefficients.iter().map(|b| b[resample]).collect();
+        let (of_response, of_predictors) = means.split_last()?;
+        let shift: f64 = of_predictors.iter().zip(&b[1..]).map(|(mean, b)| mean * b).sum();
+        b[0] += of_response - shift;
+        let degrees = equations.products[0][resample] - k as f64;
+        let residual_sd = (rss[resample].max(0.0) / degrees).sqrt();
+        let replicate = DemandReplicate { coefficients: b, residual_sd };
+        (degrees > 0.0 && replicate.parameters().all(f64::is_finite)).then_some(replicate)
+    })
 }

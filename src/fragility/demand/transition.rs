@@ -1,7 +1,7 @@
 //! Where the two planes of Eq. 18 meet.
 
 use super::inference::DemandRefits;
-use super::inference::DemandReplicate;
+use super::inference::{DemandReplicate, solutions};
 use crate::fragility::sample::Sample;
 use crate::resampling::bootstrap::{Resamples, TOGETHER};
 use crate::resampling::normal_equations::NormalEquations;
@@ -124,7 +124,11 @@ fn sides(k: usize, parts: &[NormalEquations]) -> Vec<Sides> {
 impl TransitionSearch {
     /// In a sample of IM4 and IM3.
     pub fn new(sample: &Sample) -> TransitionSearch {
-        let means = Moments::of(&sample.design()).means;
+        TransitionSearch::about(Moments::of(&sample.design()).means, sample)
+    }
+
+    /// In some of the cases that have these means.
+    pub fn about(means: Vec<f64>, sample: &Sample) -> TransitionSearch {
         let columns: Vec<Vec<f64>> = sample.predictors().into_iter().chain([sample.observed()]).collect();
         TransitionSearch::of(means, &columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), &sample.rows())
     }
@@ -145,34 +149,44 @@ impl TransitionSearch {
 
     /// Where the planes meet in each resample, and which they are.
     pub fn breaks(&self, resamples: &Resamples) -> [Option<Break>; TOGETHER] {
-        let sides = self.sides(resamples);
-        let best: [Option<&Sides>; TOGETHER] = std::array::from_fn(|resample| {
-            let possible = sides.iter().filter(|sides| sides.pooled_rss[resample].is_finite());
-            possible.min_by(|a, b| a.pooled_rss[resample].total_cmp(&b.pooled_rss[resample]))
-        });
-        let mut low = NormalEquations::empty(self.refits.coefficients());
-        let mut high = low.clone();
-        for (resample, sides) in best.iter().enumerate().filter_map(|(k, sides)| Some((k, (*sides)?))) {
-            low.copy(&sides.low, resample);
-            high.copy(&sides.high, resample);
-        }
-        let (mut low, mut high) = (self.refits.solutions(&low), self.refits.solutions(&high));
-        std::array::from_fn(|resample| {
-            let im4 = best[resample]?.im4;
-            Some(Break { im4, low: low[resample].take(), high: high[resample].take() })
-        })
+        breaks(self.refits.means(), &self.parts(resamples))
     }
 
     fn sides(&self, resamples: &Resamples) -> Vec<Sides> {
-        sides(self.refits.coefficients(), &self.parts(resamples))
+        sides(self.refits.means().len(), &self.parts(resamples))
     }
 
     /// The equations of the cases up to the first place, between places, and from the last one on.
-    fn parts(&self, resamples: &Resamples) -> Vec<NormalEquations> {
+    pub fn parts(&self, resamples: &Resamples) -> Vec<NormalEquations> {
         let below = self.below.iter().copied();
         let ends: Vec<usize> = std::iter::once(0).chain(below).chain([self.refits.cases()]).collect();
         ends.windows(2).map(|ends| self.refits.equations(ends[0]..ends[1], resamples)).collect()
     }
+}
+
+/// The parts of no cases, for planes of so many coefficients.
+pub fn no_parts(coefficients: usize) -> Vec<NormalEquations> {
+    vec![NormalEquations::empty(coefficients); places().count() + 1]
+}
+
+/// Where the planes meet in each resample, and which they are, from the parts of all cases.
+pub fn breaks(means: &[f64], parts: &[NormalEquations]) -> [Option<Break>; TOGETHER] {
+    let sides = sides(means.len(), parts);
+    let best: [Option<&Sides>; TOGETHER] = std::array::from_fn(|resample| {
+        let possible = sides.iter().filter(|sides| sides.pooled_rss[resample].is_finite());
+        possible.min_by(|a, b| a.pooled_rss[resample].total_cmp(&b.pooled_rss[resample]))
+    });
+    let mut low = NormalEquations::empty(means.len());
+    let mut high = low.clone();
+    for (resample, sides) in best.iter().enumerate().filter_map(|(k, sides)| Some((k, (*sides)?))) {
+        low.copy(&sides.low, resample);
+        high.copy(&sides.high, resample);
+    }
+    let (mut low, mut high) = (solutions(means, &low), solutions(means, &high));
+    std::array::from_fn(|resample| {
+        let im4 = best[resample]?.im4;
+        Some(Break { im4, low: low[resample].take(), high: high[resample].take() })
+    })
 }
 
 impl Sides {

@@ -15,7 +15,7 @@ use pulp::NullaryFnOnce;
 
 use crate::fragility::sample::Sample;
 use crate::normal;
-use crate::resampling::bootstrap::{Resamples, TOGETHER};
+use crate::resampling::bootstrap::TOGETHER;
 use crate::resampling::case_terms::CaseTerms;
 use crate::resampling::monomials::Monomials;
 use crate::resampling::normal_equations::{LeastSquares, NormalEquations};
@@ -34,12 +34,6 @@ const LEFT_OUT: f64 = 2e-6;
 /// Where the polynomial is precise it takes fewer steps.
 const MOST_STEPS: usize = 10;
 
-/// The log-likelihood of resamples about a fit.
-pub struct Expansion {
-    series: Series,
-    terms: CaseTerms,
-}
-
 /// Where the polynomial says that the likelihood is greatest.
 pub struct NearMaximum {
     pub at: DVector<f64>,
@@ -48,7 +42,7 @@ pub struct NearMaximum {
 }
 
 /// How a log-likelihood is expanded about a fit.
-struct Series {
+pub struct Series {
     link: Link,
     fitted: DVector<f64>,
     /// From standard errors, in which the coefficients do not depend on each other, to coefficients.
@@ -58,7 +52,7 @@ struct Series {
 
 impl Series {
     /// None if the covariance of the fit is not definite.
-    fn about(fit: &BinaryFit) -> Option<Series> {
+    pub fn about(fit: &BinaryFit) -> Option<Series> {
         Some(Series {
             link: fit.link,
             fitted: fit.coefficients.clone(),
@@ -110,6 +104,33 @@ impl Series {
             self.monomials.sums_of_powers(&moved, &of_index)
         };
         design.fold(0, of_block, |sums, part| sums.iter_mut().zip(part).for_each(|(sum, part)| *sum += part))
+    }
+
+    /// The terms of each case of a sample, to be summed.
+    pub fn case_terms(&self, sample: &Sample) -> CaseTerms {
+        let of_all = sample.design().fold(0, |rows| self.terms(rows), |all, part| all.extend(part));
+        CaseTerms::new(&sample.rows(), self.count(), of_all.into_iter())
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.monomials.count()
+    }
+
+    /// The maximum in each resample to within `tolerance` of the log-likelihood, or where one Newton step leads; none
+    /// where that leads nowhere.
+    pub fn maxima(&self, factors: &[[f64; TOGETHER]], tolerance: f64) -> [Option<NearMaximum>; TOGETHER] {
+        let Maxima { at, first, settled, left_out } =
+            widest(NewtonSteps { monomials: &self.monomials, factors, tolerance });
+        std::array::from_fn(|resample| {
+            let of_resample = |of: &[[f64; TOGETHER]]| {
+                let moved = DVector::from_iterator(of.len(), of.iter().map(|moved| moved[resample]));
+                self.coefficients(&moved)
+            };
+            let precise = settled[resample] && left_out[resample] < LEFT_OUT;
+            let at = of_resample(if settled[resample] { &at } else { &first });
+            at.iter().all(|b| b.is_finite()).then_some(NearMaximum { at, precise })
+        })
     }
 
     /// Coefficients, from how far they are from the fit in standard errors.
@@ -168,33 +189,6 @@ impl Polynomial {
             gradient: self.inverse.tr_mul(&gradient),
             information: self.inverse.tr_mul(&information) * &self.inverse,
         }
-    }
-}
-
-impl Expansion {
-    /// About a fit by maximum likelihood to a sample. None if its covariance is not definite.
-    pub fn new(sample: &Sample, fit: &BinaryFit) -> Option<Expansion> {
-        let series = Series::about(fit)?;
-        let of_all = sample.design().fold(0, |rows| series.terms(rows), |all, part| all.extend(part));
-        let terms = CaseTerms::new(&sample.rows(), series.monomials.count(), of_all.into_iter());
-        Some(Expansion { series, terms })
-    }
-
-    /// The maximum in each resample to within `tolerance` of the log-likelihood, or where one Newton step leads; none
-    /// where that leads nowhere.
-    pub fn maxima(&self, resamples: &Resamples, tolerance: f64) -> [Option<NearMaximum>; TOGETHER] {
-        let factors = self.terms.sums(resamples);
-        let Maxima { at, first, settled, left_out } =
-            widest(NewtonSteps { monomials: &self.series.monomials, factors: &factors, tolerance });
-        std::array::from_fn(|resample| {
-            let of_resample = |of: &[[f64; TOGETHER]]| {
-                let moved = DVector::from_iterator(of.len(), of.iter().map(|moved| moved[resample]));
-                self.series.coefficients(&moved)
-            };
-            let precise = settled[resample] && left_out[resample] < LEFT_OUT;
-            let at = of_resample(if settled[resample] { &at } else { &first });
-            at.iter().all(|b| b.is_finite()).then_some(NearMaximum { at, precise })
-        })
     }
 }
 

@@ -11,12 +11,13 @@ use super::curves::{fit_with_interaction, fit_with_spline};
 use super::inference::CurveInference;
 use super::inference::CurveRefits;
 use super::parameter::CurveParameter;
-use crate::fragility::case::{Event, Measure};
-use crate::fragility::cases::CaseTable;
-use crate::fragility::group::{Progress, Uncertainty, fit_jointly};
+use crate::fragility::case::{Case, Event, Measure};
+use crate::fragility::cases::{CaseTable, Cases};
+use crate::fragility::group::{Progress, Refits, Uncertainty, fit_jointly};
 use crate::fragility::sample::Sample;
 use crate::keyword::{self, Keyword};
-use crate::resampling::{BootstrapLimits, Strata, bootstrap_limits};
+use crate::resampling::case_terms::CaseTerms;
+use crate::resampling::{BootstrapLimits, Resamples, Strata, TOGETHER, bootstrap_limits};
 use crate::statistics::{BinaryFit, Estimator, FitStatus, Limits, Test, likelihood_ratio};
 
 /// Two measures that make a hybrid one (Eq. 23), written as `im4:im3_inv`.
@@ -112,6 +113,11 @@ impl Curve {
         rejected && gap.is_some_and(|gap| gap.size() > SMALL_GAP)
     }
 
+    /// The cases that it is about.
+    fn sample(&self, cases: &[Case]) -> Sample {
+        event_sample(self.event, self.im_x, self.im_y, cases)
+    }
+
     /// How uncertain a parameter is.
     pub fn inference_of(&self, parameter: CurveParameter) -> Option<&ParameterInference> {
         self.inference.iter().find(|inference| inference.parameter == parameter)
@@ -137,11 +143,68 @@ pub struct CurveOptions {
     pub uncertainty: Uncertainty,
 }
 
+/// The cases of a curve: those that count for its event.
+fn event_sample<C: Cases + ?Sized>(event: Event, im_x: Measure, im_y: Option<Measure>, cases: &C) -> Sample {
+    let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
+    Sample::of_events(cases, &measures, |case| event.happened(case, f64::INFINITY))
+}
+
 /// A curve with the cases that it was fitted to.
 type SampledCurve = (Curve, Sample);
 
-fn refits((curve, sample): &SampledCurve) -> Option<CurveRefits<'_>> {
-    Some(CurveRefits::new(sample, &curve.fit.as_ref().ok()?.regression))
+/// The curves of a group, to be made anew in resamples of its cases.
+struct GroupRefits<'a> {
+    curves: &'a [SampledCurve],
+    refits: Vec<Option<CurveRefits<'a>>>,
+}
+
+impl<'a> GroupRefits<'a> {
+    fn new(curves: &'a Vec<SampledCurve>) -> GroupRefits<'a> {
+        let refits = |(curve, sample): &'a SampledCurve| {
+            Some(CurveRefits::new(sample, &curve.fit.as_ref().ok()?.regression))
+        };
+        GroupRefits { curves, refits: curves.iter().map(refits).collect() }
+    }
+}
+
+impl Refits for GroupRefits<'_> {
+    type Terms = Vec<Option<CaseTerms>>;
+    type Sums = Vec<Vec<[f64; TOGETHER]>>;
+    type Refit = Vec<Option<DVector<f64>>>;
+
+    fn terms(&self, cases: &[Case]) -> Self::Terms {
+        let of_curve = |((curve, _), refits): (&SampledCurve, &Option<CurveRefits>)| {
+            refits.as_ref()?.terms(&curve.sample(cases))
+        };
+        self.curves.iter().zip(&self.refits).map(of_curve).collect()
+    }
+
+    fn none(&self) -> Self::Sums {
+        let none = |refits: &Option<CurveRefits>| {
+            vec![[0.0; TOGETHER]; refits.as_ref().map_or(0, CurveRefits::count)]
+        };
+        self.refits.iter().map(none).collect()
+    }
+
+    fn add(&self, terms: &Self::Terms, resamples: &Resamples, sums: &mut Self::Sums) {
+        for (sums, terms) in sums.iter_mut().zip(terms) {
+            let more = terms.as_ref().map_or(Vec::new(), |terms| terms.sums(resamples));
+            let all = sums.iter_mut().flatten().zip(more.iter().flatten());
+            all.for_each(|(sum, more)| *sum += more);
+        }
+    }
+
+    fn refits<'w>(
+        &self,
+        sums: Self::Sums,
+        whole: &(dyn Fn() -> &'w Resamples + 'w),
+    ) -> [Self::Refit; TOGETHER] {
+        let of_all = |(refits, sums): (&Option<CurveRefits>, &Vec<[f64; TOGETHER]>)| {
+            Some(refits.as_ref()?.of_sums(sums, whole))
+        };
+        let mut fits: Vec<_> = self.refits.iter().zip(&sums).map(of_all).collect();
+        std::array::from_fn(|resample| fits.iter_mut().map(|fit| fit.as_mut()?[resample].take()).collect())
+    }
 }
 
 impl CurveOptions {
@@ -166,7 +229,7 @@ impl CurveOptions {
         };
         let mut fitted = groups.par_iter().map(curves).collect::<Result<Vec<_>, E>>()?;
         if self.uncertainty.replicates > 0 {
-            self.resample(cells, progress, &mut fitted)?;
+            self.resample(groups, progress, &mut fitted)?;
         }
         let strata = Strata::new(cells);
         let infer = |curves: Vec<SampledCurve>| {
@@ -186,8 +249,7 @@ impl CurveOptions {
     }
 
     fn curve(&self, cases: &CaseTable, im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
-        let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
-        let sample = Sample::of_events(cases, &measures, |case| self.event.happened(case, f64::INFINITY));
+        let sample = event_sample(self.event, im_x, im_y, cases);
         let fit = fit_overturning(&sample, &self.model);
         let needed = |bent: fn(&Sample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
             let straight = &fit.as_ref().ok().filter(|_| self.model.estimator == Estimator::Ml)?.regression;
@@ -214,19 +276,12 @@ impl CurveOptions {
     /// Adds the coefficients in each resample.
     fn resample<E: Send>(
         &self,
-        cells: &[usize],
+        groups: &[&CaseTable],
         progress: Progress<E>,
         fitted: &mut [Vec<SampledCurve>],
     ) -> Result<(), E> {
-        let groups: Vec<Vec<Option<CurveRefits>>> =
-            fitted.par_iter().map(|curves| curves.iter().map(refits).collect()).collect();
-        let resampled = self.uncertainty.bootstrap(cells, &groups, progress, |refits, resamples| {
-            let of_all = |refits: &Option<CurveRefits>| Some(refits.as_ref()?.coefficients(resamples));
-            let mut fits: Vec<_> = refits.iter().map(of_all).collect();
-            std::array::from_fn(|resample| -> Vec<_> {
-                fits.iter_mut().map(|fit| fit.as_mut()?[resample].take()).collect()
-            })
-        })?;
+        let refits: Vec<GroupRefits> = fitted.iter().map(GroupRefits::new).collect();
+        let resampled = self.uncertainty.bootstrap(groups, &refits, progress)?;
         for (curves, replicates) in fitted.iter_mut().zip(resampled) {
             for fits in replicates {
                 curves.iter_mut().zip(fits).for_each(|((curve, _), fit)| curve.replicates.push(fit));

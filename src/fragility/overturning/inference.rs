@@ -4,11 +4,12 @@ use std::sync::OnceLock;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::fragility::overturning::expansion::{Expansion, NearMaximum, Polynomial};
+use crate::fragility::overturning::expansion::{NearMaximum, Polynomial, Series};
 use crate::fragility::overturning::parameter::CurveParameter;
 use crate::fragility::overturning::profile::profile_limits;
 use crate::fragility::sample::Sample;
 use crate::resampling::bootstrap::{Resamples, Strata, TOGETHER};
+use crate::resampling::case_terms::CaseTerms;
 use crate::resampling::limits::acceleration;
 use crate::statistics::binary::{BinaryFit, BinaryLikelihood, Estimator};
 use crate::statistics::design::Rows;
@@ -137,29 +138,53 @@ impl<'a> CurveInference<'a> {
 
 /// A curve, to be fitted in resamples of its cases.
 pub struct CurveRefits<'a> {
-    rows: Vec<usize>,
+    sample: &'a Sample,
     inference: CurveInference<'a>,
-    expansion: Option<Expansion>,
+    series: Option<Series>,
+    /// Those of the sample.
+    terms: OnceLock<Option<CaseTerms>>,
 }
 
 impl<'a> CurveRefits<'a> {
     /// Of a curve and the sample it was fitted to.
     pub fn new(sample: &'a Sample, fit: &'a BinaryFit) -> CurveRefits<'a> {
-        let expansion = (fit.estimator == Estimator::Ml).then(|| Expansion::new(sample, fit)).flatten();
-        CurveRefits { rows: sample.rows(), inference: CurveInference::new(sample, fit), expansion }
+        let series = (fit.estimator == Estimator::Ml).then(|| Series::about(fit)).flatten();
+        CurveRefits { sample, inference: CurveInference::new(sample, fit), series, terms: OnceLock::new() }
+    }
+
+    /// The terms of the likelihood of some of the cases, if it is expanded.
+    pub(super) fn terms(&self, some: &Sample) -> Option<CaseTerms> {
+        Some(self.series.as_ref()?.case_terms(some))
+    }
+
+    /// How many terms of a case are summed.
+    pub(super) fn count(&self) -> usize {
+        self.series.as_ref().map_or(0, Series::count)
     }
 
     /// The coefficients in each resample; none without a maximum of the likelihood. They are those of the expansion where it
     /// is precise; otherwise it is where Newton's steps start.
     pub fn coefficients(&self, resamples: &Resamples) -> [Option<DVector<f64>>; TOGETHER] {
-        let mut nearby = match &self.expansion {
-            Some(expansion) => expansion.maxima(resamples, TOLERANCE),
+        let terms = self.terms.get_or_init(|| self.terms(self.sample));
+        let sums = terms.as_ref().map_or(Vec::new(), |terms| terms.sums(resamples));
+        self.of_sums(&sums, &|| resamples)
+    }
+
+    /// The same from the sums of the terms; `whole` tells how often each of all cases is drawn.
+    pub(super) fn of_sums<'w>(
+        &self,
+        sums: &[[f64; TOGETHER]],
+        whole: &(dyn Fn() -> &'w Resamples + 'w),
+    ) -> [Option<DVector<f64>>; TOGETHER] {
+        let mut nearby = match &self.series {
+            Some(series) => series.maxima(sums, TOLERANCE),
             None => [const { None }; TOGETHER],
         };
+        let rows = OnceLock::new();
         std::array::from_fn(|resample| match nearby[resample].take() {
             Some(NearMaximum { at, precise: true }) => Some(at),
             start => {
-                let weights = resamples.of(resample, &self.rows);
+                let weights = whole().of(resample, rows.get_or_init(|| self.sample.rows()));
                 self.inference.maximum(&weights, start.map(|start| start.at))
             }
         })
