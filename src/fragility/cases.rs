@@ -14,6 +14,8 @@ pub struct Placed {
     /// Its number.
     pub row: usize,
     pub case: Case,
+    /// The cell of magnitude and distance, within which the bootstrap resamples.
+    pub cell: usize,
     /// Its cluster: cases of one cluster may depend on each other.
     pub cluster: usize,
 }
@@ -24,13 +26,13 @@ pub trait Cases: Sync {
     fn each<S: Send>(&self, work: impl Fn(&[Placed]) -> S + Sync, take: impl FnMut(S));
 }
 
-/// Each is a cluster of its own.
+/// All are in one cell, and each is a cluster of its own.
 impl<T: AsRef<[Case]> + Sync + ?Sized> Cases for T {
     fn each<S: Send>(&self, work: impl Fn(&[Placed]) -> S + Sync, mut take: impl FnMut(S)) {
         for (block, cases) in self.as_ref().chunks(BLOCK).enumerate() {
             let placed = |(row, &case): (usize, &Case)| {
                 let row = block * BLOCK + row;
-                Placed { row, case, cluster: row }
+                Placed { row, case, cell: 0, cluster: row }
             };
             take(work(&cases.iter().enumerate().map(placed).collect::<Vec<_>>()));
         }
@@ -115,6 +117,12 @@ impl CaseTable {
         })
     }
 
+    /// Whether its cases are in the same cells as those of another table.
+    pub fn has_cells_of(&self, other: &CaseTable) -> bool {
+        let same = |block: usize| self.cells_of(block) == other.cells_of(block);
+        self.len() == other.len() && (0..self.blocks()).all(same)
+    }
+
     /// How many cases each cell has.
     pub fn cell_sizes(&self) -> Sizes {
         let mut sizes = Sizes::new();
@@ -161,7 +169,7 @@ impl CaseTable {
                 im6: known(7),
             };
             let case = Case { outcome, edp: value(0), measures };
-            Placed { row: first + at, case, cluster: self.cluster(value(9)) }
+            Placed { row: first + at, case, cell: value(8) as usize, cluster: self.cluster(value(9)) }
         };
         (0..columns[0].len()).map(case).collect()
     }

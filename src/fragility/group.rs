@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::case::Case;
 use super::cases::CaseTable;
-use crate::resampling::{Draws, Resamples, Strata, TOGETHER};
+use crate::resampling::{Draws, Resamples, Sizes, Strata, TOGETHER};
 
 /// Limits of confidence and the bootstrap behind them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,16 +42,17 @@ impl Uncertainty {
     pub(super) fn bootstrap<R: Refits, E: Send>(
         &self,
         groups: &[&CaseTable],
+        sizes: &Sizes,
         refits: &[R],
         progress: Progress<E>,
     ) -> Result<Vec<Vec<R::Refit>>, E> {
-        let (sizes, blocks) = (groups[0].cell_sizes(), groups[0].blocks());
+        let blocks = groups[0].blocks();
         let strata = |block: usize| Strata::new(&groups[0].cells_of(block));
         let firsts: Vec<usize> = (0..self.replicates).step_by(TOGETHER).collect();
         let mut done: Vec<Vec<R::Refit>> = refits.iter().map(|_| Vec::new()).collect();
         for firsts in firsts.chunks((MOST_SUMS / groups.len()).max(1)) {
             let none = |&first: &usize| {
-                (Draws::new(&sizes, self.seed, first), refits.iter().map(R::none).collect::<Vec<_>>())
+                (Draws::new(sizes, self.seed, first), refits.iter().map(R::none).collect::<Vec<_>>())
             };
             let mut batches: Vec<(Draws, Vec<R::Sums>)> = firsts.iter().map(none).collect();
             for block in 0..blocks {
@@ -69,7 +70,7 @@ impl Uncertainty {
                 let whole = OnceLock::new();
                 let whole = || -> &Resamples {
                     whole.get_or_init(|| {
-                        let mut draws = Draws::new(&sizes, self.seed, first);
+                        let mut draws = Draws::new(sizes, self.seed, first);
                         let counts = (0..blocks).flat_map(|block| draws.next(&strata(block)).counts);
                         Resamples { counts: counts.collect() }
                     })
@@ -120,27 +121,22 @@ pub(super) trait Refits: Sync {
 /// Groups that are resampled jointly, at most: what is known of all their cases is held at once.
 const JOINTLY: usize = 8;
 
-/// Fits all groups. `fit` is given groups that follow each other, and the cells of their cases if they are to be resampled: these
-/// are the same, and so are the resamples, which need be drawn only once. Groups of many cases come one after the other, so that only
+/// Fits all groups. `fit` is given groups that follow each other, and how many cases each cell has; if they are to be resampled, all have
+/// the same cells and so the same resamples, which need be drawn only once. Groups of many cases come one after the other, so that only
 /// the samples of one are held.
 pub(super) fn fit_jointly<T: Send, E: Send>(
     groups: &[&CaseTable],
     uncertainty: &Uncertainty,
-    fit: impl Fn(&[&CaseTable], &[usize]) -> Result<Vec<T>, E> + Sync + Send,
+    fit: impl Fn(&[&CaseTable], &Sizes) -> Result<Vec<T>, E> + Sync + Send,
 ) -> Result<Vec<T>, E> {
-    let cells = |group: &&CaseTable| if uncertainty.replicates > 0 { group.cells() } else { Vec::new() };
-    let cells: Vec<Vec<usize>> = groups.iter().map(cells).collect();
-    let mut jointly: Vec<(&[&CaseTable], &[usize])> = Vec::new();
-    let mut first = 0;
-    for alike in cells.chunk_by(|a, b| a == b && uncertainty.replicates > 0) {
-        let (of_alike, cells) = (&groups[first..first + alike.len()], &alike[0]);
-        jointly.extend(of_alike.chunks(JOINTLY).map(|groups| (groups, &cells[..])));
-        first += alike.len();
-    }
+    let alike = |a: &&CaseTable, b: &&CaseTable| uncertainty.replicates > 0 && a.has_cells_of(b);
+    let jointly: Vec<&[&CaseTable]> =
+        groups.chunk_by(alike).flat_map(|alike| alike.chunks(JOINTLY)).collect();
+    let fit = |groups: &[&CaseTable]| fit(groups, &groups[0].cell_sizes());
     let fitted = if groups.iter().all(|group| group.is_small()) {
-        jointly.into_par_iter().map(|(groups, cells)| fit(groups, cells)).collect::<Result<Vec<Vec<T>>, E>>()
+        jointly.into_par_iter().map(fit).collect::<Result<Vec<Vec<T>>, E>>()
     } else {
-        jointly.into_iter().map(|(groups, cells)| fit(groups, cells)).collect()
+        jointly.into_iter().map(fit).collect()
     };
     Ok(fitted?.into_iter().flatten().collect())
 }

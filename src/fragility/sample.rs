@@ -14,7 +14,7 @@ use crate::statistics::regression::{LinearFit, RegressionError, regress};
 /// The cases of a regression or a curve that have all its measures.
 #[derive(Debug)]
 pub struct Sample {
-    /// The logarithm of each measure, what was observed, which of all cases it is, and its cluster.
+    /// The logarithm of each measure, what was observed, which of all cases it is, its cluster and its cell.
     pub columns: Columns,
     /// How many measures.
     pub measures: usize,
@@ -42,18 +42,23 @@ impl Sample {
         measures: &[Measure],
         observed: impl Fn(&Case, f64) -> Option<f64> + Sync,
     ) -> Sample {
-        let width = measures.len() + 3;
+        let width = measures.len() + 4;
         let of_some = |some: &[Placed]| {
             let mut columns = vec![Vec::with_capacity(some.len()); width];
             let mut values = vec![0.0; width];
-            for Placed { row, case, cluster } in some {
+            for Placed { row, case, cell, cluster } in some {
                 let has_all = measures.iter().zip(&mut values).all(|(measure, value)| {
                     *value = measure.of(case).unwrap_or(f64::NAN);
                     !value.is_nan()
                 });
                 if let Some(y) = has_all.then(|| observed(case, values[0])).flatten() {
                     values[..measures.len()].iter_mut().for_each(|value| *value = value.ln());
-                    values[measures.len()..].copy_from_slice(&[y, *row as f64, *cluster as f64]);
+                    values[measures.len()..].copy_from_slice(&[
+                        y,
+                        *row as f64,
+                        *cluster as f64,
+                        *cell as f64,
+                    ]);
                     columns.iter_mut().zip(&values).for_each(|(column, value)| column.push(*value));
                 }
             }
@@ -68,8 +73,10 @@ impl Sample {
     pub fn of_columns(predictors: Vec<Vec<f64>>, observed: Vec<f64>) -> Sample {
         let measures = predictors.len();
         let rows: Vec<f64> = (0..observed.len()).map(|row| row as f64).collect();
-        let mut columns = Columns::new(measures + 3, &Arc::default());
-        columns.append(&predictors.into_iter().chain([observed, rows.clone(), rows]).collect::<Vec<_>>());
+        let mut columns = Columns::new(measures + 4, &Arc::default());
+        let cells = vec![0.0; rows.len()];
+        let labels = [rows.clone(), rows, cells];
+        columns.append(&predictors.into_iter().chain([observed]).chain(labels).collect::<Vec<_>>());
         Sample { columns, measures }
     }
 

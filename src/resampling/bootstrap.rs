@@ -21,7 +21,8 @@ pub type Sizes = BTreeMap<usize, u64>;
 /// The rows of a sample by the stratum they were drawn in.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Strata {
-    rows: usize,
+    /// The number of that of each row.
+    of: Vec<usize>,
     /// The number of each.
     labels: Vec<usize>,
     members: Vec<Vec<usize>>,
@@ -37,7 +38,7 @@ impl Strata {
         }
         let labels_in_use = (0..strata).filter(|&label| !members[label].is_empty()).collect();
         members.retain(|rows| !rows.is_empty());
-        Strata { rows: labels.len(), labels: labels_in_use, members }
+        Strata { of: labels.to_vec(), labels: labels_in_use, members }
     }
 
     /// How many rows each has.
@@ -47,7 +48,17 @@ impl Strata {
 
     /// How many rows there are.
     pub fn rows(&self) -> usize {
-        self.rows
+        self.of.len()
+    }
+
+    /// The number of the stratum of a row.
+    pub fn label_of(&self, row: usize) -> usize {
+        self.of[row]
+    }
+
+    /// The number of each stratum.
+    pub fn labels(&self) -> &[usize] {
+        &self.labels
     }
 
     /// The rows of each stratum.
@@ -95,7 +106,7 @@ impl Draws<'_> {
 
     /// How often each row of the next block is drawn.
     pub fn next(&mut self, strata: &Strata) -> Resamples {
-        let mut counts = vec![[0.0; TOGETHER]; strata.rows];
+        let mut counts = vec![[0.0; TOGETHER]; strata.rows()];
         for resample in 0..TOGETHER {
             for (label, rows) in strata.labels.iter().zip(&strata.members) {
                 let size = self.sizes.get(label).copied().unwrap_or(rows.len() as u64);
@@ -144,7 +155,7 @@ pub fn bootstrap_each<S: Sync, T: Send, E: Send>(
     refit: impl Fn(&S, &Resamples) -> Result<[T; TOGETHER], E> + Sync,
 ) -> Result<Vec<Vec<T>>, E> {
     let sizes = strata.sizes();
-    let at_once = MOST_DRAWS / (strata.rows.max(1) * TOGETHER) + 1;
+    let at_once = MOST_DRAWS / (strata.rows().max(1) * TOGETHER) + 1;
     let firsts: Vec<usize> = (0..replicates).step_by(TOGETHER).collect();
     let mut refits: Vec<Vec<T>> = samples.iter().map(|_| Vec::with_capacity(replicates)).collect();
     for firsts in firsts.chunks(at_once) {

@@ -12,6 +12,9 @@ use super::link::Link;
 use super::newton::{Along, newton_step};
 use crate::wide::widest;
 
+/// How many labels cases have by which they may be clusters.
+const LABELS: usize = 2;
+
 /// The derivatives of a log-likelihood (or of half the negative residual sum of squares) with respect to the index of
 /// each case, at the fit.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,7 +91,7 @@ impl Influence {
             }
             totals
         };
-        let totals = design.fold(2, of_block, |totals, part| {
+        let totals = design.fold(LABELS, of_block, |totals, part| {
             for (cluster, more) in part {
                 *totals.entry(cluster).or_insert_with(|| DVector::zeros(k)) += more;
             }
@@ -106,18 +109,15 @@ impl Influence {
         bread * meat * bread * (g / (g - 1.0) * (n - 1.0) / (n - k as f64))
     }
 
-    /// The change of the coefficients without each case in turn, of which `bread` is the inverse information: exact for
+    /// The change of the coefficients without each of some cases in turn, of which `bread` is the inverse information: exact for
     /// least squares, one Newton step for a likelihood (Pregibon 1981, Logistic regression diagnostics, Ann. Stat. 9).
-    pub fn without_each(&self, design: &Design, bread: &DMatrix<f64>) -> Vec<DVector<f64>> {
-        let of_block = |rows: &Rows| -> Vec<DVector<f64>> {
-            let (score, curvature) = self.scores(rows);
-            let change = |((row, score), curvature): ((DVector<f64>, f64), f64)| {
-                let direction = bread * &row;
-                let leverage = curvature * row.dot(&direction);
-                direction * (-score / (1.0 - leverage))
-            };
-            rows.each().zip(score).zip(curvature).map(change).collect()
+    pub fn without_each(&self, rows: &Rows, bread: &DMatrix<f64>) -> Vec<DVector<f64>> {
+        let (score, curvature) = self.scores(rows);
+        let change = |((row, score), curvature): ((DVector<f64>, f64), f64)| {
+            let direction = bread * &row;
+            let leverage = curvature * row.dot(&direction);
+            direction * (-score / (1.0 - leverage))
         };
-        design.fold(0, of_block, |all, part| all.extend(part))
+        rows.each().zip(score).zip(curvature).map(change).collect()
     }
 }

@@ -15,7 +15,7 @@ use crate::fragility::group::{Progress, Refits, Uncertainty, fit_jointly};
 use crate::fragility::sample::Sample;
 use crate::keyword::keywords;
 use crate::resampling::normal_equations::NormalEquations;
-use crate::resampling::{BootstrapLimits, Resamples, Strata, TOGETHER, bootstrap_limits};
+use crate::resampling::{BootstrapLimits, Resamples, Sizes, TOGETHER, bootstrap_limits};
 use crate::statistics::design::Moments;
 use crate::statistics::goodness::reset_of;
 use crate::statistics::{Estimate, FitStatus, Limits, LinearFit, Test};
@@ -163,14 +163,14 @@ impl RegressionOptions {
     /// # Errors
     /// Those of `progress`.
     pub fn fit<E: Send>(&self, groups: &[&CaseTable], progress: Progress<E>) -> Result<Vec<Regressions>, E> {
-        fit_jointly(groups, &self.uncertainty, |groups, cells| self.fit_alike(groups, cells, progress))
+        fit_jointly(groups, &self.uncertainty, |groups, sizes| self.fit_alike(groups, sizes, progress))
     }
 
     /// Of groups with the same cells.
     fn fit_alike<E: Send>(
         &self,
         groups: &[&CaseTable],
-        cells: &[usize],
+        sizes: &Sizes,
         progress: Progress<E>,
     ) -> Result<Vec<Regressions>, E> {
         let regressions = |group: &&CaseTable| {
@@ -179,11 +179,11 @@ impl RegressionOptions {
         };
         let mut fitted = groups.par_iter().map(regressions).collect::<Result<Vec<_>, E>>()?;
         if self.uncertainty.replicates > 0 {
-            self.resample(groups, progress, &mut fitted)?;
+            self.resample(groups, sizes, progress, &mut fitted)?;
         }
         fitted.par_iter_mut().zip(groups).for_each(|(Regressions { fits, .. }, group)| {
             fits.extend(self.smooth(group));
-            fits.par_iter_mut().for_each(|regression| self.infer(group, cells, regression));
+            fits.par_iter_mut().for_each(|regression| self.infer(group, sizes, regression));
         });
         Ok(fitted)
     }
@@ -266,6 +266,7 @@ impl RegressionOptions {
     fn resample<E: Send>(
         &self,
         groups: &[&CaseTable],
+        sizes: &Sizes,
         progress: Progress<E>,
         fitted: &mut [Regressions],
     ) -> Result<(), E> {
@@ -273,7 +274,7 @@ impl RegressionOptions {
         let refits: Vec<RegressionRefits> = pairs
             .map(|(group, fitted)| RegressionRefits::new(group, &fitted.fits, self.transition))
             .collect();
-        let resampled = self.uncertainty.bootstrap(groups, &refits, progress)?;
+        let resampled = self.uncertainty.bootstrap(groups, sizes, &refits, progress)?;
         for (Regressions { fits, .. }, resampled) in fitted.iter_mut().zip(resampled) {
             let found: Vec<Option<f64>> = resampled.iter().map(|resample| resample.found).collect();
             for resample in resampled {
@@ -291,7 +292,7 @@ impl RegressionOptions {
     }
 
     /// Adds the ranges of the data, Ramsey's test, clustered errors, and limits from the replicates if there are any.
-    fn infer(&self, group: &CaseTable, cells: &[usize], regression: &mut Regression) {
+    fn infer(&self, group: &CaseTable, sizes: &Sizes, regression: &mut Regression) {
         let sample = regression.sample(group);
         regression.data_ranges = sample.ranges();
         let Ok(fit) = &regression.fit else { return };
@@ -309,7 +310,7 @@ impl RegressionOptions {
             let replicates: Vec<Option<f64>> = regression.replicates.iter().map(parameter).collect();
             bootstrap_limits(estimate, &replicates, acceleration, self.uncertainty.confidence)
         };
-        let accelerations = inference.accelerations(&Strata::new(cells));
+        let accelerations = inference.accelerations_by_cell(sizes);
         let parameters = inference.fitted();
         regression.limits = parameters.parameters().zip(accelerations).enumerate().map(limits).collect();
     }

@@ -5,9 +5,9 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use crate::fragility::sample::Sample;
-use crate::resampling::bootstrap::{Resamples, Strata, TOGETHER};
+use crate::resampling::bootstrap::{Resamples, Sizes, Strata, TOGETHER};
 use crate::resampling::case_terms::CaseTerms;
-use crate::resampling::limits::acceleration;
+use crate::resampling::limits::{Moves, acceleration_of, add_move, join_moves};
 use crate::resampling::normal_equations::{LeastSquares, NormalEquations};
 use crate::statistics::design::{Moments, Rows};
 use crate::statistics::influence::Influence;
@@ -93,26 +93,35 @@ impl<'a> DemandInference<'a> {
 
     /// Of coefficients and dispersion, for BCa limits. Of the sample of the fit.
     pub fn accelerations(&self, strata: &Strata) -> Vec<f64> {
-        let fit = self.fitted();
-        let mut without_each = vec![fit.clone(); strata.rows()];
-        let degrees = (self.n - 1 - fit.coefficients.len()) as f64;
-        let design = self.sample.design();
-        let changes = self.influence.without_each(&design, &self.bread);
+        self.accelerations_within(&strata.sizes(), |rows, case| {
+            strata.label_of(rows.labels[0][case] as usize)
+        })
+    }
+
+    /// The same within the cells of the sample, which have such sizes among all cases.
+    pub fn accelerations_by_cell(&self, sizes: &Sizes) -> Vec<f64> {
+        self.accelerations_within(sizes, |rows, case| rows.labels[2][case] as usize)
+    }
+
+    fn accelerations_within(&self, sizes: &Sizes, cell: impl Fn(&Rows, usize) -> usize + Sync) -> Vec<f64> {
+        let k = self.coefficients.len();
+        let degrees = (self.n - 1 - k) as f64;
         let of_block = |rows: &Rows| {
+            let mut moves = vec![Moves::new(); k + 1];
             let fitted = rows.indices(self.coefficients.as_slice());
-            let residuals = rows.y.iter().zip(fitted).map(|(y, fitted)| y - fitted);
-            let cases = residuals.zip(rows.each()).zip(&changes[rows.first..]);
-            cases.map(|((residual, x), change)| residual * (residual - x.dot(change))).collect::<Vec<f64>>()
+            let cases = rows.each().zip(self.influence.without_each(rows, &self.bread)).enumerate();
+            for (case, (x, change)) in cases {
+                let (residual, cell) = (rows.y[case] - fitted[case], cell(rows, case));
+                let rss = self.rss - residual * (residual - x.dot(&change));
+                let by = change.iter().copied().chain([(rss / degrees).sqrt() - self.residual_sd]);
+                moves.iter_mut().zip(by).for_each(|(moves, by)| add_move(moves, cell, by));
+            }
+            moves
         };
-        let shares = design.fold(0, of_block, |all, part| all.extend(part));
-        for ((row, share), change) in self.sample.rows().into_iter().zip(shares).zip(changes) {
-            without_each[row].residual_sd = ((self.rss - share) / degrees).sqrt();
-            without_each[row].coefficients.iter_mut().zip(&change).for_each(|(b, change)| *b += change);
-        }
-        let parameter = |k: usize| -> Vec<f64> {
-            without_each.iter().filter_map(|fit| fit.parameters().nth(k)).collect()
-        };
-        (0..=fit.coefficients.len()).map(|k| acceleration(&parameter(k), strata)).collect()
+        let moves = self.sample.design().fold(3, of_block, |all, part| {
+            all.iter_mut().zip(part).for_each(|(all, part)| join_moves(all, part));
+        });
+        moves.iter().map(|moves| acceleration_of(moves, sizes)).collect()
     }
 }
 

@@ -17,7 +17,7 @@ use crate::fragility::group::{Progress, Refits, Uncertainty, fit_jointly};
 use crate::fragility::sample::Sample;
 use crate::keyword::{self, Keyword};
 use crate::resampling::case_terms::CaseTerms;
-use crate::resampling::{BootstrapLimits, Resamples, Strata, TOGETHER, bootstrap_limits};
+use crate::resampling::{BootstrapLimits, Resamples, Sizes, TOGETHER, bootstrap_limits};
 use crate::statistics::{BinaryFit, Estimator, FitStatus, Limits, Test, likelihood_ratio};
 
 /// Two measures that make a hybrid one (Eq. 23), written as `im4:im3_inv`.
@@ -213,14 +213,14 @@ impl CurveOptions {
     /// # Errors
     /// Those of `progress`.
     pub fn fit<E: Send>(&self, groups: &[&CaseTable], progress: Progress<E>) -> Result<Vec<Vec<Curve>>, E> {
-        fit_jointly(groups, &self.uncertainty, |groups, cells| self.fit_alike(groups, cells, progress))
+        fit_jointly(groups, &self.uncertainty, |groups, sizes| self.fit_alike(groups, sizes, progress))
     }
 
     /// Of groups with the same cells.
     fn fit_alike<E: Send>(
         &self,
         groups: &[&CaseTable],
-        cells: &[usize],
+        sizes: &Sizes,
         progress: Progress<E>,
     ) -> Result<Vec<Vec<Curve>>, E> {
         let curves = |group: &&CaseTable| {
@@ -229,11 +229,10 @@ impl CurveOptions {
         };
         let mut fitted = groups.par_iter().map(curves).collect::<Result<Vec<_>, E>>()?;
         if self.uncertainty.replicates > 0 {
-            self.resample(groups, progress, &mut fitted)?;
+            self.resample(groups, sizes, progress, &mut fitted)?;
         }
-        let strata = Strata::new(cells);
         let infer = |curves: Vec<SampledCurve>| {
-            curves.into_par_iter().map(|(curve, sample)| self.infer(&strata, curve, &sample)).collect()
+            curves.into_par_iter().map(|(curve, sample)| self.infer(sizes, curve, &sample)).collect()
         };
         Ok(fitted.into_par_iter().map(infer).collect())
     }
@@ -277,11 +276,12 @@ impl CurveOptions {
     fn resample<E: Send>(
         &self,
         groups: &[&CaseTable],
+        sizes: &Sizes,
         progress: Progress<E>,
         fitted: &mut [Vec<SampledCurve>],
     ) -> Result<(), E> {
         let refits: Vec<GroupRefits> = fitted.iter().map(GroupRefits::new).collect();
-        let resampled = self.uncertainty.bootstrap(groups, &refits, progress)?;
+        let resampled = self.uncertainty.bootstrap(groups, sizes, &refits, progress)?;
         for (curves, replicates) in fitted.iter_mut().zip(resampled) {
             for fits in replicates {
                 curves.iter_mut().zip(fits).for_each(|((curve, _), fit)| curve.replicates.push(fit));
@@ -291,7 +291,7 @@ impl CurveOptions {
     }
 
     /// Adds clustered errors, profile-likelihood limits, and limits from the replicates if there are any.
-    fn infer(&self, strata: &Strata, mut curve: Curve, sample: &Sample) -> Curve {
+    fn infer(&self, sizes: &Sizes, mut curve: Curve, sample: &Sample) -> Curve {
         let Ok(fit) = &curve.fit else { return curve };
         let (inference, confidence) =
             (CurveInference::new(sample, &fit.regression), self.uncertainty.confidence);
@@ -299,7 +299,7 @@ impl CurveOptions {
         let of = |parameter: &CurveParameter| {
             let of_replicates = || {
                 let replicates = inference.parameters(*parameter, &curve.replicates);
-                let acceleration = inference.acceleration(*parameter, strata);
+                let acceleration = inference.acceleration_by_cell(*parameter, sizes);
                 bootstrap_limits(inference.fitted(*parameter), &replicates, acceleration, confidence)
             };
             ParameterInference {

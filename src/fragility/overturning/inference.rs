@@ -8,9 +8,9 @@ use crate::fragility::overturning::expansion::{NearMaximum, Polynomial, Series};
 use crate::fragility::overturning::parameter::CurveParameter;
 use crate::fragility::overturning::profile::profile_limits;
 use crate::fragility::sample::Sample;
-use crate::resampling::bootstrap::{Resamples, Strata, TOGETHER};
+use crate::resampling::bootstrap::{Resamples, Sizes, Strata, TOGETHER};
 use crate::resampling::case_terms::CaseTerms;
-use crate::resampling::limits::acceleration;
+use crate::resampling::limits::{Moves, acceleration_of, add_move, join_moves};
 use crate::statistics::binary::{BinaryFit, BinaryLikelihood, Estimator};
 use crate::statistics::design::Rows;
 use crate::statistics::estimate::Limits;
@@ -113,13 +113,32 @@ impl<'a> CurveInference<'a> {
 
     /// The acceleration of a parameter for BCa limits.
     pub fn acceleration(&self, parameter: CurveParameter, strata: &Strata) -> f64 {
-        let (link, fitted) = (self.fit.link, &self.fit.coefficients);
-        let mut without_each = vec![self.fitted(parameter); strata.rows()];
-        let changes = self.influence.without_each(&self.sample.design(), &self.fit.covariance);
-        for (row, change) in self.sample.rows().into_iter().zip(changes) {
-            without_each[row] = parameter.value(link, &(fitted + change));
-        }
-        acceleration(&without_each, strata)
+        let cell = |rows: &Rows, case: usize| strata.label_of(rows.labels[0][case] as usize);
+        self.acceleration_within(parameter, &strata.sizes(), cell)
+    }
+
+    /// The same within the cells of the sample, which have such sizes among all cases.
+    pub fn acceleration_by_cell(&self, parameter: CurveParameter, sizes: &Sizes) -> f64 {
+        self.acceleration_within(parameter, sizes, |rows, case| rows.labels[2][case] as usize)
+    }
+
+    fn acceleration_within(
+        &self,
+        parameter: CurveParameter,
+        sizes: &Sizes,
+        cell: impl Fn(&Rows, usize) -> usize + Sync,
+    ) -> f64 {
+        let (link, fitted, value) = (self.fit.link, &self.fit.coefficients, self.fitted(parameter));
+        let of_block = |rows: &Rows| {
+            let mut moves = Moves::new();
+            let changes = self.influence.without_each(rows, &self.fit.covariance);
+            for (case, change) in changes.into_iter().enumerate() {
+                let by = parameter.value(link, &(fitted + change)) - value;
+                add_move(&mut moves, cell(rows, case), by);
+            }
+            moves
+        };
+        acceleration_of(&self.sample.design().fold(3, of_block, join_moves), sizes)
     }
 
     fn likelihood<'b>(&'b self, weights: Option<&'b [f64]>) -> BinaryLikelihood<'b> {
