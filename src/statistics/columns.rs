@@ -12,11 +12,11 @@ use rayon::prelude::*;
 /// Rows of a block.
 pub const BLOCK: usize = 8192;
 /// Blocks that are worked on before their results are joined.
-const AT_ONCE: usize = 64;
+const AT_ONCE: usize = 16;
 /// Blocks that tell well enough where to search in all.
 const FEW: usize = 8;
-/// Numbers that all columns together hold in memory: 64 MiB. Further blocks go to files.
-const MOST_HELD: usize = 8 << 20;
+/// Numbers that all columns together hold in memory: 16 MiB. Further blocks go to files.
+const MOST_HELD: usize = 2 << 20;
 
 static HELD: AtomicUsize = AtomicUsize::new(0);
 

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use super::columns::{BLOCK, Columns, Scratch};
 
-/// Pairs that are sorted at once: 8 MiB.
-const RUN: usize = 64 * BLOCK;
+/// Pairs that are sorted at once: 2 MiB.
+const RUN: usize = 16 * BLOCK;
 
 /// Pairs to be sorted by the first number; those with the same one stay in order.
 #[derive(Default)]

@@ -74,7 +74,7 @@ pub fn read(source: impl Into<Source>) -> anyhow::Result<Vec<Group>> {
 }
 
 /// Batches whose rows are made at once.
-const AT_ONCE: usize = 8;
+const AT_ONCE: usize = 4;
 
 /// The same; `look` is shown each response before it is added, with the number of its group, and may change it.
 ///
