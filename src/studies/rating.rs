@@ -17,7 +17,7 @@ use crate::statistics::goodness::{auc, brier_score, log_score, rising_groups};
 use crate::statistics::link::Link;
 use crate::statistics::separation::is_separated;
 use crate::studies::candidate::{Candidate, Form};
-use crate::studies::folds::Folds;
+use crate::studies::folds::{Folds, Scores};
 use crate::studies::ranking_sample::RankingSample;
 
 /// Groups of a reliability curve.
@@ -53,6 +53,16 @@ pub struct Rating {
     pub held_out: Option<HeldOut>,
 }
 
+impl Rating {
+    /// Without what is as long as the cases are many: enough for a ranking.
+    pub fn without_cases(mut self) -> Rating {
+        if let Some(held_out) = &mut self.held_out {
+            held_out.log_scores = Vec::new();
+        }
+        self
+    }
+}
+
 /// How probabilities tell events apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Skill {
@@ -73,8 +83,10 @@ impl Skill {
 /// Forecasts of clusters that were left out of the fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeldOut {
-    /// Of each case.
+    /// Of each case; none of [`Rating::without_cases`].
     pub log_scores: Vec<f64>,
+    /// Their sums.
+    pub scores: Scores,
     /// The mean of ln P of whether the event happened; for overturning, the mean of the same scores.
     pub event_log_score: f64,
     /// How they tell the events apart.
@@ -100,10 +112,12 @@ pub struct ReliabilityGroup {
 
 impl HeldOut {
     /// Of forecasts that were made without the clusters they are of.
-    pub fn of(predictions: &[Prediction], happened: &[bool]) -> HeldOut {
+    pub fn of(predictions: &[Prediction], happened: &[bool], clusters: &[usize]) -> HeldOut {
         let (indices, probabilities) = indices_and_probabilities(predictions);
+        let log_scores: Vec<f64> = predictions.iter().map(|prediction| prediction.log_score).collect();
         HeldOut {
-            log_scores: predictions.iter().map(|prediction| prediction.log_score).collect(),
+            scores: Scores::of(&log_scores, clusters),
+            log_scores,
             event_log_score: log_score(&probabilities, happened),
             skill: Skill::of(predictions, happened),
             calibration: calibration(&indices, happened),
@@ -113,7 +127,7 @@ impl HeldOut {
 
     /// The mean of the scores.
     pub fn log_score(&self) -> f64 {
-        self.log_scores.iter().sum::<f64>() / self.log_scores.len() as f64
+        self.scores.mean()
     }
 }
 
@@ -281,7 +295,7 @@ pub fn rate_demand(
         beta,
         zeta: if let [_, slope] = coefficients[..] { Some(beta / slope) } else { None },
         coefficients,
-        held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened)),
+        held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened, &sample.clusters)),
     })
 }
 
@@ -317,6 +331,6 @@ pub fn rate_overturning(
         fitted: Skill { auc: fit.goodness.auc, brier: fit.goodness.brier },
         beta: fit.beta.value,
         zeta: None,
-        held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened)),
+        held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened, &sample.clusters)),
     })
 }

@@ -20,7 +20,7 @@ use crate::pipeline::terminal::Terminal;
 use crate::stages::shared::groups::{self, Group};
 use crate::stages::shared::motions::note_passed_over;
 use crate::stages::shared::uncertainty::LIMIT_STATE;
-use crate::studies::{FurtherMeasure, MeasureRanking, RankingRules, RankingSample, Target};
+use crate::studies::{FurtherMeasure, MeasureRanking, RankingRules, RankingSample, Rating, Target};
 use crate::table::motion_measures::{MotionMeasures, OwnMeasure, own_columns};
 use crate::table::ranking::{RANKING, RankedCandidate, RankingRow, ReliabilityRow};
 use crate::table::store::provenance::Provenance;
@@ -134,7 +134,8 @@ fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<Ranke
     let (target, n) = (sample.target, sample.len());
     let events = sample.happened.iter().filter(|&&happened| happened).count();
     let ranking = MeasureRanking::new(sample, rules);
-    let ratings = ranking.candidates.par_iter().map(|candidate| ranking.rate(candidate)).collect();
+    let ratings = ranking.candidates.par_iter();
+    let ratings = ratings.map(|candidate| ranking.rate(candidate).map(Rating::without_cases)).collect();
     let row = |ranked| RankedCandidate {
         suite: group.suite.clone(),
         structure: group.structure.clone(),
@@ -238,7 +239,7 @@ impl Stage for RankIms {
         warn(&samples, console);
         let targets = samples.len();
         let ranked: Vec<Vec<RankedCandidate>> =
-            samples.into_par_iter().map(|(group, sample)| rows(group, sample, &self.rules)).collect();
+            samples.into_iter().map(|(group, sample)| rows(group, sample, &self.rules)).collect();
         let reliability: Vec<ReliabilityRow> =
             ranked.iter().flatten().flat_map(RankedCandidate::reliability).collect();
         ReliabilityRow::write(&reliability, self.reliability_target(), provenance)?;
