@@ -23,8 +23,10 @@ fn case(k: usize) -> Case {
     let (im4, im3) = (1.0 + 2.5 * of(0), (1.5 * of(1)).exp());
     let im5 = im4 / im3;
     let normal = |what: usize| normal::quantile(0.0001 + 0.9998 * of(what));
-    let plane = if im4 < 1.3 { [-6.0, 20.0] } else { [-1.5, 2.6] };
-    let ln_edp = plane[0] + plane[1] * im4.ln() - 0.5 * im3.ln() + 0.4 * normal(2);
+    let share = 1.0 - (-im4.ln() / 0.2).exp();
+    let on = |plane: [f64; 2]| plane[0] + plane[1] * im4.ln();
+    let demand = (1.0 - share) * on([-6.0, 10.0]) + share * on([-1.5, 2.6]);
+    let ln_edp = demand - 0.5 * im3.ln() + 0.2 * normal(2);
     let overturns = 1.7 * im5.ln() + 0.6 * im4.ln() - 0.4 + 0.8 * normal(3) > 0.0;
     let outcome = if overturns { Outcome::Overturning } else { Outcome::SafeRocking };
     let measures = IntensityMeasures {
@@ -60,6 +62,8 @@ fn regressions_of_many_cases_are_those_of_few() {
         near(many.pooled_rss, m * few.pooled_rss, 1e-10, "scan");
         assert_eq!((many.n_low, many.n_high), (COPIES * few.n_low, COPIES * few.n_high));
     }
+    assert_eq!(fits[0].fits.len(), fits[1].fits.len());
+    assert!(fits[1].fits.last().is_some_and(|fit| fit.transition_width.is_some()), "no smooth transition");
     for (many, few) in fits[0].fits.iter().zip(&fits[1].fits) {
         let what = format!("{:?} {:?}", few.form, few.im_x);
         let (Ok(of_many), Ok(of_few)) = (&many.fit, &few.fit) else {
@@ -68,6 +72,7 @@ fn regressions_of_many_cases_are_those_of_few() {
         };
         // The width of a smooth transition is where rounding leaves a search, to the root of that of the residuals.
         let tolerance = if few.transition_width.is_some() { 1e-6 } else { 1e-10 };
+        assert_eq!(of_many.coefficients.len(), of_few.coefficients.len(), "{what}");
         near(of_many.rss, m * of_few.rss, 1e-10, &what);
         near(of_many.r2, of_few.r2, 1e-10, &what);
         for k in 0..of_few.coefficients.len() {

@@ -22,7 +22,10 @@ const PLACES: usize = 48;
 /// To which the logarithm of the width is found in the next.
 const CLOSE: f64 = 1e-9;
 /// The most steps from the width of some cases to that of all.
-const MOST_STEPS: usize = 20;
+const MOST_STEPS: usize = 30;
+/// The first of them in the logarithm of the width, and the largest.
+const NEARBY: f64 = 1e-3;
+const MOST: f64 = 0.1;
 /// Coefficients of two planes, and the width.
 const PARAMETERS: usize = 7;
 
@@ -97,17 +100,21 @@ pub fn fit_smooth(sample: &Sample, confidence: f64) -> Result<SmoothFit, FitStat
     with_errors(sample, &best, confidence)
 }
 
-/// The best planes of all cases, from a width nearby: Gauss and Newton's steps.
+/// The best planes of all cases, from a width nearby: where the slope of their residual on its logarithm vanishes, by secants.
 fn settled(design: &Design, ln_width: f64) -> Result<Planes, FitStatus> {
-    let mut best = planes(design, ln_width).ok_or(FitStatus::Collinear)?;
+    let at = |ln_width: f64| {
+        let planes = planes(design, ln_width).ok_or(FitStatus::Collinear)?;
+        let slope = linearised(design, &planes.coefficients, ln_width.exp()).gradient[6];
+        Ok((planes, slope * ln_width.exp()))
+    };
+    let (mut before, mut here) = (at(ln_width)?, at(ln_width + NEARBY)?);
     for _ in 0..MOST_STEPS {
-        let width = best.ln_width.exp();
-        let Objective { gradient, information, .. } = linearised(design, &best.coefficients, width);
-        let step = information.cholesky().ok_or(FitStatus::Collinear)?.solve(&gradient)[6] / width;
-        best = planes(design, best.ln_width + step).ok_or(FitStatus::Collinear)?;
-        if step.abs() <= CLOSE {
-            return Ok(best);
+        let step = (here.0.ln_width - before.0.ln_width) * here.1 / (before.1 - here.1);
+        if step.is_nan() || step.abs() <= CLOSE {
+            return Ok(here.0);
         }
+        let next = at(here.0.ln_width + step.clamp(-MOST, MOST))?;
+        (before, here) = (here, next);
     }
     Err(FitStatus::NotConverged)
 }
