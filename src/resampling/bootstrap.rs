@@ -107,18 +107,18 @@ impl Draws<'_> {
     /// How often each row of the next block is drawn.
     pub fn next(&mut self, strata: &Strata) -> Resamples {
         let mut counts = vec![[0.0; TOGETHER]; strata.rows()];
-        for resample in 0..TOGETHER {
+        let of_strata = self.left.iter_mut().zip(&mut self.left_to_draw);
+        for (resample, (random, (left, left_to_draw))) in self.random.iter_mut().zip(of_strata).enumerate() {
             for (label, rows) in strata.labels.iter().zip(&strata.members) {
                 let size = self.sizes.get(label).copied().unwrap_or(rows.len() as u64);
-                let left = self.left[resample].remove(label).unwrap_or(size);
-                let to_draw = self.left_to_draw[resample].remove(label).unwrap_or(size);
-                let (here, random) = (rows.len() as u64, &mut self.random[resample]);
-                let mut draws = to_draw;
-                if here < left {
-                    let share = here as f64 / left as f64;
+                let rows_left = left.remove(label).unwrap_or(size);
+                let to_draw = left_to_draw.remove(label).unwrap_or(size);
+                let (here, mut draws) = (rows.len() as u64, to_draw);
+                if here < rows_left {
+                    let share = here as f64 / rows_left as f64;
                     draws = Binomial::new(to_draw, share).map_or(here, |number| number.sample(random));
-                    self.left[resample].insert(*label, left - here);
-                    self.left_to_draw[resample].insert(*label, to_draw - draws);
+                    left.insert(*label, rows_left - here);
+                    left_to_draw.insert(*label, to_draw - draws);
                 }
                 for _ in 0..draws {
                     counts[rows[random.random_range(0..here as u32) as usize]][resample] += 1.0;

@@ -68,7 +68,7 @@ fn largest_gap_of(tenths: &[Tenth]) -> Option<Gap> {
     tenths.iter().map(of).max_by(|a, b| a.size().total_cmp(&b.size()))
 }
 
-fn rising<'a>(probabilities: &[f64], events: &'a [bool]) -> impl Iterator<Item = (f64, bool)> {
+fn rising(probabilities: &[f64], events: &[bool]) -> impl Iterator<Item = (f64, bool)> + use<> {
     let mut sorter = Sorter::default();
     probabilities.iter().zip(as_numbers(events)).for_each(|(p, event)| sorter.push((*p, event)));
     sorter.sorted().map(|(p, event)| (p, event != 0.0))
