@@ -136,6 +136,7 @@ fn peak(c: &mut Criterion) {
     let lanes = match Simd::fastest() {
         Simd::Avx512 => 8,
         Simd::Avx2 => 4,
+        Simd::Neon => 2,
         Simd::Scalar => 1,
     };
     group.throughput(Throughput::Elements((LENGTH * CHAINS * lanes) as u64)).sample_size(20);

@@ -5,7 +5,7 @@
 //! $ cargo run --release --no-default-features --example fingerprints scalar 2
 //! ```
 //!
-//! The second one solves eight motions twice with single numbers, so that instructions can be counted.
+//! The second one solves 64 motions twice with single numbers, so that instructions can be counted.
 
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::{Design, Grid, IntensityScratch, MotionModel, Scenario, Suite, Synthesizer, measures};
@@ -87,7 +87,7 @@ fn main() {
     if let (Some(simd), Some(times)) = (arguments.next(), arguments.next()) {
         let simd = Simd::ALL.iter().copied().find(|known| known.as_str() == simd);
         let simd = simd.expect("scalar, neon, avx2 or avx512");
-        let motions = synthetic(8);
+        let motions = synthetic(64);
         let problems: Vec<Problem> = motions.iter().map(|motion| problem(motion, &structure)).collect();
         for _ in 0..times.parse().expect("a number of times") {
             std::hint::black_box(simulate_all(&problems, simd));

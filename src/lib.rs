@@ -56,6 +56,3 @@ pub mod studies;
 pub mod table;
 pub mod units;
 mod wide;
-
-/// The version, and after a plus the fingerprint of the code that it was built from.
-pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+", env!("ROCKFRAG_CODE"));

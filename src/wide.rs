@@ -1,6 +1,10 @@
 //! Work in the vector registers of the processor. Its results have the same bits on any processor: each number of a register goes
 //! through the same operations in the same order, nothing is reordered, and what is fused is so everywhere.
 
+use std::any::TypeId;
+
+#[cfg(target_arch = "x86_64")]
+use pulp::Scalar128b;
 #[cfg(target_arch = "aarch64")]
 use pulp::aarch64::Neon;
 #[cfg(target_arch = "x86_64")]
@@ -12,7 +16,7 @@ use crate::keyword::keywords;
 /// Vector instructions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Simd {
-    /// None: one number at a time.
+    /// None: one number at a time, or two where the processor has no instruction to multiply and add in one.
     Scalar,
     /// Two numbers in a register of 128 bits: aarch64.
     Neon,
@@ -66,13 +70,19 @@ pub fn registers<T>(simd: Simd, work: impl WithSimd<Output = T>) -> T {
         (Simd::Avx2, Some(machine), _) => return pulp::Simd::vectorize(machine, work),
         // Without the instructions of AVX2 each fused operation is a call.
         (_, Some(machine), _) => return pulp::Simd::vectorize(machine, Single(work)),
-        _ => {}
+        _ => return work.with_simd(Scalar128b),
     }
     #[cfg(target_arch = "aarch64")]
     if let (Simd::Neon, Some(machine)) = (simd, Neon::try_new()) {
         return pulp::Simd::vectorize(machine, work);
     }
+    #[cfg(not(target_arch = "x86_64"))]
     work.with_simd(Scalar)
+}
+
+/// Whether these are the registers of a processor that cannot multiply and add in one: x86-64 without AVX2.
+pub fn has_no_fusing<S: pulp::Simd>() -> bool {
+    cfg!(target_arch = "x86_64") && TypeId::of::<S>() == TypeId::of::<pulp::Scalar128b>()
 }
 
 /// Work that leaves the registers to the compiler.

@@ -24,7 +24,7 @@ use crate::stages::registry::{Config, commands};
 use crate::stages::run::{dry_run, findings, run};
 use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
 use crate::table::store::guarded::quiet_damage;
-use crate::table::store::provenance::Warnings;
+use crate::table::store::provenance::{CODE, Warnings};
 use crate::table::store::text;
 
 /// The pipeline file that is read where none is named.
@@ -108,7 +108,7 @@ const FIRST: &str = "Examples:
 
 fn command() -> Command {
     let command = Command::new("rockfrag")
-        .version(crate::VERSION)
+        .version(CODE)
         .max_term_width(100)
         .subcommand_required(true)
         .arg_required_else_help(true);

@@ -6,6 +6,7 @@
 //! taylor       the equation of motion (Eqs. 8 to 11): the rotation over one step as a Taylor polynomial
 //! uplift       where a structure at rest leaves its base
 //! vector       the numbers in which all of this is written: one or several to a register, a lane each
+//! fused        multiplication and addition in one for processors that have no such instruction
 //! lanes        the states of the structures in the lanes: rest, uplift, rocking
 //! step         a step of all lanes: impact, peak, overturning
 //! roots        where these are: roots of the step's polynomials; polynomial: of one lane, by Bernstein coefficients
@@ -17,6 +18,7 @@
 #![deny(clippy::disallowed_methods)]
 
 mod batch;
+mod fused;
 mod incremental;
 mod lanes;
 mod polynomial;

@@ -5,6 +5,9 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use pulp::{Simd, bytemuck};
 
+use super::fused;
+use crate::wide::has_no_fusing;
+
 /// Repeats a block for each value of a constant. Otherwise nested loops over arrays of vectors stay loops, with every vector in
 /// memory.
 macro_rules! unrolled {
@@ -116,6 +119,13 @@ impl<S: Simd> Vector<S> {
     /// Computes `self * factor + addend`, rounded once.
     #[inline(always)]
     pub fn mul_add(self, factor: Vector<S>, addend: Vector<S>) -> Vector<S> {
+        if has_no_fusing::<S>() {
+            let mut sum = addend;
+            for lane in 0..Vector::<S>::LANES {
+                sum.set(lane, fused::mul_add(self.lane(lane), factor.lane(lane), addend.lane(lane)));
+            }
+            return sum;
+        }
         Vector {
             registers: in_each!(k: self.simd.mul_add_f64s(self.registers[k], factor.registers[k], addend.registers[k])),
             ..self

@@ -159,8 +159,7 @@ impl Stage for FitPro {
         console.warn_each(rows.iter().filter_map(doubt));
         let few = rows.iter().filter(|row| row.curve.has_few_events());
         console.warn_each(few.map(|row| (few_events(row), measures(&row.curve))));
-        let fitted = rows.iter().filter(|row| row.curve.status() == FitStatus::Ok).count();
-        ensure!(fitted > 0, nothing_fits(&rows));
+        ensure!(rows.iter().any(|row| row.curve.status().is_usable()), nothing_fits(&rows));
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PRO_BOOTSTRAP, provenance.clone())?;
             for row in &rows {

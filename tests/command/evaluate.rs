@@ -75,7 +75,9 @@ fn the_worked_example_of_section_3_is_answered() {
         let pgv = 0.3 * pga_g * 9.81 / 2.5;
         let answer = stdout(
             folder.path(),
-            &format!("evaluate {fits} --p 2.5 --alpha 0.2 --pga {pga_g} --pgv {pgv} --format csv"),
+            &format!(
+                "evaluate {fits} --model paper --p 2.5 --alpha 0.2 --pga {pga_g} --pgv {pgv} --format csv"
+            ),
         );
         let number = |name| quantity(&answer, name).unwrap();
         assert!((number("im_hybrid") - im).abs() < 1e-12);
@@ -302,8 +304,9 @@ fn limits_come_from_resamples_if_asked() {
             assert_eq!(of(&answer, "value"), of(&delta, "value"));
             let width = |answer| of(answer, "high") - of(answer, "low");
             assert!(of(&answer, "low") < of(&answer, "value") && of(&answer, "value") < of(&answer, "high"));
+            // They hold the fits alone; those by the delta method hold what a magnitude and distance differ by, too.
             let ratio = width(&answer) / width(&delta);
-            assert!((0.6..1.7).contains(&ratio), "{limits} limits of row {row} are {ratio} times as wide");
+            assert!((0.05..1.1).contains(&ratio), "{limits} limits of row {row} are {ratio} times as wide");
         }
     }
     let data = concat!(env!("CARGO_MANIFEST_DIR"), "/data");

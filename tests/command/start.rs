@@ -144,7 +144,8 @@ fn every_help_has_examples_that_run() {
             let example = match example.split_once(" > ") {
                 Some((example, _)) => example.to_string(),
                 None if name == "init" && !example.contains("--out") => format!("{example} --out new"),
-                None if ["fit-pex", "fit-pro", "simulate"].contains(&name.as_str())
+                None if ["sample-scenarios", "synthesize-motions", "simulate", "fit-pex", "fit-pro"]
+                    .contains(&name.as_str())
                     && !example.contains("--out") =>
                 {
                     format!("{example} --out {name}.parquet")

@@ -137,7 +137,7 @@ const CALLS: [(&str, &str); 38] = [
     ("export", "export FITS --p 2.5 --alpha 0.2 --tolerance 1e-2 --to openquake --ratio 0.2,0.4"),
     (
         "export_continuous",
-        "export FITS --p 2.5 --alpha 0.2 --to openquake-continuous --im pgv --ratio 0.3 --out continuous.xml",
+        "export FITS --p 2.5 --alpha 0.2 --to openquake-continuous --model paper --im pgv --ratio 0.3 --out continuous.xml",
     ),
     ("export_pelicun", "export FITS --p 2.5 --alpha 0.2 --tolerance 1e-2 --to pelicun --ratio 0.3"),
     ("seed_spread", "seed-spread spread.yaml --seeds 2 --out spread.csv"),

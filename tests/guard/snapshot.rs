@@ -20,7 +20,9 @@ pub fn check_each(kind: &str, texts: impl IntoIterator<Item = (String, String)>)
 
 /// The text without what may differ from run to run: the version, times, sizes, hashes and random names of files.
 pub fn redact(text: &str) -> String {
-    let text = text.replace(rockfrag::VERSION, "[version]").replace(env!("CARGO_PKG_VERSION"), "[version]");
+    let text = text
+        .replace(rockfrag::table::store::provenance::CODE, "[version]")
+        .replace(env!("CARGO_PKG_VERSION"), "[version]");
     text.lines().map(|line| without_random_names(&without_hashes(&without_times(line))) + "\n").collect()
 }
 

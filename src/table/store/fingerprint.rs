@@ -23,7 +23,7 @@ impl Fingerprint {
     pub fn knows(kind: &DataType) -> bool {
         match kind {
             DataType::Int64 | DataType::Int32 | DataType::Float64 | DataType::Utf8 => true,
-            DataType::List(samples) => *samples.data_type() == DataType::Float32,
+            DataType::List(items) => matches!(items.data_type(), DataType::Float32 | DataType::Float64),
             _ => false,
         }
     }

@@ -23,6 +23,9 @@ const CACHE_KEY: &str = "rockfrag.cache_key";
 const CONTENT: &str = "rockfrag.content";
 const WARNINGS: &str = "rockfrag.warnings";
 
+/// The version, and after a plus the fingerprint of the code that it was built from.
+pub const CODE: &str = concat!(env!("CARGO_PKG_VERSION"), "+", env!("ROCKFRAG_CODE"));
+
 /// The warnings of a stage while it works; whoever writes its files takes them from here.
 #[derive(Debug, Clone, Default)]
 pub struct Warnings(Arc<Mutex<Vec<String>>>);
@@ -66,7 +69,7 @@ pub struct Provenance {
 impl Provenance {
     /// Of a file that this version of rockfrag makes.
     pub fn new(stage: &str, parameters: Value, inputs: BTreeMap<String, String>) -> Provenance {
-        let version = crate::VERSION.to_string();
+        let version = CODE.to_string();
         let (sources, warnings) = (BTreeMap::new(), Warnings::default());
         Provenance { stage: stage.to_string(), version, parameters, inputs, sources, warnings }
     }

@@ -20,8 +20,10 @@ fn aligned_under(frame: &DataFrame, heads: impl Iterator<Item = Vec<String>>) ->
         let cells: Vec<String> = head.into_iter().chain(cells(column)).collect();
         let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0);
         let to_the_right = column.dtype() != &DataType::String;
-        let pad =
-            |cell: &String| if to_the_right { format!("{cell:>width$}") } else { format!("{cell:width$}") };
+        let pad = |cell: &String| {
+            let spaces = " ".repeat(width - cell.chars().count());
+            if to_the_right { spaces + cell } else { cell.clone() + &spaces }
+        };
         cells.iter().map(pad).collect::<Vec<String>>()
     });
     let columns: Vec<Vec<String>> = columns.collect();
