@@ -4,9 +4,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rockfrag::fragility::overturning::Curve;
-use rockfrag::fragility::{
-    CurveInference, CurveModel, CurveParameter, Event, EventSample, Measure, ProbitIndex,
-};
+use rockfrag::fragility::{CurveInference, CurveModel, CurveParameter, Event, Measure, ProbitIndex, Sample};
 use rockfrag::keyword::{self, Keyword};
 use rockfrag::normal;
 use rockfrag::pipeline::UsageError;
@@ -37,13 +35,13 @@ fn curve(
     happened: &PyReadonlyArray1<bool>,
     link: &str,
     estimator: &str,
-) -> PyResult<(Curve, EventSample)> {
+) -> PyResult<(Curve, Sample)> {
     let model = CurveModel {
         link: word(py, "link", link)?,
         estimator: word(py, "estimator", estimator)?,
         ..CurveModel::default()
     };
-    let sample = EventSample::of_columns(vectors(ln_im)?, happened.as_slice()?.to_vec());
+    let sample = Sample::of_happened(vectors(ln_im)?, happened.as_slice()?);
     // The names are those of a hybrid measure of the paper; nothing but words depends on them.
     let im_y = (ln_im.len() == 2).then_some(Measure::Im3Inverse);
     let curve = py.detach(|| Curve::new(&sample, Event::Overturning, Measure::Im4, im_y, model));
@@ -93,9 +91,9 @@ pub fn fit_curve<'py>(
     told.set_item("llf", fit.regression.log_likelihood)?;
     told.set_item("aic", fit.aic)?;
     told.set_item("bic", fit.bic)?;
-    told.set_item("auc", fit.auc)?;
-    told.set_item("brier", fit.brier)?;
-    told.set_item("hosmer_lemeshow_p", p(fit.hosmer_lemeshow))?;
+    told.set_item("auc", fit.goodness.auc)?;
+    told.set_item("brier", fit.goodness.brier)?;
+    told.set_item("hosmer_lemeshow_p", p(fit.goodness.hosmer_lemeshow))?;
     told.set_item("spline_p", p(curve.spline))?;
     told.set_item("few_events", curve.has_few_events())?;
     Ok(told)

@@ -1,6 +1,6 @@
 //! Which responses may depend on each other.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::HashMap;
 
 use crate::keyword::keywords;
 
@@ -16,78 +16,69 @@ pub enum SharedBy {
 
 keywords!(SharedBy { Earthquake = "earthquake", Cell = "cell", Nothing = "nothing" });
 
-/// What is known of a motion that tells which others resemble it. Magnitudes and distances are positive, so that their bits
-/// are in the order of their values.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-enum Origin {
-    Earthquake(String),
-    Cell {
-        mw_bits: u64,
-        re_km_bits: u64,
-    },
-    /// The hash of its name: an order that means nothing.
-    Motion([u8; 32]),
+/// The numbers of clusters and of cells, given to responses as they come.
+#[derive(Debug, Default)]
+pub struct Clusters {
+    earthquakes: HashMap<String, usize>,
+    /// By the bits of magnitude and distance: these are positive, so that their bits are in the order of their values.
+    cells: HashMap<(u64, u64), usize>,
+    cells_of_bootstrap: HashMap<(Option<u64>, Option<u64>), usize>,
 }
 
-/// The clusters of responses.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Clusters {
-    /// The number of the cluster of each response. Numbers do not depend on the order of the responses.
-    pub numbers: Vec<usize>,
-    /// What those of a cluster share.
-    pub shared: SharedBy,
-}
+/// Where the numbers of clusters begin that consist of one motion.
+const OF_MOTIONS: usize = 1 << 48;
 
 impl Clusters {
-    /// Those of no responses.
-    pub fn none() -> Clusters {
-        Clusters { numbers: Vec::new(), shared: SharedBy::Nothing }
-    }
-
-    /// Of responses to motions of these names, by the earthquake where it is known, or else by magnitude and distance.
-    pub fn new(
-        motion_ids: &[String],
-        events: &[Option<&str>],
-        mw: &[Option<f64>],
-        re_km: &[Option<f64>],
-    ) -> Clusters {
-        let origin = |row: usize| match (events[row], mw[row], re_km[row]) {
-            (Some(event), _, _) => Origin::Earthquake(event.to_string()),
+    /// The number of the cluster of a response to a motion of this name: by the earthquake where it is known, or else by magnitude and
+    /// distance. Of neither, by the hash of the name: an order that means nothing.
+    pub fn cluster(
+        &mut self,
+        earthquake: Option<&str>,
+        mw: Option<f64>,
+        re_km: Option<f64>,
+        name: impl FnOnce() -> String,
+    ) -> usize {
+        let next = self.earthquakes.len() + self.cells.len();
+        match (earthquake, mw, re_km) {
+            (Some(earthquake), _, _) => match self.earthquakes.get(earthquake) {
+                Some(&known) => known,
+                None => *self.earthquakes.entry(earthquake.to_string()).or_insert(next),
+            },
             (None, Some(mw), Some(re_km)) => {
-                Origin::Cell { mw_bits: mw.to_bits(), re_km_bits: re_km.to_bits() }
+                *self.cells.entry((mw.to_bits(), re_km.to_bits())).or_insert(next)
             }
-            _ => Origin::Motion(*blake3::hash(motion_ids[row].as_bytes()).as_bytes()),
-        };
-        let origins: Vec<Origin> = (0..motion_ids.len()).map(origin).collect();
-        let distinct: BTreeSet<&Origin> = origins.iter().collect();
-        let shared = match distinct.first() {
-            Some(Origin::Earthquake(_)) => SharedBy::Earthquake,
-            Some(Origin::Cell { .. }) => SharedBy::Cell,
-            _ => SharedBy::Nothing,
-        };
-        let numbers: BTreeMap<&Origin, usize> = distinct.into_iter().zip(0..).collect();
-        Clusters { numbers: origins.iter().map(|origin| numbers[origin]).collect(), shared }
+            _ => {
+                let [a, b, c, d, e, f, ..] = *blake3::hash(name().as_bytes()).as_bytes();
+                OF_MOTIONS + u64::from_be_bytes([0, 0, a, b, c, d, e, f]) as usize
+            }
+        }
     }
-}
 
-/// Fewer clusters say too little of how they differ: limits that allow for it come out too narrow (Cameron & Miller 2015, section VI).
-const MANY: usize = 20;
+    /// The number of the cell of magnitude and distance, in the order in which they first appear; responses that have neither are in
+    /// one cell.
+    pub fn cell(&mut self, mw: Option<f64>, re_km: Option<f64>) -> usize {
+        let next = self.cells_of_bootstrap.len();
+        *self.cells_of_bootstrap.entry((mw.map(f64::to_bits), re_km.map(f64::to_bits))).or_insert(next)
+    }
 
-/// Whether these cases are of many clusters, the clusters being those of all cases.
-pub(crate) fn are_many(clusters: &[usize], rows: &[usize]) -> bool {
-    let distinct: BTreeSet<usize> = rows.iter().map(|&row| clusters[row]).collect();
-    distinct.len() >= MANY
-}
+    /// By the number of a cluster of several motions one that does not depend on the order in which they came.
+    pub fn in_order(&self) -> Vec<usize> {
+        let mut earthquakes: Vec<(&String, usize)> = self.earthquakes.iter().map(|(k, &n)| (k, n)).collect();
+        let mut cells: Vec<(&(u64, u64), usize)> = self.cells.iter().map(|(k, &n)| (k, n)).collect();
+        earthquakes.sort();
+        cells.sort();
+        let given = earthquakes.into_iter().map(|(_, n)| n).chain(cells.into_iter().map(|(_, n)| n));
+        let mut numbers = vec![0; self.earthquakes.len() + self.cells.len()];
+        given.enumerate().for_each(|(number, given)| numbers[given] = number);
+        numbers
+    }
 
-/// Numbers the cells of magnitude and distance in the order in which they first appear; responses that have neither are in one cell.
-pub fn cells(mw: &[Option<f64>], re_km: &[Option<f64>]) -> Vec<usize> {
-    let mut numbers = HashMap::new();
-    let bits = |value: &Option<f64>| value.map(f64::to_bits);
-    mw.iter()
-        .zip(re_km)
-        .map(|(mw, re_km)| {
-            let next = numbers.len();
-            *numbers.entry((bits(mw), bits(re_km))).or_insert(next)
-        })
-        .collect()
+    /// What those of a cluster share.
+    pub fn shared(&self) -> SharedBy {
+        match (self.earthquakes.is_empty(), self.cells.is_empty()) {
+            (false, _) => SharedBy::Earthquake,
+            (true, false) => SharedBy::Cell,
+            (true, true) => SharedBy::Nothing,
+        }
+    }
 }

@@ -1,10 +1,15 @@
 //! How a curve does on clusters of cases that it has not seen, and by how much these differ from it.
 
-use nalgebra::DVector;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use crate::resampling::folds::{Folds, MOST_FOLDS};
-use crate::statistics::design::DesignMatrix;
+use super::sample::CLUSTER;
+use crate::resampling::folds::MOST_FOLDS;
+use crate::statistics::binary::as_numbers;
+use crate::statistics::columns::Columns;
+use crate::statistics::design::{Design, Rows};
 use crate::statistics::link::Link;
+use crate::wide::widest;
 
 /// What cases tell that were left out, each cluster of magnitude and distance (or earthquake) as a whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,72 +22,120 @@ pub struct HeldOut {
 
 /// Shifts of the index of a whole cluster, over which its likelihood is integrated.
 const STEP: f64 = 0.1;
-const STEPS_EACH_SIDE: i32 = 30;
+const STEPS_EACH_SIDE: usize = 30;
+const SHIFTS: usize = 2 * STEPS_EACH_SIDE + 1;
 /// Standard deviations that are tried: steps of a twelfth, up to where the shifts end twice away.
 const LEAST_SPREAD: f64 = 0.05;
 const SPREADS: i32 = 42;
 const RATIO: f64 = 1.085;
 
+/// The place of each cluster of the cases of a design among all in order.
+type Places = BTreeMap<usize, usize>;
+
+/// None where nothing can be left out, or where each case is a cluster of its own.
+fn places(design: &Design) -> Option<Places> {
+    let distinct = design.distinct(CLUSTER);
+    let some_share = distinct.len() > 1 && distinct.len() < design.cases();
+    some_share.then(|| distinct.into_iter().enumerate().map(|(place, cluster)| (cluster, place)).collect())
+}
+
+fn places_of(rows: &Rows, places: &Places) -> Vec<usize> {
+    rows.labels[CLUSTER].iter().map(|cluster| places[&(*cluster as usize)]).collect()
+}
+
 impl HeldOut {
-    /// Of cases with this design; `refit` gets how often each case counts, and makes the coefficients. None where nothing can be left
-    /// out, where each case is a cluster of its own (so that nothing tells clusters from cases), or where a fit does not exist.
-    pub fn new(
-        design: &DesignMatrix,
-        happened: &[bool],
-        clusters: &[usize],
+    /// Of cases with this design, and the labels of a sample; `refit` gets how often each case counts, `index` tells what a refit says of
+    /// some cases, and `happened` which of what was observed is the event. None where nothing can be left out, where each case is a
+    /// cluster of its own (so that nothing tells clusters from cases), or where a fit does not exist.
+    pub fn new<Refit: Sync>(
+        design: &Design,
         link: Link,
-        refit: impl Fn(&[f64]) -> Option<DVector<f64>>,
+        refit: impl Fn(&[f64]) -> Option<Refit>,
+        index: impl Fn(&Refit, &Rows) -> Vec<f64> + Sync,
+        happened: impl Fn(f64) -> bool + Sync,
     ) -> Option<HeldOut> {
-        let folds = Folds::new(clusters, MOST_FOLDS)?;
-        let mut indices = vec![0.0; happened.len()];
-        for fold in 0..folds.count {
-            let of_fold = design.indices(refit(&folds.without(fold))?.as_slice());
-            for (case, index) in indices.iter_mut().enumerate().filter(|(case, _)| folds.of[*case] == fold) {
-                *index = of_fold[case];
-            }
-        }
-        HeldOut::of_indices(&indices, happened, clusters, link)
+        let places = places(design)?;
+        // Neighbouring clusters fall into different folds, as in `Folds`.
+        let folds = places.len().min(MOST_FOLDS);
+        let fits = (0..folds).map(|fold| {
+            let is_kept = |place: usize| f64::from(u8::from(place % folds != fold));
+            let of_block =
+                |rows: &Rows| places_of(rows, &places).into_iter().map(is_kept).collect::<Vec<f64>>();
+            // A number for each case, held in memory as long as the refit takes.
+            refit(&design.fold(CLUSTER + 1, of_block, |all, part| all.extend(part)))
+        });
+        let fits = fits.collect::<Option<Vec<Refit>>>()?;
+        let of_others = |rows: &Rows, of: &[usize]| -> Vec<f64> {
+            let by_fold: Vec<Vec<f64>> = fits.iter().map(|fit| index(fit, rows)).collect();
+            of.iter().enumerate().map(|(case, place)| by_fold[place % folds][case]).collect()
+        };
+        Some(HeldOut::of(design, &places, link, of_others, happened))
     }
 
     /// Of indices that come from other clusters each.
     pub fn of_indices(indices: &[f64], happened: &[bool], clusters: &[usize], link: Link) -> Option<HeldOut> {
-        let mut distinct: Vec<usize> = clusters.to_vec();
-        distinct.sort_unstable();
-        distinct.dedup();
-        if distinct.len() == clusters.len() || distinct.len() < 2 {
-            return None;
-        }
-        let at: Vec<usize> =
-            clusters.iter().map(|cluster| distinct.partition_point(|other| other < cluster)).collect();
+        let mut columns = Columns::new(4, &Arc::default());
+        let numbers = |of: &[usize]| of.iter().map(|&number| number as f64).collect::<Vec<f64>>();
+        let rows: Vec<usize> = (0..indices.len()).collect();
+        columns.append(&[indices.to_vec(), as_numbers(happened), numbers(&rows), numbers(clusters)]);
+        let design = Design::new(&columns, 1);
+        let own = |rows: &Rows, _: &[usize]| rows.x[1].to_vec();
+        Some(HeldOut::of(&design, &places(&design)?, link, own, |y| y != 0.0))
+    }
+
+    fn of(
+        design: &Design,
+        places: &Places,
+        link: Link,
+        index: impl Fn(&Rows, &[usize]) -> Vec<f64> + Sync,
+        happened: impl Fn(f64) -> bool + Sync,
+    ) -> HeldOut {
+        let shifts: [f64; SHIFTS] = std::array::from_fn(|k| STEP * (k as f64 - STEPS_EACH_SIDE as f64));
         // The log-likelihood of each cluster, its index shifted so far.
-        let shifts: Vec<f64> = (-STEPS_EACH_SIDE..=STEPS_EACH_SIDE).map(|k| STEP * f64::from(k)).collect();
-        let mut likelihoods = vec![vec![0.0; shifts.len()]; distinct.len()];
-        let mut log_score = 0.0;
-        for (k, shift) in shifts.iter().enumerate() {
-            let mut values: Vec<f64> = indices.iter().map(|index| index + shift).collect();
-            link.ln_probabilities(happened, &mut values);
-            for (value, &cluster) in values.iter().zip(&at) {
-                likelihoods[cluster][k] += value;
+        let of_block = |rows: &Rows| {
+            let of = places_of(rows, places);
+            let indices = index(rows, &of);
+            let events = as_numbers(&rows.y.iter().map(|y| happened(*y)).collect::<Vec<bool>>());
+            let mut slots = BTreeMap::new();
+            let slot = |&place: &usize| {
+                let next = slots.len();
+                *slots.entry(place).or_insert(next)
+            };
+            let at: Vec<usize> = of.iter().map(slot).collect();
+            let mut sums = vec![[0.0; SHIFTS]; slots.len()];
+            let mut values = vec![0.0; indices.len()];
+            for (k, shift) in shifts.iter().enumerate() {
+                values.iter_mut().zip(&indices).for_each(|(value, index)| *value = index + shift);
+                widest(
+                    #[inline(always)]
+                    || link.ln_probabilities(&events, &mut values),
+                );
+                values.iter().zip(&at).for_each(|(value, &slot)| sums[slot][k] += value);
             }
-            if *shift == 0.0 {
-                log_score = values.iter().sum::<f64>();
+            slots.into_iter().map(|(place, slot)| (place, sums[slot])).collect::<BTreeMap<_, _>>()
+        };
+        let likelihoods = design.fold(CLUSTER + 1, of_block, |all, part| {
+            for (place, more) in part {
+                let sums = all.entry(place).or_insert([0.0; SHIFTS]);
+                sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
             }
-        }
+        });
+        let log_score: f64 = likelihoods.values().map(|of_cluster| of_cluster[STEPS_EACH_SIDE]).sum();
         let integrated = |spread: f64| -> f64 {
             let weights: Vec<f64> =
                 shifts.iter().map(|u| (-0.5 * (u / spread) * (u / spread)).exp()).collect();
             let total: f64 = weights.iter().sum();
-            let of_cluster = |values: &Vec<f64>| {
+            let of_cluster = |values: &[f64; SHIFTS]| {
                 let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
                 let sum: f64 = values.iter().zip(&weights).map(|(value, w)| w * (value - most).exp()).sum();
                 most + (sum / total).ln()
             };
-            likelihoods.iter().map(of_cluster).sum()
+            likelihoods.values().map(of_cluster).sum()
         };
         let tried =
             (0..SPREADS).map(|k| LEAST_SPREAD * RATIO.powi(k)).map(|spread| (integrated(spread), spread));
         let best = std::iter::once((log_score, 0.0)).chain(tried).max_by(|a, b| a.0.total_cmp(&b.0));
         let spread = best.map_or(0.0, |(_, spread)| spread);
-        Some(HeldOut { log_score: log_score / happened.len() as f64, spread })
+        HeldOut { log_score: log_score / design.cases() as f64, spread }
     }
 }

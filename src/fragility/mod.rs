@@ -3,6 +3,7 @@
 //!
 //! ```text
 //! case         one response as the fits see it, the measures of Eq. 13, and the events that curves are about
+//! cases        cases by the million; sample: those of a regression or a curve
 //! clusters     which responses may depend on each other
 //! group        what all fits of a group share: its cases, the limits that are asked for, progress
 //! demand       P_ex: regressions of the demand in safe rocking (Eqs. 14 to 18), their inference and resamples
@@ -21,6 +22,7 @@
 mod answering;
 pub(crate) mod capacity;
 pub(crate) mod case;
+pub(crate) mod cases;
 pub(crate) mod clusters;
 pub mod demand;
 pub(crate) mod group;
@@ -31,29 +33,32 @@ mod peaks;
 pub(crate) mod predictor;
 pub(crate) mod probability;
 pub(crate) mod resampled;
+pub(crate) mod sample;
 pub(crate) mod slice;
 pub mod universal;
 
 pub use answering::Fragility;
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use case::{Case, Event, Measure};
-pub use clusters::{Clusters, SharedBy, cells};
+pub use cases::{CaseTable, Cases, Placed};
+pub use clusters::{Clusters, SharedBy};
 pub use demand::{
-    Biplanar, Break, DemandInference, DemandRefits, DemandReplicate, DemandSample, PLANE, Plane, ScanPoint,
-    SmoothFit, Transition, TransitionSearch, fit_biplanar, fit_plane, fit_smooth, fit_univariate,
-    rms_difference, transition_limits,
+    Biplanar, Break, DemandInference, DemandRefits, DemandReplicate, PLANE, Plane, ScanPoint, SmoothFit,
+    Transition, TransitionSearch, fit_biplanar, fit_plane, fit_smooth, fit_univariate, rms_difference,
+    transition_limits,
 };
-pub use group::{CaseGroup, Progress, Uncertainty, unwatched};
+pub use group::{Progress, Uncertainty, unwatched};
 pub use held_out::HeldOut;
 pub use model::{DemandLaw, DemandModel, FragilityModel, GivenRocking, LimitState, Probabilities};
 pub use overturning::{
-    BentFit, CurveInference, CurveModel, CurveParameter, CurveRefits, EventSample, Gap, OverturningFit,
-    fit_overturning, fit_with_interaction, fit_with_spline, has_few_events,
+    BentFit, CurveInference, CurveModel, CurveParameter, CurveRefits, Gap, OverturningFit, fit_overturning,
+    fit_with_interaction, fit_with_spline, has_few_events,
 };
 pub use peaks::{JointPeaks, RatioGiven};
-pub use predictor::{BENT_TERMS, Bend, OutOfRange, Predicted, Predictor, ranges};
+pub use predictor::{BENT_TERMS, Bend, OutOfRange, Predicted, Predictor};
 pub use probability::{Probability, ProbitIndex};
 pub use probability::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use resampled::{ReplicateLimits, ResampledModel};
+pub use sample::Sample;
 pub use slice::{Lognormal, Peak, PeaksDoubt, Slice, doubt_of_peaks};
 pub use universal::UniversalModel;

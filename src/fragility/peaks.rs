@@ -1,8 +1,11 @@
 //! How PGA and PGV of motions go together: what one of them says of the other.
 
+use std::sync::Arc;
+
 use super::slice::Peak;
-use crate::statistics::design::{quantile_knots, restricted_splines};
-use crate::statistics::least_squares;
+use crate::statistics::columns::Columns;
+use crate::statistics::design::{Design, columns_of, quantile_knots, restricted_splines};
+use crate::statistics::regression::regress;
 
 /// What each peak says of the ratio PGV / PGA. Two lines would do for a joint lognormal distribution; but the strongest PGA are of
 /// small, near earthquakes, with less PGV than these would have.
@@ -27,16 +30,18 @@ const KNOTS: [f64; 3] = [0.05, 0.5, 0.95];
 const LEAST_FOR_SPLINE: usize = 30;
 
 impl RatioGiven {
-    fn of(ln_peak: &[f64], ln_ratio: &[f64]) -> Option<RatioGiven> {
-        let knots = quantile_knots(ln_peak, KNOTS).filter(|_| ln_peak.len() >= LEAST_FOR_SPLINE);
-        let spline = |knots: [f64; 3]| -> Vec<f64> {
-            ln_peak.iter().map(|&u| restricted_splines(u, &knots).sum()).collect()
-        };
-        let bent =
-            knots.and_then(|knots| Some((knots, least_squares(&[ln_peak, &spline(knots)], ln_ratio).ok()?)));
+    /// Of columns of the logarithms of the peak and of the ratio.
+    fn of(columns: &Columns) -> Option<RatioGiven> {
+        let design = Design::new(columns, 1);
+        let knots = quantile_knots(&design, 0, KNOTS).filter(|_| design.cases() >= LEAST_FOR_SPLINE);
+        let bent = knots.and_then(|knots| {
+            let spline =
+                |x: &[&[f64]]| vec![x[0].iter().map(|&u| restricted_splines(u, &knots).sum()).collect()];
+            Some((knots, regress(&design.with(1, &spline)).ok()?))
+        });
         let (knots, fit) = match bent {
             Some(bent) => bent,
-            None => ([0.0, 1.0, 2.0], least_squares(&[ln_peak], ln_ratio).ok()?),
+            None => ([0.0, 1.0, 2.0], regress(&design).ok()?),
         };
         let b = |k: usize| fit.coefficients.get(k).map_or(0.0, |b| b.value);
         Some(RatioGiven { knots, coefficients: [0, 1, 2].map(b), sd: fit.residual_sd })
@@ -64,15 +69,25 @@ impl JointPeaks {
     /// That of these motions (m/s2 and m/s); none with fewer than three, or if a peak is not above 0 or the same in all.
     pub fn of(pga_m_s2: &[f64], pgv_m_s: &[f64]) -> Option<JointPeaks> {
         let ln = |values: &[f64]| values.iter().map(|value| value.ln()).collect::<Vec<f64>>();
-        let (ln_pga, ln_pgv) = (ln(pga_m_s2), ln(pgv_m_s));
-        if pga_m_s2.len() < 3 || ln_pga.iter().chain(&ln_pgv).any(|value| !value.is_finite()) {
+        JointPeaks::of_logarithms(&columns_of(&[&ln(pga_m_s2)], ln(pgv_m_s)))
+    }
+
+    /// The same of columns of the logarithms of both.
+    pub fn of_logarithms(peaks: &Columns) -> Option<JointPeaks> {
+        let are_finite = |_: usize, peaks: &[&[f64]]| peaks.iter().copied().flatten().all(|u| u.is_finite());
+        if peaks.rows() < 3 || !peaks.fold(2, are_finite, |all, part| *all &= part) {
             return None;
         }
-        let ln_ratio: Vec<f64> = ln_pga.iter().zip(&ln_pgv).map(|(pga, pgv)| pgv - pga).collect();
-        Some(JointPeaks {
-            given_pga: RatioGiven::of(&ln_pga, &ln_ratio)?,
-            given_pgv: RatioGiven::of(&ln_pgv, &ln_ratio)?,
-        })
+        let given = |peak: usize| {
+            let mut beside = Columns::new(2, &Arc::default());
+            let of_block = |_: usize, peaks: &[&[f64]]| {
+                let ratio = peaks[0].iter().zip(peaks[1]).map(|(pga, pgv)| pgv - pga);
+                [peaks[peak].to_vec(), ratio.collect()]
+            };
+            peaks.each(2, of_block, |some| beside.append(&some));
+            RatioGiven::of(&beside)
+        };
+        Some(JointPeaks { given_pga: given(0)?, given_pgv: given(1)? })
     }
 
     /// PGV / PGA (s) of motions with this intensity (m/s2 or m/s of the given peak), so many standard deviations above its median.

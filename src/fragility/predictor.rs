@@ -67,28 +67,17 @@ pub struct OutOfRange {
     pub range: [f64; 2],
 }
 
-/// Least and largest value of each measure whose logarithms these are.
-pub fn ranges(ln_im: &[&[f64]]) -> Vec<[f64; 2]> {
-    let range = |values: &&[f64]| {
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        [least.exp(), largest.exp()]
-    };
-    ln_im.iter().map(range).collect()
-}
-
 impl Predictor {
-    /// Of one measure or two, the coefficients of a regression on their logarithms `ln_im` (intercept first), and the covariance
-    /// of these.
+    /// Of one measure or two, the coefficients of a regression on their logarithms (intercept first), the covariance of these, and
+    /// the least and largest value of each measure.
     pub fn new(
         measures: &[Measure],
         coefficients: &DVector<f64>,
         covariance: &DMatrix<f64>,
-        ln_im: &[&[f64]],
+        ranges: &[[f64; 2]],
     ) -> Predictor {
         let at = |k: usize| coefficients.get(k).copied().unwrap_or(0.0);
         let of_both = |i: usize, j: usize| covariance.get((i, j)).copied().unwrap_or(0.0);
-        let ranges = ranges(ln_im);
         Predictor {
             im_x: measures[0],
             im_y: measures.get(1).copied(),

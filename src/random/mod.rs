@@ -2,8 +2,10 @@
 
 #![deny(clippy::disallowed_methods)]
 
+mod binomial;
 mod normal;
 
+pub use binomial::binomial;
 pub use normal::normals;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

@@ -52,17 +52,45 @@ pub struct Gain {
     pub standard_error: f64,
 }
 
-/// The gain of forecasts with these log scores over a reference, paired case by case. Its error follows from the sums over the
-/// clusters: C / (C - 1) sum (S_c - n_c mean)^2 / n^2 for C clusters.
-pub fn gain(log_scores: &[f64], reference: &[f64], clusters: &[usize]) -> Gain {
-    let n = log_scores.len() as f64;
-    let differences = || log_scores.iter().zip(reference).map(|(score, other)| score - other);
-    let mean = differences().sum::<f64>() / n;
-    let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
-    for (difference, &cluster) in differences().zip(clusters) {
-        *sums.entry(cluster).or_default() += difference - mean;
+/// The log scores of forecasts, summed over clusters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scores {
+    n: f64,
+    sum: f64,
+    /// The sum of each cluster, and its cases.
+    by_cluster: Vec<(f64, f64)>,
+}
+
+impl Scores {
+    /// Of these, case by case.
+    pub fn of(log_scores: &[f64], clusters: &[usize]) -> Scores {
+        let mut by_cluster: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+        for (score, &cluster) in log_scores.iter().zip(clusters) {
+            let (sum, cases) = by_cluster.entry(cluster).or_default();
+            (*sum, *cases) = (*sum + score, *cases + 1.0);
+        }
+        let by_cluster = by_cluster.into_values().collect();
+        Scores { n: log_scores.len() as f64, sum: log_scores.iter().sum(), by_cluster }
     }
-    let count = sums.len() as f64;
-    let squares: f64 = sums.values().map(|sum| sum * sum).sum();
-    Gain { value: mean, standard_error: (count / (count - 1.0) * squares).sqrt() / n }
+
+    /// The mean of all.
+    pub fn mean(&self) -> f64 {
+        self.sum / self.n
+    }
+
+    /// The gain over a reference for the same cases. Its error follows from the sums over the clusters:
+    /// C / (C - 1) sum (S_c - n_c mean)^2 / n^2 for C clusters.
+    pub fn gain(&self, reference: &Scores) -> Gain {
+        let mean = (self.sum - reference.sum) / self.n;
+        let count = self.by_cluster.len() as f64;
+        let of_cluster = |((sum, cases), (other, _)): (&(f64, f64), &(f64, f64))| sum - other - cases * mean;
+        let sums = self.by_cluster.iter().zip(&reference.by_cluster).map(of_cluster);
+        let squares: f64 = sums.map(|sum| sum * sum).sum();
+        Gain { value: mean, standard_error: (count / (count - 1.0) * squares).sqrt() / self.n }
+    }
+}
+
+/// The gain of forecasts with these log scores over a reference, case by case.
+pub fn gain(log_scores: &[f64], reference: &[f64], clusters: &[usize]) -> Gain {
+    Scores::of(log_scores, clusters).gain(&Scores::of(reference, clusters))
 }

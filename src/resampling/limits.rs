@@ -1,6 +1,8 @@
 //! Limits of confidence from bootstrap replicates.
 
-use super::bootstrap::Strata;
+use std::collections::BTreeMap;
+
+use super::bootstrap::{Sizes, Strata};
 use crate::normal;
 use crate::statistics::estimate::{Limits, quantile};
 
@@ -54,15 +56,38 @@ pub fn bootstrap_limits(
 /// The acceleration of BCa limits: a sixth of the skewness of the jackknife, over strata (DiCiccio & Efron 1996, Eq. 6.6;
 /// Davison & Hinkley 1997, Eq. 5.33). `without_each` holds the estimate without each row in turn.
 pub fn acceleration(without_each: &[f64], strata: &Strata) -> f64 {
+    let mut moves = Moves::new();
+    for (&label, rows) in strata.labels().iter().zip(strata.members()) {
+        rows.iter().for_each(|&row| add_move(&mut moves, label, without_each[row] - without_each[0]));
+    }
+    acceleration_of(&moves, &strata.sizes())
+}
+
+/// Of each stratum the sums of the first three powers of what an estimate is moved by without each of its rows.
+pub type Moves = BTreeMap<usize, [f64; 3]>;
+
+/// Adds that of a row.
+pub fn add_move(moves: &mut Moves, stratum: usize, by: f64) {
+    let sums = moves.entry(stratum).or_default();
+    sums.iter_mut().zip([by, by * by, by * by * by]).for_each(|(sum, power)| *sum += power);
+}
+
+/// Joins those of other rows.
+pub fn join_moves(moves: &mut Moves, others: Moves) {
+    for (stratum, more) in others {
+        let sums = moves.entry(stratum).or_default();
+        sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+    }
+}
+
+/// [`acceleration`] from the moves of an estimate; rows of strata of these sizes that are not among them do not move it.
+pub fn acceleration_of(moves: &Moves, sizes: &Sizes) -> f64 {
     let (mut cubes, mut squares) = (0.0, 0.0);
-    for rows in strata.members() {
-        let n = rows.len() as f64;
-        let mean = rows.iter().map(|&row| without_each[row]).sum::<f64>() / n;
-        for &row in rows {
-            let influence = (n - 1.0) * (mean - without_each[row]) / n;
-            cubes += influence.powi(3);
-            squares += influence.powi(2);
-        }
+    for (stratum, [first, second, third]) in moves {
+        let n = sizes.get(stratum).map_or(1.0, |&size| size as f64);
+        let (mean, share) = (first / n, (n - 1.0) / n);
+        squares += share.powi(2) * (second - mean * first);
+        cubes -= share.powi(3) * (third - 3.0 * mean * second + 2.0 * mean * mean * first);
     }
     if squares > 0.0 { cubes / (6.0 * squares.powf(1.5)) } else { 0.0 }
 }

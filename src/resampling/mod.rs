@@ -7,6 +7,6 @@ pub(crate) mod limits;
 pub(crate) mod monomials;
 pub(crate) mod normal_equations;
 
-pub use bootstrap::{Resamples, Strata, TOGETHER, bootstrap, bootstrap_each};
+pub use bootstrap::{Draws, Resamples, Sizes, Strata, TOGETHER, bootstrap, bootstrap_each};
 pub use folds::{Folds, Gain, gain};
 pub use limits::{BootstrapLimits, acceleration, bootstrap_limits};

@@ -2,6 +2,12 @@
 
 use std::ops::Range;
 
+use pulp::NullaryFnOnce;
+
+use crate::statistics::derivatives::NEAR;
+use crate::statistics::design::sum_of_products;
+use crate::wide::widest;
+
 /// All products of powers of some variables up to a degree, those of a lower degree first, from 1 on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Monomials {
@@ -100,6 +106,24 @@ impl Monomials {
         values.map(|((&degree, ways), [value])| a[degree] * ways * value).collect()
     }
 
+    /// The sums over cases of [`Monomials::powers_of_sum`]; `x` are the columns of each variable, `a` those of each case.
+    pub fn sums_of_powers<const N: usize>(&self, x: &[Vec<f64>], a: &[[f64; N]]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.count()];
+        for (block, a) in a.chunks(NEAR).enumerate() {
+            let of_degree = |degree: usize| a.iter().map(|a| a[degree]).collect::<Vec<f64>>();
+            let of_degrees: Vec<Vec<f64>> = (0..N).map(of_degree).collect();
+            widest(SumsOfPowers {
+                of: self,
+                x,
+                first: block * NEAR,
+                of_degrees: &of_degrees,
+                sums: &mut sums,
+            });
+        }
+        sums.iter_mut().zip(&self.ways).for_each(|(sum, ways)| *sum *= ways);
+        sums
+    }
+
     /// The gradients of polynomials with these factors, from the values of the monomials; of some of their terms.
     #[inline(always)]
     pub fn gradients<const N: usize>(
@@ -132,6 +156,37 @@ impl Monomials {
             add_derivatives(curvature, all, factors, values);
         }
         curvatures
+    }
+}
+
+/// Adds the sums over some cases.
+struct SumsOfPowers<'a> {
+    of: &'a Monomials,
+    x: &'a [Vec<f64>],
+    first: usize,
+    of_degrees: &'a [Vec<f64>],
+    sums: &'a mut [f64],
+}
+
+impl NullaryFnOnce for SumsOfPowers<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let cases = self.of_degrees[0].len();
+        let mut values = vec![1.0; self.of.count() * NEAR];
+        for (k, &(variable, earlier)) in self.of.factors.iter().enumerate() {
+            let (before, from) = values.split_at_mut(k * NEAR);
+            let value = &mut from[..cases];
+            if k > 0 {
+                let x = &self.x[variable][self.first..][..cases];
+                let earlier = &before[earlier * NEAR..][..cases];
+                for ((value, x), earlier) in value.iter_mut().zip(x).zip(earlier) {
+                    *value = x * earlier;
+                }
+            }
+            self.sums[k] += sum_of_products(value, &self.of_degrees[self.of.degrees[k]]);
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use pulp::NullaryFnOnce;
 
 use super::bootstrap::TOGETHER;
-use crate::statistics::derivatives::{triangle_count, triangle_place};
+use crate::statistics::design::{triangle_count, triangle_place};
 use crate::wide::widest;
 
 /// A pivot smaller than this beside its diagonal is nothing but rounding.

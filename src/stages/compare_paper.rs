@@ -167,7 +167,7 @@ impl Ours {
     /// The measures of the worked example for a structure of it.
     fn example_measures(&self, of: &Published) -> Option<IntensityMeasures> {
         let group = self.group(of).filter(|group| !group.cases.is_empty())?;
-        Some(example(&group.structure_of(0)))
+        Some(example(&group.structure()))
     }
 
     /// The hybrid measure of the worked example for a structure of it, by our exponent, and the curve over it: the example takes that

@@ -7,10 +7,10 @@ use clap::Args;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
-use super::shared::groups::{self, Group};
+use super::shared::groups;
 use super::shared::uncertainty::{LIMIT_STATE, uncertainty};
 use super::simulate::Simulate;
-use crate::fragility::CaseGroup;
+use crate::fragility::CaseTable;
 use crate::fragility::demand::{Regression, RegressionOptions, ScanPoint};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
@@ -185,14 +185,15 @@ impl Stage for FitPex {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let mut groups = groups::read(&self.input)?;
-        if let Some(floor) = self.options.demand_floor {
-            let cases = groups.iter_mut().flat_map(|group| &mut group.cases);
-            cases.filter(|case| case.has_demand()).for_each(|case| case.edp = case.edp.max(floor));
-        }
+        let floor = self.options.demand_floor.unwrap_or(0.0);
+        let groups = groups::read_each(&self.input, |_, row| {
+            if row.case().has_demand() {
+                row.edp = row.edp.map(|edp| edp.max(floor));
+            }
+        })?;
         let steps = groups.len() as u64 * self.regressions.uncertainty.steps();
         let bar = console.bar(self.name(), steps);
-        let to_fit: Vec<CaseGroup> = groups.iter().map(Group::to_fit).collect();
+        let to_fit: Vec<&CaseTable> = groups.iter().map(|group| &group.cases).collect();
         let fitted = self.regressions.fit(&to_fit, &|steps| bar.inc(steps))?;
         bar.finish();
         let (mut rows, mut scans) = (Vec::new(), Vec::new());

@@ -7,11 +7,11 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::shared::groups::{self, Group};
+use super::shared::groups;
 use super::shared::uncertainty::uncertainty;
 use super::simulate::Simulate;
 use crate::fragility::overturning::{BentFit, Curve, CurveOptions, Gap, LEAST_EVENTS, Pair};
-use crate::fragility::{CaseGroup, CurveModel, Event};
+use crate::fragility::{CaseTable, CurveModel, Event};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
@@ -137,7 +137,7 @@ impl Stage for FitPro {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
         let bar = console.bar(self.name(), groups.len() as u64 * self.curves.uncertainty.steps());
-        let to_fit: Vec<CaseGroup> = groups.iter().map(Group::to_fit).collect();
+        let to_fit: Vec<&CaseTable> = groups.iter().map(|group| &group.cases).collect();
         let fitted = self.curves.fit(&to_fit, &|steps| bar.inc(steps))?;
         bar.finish();
         let mut rows = Vec::new();

@@ -15,7 +15,7 @@ use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
-use crate::studies::{Forecasts, Validation};
+use crate::studies::Forecasts;
 use crate::table::row::WriteRow;
 use crate::table::store::contents::recorded;
 use crate::table::store::frame::read_frame;
@@ -106,9 +106,9 @@ impl Validate {
                 Some(_) => Surface::new(asked, None, Scenarios::One)?,
                 None => Surface::beside(group.suite.as_deref(), PAPER_LIMIT, Scenarios::One),
             };
+            let structure = group.structure_of();
             for event in EVENTS {
-                let structure = |row: usize| group.structure_of(row);
-                let forecasts = Forecasts::by_surface(&surface.0, &group.cases, event, structure);
+                let forecasts = Forecasts::by_surface(&surface.0, &group.cases, event, &structure);
                 rows.extend(row(group, Some(surface.0.motions.as_str()), event, surface.0.limit, &forecasts));
             }
         }
@@ -181,17 +181,16 @@ fn row(
     suite: Option<&str>,
     event: Event,
     limit: f64,
-    Forecasts { forecasts, without_measure }: &Forecasts,
+    forecasts: &Forecasts,
 ) -> Option<ValidationRow> {
-    let validation = Validation::of(forecasts)?;
     Some(ValidationRow::new(
         group.suite.as_deref(),
         &group.structure,
         suite,
         event,
         limit,
-        &validation,
-        *without_measure,
+        &forecasts.validation()?,
+        forecasts.without_measure,
     ))
 }
 

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::keyword::keywords;
 use crate::statistics::derivatives::{Scores, derivatives, sum};
-use crate::statistics::design::DesignMatrix;
+use crate::statistics::design::{Design, Rows, columns_of};
 use crate::statistics::link::{Information, Link};
 use crate::statistics::newton::{Along, Maximum, Objective, maximise};
 
@@ -29,9 +29,9 @@ pub struct BinaryFit {
 }
 
 impl BinaryFit {
-    /// b0 + b1 x1 + ... of each case.
-    pub fn indices(&self, design: &DesignMatrix) -> Vec<f64> {
-        design.indices(self.coefficients.as_slice())
+    /// b0 + b1 x1 + ... of each of some cases.
+    pub fn indices(&self, rows: &Rows) -> Vec<f64> {
+        rows.indices(self.coefficients.as_slice())
     }
 }
 
@@ -52,11 +52,33 @@ pub fn binary_regression(
     link: Link,
     estimator: Estimator,
 ) -> Result<BinaryFit, BinaryError> {
-    let design = DesignMatrix::new(predictors, events.len());
-    let weights = vec![1.0; events.len()];
-    let likelihood = BinaryLikelihood { design: &design, events, weights: &weights, link, estimator };
+    let columns = columns_of(predictors, as_numbers(events));
+    regress(Design::new(&columns, predictors.len()), link, estimator)
+}
+
+/// 1 where something happened, 0 where it did not.
+pub fn as_numbers(events: &[bool]) -> Vec<f64> {
+    events.iter().map(|&event| f64::from(u8::from(event))).collect()
+}
+
+/// The same of a design, in which an event was observed where there is no 0.
+///
+/// # Errors
+/// As there.
+pub fn regress(design: Design, link: Link, estimator: Estimator) -> Result<BinaryFit, BinaryError> {
+    let likelihood = BinaryLikelihood { design, weights: None, link, estimator };
     let Maximum { at, objective, .. } = match estimator {
-        Estimator::Ml => likelihood.maximise(&likelihood.flat(0.0), Along::All, 0.0),
+        Estimator::Ml => {
+            let flat = likelihood.flat(0.0);
+            // Where cases are many, from the maximum of some of them.
+            let few = design.spread();
+            let of_few = few.as_ref().and_then(|few| {
+                let likelihood = BinaryLikelihood { design: design.of(few), ..likelihood };
+                Some(likelihood.maximise(&flat, Along::All, 0.0)?.at)
+            });
+            let near = of_few.and_then(|near| likelihood.maximise(&near, Along::All, 0.0));
+            near.or_else(|| likelihood.maximise(&flat, Along::All, 0.0))
+        }
         Estimator::Firth => likelihood.highest(FIRTH_TOLERANCE),
     }
     .ok_or(BinaryError)?;
@@ -91,11 +113,10 @@ const STEEP: [f64; 4] = [1.0, 3.0, 9.0, 27.0];
 /// The likelihood of outcomes as a function of the coefficients.
 #[derive(Clone, Copy)]
 pub struct BinaryLikelihood<'a> {
-    pub design: &'a DesignMatrix,
-    /// Whether it happened in each.
-    pub events: &'a [bool],
-    /// How often each counts.
-    pub weights: &'a [f64],
+    /// With what happened.
+    pub design: Design<'a>,
+    /// How often each case counts, if not once.
+    pub weights: Option<&'a [f64]>,
     /// F.
     pub link: Link,
     /// Whether it is penalised.
@@ -126,18 +147,25 @@ impl BinaryLikelihood<'_> {
 
     /// Coefficients of steep indices in the direction of these.
     fn steep(&self, direction: &DVector<f64>) -> [DVector<f64>; STEEP.len()] {
-        let indices = self.design.indices(direction.as_slice());
-        let (mut lowest_event, mut highest_other) = (f64::INFINITY, f64::NEG_INFINITY);
-        let (mut sum, mut squares, mut cases) = (0.0, 0.0, 0.0);
-        for ((index, &event), &weight) in indices.into_iter().zip(self.events).zip(self.weights) {
-            if weight > 0.0 {
-                match event {
-                    true => lowest_event = index.min(lowest_event),
-                    false => highest_other = index.max(highest_other),
+        let of_block = |rows: &Rows| {
+            let mut seen = ([f64::INFINITY, f64::NEG_INFINITY], [0.0; 3]);
+            let (within, sums) = (&mut seen.0, &mut seen.1);
+            for (row, index) in rows.indices(direction.as_slice()).into_iter().enumerate() {
+                if weight(self.weights, rows.first + row) > 0.0 {
+                    match rows.y[row] != 0.0 {
+                        true => within[0] = index.min(within[0]),
+                        false => within[1] = index.max(within[1]),
+                    }
+                    sums.iter_mut().zip([index, index * index, 1.0]).for_each(|(sum, of)| *sum += of);
                 }
-                (sum, squares, cases) = (sum + index, squares + index * index, cases + 1.0);
             }
-        }
+            seen
+        };
+        let add = |seen: &mut ([f64; 2], [f64; 3]), (within, sums): ([f64; 2], [f64; 3])| {
+            seen.0 = [within[0].min(seen.0[0]), within[1].max(seen.0[1])];
+            seen.1.iter_mut().zip(sums).for_each(|(sum, of)| *sum += of);
+        };
+        let ([lowest_event, highest_other], [sum, squares, cases]) = self.design.fold(0, of_block, add);
         let sd = (squares / cases - (sum / cases) * (sum / cases)).max(0.0).sqrt();
         let centred = direction + self.flat(-0.5 * (lowest_event + highest_other));
         STEEP.map(|steep| &centred * (steep / sd))
@@ -145,7 +173,7 @@ impl BinaryLikelihood<'_> {
 
     /// Coefficients of an index that is the same in all cases.
     fn flat(&self, index: f64) -> DVector<f64> {
-        DVector::from_fn(self.design.columns().len(), |k, _| if k == 0 { index } else { 0.0 })
+        DVector::from_fn(self.design.coefficients(), |k, _| if k == 0 { index } else { 0.0 })
     }
 
     /// Whether the likelihood falls in all directions from here, where its first derivatives vanish.
@@ -180,12 +208,15 @@ impl BinaryLikelihood<'_> {
 
     fn log_likelihood(&self, coefficients: &DVector<f64>) -> f64 {
         sum(
-            self.design,
+            &self.design,
             coefficients.as_slice(),
             #[inline(always)]
-            |cases, values| {
-                self.link.ln_probabilities(&self.events[cases.clone()], values);
-                values.iter_mut().zip(&self.weights[cases]).for_each(|(value, &weight)| count(value, weight));
+            |rows, cases, values| {
+                self.link.ln_probabilities(&rows.y[cases.clone()], values);
+                if let Some(weights) = self.weights {
+                    let weights = &weights[rows.first..][cases];
+                    values.iter_mut().zip(weights).for_each(|(value, &weight)| count(value, weight));
+                }
             },
         )
     }
@@ -194,14 +225,17 @@ impl BinaryLikelihood<'_> {
     /// time.
     pub fn derivatives_at(&self, coefficients: &DVector<f64>) -> Objective {
         derivatives(
-            self.design,
+            &self.design,
             coefficients.as_slice(),
             #[inline(always)]
-            |cases, mut scores| {
-                self.link.scores(&self.events[cases.clone()], scores.reborrow());
-                for ((slope, curvature), &weight) in scores.iter_mut().zip(&self.weights[cases]) {
-                    count(slope, weight);
-                    count(curvature, weight);
+            |rows, cases, mut scores| {
+                self.link.scores(&rows.y[cases.clone()], scores.reborrow());
+                if let Some(weights) = self.weights {
+                    for ((slope, curvature), &weight) in scores.iter_mut().zip(&weights[rows.first..][cases])
+                    {
+                        count(slope, weight);
+                        count(curvature, weight);
+                    }
                 }
             },
         )
@@ -212,6 +246,10 @@ impl BinaryLikelihood<'_> {
 #[inline(always)]
 fn count(value: &mut f64, weight: f64) {
     *value = if weight > 0.0 { weight * *value } else { 0.0 };
+}
+
+fn weight(weights: Option<&[f64]>, case: usize) -> f64 {
+    weights.map_or(1.0, |weights| weights[case])
 }
 
 /// What is maximised.
@@ -242,32 +280,42 @@ pub struct Penalty {
 /// Firth's penalty at these coefficients; none where the information is singular.
 pub fn penalty(likelihood: &BinaryLikelihood, coefficients: &DVector<f64>) -> Option<Penalty> {
     let BinaryLikelihood { design, weights, link, .. } = likelihood;
-    let indices = design.indices(coefficients.as_slice());
-    let of_cases: Vec<_> = indices.iter().map(|&index| link.information(index)).collect();
-    let expected = |cases: Range<usize>, scores: Scores| {
-        let counted = of_cases[cases.clone()].iter().zip(&weights[cases]);
-        for (curvature, (of_case, &weight)) in scores.curvature.iter_mut().zip(counted) {
-            *curvature = if weight > 0.0 { weight * of_case.weight } else { 0.0 };
+    let expected = |rows: &Rows, cases: Range<usize>, mut scores: Scores| {
+        for (case, (slope, curvature)) in cases.zip(scores.iter_mut()) {
+            let weight = weight(*weights, rows.first + case);
+            *curvature = if weight > 0.0 { weight * link.information(*slope).weight } else { 0.0 };
+            *slope = 0.0;
         }
-        scores.slope.fill(0.0);
     };
-    let information = derivatives(design, &[], expected).information;
+    let information = derivatives(design, coefficients.as_slice(), expected).information;
     let factor = information.clone().cholesky()?;
     let inverse = factor.inverse();
     let k = coefficients.len();
-    let (mut gradient, mut curvature) = (DVector::zeros(k), DMatrix::zeros(k, k));
-    // The derivative of the information with respect to each coefficient.
-    let mut slopes = vec![DMatrix::zeros(k, k); k];
-    let cases = design.rows().zip(&of_cases).zip(*weights).filter(|(_, weight)| **weight > 0.0);
-    for ((row, of_case), weight) in cases {
-        let Information { weight: of_case, ln_weight_slope: slope, ln_weight_curvature } = *of_case;
-        let leverage = weight * of_case * (&inverse * &row).dot(&row);
-        gradient.axpy(0.5 * leverage * slope, &row, 1.0);
-        curvature.syger(-0.5 * leverage * (slope * slope + ln_weight_curvature), &row, &row, 1.0);
-        for (slopes, x) in slopes.iter_mut().zip(&row) {
-            slopes.syger(weight * of_case * slope * x, &row, &row, 1.0);
+    // The gradient, the curvature, and the derivative of the information with respect to each coefficient.
+    let of_block = |rows: &Rows| {
+        let (mut gradient, mut curvature) = (DVector::zeros(k), DMatrix::zeros(k, k));
+        let mut slopes = vec![DMatrix::zeros(k, k); k];
+        let indices = rows.indices(coefficients.as_slice());
+        for (case, (row, index)) in rows.each().zip(indices).enumerate() {
+            let weight = weight(*weights, rows.first + case);
+            if weight > 0.0 {
+                let of_case = link.information(index);
+                let Information { weight: of_case, ln_weight_slope: slope, ln_weight_curvature } = of_case;
+                let leverage = weight * of_case * (&inverse * &row).dot(&row);
+                gradient.axpy(0.5 * leverage * slope, &row, 1.0);
+                curvature.syger(-0.5 * leverage * (slope * slope + ln_weight_curvature), &row, &row, 1.0);
+                for (slopes, x) in slopes.iter_mut().zip(&row) {
+                    slopes.syger(weight * of_case * slope * x, &row, &row, 1.0);
+                }
+            }
         }
-    }
+        (gradient, curvature, slopes)
+    };
+    let (gradient, mut curvature, mut slopes) = design.fold(0, of_block, |sums, part| {
+        sums.0 += part.0;
+        sums.1 += part.1;
+        sums.2.iter_mut().zip(part.2).for_each(|(sum, slope)| *sum += slope);
+    });
     let relative: Vec<DMatrix<f64>> = slopes
         .iter_mut()
         .map(|slope| {

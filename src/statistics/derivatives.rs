@@ -5,12 +5,12 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use pulp::NullaryFnOnce;
 
-use super::design::DesignMatrix;
+use super::design::{Design, Rows, triangle_count, triangle_place};
 use super::newton::Objective;
 use crate::wide::widest;
 
 /// Cases that are worked on together, so that they stay in the nearest cache.
-const BLOCK: usize = 256;
+pub const NEAR: usize = 256;
 /// Partial sums, as many as the widest register has numbers: the same on any processor, and so the sums.
 const PARTS: usize = 8;
 
@@ -44,40 +44,50 @@ pub struct Score {
     pub curvature: f64,
 }
 
-/// The derivatives with respect to the coefficients, without the value. `score` is given some neighbouring cases and
-/// [`Scores`] with their indices b0 + b1 x1 + ... for slopes, to be replaced; what it calls must be inlined to be fast.
+/// The derivatives with respect to the coefficients, without the value. `score` is given a block of rows, the place of some
+/// neighbouring ones in it, and [`Scores`] with their indices b0 + b1 x1 + ... for slopes, to be replaced; what it calls must be inlined
+/// to be fast.
 pub fn derivatives(
-    design: &DesignMatrix,
+    design: &Design,
     coefficients: &[f64],
-    score: impl Fn(Range<usize>, Scores),
+    score: impl Fn(&Rows, Range<usize>, Scores) + Sync,
 ) -> Objective {
-    widest(Pass { design, coefficients, score })
+    let of_block = |rows: &Rows| widest(Pass { rows, coefficients, score: &score });
+    design.fold(0, of_block, |sum, part| {
+        sum.gradient += part.gradient;
+        sum.information += part.information;
+    })
 }
 
-/// The sum of a value of each case. `value` is given some neighbouring cases and their indices b0 + b1 x1 + ..., to be
-/// replaced by their values; what it calls must be inlined to be fast.
-pub fn sum(design: &DesignMatrix, coefficients: &[f64], value: impl Fn(Range<usize>, &mut [f64])) -> f64 {
-    widest(Sum { design, coefficients, value })
+/// The sum of a value of each case. `value` is given a block of rows, the place of some neighbouring ones in it, and their indices
+/// b0 + b1 x1 + ..., to be replaced by their values; what it calls must be inlined to be fast.
+pub fn sum(
+    design: &Design,
+    coefficients: &[f64],
+    value: impl Fn(&Rows, Range<usize>, &mut [f64]) + Sync,
+) -> f64 {
+    let of_block = |rows: &Rows| widest(Sum { rows, coefficients, value: &value });
+    design.fold(0, of_block, |sum, part| *sum += part)
 }
 
-/// A pass over all cases for their values.
+/// A pass over a block for the values of its cases.
 struct Sum<'a, F> {
-    design: &'a DesignMatrix,
+    rows: &'a Rows<'a>,
     coefficients: &'a [f64],
-    value: F,
+    value: &'a F,
 }
 
-impl<F: Fn(Range<usize>, &mut [f64])> NullaryFnOnce for Sum<'_, F> {
+impl<F: Fn(&Rows, Range<usize>, &mut [f64])> NullaryFnOnce for Sum<'_, F> {
     type Output = f64;
 
     #[inline(always)]
     fn call(self) -> f64 {
-        let (mut sums, mut values) = ([0.0; PARTS], [0.0; BLOCK]);
-        for from in (0..self.design.cases()).step_by(BLOCK) {
-            let cases = from..self.design.cases().min(from + BLOCK);
+        let (mut sums, mut values) = ([0.0; PARTS], [0.0; NEAR]);
+        for from in (0..self.rows.count()).step_by(NEAR) {
+            let cases = from..self.rows.count().min(from + NEAR);
             let values = &mut values[..cases.len()];
-            indices(self.design, self.coefficients, cases.clone(), values);
-            (self.value)(cases, values);
+            indices(self.rows, self.coefficients, cases.clone(), values);
+            (self.value)(self.rows, cases, values);
             let (whole, rest) = values.as_chunks::<PARTS>();
             for values in whole {
                 sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
@@ -88,27 +98,27 @@ impl<F: Fn(Range<usize>, &mut [f64])> NullaryFnOnce for Sum<'_, F> {
     }
 }
 
-/// A pass over all cases.
+/// A pass over a block.
 struct Pass<'a, F> {
-    design: &'a DesignMatrix,
+    rows: &'a Rows<'a>,
     coefficients: &'a [f64],
-    score: F,
+    score: &'a F,
 }
 
-impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
+impl<F: Fn(&Rows, Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
     type Output = Objective;
 
     #[inline(always)]
     fn call(self) -> Objective {
-        let columns = self.design.columns();
+        let columns = &self.rows.x;
         let k = columns.len();
         let (mut gradient, mut information) = (vec![[0.0; PARTS]; k], vec![[0.0; PARTS]; triangle_count(k)]);
-        let (mut slope, mut curvature) = ([0.0; BLOCK], [0.0; BLOCK]);
-        for from in (0..self.design.cases()).step_by(BLOCK) {
-            let to = self.design.cases().min(from + BLOCK);
+        let (mut slope, mut curvature) = ([0.0; NEAR], [0.0; NEAR]);
+        for from in (0..self.rows.count()).step_by(NEAR) {
+            let to = self.rows.count().min(from + NEAR);
             let (slope, curvature) = (&mut slope[..to - from], &mut curvature[..to - from]);
-            indices(self.design, self.coefficients, from..to, slope);
-            (self.score)(from..to, Scores { slope, curvature });
+            indices(self.rows, self.coefficients, from..to, slope);
+            (self.score)(self.rows, from..to, Scores { slope, curvature });
             for i in 0..k {
                 let x = &columns[i][from..to];
                 add_products(&mut gradient[i], slope, x, &columns[0][from..to]);
@@ -128,9 +138,9 @@ impl<F: Fn(Range<usize>, Scores)> NullaryFnOnce for Pass<'_, F> {
 
 /// b0 + b1 x1 + ... of some cases.
 #[inline(always)]
-fn indices(design: &DesignMatrix, coefficients: &[f64], cases: Range<usize>, indices: &mut [f64]) {
+fn indices(rows: &Rows, coefficients: &[f64], cases: Range<usize>, indices: &mut [f64]) {
     indices.fill(0.0);
-    for (column, &b) in design.columns().iter().zip(coefficients) {
+    for (column, &b) in rows.x.iter().zip(coefficients) {
         indices.iter_mut().zip(&column[cases.clone()]).for_each(|(index, x)| *index = b.mul_add(*x, *index));
     }
 }
@@ -148,16 +158,4 @@ fn add_products(sums: &mut [f64; PARTS], a: &[f64], b: &[f64], c: &[f64]) {
     for (part, sum) in sums.iter_mut().enumerate().take(rest_a.len()) {
         *sum = (rest_a[part] * rest_b[part]).mul_add(rest_c[part], *sum);
     }
-}
-
-/// Where row `i` and column `j` of a symmetric matrix stand among the rows of its lower triangle, in either order.
-#[inline(always)]
-pub fn triangle_place(i: usize, j: usize) -> usize {
-    let (row, column) = (i.max(j), i.min(j));
-    row * (row + 1) / 2 + column
-}
-
-/// How many numbers the lower triangle of a matrix with so many rows has.
-pub fn triangle_count(rows: usize) -> usize {
-    triangle_place(rows, 0)
 }

@@ -118,11 +118,43 @@ impl PoissonBinomial {
             masses[k] = masses[k] * (1.0 - probability) + masses[k - 1] * probability;
         }
         masses[0] *= 1.0 - probability;
+        self.trim();
+    }
+
+    fn trim(&mut self) {
+        let masses = &mut self.masses;
         let is_kept = |mass: &f64| *mass >= NEGLIGIBLE;
         masses.truncate(masses.iter().rposition(is_kept).map_or(masses.len(), |last| last + 1));
         let below = masses.iter().position(is_kept).unwrap_or(0);
         masses.drain(..below);
         self.first += below;
+    }
+
+    /// The sum of both counts.
+    fn plus(&self, other: &PoissonBinomial) -> PoissonBinomial {
+        let mut masses = vec![0.0; self.masses.len() + other.masses.len() - 1];
+        for (k, mass) in self.masses.iter().enumerate() {
+            masses[k..].iter_mut().zip(&other.masses).for_each(|(sum, other)| *sum += mass * other);
+        }
+        let mut count = PoissonBinomial { first: self.first + other.first, masses };
+        count.trim();
+        count
+    }
+
+    /// Adds the count of further events to those of a stack, in which each is of twice as many as the next: so that the sum of all
+    /// takes time in proportion to their number, but for its logarithm.
+    pub fn stack(counts: &mut Vec<(u32, PoissonBinomial)>, count: PoissonBinomial) {
+        let mut top = (0, count);
+        while let Some((_, below)) = counts.pop_if(|(level, _)| *level == top.0) {
+            top = (top.0 + 1, below.plus(&top.1));
+        }
+        counts.push(top);
+    }
+
+    /// The sum of a stack.
+    pub fn of_stack(counts: Vec<(u32, PoissonBinomial)>) -> PoissonBinomial {
+        let counts = counts.into_iter().rev().map(|(_, count)| count);
+        counts.reduce(|sum, count| count.plus(&sum)).unwrap_or_else(|| PoissonBinomial::new([]))
     }
 
     /// Probability of at most this count.

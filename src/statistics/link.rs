@@ -69,30 +69,30 @@ impl Link {
         }
     }
 
-    /// Replaces the indices of some cases by [`Link::ln_probability`].
+    /// Replaces the indices of some cases by [`Link::ln_probability`]; an event is what is not 0.
     #[inline(always)]
-    pub fn ln_probabilities(self, events: &[bool], values: &mut [f64]) {
+    pub fn ln_probabilities(self, events: &[f64], values: &mut [f64]) {
         match self {
             Link::Probit => {
                 for (value, &event) in values.iter_mut().zip(events) {
-                    *value = probit_ln_probability(*value, event);
+                    *value = probit_ln_probability(*value, event != 0.0);
                 }
             }
             link => {
                 for (value, &event) in values.iter_mut().zip(events) {
-                    *value = link.ln_probability(*value, event);
+                    *value = link.ln_probability(*value, event != 0.0);
                 }
             }
         }
     }
 
-    /// Replaces the indices of some cases by [`Link::score`].
+    /// Replaces the indices of some cases by [`Link::score`]; an event is what is not 0.
     #[inline(always)]
     #[expect(
         clippy::redundant_closure,
         reason = "a function passed along is called in a way that need not be inlined"
     )]
-    pub fn scores(self, events: &[bool], scores: Scores) {
+    pub fn scores(self, events: &[f64], scores: Scores) {
         match self {
             Link::Probit => replace(
                 events,
@@ -145,9 +145,9 @@ impl Link {
 }
 
 #[inline(always)]
-fn replace(events: &[bool], mut scores: Scores, score: impl Fn(f64, bool) -> Score) {
+fn replace(events: &[f64], mut scores: Scores, score: impl Fn(f64, bool) -> Score) {
     for ((slope, curvature), &event) in scores.iter_mut().zip(events) {
-        let score = score(*slope, event);
+        let score = score(*slope, event != 0.0);
         (*slope, *curvature) = (score.slope, score.curvature);
     }
 }

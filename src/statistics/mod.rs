@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! estimate      estimates, limits and quantiles
+//! columns       numbers of many cases, in memory or in a file without a name, read in blocks; sorted: in order of size
 //! design        the columns of a regression, and whether they can be told apart
 //! regression    least squares with standard errors and limits
 //! link, binary  maximum likelihood of binary outcomes, or Firth's penalised; separation: whether there is a maximum
@@ -12,6 +13,7 @@
 //! ```
 
 pub(crate) mod binary;
+pub(crate) mod columns;
 pub(crate) mod derivatives;
 pub(crate) mod design;
 pub(crate) mod distribution;
@@ -23,11 +25,11 @@ pub(crate) mod newton;
 pub(crate) mod regression;
 pub(crate) mod search;
 pub(crate) mod separation;
+pub(crate) mod sorted;
 
 pub use binary::Estimator;
 pub use binary::{BinaryError, BinaryFit, binary_regression};
 pub use derivatives::Score;
-pub use design::natural_spline;
 pub use distribution::PoissonBinomial;
 pub use distribution::{chi_squared_upper_tail, f_upper_tail, t_quantile};
 pub use estimate::{Estimate, Limits};

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::design::{Dependence, dependence, is_constant};
+use super::design::{Dependence, Design, Moments, Rows, columns_of, dot};
 use super::distribution::t_quantile;
 use super::estimate::Estimate;
 use crate::statistics::FitStatus;
@@ -67,37 +67,67 @@ pub enum RegressionError {
     Collinear,
 }
 
-/// Ordinary least squares of `y` on an intercept and `predictors`, each as long as `y`, by QR decomposition.
+/// Ordinary least squares of `y` on an intercept and `predictors`, each as long as `y`.
 ///
 /// # Errors
 /// If there are too few cases, something does not vary, or the predictors are collinear.
 pub fn least_squares(predictors: &[&[f64]], y: &[f64]) -> Result<LinearFit, RegressionError> {
-    let (n, k) = (y.len(), predictors.len() + 1);
+    let columns = columns_of(predictors, y.to_vec());
+    regress(&Design::new(&columns, predictors.len()))
+}
+
+/// The same of a design, by the normal equations of deviations from the means, and a step more that takes away their rounding.
+///
+/// # Errors
+/// As there.
+pub fn regress(design: &Design) -> Result<LinearFit, RegressionError> {
+    let (n, k) = (design.cases(), design.coefficients());
     if n <= k {
         return Err(RegressionError::TooFewCases { cases: n, needed: k + 1 });
     }
-    match dependence(predictors) {
+    let moments = Moments::of(design);
+    match moments.dependence() {
         Some(Dependence::Constant) => return Err(RegressionError::Constant),
         Some(Dependence::Collinear) => return Err(RegressionError::Collinear),
-        None if is_constant(y) => return Err(RegressionError::Constant),
+        None if moments.is_constant(k - 1) => return Err(RegressionError::Constant),
         None => {}
     }
-    let design =
-        DMatrix::from_fn(n, k, |row, column| if column == 0 { 1.0 } else { predictors[column - 1][row] });
-    let response = DVector::from_column_slice(y);
-    let qr = design.clone().qr();
-    let r = qr.r();
-    let inverse = r.clone().try_inverse().ok_or(RegressionError::Collinear)?;
-    let coefficients = &inverse * (qr.q().transpose() * &response);
-    let residuals = &response - design * &coefficients;
-    let rss = residuals.norm_squared();
-    let mean = response.mean();
-    let tss = response.add_scalar(-mean).norm_squared();
+    // Slopes follow from the deviations, the intercept from the means.
+    let products = DMatrix::from_fn(k - 1, k - 1, |i, j| moments.product(i, j));
+    let of_deviations = products.cholesky().ok_or(RegressionError::Collinear)?;
+    let slopes = of_deviations.solve(&DVector::from_fn(k - 1, |i, _| moments.product(i, k - 1)));
+    let means = DVector::from_column_slice(&moments.means[..k - 1]);
+    let intercept = moments.means[k - 1] - means.dot(&slopes);
+    let mut coefficients = slopes.insert_row(0, intercept);
+    // (X'X)^-1 of the design itself.
+    let from_deviations =
+        DMatrix::from_fn(
+            k,
+            k,
+            |i, j| if i == 0 && j > 0 { -means[j - 1] } else { f64::from(u8::from(i == j)) },
+        );
+    let mut inverse = of_deviations.inverse().insert_row(0, 0.0).insert_column(0, 0.0);
+    inverse[(0, 0)] = 1.0 / n as f64;
+    let inverse = &from_deviations * inverse * from_deviations.transpose();
+    let of_residuals = |rows: &Rows| {
+        let mut residuals = rows.indices(coefficients.as_slice());
+        residuals.iter_mut().zip(rows.y).for_each(|(fitted, y)| *fitted = y - *fitted);
+        let on_each = |x: &&[f64]| dot(x, &residuals);
+        (rows.x.iter().map(on_each).collect::<Vec<f64>>(), dot(&residuals, &residuals))
+    };
+    let (on_each, rss) = design.fold(0, of_residuals, |(on_each, rss), (more, squares)| {
+        on_each.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+        *rss += squares;
+    });
+    let on_each = DVector::from_vec(on_each);
+    let step = &inverse * &on_each;
+    let rss = rss - step.dot(&on_each);
+    coefficients += step;
+    let tss = moments.product(k - 1, k - 1);
     let degrees = (n - k) as f64;
     let variance = rss / degrees;
     let quantile = t_quantile(0.975, degrees);
-    // (X'X)^-1 = R^-1 R^-T.
-    let covariance = &inverse * inverse.transpose() * variance;
+    let covariance = inverse * variance;
     let estimate = |j: usize| Estimate::symmetric(coefficients[j], covariance[(j, j)].sqrt(), quantile);
     Ok(LinearFit {
         coefficients: (0..k).map(estimate).collect(),

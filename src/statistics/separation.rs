@@ -1,9 +1,12 @@
 //! Whether a line through the measures separates the outcomes: then the likelihood grows without end.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
-use crate::statistics::binary::{Estimator, binary_regression};
-use crate::statistics::design::DesignMatrix;
+use crate::statistics::binary::{Estimator, as_numbers, regress};
+use crate::statistics::columns::Columns;
+use crate::statistics::design::{Design, Moments, Rows, columns_of, range, widen};
 use crate::statistics::link::Link;
 
 /// In a plane, classes that overlap by less than this share of the scores count as touching: a smaller overlap is the
@@ -14,33 +17,51 @@ const ROUNDING: f64 = 1e-12;
 /// quasi-complete separation). Exact for one; for two, up to the rounding of the scores; for more, whether their overlap
 /// cannot be proven.
 pub fn is_separated(predictors: &[&[f64]], events: &[bool]) -> bool {
-    match predictors {
-        [x] => separates(events, |row| x[row]) || separates(events, |row| -x[row]),
-        [x, y] => planar(x, y, events),
-        more => !overlaps(more, events),
+    is_separable(&Design::new(&columns_of(predictors, as_numbers(events)), predictors.len()))
+}
+
+/// The same of a design, in which an event was observed where there is no 0.
+pub fn is_separable(design: &Design) -> bool {
+    match design.coefficients() {
+        2 => linear(design),
+        3 => planar(design),
+        _ => !overlap(design),
     }
 }
 
-/// Whether every event scores at least as high as every non-event.
-fn separates(events: &[bool], score: impl Fn(usize) -> f64) -> bool {
-    let rows = || events.iter().enumerate();
-    let least_event =
-        rows().filter(|(_, event)| **event).map(|(row, _)| score(row)).fold(f64::INFINITY, f64::min);
-    let largest_other =
-        rows().filter(|(_, event)| !**event).map(|(row, _)| score(row)).fold(f64::NEG_INFINITY, f64::max);
-    least_event >= largest_other
+/// Whether all events lie on one side of all others.
+fn linear(design: &Design) -> bool {
+    let of_block = |rows: &Rows| {
+        let of = |event: bool| {
+            let of = rows.x[1].iter().zip(rows.y).filter(|(_, y)| (**y != 0.0) == event);
+            range(&of.map(|(x, _)| *x).collect::<Vec<_>>())
+        };
+        [of(true), of(false)]
+    };
+    let [events, others] = design.fold(0, of_block, |both, part| {
+        both.iter_mut().zip(part).for_each(|(range, other)| widen(range, other));
+    });
+    events[0] >= others[1] || events[1] <= others[0]
 }
 
 type Point = (f64, f64);
 
 /// Two point sets are separated just when a line along an edge of either convex hull, or through a vertex of each,
 /// separates them. The hulls have few vertices, so all are tried.
-fn planar(x: &[f64], y: &[f64], events: &[bool]) -> bool {
-    let points = |of: bool| {
-        let rows = (0..events.len()).filter(|&row| events[row] == of);
-        convex_hull(rows.map(|row| (x[row], y[row])).collect())
+fn planar(design: &Design) -> bool {
+    let of_block = |rows: &Rows| {
+        [true, false].map(|event| {
+            let points = rows.x[1].iter().zip(rows.x[2]).zip(rows.y);
+            let of = points.filter(|(_, y)| (**y != 0.0) == event);
+            convex_hull(of.map(|((x, y), _)| (*x, *y)).collect())
+        })
     };
-    let (hull, other) = (points(true), points(false));
+    // The hull of several hulls is that of all their points.
+    let [hull, other] = design.fold(0, of_block, |both, part| {
+        for (hull, more) in both.iter_mut().zip(part) {
+            *hull = convex_hull(hull.iter().copied().chain(more).collect());
+        }
+    });
     let edges = |hull: &[Point]| -> Vec<Point> {
         (0..hull.len()).map(|k| difference(hull[(k + 1) % hull.len()], hull[k])).collect()
     };
@@ -101,31 +122,37 @@ const SUM_ROUNDING: f64 = 1e-13;
 /// exist just where nothing separates (Albert & Anderson 1984, On the existence of maximum likelihood estimates in logistic
 /// regression models, Biometrika 71, 1-10). With the rest, a separating d of length 1 would have
 /// sum w (z'd)^2 <= max|z| sum w z'd <= max|z| |r|: it is ruled out where the least eigenvalue of sum w z z' is larger.
-pub fn overlaps(predictors: &[&[f64]], events: &[bool]) -> bool {
-    let columns: Vec<Vec<f64>> = predictors.iter().map(|values| standardised(values)).collect();
-    let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let Ok(fit) = binary_regression(&columns, events, Link::Logit, Estimator::Ml) else { return false };
-    let design = DesignMatrix::new(&columns, events.len());
-    let k = design.columns().len();
-    let (mut rest, mut rounding, mut largest) = (DVector::zeros(k), 0.0, 0.0_f64);
-    let mut moments = DMatrix::<f64>::zeros(k, k);
-    for ((row, index), &event) in design.rows().zip(fit.indices(&design)).zip(events) {
-        let slope = Link::Logit.score(index, event).slope;
-        let (weight, size) = (slope.abs(), row.norm());
-        rest += &row * slope;
-        rounding += SUM_ROUNDING * weight * size;
-        largest = largest.max(size);
-        moments += &row * row.transpose() * weight;
-    }
+fn overlap(design: &Design) -> bool {
+    let (moments, n) = (Moments::of(design), design.cases() as f64);
+    // About the means, in standard deviations, which changes no separation.
+    let mut standardised = Columns::new(design.coefficients(), &Arc::default());
+    let sds: Vec<f64> = (0..design.coefficients() - 1).map(|k| (moments.product(k, k) / n).sqrt()).collect();
+    let of_block = |rows: &Rows| -> Vec<Vec<f64>> {
+        let predictors = rows.x[1..].iter().zip(&moments.means).zip(&sds);
+        let columns = predictors.map(|((x, mean), sd)| x.iter().map(|x| (x - mean) / sd).collect());
+        columns.chain([rows.y.to_vec()]).collect()
+    };
+    design.each(0, of_block, |columns| standardised.append(&columns));
+    let design = Design::new(&standardised, design.coefficients() - 1);
+    let Ok(fit) = regress(design, Link::Logit, Estimator::Ml) else { return false };
+    let k = design.coefficients();
+    let of_block = |rows: &Rows| {
+        let (mut rest, mut rounding, mut largest) = (DVector::zeros(k), 0.0, 0.0_f64);
+        let mut moments = DMatrix::<f64>::zeros(k, k);
+        for ((row, index), y) in rows.each().zip(fit.indices(rows)).zip(rows.y) {
+            let slope = Link::Logit.score(index, *y != 0.0).slope;
+            let (weight, size) = (slope.abs(), row.norm());
+            rest += &row * slope;
+            rounding += SUM_ROUNDING * weight * size;
+            largest = largest.max(size);
+            moments += &row * row.transpose() * weight;
+        }
+        (rest, rounding, largest, moments)
+    };
+    let (rest, rounding, largest, moments) = design.fold(0, of_block, |sums, part| {
+        *sums = (&sums.0 + part.0, sums.1 + part.1, sums.2.max(part.2), &sums.3 + part.3);
+    });
     let rest = rest.norm() + rounding;
     let least = moments.symmetric_eigenvalues().min();
     least > largest * rest
-}
-
-/// About the mean, in standard deviations, which changes no separation.
-fn standardised(values: &[f64]) -> Vec<f64> {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let sd = (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / n).sqrt();
-    values.iter().map(|value| (value - mean) / sd).collect()
 }

@@ -3,17 +3,16 @@
 use super::transfer::CurveSubject;
 use crate::fragility::case::{Case, Event, Measure};
 use crate::fragility::demand::inference::DemandInference;
-use crate::fragility::demand::sample::DemandSample;
 use crate::fragility::overturning::inference::CurveInference;
-use crate::fragility::overturning::sample::EventSample;
 use crate::fragility::probability::exceeding_index;
+use crate::fragility::sample::Sample;
 use crate::keyword::{Keyword, keywords};
 use crate::normal;
 use crate::resampling::folds::{Folds, MOST_FOLDS};
 use crate::statistics::FitStatus;
 use crate::statistics::binary::Estimator;
-use crate::statistics::binary::binary_regression;
-use crate::statistics::design::{Dependence, dependence};
+use crate::statistics::binary::regress;
+use crate::statistics::design::{Dependence, Moments};
 use crate::statistics::link::Link;
 
 /// What the index of a pooled curve consists of, each with all of the one before.
@@ -101,11 +100,11 @@ impl PooledTerms {
     }
 
     /// Appends the terms of cases with these logarithms to those of other structures, term by term.
-    fn append(self, columns: &mut Vec<Vec<f64>>, ln_im: &[&[f64]], structure: &PooledStructure) {
-        let mut terms: Vec<Vec<f64>> = ln_im.iter().map(|values| values.to_vec()).collect();
+    fn append(self, columns: &mut Vec<Vec<f64>>, ln_im: &[Vec<f64>], structure: &PooledStructure) {
+        let mut terms: Vec<Vec<f64>> = ln_im.to_vec();
         if self != PooledTerms::Line {
             let product =
-                |(i, j): (usize, usize)| ln_im[i].iter().zip(ln_im[j]).map(|(x, y)| x * y).collect();
+                |(i, j): (usize, usize)| ln_im[i].iter().zip(&ln_im[j]).map(|(x, y)| x * y).collect();
             terms.extend(pairs(ln_im.len()).map(product));
         }
         terms.extend(self.covariates().iter().map(|(_, of)| vec![of(structure); ln_im[0].len()]));
@@ -153,27 +152,26 @@ fn overturning(
 ) -> Result<Option<PooledPart>, FitStatus> {
     let (mut columns, mut happened, mut owners) = (Vec::new(), Vec::new(), Vec::new());
     for (k, structure) in structures.iter().enumerate() {
-        let sample = EventSample::new(structure.cases, &subject.measures(), |case| subject.happened(case));
+        let sample = Sample::of_events(structure.cases, &subject.measures(), |case| subject.happened(case));
         terms.append(&mut columns, &sample.predictors(), structure);
-        owners.extend(vec![k; sample.happened.len()]);
-        happened.extend(sample.happened);
+        owners.extend(vec![k; sample.cases()]);
+        happened.extend(sample.observed());
     }
-    let sample = EventSample::of_columns(columns, happened);
-    let predictors = sample.predictors();
-    match dependence(&predictors) {
+    let sample = Sample::of_columns(columns, happened.clone());
+    let design = sample.design();
+    match Moments::of(&design).dependence() {
         Some(Dependence::Constant) => return Err(FitStatus::Constant),
         Some(Dependence::Collinear) => return Err(FitStatus::Collinear),
         None => {}
     }
-    let fit = binary_regression(&predictors, &sample.happened, Link::Probit, Estimator::Ml)
-        .map_err(|_| FitStatus::NotConverged)?;
-    let (inference, design) = (CurveInference::new(&sample, &fit), sample.design());
+    let fit = regress(design, Link::Probit, Estimator::Ml).map_err(|_| FitStatus::NotConverged)?;
+    let inference = CurveInference::new(&sample, &fit);
     leave_structures_out(&owners, |counts| {
         let b = inference.coefficients(counts).ok_or(FitStatus::NotConverged)?;
         let indices = design.indices(b.as_slice());
-        let cases = indices.into_iter().zip(&sample.happened).zip(&owners).zip(counts);
+        let cases = indices.into_iter().zip(&happened).zip(&owners).zip(counts);
         for (((index, &event), &owner), _) in cases.filter(|(_, count)| **count == 0.0) {
-            add(scores, owner, index, event);
+            add(scores, owner, index, event != 0.0);
         }
         Ok(())
     })?;
@@ -191,21 +189,21 @@ fn demand(
 ) -> Result<Option<PooledPart>, FitStatus> {
     let (mut columns, mut ln_edp, mut owners) = (Vec::new(), Vec::new(), Vec::new());
     for (k, structure) in structures.iter().enumerate() {
-        let sample = DemandSample::new(structure.cases, &subject.measures(), range.clone());
+        let sample = Sample::of_demands(structure.cases, &subject.measures(), range.clone());
         terms.append(&mut columns, &sample.predictors(), structure);
-        owners.extend(vec![k; sample.ln_edp.len()]);
-        ln_edp.extend(sample.ln_edp);
+        owners.extend(vec![k; sample.cases()]);
+        ln_edp.extend(sample.observed());
     }
     if ln_edp.is_empty() {
         return Ok(None);
     }
-    let sample = DemandSample { rows: (0..ln_edp.len()).collect(), ln_edp, ln_im: columns };
+    let sample = Sample::of_columns(columns, ln_edp.clone());
     let fit = sample.fit()?;
     let (inference, design) = (DemandInference::new(&sample, &fit), sample.design());
     leave_structures_out(&owners, |counts| {
         let refit = inference.refit(counts).ok_or(FitStatus::TooFewCases)?;
         let means = design.indices(&refit.coefficients);
-        let cases = means.into_iter().zip(&sample.ln_edp).zip(&owners).zip(counts);
+        let cases = means.into_iter().zip(&ln_edp).zip(&owners).zip(counts);
         for (((mean, &ln_edp), &owner), _) in cases.filter(|(_, count)| **count == 0.0) {
             let index = exceeding_index(mean, subject.limit, refit.residual_sd);
             add(scores, owner, index, ln_edp > subject.limit.ln());

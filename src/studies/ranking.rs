@@ -1,6 +1,6 @@
 //! Which measures predict best: alone, in pairs and in triples, and by forward selection.
 
-use crate::resampling::folds::{Folds, Gain, gain};
+use crate::resampling::folds::{Folds, Gain};
 use crate::statistics::FitStatus;
 use crate::studies::candidate::{Candidate, Form};
 use crate::studies::ranking_sample::{RankingSample, Target};
@@ -113,9 +113,9 @@ impl<'a> RankedCandidates<'a> {
     }
 
     fn gain(&self, k: usize, over: usize) -> Option<Gain> {
-        let log_scores = |k: usize| Some(&self.ratings[k].as_ref().ok()?.held_out.as_ref()?.log_scores);
+        let scores = |k: usize| Some(&self.ratings[k].as_ref().ok()?.held_out.as_ref()?.scores);
         // Of the models, so that no rounding tells those apart that are the same.
-        Some(gain(log_scores(self.models[k])?, log_scores(self.models[over])?, &self.sample.clusters))
+        Some(scores(self.models[k])?.gain(scores(self.models[over])?))
     }
 
     fn has_score(&self, k: usize) -> bool {

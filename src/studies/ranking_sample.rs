@@ -1,7 +1,7 @@
 //! The cases in which intensity measures are ranked.
 
 use crate::fragility::case::{Case, Measure};
-use crate::fragility::demand::sample::DemandSample;
+use crate::fragility::sample::Sample;
 use crate::keyword::{Keyword, keywords};
 use crate::rocking::Outcome;
 
@@ -134,11 +134,7 @@ impl RankingSample {
     }
 
     /// The regression of the demand on some measures.
-    pub fn demands(&self, places: &[usize]) -> DemandSample {
-        DemandSample {
-            ln_edp: self.ln_edp.clone(),
-            ln_im: self.columns(places),
-            rows: (0..self.len()).collect(),
-        }
+    pub fn demands(&self, places: &[usize]) -> Sample {
+        Sample::of_columns(self.columns(places), self.ln_edp.clone())
     }
 }

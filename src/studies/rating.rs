@@ -4,19 +4,16 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::DVector;
-
 use crate::fragility::case::Measure;
 use crate::fragility::demand::inference::{DemandInference, DemandReplicate};
 use crate::fragility::demand::regressions::PLANE;
 use crate::fragility::demand::transition::TransitionSearch;
 use crate::fragility::overturning::curves::{CurveModel, fit_overturning};
 use crate::fragility::overturning::inference::CurveInference;
-use crate::fragility::overturning::sample::EventSample;
-use crate::resampling::folds::Folds;
+use crate::fragility::sample::Sample;
+use crate::resampling::folds::{Folds, Scores};
 use crate::statistics::FitStatus;
 use crate::statistics::binary::{Estimator, binary_regression};
-use crate::statistics::design::dot;
 use crate::statistics::goodness::{auc, brier_score, log_score, rising_groups};
 use crate::statistics::link::Link;
 use crate::statistics::separation::is_separated;
@@ -56,6 +53,16 @@ pub struct Rating {
     pub held_out: Option<HeldOut>,
 }
 
+impl Rating {
+    /// Without what is as long as the cases are many: enough for a ranking.
+    pub fn without_cases(mut self) -> Rating {
+        if let Some(held_out) = &mut self.held_out {
+            held_out.log_scores = Vec::new();
+        }
+        self
+    }
+}
+
 /// How probabilities tell events apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Skill {
@@ -76,8 +83,10 @@ impl Skill {
 /// Forecasts of clusters that were left out of the fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeldOut {
-    /// Of each case.
+    /// Of each case; none of [`Rating::without_cases`].
     pub log_scores: Vec<f64>,
+    /// Their sums.
+    pub scores: Scores,
     /// The mean of ln P of whether the event happened; for overturning, the mean of the same scores.
     pub event_log_score: f64,
     /// How they tell the events apart.
@@ -103,10 +112,12 @@ pub struct ReliabilityGroup {
 
 impl HeldOut {
     /// Of forecasts that were made without the clusters they are of.
-    pub fn of(predictions: &[Prediction], happened: &[bool]) -> HeldOut {
+    pub fn of(predictions: &[Prediction], happened: &[bool], clusters: &[usize]) -> HeldOut {
         let (indices, probabilities) = indices_and_probabilities(predictions);
+        let log_scores: Vec<f64> = predictions.iter().map(|prediction| prediction.log_score).collect();
         HeldOut {
-            log_scores: predictions.iter().map(|prediction| prediction.log_score).collect(),
+            scores: Scores::of(&log_scores, clusters),
+            log_scores,
             event_log_score: log_score(&probabilities, happened),
             skill: Skill::of(predictions, happened),
             calibration: calibration(&indices, happened),
@@ -116,7 +127,7 @@ impl HeldOut {
 
     /// The mean of the scores.
     pub fn log_score(&self) -> f64 {
-        self.log_scores.iter().sum::<f64>() / self.log_scores.len() as f64
+        self.scores.mean()
     }
 }
 
@@ -170,11 +181,13 @@ impl Breaks {
 }
 
 /// One power law, or one each side of a break.
+#[derive(Clone)]
 struct Law {
     parts: Vec<Part>,
 }
 
 /// A power law below an ln IM4.
+#[derive(Clone)]
 struct Part {
     below: f64,
     fit: DemandReplicate,
@@ -218,9 +231,9 @@ impl Law {
         Some(Law { parts: edges.into_iter().map(part).collect::<Option<_>>()? })
     }
 
-    fn at(&self, ln_im4: f64) -> &DemandReplicate {
-        let last = self.parts.len() - 1;
-        &self.parts.iter().find(|part| ln_im4 < part.below).unwrap_or(&self.parts[last]).fit
+    /// Which part holds at this ln IM4.
+    fn part_at(&self, ln_im4: f64) -> usize {
+        self.parts.iter().position(|part| ln_im4 < part.below).unwrap_or(self.parts.len() - 1)
     }
 }
 
@@ -239,27 +252,30 @@ pub fn rate_demand(
     let regression = cases.fit()?;
     let inference = DemandInference::new(&cases, &regression);
     let design = cases.design();
-    let rows: Vec<DVector<f64>> = design.rows().collect();
     let ln_im4 = &sample.ln_im[sample.place(Measure::Im4).ok_or(FitStatus::TooFewCases)?];
     let law = |break_at: Option<f64>, weights: &[f64]| {
         Law::fit(&inference, candidate.form, break_at, ln_im4, weights)
     };
-    let foresee = |law: &Law, case: usize| {
-        let DemandReplicate { coefficients, residual_sd } = law.at(ln_im4[case]);
-        let mean = dot(rows[case].as_slice(), coefficients);
-        let z = (sample.ln_edp[case] - mean) / residual_sd;
-        Prediction {
-            log_score: -0.5 * (z * z + (2.0 * PI).ln()) - residual_sd.ln(),
-            index: (mean - sample.ln_limit) / residual_sd,
+    let foresee = |law: &Law| {
+        let laws: Vec<(Vec<f64>, f64)> = law
+            .parts
+            .iter()
+            .map(|part| (design.indices(&part.fit.coefficients), part.fit.residual_sd))
+            .collect();
+        let law = law.clone();
+        move |case: usize| {
+            let (means, residual_sd) = &laws[law.part_at(ln_im4[case])];
+            let z = (sample.ln_edp[case] - means[case]) / residual_sd;
+            Prediction {
+                log_score: -0.5 * (z * z + (2.0 * PI).ln()) - residual_sd.ln(),
+                index: (means[case] - sample.ln_limit) / residual_sd,
+            }
         }
     };
     let whole = law(breaks.all, &vec![1.0; n]).ok_or(FitStatus::TooFewCases)?;
-    let fitted: Vec<Prediction> = (0..n).map(|case| foresee(&whole, case)).collect();
+    let fitted: Vec<Prediction> = (0..n).map(foresee(&whole)).collect();
     let held_out = folds.and_then(|folds| {
-        folds.leave_out(|fold, weights| {
-            let (law, foresee) = (law(breaks.without[fold], weights)?, &foresee);
-            Some(move |case| foresee(&law, case))
-        })
+        folds.leave_out(|fold, weights| Some(foresee(&law(breaks.without[fold], weights)?)))
     });
     let parts = whole.parts.len() as f64;
     // Coefficients and the variance of each part, and the break.
@@ -279,7 +295,7 @@ pub fn rate_demand(
         beta,
         zeta: if let [_, slope] = coefficients[..] { Some(beta / slope) } else { None },
         coefficients,
-        held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened)),
+        held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened, &sample.clusters)),
     })
 }
 
@@ -292,7 +308,7 @@ pub fn rate_overturning(
     candidate: &Candidate,
     folds: Option<&Folds>,
 ) -> Result<Rating, FitStatus> {
-    let events = EventSample::of_columns(sample.columns(&candidate.measures), sample.happened.clone());
+    let events = Sample::of_happened(sample.columns(&candidate.measures), &sample.happened);
     let fit = fit_overturning(&events, &CurveModel::default())?;
     let inference = CurveInference::new(&events, &fit.regression);
     let design = events.design();
@@ -312,9 +328,9 @@ pub fn rate_overturning(
         log_likelihood: fit.regression.log_likelihood,
         aic: fit.aic,
         bic: fit.bic,
-        fitted: Skill { auc: fit.auc, brier: fit.brier },
+        fitted: Skill { auc: fit.goodness.auc, brier: fit.goodness.brier },
         beta: fit.beta.value,
         zeta: None,
-        held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened)),
+        held_out: held_out.map(|held_out| HeldOut::of(&held_out, &sample.happened, &sample.clusters)),
     })
 }

@@ -2,12 +2,11 @@
 
 use crate::fragility::case::{Case, Event, Measure};
 use crate::fragility::demand::regressions::PLANE;
-use crate::fragility::demand::sample::DemandSample;
 use crate::fragility::model::{DemandLaw, DemandModel, has_no_data};
 use crate::fragility::overturning::curves::{CurveModel, fit_overturning};
-use crate::fragility::overturning::sample::EventSample;
 use crate::fragility::predictor::Predictor;
 use crate::fragility::probability::ProbitIndex;
+use crate::fragility::sample::Sample;
 use crate::motion::IntensityMeasures;
 use crate::statistics::FitStatus;
 
@@ -83,11 +82,15 @@ impl CurveSubject {
         match self.event {
             Event::Exceeding => {
                 let law = |range: std::ops::Range<f64>| -> Result<DemandLaw, FitStatus> {
-                    let sample = DemandSample::new(cases, &measures, range);
+                    let sample = Sample::of_demands(cases, &measures, range);
                     let fit = sample.fit()?;
-                    let ln_im = sample.predictors();
                     Ok(DemandLaw {
-                        ln_median: Predictor::new(&measures, &fit.values(), &fit.covariance, &ln_im),
+                        ln_median: Predictor::new(
+                            &measures,
+                            &fit.values(),
+                            &fit.covariance,
+                            &sample.ranges(),
+                        ),
                         beta: fit.residual_sd,
                         degrees: (fit.n - fit.coefficients.len()) as f64,
                     })
@@ -107,10 +110,14 @@ impl CurveSubject {
                 Ok(Curve::Exceeding { demand, limit: self.limit })
             }
             _ => {
-                let sample = EventSample::new(cases, &measures, |case| self.happened(case));
+                let sample = Sample::of_events(cases, &measures, |case| self.happened(case));
                 let fit = fit_overturning(&sample, &CurveModel::default())?.regression;
-                let ln_im = sample.predictors();
-                Ok(Curve::Overturning(Predictor::new(&measures, &fit.coefficients, &fit.covariance, &ln_im)))
+                Ok(Curve::Overturning(Predictor::new(
+                    &measures,
+                    &fit.coefficients,
+                    &fit.covariance,
+                    &sample.ranges(),
+                )))
             }
         }
     }

@@ -1,6 +1,9 @@
 //! Forecasts of cases that were not fitted, tested on what happened.
 
-use crate::fragility::case::{Case, Event};
+use std::sync::Arc;
+
+use crate::fragility::case::Event;
+use crate::fragility::cases::{Cases, Placed};
 use crate::fragility::model::{FragilityModel, Probabilities};
 use crate::fragility::probability::{Probability, Z_95};
 use crate::fragility::universal::{UniversalModel, other_structure};
@@ -8,10 +11,11 @@ use crate::motion::IntensityMeasures;
 use crate::normal;
 use crate::rocking::Structure;
 use crate::statistics::binary::{Estimator, binary_regression};
-use crate::statistics::design::is_constant;
+use crate::statistics::columns::Columns;
+use crate::statistics::design::{Design, Rows, is_constant, range};
 use crate::statistics::distribution::PoissonBinomial;
 use crate::statistics::estimate::Limits;
-use crate::statistics::goodness::{auc, brier_score, expected_log_score, log_score};
+use crate::statistics::goodness::{auc_of, brier_score, expected_log_score, log_score};
 use crate::statistics::link::Link;
 use crate::statistics::separation::is_separated;
 
@@ -52,35 +56,9 @@ pub struct Validation {
 impl Validation {
     /// Of these forecasts; none without any.
     pub fn of(forecasts: &[Forecast]) -> Option<Validation> {
-        let n = forecasts.len();
-        if n == 0 {
-            return None;
-        }
-        let probabilities: Vec<f64> = forecasts.iter().map(|forecast| forecast.probability.value).collect();
-        let happened: Vec<bool> = forecasts.iter().map(|forecast| forecast.happened).collect();
-        let seen = happened.iter().filter(|&&happened| happened).count();
-        let count = PoissonBinomial::new(probabilities.iter().copied());
-        let is_mixed = seen > 0 && seen < n;
-        Some(Validation {
-            n,
-            extrapolated: forecasts.iter().filter(|forecast| forecast.is_extrapolated).count(),
-            seen,
-            expected: probabilities.iter().sum(),
-            expected_limits: Limits {
-                low: forecasts.iter().map(|forecast| forecast.probability.low).sum(),
-                high: forecasts.iter().map(|forecast| forecast.probability.high).sum(),
-            },
-            chance_limits: [0.025, 0.975].map(|level| count.quantile(level)),
-            chance_p: count.two_sided_p(seen),
-            share: seen as f64 / n as f64,
-            share_limits: wilson_limits(seen, n),
-            impossible: forecasts.iter().filter(|forecast| forecast.is_impossible()).count(),
-            log_score: Some(log_score(&probabilities, &happened)).filter(|score| score.is_finite()),
-            log_score_expected: expected_log_score(&probabilities),
-            brier: brier_score(&probabilities, &happened),
-            auc: is_mixed.then(|| auc(&probabilities, &happened)),
-            calibration: calibration_in_the_large(&probabilities, seen),
-        })
+        let mut all = Forecasts::none();
+        all.columns.append(&columns(forecasts));
+        all.validation()
     }
 }
 
@@ -97,11 +75,18 @@ pub fn wilson_limits(seen: usize, n: usize) -> Limits {
 /// and positive where they are too low. None where no finite shift does it. It is the maximum-likelihood intercept of a logistic
 /// recalibration with slope 1 (Cox 1958, Two further applications of a model for binary regression, Biometrika 45, 562-565).
 pub fn calibration_in_the_large(probabilities: &[f64], seen: usize) -> Option<f64> {
-    // p e^shift / (1 - p + p e^shift) keeps probabilities of 0 and 1 as they are.
-    let expected = |shift: f64| -> f64 {
-        let odds = shift.exp();
-        probabilities.iter().map(|p| p * odds / (1.0 - p + p * odds)).sum()
-    };
+    shift_to(seen, |odds| expected_at(odds, probabilities))
+}
+
+/// How many events are expected where odds are so many times larger: p o / (1 - p + p o) keeps probabilities of 0 and 1 as they
+/// are.
+fn expected_at(odds: f64, probabilities: &[f64]) -> f64 {
+    probabilities.iter().map(|p| p * odds / (1.0 - p + p * odds)).sum()
+}
+
+/// The logarithm of the factor of the odds with which as many events are expected as were seen.
+fn shift_to(seen: usize, expected_at: impl Fn(f64) -> f64) -> Option<f64> {
+    let expected = |shift: f64| expected_at(shift.exp());
     let (seen, [mut low, mut high]) = (seen as f64, SHIFTS);
     if !(expected(low) < seen && seen < expected(high)) {
         return None;
@@ -119,7 +104,7 @@ pub fn calibration_in_the_large(probabilities: &[f64], seen: usize) -> Option<f6
 pub fn calibration_slope(indices: &[f64], happened: &[bool]) -> Option<f64> {
     // Of the index, since probabilities themselves may round to 1.
     let log_odds: Vec<f64> = indices.iter().map(|&x| normal::ln_cdf(x) - normal::ln_cdf(-x)).collect();
-    let can_be_told = is_constant(&log_odds) || is_separated(&[&log_odds], happened);
+    let can_be_told = is_constant(range(&log_odds)) || is_separated(&[&log_odds], happened);
     let fit = (!can_be_told).then(|| binary_regression(&[&log_odds], happened, Link::Logit, Estimator::Ml));
     Some(fit?.ok()?.coefficients[1])
 }
@@ -139,25 +124,33 @@ pub struct Forecast {
     pub is_extrapolated: bool,
 }
 
-impl Forecast {
-    /// Whether what happened has a probability of exactly 0.
-    pub fn is_impossible(&self) -> bool {
-        self.probability.value == if self.happened { 0.0 } else { 1.0 }
-    }
-}
-
 /// Forecasts of an event in cases that were not fitted.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub struct Forecasts {
-    /// Of each case in which the event can happen.
-    pub forecasts: Vec<Forecast>,
+    /// Of each case in which the event can happen: the probability, whether it happened, the limits, whether it is extrapolated.
+    columns: Columns,
     /// Such cases without a forecast, for want of a measure.
     pub without_measure: usize,
 }
 
+fn columns(forecasts: &[Forecast]) -> Vec<Vec<f64>> {
+    let columns: [fn(&Forecast) -> f64; 5] = [
+        |of| of.probability.value,
+        |of| f64::from(u8::from(of.happened)),
+        |of| of.probability.low,
+        |of| of.probability.high,
+        |of| f64::from(u8::from(of.is_extrapolated)),
+    ];
+    columns.iter().map(|of| forecasts.iter().map(of).collect()).collect()
+}
+
 impl Forecasts {
+    fn none() -> Forecasts {
+        Forecasts { columns: Columns::new(5, &Arc::default()), without_measure: 0 }
+    }
+
     /// Forecasts of an event in those of the cases that count for it.
-    pub fn new(model: &FragilityModel, cases: &[Case], event: Event) -> Forecasts {
+    pub fn new<C: Cases + ?Sized>(model: &FragilityModel, cases: &C, event: Event) -> Forecasts {
         let of_case = |_: usize, measures: &IntensityMeasures| {
             (model.probabilities(measures), is_out_of_range(event, model, measures))
         };
@@ -165,11 +158,11 @@ impl Forecasts {
     }
 
     /// The same by the surface, each case of the structure that `structure` knows.
-    pub fn by_surface(
+    pub fn by_surface<C: Cases + ?Sized>(
         model: &UniversalModel,
-        cases: &[Case],
+        cases: &C,
         event: Event,
-        structure: impl Fn(usize) -> Structure,
+        structure: impl Fn(usize) -> Structure + Sync,
     ) -> Forecasts {
         let of_case = |row: usize, measures: &IntensityMeasures| {
             let structure = structure(row);
@@ -180,22 +173,87 @@ impl Forecasts {
         Forecasts::of(cases, event, model.limit, of_case)
     }
 
-    fn of(
-        cases: &[Case],
+    fn of<C: Cases + ?Sized>(
+        cases: &C,
         event: Event,
         limit: f64,
-        of_case: impl Fn(usize, &IntensityMeasures) -> (Probabilities, bool),
+        of_case: impl Fn(usize, &IntensityMeasures) -> (Probabilities, bool) + Sync,
     ) -> Forecasts {
-        let (mut forecasts, mut without_measure) = (Vec::new(), 0);
-        for (row, case) in cases.iter().enumerate() {
-            let Some(happened) = event.happened(case, limit) else { continue };
-            let (probabilities, is_extrapolated) = of_case(row, &case.measures);
-            match probability(event, &probabilities) {
-                Some(probability) => forecasts.push(Forecast { probability, happened, is_extrapolated }),
-                None => without_measure += 1,
+        let of_some = |some: &[Placed]| {
+            let (mut forecasts, mut without_measure) = (Vec::new(), 0);
+            for Placed { row, case, .. } in some {
+                let Some(happened) = event.happened(case, limit) else { continue };
+                let (probabilities, is_extrapolated) = of_case(*row, &case.measures);
+                match probability(event, &probabilities) {
+                    Some(probability) => forecasts.push(Forecast { probability, happened, is_extrapolated }),
+                    None => without_measure += 1,
+                }
             }
+            (columns(&forecasts), without_measure)
+        };
+        let mut all = Forecasts::none();
+        cases.each(of_some, |(some, without_measure)| {
+            all.columns.append(&some);
+            all.without_measure += without_measure;
+        });
+        all
+    }
+
+    /// Tested on what happened; none without any.
+    pub fn validation(&self) -> Option<Validation> {
+        let (design, n) = (Design::new(&self.columns, 1), self.columns.rows());
+        if n == 0 {
+            return None;
         }
-        Forecasts { forecasts, without_measure }
+        let of_block = |rows: &Rows| {
+            let probabilities = rows.x[1];
+            let sum = |label: usize| rows.labels[label].iter().sum::<f64>();
+            let happened: Vec<bool> = rows.y.iter().map(|y| *y != 0.0).collect();
+            let cases = rows.count() as f64;
+            let impossible = |(p, &happened): (&f64, &bool)| *p == if happened { 0.0 } else { 1.0 };
+            let sums = [
+                rows.y.iter().sum(),
+                probabilities.iter().sum(),
+                sum(0),
+                sum(1),
+                sum(2),
+                probabilities.iter().zip(&happened).filter(|case| impossible(*case)).count() as f64,
+                cases * log_score(probabilities, &happened),
+                cases * expected_log_score(probabilities),
+                cases * brier_score(probabilities, &happened),
+            ];
+            (sums, PoissonBinomial::new(probabilities.iter().copied()))
+        };
+        let mut counts = Vec::new();
+        let mut sums = [0.0; 9];
+        design.each(3, of_block, |(some, count)| {
+            sums.iter_mut().zip(some).for_each(|(sum, some)| *sum += some);
+            PoissonBinomial::stack(&mut counts, count);
+        });
+        let [seen, expected, low, high, extrapolated, impossible, log_score, log_score_expected, brier] =
+            sums;
+        let (cases, seen) = (n as f64, seen as usize);
+        let count = PoissonBinomial::of_stack(counts);
+        let is_mixed = seen > 0 && seen < n;
+        let expected_at =
+            |odds: f64| design.fold(0, |rows| expected_at(odds, rows.x[1]), |sum, part| *sum += part);
+        Some(Validation {
+            n,
+            extrapolated: extrapolated as usize,
+            seen,
+            expected,
+            expected_limits: Limits { low, high },
+            chance_limits: [0.025, 0.975].map(|level| count.quantile(level)),
+            chance_p: count.two_sided_p(seen),
+            share: seen as f64 / cases,
+            share_limits: wilson_limits(seen, n),
+            impossible: impossible as usize,
+            log_score: Some(log_score / cases).filter(|score| score.is_finite()),
+            log_score_expected: log_score_expected / cases,
+            brier: brier / cases,
+            auc: is_mixed.then(|| auc_of(&design)),
+            calibration: shift_to(seen, expected_at),
+        })
     }
 }
 

@@ -145,7 +145,7 @@ impl From<&GroupCurve> for ProRow {
         let [lambda_limits, mu_limits, beta_limits] = [of_lambda, of_mu, of_beta].map(|parameter| {
             parameter.and_then(|parameter| parameter.bootstrap).map_or([None; 4], |limits| limits.in_order())
         });
-        let hosmer_lemeshow = fit.and_then(|fit| fit.hosmer_lemeshow);
+        let hosmer_lemeshow = fit.and_then(|fit| fit.goodness.hosmer_lemeshow);
         let gap = curve.bent.as_ref().map(|bent| bent.gap);
         let bent = curve.bent_answer();
         let held_out = |of: Option<HeldOut>| (of.map(|of| of.spread), of.map(|of| of.log_score));
@@ -165,8 +165,8 @@ impl From<&GroupCurve> for ProRow {
             log_likelihood: fit.map(|fit| fit.regression.log_likelihood),
             aic: fit.map(|fit| fit.aic),
             bic: fit.map(|fit| fit.bic),
-            auc: fit.map(|fit| fit.auc),
-            brier: fit.map(|fit| fit.brier),
+            auc: fit.map(|fit| fit.goodness.auc),
+            brier: fit.map(|fit| fit.goodness.brier),
             n: curve.n,
             n_events: curve.events,
             se_lambda: lambda.map(|estimate| estimate.standard_error),

@@ -2,7 +2,7 @@
 
 use rockfrag::fragility::overturning::{Curve, CurveOptions, Pair};
 use rockfrag::fragility::{
-    Bend, Case, CaseGroup, CurveModel, Event, HeldOut, JointPeaks, Measure, Peak, Predictor, Uncertainty,
+    Bend, Case, CaseTable, CurveModel, Event, HeldOut, JointPeaks, Measure, Peak, Predictor, Uncertainty,
     unwatched,
 };
 use rockfrag::motion::IntensityMeasures;
@@ -31,14 +31,14 @@ fn case(row: &[f64]) -> Case {
 }
 
 fn fitted(cases: &[Case], cells: &[usize], replicates: usize) -> Curve {
-    let group = CaseGroup { cases, cells, clusters: cells };
+    let group = CaseTable::of(cases, cells, cells);
     let options = CurveOptions {
         event: Event::Overturning,
         pairs: vec![Pair(Measure::Im4, Measure::Im3Inverse)],
         model: CurveModel::default(),
         uncertainty: Uncertainty { replicates, confidence: 0.95, seed: 1 },
     };
-    let Ok(curves) = options.fit(&[group], &unwatched);
+    let Ok(curves) = options.fit(&[&group], &unwatched);
     curves.into_iter().next().unwrap().pop().unwrap()
 }
 

@@ -9,8 +9,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use rockfrag::fragility::{
-    Case, CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits,
-    DemandSample, EventSample, Measure, fit_overturning,
+    Case, CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits, Measure,
+    Sample, fit_overturning,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::normal::quantile;
@@ -82,7 +82,7 @@ fn cases(plan: &Plan, seed: u64) -> (Vec<Case>, Vec<usize>) {
 fn curve(plan: &Plan, seed: u64, replicates: usize) -> Result<Vec<Verdict>, FitStatus> {
     let (cases, cells) = cases(plan, seed);
     let event = |case: &Case| Some(case.outcome == Outcome::Overturning);
-    let sample = EventSample::new(&cases, plan.measures, event);
+    let sample = Sample::of_events(&cases, plan.measures, event);
     let fit = fit_overturning(&sample, &CurveModel { estimator: plan.estimator, ..CurveModel::default() })?;
     let inference = CurveInference::new(&sample, &fit.regression);
     let (strata, clustered) = (Strata::new(&cells), inference.clustered_covariance(&cells));
@@ -140,7 +140,7 @@ fn row_at(plan: &Plan, index: f64) -> Vec<f64> {
 fn demand(plan: &Plan, seed: u64, replicates: usize) -> Result<Vec<Verdict>, FitStatus> {
     let (mut cases, cells) = cases(plan, seed);
     cases.iter_mut().for_each(|case| case.outcome = Outcome::SafeRocking);
-    let sample = DemandSample::new(&cases, plan.measures, 0.0..f64::INFINITY);
+    let sample = Sample::of_demands(&cases, plan.measures, 0.0..f64::INFINITY);
     let fit = sample.fit()?;
     let inference = DemandInference::new(&sample, &fit);
     let strata = Strata::new(&cells);

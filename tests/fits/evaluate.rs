@@ -4,7 +4,7 @@ use crate::paper_model::{BETA, LAMBDA, MU, equipment, model};
 use proptest::prelude::*;
 use rockfrag::fragility::{
     DemandLaw, Fragility, Measure, Peak, Predictor, Probability, ProbitIndex, ReplicateLimits,
-    ResampledModel, Slice, p_exceeding, p_failure_given_rocking, p_overturning, ranges,
+    ResampledModel, Sample, Slice, p_exceeding, p_failure_given_rocking, p_overturning,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
@@ -66,7 +66,7 @@ fn the_variance_of_a_prediction_is_that_of_the_textbook() {
     let spread: f64 = x.iter().map(|x| (x - mean).powi(2)).sum();
     let variance = fit.residual_sd.powi(2) * (1.0 / n + (1.5f64.ln() - mean).powi(2) / spread);
     assert!((predictor.at(&measures).unwrap().variance / variance - 1.0).abs() < 1e-10);
-    assert_eq!(ranges(&[&x]), [[1.0, x[11].exp()]]);
+    assert_eq!(Sample::of_columns(vec![x.to_vec()], y.to_vec()).ranges(), [[1.0, x[11].exp()]]);
 
     // The error of the index of P_ex by small changes of the median and of the dispersion, whose error is beta / sqrt(2 degrees).
     let law = DemandLaw { ln_median: predictor, beta: fit.residual_sd, degrees: 10.0 };

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Case, CurveModel, EventSample, Measure, OverturningFit, Plane, fit_overturning, has_few_events,
-    p_failure, p_failure_given_rocking, p_no_rocking, rms_difference,
+    Case, CurveModel, Measure, OverturningFit, Plane, Sample, fit_overturning, has_few_events, p_failure,
+    p_failure_given_rocking, p_no_rocking, rms_difference,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -27,7 +27,7 @@ fn hybrid(x: &[f64], y: &[f64], events: &[bool]) -> Result<OverturningFit, FitSt
     };
     let cases: Vec<Case> = (0..x.len()).map(case).collect();
     let event = |case: &Case| Some(case.outcome == Outcome::Overturning);
-    fit_overturning(&EventSample::new(&cases, &[Measure::Im4, Measure::Im3], event), &CurveModel::default())
+    fit_overturning(&Sample::of_events(&cases, &[Measure::Im4, Measure::Im3], event), &CurveModel::default())
 }
 
 type Points = (Vec<f64>, Vec<f64>, Vec<bool>);

@@ -7,6 +7,7 @@ mod evaluate;
 mod export;
 mod hazard;
 mod limits;
+mod many;
 mod normal;
 mod paper;
 mod paper_model;

@@ -6,9 +6,9 @@ use proptest::prelude::*;
 use rockfrag::fragility::demand::{Form, Regression, RegressionOptions, Regressions};
 use rockfrag::fragility::overturning::{Curve, CurveOptions, Pair};
 use rockfrag::fragility::{
-    Case, CaseGroup, CurveModel, DemandSample, Event, EventSample, Measure, OverturningFit, PLANE, Plane,
-    TransitionSearch, Uncertainty, fit_biplanar, fit_overturning, fit_univariate, p_exceeding,
-    p_failure_given_rocking, p_no_rocking, p_overturning, unwatched,
+    Case, CaseTable, CurveModel, Event, Measure, OverturningFit, PLANE, Plane, Sample, TransitionSearch,
+    Uncertainty, fit_biplanar, fit_overturning, fit_univariate, p_exceeding, p_failure_given_rocking,
+    p_no_rocking, p_overturning, unwatched,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -58,7 +58,7 @@ fn curve(x: &[f64], y: &[f64], events: &[bool], measures: &[Measure]) -> Result<
     let cases: Vec<Case> =
         (0..x.len()).map(|k| case(outcome(events[k]), 1.0, y[k].exp(), x[k].exp())).collect();
     fit_overturning(
-        &EventSample::new(&cases, measures, |case| Some(case.outcome == Outcome::Overturning)),
+        &Sample::of_events(&cases, measures, |case| Some(case.outcome == Outcome::Overturning)),
         &CurveModel::default(),
     )
 }
@@ -214,14 +214,14 @@ fn two_planes_and_their_transition_are_found() {
     );
     assert_eq!(fit_biplanar(&cases, Some(1.5)).unwrap().transition, 1.5);
     // The same as that of one regression whose coefficients all depend on the side.
-    let sample = DemandSample::new(&cases, &PLANE, 0.0..f64::INFINITY);
-    let [x, y] = &sample.ln_im[..] else { panic!("two measures") };
+    let sample = Sample::of_demands(&cases, &PLANE, 0.0..f64::INFINITY);
+    let [x, y] = &sample.predictors()[..] else { panic!("two measures") };
     let above: Vec<f64> = x.iter().map(|x| f64::from(u8::from(x.exp() >= fit.transition))).collect();
     let times = |column: &[f64]| above.iter().zip(column).map(|(a, b)| a * b).collect::<Vec<f64>>();
-    let joint = least_squares(&[&above, x, y, &times(x), &times(y)], &sample.ln_edp).unwrap();
+    let joint = least_squares(&[&above, x, y, &times(x), &times(y)], &sample.observed()).unwrap();
     close(fit.r2_overall.unwrap(), joint.r2, 1e-9, "R2 of both sides");
     let nothing = Case { edp: 0.0, ..cases[0] };
-    assert_eq!(DemandSample::new(&[nothing, cases[1]], &PLANE, 0.0..f64::INFINITY).rows, [1]);
+    assert_eq!(Sample::of_demands(&[nothing, cases[1]], &PLANE, 0.0..f64::INFINITY).rows(), [1]);
 }
 
 #[test]
@@ -233,7 +233,8 @@ fn all_fits_of_a_group_follow_from_slices_of_its_cases() {
     ];
     let cases = table.map(|(low, high)| on_planes(1.3, low, high));
     let cells: Vec<usize> = (0..cases[0].len()).map(|case| case % 20).collect();
-    let groups = cases.each_ref().map(|cases| CaseGroup { cases, cells: &cells, clusters: &cells });
+    let groups = cases.each_ref().map(|cases| CaseTable::of(cases, &cells, &cells));
+    let groups = groups.each_ref();
     let uncertainty = Uncertainty { replicates: 100, confidence: 0.95, seed: 42 };
     let options = RegressionOptions { transition: None, limit: 0.1, uncertainty };
     let Ok(fitted) = options.fit(&groups, &unwatched);
@@ -265,7 +266,7 @@ fn all_fits_of_a_group_follow_from_slices_of_its_cases() {
 #[test]
 fn the_scan_by_sums_equals_fitting_anew_at_each_place() {
     let cases = two_planes(1.4);
-    let sample = DemandSample::new(&cases, &PLANE, 0.0..f64::INFINITY);
+    let sample = Sample::of_demands(&cases, &PLANE, 0.0..f64::INFINITY);
     let scan = TransitionSearch::new(&sample).find(&vec![1.0; cases.len()]).unwrap().scan;
     assert!(scan.len() > 50);
     for point in scan.iter().step_by(13) {
@@ -324,7 +325,7 @@ proptest! {
         let there = curve(&scaled, &data.y, &data.event, &[Measure::Im4]).unwrap();
         prop_assert!((there.mu.value - here.mu.value - scale).abs() < 1e-9);
         prop_assert!((there.beta.value / here.beta.value - 1.0).abs() < 1e-9);
-        prop_assert!((there.auc - here.auc).abs() < 1e-12);
+        prop_assert!((there.goodness.auc - here.goodness.auc).abs() < 1e-12);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use rockfrag::fragility::{Case, DemandModel, DemandSample, Event, PLANE};
+use rockfrag::fragility::{Case, DemandModel, Event, PLANE, Sample};
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::normal;
@@ -109,7 +109,7 @@ fn each_side_of_the_transition_has_its_own_plane() {
         panic!("{curve:?}")
     };
     for (law, range) in [(low, 0.0..transition), (high, transition..f64::INFINITY)] {
-        let fit = DemandSample::new(&cases, &PLANE, range).fit().unwrap();
+        let fit = Sample::of_demands(&cases, &PLANE, range).fit().unwrap();
         assert_eq!(law.ln_median.coefficients, [0, 1, 2].map(|k| fit.coefficients[k].value));
         assert_eq!((law.beta, law.degrees), (fit.residual_sd, (fit.n - 3) as f64));
     }

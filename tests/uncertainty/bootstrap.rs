@@ -3,8 +3,8 @@
 use std::convert::Infallible;
 
 use rockfrag::fragility::{
-    Case, CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits,
-    DemandSample, Measure, TransitionSearch, fit_overturning,
+    Case, CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits, Measure,
+    Sample, TransitionSearch, fit_overturning,
 };
 use rockfrag::resampling::{Resamples, Strata, acceleration, bootstrap, bootstrap_each, bootstrap_limits};
 use rockfrag::statistics::{FitStatus, Link};
@@ -53,7 +53,7 @@ fn refits_by_expansion_are_those_by_newtons_method() {
             let refits = refits.coefficients(resamples);
             std::array::from_fn(|resample| {
                 let refit = refits[resample].as_ref().unwrap();
-                let exact = inference.coefficients(&resamples.of(resample, &sample.rows)).unwrap();
+                let exact = inference.coefficients(&resamples.of(resample, &sample.rows())).unwrap();
                 let standard_errors = fit.covariance.diagonal().map(f64::sqrt);
                 (refit - exact).component_div(&standard_errors).amax()
             })
@@ -74,7 +74,7 @@ fn refits_of_few_cases_are_those_of_repeated_cases_or_none() {
     let pairs = bootstrap(&Strata::new(&data.cells), 200, 3, |resamples| {
         let mut refits = refits.coefficients(resamples);
         std::array::from_fn(|resample| {
-            let counts = resamples.of(resample, &sample.rows);
+            let counts = resamples.of(resample, &sample.rows());
             let rows = (0..20).flat_map(|row| std::iter::repeat_n(row, counts[row] as usize));
             let repeated = data.rows(rows).event_sample("x");
             (refits[resample].take(), fit_overturning(&repeated, &CurveModel::default()))
@@ -129,7 +129,7 @@ fn a_break_in_a_resample_is_that_of_repeated_cases() {
     let counts = counts(cases.len());
     let repeated: Vec<Case> =
         cases.iter().zip(&counts).flat_map(|(case, count)| vec![*case; *count as usize]).collect();
-    let sample = |cases: &[Case], range| DemandSample::new(cases, &[Measure::Im4, Measure::Im3], range);
+    let sample = |cases: &[Case], range| Sample::of_demands(cases, &[Measure::Im4, Measure::Im3], range);
     let search = TransitionSearch::new(&sample(&cases, 0.0..f64::INFINITY));
     let [found, ..] = search.breaks(&Resamples::alike(&counts));
     let found = found.unwrap();

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use rockfrag::fragility::{Case, DemandSample, EventSample, Measure};
+use rockfrag::fragility::{Case, Measure, Sample};
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
 
@@ -78,15 +78,15 @@ impl Data {
         (0..self.x.len()).map(case).collect()
     }
 
-    pub fn event_sample(&self, name: &str) -> EventSample {
+    pub fn event_sample(&self, name: &str) -> Sample {
         let outcome = |k: usize| if self.event[k] { Outcome::Overturning } else { Outcome::SafeRocking };
         let event = |case: &Case| Some(case.outcome == Outcome::Overturning);
-        EventSample::new(&self.cases(outcome), &Data::measures(name), event)
+        Sample::of_events(&self.cases(outcome), &Data::measures(name), event)
     }
 
-    pub fn demand_sample(&self, name: &str) -> DemandSample {
+    pub fn demand_sample(&self, name: &str) -> Sample {
         let cases = self.cases(|_| Outcome::SafeRocking);
-        DemandSample::new(&cases, &Data::measures(name), 0.0..f64::INFINITY)
+        Sample::of_demands(&cases, &Data::measures(name), 0.0..f64::INFINITY)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Tests of fit, bent curves and the smooth transition against statsmodels and scipy; and what is diagnosed.
 
 use rockfrag::fragility::{
-    Case, CurveModel, DemandSample, Measure, TransitionSearch, fit_overturning, fit_smooth,
-    fit_with_interaction, fit_with_spline, transition_limits,
+    Case, CurveModel, Measure, Sample, TransitionSearch, fit_overturning, fit_smooth, fit_with_interaction,
+    fit_with_spline, transition_limits,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::statistics::{
@@ -28,7 +28,7 @@ fn hosmer_and_lemeshows_test_equals_statsmodels() {
         for name in ["x", "xy"] {
             let model = CurveModel { link, ..CurveModel::default() };
             let fit = fit_overturning(&data.event_sample(name), &model).unwrap();
-            let test = fit.hosmer_lemeshow.unwrap();
+            let test = fit.goodness.hosmer_lemeshow.unwrap();
             let key = format!("{}_{name}_hosmer_lemeshow", link.as_str());
             answers.check(&key, test.statistic, 1e-8);
             answers.check(&format!("{key}_p"), test.p, 1e-8);
@@ -72,7 +72,7 @@ fn splines_and_interactions_equal_statsmodels() {
 #[test]
 fn the_smooth_transition_equals_scipys() {
     let (cases, answers) = (smooth_cases(), answers());
-    let sample = DemandSample::new(&cases, &[Measure::Im4, Measure::Im3], 0.0..f64::INFINITY);
+    let sample = Sample::of_demands(&cases, &[Measure::Im4, Measure::Im3], 0.0..f64::INFINITY);
     let fit = fit_smooth(&sample, 0.95).unwrap();
     answers.check("smooth_rss", fit.low.rss, 1e-9);
     answers.check("smooth_width", fit.width.value, 1e-6);
@@ -97,14 +97,14 @@ fn a_demand_that_bends_all_the_way_has_no_transition() {
     // In x = ln IM4 a parabola is what the planes are nearer to the wider they pass into one another.
     let bent = |case: Case| Case { edp: (-3.0 + 2.0 * case.measures.im4.ln().powi(2)).exp(), ..case };
     let cases: Vec<Case> = smooth_cases().into_iter().map(bent).collect();
-    let sample = DemandSample::new(&cases, &[Measure::Im4, Measure::Im3], 0.0..f64::INFINITY);
+    let sample = Sample::of_demands(&cases, &[Measure::Im4, Measure::Im3], 0.0..f64::INFINITY);
     assert_eq!(fit_smooth(&sample, 0.95).unwrap_err(), FitStatus::NotConverged);
 }
 
 #[test]
 fn hansens_limits_hold_the_break() {
     let cases = smooth_cases();
-    let sample = DemandSample::new(&cases, &[Measure::Im4, Measure::Im3], 0.0..f64::INFINITY);
+    let sample = Sample::of_demands(&cases, &[Measure::Im4, Measure::Im3], 0.0..f64::INFINITY);
     let scan = TransitionSearch::new(&sample).find(&vec![1.0; cases.len()]).unwrap();
     let limits = transition_limits(&scan.scan, 0.95).unwrap();
     assert!(limits.low <= scan.im4 && scan.im4 <= limits.high);

@@ -1,7 +1,7 @@
 //! Profile-likelihood limits and clustered errors against pyFragility and statsmodels.
 
 use rockfrag::fragility::{
-    CurveInference, CurveModel, CurveParameter, DemandInference, EventSample, fit_overturning,
+    CurveInference, CurveModel, CurveParameter, DemandInference, Sample, fit_overturning,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::normal;
@@ -9,7 +9,7 @@ use rockfrag::statistics::{Estimator, Link, binary_regression};
 
 use crate::data::{answers, data};
 
-fn curve(sample: &EventSample) -> rockfrag::fragility::OverturningFit {
+fn curve(sample: &Sample) -> rockfrag::fragility::OverturningFit {
     fit_overturning(sample, &CurveModel::default()).unwrap()
 }
 

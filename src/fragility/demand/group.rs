@@ -6,19 +6,21 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::inference::DemandRefits;
-use super::inference::{DemandInference, DemandReplicate};
+use super::inference::{DemandInference, DemandReplicate, solutions};
 use super::regressions::{Biplanar, PLANE, fit_biplanar, fit_plane, fit_univariate};
-use super::sample::DemandSample;
 use super::smooth::{SmoothFit, fit_smooth};
-use super::transition::{ScanPoint, TransitionSearch, transition_limits};
+use super::transition::{ScanPoint, TransitionSearch, breaks, no_parts, transition_limits};
 use crate::fragility::case::{Case, Measure};
-use crate::fragility::clusters::are_many;
-use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
+use crate::fragility::cases::{CaseTable, Cases};
+use crate::fragility::group::{Progress, Refits, Uncertainty, fit_jointly};
 use crate::fragility::held_out::HeldOut;
-use crate::fragility::predictor::ranges;
+use crate::fragility::sample::Sample;
 use crate::keyword::keywords;
-use crate::resampling::{BootstrapLimits, Resamples, Strata, TOGETHER, bootstrap_limits};
-use crate::statistics::{Estimate, FitStatus, Limits, LinearFit, Test, reset};
+use crate::resampling::normal_equations::NormalEquations;
+use crate::resampling::{BootstrapLimits, Resamples, Sizes, TOGETHER, bootstrap_limits};
+use crate::statistics::design::Moments;
+use crate::statistics::goodness::reset_of;
+use crate::statistics::{Estimate, FitStatus, Limits, LinearFit, Test};
 
 /// All values of a measure.
 const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
@@ -136,9 +138,9 @@ impl Regression {
     }
 
     /// The cases that it was fitted to.
-    fn sample(&self, cases: &[Case]) -> DemandSample {
+    fn sample<C: Cases + ?Sized>(&self, cases: &C) -> Sample {
         let measures: Vec<Measure> = std::iter::once(self.im_x).chain(self.im_y).collect();
-        DemandSample::new(cases, &measures, self.range.clone())
+        Sample::of_demands(cases, &measures, self.range.clone())
     }
 }
 
@@ -168,44 +170,46 @@ impl RegressionOptions {
     ///
     /// # Errors
     /// Those of `progress`.
-    pub fn fit<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Regressions>, E> {
-        fit_jointly(groups, |groups| self.fit_alike(groups, progress))
+    pub fn fit<E: Send>(&self, groups: &[&CaseTable], progress: Progress<E>) -> Result<Vec<Regressions>, E> {
+        fit_jointly(groups, &self.uncertainty, |groups, sizes| self.fit_alike(groups, sizes, progress))
     }
 
     /// Of groups with the same cells.
-    fn fit_alike<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Regressions>, E> {
-        let regressions = |group: &CaseGroup| {
+    fn fit_alike<E: Send>(
+        &self,
+        groups: &[&CaseTable],
+        sizes: &Sizes,
+        progress: Progress<E>,
+    ) -> Result<Vec<Regressions>, E> {
+        let regressions = |group: &&CaseTable| {
             progress(1)?;
-            Ok(self.regressions(group.cases))
+            Ok(self.regressions(group))
         };
         let mut fitted = groups.par_iter().map(regressions).collect::<Result<Vec<_>, E>>()?;
         if self.uncertainty.replicates > 0 {
-            self.resample(groups, progress, &mut fitted)?;
+            self.resample(groups, sizes, progress, &mut fitted)?;
         }
         fitted.par_iter_mut().zip(groups).for_each(|(Regressions { fits, .. }, group)| {
-            fits.iter_mut().for_each(|regression| self.infer(group, regression));
-            fits.extend(self.smooth(group.cases));
-            for regression in fits {
-                regression.data_ranges = ranges(&regression.sample(group.cases).predictors());
-            }
+            fits.extend(self.smooth(group));
+            fits.par_iter_mut().for_each(|regression| self.infer(group, sizes, regression));
         });
         Ok(fitted)
     }
 
-    fn regressions(&self, cases: &[Case]) -> Regressions {
+    fn regressions(&self, cases: &CaseTable) -> Regressions {
         let univariate = |&measure: &Measure| Regression {
             im_x: measure,
             im_y: None,
             ..self.regression(Form::Univariate, EVERYWHERE, fit_univariate(cases, measure))
         };
-        let mut fits: Vec<Regression> = Measure::SCALAR.iter().map(univariate).collect();
+        let mut fits: Vec<Regression> = Measure::SCALAR.par_iter().map(univariate).collect();
         fits.push(self.regression(Form::Plane, ABOVE_UPLIFT, fit_plane(cases, ABOVE_UPLIFT)));
         let (biplanar, scan) = self.biplanar(cases);
         fits.extend(biplanar);
         Regressions { fits, scan }
     }
 
-    fn biplanar(&self, cases: &[Case]) -> (Vec<Regression>, Vec<ScanPoint>) {
+    fn biplanar(&self, cases: &CaseTable) -> (Vec<Regression>, Vec<ScanPoint>) {
         let Biplanar { transition, found, low, high, r2_pooled, r2_overall, scan } =
             match fit_biplanar(cases, self.transition) {
                 Ok(biplanar) => biplanar,
@@ -223,8 +227,8 @@ impl RegressionOptions {
         (vec![side(1.0..transition, low), side(transition..f64::INFINITY, high)], scan)
     }
 
-    fn smooth(&self, cases: &[Case]) -> Vec<Regression> {
-        let sample = DemandSample::new(cases, &PLANE, EVERYWHERE);
+    fn smooth(&self, cases: &CaseTable) -> Vec<Regression> {
+        let sample = Sample::of_demands(cases, &PLANE, EVERYWHERE);
         let SmoothFit { transition, width, low, high, reset } =
             match fit_smooth(&sample, self.uncertainty.confidence) {
                 Ok(smooth) => smooth,
@@ -271,15 +275,16 @@ impl RegressionOptions {
     /// Adds the regressions of each resample.
     fn resample<E: Send>(
         &self,
-        groups: &[CaseGroup],
+        groups: &[&CaseTable],
+        sizes: &Sizes,
         progress: Progress<E>,
         fitted: &mut [Regressions],
     ) -> Result<(), E> {
         let pairs = groups.par_iter().zip(&*fitted);
-        let refits: Vec<Refits> =
-            pairs.map(|(group, fitted)| Refits::new(group.cases, &fitted.fits, self.transition)).collect();
-        let cells = groups[0].cells;
-        let resampled = self.uncertainty.bootstrap(cells, &refits, progress, Refits::resampled)?;
+        let refits: Vec<RegressionRefits> = pairs
+            .map(|(group, fitted)| RegressionRefits::new(group, &fitted.fits, self.transition))
+            .collect();
+        let resampled = self.uncertainty.bootstrap(groups, sizes, &refits, progress)?;
         for (Regressions { fits, .. }, resampled) in fitted.iter_mut().zip(resampled) {
             let found: Vec<Option<f64>> = resampled.iter().map(|resample| resample.found).collect();
             for resample in resampled {
@@ -296,16 +301,20 @@ impl RegressionOptions {
         Ok(())
     }
 
-    /// Adds Ramsey's test, clustered errors, and limits from the replicates if there are any.
-    fn infer(&self, group: &CaseGroup, regression: &mut Regression) {
+    /// Adds the ranges of the data, Ramsey's test, clustered errors, and limits from the replicates if there are any.
+    fn infer(&self, group: &CaseTable, sizes: &Sizes, regression: &mut Regression) {
+        let sample = regression.sample(group);
+        regression.data_ranges = sample.ranges();
         let Ok(fit) = &regression.fit else { return };
-        let sample = regression.sample(group.cases);
+        if regression.form == Form::Smooth {
+            return;
+        }
         let inference = DemandInference::new(&sample, fit);
-        regression.reset = reset(&sample.predictors(), &sample.ln_edp, fit);
-        let clustered = inference.clustered_covariance(group.clusters);
+        regression.reset = reset_of(&sample.columns, sample.measures, fit);
+        let clustered = inference.covariance_by_cluster();
         regression.clustered_errors = clustered.diagonal().iter().map(|variance| variance.sqrt()).collect();
-        regression.clustered_covariance = are_many(group.clusters, &sample.rows).then_some(clustered);
-        regression.held_out = inference.held_out(group.clusters, self.limit);
+        regression.clustered_covariance = sample.has_many_clusters().then_some(clustered);
+        regression.held_out = inference.held_out(self.limit);
         if regression.replicates.is_empty() {
             return;
         }
@@ -314,25 +323,26 @@ impl RegressionOptions {
             let replicates: Vec<Option<f64>> = regression.replicates.iter().map(parameter).collect();
             bootstrap_limits(estimate, &replicates, acceleration, self.uncertainty.confidence)
         };
-        let accelerations = inference.accelerations(&Strata::new(group.cells));
+        let accelerations = inference.accelerations_by_cell(sizes);
         let parameters = inference.fitted();
         regression.limits = parameters.parameters().zip(accelerations).enumerate().map(limits).collect();
     }
 }
 
 /// The regressions of a group, to be made anew in resamples of its cases.
-struct Refits<'a> {
+struct RegressionRefits<'a> {
     regressions: &'a [Regression],
     /// The IM4 at which two planes meet, if it is not searched anew.
     transition: Option<f64>,
-    search: TransitionSearch,
+    /// Means of the cases of the search for it.
+    means: Vec<f64>,
     refits: Vec<Option<Refit>>,
 }
 
 /// How a regression is made anew.
 enum Refit {
-    /// From the resampled among the cases that it was fitted to.
-    SameCases(DemandRefits),
+    /// From the resampled among the cases that it was fitted to, which have these means.
+    SameCases(Vec<f64>),
     /// Below the transition of the resample.
     Below,
     /// Above it.
@@ -346,29 +356,78 @@ struct Resampled {
     fits: Vec<Option<Replicate>>,
 }
 
-impl<'a> Refits<'a> {
-    fn new(cases: &[Case], regressions: &'a [Regression], transition: Option<f64>) -> Refits<'a> {
+impl<'a> RegressionRefits<'a> {
+    fn new(
+        cases: &CaseTable,
+        regressions: &'a [Regression],
+        transition: Option<f64>,
+    ) -> RegressionRefits<'a> {
+        let means = |sample: Sample| Moments::of(&sample.design()).means;
         let refit = |regression: &Regression| {
             regression.fit.as_ref().ok()?;
             Some(match (regression.form, transition) {
                 (Form::Biplanar, None) if regression.range.end.is_finite() => Refit::Below,
                 (Form::Biplanar, None) => Refit::Above,
-                _ => Refit::SameCases(DemandRefits::new(&regression.sample(cases))),
+                _ => Refit::SameCases(means(regression.sample(cases))),
             })
         };
-        let search = TransitionSearch::new(&DemandSample::new(cases, &PLANE, EVERYWHERE));
-        Refits { regressions, transition, search, refits: regressions.iter().map(refit).collect() }
+        RegressionRefits {
+            regressions,
+            transition,
+            means: means(Sample::of_demands(cases, &PLANE, EVERYWHERE)),
+            refits: regressions.iter().map(refit).collect(),
+        }
     }
 
-    fn resampled(&self, resamples: &Resamples) -> [Resampled; TOGETHER] {
-        let breaks = self.search.breaks(resamples);
-        let of_all = |refit: &Option<Refit>| match refit {
-            Some(Refit::SameCases(refits)) => refits.replicates(resamples),
-            Some(Refit::Below) => breaks.each_ref().map(|at| at.as_ref()?.low.clone()),
-            Some(Refit::Above) => breaks.each_ref().map(|at| at.as_ref()?.high.clone()),
-            None => [const { None }; TOGETHER],
+    /// Of each refit what `of` makes of those that are made from the same cases.
+    fn of_same_cases<T>(&self, of: impl Fn(&Regression, &[f64]) -> T) -> Vec<Option<T>> {
+        let of_each = |(regression, refit): (&Regression, &Option<Refit>)| match refit {
+            Some(Refit::SameCases(means)) => Some(of(regression, means)),
+            _ => None,
         };
-        let mut fits: Vec<_> = self.refits.iter().map(of_all).collect();
+        self.regressions.iter().zip(&self.refits).map(of_each).collect()
+    }
+}
+
+impl Refits for RegressionRefits<'_> {
+    type Terms = (Vec<Option<DemandRefits>>, TransitionSearch);
+    type Sums = (Vec<Option<NormalEquations>>, Vec<NormalEquations>);
+    type Refit = Resampled;
+
+    fn terms(&self, cases: &[Case]) -> Self::Terms {
+        let search = Sample::of_demands(cases, &PLANE, EVERYWHERE);
+        let of_same_cases = self.of_same_cases(|regression, means| {
+            DemandRefits::about(means.to_vec(), &regression.sample(cases))
+        });
+        (of_same_cases, TransitionSearch::about(self.means.clone(), &search))
+    }
+
+    fn none(&self) -> Self::Sums {
+        let empty = self.of_same_cases(|_, means| NormalEquations::empty(means.len()));
+        (empty, no_parts(self.means.len()))
+    }
+
+    fn add(&self, (refits, search): &Self::Terms, resamples: &Resamples, sums: &mut Self::Sums) {
+        for (sum, refits) in sums.0.iter_mut().flatten().zip(refits.iter().flatten()) {
+            sum.add(&refits.equations(0..refits.cases(), resamples));
+        }
+        sums.1.iter_mut().zip(search.parts(resamples)).for_each(|(sum, part)| sum.add(&part));
+    }
+
+    fn refits<'w>(
+        &self,
+        (equations, parts): Self::Sums,
+        _: &(dyn Fn() -> &'w Resamples + 'w),
+    ) -> [Resampled; TOGETHER] {
+        let breaks = breaks(&self.means, &parts);
+        let of_all = |(refit, equations): (&Option<Refit>, &Option<NormalEquations>)| match (refit, equations)
+        {
+            (Some(Refit::SameCases(means)), Some(equations)) => solutions(means, equations),
+            (Some(Refit::Below), _) => breaks.each_ref().map(|at| at.as_ref()?.low.clone()),
+            (Some(Refit::Above), _) => breaks.each_ref().map(|at| at.as_ref()?.high.clone()),
+            _ => [const { None }; TOGETHER],
+        };
+        let mut fits: Vec<_> = self.refits.iter().zip(&equations).map(of_all).collect();
         std::array::from_fn(|resample| {
             let found = breaks[resample].as_ref().map(|at| at.im4);
             let replicate = |(regression, fits): (&Regression, &mut [Option<DemandReplicate>; TOGETHER])| {

@@ -4,15 +4,14 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::fragility::demand::sample::DemandSample;
 use crate::fragility::held_out::HeldOut;
 use crate::fragility::probability::exceeding_index;
-use crate::resampling::bootstrap::{Resamples, Strata, TOGETHER};
+use crate::fragility::sample::{CLUSTER, Sample};
+use crate::resampling::bootstrap::{Resamples, Sizes, Strata, TOGETHER};
 use crate::resampling::case_terms::CaseTerms;
-use crate::resampling::folds::{Folds, MOST_FOLDS};
-use crate::resampling::limits::acceleration;
+use crate::resampling::limits::{Moves, acceleration_of, add_move, join_moves};
 use crate::resampling::normal_equations::{LeastSquares, NormalEquations};
-use crate::statistics::design::DesignMatrix;
+use crate::statistics::design::{Moments, Rows};
 use crate::statistics::influence::Influence;
 use crate::statistics::link::Link;
 use crate::statistics::regression::LinearFit;
@@ -35,54 +34,52 @@ impl DemandReplicate {
 
 /// A regression with cases: those it was fitted to, or for refits a larger sample.
 pub struct DemandInference<'a> {
-    sample: &'a DemandSample,
+    sample: &'a Sample,
     coefficients: DVector<f64>,
     residual_sd: f64,
     /// The inverse of X'X.
     bread: DMatrix<f64>,
     rss: f64,
     n: usize,
-    design: DesignMatrix,
-    residuals: Vec<f64>,
     influence: Influence,
 }
 
 impl<'a> DemandInference<'a> {
     /// Of a regression to any sample of the same measures. Least squares being quadratic, one Newton step leads from
     /// one sample to another.
-    pub fn new(sample: &'a DemandSample, fit: &LinearFit) -> DemandInference<'a> {
-        let (design, coefficients) = (sample.design(), fit.values());
-        let fitted = design.indices(coefficients.as_slice());
-        let residuals: Vec<f64> = sample.ln_edp.iter().zip(fitted).map(|(y, fitted)| y - fitted).collect();
-        let influence = Influence::of_residuals(residuals.clone());
+    pub fn new(sample: &'a Sample, fit: &LinearFit) -> DemandInference<'a> {
+        let coefficients = fit.values();
+        let influence = Influence::of_least_squares(coefficients.clone());
         let bread = &fit.covariance / fit.residual_sd.powi(2);
         let LinearFit { residual_sd, rss, n, .. } = *fit;
-        DemandInference { sample, coefficients, residual_sd, bread, rss, n, design, residuals, influence }
+        DemandInference { sample, coefficients, residual_sd, bread, rss, n, influence }
     }
 
-    /// The covariance of the coefficients where cases of one cluster may depend on each other; `clusters` are those of all
-    /// cases. Of the sample of the fit.
-    pub fn clustered_covariance(&self, clusters: &[usize]) -> DMatrix<f64> {
-        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
-        self.influence.clustered_covariance(&self.design, &self.bread, &clusters)
-    }
-
-    /// The standard errors that follow from it.
+    /// Standard errors of the coefficients where cases of one cluster may depend on each other; `clusters` are those of
+    /// all cases. Of the sample of the fit.
     pub fn clustered_errors(&self, clusters: &[usize]) -> Vec<f64> {
-        self.clustered_covariance(clusters).diagonal().iter().map(|variance| variance.sqrt()).collect()
+        let covariance = self.sandwich(|rows, case| clusters[rows.labels[0][case] as usize]);
+        covariance.diagonal().iter().map(|variance| variance.sqrt()).collect()
     }
 
-    /// What cases say that were left out, of a demand above `limit`; `clusters` are those of all cases.
-    pub fn held_out(&self, clusters: &[usize], limit: f64) -> Option<HeldOut> {
-        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
-        let folds = Folds::new(&clusters, MOST_FOLDS)?;
-        let indices = folds.leave_out(|_, weights| {
-            let DemandReplicate { coefficients, residual_sd } = self.refit(weights)?;
-            let means = self.design.indices(&coefficients);
-            Some(move |case: usize| exceeding_index(means[case], limit, residual_sd))
-        })?;
-        let happened: Vec<bool> = self.sample.ln_edp.iter().map(|ln_edp| *ln_edp > limit.ln()).collect();
-        HeldOut::of_indices(&indices, &happened, &clusters, Link::Probit)
+    /// The covariance behind them, of the clusters of the sample.
+    pub fn covariance_by_cluster(&self) -> DMatrix<f64> {
+        self.sandwich(|rows, case| rows.labels[CLUSTER][case] as usize)
+    }
+
+    fn sandwich(&self, cluster: impl Fn(&Rows, usize) -> usize + Sync) -> DMatrix<f64> {
+        self.influence.clustered_covariance(&self.sample.design(), &self.bread, cluster)
+    }
+
+    /// What cases say that were left out, whole clusters of the sample at once, of a demand above `limit`.
+    pub fn held_out(&self, limit: f64) -> Option<HeldOut> {
+        let index = |fit: &DemandReplicate, rows: &Rows| -> Vec<f64> {
+            let means = rows.indices(&fit.coefficients).into_iter();
+            means.map(|mean| exceeding_index(mean, limit, fit.residual_sd)).collect()
+        };
+        let design = self.sample.design();
+        let ln_limit = limit.ln();
+        HeldOut::new(&design, Link::Probit, |weights| self.refit(weights), index, |ln_edp| ln_edp > ln_limit)
     }
 
     /// The fit itself.
@@ -93,33 +90,52 @@ impl<'a> DemandInference<'a> {
 
     /// The regression where each case of the sample counts so often; none if they do not determine it.
     pub fn refit(&self, weights: &[f64]) -> Option<DemandReplicate> {
-        let change = self.influence.step(&self.design, weights)?;
-        let degrees = weights.iter().sum::<f64>() - change.len() as f64;
-        let shifts = self.design.indices(change.as_slice());
-        let square = |((residual, shift), weight): ((&f64, f64), &f64)| weight * (residual - shift).powi(2);
-        let rss: f64 = self.residuals.iter().zip(shifts).zip(weights).map(square).sum();
+        let design = self.sample.design();
+        let coefficients = &self.coefficients + self.influence.step(&design, weights)?;
+        let degrees = weights.iter().sum::<f64>() - coefficients.len() as f64;
+        let squares = |rows: &Rows| {
+            let fitted = rows.indices(coefficients.as_slice());
+            let square = |((fitted, y), weight): ((f64, &f64), &f64)| weight * (y - fitted).powi(2);
+            fitted.into_iter().zip(rows.y).zip(&weights[rows.first..]).map(square).sum::<f64>()
+        };
+        let rss = design.fold(0, squares, |sum, part| *sum += part);
         (degrees > 0.0).then(|| DemandReplicate {
-            coefficients: (&self.coefficients + change).as_slice().to_vec(),
+            coefficients: coefficients.as_slice().to_vec(),
             residual_sd: (rss / degrees).sqrt(),
         })
     }
 
     /// Of coefficients and dispersion, for BCa limits. Of the sample of the fit.
     pub fn accelerations(&self, strata: &Strata) -> Vec<f64> {
-        let fit = self.fitted();
-        let mut without_each = vec![fit.clone(); strata.rows()];
-        let degrees = (self.n - 1 - fit.coefficients.len()) as f64;
-        let changes = self.influence.without_each(&self.design, &self.bread);
-        let cases = self.sample.rows.iter().zip(&self.residuals).zip(self.design.rows());
-        for (((&row, residual), x), change) in cases.zip(changes) {
-            let rss = self.rss - residual * (residual - x.dot(&change));
-            without_each[row].residual_sd = (rss / degrees).sqrt();
-            without_each[row].coefficients.iter_mut().zip(&change).for_each(|(b, change)| *b += change);
-        }
-        let parameter = |k: usize| -> Vec<f64> {
-            without_each.iter().filter_map(|fit| fit.parameters().nth(k)).collect()
+        self.accelerations_within(&strata.sizes(), |rows, case| {
+            strata.label_of(rows.labels[0][case] as usize)
+        })
+    }
+
+    /// The same within the cells of the sample, which have such sizes among all cases.
+    pub fn accelerations_by_cell(&self, sizes: &Sizes) -> Vec<f64> {
+        self.accelerations_within(sizes, |rows, case| rows.labels[2][case] as usize)
+    }
+
+    fn accelerations_within(&self, sizes: &Sizes, cell: impl Fn(&Rows, usize) -> usize + Sync) -> Vec<f64> {
+        let k = self.coefficients.len();
+        let degrees = (self.n - 1 - k) as f64;
+        let of_block = |rows: &Rows| {
+            let mut moves = vec![Moves::new(); k + 1];
+            let fitted = rows.indices(self.coefficients.as_slice());
+            let cases = rows.each().zip(self.influence.without_each(rows, &self.bread)).enumerate();
+            for (case, (x, change)) in cases {
+                let (residual, cell) = (rows.y[case] - fitted[case], cell(rows, case));
+                let rss = self.rss - residual * (residual - x.dot(&change));
+                let by = change.iter().copied().chain([(rss / degrees).sqrt() - self.residual_sd]);
+                moves.iter_mut().zip(by).for_each(|(moves, by)| add_move(moves, cell, by));
+            }
+            moves
         };
-        (0..=fit.coefficients.len()).map(|k| acceleration(&parameter(k), strata)).collect()
+        let moves = self.sample.design().fold(3, of_block, |all, part| {
+            all.iter_mut().zip(part).for_each(|(all, part)| join_moves(all, part));
+        });
+        moves.iter().map(|moves| acceleration_of(moves, sizes)).collect()
     }
 }
 
@@ -132,15 +148,21 @@ pub struct DemandRefits {
 
 impl DemandRefits {
     /// Of the cases of a sample.
-    pub fn new(sample: &DemandSample) -> DemandRefits {
-        DemandRefits::in_order(sample, &(0..sample.rows.len()).collect::<Vec<_>>())
+    pub fn new(sample: &Sample) -> DemandRefits {
+        DemandRefits::about(Moments::of(&sample.design()).means, sample)
     }
 
-    /// The same with the cases in this order.
-    pub fn in_order(sample: &DemandSample, order: &[usize]) -> DemandRefits {
-        let columns: Vec<&[f64]> = sample.predictors().into_iter().chain([&sample.ln_edp[..]]).collect();
-        let mean = |column: &&[f64]| column.iter().sum::<f64>() / column.len() as f64;
-        let means: Vec<f64> = columns.iter().map(mean).collect();
+    /// Of some of the cases that have these means.
+    pub fn about(means: Vec<f64>, sample: &Sample) -> DemandRefits {
+        let columns: Vec<Vec<f64>> = sample.predictors().into_iter().chain([sample.observed()]).collect();
+        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let rows = sample.rows();
+        DemandRefits::in_order(means, &columns, &rows, &(0..rows.len()).collect::<Vec<_>>())
+    }
+
+    /// Of cases with these logarithms of measures and demands, which all have such means, in an order; `rows` are their rows among
+    /// all.
+    pub fn in_order(means: Vec<f64>, columns: &[&[f64]], rows: &[usize], order: &[usize]) -> DemandRefits {
         let products = |&case: &usize| -> Vec<f64> {
             let centred = columns.iter().zip(&means).map(|(column, mean)| column[case] - mean);
             let z: Vec<f64> = std::iter::once(1.0).chain(centred).collect();
@@ -149,7 +171,7 @@ impl DemandRefits {
                 .map(|(i, zj)| z[i] * zj)
                 .collect()
         };
-        let rows: Vec<usize> = order.iter().map(|&case| sample.rows[case]).collect();
+        let rows: Vec<usize> = order.iter().map(|&case| rows[case]).collect();
         let terms = NormalEquations::empty(means.len()).products.len();
         DemandRefits { products: CaseTerms::new(&rows, terms, order.iter().map(products)), means }
     }
@@ -159,9 +181,9 @@ impl DemandRefits {
         self.products.cases()
     }
 
-    /// How many coefficients there are.
-    pub fn coefficients(&self) -> usize {
-        self.means.len()
+    /// The means.
+    pub fn means(&self) -> &[f64] {
+        &self.means
     }
 
     /// The normal equations of some of the cases.
@@ -171,22 +193,22 @@ impl DemandRefits {
 
     /// The regression in each resample; none where its cases do not determine it.
     pub fn replicates(&self, resamples: &Resamples) -> [Option<DemandReplicate>; TOGETHER] {
-        self.solutions(&NormalEquations { products: self.products.sums(resamples) })
+        solutions(&self.means, &self.equations(0..self.cases(), resamples))
     }
+}
 
-    /// The regressions that normal equations lead to.
-    pub fn solutions(&self, equations: &NormalEquations) -> [Option<DemandReplicate>; TOGETHER] {
-        let k = self.coefficients();
-        let LeastSquares { coefficients, rss } = equations.solve(k);
-        std::array::from_fn(|resample| {
-            let mut b: Vec<f64> = coefficients.iter().map(|b| b[resample]).collect();
-            let (of_response, of_predictors) = self.means.split_last()?;
-            let shift: f64 = of_predictors.iter().zip(&b[1..]).map(|(mean, b)| mean * b).sum();
-            b[0] += of_response - shift;
-            let degrees = equations.products[0][resample] - k as f64;
-            let residual_sd = (rss[resample].max(0.0) / degrees).sqrt();
-            let replicate = DemandReplicate { coefficients: b, residual_sd };
-            (degrees > 0.0 && replicate.parameters().all(f64::is_finite)).then_some(replicate)
-        })
-    }
+/// The regressions that normal equations of deviations from these means lead to.
+pub fn solutions(means: &[f64], equations: &NormalEquations) -> [Option<DemandReplicate>; TOGETHER] {
+    let k = means.len();
+    let LeastSquares { coefficients, rss } = equations.solve(k);
+    std::array::from_fn(|resample| {
+        let mut b: Vec<f64> = coefficients.iter().map(|b| b[resample]).collect();
+        let (of_response, of_predictors) = means.split_last()?;
+        let shift: f64 = of_predictors.iter().zip(&b[1..]).map(|(mean, b)| mean * b).sum();
+        b[0] += of_response - shift;
+        let degrees = equations.products[0][resample] - k as f64;
+        let residual_sd = (rss[resample].max(0.0) / degrees).sqrt();
+        let replicate = DemandReplicate { coefficients: b, residual_sd };
+        (degrees > 0.0 && replicate.parameters().all(f64::is_finite)).then_some(replicate)
+    })
 }

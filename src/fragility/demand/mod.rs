@@ -1,7 +1,6 @@
 //! P_ex: regressions of the demand in safe rocking (Eqs. 14 to 18).
 //!
 //! ```text
-//! sample       the cases of a regression
 //! regressions  univariate, plane and biplanar; transition: where the two planes meet; smooth: a smooth transition instead
 //! inference    how uncertain a regression is, and refits in resamples
 //! group        all regressions of a group of cases: Table II and more
@@ -10,7 +9,6 @@
 pub(crate) mod group;
 pub(crate) mod inference;
 pub(crate) mod regressions;
-pub(crate) mod sample;
 pub(crate) mod smooth;
 pub(crate) mod transition;
 
@@ -18,6 +16,5 @@ pub use group::{Form, Regression, RegressionOptions, Regressions, Replicate};
 pub use inference::DemandRefits;
 pub use inference::{DemandInference, DemandReplicate};
 pub use regressions::{Biplanar, PLANE, Plane, fit_biplanar, fit_plane, fit_univariate, rms_difference};
-pub use sample::DemandSample;
 pub use smooth::{SmoothFit, fit_smooth};
 pub use transition::{Break, ScanPoint, Transition, TransitionSearch, transition_limits};

@@ -1,9 +1,11 @@
 //! P_ex: the demand in safe rocking as a power law of intensity (Eqs. 14-18).
 
-use super::sample::DemandSample;
-use super::transition::{ScanPoint, Transition, TransitionSearch};
-use crate::fragility::case::{Case, Measure};
+use super::transition::{ScanPoint, Transition, find_transition};
+use crate::fragility::case::Measure;
+use crate::fragility::cases::Cases;
+use crate::fragility::sample::Sample;
 use crate::statistics::FitStatus;
+use crate::statistics::design::{Moments, Rows};
 use crate::statistics::regression::LinearFit;
 
 /// The measures of a plane.
@@ -32,16 +34,16 @@ impl Plane {
 ///
 /// # Errors
 /// With the status that says why there is no fit.
-pub fn fit_univariate(cases: &[Case], measure: Measure) -> Result<LinearFit, FitStatus> {
-    DemandSample::new(cases, &[measure], 0.0..f64::INFINITY).fit()
+pub fn fit_univariate<C: Cases + ?Sized>(cases: &C, measure: Measure) -> Result<LinearFit, FitStatus> {
+    Sample::of_demands(cases, &[measure], 0.0..f64::INFINITY).fit()
 }
 
 /// ln EDP on ln IM4 and ln IM3 over the safe-rocking cases whose IM4 lies in `range` (Eq. 17).
 ///
 /// # Errors
 /// With the status that says why there is no fit.
-pub fn fit_plane(cases: &[Case], range: std::ops::Range<f64>) -> Result<LinearFit, FitStatus> {
-    DemandSample::new(cases, &PLANE, range).fit()
+pub fn fit_plane<C: Cases + ?Sized>(cases: &C, range: std::ops::Range<f64>) -> Result<LinearFit, FitStatus> {
+    Sample::of_demands(cases, &PLANE, range).fit()
 }
 
 /// Two planes that meet at an IM4.
@@ -68,10 +70,9 @@ pub struct Biplanar {
 ///
 /// # Errors
 /// If no transition can be found, for want of cases or as one plane would say.
-pub fn fit_biplanar(cases: &[Case], transition: Option<f64>) -> Result<Biplanar, FitStatus> {
-    let sample = DemandSample::new(cases, &PLANE, 0.0..f64::INFINITY);
-    let found = TransitionSearch::new(&sample).find(&vec![1.0; cases.len()]);
-    let (found, scan) = match found {
+pub fn fit_biplanar<C: Cases + ?Sized>(cases: &C, transition: Option<f64>) -> Result<Biplanar, FitStatus> {
+    let sample = Sample::of_demands(cases, &PLANE, 0.0..f64::INFINITY);
+    let (found, scan) = match find_transition(&sample) {
         Some(Transition { im4, scan }) => (Some(im4), scan),
         None => (None, Vec::new()),
     };
@@ -84,24 +85,27 @@ pub fn fit_biplanar(cases: &[Case], transition: Option<f64>) -> Result<Biplanar,
     if let (Ok(low), Ok(high)) = (&low, &high) {
         let rss = low.rss + high.rss;
         r2_pooled = Some(1.0 - rss / (low.tss + high.tss));
-        r2_overall = Some(1.0 - rss / sum_of_squares(&sample.ln_edp));
+        r2_overall = Some(1.0 - rss / Moments::of(&sample.design()).product(PLANE.len(), PLANE.len()));
     }
     Ok(Biplanar { transition, found, low, high, r2_pooled, r2_overall, scan })
 }
 
-fn sum_of_squares(values: &[f64]) -> f64 {
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    values.iter().map(|value| (value - mean).powi(2)).sum()
-}
-
 /// Root of the mean squared difference of two planes in ln EDP, over the safe-rocking cases whose IM4 lies in `range`; none without
 /// such cases.
-pub fn rms_difference(a: &Plane, b: &Plane, cases: &[Case], range: std::ops::Range<f64>) -> Option<f64> {
-    let sample = DemandSample::new(cases, &PLANE, range);
-    let [ln_x, ln_y] = sample.ln_im.as_slice() else { return None };
-    let squares = ln_x.iter().zip(ln_y).map(|(x, y)| {
-        let difference = (a.ln_a - b.ln_a) + (a.b1 - b.b1) * x + (a.b2 - b.b2) * y;
-        difference * difference
-    });
-    (!ln_x.is_empty()).then(|| (squares.sum::<f64>() / ln_x.len() as f64).sqrt())
+pub fn rms_difference<C: Cases + ?Sized>(
+    a: &Plane,
+    b: &Plane,
+    cases: &C,
+    range: std::ops::Range<f64>,
+) -> Option<f64> {
+    let sample = Sample::of_demands(cases, &PLANE, range);
+    let squares = |rows: &Rows| {
+        let square = |(x, y): (&f64, &f64)| {
+            let difference = (a.ln_a - b.ln_a) + (a.b1 - b.b1) * x + (a.b2 - b.b2) * y;
+            difference * difference
+        };
+        rows.x[1].iter().zip(rows.x[2]).map(square).sum::<f64>()
+    };
+    let sum = sample.design().fold(0, squares, |sum, part| *sum += part);
+    (sample.cases() > 0).then(|| (sum / sample.cases() as f64).sqrt())
 }

@@ -5,14 +5,14 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector, SMatrix};
 
-use super::sample::DemandSample;
+use crate::fragility::sample::Sample;
 use crate::normal;
 use crate::statistics::FitStatus;
 use crate::statistics::derivatives::{Scores, derivatives};
-use crate::statistics::design::{DesignMatrix, dot};
+use crate::statistics::design::{Design, Moments, Rows, dot};
 use crate::statistics::estimate::Estimate;
 use crate::statistics::goodness::{Test, added_powers};
-use crate::statistics::newton::{Along, newton_step};
+use crate::statistics::newton::{Along, Objective, newton_step};
 use crate::statistics::regression::LinearFit;
 use crate::statistics::search::minimum;
 
@@ -22,6 +22,11 @@ const LN_WIDTHS: (f64, f64) = (-5.298, 0.693);
 const PLACES: usize = 48;
 /// To which the logarithm of the width is found in the next.
 const CLOSE: f64 = 1e-9;
+/// The most steps from the width of some cases to that of all.
+const MOST_STEPS: usize = 30;
+/// The first of them in the logarithm of the width, and the largest.
+const NEARBY: f64 = 1e-3;
+const MOST: f64 = 0.1;
 /// Coefficients of two planes, and the width.
 const PARAMETERS: usize = 7;
 
@@ -69,68 +74,107 @@ struct Planes {
 ///
 /// # Errors
 /// With the status that says why there is no fit: too few cases, or no width better than the least or the largest.
-pub fn fit_smooth(sample: &DemandSample, confidence: f64) -> Result<SmoothFit, FitStatus> {
-    if sample.ln_edp.len() <= 2 * PARAMETERS {
+pub fn fit_smooth(sample: &Sample, confidence: f64) -> Result<SmoothFit, FitStatus> {
+    if sample.cases() <= 2 * PARAMETERS {
         return Err(FitStatus::TooFewCases);
     }
+    let all = sample.design();
+    let few = all.spread();
+    let searched = few.as_ref().map_or(all, |few| all.of(few));
     let (low, high) = LN_WIDTHS;
     let step = (high - low) / (PLACES - 1) as f64;
-    let rss = |ln_width: f64| planes(sample, ln_width).map(|planes| planes.rss);
+    let rss = |ln_width: f64| planes(&searched, ln_width).map(|planes| planes.rss);
     // A grid first: the sum of squares may have several minima.
     let grid = (0..PLACES).map(|k| low + step * k as f64).filter_map(|at| Some((at, rss(at)?)));
     let (near, _) = grid.min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(FitStatus::Collinear)?;
     if near < low + 0.5 * step || near > high - 0.5 * step {
         return Err(FitStatus::NotConverged);
     }
-    let best = minimum(rss, (near - step, near + step), CLOSE).and_then(|at| planes(sample, at));
-    let best = best.ok_or(FitStatus::Collinear)?;
+    let found = minimum(rss, (near - step, near + step), CLOSE).ok_or(FitStatus::Collinear)?;
+    let best = if few.is_some() {
+        settled(&all, found)?
+    } else {
+        planes(&all, found).ok_or(FitStatus::Collinear)?
+    };
     with_errors(sample, &best, confidence)
 }
 
-/// The best planes for one width; none if the cases do not determine both.
-fn planes(sample: &DemandSample, ln_width: f64) -> Option<Planes> {
-    let (n, width) = (sample.ln_edp.len(), ln_width.exp());
-    let mut columns: [Vec<f64>; 5] = std::array::from_fn(|_| Vec::with_capacity(n));
-    for (&x, &y) in sample.ln_im[0].iter().zip(&sample.ln_im[1]) {
-        let [_, predictors @ ..] = row(x, y, share(x, width));
-        columns.iter_mut().zip(predictors).for_each(|(column, predictor)| column.push(predictor));
+/// The best planes of all cases, from a width nearby: where the slope of their residual on its logarithm vanishes, by secants.
+fn settled(design: &Design, ln_width: f64) -> Result<Planes, FitStatus> {
+    let at = |ln_width: f64| {
+        let planes = planes(design, ln_width).ok_or(FitStatus::Collinear)?;
+        let slope = linearised(design, &planes.coefficients, ln_width.exp()).gradient[6];
+        Ok((planes, slope * ln_width.exp()))
+    };
+    let (mut before, mut here) = (at(ln_width)?, at(ln_width + NEARBY)?);
+    for _ in 0..MOST_STEPS {
+        let step = (here.0.ln_width - before.0.ln_width) * here.1 / (before.1 - here.1);
+        if step.is_nan() || step.abs() <= CLOSE {
+            return Ok(here.0);
+        }
+        let next = at(here.0.ln_width + step.clamp(-MOST, MOST))?;
+        (before, here) = (here, next);
     }
-    let design = DesignMatrix::new(&columns.each_ref().map(Vec::as_slice), n);
-    let ln_edp = |cases: Range<usize>, scores: Scores| {
-        scores.slope.copy_from_slice(&sample.ln_edp[cases]);
+    Err(FitStatus::NotConverged)
+}
+
+/// The best planes for one width; none if the cases do not determine both.
+fn planes(design: &Design, ln_width: f64) -> Option<Planes> {
+    let further = |x: &[&[f64]]| shares(x, ln_width.exp());
+    let design = design.with(3, &further);
+    let ln_edp = |rows: &Rows, cases: Range<usize>, scores: Scores| {
+        scores.slope.copy_from_slice(&rows.y[cases]);
         scores.curvature.fill(1.0);
     };
     let coefficients = newton_step(&derivatives(&design, &[], ln_edp), Along::All)?;
-    let fitted = design.indices(coefficients.as_slice());
-    let rss = sample.ln_edp.iter().zip(fitted).map(|(y, fitted)| (y - fitted).powi(2)).sum();
+    let squares = |rows: &Rows| {
+        let fitted = rows.indices(coefficients.as_slice());
+        rows.y.iter().zip(fitted).map(|(y, fitted)| (y - fitted).powi(2)).sum::<f64>()
+    };
+    let rss = design.fold(0, squares, |sum, part| *sum += part);
     Some(Planes { ln_width, coefficients, rss })
 }
 
-/// What multiplies the lower plane, and the upper less the lower.
-fn row(x: f64, y: f64, share: f64) -> [f64; 6] {
-    [1.0, x, y, share, share * x, share * y]
+/// What multiplies the upper plane less the lower one.
+fn shares(x: &[&[f64]], width: f64) -> Vec<Vec<f64>> {
+    let shares: Vec<f64> = x[0].iter().map(|x| share(*x, width)).collect();
+    let times = |x: &[f64]| shares.iter().zip(x).map(|(share, x)| share * x).collect();
+    let of_both = [times(x[0]), times(x[1])];
+    std::iter::once(shares.clone()).chain(of_both).collect()
 }
 
-fn with_errors(sample: &DemandSample, planes: &Planes, confidence: f64) -> Result<SmoothFit, FitStatus> {
-    let (n, width) = (sample.ln_edp.len(), planes.ln_width.exp());
-    let b = &planes.coefficients;
-    // The derivatives of ln EDP with respect to all parameters.
-    let of_case = |case: usize| -> [f64; PARAMETERS] {
-        let (x, y) = (sample.ln_im[0][case], sample.ln_im[1][case]);
-        let share = share(x, width);
+/// The same, and the derivative of ln EDP with respect to the width.
+fn shares_and_width(x: &[&[f64]], b: &DVector<f64>, width: f64) -> Vec<Vec<f64>> {
+    let mut further = shares(x, width);
+    let by_width = x[0].iter().zip(x[1]).zip(&further[0]).map(|((x, y), share)| {
         let by_share = b[3] + b[4] * x + b[5] * y;
-        let [c0, c1, c2, c3, c4, c5] = row(x, y, share);
-        [c0, c1, c2, c3, c4, c5, -by_share * (1.0 - share) * x / (width * width)]
+        -by_share * (1.0 - share) * x / (width * width)
+    });
+    further.push(by_width.collect());
+    further
+}
+
+/// The derivatives of half the negative sum of squares with respect to all parameters.
+fn linearised(design: &Design, b: &DVector<f64>, width: f64) -> Objective {
+    let further = |x: &[&[f64]]| shares_and_width(x, b, width);
+    let residuals = |rows: &Rows, cases: Range<usize>, mut scores: Scores| {
+        for ((slope, curvature), y) in scores.iter_mut().zip(&rows.y[cases]) {
+            (*slope, *curvature) = (y - *slope, 1.0);
+        }
     };
-    let jacobian = DMatrix::from_fn(n, PARAMETERS, |case, k| of_case(case)[k]);
+    derivatives(&design.with(4, &further), b.as_slice(), residuals)
+}
+
+fn with_errors(sample: &Sample, planes: &Planes, confidence: f64) -> Result<SmoothFit, FitStatus> {
+    let (n, width) = (sample.cases(), planes.ln_width.exp());
+    let b = &planes.coefficients;
     let variance = planes.rss / (n - PARAMETERS) as f64;
-    let information = jacobian.transpose() * &jacobian;
+    let information = linearised(&sample.design(), b, width).information;
     let covariance = information.cholesky().ok_or(FitStatus::Collinear)?.inverse() * variance;
     let quantile = normal::quantile(0.5 * (1.0 + confidence));
     let estimate = |value: f64, variance: f64| Estimate::symmetric(value, variance.sqrt(), quantile);
     let ln_transition = estimate(LN_2 * width, LN_2 * LN_2 * covariance[(6, 6)]);
-    let mean = sample.ln_edp.iter().sum::<f64>() / n as f64;
-    let tss: f64 = sample.ln_edp.iter().map(|y| (y - mean).powi(2)).sum();
+    let tss = Moments::of(&sample.design()).product(2, 2);
     // Each plane as a combination of the parameters.
     let plane = |of: SMatrix<f64, 3, PARAMETERS>| {
         let covariance =
@@ -148,14 +192,17 @@ fn with_errors(sample: &DemandSample, planes: &Planes, confidence: f64) -> Resul
     };
     let low = SMatrix::from_fn(|i, j| f64::from(u8::from(i == j)));
     let high = SMatrix::from_fn(|i, j| f64::from(u8::from(i == j || i + 3 == j)));
-    let fitted: Vec<f64> = (0..n).map(|case| dot(&of_case(case)[..6], b.as_slice())).collect();
-    let columns: Vec<&[f64]> = jacobian.as_slice().chunks(n).skip(1).collect();
-    let residuals: Vec<f64> = sample.ln_edp.iter().zip(&fitted).map(|(y, fitted)| y - fitted).collect();
+    let further = |x: &[&[f64]]| shares_and_width(x, b, width);
+    let fitted = |x: &[&[f64]]| -> Vec<f64> {
+        let shares = shares(x, width);
+        let row = |k: usize| [1.0, x[0][k], x[1][k], shares[0][k], shares[1][k], shares[2][k]];
+        (0..x[0].len()).map(|k| dot(&row(k), b.as_slice())).collect()
+    };
     Ok(SmoothFit {
         width: estimate(width, covariance[(6, 6)]),
         transition: ln_transition.exp(),
         low: plane(low),
         high: plane(high),
-        reset: added_powers(&columns, &residuals, &fitted, planes.rss),
+        reset: added_powers(&sample.columns, 2, Some((4, &further)), &fitted, planes.rss),
     })
 }

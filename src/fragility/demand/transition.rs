@@ -1,10 +1,11 @@
 //! Where the two planes of Eq. 18 meet.
 
 use super::inference::DemandRefits;
-use super::inference::DemandReplicate;
-use super::sample::DemandSample;
+use super::inference::{DemandReplicate, solutions};
+use crate::fragility::sample::Sample;
 use crate::resampling::bootstrap::{Resamples, TOGETHER};
 use crate::resampling::normal_equations::NormalEquations;
+use crate::statistics::design::{Moments, Rows};
 use crate::statistics::estimate::Limits;
 
 /// The IM4 at which the planes may meet: first, last and step of the scan.
@@ -49,11 +50,33 @@ pub fn transition_limits(scan: &[ScanPoint], confidence: f64) -> Option<Limits> 
     Some(Limits { low, high: places.next_back().unwrap_or(low) })
 }
 
+/// The places of the scan.
+fn places() -> impl Iterator<Item = f64> {
+    let (first, last, step) = SCAN;
+    (0..=((last - first) / step).round() as usize).map(move |index| first + step * index as f64)
+}
+
+/// Tries every IM4 of the scan as the place where two planes, ln EDP on ln IM4 and ln IM3, meet. None without enough cases on
+/// both sides of any.
+pub fn find_transition(sample: &Sample) -> Option<Transition> {
+    let design = sample.design();
+    let means = Moments::of(&design).means;
+    let of_block = |rows: &Rows| {
+        let numbers: Vec<usize> = (0..rows.count()).collect();
+        let search = TransitionSearch::of(means.clone(), &[rows.x[1], rows.x[2], rows.y], &numbers);
+        search.parts(&Resamples::alike(&vec![1.0; rows.count()]))
+    };
+    let parts = design.fold(0, of_block, |parts, more| {
+        parts.iter_mut().zip(&more).for_each(|(part, more)| part.add(more));
+    });
+    least(&sides(means.len(), &parts))
+}
+
 /// The cases in the order of their IM4, ready for searches in resamples.
 pub struct TransitionSearch {
     refits: DemandRefits,
-    /// The places that are tried, with the number of cases below.
-    places: Vec<(f64, usize)>,
+    /// The number of cases below each place that is tried.
+    below: Vec<usize>,
 }
 
 /// The two planes of one resample.
@@ -76,68 +99,94 @@ struct Sides {
     pooled_rss: [f64; TOGETHER],
 }
 
+/// The place of the least pooled residual in the first resample.
+fn least(sides: &[Sides]) -> Option<Transition> {
+    let point = |sides: &Sides| ScanPoint {
+        im4: sides.im4,
+        pooled_rss: sides.pooled_rss[0],
+        n_low: sides.low.products[0][0] as usize,
+        n_high: sides.high.products[0][0] as usize,
+    };
+    let scan: Vec<ScanPoint> = sides.iter().map(point).filter(|p| p.pooled_rss.is_finite()).collect();
+    let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?.im4;
+    Some(Transition { im4: best, scan })
+}
+
+/// Both planes at each place, from the equations of the cases between places.
+fn sides(k: usize, parts: &[NormalEquations]) -> Vec<Sides> {
+    // Both from their own end, so that nothing is subtracted.
+    let lows = running_sums(k, parts.iter());
+    let highs: Vec<NormalEquations> = running_sums(k, parts[1..].iter().rev()).collect();
+    let sides = places().zip(lows.zip(highs.into_iter().rev()));
+    sides.map(|(im4, (low, high))| Sides::new(k, im4, low, high)).collect()
+}
+
 impl TransitionSearch {
     /// In a sample of IM4 and IM3.
-    pub fn new(sample: &DemandSample) -> TransitionSearch {
-        let ln_im4 = &sample.ln_im[0];
-        let mut order: Vec<usize> = (0..ln_im4.len()).collect();
-        order.sort_by(|&a, &b| ln_im4[a].total_cmp(&ln_im4[b]));
-        let (first, last, step) = SCAN;
-        let place = |index: usize| {
-            let im4 = first + step * index as f64;
-            (im4, order.partition_point(|&case| ln_im4[case] < im4.ln()))
-        };
-        let places = (0..=((last - first) / step).round() as usize).map(place).collect();
-        TransitionSearch { refits: DemandRefits::in_order(sample, &order), places }
+    pub fn new(sample: &Sample) -> TransitionSearch {
+        TransitionSearch::about(Moments::of(&sample.design()).means, sample)
     }
 
-    /// Tries every IM4 of the scan as the place where two planes, ln EDP on ln IM4 and ln IM3, meet, where each of all
-    /// cases counts so often. None without enough cases on both sides of any.
+    /// In some of the cases that have these means.
+    pub fn about(means: Vec<f64>, sample: &Sample) -> TransitionSearch {
+        let columns: Vec<Vec<f64>> = sample.predictors().into_iter().chain([sample.observed()]).collect();
+        TransitionSearch::of(means, &columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), &sample.rows())
+    }
+
+    fn of(means: Vec<f64>, columns: &[&[f64]], rows: &[usize]) -> TransitionSearch {
+        let ln_im4 = columns[0];
+        let mut order: Vec<usize> = (0..ln_im4.len()).collect();
+        order.sort_by(|&a, &b| ln_im4[a].total_cmp(&ln_im4[b]));
+        let below = |im4: f64| order.partition_point(|&case| ln_im4[case] < im4.ln());
+        let below = places().map(below).collect();
+        TransitionSearch { refits: DemandRefits::in_order(means, columns, rows, &order), below }
+    }
+
+    /// As [`find_transition`], where each of all cases counts so often.
     pub fn find(&self, counts: &[f64]) -> Option<Transition> {
-        let point = |sides: &Sides| ScanPoint {
-            im4: sides.im4,
-            pooled_rss: sides.pooled_rss[0],
-            n_low: sides.low.products[0][0] as usize,
-            n_high: sides.high.products[0][0] as usize,
-        };
-        let sides = self.sides(&Resamples::alike(counts));
-        let scan: Vec<ScanPoint> = sides.iter().map(point).filter(|p| p.pooled_rss.is_finite()).collect();
-        let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?.im4;
-        Some(Transition { im4: best, scan })
+        least(&self.sides(&Resamples::alike(counts)))
     }
 
     /// Where the planes meet in each resample, and which they are.
     pub fn breaks(&self, resamples: &Resamples) -> [Option<Break>; TOGETHER] {
-        let sides = self.sides(resamples);
-        let best: [Option<&Sides>; TOGETHER] = std::array::from_fn(|resample| {
-            let possible = sides.iter().filter(|sides| sides.pooled_rss[resample].is_finite());
-            possible.min_by(|a, b| a.pooled_rss[resample].total_cmp(&b.pooled_rss[resample]))
-        });
-        let mut low = NormalEquations::empty(self.refits.coefficients());
-        let mut high = low.clone();
-        for (resample, sides) in best.iter().enumerate().filter_map(|(k, sides)| Some((k, (*sides)?))) {
-            low.copy(&sides.low, resample);
-            high.copy(&sides.high, resample);
-        }
-        let (mut low, mut high) = (self.refits.solutions(&low), self.refits.solutions(&high));
-        std::array::from_fn(|resample| {
-            let im4 = best[resample]?.im4;
-            Some(Break { im4, low: low[resample].take(), high: high[resample].take() })
-        })
+        breaks(self.refits.means(), &self.parts(resamples))
     }
 
     fn sides(&self, resamples: &Resamples) -> Vec<Sides> {
-        let k = self.refits.coefficients();
-        let below = self.places.iter().map(|&(_, below)| below);
-        let ends: Vec<usize> = std::iter::once(0).chain(below).chain([self.refits.cases()]).collect();
-        let parts: Vec<NormalEquations> =
-            ends.windows(2).map(|ends| self.refits.equations(ends[0]..ends[1], resamples)).collect();
-        // Both from their own end, so that nothing is subtracted.
-        let lows = running_sums(k, parts.iter());
-        let highs: Vec<NormalEquations> = running_sums(k, parts[1..].iter().rev()).collect();
-        let sides = self.places.iter().zip(lows.zip(highs.into_iter().rev()));
-        sides.map(|(&(im4, _), (low, high))| Sides::new(k, im4, low, high)).collect()
+        sides(self.refits.means().len(), &self.parts(resamples))
     }
+
+    /// The equations of the cases up to the first place, between places, and from the last one on.
+    pub fn parts(&self, resamples: &Resamples) -> Vec<NormalEquations> {
+        let below = self.below.iter().copied();
+        let ends: Vec<usize> = std::iter::once(0).chain(below).chain([self.refits.cases()]).collect();
+        ends.windows(2).map(|ends| self.refits.equations(ends[0]..ends[1], resamples)).collect()
+    }
+}
+
+/// The parts of no cases, for planes of so many coefficients.
+pub fn no_parts(coefficients: usize) -> Vec<NormalEquations> {
+    vec![NormalEquations::empty(coefficients); places().count() + 1]
+}
+
+/// Where the planes meet in each resample, and which they are, from the parts of all cases.
+pub fn breaks(means: &[f64], parts: &[NormalEquations]) -> [Option<Break>; TOGETHER] {
+    let sides = sides(means.len(), parts);
+    let best: [Option<&Sides>; TOGETHER] = std::array::from_fn(|resample| {
+        let possible = sides.iter().filter(|sides| sides.pooled_rss[resample].is_finite());
+        possible.min_by(|a, b| a.pooled_rss[resample].total_cmp(&b.pooled_rss[resample]))
+    });
+    let mut low = NormalEquations::empty(means.len());
+    let mut high = low.clone();
+    for (resample, sides) in best.iter().enumerate().filter_map(|(k, sides)| Some((k, (*sides)?))) {
+        low.copy(&sides.low, resample);
+        high.copy(&sides.high, resample);
+    }
+    let (mut low, mut high) = (solutions(means, &low), solutions(means, &high));
+    std::array::from_fn(|resample| {
+        let im4 = best[resample]?.im4;
+        Some(Break { im4, low: low[resample].take(), high: high[resample].take() })
+    })
 }
 
 impl Sides {

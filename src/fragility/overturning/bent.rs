@@ -3,13 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::curves::CurveModel;
-use super::sample::EventSample;
-use crate::fragility::clusters::are_many;
 use crate::fragility::held_out::HeldOut;
 use crate::fragility::predictor::{BENT_TERMS, Bend};
+use crate::fragility::sample::{CLUSTER, Sample};
 use crate::resampling::{Resamples, TOGETHER};
 use crate::statistics::binary::{BinaryFit, BinaryLikelihood, Estimator};
-use crate::statistics::design::{DesignMatrix, dot, quantile_knots};
+use crate::statistics::design::{Moments, Rows, dot, quantile_knots};
 use crate::statistics::influence::Influence;
 use crate::statistics::newton::{Along, Maximum, Objective, maximise};
 
@@ -53,9 +52,9 @@ pub struct BentFit {
 }
 
 /// The cases of a curve, with all terms.
-pub struct BentSample<'a> {
-    sample: &'a EventSample,
-    design: DesignMatrix,
+pub struct BentSample {
+    /// The terms in place of the measures.
+    sample: Sample,
     knots: [[f64; 3]; 2],
     /// Which of the terms of [`Bend`] there are.
     terms: &'static [usize],
@@ -63,92 +62,83 @@ pub struct BentSample<'a> {
     model: CurveModel,
 }
 
-impl<'a> BentSample<'a> {
+impl BentSample {
     /// Of the cases of a curve by maximum likelihood; none of another estimator, or where a measure has too few values for knots.
-    pub fn new(sample: &'a EventSample, model: &CurveModel) -> Option<BentSample<'a>> {
-        let measures = sample.predictors();
-        let knots =
-            measures.iter().map(|values| quantile_knots(values, KNOTS)).collect::<Option<Vec<_>>>()?;
+    pub fn new(sample: &Sample, model: &CurveModel) -> Option<BentSample> {
+        let (design, measures) = (sample.design(), sample.measures);
+        let terms: &[usize] = match measures {
+            _ if model.estimator != Estimator::Ml => return None,
+            0 => return None,
+            1 => &[0, 1, 3],
+            _ => &[0, 1, 2, 3, 4, 5],
+        };
+        let knots: Vec<[f64; 3]> =
+            (0..measures).map(|measure| quantile_knots(&design, measure, KNOTS)).collect::<Option<_>>()?;
         let knots = [knots[0], knots.get(1).copied().unwrap_or([0.0; 3])];
-        let bends = |case: usize| Bend::terms(&knots, measures[0][case], measures.get(1).map(|y| y[case]));
-        let bends: Vec<[f64; 3]> = (0..sample.happened.len()).map(bends).collect();
-        let column = |k: usize| bends.iter().map(|bend| bend[k]).collect::<Vec<f64>>();
-        let (columns, terms): (Vec<Vec<f64>>, &[usize]) = match measures[..] {
-            [x] => (vec![x.to_vec(), column(0)], &[0, 1, 3]),
-            [x, y, ..] => {
-                (vec![x.to_vec(), y.to_vec(), column(0), column(1), column(2)], &[0, 1, 2, 3, 4, 5])
-            }
-            [] => return None,
+        let bends = |x: &[&[f64]]| -> Vec<Vec<f64>> {
+            let of_case = |case: usize| Bend::terms(&knots, x[0][case], x.get(1).map(|y| y[case]));
+            let of_cases: Vec<[f64; 3]> = (0..x[0].len()).map(of_case).collect();
+            let column = |term: &usize| of_cases.iter().map(|bends| bends[term - 3]).collect();
+            terms[1 + measures..].iter().map(column).collect()
         };
-        let variance = |values: &[f64]| {
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64
-        };
+        let sample = sample.with(bends);
+        let n = sample.cases() as f64;
+        let moments = Moments::of(&sample.design());
         // Of the product what is left of it beside the line.
-        let centred = |values: &[f64]| {
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            values.iter().map(|value| value - mean).collect::<Vec<f64>>()
-        };
-        let product = |x: &[f64], y: &[f64]| {
-            variance(&centred(x).iter().zip(centred(y)).map(|(x, y)| x * y).collect::<Vec<f64>>())
+        let product = || {
+            let of_case = |(x, y): (&f64, &f64)| (x - moments.means[0]) * (y - moments.means[1]);
+            let further = |x: &[&[f64]]| vec![x[0].iter().zip(x[1]).map(of_case).collect()];
+            let place = sample.measures;
+            Moments::of(&sample.design().with(1, &further)).product(place, place)
         };
         let penalty = terms.iter().enumerate().map(|(place, &term)| match term {
-            3 | 4 => PENALTY * variance(&columns[place - 1]),
-            5 => PENALTY * product(measures[0], measures[1]),
+            3 | 4 => PENALTY * moments.product(place - 1, place - 1) / n,
+            5 => PENALTY * product() / n,
             _ => 0.0,
         });
         let penalty = DVector::from_vec(penalty.collect());
-        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let design = DesignMatrix::new(&columns, sample.happened.len());
-        (model.estimator == Estimator::Ml).then_some(BentSample {
-            sample,
-            design,
-            knots,
-            terms,
-            penalty,
-            model: *model,
-        })
+        Some(BentSample { sample, knots, terms, penalty, model: *model })
     }
 
     /// The fit to all cases, beside the straight line; none where the iterations do not end.
-    pub fn fit(&self, straight: &BinaryFit, clusters: &[usize]) -> Option<BentFit> {
-        let once_each = vec![1.0; self.sample.happened.len()];
+    pub fn fit(&self, straight: &BinaryFit) -> Option<BentFit> {
         let mut start = DVector::zeros(self.penalty.len());
         start.rows_mut(0, straight.coefficients.len()).copy_from(&straight.coefficients);
-        let Maximum { at, objective, .. } = self.maximum(&once_each, &start, 0.0)?;
+        let Maximum { at, objective, .. } = self.maximum(None, &start, 0.0)?;
         let bread = objective.information.cholesky()?.inverse();
-        let many = are_many(clusters, &self.sample.rows);
-        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
+        let (design, link) = (self.sample.design(), self.model.link);
         let fit = BinaryFit {
-            link: self.model.link,
+            link,
             estimator: Estimator::Ml,
             coefficients: at.clone(),
             covariance: bread.clone(),
             log_likelihood: f64::NAN,
             objective: objective.value,
         };
-        let influence = Influence::of_regression(&fit, &self.design, &self.sample.happened);
-        let clustered = || influence.clustered_covariance(&self.design, &bread, &clusters);
-        let covariance = if many { clustered() } else { bread.clone() };
-        let refit = |weights: &[f64]| Some(self.maximum(weights, &at, TOLERANCE)?.at);
-        let held_out = HeldOut::new(&self.design, &self.sample.happened, &clusters, self.model.link, refit);
+        let cluster = |rows: &Rows, case: usize| rows.labels[CLUSTER][case] as usize;
+        let clustered = || Influence::of_regression(&fit).clustered_covariance(&design, &bread, cluster);
+        let covariance = if self.sample.has_many_clusters() { clustered() } else { bread.clone() };
+        let refit = |weights: &[f64]| Some(self.maximum(Some(weights), &at, TOLERANCE)?.at);
+        let index = |b: &DVector<f64>, rows: &Rows| rows.indices(b.as_slice());
+        let held_out = HeldOut::new(&design, link, refit, index, |y| y != 0.0);
         let (coefficients, covariance) = (self.placed(&at), self.placed_covariance(&covariance));
         Some(BentFit { knots: self.knots, coefficients, covariance, held_out, gap: self.gap(straight, &fit) })
     }
 
-    /// The coefficients in each resample, as [`BentFit`] has them.
+    /// The coefficients in each resample, as [`BentFit`] has them. How often each case is drawn is held in memory here, however many
+    /// there are: bent curves are few.
     pub fn refits(&self, fit: &BentFit, resamples: &Resamples) -> [Option<[f64; BENT_TERMS]>; TOGETHER] {
         let start = DVector::from_iterator(self.terms.len(), self.terms.iter().map(|&k| fit.coefficients[k]));
+        let rows = self.sample.rows();
         std::array::from_fn(|resample| {
-            let weights = resamples.of(resample, &self.sample.rows);
-            Some(self.placed(&self.maximum(&weights, &start, TOLERANCE)?.at))
+            let weights = resamples.of(resample, &rows);
+            Some(self.placed(&self.maximum(Some(&weights), &start, TOLERANCE)?.at))
         })
     }
 
-    fn maximum(&self, weights: &[f64], start: &DVector<f64>, tolerance: f64) -> Option<Maximum> {
+    fn maximum(&self, weights: Option<&[f64]>, start: &DVector<f64>, tolerance: f64) -> Option<Maximum> {
         let likelihood = BinaryLikelihood {
-            design: &self.design,
-            events: &self.sample.happened,
+            design: self.sample.design(),
             weights,
             link: self.model.link,
             estimator: Estimator::Ml,
@@ -179,13 +169,15 @@ impl<'a> BentSample<'a> {
         placed
     }
 
+    /// Holds the probabilities of all cases in memory, as few curves have to.
     fn gap(&self, straight: &BinaryFit, bent: &BinaryFit) -> Gap {
-        let probabilities = |fit: &BinaryFit, design: &DesignMatrix| -> Vec<f64> {
-            fit.indices(design).into_iter().map(|index| fit.link.probability(index)).collect()
+        // The terms of the line come first.
+        let of_block = |rows: &Rows| -> Vec<Gap> {
+            let probability = |index: f64| self.model.link.probability(index);
+            let both = straight.indices(rows).into_iter().zip(bent.indices(rows));
+            both.map(|(line, bent)| Gap { straight: probability(line), bent: probability(bent) }).collect()
         };
-        let both =
-            probabilities(straight, &self.sample.design()).into_iter().zip(probabilities(bent, &self.design));
-        let mut gaps: Vec<Gap> = both.map(|(straight, bent)| Gap { straight, bent }).collect();
+        let mut gaps = self.sample.design().fold(0, of_block, |all, part| all.extend(part));
         gaps.sort_by(|a, b| b.size().total_cmp(&a.size()));
         gaps[gaps.len() / SELDOM]
     }

@@ -1,15 +1,15 @@
 //! P_ro: the probability of overturning given rocking, as a lognormal curve (Eqs. 19-24).
 
 use crate::fragility::overturning::parameter::CurveParameter;
-use crate::fragility::overturning::sample::EventSample;
+use crate::fragility::sample::Sample;
 use crate::normal;
 use crate::statistics::FitStatus;
-use crate::statistics::binary::{BinaryFit, Estimator, binary_regression};
-use crate::statistics::design::{Dependence, dependence, natural_spline};
+use crate::statistics::binary::{BinaryFit, Estimator, regress};
+use crate::statistics::design::{Dependence, Further, Moments, Spline};
 use crate::statistics::estimate::Estimate;
-use crate::statistics::goodness::{Test, auc, brier_score, hosmer_lemeshow};
+use crate::statistics::goodness::Goodness;
 use crate::statistics::link::Link;
-use crate::statistics::separation::is_separated;
+use crate::statistics::separation::is_separable;
 
 /// A curve from fewer events, or non-events, would be an opinion; Firth's needs one, and says in its limits how little it
 /// knows.
@@ -63,14 +63,8 @@ pub struct OverturningFit {
     pub aic: f64,
     /// Bayesian criterion.
     pub bic: f64,
-    /// Area under the receiver operating characteristic.
-    pub auc: f64,
-    /// Brier score.
-    pub brier: f64,
-    /// Hosmer and Lemeshow's test of the probabilities, where there are cases enough.
-    pub hosmer_lemeshow: Option<Test>,
-    /// Least and largest index of the cases.
-    pub index_range: [f64; 2],
+    /// How it does on its cases.
+    pub goodness: Goodness,
     /// Cases used.
     pub n: usize,
     /// Those in which the event happened.
@@ -89,7 +83,7 @@ impl OverturningFit {
 
     /// By which factor of the measure the median lies outside of the data; 1 inside.
     pub fn factor_of_median(&self) -> f64 {
-        let [least, largest] = self.index_range;
+        let [least, largest] = self.goodness.index_range;
         (self.beta.value * least.max(-largest)).exp().max(1.0)
     }
 }
@@ -98,25 +92,22 @@ impl OverturningFit {
 ///
 /// # Errors
 /// With the status that says why there is no curve: too few events, measures that do not vary, separation, no convergence.
-pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<OverturningFit, FitStatus> {
-    let (n, events) = (sample.happened.len(), sample.events());
+pub fn fit_overturning(sample: &Sample, model: &CurveModel) -> Result<OverturningFit, FitStatus> {
+    let (n, events, design) = (sample.cases(), sample.events(), sample.design());
     let least = if model.estimator == Estimator::Firth { 1 } else { LEAST_EVENTS };
     if events < least || n - events < least {
         return Err(FitStatus::TooFewEvents);
     }
-    let predictors = sample.predictors();
-    match dependence(&predictors) {
+    match Moments::of(&design).dependence() {
         Some(Dependence::Constant) => return Err(FitStatus::Constant),
         Some(Dependence::Collinear) => return Err(FitStatus::Collinear),
         None => {}
     }
-    if model.estimator == Estimator::Ml && is_separated(&predictors, &sample.happened) {
+    if model.estimator == Estimator::Ml && is_separable(&design) {
         return Err(FitStatus::Separated);
     }
-    let regression = binary_regression(&predictors, &sample.happened, model.link, model.estimator)
-        .map_err(|_| FitStatus::NotConverged)?;
-    let scores = regression.indices(&sample.design());
-    let probabilities: Vec<f64> = scores.iter().map(|&score| model.link.probability(score)).collect();
+    let regression = regress(design, model.link, model.estimator).map_err(|_| FitStatus::NotConverged)?;
+    let goodness = Goodness::of(&design, &regression);
     let log_likelihood = regression.log_likelihood;
     let b = &regression.coefficients;
     let quantile = normal::quantile(0.5 * (1.0 + model.confidence));
@@ -132,13 +123,7 @@ pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<Overt
         theta: mu.exp(),
         aic: 2.0 * parameters - 2.0 * log_likelihood,
         bic: parameters * (n as f64).ln() - 2.0 * log_likelihood,
-        auc: auc(&scores, &sample.happened),
-        brier: brier_score(&probabilities, &sample.happened),
-        hosmer_lemeshow: hosmer_lemeshow(&probabilities, &sample.happened),
-        index_range: [
-            scores.iter().copied().fold(f64::INFINITY, f64::min),
-            scores.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        ],
+        goodness,
         n,
         events,
         regression,
@@ -149,26 +134,29 @@ pub fn fit_overturning(sample: &EventSample, model: &CurveModel) -> Result<Overt
 ///
 /// # Errors
 /// With the status that says why there is none.
-pub fn fit_with_spline(sample: &EventSample, model: &CurveModel) -> Result<BinaryFit, FitStatus> {
-    fit_with(sample, &natural_spline(sample.predictors()[0]), model)
+pub fn fit_with_spline(sample: &Sample, model: &CurveModel) -> Result<BinaryFit, FitStatus> {
+    let spline = Spline::of(&sample.design());
+    fit_with(sample, 2, &|x| spline.columns(x[0]), model)
 }
 
 /// The slope on one measure depends on the other: a product of their logarithms; of a single measure its square.
 ///
 /// # Errors
 /// With the status that says why there is none.
-pub fn fit_with_interaction(sample: &EventSample, model: &CurveModel) -> Result<BinaryFit, FitStatus> {
-    let predictors = sample.predictors();
-    let pairs = predictors[0].iter().zip(predictors[predictors.len() - 1]);
-    fit_with(sample, &[pairs.map(|(x, y)| x * y).collect()], model)
+pub fn fit_with_interaction(sample: &Sample, model: &CurveModel) -> Result<BinaryFit, FitStatus> {
+    let product = |x: &[&[f64]]| x[0].iter().zip(x[x.len() - 1]).map(|(x, y)| x * y).collect();
+    fit_with(sample, 1, &|x| vec![product(x)], model)
 }
 
-fn fit_with(sample: &EventSample, terms: &[Vec<f64>], model: &CurveModel) -> Result<BinaryFit, FitStatus> {
-    let predictors: Vec<&[f64]> =
-        sample.predictors().into_iter().chain(terms.iter().map(Vec::as_slice)).collect();
-    if dependence(&predictors).is_some() {
+fn fit_with(
+    sample: &Sample,
+    count: usize,
+    terms: Further,
+    model: &CurveModel,
+) -> Result<BinaryFit, FitStatus> {
+    let design = sample.design().with(count, terms);
+    if Moments::of(&design).dependence().is_some() {
         return Err(FitStatus::Collinear);
     }
-    binary_regression(&predictors, &sample.happened, model.link, model.estimator)
-        .map_err(|_| FitStatus::NotConverged)
+    regress(design, model.link, model.estimator).map_err(|_| FitStatus::NotConverged)
 }

@@ -13,14 +13,17 @@
 use nalgebra::{DMatrix, DVector};
 use pulp::NullaryFnOnce;
 
-use super::sample::EventSample;
-use crate::resampling::bootstrap::{Resamples, TOGETHER};
+use crate::fragility::sample::Sample;
+use crate::normal;
+use crate::resampling::bootstrap::TOGETHER;
 use crate::resampling::case_terms::CaseTerms;
 use crate::resampling::monomials::Monomials;
 use crate::resampling::normal_equations::{LeastSquares, NormalEquations};
 use crate::statistics::binary::BinaryFit;
 use crate::statistics::derivatives::Scores;
-use crate::statistics::link::ln_probability_series;
+use crate::statistics::design::{Design, Rows, triangle_place};
+use crate::statistics::link::{Link, ln_probability_series};
+use crate::statistics::newton::Objective;
 use crate::wide::widest;
 
 /// The degree of the polynomial.
@@ -31,15 +34,6 @@ const LEFT_OUT: f64 = 2e-6;
 /// Where the polynomial is precise it takes fewer steps.
 const MOST_STEPS: usize = 10;
 
-/// The log-likelihood of resamples about a fit.
-pub struct Expansion {
-    fitted: DVector<f64>,
-    /// From standard errors, in which the coefficients do not depend on each other, to coefficients.
-    scale: DMatrix<f64>,
-    monomials: Monomials,
-    terms: CaseTerms,
-}
-
 /// Where the polynomial says that the likelihood is greatest.
 pub struct NearMaximum {
     pub at: DVector<f64>,
@@ -47,46 +41,154 @@ pub struct NearMaximum {
     pub precise: bool,
 }
 
-impl Expansion {
-    /// About a fit by maximum likelihood to a sample. None if its covariance is not definite.
-    pub fn new(sample: &EventSample, fit: &BinaryFit) -> Option<Expansion> {
-        let scale = fit.covariance.clone().cholesky()?.l();
-        let monomials = Monomials::new(fit.coefficients.len(), ORDER);
-        let design = sample.design();
-        let (indices, events) = (fit.indices(&design), &sample.happened);
+/// How a log-likelihood is expanded about a fit.
+pub struct Series {
+    link: Link,
+    fitted: DVector<f64>,
+    /// From standard errors, in which the coefficients do not depend on each other, to coefficients.
+    scale: DMatrix<f64>,
+    monomials: Monomials,
+}
+
+impl Series {
+    /// None if the covariance of the fit is not definite.
+    pub fn about(fit: &BinaryFit) -> Option<Series> {
+        Some(Series {
+            link: fit.link,
+            fitted: fit.coefficients.clone(),
+            scale: fit.covariance.clone().cholesky()?.l(),
+            monomials: Monomials::new(fit.coefficients.len(), ORDER),
+        })
+    }
+
+    /// What multiplies each monomial in the log-likelihood of each case.
+    fn terms(&self, rows: &Rows) -> Vec<Vec<f64>> {
+        let of_index = self.of_index(rows);
+        let terms = rows.each().zip(of_index);
+        terms
+            .map(|(row, series)| self.monomials.powers_of_sum(self.scale.tr_mul(&row).as_slice(), &series))
+            .collect()
+    }
+
+    /// The powers of a change of the index of each case.
+    fn of_index(&self, rows: &Rows) -> Vec<[f64; ORDER + 1]> {
+        let indices = rows.indices(self.fitted.as_slice());
         let (mut values, mut slopes, mut curvatures) =
             (indices.clone(), indices.clone(), vec![0.0; indices.len()]);
         widest(
             #[inline(always)]
             || {
-                fit.link.ln_probabilities(events, &mut values);
-                fit.link.scores(events, Scores { slope: &mut slopes, curvature: &mut curvatures });
+                self.link.ln_probabilities(rows.y, &mut values);
+                self.link.scores(rows.y, Scores { slope: &mut slopes, curvature: &mut curvatures });
             },
         );
-        let terms = design.rows().enumerate().map(|(case, row)| {
-            let series: [f64; ORDER + 1] =
-                ln_probability_series(fit.link, events[case], indices[case], values[case], slopes[case]);
-            monomials.powers_of_sum(scale.tr_mul(&row).as_slice(), &series)
-        });
-        let terms = CaseTerms::new(&sample.rows, monomials.count(), terms);
-        Some(Expansion { fitted: fit.coefficients.clone(), scale, monomials, terms })
+        let of_case = |case: usize| {
+            let event = rows.y[case] != 0.0;
+            ln_probability_series(self.link, event, indices[case], values[case], slopes[case])
+        };
+        (0..indices.len()).map(of_case).collect()
+    }
+
+    /// What multiplies each monomial in the log-likelihood of all cases.
+    fn sums(&self, design: &Design) -> Vec<f64> {
+        let of_block = |rows: &Rows| {
+            let of_index = self.of_index(rows);
+            let along = |k: usize| -> Vec<f64> {
+                let mut along = vec![0.0; rows.count()];
+                for (x, scale) in rows.x.iter().zip(self.scale.column(k).iter()) {
+                    along.iter_mut().zip(*x).for_each(|(along, x)| *along += scale * x);
+                }
+                along
+            };
+            let moved: Vec<Vec<f64>> = (0..rows.x.len()).map(along).collect();
+            self.monomials.sums_of_powers(&moved, &of_index)
+        };
+        design.fold(0, of_block, |sums, part| sums.iter_mut().zip(part).for_each(|(sum, part)| *sum += part))
+    }
+
+    /// The terms of each case of a sample, to be summed.
+    pub fn case_terms(&self, sample: &Sample) -> CaseTerms {
+        let of_all = sample.design().fold(0, |rows| self.terms(rows), |all, part| all.extend(part));
+        CaseTerms::new(&sample.rows(), self.count(), of_all.into_iter())
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.monomials.count()
     }
 
     /// The maximum in each resample to within `tolerance` of the log-likelihood, or where one Newton step leads; none
     /// where that leads nowhere.
-    pub fn maxima(&self, resamples: &Resamples, tolerance: f64) -> [Option<NearMaximum>; TOGETHER] {
-        let factors = self.terms.sums(resamples);
+    pub fn maxima(&self, factors: &[[f64; TOGETHER]], tolerance: f64) -> [Option<NearMaximum>; TOGETHER] {
         let Maxima { at, first, settled, left_out } =
-            widest(NewtonSteps { monomials: &self.monomials, factors: &factors, tolerance });
+            widest(NewtonSteps { monomials: &self.monomials, factors, tolerance });
         std::array::from_fn(|resample| {
             let of_resample = |of: &[[f64; TOGETHER]]| {
                 let moved = DVector::from_iterator(of.len(), of.iter().map(|moved| moved[resample]));
-                &self.fitted + &self.scale * moved
+                self.coefficients(&moved)
             };
             let precise = settled[resample] && left_out[resample] < LEFT_OUT;
             let at = of_resample(if settled[resample] { &at } else { &first });
             at.iter().all(|b| b.is_finite()).then_some(NearMaximum { at, precise })
         })
+    }
+
+    /// Coefficients, from how far they are from the fit in standard errors.
+    fn coefficients(&self, moved: &DVector<f64>) -> DVector<f64> {
+        &self.fitted + &self.scale * moved
+    }
+}
+
+/// The log-likelihood of all cases about their fit: where they are many, as good as itself as far as limits of confidence lie.
+pub struct Polynomial {
+    series: Series,
+    /// From coefficients to standard errors.
+    inverse: DMatrix<f64>,
+    factors: Vec<[f64; 1]>,
+}
+
+/// What terms that are left out may add to the log-likelihood.
+const LEAST_TERM: f64 = 1e-9;
+
+impl Polynomial {
+    /// None if the covariance of the fit is not definite.
+    pub fn about(fit: &BinaryFit, design: &Design) -> Option<Polynomial> {
+        let series = Series::about(fit)?;
+        let inverse = series.scale.clone().try_inverse()?;
+        let mut factors: Vec<[f64; 1]> = series.sums(design).into_iter().map(|factor| [factor]).collect();
+        factors[0] = [fit.log_likelihood];
+        Some(Polynomial { series, inverse, factors })
+    }
+
+    /// Whether the terms that are left out add nothing to it within limits of this confidence: taken to be less than the last two
+    /// degrees by as much as these are less than the two before.
+    pub fn holds(&self, confidence: f64) -> bool {
+        let monomials = &self.series.monomials;
+        let away = 1.2 * normal::quantile(0.5 * (1.0 + confidence));
+        let most = |degree: usize| {
+            let factors = &self.factors[monomials.of_degree(degree)];
+            away.powi(degree as i32) * factors.iter().map(|[factor]| factor.abs()).sum::<f64>()
+        };
+        let (last, before) = (most(ORDER) + most(ORDER - 1), most(ORDER - 2) + most(ORDER - 3));
+        last * last <= LEAST_TERM * before
+    }
+
+    /// Its value and derivatives at these coefficients.
+    pub fn at(&self, coefficients: &DVector<f64>) -> Objective {
+        let (monomials, factors) = (&self.series.monomials, &self.factors);
+        let moved: Vec<[f64; 1]> =
+            (&self.inverse * (coefficients - &self.series.fitted)).iter().map(|u| [*u]).collect();
+        let values = monomials.values(&moved);
+        let gradients = monomials.gradients(factors, &values, 0..monomials.count());
+        let curvatures = monomials.second_derivatives(factors, &values);
+        let k = moved.len();
+        let gradient = DVector::from_iterator(k, gradients.into_iter().flatten());
+        let information = DMatrix::from_fn(k, k, |i, j| -curvatures[triangle_place(i, j)][0]);
+        Objective {
+            value: factors.iter().zip(&values).map(|([factor], [value])| factor * value).sum(),
+            gradient: self.inverse.tr_mul(&gradient),
+            information: self.inverse.tr_mul(&information) * &self.inverse,
+        }
     }
 }
 

@@ -12,14 +12,15 @@ use super::curves::{fit_with_interaction, fit_with_spline};
 use super::inference::CurveInference;
 use super::inference::CurveRefits;
 use super::parameter::CurveParameter;
-use super::sample::EventSample;
-use crate::fragility::case::{Event, Measure};
-use crate::fragility::clusters::are_many;
-use crate::fragility::group::{CaseGroup, Progress, Uncertainty, fit_jointly};
+use crate::fragility::case::{Case, Event, Measure};
+use crate::fragility::cases::{CaseTable, Cases};
+use crate::fragility::group::{Progress, Refits, Uncertainty, fit_jointly};
 use crate::fragility::held_out::HeldOut;
-use crate::fragility::predictor::{BENT_TERMS, ranges};
+use crate::fragility::predictor::BENT_TERMS;
+use crate::fragility::sample::Sample;
 use crate::keyword::{self, Keyword};
-use crate::resampling::{BootstrapLimits, Resamples, Strata, TOGETHER, bootstrap_limits};
+use crate::resampling::case_terms::CaseTerms;
+use crate::resampling::{BootstrapLimits, Resamples, Sizes, TOGETHER, bootstrap_limits};
 use crate::statistics::{BinaryFit, Estimator, FitStatus, Limits, Test, likelihood_ratio};
 
 /// Two measures that make a hybrid one (Eq. 23), written as `im4:im3_inv`.
@@ -101,14 +102,14 @@ const SMALL_GAP: f64 = 0.05;
 impl Curve {
     /// Fits the curve of a sample of these measures, and tests it; what cases left out and resamples say is not asked.
     pub fn new(
-        sample: &EventSample,
+        sample: &Sample,
         event: Event,
         im_x: Measure,
         im_y: Option<Measure>,
         model: CurveModel,
     ) -> Curve {
         let fit = fit_overturning(sample, &model);
-        let needed = |bent: fn(&EventSample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
+        let needed = |bent: fn(&Sample, &CurveModel) -> Result<BinaryFit, FitStatus>| {
             let straight = &fit.as_ref().ok().filter(|_| model.estimator == Estimator::Ml)?.regression;
             Some(likelihood_ratio(straight, &bent(sample, &model).ok()?))
         };
@@ -117,9 +118,9 @@ impl Curve {
             event,
             im_x,
             im_y,
-            n: sample.happened.len(),
+            n: sample.cases(),
             events: sample.events(),
-            data_ranges: ranges(&sample.predictors()),
+            data_ranges: sample.ranges(),
             model,
             fit,
             spline,
@@ -151,8 +152,11 @@ impl Curve {
     }
 
     fn is_rejected(&self) -> bool {
-        let tests =
-            [self.fit.as_ref().ok().and_then(|fit| fit.hosmer_lemeshow), self.spline, self.interaction];
+        let tests = [
+            self.fit.as_ref().ok().and_then(|fit| fit.goodness.hosmer_lemeshow),
+            self.spline,
+            self.interaction,
+        ];
         tests.into_iter().flatten().any(|test| test.p < REJECTED / tests.len() as f64)
     }
 
@@ -163,6 +167,11 @@ impl Curve {
         let is_better =
             log_score(bent.held_out).zip(log_score(self.held_out)).is_none_or(|(bent, own)| bent > own);
         is_better.then_some(bent)
+    }
+
+    /// The cases that it is about.
+    fn sample(&self, cases: &[Case]) -> Sample {
+        event_sample(self.event, self.im_x, self.im_y, cases)
     }
 
     /// How uncertain a parameter is.
@@ -190,30 +199,94 @@ pub struct CurveOptions {
     pub uncertainty: Uncertainty,
 }
 
-/// A curve with the cases that it was fitted to.
-type SampledCurve = (Curve, EventSample);
-
-/// A curve, to be fitted in resamples of its cases.
-struct Refits<'a> {
-    straight: CurveRefits<'a>,
-    bent: Option<(BentSample<'a>, &'a BentFit)>,
+/// The cases of a curve: those that count for its event.
+fn event_sample<C: Cases + ?Sized>(event: Event, im_x: Measure, im_y: Option<Measure>, cases: &C) -> Sample {
+    let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
+    Sample::of_events(cases, &measures, |case| event.happened(case, f64::INFINITY))
 }
 
-/// The coefficients of a curve in a resample.
+/// A curve with the cases that it was fitted to.
+type SampledCurve = (Curve, Sample);
+
+/// The coefficients of a curve in a resample, straight and bent.
 type Replicate = (Option<DVector<f64>>, Option<[f64; BENT_TERMS]>);
 
-impl<'a> Refits<'a> {
-    fn new((curve, sample): &'a SampledCurve) -> Option<Refits<'a>> {
-        let straight = CurveRefits::new(sample, &curve.fit.as_ref().ok()?.regression);
-        let bent = curve.bent_answer().and_then(|fit| Some((BentSample::new(sample, &curve.model)?, fit)));
-        Some(Refits { straight, bent })
+type Straight = Option<[Option<DVector<f64>>; TOGETHER]>;
+type Bent = Option<[Option<[f64; BENT_TERMS]>; TOGETHER]>;
+
+/// The curves of a group, to be made anew in resamples of its cases.
+struct GroupRefits<'a> {
+    curves: &'a [SampledCurve],
+    refits: Vec<Option<CurveRefits<'a>>>,
+    /// Of those of which the bent curve answers.
+    bent: Vec<Option<(BentSample, &'a BentFit)>>,
+}
+
+impl<'a> GroupRefits<'a> {
+    fn new(curves: &'a Vec<SampledCurve>) -> GroupRefits<'a> {
+        let refits = |(curve, sample): &'a SampledCurve| {
+            Some(CurveRefits::new(sample, &curve.fit.as_ref().ok()?.regression))
+        };
+        let bent = |(curve, sample): &'a SampledCurve| {
+            let fit = curve.bent_answer()?;
+            Some((BentSample::new(sample, &curve.model)?, fit))
+        };
+        GroupRefits {
+            curves,
+            refits: curves.iter().map(refits).collect(),
+            bent: curves.iter().map(bent).collect(),
+        }
+    }
+}
+
+impl Refits for GroupRefits<'_> {
+    type Terms = Vec<Option<CaseTerms>>;
+    type Sums = Vec<Vec<[f64; TOGETHER]>>;
+    type Refit = Vec<Replicate>;
+
+    fn terms(&self, cases: &[Case]) -> Self::Terms {
+        let of_curve = |((curve, _), refits): (&SampledCurve, &Option<CurveRefits>)| {
+            refits.as_ref()?.terms(&curve.sample(cases))
+        };
+        self.curves.iter().zip(&self.refits).map(of_curve).collect()
     }
 
-    fn replicates(&self, resamples: &Resamples) -> [Replicate; TOGETHER] {
-        let mut straight = self.straight.coefficients(resamples);
-        let bent = self.bent.as_ref().map(|(sample, fit)| sample.refits(fit, resamples));
+    fn none(&self) -> Self::Sums {
+        let none = |refits: &Option<CurveRefits>| {
+            vec![[0.0; TOGETHER]; refits.as_ref().map_or(0, CurveRefits::count)]
+        };
+        self.refits.iter().map(none).collect()
+    }
+
+    fn add(&self, terms: &Self::Terms, resamples: &Resamples, sums: &mut Self::Sums) {
+        for (sums, terms) in sums.iter_mut().zip(terms) {
+            let more = terms.as_ref().map_or(Vec::new(), |terms| terms.sums(resamples));
+            let all = sums.iter_mut().flatten().zip(more.iter().flatten());
+            all.for_each(|(sum, more)| *sum += more);
+        }
+    }
+
+    fn refits<'w>(
+        &self,
+        sums: Self::Sums,
+        whole: &(dyn Fn() -> &'w Resamples + 'w),
+    ) -> [Self::Refit; TOGETHER] {
+        let of_all = |(refits, sums): (&Option<CurveRefits>, &Vec<[f64; TOGETHER]>)| {
+            Some(refits.as_ref()?.of_sums(sums, whole))
+        };
+        let mut straight: Vec<_> = self.refits.iter().zip(&sums).map(of_all).collect();
+        let bent = |bent: &Option<(BentSample, &BentFit)>| {
+            bent.as_ref().map(|(sample, fit)| sample.refits(fit, whole()))
+        };
+        let bent: Vec<_> = self.bent.iter().map(bent).collect();
         std::array::from_fn(|resample| {
-            (straight[resample].take(), bent.as_ref().and_then(|bent| bent[resample]))
+            let of_curve = |(straight, bent): (&mut Straight, &Bent)| {
+                (
+                    straight.as_mut().and_then(|fits| fits[resample].take()),
+                    bent.and_then(|bent| bent[resample]),
+                )
+            };
+            straight.iter_mut().zip(&bent).map(of_curve).collect()
         })
     }
 }
@@ -223,45 +296,51 @@ impl CurveOptions {
     ///
     /// # Errors
     /// Those of `progress`.
-    pub fn fit<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Vec<Curve>>, E> {
-        fit_jointly(groups, |groups| self.fit_alike(groups, progress))
+    pub fn fit<E: Send>(&self, groups: &[&CaseTable], progress: Progress<E>) -> Result<Vec<Vec<Curve>>, E> {
+        fit_jointly(groups, &self.uncertainty, |groups, sizes| self.fit_alike(groups, sizes, progress))
     }
 
     /// Of groups with the same cells.
-    fn fit_alike<E: Send>(&self, groups: &[CaseGroup], progress: Progress<E>) -> Result<Vec<Vec<Curve>>, E> {
-        let curves = |group: &CaseGroup| {
+    fn fit_alike<E: Send>(
+        &self,
+        groups: &[&CaseTable],
+        sizes: &Sizes,
+        progress: Progress<E>,
+    ) -> Result<Vec<Vec<Curve>>, E> {
+        let curves = |group: &&CaseTable| {
             progress(1)?;
             Ok(self.curves(group))
         };
         let mut fitted = groups.par_iter().map(curves).collect::<Result<Vec<_>, E>>()?;
         if self.uncertainty.replicates > 0 {
-            self.resample(groups[0].cells, progress, &mut fitted)?;
+            self.resample(groups, sizes, progress, &mut fitted)?;
         }
-        let infer = |(curves, group): (Vec<SampledCurve>, &CaseGroup)| {
-            let inferred = |(curve, sample)| self.infer(group, curve, &sample);
-            curves.into_iter().map(inferred).collect()
+        let infer = |curves: Vec<SampledCurve>| {
+            curves.into_par_iter().map(|(curve, sample)| self.infer(sizes, curve, &sample)).collect()
         };
-        Ok(fitted.into_par_iter().zip(groups).map(infer).collect())
+        Ok(fitted.into_par_iter().map(infer).collect())
     }
 
-    fn curves(&self, group: &CaseGroup) -> Vec<SampledCurve> {
+    fn curves(&self, cases: &CaseTable) -> Vec<SampledCurve> {
         let scalar = Measure::SCALAR.into_iter().map(|measure| (measure, None));
         let measures = scalar.chain(self.pairs.iter().map(|&Pair(x, y)| (x, Some(y))));
-        measures.map(|(im_x, im_y)| self.curve(group, im_x, im_y)).collect()
+        measures
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|(im_x, im_y)| self.curve(cases, im_x, im_y))
+            .collect()
     }
 
-    fn curve(&self, group: &CaseGroup, im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
-        let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
-        let sample =
-            EventSample::new(group.cases, &measures, |case| self.event.happened(case, f64::INFINITY));
+    fn curve(&self, cases: &CaseTable, im_x: Measure, im_y: Option<Measure>) -> SampledCurve {
+        let sample = event_sample(self.event, im_x, im_y, cases);
         let mut curve = Curve::new(&sample, self.event, im_x, im_y, self.model);
         if let Ok(fit) = &curve.fit {
             let straight = &fit.regression;
             let inference = CurveInference::new(&sample, straight);
-            curve.held_out = inference.held_out(group.clusters);
-            let many = are_many(group.clusters, &sample.rows);
-            curve.clustered_covariance = many.then(|| inference.clustered_covariance(group.clusters));
-            let bent = || BentSample::new(&sample, &self.model)?.fit(straight, group.clusters);
+            curve.held_out = inference.held_out();
+            let many = sample.has_many_clusters();
+            curve.clustered_covariance = many.then(|| inference.covariance_by_cluster());
+            let bent = || BentSample::new(&sample, &self.model)?.fit(straight);
             curve.bent = curve.is_rejected().then(bent).flatten();
         }
         (curve, sample)
@@ -270,22 +349,13 @@ impl CurveOptions {
     /// Adds the coefficients in each resample.
     fn resample<E: Send>(
         &self,
-        cells: &[usize],
+        groups: &[&CaseTable],
+        sizes: &Sizes,
         progress: Progress<E>,
         fitted: &mut [Vec<SampledCurve>],
     ) -> Result<(), E> {
-        let groups: Vec<Vec<Option<Refits>>> =
-            fitted.par_iter().map(|curves| curves.iter().map(Refits::new).collect()).collect();
-        let resampled = self.uncertainty.bootstrap(cells, &groups, progress, |refits, resamples| {
-            let of_all = |refits: &Option<Refits>| Some(refits.as_ref()?.replicates(resamples));
-            let mut fits: Vec<Option<[Replicate; TOGETHER]>> = refits.iter().map(of_all).collect();
-            std::array::from_fn(|resample| -> Vec<Replicate> {
-                let of_curve = |fit: &mut Option<[Replicate; TOGETHER]>| {
-                    fit.as_mut().map(|fits| std::mem::take(&mut fits[resample])).unwrap_or_default()
-                };
-                fits.iter_mut().map(of_curve).collect()
-            })
-        })?;
+        let refits: Vec<GroupRefits> = fitted.iter().map(GroupRefits::new).collect();
+        let resampled = self.uncertainty.bootstrap(groups, sizes, &refits, progress)?;
         for (curves, replicates) in fitted.iter_mut().zip(resampled) {
             for fits in replicates {
                 for ((curve, _), (straight, bent)) in curves.iter_mut().zip(fits) {
@@ -298,21 +368,22 @@ impl CurveOptions {
     }
 
     /// Adds clustered errors, profile-likelihood limits, and limits from the replicates if there are any.
-    fn infer(&self, group: &CaseGroup, mut curve: Curve, sample: &EventSample) -> Curve {
+    fn infer(&self, sizes: &Sizes, mut curve: Curve, sample: &Sample) -> Curve {
         let Ok(fit) = &curve.fit else { return curve };
         let (inference, confidence) =
             (CurveInference::new(sample, &fit.regression), self.uncertainty.confidence);
-        let strata = Strata::new(group.cells);
-        let clustered = inference.clustered_covariance(group.clusters);
+        let clustered = inference.covariance_by_cluster();
         let of = |parameter: &CurveParameter| {
-            let replicates = inference.parameters(*parameter, &curve.replicates);
-            let acceleration = inference.acceleration(*parameter, &strata);
-            let estimate = inference.fitted(*parameter);
+            let of_replicates = || {
+                let replicates = inference.parameters(*parameter, &curve.replicates);
+                let acceleration = inference.acceleration_by_cell(*parameter, sizes);
+                bootstrap_limits(inference.fitted(*parameter), &replicates, acceleration, confidence)
+            };
             ParameterInference {
                 parameter: *parameter,
                 clustered_error: inference.standard_error(*parameter, &clustered),
                 profile: inference.profile_limits(*parameter, confidence),
-                bootstrap: bootstrap_limits(estimate, &replicates, acceleration, confidence),
+                bootstrap: if curve.replicates.is_empty() { None } else { of_replicates() },
             }
         };
         curve.inference = inference.curve_parameters().iter().map(of).collect();

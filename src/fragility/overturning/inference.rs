@@ -1,20 +1,23 @@
 //! How sure the parameters of a curve are: clustered errors, profile-likelihood limits and refits of resampled cases.
 
+use std::sync::OnceLock;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::fragility::held_out::HeldOut;
-use crate::fragility::overturning::expansion::{Expansion, NearMaximum};
+use crate::fragility::overturning::expansion::{NearMaximum, Polynomial, Series};
 use crate::fragility::overturning::parameter::CurveParameter;
 use crate::fragility::overturning::profile::profile_limits;
-use crate::fragility::overturning::sample::EventSample;
-use crate::resampling::bootstrap::{Resamples, Strata, TOGETHER};
-use crate::resampling::limits::acceleration;
+use crate::fragility::sample::Sample;
+use crate::resampling::bootstrap::{Resamples, Sizes, Strata, TOGETHER};
+use crate::resampling::case_terms::CaseTerms;
+use crate::resampling::limits::{Moves, acceleration_of, add_move, join_moves};
 use crate::statistics::binary::{BinaryFit, BinaryLikelihood, Estimator};
-use crate::statistics::design::DesignMatrix;
+use crate::statistics::design::Rows;
 use crate::statistics::estimate::Limits;
 use crate::statistics::influence::Influence;
 use crate::statistics::newton::{Along, Maximum, maximise};
-use crate::statistics::separation::is_separated;
+use crate::statistics::separation::is_separable;
 
 /// What the last step may gain in log-likelihood. It then moves the coefficients by some 1e-3 of their standard errors, and
 /// Newton's convergence squares that.
@@ -24,33 +27,44 @@ const SUSPICIOUS_STEPS: usize = 6;
 
 /// A curve with the cases it was fitted to.
 pub struct CurveInference<'a> {
-    sample: &'a EventSample,
+    sample: &'a Sample,
     fit: &'a BinaryFit,
-    design: DesignMatrix,
-    once_each: Vec<f64>,
     influence: Influence,
+    /// The likelihood about the fit, where there are many cases.
+    polynomial: OnceLock<Option<Polynomial>>,
 }
 
 impl<'a> CurveInference<'a> {
     /// Of a curve and the sample it was fitted to.
-    pub fn new(sample: &'a EventSample, fit: &'a BinaryFit) -> CurveInference<'a> {
-        let design = sample.design();
-        let influence = Influence::of_regression(fit, &design, &sample.happened);
-        CurveInference { sample, fit, design, once_each: vec![1.0; sample.happened.len()], influence }
+    pub fn new(sample: &'a Sample, fit: &'a BinaryFit) -> CurveInference<'a> {
+        CurveInference { sample, fit, influence: Influence::of_regression(fit), polynomial: OnceLock::new() }
     }
 
     /// The covariance of the coefficients where cases of one cluster may depend on each other; `clusters` are those of all
     /// cases.
     pub fn clustered_covariance(&self, clusters: &[usize]) -> DMatrix<f64> {
-        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
-        self.influence.clustered_covariance(&self.design, &self.fit.covariance, &clusters)
+        self.sandwich(|rows, case| clusters[rows.labels[0][case] as usize])
     }
 
-    /// What cases say that were left out; `clusters` are those of all cases.
-    pub fn held_out(&self, clusters: &[usize]) -> Option<HeldOut> {
-        let clusters: Vec<usize> = self.sample.rows.iter().map(|&row| clusters[row]).collect();
-        let refit = |weights: &[f64]| self.coefficients(weights);
-        HeldOut::new(&self.design, &self.sample.happened, &clusters, self.fit.link, refit)
+    /// The same, of the clusters of the sample.
+    pub fn covariance_by_cluster(&self) -> DMatrix<f64> {
+        self.sandwich(|rows, case| rows.labels[1][case] as usize)
+    }
+
+    fn sandwich(&self, cluster: impl Fn(&Rows, usize) -> usize + Sync) -> DMatrix<f64> {
+        self.influence.clustered_covariance(&self.sample.design(), &self.fit.covariance, cluster)
+    }
+
+    /// What cases say that were left out, whole clusters of the sample at once.
+    pub fn held_out(&self) -> Option<HeldOut> {
+        let (design, link) = (self.sample.design(), self.fit.link);
+        HeldOut::new(
+            &design,
+            link,
+            |weights| self.coefficients(weights),
+            |b, rows| rows.indices(b.as_slice()),
+            |y| y != 0.0,
+        )
     }
 
     /// The standard error of a parameter that follows from a covariance of the coefficients.
@@ -60,19 +74,27 @@ impl<'a> CurveInference<'a> {
 
     /// Limits of a parameter by the profile likelihood.
     pub fn profile_limits(&self, parameter: CurveParameter, confidence: f64) -> Limits {
-        profile_limits(&self.likelihood(&self.once_each), self.fit, parameter, confidence)
+        let polynomial = self.polynomial.get_or_init(|| {
+            let is_worth_it = self.fit.estimator == Estimator::Ml && self.sample.design().is_many();
+            is_worth_it.then(|| Polynomial::about(self.fit, &self.sample.design())).flatten()
+        });
+        let likelihood = self.likelihood(None);
+        match polynomial.as_ref().filter(|polynomial| polynomial.holds(confidence)) {
+            Some(polynomial) => profile_limits(&|b| polynomial.at(b), self.fit, parameter, confidence),
+            None => profile_limits(&|b| likelihood.at(b), self.fit, parameter, confidence),
+        }
     }
 
     /// The coefficients where each case of the sample counts so often; none without a maximum of the likelihood.
     pub fn coefficients(&self, weights: &[f64]) -> Option<DVector<f64>> {
-        let step = || self.influence.step(&self.design, weights);
+        let step = || self.influence.step(&self.sample.design(), weights);
         let likelihood = self.fit.estimator == Estimator::Ml;
         self.maximum(weights, likelihood.then(step).flatten().map(|step| &self.fit.coefficients + step))
     }
 
     /// The same, by plain Newton steps of the likelihood alone if they may start nearby.
     pub(crate) fn maximum(&self, weights: &[f64], nearby: Option<DVector<f64>>) -> Option<DVector<f64>> {
-        let likelihood = self.likelihood(weights);
+        let likelihood = self.likelihood(Some(weights));
         if let Some(start) = nearby {
             let plain = maximise(|b| likelihood.derivatives_at(b), &start, Along::All, TOLERANCE);
             if let Some(Maximum { at, .. }) = plain.filter(|maximum| maximum.steps < SUSPICIOUS_STEPS) {
@@ -104,56 +126,97 @@ impl<'a> CurveInference<'a> {
 
     /// The acceleration of a parameter for BCa limits.
     pub fn acceleration(&self, parameter: CurveParameter, strata: &Strata) -> f64 {
-        let (link, fitted) = (self.fit.link, &self.fit.coefficients);
-        let mut without_each = vec![self.fitted(parameter); strata.rows()];
-        let changes = self.influence.without_each(&self.design, &self.fit.covariance);
-        for (&row, change) in self.sample.rows.iter().zip(changes) {
-            without_each[row] = parameter.value(link, &(fitted + change));
-        }
-        acceleration(&without_each, strata)
+        let cell = |rows: &Rows, case: usize| strata.label_of(rows.labels[0][case] as usize);
+        self.acceleration_within(parameter, &strata.sizes(), cell)
     }
 
-    fn likelihood<'b>(&'b self, weights: &'b [f64]) -> BinaryLikelihood<'b> {
+    /// The same within the cells of the sample, which have such sizes among all cases.
+    pub fn acceleration_by_cell(&self, parameter: CurveParameter, sizes: &Sizes) -> f64 {
+        self.acceleration_within(parameter, sizes, |rows, case| rows.labels[2][case] as usize)
+    }
+
+    fn acceleration_within(
+        &self,
+        parameter: CurveParameter,
+        sizes: &Sizes,
+        cell: impl Fn(&Rows, usize) -> usize + Sync,
+    ) -> f64 {
+        let (link, fitted, value) = (self.fit.link, &self.fit.coefficients, self.fitted(parameter));
+        let of_block = |rows: &Rows| {
+            let mut moves = Moves::new();
+            let changes = self.influence.without_each(rows, &self.fit.covariance);
+            for (case, change) in changes.into_iter().enumerate() {
+                let by = parameter.value(link, &(fitted + change)) - value;
+                add_move(&mut moves, cell(rows, case), by);
+            }
+            moves
+        };
+        acceleration_of(&self.sample.design().fold(3, of_block, join_moves), sizes)
+    }
+
+    fn likelihood<'b>(&'b self, weights: Option<&'b [f64]>) -> BinaryLikelihood<'b> {
         let BinaryFit { link, estimator, .. } = *self.fit;
-        BinaryLikelihood { design: &self.design, events: &self.sample.happened, weights, link, estimator }
+        BinaryLikelihood { design: self.sample.design(), weights, link, estimator }
     }
 
     fn separated(&self, weights: &[f64]) -> bool {
         let drawn = |values: &[f64]| -> Vec<f64> {
             values.iter().zip(weights).filter(|(_, weight)| **weight > 0.0).map(|(x, _)| *x).collect()
         };
-        let columns: Vec<Vec<f64>> = self.sample.predictors().into_iter().map(drawn).collect();
-        let events = self.sample.happened.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
-        let events: Vec<bool> = events.map(|(event, _)| *event).collect();
-        is_separated(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), &events)
+        let columns = self.sample.predictors().iter().map(|values| drawn(values)).collect();
+        is_separable(&Sample::of_columns(columns, drawn(&self.sample.observed())).design())
     }
 }
 
 /// A curve, to be fitted in resamples of its cases.
 pub struct CurveRefits<'a> {
-    rows: &'a [usize],
+    sample: &'a Sample,
     inference: CurveInference<'a>,
-    expansion: Option<Expansion>,
+    series: Option<Series>,
+    /// Those of the sample.
+    terms: OnceLock<Option<CaseTerms>>,
 }
 
 impl<'a> CurveRefits<'a> {
     /// Of a curve and the sample it was fitted to.
-    pub fn new(sample: &'a EventSample, fit: &'a BinaryFit) -> CurveRefits<'a> {
-        let expansion = (fit.estimator == Estimator::Ml).then(|| Expansion::new(sample, fit)).flatten();
-        CurveRefits { rows: &sample.rows, inference: CurveInference::new(sample, fit), expansion }
+    pub fn new(sample: &'a Sample, fit: &'a BinaryFit) -> CurveRefits<'a> {
+        let series = (fit.estimator == Estimator::Ml).then(|| Series::about(fit)).flatten();
+        CurveRefits { sample, inference: CurveInference::new(sample, fit), series, terms: OnceLock::new() }
+    }
+
+    /// The terms of the likelihood of some of the cases, if it is expanded.
+    pub(super) fn terms(&self, some: &Sample) -> Option<CaseTerms> {
+        Some(self.series.as_ref()?.case_terms(some))
+    }
+
+    /// How many terms of a case are summed.
+    pub(super) fn count(&self) -> usize {
+        self.series.as_ref().map_or(0, Series::count)
     }
 
     /// The coefficients in each resample; none without a maximum of the likelihood. They are those of the expansion where it
     /// is precise; otherwise it is where Newton's steps start.
     pub fn coefficients(&self, resamples: &Resamples) -> [Option<DVector<f64>>; TOGETHER] {
-        let mut nearby = match &self.expansion {
-            Some(expansion) => expansion.maxima(resamples, TOLERANCE),
+        let terms = self.terms.get_or_init(|| self.terms(self.sample));
+        let sums = terms.as_ref().map_or(Vec::new(), |terms| terms.sums(resamples));
+        self.of_sums(&sums, &|| resamples)
+    }
+
+    /// The same from the sums of the terms; `whole` tells how often each of all cases is drawn.
+    pub(super) fn of_sums<'w>(
+        &self,
+        sums: &[[f64; TOGETHER]],
+        whole: &(dyn Fn() -> &'w Resamples + 'w),
+    ) -> [Option<DVector<f64>>; TOGETHER] {
+        let mut nearby = match &self.series {
+            Some(series) => series.maxima(sums, TOLERANCE),
             None => [const { None }; TOGETHER],
         };
+        let rows = OnceLock::new();
         std::array::from_fn(|resample| match nearby[resample].take() {
             Some(NearMaximum { at, precise: true }) => Some(at),
             start => {
-                let weights = resamples.of(resample, self.rows);
+                let weights = whole().of(resample, rows.get_or_init(|| self.sample.rows()));
                 self.inference.maximum(&weights, start.map(|start| start.at))
             }
         })

@@ -1,7 +1,6 @@
 //! P_ro: curves of the probability of overturning (Eqs. 19 to 24).
 //!
 //! ```text
-//! sample     the cases of a curve
 //! curves     scalar and hybrid curves, and curves with terms more, against which they are tested
 //! bent       the same with an index that bends, where tests reject the straight one
 //! parameter  lambda, mu and beta from the coefficients of the regression; profile: their limits by the profile likelihood
@@ -15,7 +14,6 @@ pub(crate) mod group;
 pub(crate) mod inference;
 pub(crate) mod parameter;
 pub(crate) mod profile;
-pub(crate) mod sample;
 
 pub use bent::{BentFit, Gap};
 pub use curves::{CurveModel, LEAST_EVENTS, OverturningFit, fit_overturning, has_few_events};
@@ -24,4 +22,3 @@ pub use group::{Curve, CurveOptions, Pair, ParameterInference};
 pub use inference::CurveInference;
 pub use inference::CurveRefits;
 pub use parameter::CurveParameter;
-pub use sample::EventSample;

@@ -4,9 +4,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::parameter::{CurveParameter, slope};
 use crate::normal;
-use crate::statistics::binary::{BinaryFit, BinaryLikelihood};
+use crate::statistics::binary::BinaryFit;
 use crate::statistics::estimate::Limits;
-use crate::statistics::newton::Along;
+use crate::statistics::newton::{Along, Objective, maximise};
 use crate::statistics::search::root;
 
 /// What the last Newton step to a constrained maximum may gain.
@@ -20,7 +20,7 @@ const MOST_STEPS: usize = 20;
 /// squared of its maximum (Venzon & Moolgavkar 1988, Applied Statistics 37, 87-94; for a penalised likelihood Heinze &
 /// Schemper 2002, Statistics in Medicine 21, 2409-2419). Infinite where it never falls so far.
 pub fn profile_limits(
-    likelihood: &BinaryLikelihood,
+    likelihood: &dyn Fn(&DVector<f64>) -> Objective,
     fit: &BinaryFit,
     parameter: CurveParameter,
     confidence: f64,
@@ -37,7 +37,7 @@ pub fn profile_limits(
 
 /// The profile of a likelihood over lambda, mu or, for beta, the slope 1/beta, in which it is regular.
 struct Profile<'a> {
-    likelihood: &'a BinaryLikelihood<'a>,
+    likelihood: &'a dyn Fn(&DVector<f64>) -> Objective,
     fit: &'a BinaryFit,
     parameter: CurveParameter,
 }
@@ -89,7 +89,7 @@ impl Profile<'_> {
     /// The place where the parameter has this value, searched from coefficients nearby.
     fn at(&self, value: f64, near: &DVector<f64>) -> Option<Place> {
         let (start, directions) = self.constrained(value, near);
-        let maximum = self.likelihood.maximise(&start, Along::Columns(&directions), TOLERANCE)?;
+        let maximum = maximise(self.likelihood, &start, Along::Columns(&directions), TOLERANCE)?;
         let fall = self.fit.objective - maximum.objective.value;
         Some(Place { value, coefficients: maximum.at, depth: (2.0 * fall).max(0.0).sqrt() })
     }

@@ -2,7 +2,6 @@
 
 pub mod verdict;
 
-use anyhow::Context;
 use clap::Args;
 use polars::prelude::DataFrame;
 use rayon::prelude::*;
@@ -22,7 +21,7 @@ use crate::pipeline::terminal::Terminal;
 use crate::stages::shared::groups::{self, Group};
 use crate::stages::shared::motions::note_passed_over;
 use crate::stages::shared::uncertainty::LIMIT_STATE;
-use crate::studies::{FurtherMeasure, MeasureRanking, RankingRules, RankingSample, Target};
+use crate::studies::{FurtherMeasure, MeasureRanking, RankingRules, RankingSample, Rating, Target};
 use crate::table::motion_measures::{MotionMeasures, OwnMeasure, own_columns};
 use crate::table::ranking::{RANKING, RankedCandidate, RankingRow, ReliabilityRow};
 use crate::table::store::provenance::Provenance;
@@ -115,22 +114,19 @@ impl RankIms {
 }
 
 /// The measures of a group that its motions have besides those of Eq. 13.
-fn further(group: &Group, motions: &MotionMeasures) -> anyhow::Result<Vec<FurtherMeasure>> {
-    let ids = group.motion_ids.iter().zip(&group.pga_m_s2);
-    let rows = ids.map(|(id, &pga)| motions.row(id, pga)).collect::<anyhow::Result<Vec<usize>>>()?;
+fn further(group: &Group, rows: &[usize], motions: &MotionMeasures) -> Vec<FurtherMeasure> {
     let measures = motions.further.iter().map(|measure| FurtherMeasure {
         name: measure.name.clone(),
         ln: rows
             .iter()
-            .enumerate()
-            .map(|(response, &row)| {
-                let structure = group.structure_of(response);
+            .zip(group.structures())
+            .map(|(&row, structure)| {
                 let value = measure.quantity.dimensionless(measure.values[row]?, &structure);
                 Some(value).filter(|value| *value > 0.0).map(f64::ln)
             })
             .collect(),
     });
-    Ok(measures.collect())
+    measures.collect()
 }
 
 /// All candidates for one target in a group.
@@ -138,14 +134,15 @@ fn rows(group: &Group, sample: RankingSample, rules: &RankingRules) -> Vec<Ranke
     let (target, n) = (sample.target, sample.len());
     let events = sample.happened.iter().filter(|&&happened| happened).count();
     let ranking = MeasureRanking::new(sample, rules);
-    let ratings = ranking.candidates.par_iter().map(|candidate| ranking.rate(candidate)).collect();
+    let ratings = ranking.candidates.par_iter();
+    let ratings = ratings.map(|candidate| ranking.rate(candidate).map(Rating::without_cases)).collect();
     let row = |ranked| RankedCandidate {
         suite: group.suite.clone(),
         structure: group.structure.clone(),
         target,
         n,
         events,
-        clustered_by: group.clusters.shared.as_str(),
+        clustered_by: group.shared.as_str(),
         ranked,
     };
     ranking.rank(ratings).into_iter().map(row).collect()
@@ -209,7 +206,6 @@ impl Stage for RankIms {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
-        let groups = groups::read(&self.input)?;
         let own: Vec<OwnMeasure> =
             self.options.candidate.iter().flat_map(|Several(own)| own.iter().map(|own| own.0)).collect();
         let motions = match &self.motions {
@@ -219,21 +215,37 @@ impl Stage for RankIms {
             }
             None => None,
         };
+        // The row of the motion of each response of each group, or the first that has none.
+        let mut rows_of: Vec<anyhow::Result<Vec<usize>>> = Vec::new();
+        let groups = groups::read_each(&self.input, |group, response| {
+            let Some(motions) = &motions else { return };
+            rows_of.resize_with(rows_of.len().max(group + 1), || Ok(Vec::new()));
+            if let Ok(rows) = &mut rows_of[group] {
+                match motions.row(&response.motion_id.to_string(), response.pga_m_s2) {
+                    Ok(row) => rows.push(row),
+                    Err(error) => {
+                        let of = format!("responses of '{}'", response.structure);
+                        rows_of[group] = Err(error.context(of));
+                    }
+                }
+            }
+        })?;
+        let mut rows_of = rows_of.into_iter();
         let mut samples: Vec<(&Group, RankingSample)> = Vec::new();
         for group in &groups {
-            let further = motions.as_ref().map_or(Ok(Vec::new()), |motions| further(group, motions));
-            let further = further.with_context(|| format!("responses of '{}'", group.structure))?;
+            let rows = rows_of.next().transpose()?.unwrap_or_default();
+            let further = motions.as_ref().map_or(Vec::new(), |motions| further(group, &rows, motions));
+            let (cases, clusters) = (group.cases.to_vec(), group.cases.clusters());
             let sample = |&target: &Target| {
-                let clusters = &group.clusters.numbers;
                 let limit_state = self.options.limit_state;
-                (group, RankingSample::new(target, &group.cases, clusters, &further, limit_state))
+                (group, RankingSample::new(target, &cases, &clusters, &further, limit_state))
             };
             samples.extend(Target::ALL.iter().map(sample));
         }
         warn(&samples, console);
         let targets = samples.len();
         let ranked: Vec<Vec<RankedCandidate>> =
-            samples.into_par_iter().map(|(group, sample)| rows(group, sample, &self.rules)).collect();
+            samples.into_iter().map(|(group, sample)| rows(group, sample, &self.rules)).collect();
         let reliability: Vec<ReliabilityRow> =
             ranked.iter().flatten().flat_map(RankedCandidate::reliability).collect();
         ReliabilityRow::write(&reliability, self.reliability_target(), provenance)?;

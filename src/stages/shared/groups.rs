@@ -4,19 +4,21 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use anyhow::anyhow;
+use rayon::prelude::*;
 
-use crate::fragility::{Case, CaseGroup, Clusters, JointPeaks, cells};
+use crate::fragility::{Case, CaseTable, Clusters, JointPeaks, SharedBy};
 use crate::rocking::Block;
 use crate::rocking::Structure;
+use crate::statistics::columns::{Columns, Scratch};
 use crate::table::TableError;
 use crate::table::ida::IDA_STRIPES;
 use crate::table::responses::{RESPONSES, ResponseCase};
 use crate::table::row::Row;
-use crate::table::store::reader::Batches;
+use crate::table::store::reader::{Batch, Batches};
 use crate::table::store::source::{Source, with_part};
 
 /// All responses of one structure to one suite.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub struct Group {
     /// The suite, if known.
     pub suite: Option<String>,
@@ -25,49 +27,57 @@ pub struct Group {
     /// Its coefficient of restitution.
     pub eta: f64,
     /// Its responses, in the order of the file.
-    pub cases: Vec<Case>,
-    /// The frequency parameter, rad/s, in each.
-    pub p_rad_s: Vec<f64>,
-    /// The slenderness, rad, in each.
-    pub alpha_rad: Vec<f64>,
-    /// What the motion of each is called.
-    pub motion_ids: Vec<String>,
-    /// Peak ground acceleration of each, m/s2.
-    pub pga_m_s2: Vec<f64>,
-    /// The number of the cell of magnitude and distance of each, within which a bootstrap resamples; one cell for all that
-    /// have neither.
-    pub cells: Vec<usize>,
-    /// Which of them may depend on each other.
-    pub clusters: Clusters,
+    pub cases: CaseTable,
+    /// The logarithms of PGA (m/s2) and PGV (m/s) of each.
+    peaks: Columns,
+    /// The frequency parameter, rad/s, and the slenderness, rad, of each.
+    blocks: Columns,
+    /// Of the first one.
+    first: Block,
+    /// Whether all share it.
+    is_one_block: bool,
+    /// What responses share that may depend on each other.
+    pub shared: SharedBy,
 }
 
 impl Group {
-    /// What the fits take.
-    pub fn to_fit(&self) -> CaseGroup<'_> {
-        CaseGroup { cases: &self.cases, cells: &self.cells, clusters: &self.clusters.numbers }
-    }
-
     /// The size and slenderness, if all responses share them.
     pub fn block(&self) -> Option<Block> {
-        let same = |values: &[f64]| {
-            values.first().copied().filter(|first| values.iter().all(|value| value == first))
-        };
-        Some(Block { p_rad_s: same(&self.p_rad_s)?, alpha_rad: same(&self.alpha_rad)? })
+        self.is_one_block.then_some(self.first)
     }
 
     /// How PGA and PGV go together in its motions.
     pub fn peaks(&self) -> Option<JointPeaks> {
-        let pgv = |(row, case): (usize, &Case)| {
-            let structure = self.structure_of(row);
-            case.measures.im5 * structure.uplift_acceleration_m_s2() / structure.p_rad_s
-        };
-        JointPeaks::of(&self.pga_m_s2, &self.cases.iter().enumerate().map(pgv).collect::<Vec<_>>())
+        JointPeaks::of_logarithms(&self.peaks)
     }
 
-    /// The structure of a response.
-    pub fn structure_of(&self, row: usize) -> Structure {
-        let (p_rad_s, alpha_rad) = (self.p_rad_s[row], self.alpha_rad[row]);
+    /// The structure of the first response.
+    pub fn structure(&self) -> Structure {
+        let Block { p_rad_s, alpha_rad } = self.first;
         Structure { name: self.structure.clone(), p_rad_s, alpha_rad, eta: self.eta }
+    }
+
+    /// That of each response, by its number; if they differ, all are held in memory.
+    pub fn structure_of(&self) -> impl Fn(usize) -> Structure + Sync {
+        let blocks = if self.is_one_block {
+            [0, 0].map(|_| Vec::new())
+        } else {
+            [0, 1].map(|k| self.blocks.column(k))
+        };
+        let first = self.structure();
+        move |row| match &blocks {
+            [p, alpha] if !p.is_empty() => {
+                Structure { p_rad_s: p[row], alpha_rad: alpha[row], ..first.clone() }
+            }
+            _ => first.clone(),
+        }
+    }
+
+    /// That of each response.
+    pub fn structures(&self) -> impl Iterator<Item = Structure> {
+        let (p, alpha) = (self.blocks.column(0), self.blocks.column(1));
+        let of = |(p_rad_s, alpha_rad)| Structure { p_rad_s, alpha_rad, ..self.structure() };
+        p.into_iter().zip(alpha).map(of)
     }
 }
 
@@ -76,19 +86,43 @@ impl Group {
 /// # Errors
 /// If the file is none of responses or holds an unknown outcome.
 pub fn read(source: impl Into<Source>) -> anyhow::Result<Vec<Group>> {
+    read_each(source, |_, _| {})
+}
+
+/// Batches whose rows are made at once.
+const AT_ONCE: usize = 4;
+
+/// The same; `look` is shown each response before it is added, with the number of its group, and may change it.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_each(
+    source: impl Into<Source>,
+    mut look: impl FnMut(usize, &mut ResponseCase),
+) -> anyhow::Result<Vec<Group>> {
     let mut groups: Vec<Builder> = Vec::new();
     let mut places: HashMap<(Option<Arc<str>>, Arc<str>), usize> = HashMap::new();
     let stages = [RESPONSES.stage, IDA_STRIPES.stage];
-    for batch in Batches::open_whole(source, &ResponseCase::TABLE, &stages)? {
-        for row in ResponseCase::checked(&batch?.columns()).map_err(name_stripes)? {
-            let place = *places.entry((row.suite.clone(), row.structure.clone())).or_insert(groups.len());
-            match groups.get_mut(place) {
-                Some(group) => group.add(row),
-                None => groups.push(Builder::of(row)),
+    let mut batches = Batches::open_whole(source, &ResponseCase::TABLE, &stages)?;
+    let scratch = Arc::default();
+    loop {
+        let some: Vec<Batch> = batches.by_ref().take(AT_ONCE).collect::<Result<_, TableError>>()?;
+        if some.is_empty() {
+            return Ok(groups.into_iter().map(Builder::finish).collect());
+        }
+        let rows: Vec<Result<Vec<ResponseCase>, TableError>> =
+            some.par_iter().map(|batch| ResponseCase::checked(&batch.columns())).collect();
+        for rows in rows {
+            for mut row in rows.map_err(name_stripes)? {
+                let place = *places.entry((row.suite.clone(), row.structure.clone())).or_insert(groups.len());
+                if place == groups.len() {
+                    groups.push(Builder::of(&row, &scratch));
+                }
+                look(place, &mut row);
+                groups[place].add(&row);
             }
         }
     }
-    Ok(groups.into_iter().map(Builder::finish).collect())
 }
 
 /// Of the files of ida the fits read one.
@@ -106,46 +140,42 @@ fn name_stripes(error: TableError) -> anyhow::Error {
 /// A group of which more responses may come.
 struct Builder {
     group: Group,
-    earthquakes: Vec<Option<Arc<str>>>,
-    mw: Vec<Option<f64>>,
-    re_km: Vec<Option<f64>>,
+    clusters: Clusters,
 }
 
 impl Builder {
-    fn of(first: ResponseCase) -> Builder {
+    fn of(first: &ResponseCase, scratch: &Arc<Scratch>) -> Builder {
         let group = Group {
             suite: first.suite.as_deref().map(str::to_string),
             structure: first.structure.to_string(),
             eta: first.eta,
-            cases: Vec::new(),
-            p_rad_s: Vec::new(),
-            alpha_rad: Vec::new(),
-            motion_ids: Vec::new(),
-            pga_m_s2: Vec::new(),
-            cells: Vec::new(),
-            clusters: Clusters::none(),
+            cases: CaseTable::new(scratch),
+            peaks: Columns::new(2, scratch),
+            blocks: Columns::new(2, scratch),
+            first: first.structure().block(),
+            is_one_block: true,
+            shared: SharedBy::Nothing,
         };
-        let mut builder = Builder { group, earthquakes: Vec::new(), mw: Vec::new(), re_km: Vec::new() };
-        builder.add(first);
-        builder
+        Builder { group, clusters: Clusters::default() }
     }
 
-    fn add(&mut self, row: ResponseCase) {
-        let group = &mut self.group;
-        group.cases.push(row.case());
-        group.p_rad_s.push(row.p_rad_s);
-        group.alpha_rad.push(row.alpha_rad);
-        group.motion_ids.push(row.motion_id.to_string());
-        group.pga_m_s2.push(row.pga_m_s2);
-        self.earthquakes.push(row.earthquake);
-        self.mw.push(row.mw);
-        self.re_km.push(row.re_km);
+    fn add(&mut self, row: &ResponseCase) {
+        let Builder { group, clusters } = self;
+        let &ResponseCase { mw, re_km, p_rad_s, alpha_rad, pga_m_s2, .. } = row;
+        let cluster = clusters.cluster(row.earthquake.as_deref(), mw, re_km, || row.motion_id.to_string());
+        let case: Case = row.case();
+        group.cases.push(&case, clusters.cell(mw, re_km), cluster);
+        let block = Block { p_rad_s, alpha_rad };
+        let structure = Structure { name: String::new(), p_rad_s, alpha_rad, eta: row.eta };
+        let pgv_m_s = case.measures.im5 * structure.uplift_acceleration_m_s2() / p_rad_s;
+        group.peaks.push(&[pga_m_s2.ln(), pgv_m_s.ln()]);
+        group.blocks.push(&[p_rad_s, alpha_rad]);
+        group.is_one_block &= block == group.first;
     }
 
     fn finish(self) -> Group {
-        let Builder { group, earthquakes, mw, re_km } = self;
-        let earthquakes: Vec<Option<&str>> = earthquakes.iter().map(Option::as_deref).collect();
-        let clusters = Clusters::new(&group.motion_ids, &earthquakes, &mw, &re_km);
-        Group { cells: cells(&mw, &re_km), clusters, ..group }
+        let Builder { mut group, clusters } = self;
+        group.cases.renumber(clusters.in_order());
+        Group { shared: clusters.shared(), ..group }
     }
 }

@@ -12,6 +12,7 @@ use super::shared::fits::ModelForm;
 use super::shared::groups::{self, Group};
 use super::shared::uncertainty::LIMIT_STATE;
 use super::simulate::Simulate;
+use crate::fragility::Case;
 use crate::fragility::Event;
 use crate::fragility::Measure;
 use crate::keyword::Keyword;
@@ -72,6 +73,8 @@ pub struct Universality {
 /// All structures under one suite, and where the reference stands among them.
 struct SuiteOfGroups<'a> {
     groups: Vec<&'a Group>,
+    /// The cases of each.
+    cases: Vec<Vec<Case>>,
     reference: usize,
 }
 
@@ -142,14 +145,16 @@ impl Universality {
                     known.join(", ")
                 )));
             };
-            if let Some(other) = groups.iter().find(|group| group.cells != groups[reference].cells) {
+            let cells = groups[reference].cases.cells();
+            if let Some(other) = groups.iter().find(|group| group.cases.cells() != cells) {
                 anyhow::bail!(
                     "{file}: '{}' has responses to other motions than '{}'; expected the output of one simulate",
                     other.structure,
                     self.options.reference
                 );
             }
-            Ok(SuiteOfGroups { groups, reference })
+            let cases = groups.iter().map(|group| group.cases.to_vec()).collect();
+            Ok(SuiteOfGroups { groups, cases, reference })
         };
         names.into_iter().map(of).collect()
     }
@@ -160,8 +165,8 @@ impl Universality {
         let cells = cells(reference);
         let pooled = pooled(&subject, suite);
         let row = |(k, group): (usize, &&Group)| {
-            let transfer =
-                Transfer::new(&subject, &reference.cases, &group.cases, &cells).map_err(|status| {
+            let transfer = Transfer::new(&subject, &suite.cases[suite.reference], &suite.cases[k], &cells)
+                .map_err(|status| {
                     anyhow::anyhow!(
                         "{}: the curve of {} of '{}' is {}; choose another --reference",
                         self.input.name().display(),
@@ -172,7 +177,7 @@ impl Universality {
                 })?;
             let log_score = |fit: &Result<PooledFit, FitStatus>| fit.as_ref().ok()?.log_scores[k];
             let log_scores = [0, 1, 2, 3].map(|terms: usize| log_score(&pooled[terms]));
-            let (suite, structure) = (group.suite.as_deref(), group.structure_of(0));
+            let (suite, structure) = (group.suite.as_deref(), group.structure());
             Ok(transfer.map(|transfer| {
                 let (reference, limit) = (&reference.structure, subject.limit);
                 UniversalityRow::new(suite, &structure, reference, event, limit, &transfer, log_scores)
@@ -209,20 +214,26 @@ impl Universality {
 
 /// The cell of each motion; where all share one, each is its own.
 fn cells(group: &Group) -> Vec<usize> {
-    let one_cell = group.cells.iter().all(|&cell| cell == group.cells[0]);
-    if one_cell { (0..group.cells.len()).collect() } else { group.cells.clone() }
+    let cells = group.cases.cells();
+    let one_cell = cells.iter().all(|&cell| cell == cells[0]);
+    if one_cell { (0..cells.len()).collect() } else { cells }
 }
 
 /// The curves of all structures of a suite, of each of [`PooledTerms::ALL`].
-fn pooled<'a>(subject: &CurveSubject, suite: &SuiteOfGroups<'a>) -> Vec<Result<PooledFit, FitStatus>> {
+fn pooled<'a, 'c>(subject: &CurveSubject, suite: &'c SuiteOfGroups<'a>) -> Vec<Result<PooledFit, FitStatus>> {
     let reference = suite.groups[suite.reference];
-    let beside_reference = |group: &&'a Group| PooledStructure {
-        cases: &group.cases,
-        ln_p: (group.p_rad_s[0] / reference.p_rad_s[0]).ln(),
-        ln_alpha: (group.alpha_rad[0] / reference.alpha_rad[0]).ln(),
-        eta: group.eta - reference.eta,
+    let of_reference = reference.structure();
+    let beside_reference = |(group, cases): (&&'a Group, &'c Vec<Case>)| {
+        let structure = group.structure();
+        PooledStructure {
+            cases,
+            ln_p: (structure.p_rad_s / of_reference.p_rad_s).ln(),
+            ln_alpha: (structure.alpha_rad / of_reference.alpha_rad).ln(),
+            eta: group.eta - reference.eta,
+        }
     };
-    let structures: Vec<PooledStructure> = suite.groups.iter().map(beside_reference).collect();
+    let structures: Vec<PooledStructure> =
+        suite.groups.iter().zip(&suite.cases).map(beside_reference).collect();
     PooledTerms::ALL.par_iter().map(|&terms| fit_pooled(subject, &structures, terms)).collect()
 }
 
