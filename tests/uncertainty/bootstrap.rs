@@ -6,6 +6,7 @@ use rockfrag::fragility::{
     Case, CurveInference, CurveModel, CurveParameter, CurveRefits, DemandInference, DemandRefits, Measure,
     Sample, TransitionSearch, fit_overturning,
 };
+use rockfrag::random::{Purpose, binomial, stream};
 use rockfrag::resampling::{Resamples, Strata, acceleration, bootstrap, bootstrap_each, bootstrap_limits};
 use rockfrag::statistics::{FitStatus, Link};
 
@@ -245,4 +246,24 @@ fn replicates_without_a_fit_must_not_fill_the_tails() {
     assert!(bootstrap_limits(50.0, &[], 0.0, 0.95).is_none());
     let aside = bootstrap_limits(200.0, &values(0), 0.0, 0.95).unwrap();
     assert!(aside.bca.is_none(), "no bias can be told where all replicates lie below the estimate");
+}
+
+#[test]
+fn binomial_numbers_have_their_mean_and_variance() {
+    let mut random = stream(1, Purpose::Bootstrap, 0);
+    for (trials, p) in [(10, 0.3), (50, 0.9), (1000, 0.02), (8192, 0.5), (1_000_000, 1e-5)] {
+        let n = 20_000.0;
+        let drawn: Vec<f64> = (0..20_000).map(|_| binomial(trials, p, &mut random) as f64).collect();
+        let mean = drawn.iter().sum::<f64>() / n;
+        let variance = drawn.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0);
+        let expected = trials as f64 * p;
+        let variance_expected = expected * (1.0 - p);
+        assert!(drawn.iter().all(|x| *x <= trials as f64));
+        assert!((mean - expected).abs() < 4.5 * (variance_expected / n).sqrt(), "{mean} for {expected}");
+        // The variance of the sample variance: sigma^4 (2 / (n - 1) + excess kurtosis / n).
+        let error = (variance_expected.powi(2)
+            * (2.0 / n + (1.0 - 6.0 * p * (1.0 - p)) / variance_expected / n))
+            .sqrt();
+        assert!((variance - variance_expected).abs() < 4.5 * error, "{variance} for {variance_expected}");
+    }
 }
