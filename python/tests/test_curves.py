@@ -191,3 +191,17 @@ def test_plots_and_summaries():
         assert type(curve).__name__ in repr(curve)
         assert "<table>" in curve._repr_html_()
         assert str(curve.summary()).count("\n") >= 2
+
+
+def test_a_curve_keeps_what_it_was_fitted_to():
+    forty = rockfrag.datasets.load_outcomes()
+    im = forty["pgv_m_s"].copy()
+    curve = rockfrag.fit_fragility(im, forty["overturned"])
+    before = curve.profile_interval("theta")
+    im[:] = 1.0
+    assert curve.profile_interval("theta") == before
+    for kept in [curve.im, curve.params]:
+        with pytest.raises(ValueError, match="read-only"):
+            kept[0] = 99.0
+    with pytest.raises(rockfrag.OptionError, match="finite"):
+        rockfrag.fit_fragility(np.where(np.arange(40) == 3, np.inf, forty["pgv_m_s"]), forty["overturned"])

@@ -1,6 +1,7 @@
 """Probabilities by the universal surface: those of the command, of any shape."""
 
 import json
+import pickle
 import subprocess
 import warnings
 
@@ -51,3 +52,10 @@ def test_what_cannot_be_right_is_said():
             rockfrag.probability(pga=0.5, pgv=0.6, **wrong)
     with pytest.raises(rockfrag.OptionError):
         rockfrag.probability(width=0.5, height=2.0, pga=[0.5, 0.6], pgv=[0.5, 0.6, 0.7])
+
+
+def test_answers_compare_and_travel():
+    ask = {"width": 0.5, "height": 2.0, "pga": [0.1, 0.5], "pgv": 0.6}
+    one = rockfrag.probability(**ask)
+    assert one == pickle.loads(pickle.dumps(one)) and one != rockfrag.probability(**{**ask, "pgv": 0.5})
+    assert isinstance(rockfrag.probability(**{**ask, "pga": 0.5}).p_f, float)

@@ -215,7 +215,12 @@ fn doubts(html: &mut String, data: &ReportData) {
                 html,
                 "<li><details><summary>{} {} of <code>{stage}</code></summary><ul>",
                 number::count(others.len()),
-                if first.is_empty() { "warnings" } else { "more warnings" }
+                match (first.is_empty(), others.len()) {
+                    (true, 1) => "warning",
+                    (true, _) => "warnings",
+                    (false, 1) => "more warning",
+                    (false, _) => "more warnings",
+                }
             );
             others.iter().for_each(|warning| line(html, warning));
             html.push_str("</ul></details></li>\n");

@@ -213,6 +213,13 @@ fn a_hazard_is_the_same_however_it_is_written() {
             }),
             "--columns pga_g=PGA,annual_rate_of_exceedance=lambda",
         ),
+        // As a spreadsheet leaves it, with an empty row at the end.
+        (
+            lines("PGA (g);PoE in 50 years (%)", &|im, rate| {
+                format!("{};{}", comma(im.to_string()), comma((100.0 * p(rate)).to_string()))
+            }) + ";\n",
+            "--columns pga_g=PGA_(g),probability_of_exceedance_in_50_years=PoE_in_50_years_(%)",
+        ),
         (lines("pga_m_s2,annual_rate_of_exceedance", &|im, rate| format!("{},{rate}", 9.81 * im)), ""),
     ];
     for (text, rest) in ways {

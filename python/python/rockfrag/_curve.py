@@ -187,16 +187,18 @@ class Regression(Curve):
 
 def measures_of(im: npt.ArrayLike, count: int) -> tuple[Floats, tuple[int, ...]]:
     """Intensities as rows, and the shape of what is asked at them."""
-    values = np.asarray(im, dtype=np.float64)
+    # A copy that nobody can change: a curve keeps what it was fitted to.
+    values = np.array(im, dtype=np.float64)
+    values.flags.writeable = False
     if count == 2:
         if values.shape[-1:] != (2,):
             raise OptionError(f"im has shape {values.shape}; expected two measures, shape (m, 2)")
         rows, shape = values.reshape(-1, 2), values.shape[:-1]
     else:
         rows, shape = values.reshape(-1, 1), values.shape
-    wrong = np.flatnonzero(~(rows > 0.0).all(axis=1))
+    wrong = np.flatnonzero(~((rows > 0.0) & np.isfinite(rows)).all(axis=1))
     if wrong.size:
-        raise OptionError(f"im: case {wrong[0]} is {rows[wrong[0]].tolist()}; expected numbers above 0")
+        raise OptionError(f"im: case {wrong[0]} is {rows[wrong[0]].tolist()}; expected finite numbers above 0")
     return rows, shape
 
 

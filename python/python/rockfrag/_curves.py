@@ -32,7 +32,7 @@ _DOUBTS = {
     "far_median": "the median lies far outside of the data",
     "falling": "the probability falls as the measure grows",
 }
-_FEW = "few events: standard errors and conf_int are too narrow; profile_interval and confidence_band are not"
+_FEW = "few events: standard errors of theta and beta are too small; take profile_interval, and confidence_band for probabilities"
 
 
 class FragilityCurve(Regression):
@@ -68,6 +68,7 @@ class FragilityCurve(Regression):
         if "params" not in fit:
             raise FitError(f"{fit['events']} events of {outcome.size} cases: {_WHY[self.status]}", self.status)
         self.params = fit["params"]
+        self.params.flags.writeable = False
         names = [im_name] if im.shape[1] == 1 else [f"{im_name}{k + 1}" for k in range(im.shape[1])]
         self.param_names = ("intercept", *(f"ln({name})" for name in names))
         self._cov_params = fit["cov_params"]
@@ -185,6 +186,7 @@ class DemandCurve(Regression):
         if "params" not in fit:
             raise FitError(f"{edp.size} cases: {_WHY[self.status]}", self.status)
         self.params = fit["params"]
+        self.params.flags.writeable = False
         self.param_names = ("ln a", *(f"b{k + 1}" for k in range(im.shape[1])))
         self._cov_params = fit["cov_params"]
         #: Coefficient of determination.

@@ -35,7 +35,7 @@ def fit_fragility(
     outcome : array_like of shape (n,)
         Whether the event happened: bool, or 0 and 1.
     link : {'probit', 'logit', 'cloglog'}, default 'probit'
-        How the index becomes a probability; the probit makes the lognormal curve.
+        Link between the linear predictor b0 + b1 ln(im) and the probability; the probit makes the lognormal curve.
     estimator : {'ml', 'firth'}, default 'ml'
         The likelihood, or Firth's penalised one, which has a maximum where a measure separates the outcomes, and less bias where events
         are few.
@@ -59,7 +59,7 @@ def fit_fragility(
     Warns
     -----
     RockfragWarning
-        If the curve is to be doubted; ``curve.doubts`` has the words.
+        If the fit is questionable; ``curve.doubts`` lists the reasons.
 
     See Also
     --------
@@ -83,7 +83,7 @@ def fit_fragility(
     theta     1.066  0.1274  0.8583  1.503
      beta    0.4667  0.1441  0.2765   1.02
     llf -18.1989, aic 40.3978, bic 43.7756, auc 0.830, brier 0.154
-    doubt: few events: standard errors and conf_int are too narrow; profile_interval and confidence_band are not
+    doubt: few events: standard errors of theta and beta are too small; take profile_interval, and confidence_band for probabilities
     """
     measures, happened = _cases(im, outcome)
     curve = FragilityCurve(measures, happened, link=link, estimator=estimator, cluster=cluster, im_name=im_name)

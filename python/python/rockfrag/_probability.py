@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal
 
 import numpy as np
@@ -16,7 +16,7 @@ from .errors import OptionError, RockfragWarning
 Numbers = npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Probability:
     """Probabilities with 95 % limits, each of the shape of the question; NaN where there is none, such as P_ro without rocking."""
 
@@ -39,6 +39,13 @@ class Probability:
     #: Coefficient of restitution of the structure.
     eta: Numbers
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Probability):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, at.name), getattr(other, at.name), equal_nan=True) for at in fields(self))
+
+    __hash__ = None  # type: ignore[assignment]
+
 
 def probability(
     structure: Structure | None = None,
@@ -53,7 +60,7 @@ def probability(
     suite: Literal["csgm", "pulse", "hfc"] | None = None,
     limit_state: float | None = None,
 ) -> Probability:
-    """How likely structures are to rock too far and to overturn, by the surface that ``rockfrag evaluate`` has without fits.
+    """Probabilities of rocking too far and of overturning, by the universal surface: no fits are needed.
 
     All arrays broadcast against each other.
 
@@ -108,4 +115,4 @@ def probability(
     said, doubts = _rockfrag.probability(dict(zip(names, flat[2:], strict=True)), flat[0], flat[1], suite, limit_state)
     for words in doubts:
         warnings.warn(words, RockfragWarning, stacklevel=2)
-    return Probability(**{name: values.reshape(shaped[0].shape) for name, values in said.items()})
+    return Probability(**{name: values.reshape(shaped[0].shape)[()] for name, values in said.items()})

@@ -107,6 +107,8 @@ pub fn read(path: &Path, headings: &Headings) -> anyhow::Result<Hazard> {
 
 fn of(text: &str, headings: &Headings) -> anyhow::Result<Hazard> {
     let mut table = CsvText::new(text)?;
+    // A heading may say that what is under it is in percent.
+    let in_percent: Vec<bool> = table.names.iter().map(|name| name.contains('%')).collect();
     table.rename(headings).map_err(|error| anyhow!(error))?;
     let names = table.names.clone();
     // Peaks first, PGA before PGV.
@@ -119,7 +121,8 @@ fn of(text: &str, headings: &Headings) -> anyhow::Result<Hazard> {
     });
     let cell = |(line, record): &(u64, StringRecord), (at, cell): (usize, Cell)| {
         let text = record.get(at).unwrap_or_default();
-        cell.read(text)
+        let sign = if in_percent[at] && !text.ends_with('%') { "%" } else { "" };
+        cell.read(&format!("{text}{sign}"))
             .map_err(|expected| anyhow!("line {line}, column '{}': '{text}'; expected {expected}", names[at]))
     };
     // A spreadsheet may leave empty rows at the end.

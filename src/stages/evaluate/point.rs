@@ -79,7 +79,9 @@ pub fn answer(
         let meaning = format!("P_ro by the universal surface (--model universal): {apart:+.3} from the fits");
         rows.push(besides("p_ro_universal", Some(p_ro.value), Some((p_ro.low, p_ro.high)), meaning));
     }
-    if let Some((distance, coordinate)) = answers.model().distance(structure, &measures) {
+    // Below uplift the answer is exact, wherever the data are.
+    let distance = given.and_then(|_| answers.model().distance(structure, &measures));
+    if let Some((distance, coordinate)) = distance {
         let meaning =
             format!("from the middle of the data (0) to their rim (1) and beyond, farthest in {coordinate}");
         rows.push(besides("distance", Some(distance), None, meaning));

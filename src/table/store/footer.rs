@@ -148,7 +148,7 @@ fn open_file(path: &Path) -> Result<File, TableError> {
         Ok(file) => Ok(file),
         Err(source) if source.kind() == std::io::ErrorKind::NotFound => Err(TableError::Missing {
             path: path.to_path_buf(),
-            hint: "run the stage that makes it first, or name another file with --in".to_string(),
+            hint: "run the stage that makes it first, or name another file".to_string(),
         }),
         Err(source) => Err(TableError::io(path, source)),
     }
