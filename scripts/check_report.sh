@@ -21,6 +21,6 @@ trap 'rm -rf "$work"' EXIT
 python3 -m venv "$work/venv"
 "$work/venv/bin/pip" install --quiet selenium || skip "pip cannot install selenium"
 npm install --silent --no-fund --no-audit --prefix "$work" axe-core > /dev/null 2>&1 || skip "npm cannot install axe-core"
-"$rockfrag" report --quiet --progress never --force --in "$run" --out "$work/report.html"
+"$rockfrag" report --quiet --force --in "$run" --out "$work/report.html"
 "$work/venv/bin/python" check_report.py "$rockfrag" "$run" "$work/report.html" \
     "$work/node_modules/axe-core/axe.min.js" ${screenshots:+"$screenshots"}
