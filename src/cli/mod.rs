@@ -11,7 +11,7 @@ use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
 use clap_complete::Shell;
 use serde_json::json;
 
-use self::shared::{Common, Format, PRINTING, Printed, Progress, expect_no_idle, with_common};
+use self::shared::{Common, Format, Printed, Progress, expect_no_idle, with_common};
 use crate::allocator::keep_freed_buffers;
 use crate::pipeline::cache::May;
 use crate::pipeline::console::Console;
@@ -20,7 +20,7 @@ use crate::pipeline::terminal::Terminal;
 use crate::pipeline::{UsageError, cache};
 use crate::stages::init::{Start, init};
 use crate::stages::inspect::inspect;
-use crate::stages::registry::{Config, commands};
+use crate::stages::registry::{Config, commands, shows_table};
 use crate::stages::run::{dry_run, findings, run};
 use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
 use crate::table::store::guarded::quiet_damage;
@@ -113,7 +113,7 @@ fn command() -> Command {
         .subcommand_required(true)
         .arg_required_else_help(true);
     let printed: Vec<Arg> = Printed::augment_args(Command::new("")).get_arguments().cloned().collect();
-    let stages = commands().into_iter().map(|stage| match PRINTING.contains(&stage.get_name()) {
+    let stages = commands().into_iter().map(|stage| match shows_table(stage.get_name()) {
         true => stage.args(printed.clone()),
         false => stage,
     });
@@ -162,7 +162,7 @@ fn obey(matches: &ArgMatches) -> anyhow::Result<()> {
     let may = May { force: common.force, overwrite: common.overwrite };
     let config = common.config.as_deref().map(Config::read).transpose()?.unwrap_or_default();
     if let Some(stages) = config.called(subcommand, flags)? {
-        let format = match PRINTING.contains(&subcommand) {
+        let format = match shows_table(subcommand) {
             true => Printed::from_arg_matches(flags)?.format,
             false => Format::Table,
         };

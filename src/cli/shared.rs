@@ -5,14 +5,7 @@ use clap::{Arg, ArgMatches, Args, Command, ValueEnum};
 use std::path::PathBuf;
 
 use crate::pipeline::UsageError;
-use crate::pipeline::declare::Declare;
-use crate::stages::compare_paper::ComparePaper;
-use crate::stages::export::Export;
-use crate::stages::ida::Ida;
-use crate::stages::rank_ims::RankIms;
-use crate::stages::report::Report;
-use crate::stages::universality::Universality;
-use crate::stages::validate::Validate;
+use crate::stages::registry::lacks_progress;
 
 /// What commands share.
 #[derive(Debug, Args)]
@@ -49,14 +42,11 @@ const ALL: &[&str] = &["config", "threads", "quiet", "progress", "force", "overw
 
 /// The common options that mean nothing to a command.
 fn idle(command: &str) -> &'static [&'static str] {
-    /// Stages without a progress bar.
-    const NO_BAR: [&str; 6] =
-        [ComparePaper::NAME, Export::NAME, RankIms::NAME, Report::NAME, Universality::NAME, Validate::NAME];
     match command {
         "init" | "inspect" | "completions" | "man" => ALL,
         "run" => &["config"],
         "seed-spread" => &["config", "progress", "force"],
-        stage if NO_BAR.contains(&stage) => &["progress"],
+        stage if lacks_progress(stage) => &["progress"],
         _ => &[],
     }
 }
@@ -100,7 +90,3 @@ pub struct Printed {
     #[arg(long, default_value = "table", value_name = "FORMAT", hide_possible_values = true)]
     pub format: Format,
 }
-
-/// The stages that print a table; evaluate has formats of its own.
-pub const PRINTING: [&str; 5] =
-    [ComparePaper::NAME, Ida::NAME, RankIms::NAME, Universality::NAME, Validate::NAME];

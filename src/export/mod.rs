@@ -31,7 +31,7 @@ pub struct Model {
     /// Where it comes from, for a reader.
     pub description: String,
     /// Meaning of each limit state.
-    pub limit_states: [String; 3],
+    pub limit_states: Vec<String>,
 }
 
 /// The fragility of one structure along one peak.

@@ -4,7 +4,7 @@ use super::model::{FragilityModel, GivenRocking};
 use super::probability::Probability;
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
-use crate::resampling::limits::bootstrap_limits;
+use crate::resampling::limits::{are_too_few, bootstrap_limits};
 
 /// How limits follow from replicates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,6 +45,12 @@ impl ResampledModel {
             p_ro: limited(given.p_ro, 1),
             p_failure: limited(given.p_failure, 2),
         }
+    }
+
+    /// How many resamples have no fit, if the others are too few for limits.
+    pub fn too_many_missing(&self) -> Option<usize> {
+        let (all, fits) = (self.replicates.len(), self.replicates.iter().flatten().count());
+        are_too_few(fits, all, CONFIDENCE).then_some(all - fits)
     }
 
     /// The limits of a value from those in the replicates; NaN where too few have one.

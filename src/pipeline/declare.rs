@@ -47,6 +47,10 @@ pub trait Declare: Stage + Sized + 'static {
     const INPUTS: &'static [Input] = &[];
     /// The file it writes.
     const OUTPUT: Output;
+    /// Whether it shows a table, which can be printed for programs ([`Stage::rows`]).
+    const SHOWS_TABLE: bool = false;
+    /// Whether it has a progress bar.
+    const HAS_PROGRESS: bool = true;
 
     /// Creates the stage.
     ///

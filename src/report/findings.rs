@@ -213,14 +213,10 @@ fn doubts(html: &mut String, data: &ReportData) {
         if !others.is_empty() {
             let _ = writeln!(
                 html,
-                "<li><details><summary>{} {} of <code>{stage}</code></summary><ul>",
+                "<li><details><summary>{} {}{} of <code>{stage}</code></summary><ul>",
                 number::count(others.len()),
-                match (first.is_empty(), others.len()) {
-                    (true, 1) => "warning",
-                    (true, _) => "warnings",
-                    (false, 1) => "more warning",
-                    (false, _) => "more warnings",
-                }
+                if first.is_empty() { "" } else { "more " },
+                if others.len() == 1 { "warning" } else { "warnings" }
             );
             others.iter().for_each(|warning| line(html, warning));
             html.push_str("</ul></details></li>\n");

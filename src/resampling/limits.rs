@@ -24,9 +24,14 @@ impl BootstrapLimits {
     }
 }
 
+/// Whether so few of the replicates have a value that the others could fill the tails.
+pub fn are_too_few(values: usize, replicates: usize, confidence: f64) -> bool {
+    values == 0 || (replicates - values) as f64 > (1.0 - confidence) * replicates as f64
+}
+
 /// The limits at `confidence` of `estimate` from its replicates, where `acceleration` is that of [`acceleration`]
-/// (DiCiccio & Efron 1996, Bootstrap confidence intervals, Statistical Science 11, 189-228). None without replicates,
-/// or where so many have no value that they could fill the tails.
+/// (DiCiccio & Efron 1996, Bootstrap confidence intervals, Statistical Science 11, 189-228). None where too few
+/// have a value.
 pub fn bootstrap_limits(
     estimate: f64,
     replicates: &[Option<f64>],
@@ -34,8 +39,7 @@ pub fn bootstrap_limits(
     confidence: f64,
 ) -> Option<BootstrapLimits> {
     let mut values: Vec<f64> = replicates.iter().flatten().copied().filter(|v| v.is_finite()).collect();
-    let missing = (replicates.len() - values.len()) as f64;
-    if values.is_empty() || missing > (1.0 - confidence) * replicates.len() as f64 {
+    if are_too_few(values.len(), replicates.len(), confidence) {
         return None;
     }
     values.sort_by(f64::total_cmp);

@@ -277,6 +277,8 @@ impl Declare for ComparePaper {
         "paper.parquet",
         "Comparison file to write [default: paper.parquet beside the regressions]",
     );
+    const SHOWS_TABLE: bool = true;
+    const HAS_PROGRESS: bool = false;
 
     fn create(options: &ComparePaperOptions, files: &Files) -> anyhow::Result<ComparePaper> {
         let inputs = [files.input("pex")?, files.input("pro")?, files.input("responses")?];

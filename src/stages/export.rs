@@ -14,6 +14,7 @@ use super::shared::surface::Surface;
 use crate::export::{self, Function, Model, plain_id};
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{LimitState, Peak, Slice};
+use crate::keyword::Keyword;
 use crate::keyword::keywords;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
@@ -114,6 +115,7 @@ impl Declare for Export {
     const OUTPUT: Output =
         Output::file("fragility.xml", "File to write [default: fragility.xml or fragility.csv]")
             .under("Export");
+    const HAS_PROGRESS: bool = false;
 
     fn create(options: &ExportOptions, files: &Files) -> anyhow::Result<Export> {
         let Some(Word(program)) = options.to else {
@@ -166,8 +168,7 @@ impl Stage for Export {
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        let files = |fits: &FitFiles| vec![("pex", fits.pex.clone()), ("pro", fits.pro.clone())];
-        self.fits.as_ref().map(files).unwrap_or_default()
+        self.fits.iter().flat_map(FitFiles::inputs).collect()
     }
 
     fn targets(&self) -> Vec<Target> {
@@ -199,10 +200,7 @@ impl Stage for Export {
             Some(fits) => Box::new(fits.choose()?),
             None => Box::new(Surface::new(self.options.fits.suite.as_deref(), None, Scenarios::Many)?),
         };
-        let structure = match answers.eta() {
-            Some(eta) => self.structure.structure_with_eta(eta)?,
-            None => self.structure.structure()?,
-        };
+        let structure = answers.structure(&self.structure)?;
         answers.warn(console);
         warn_of_size([&structure], console);
         answers.warn_of_structure(&structure, console);
@@ -219,8 +217,7 @@ impl Stage for Export {
                 answers.words(),
                 words(&structure)
             ),
-            limit_states: [LimitState::Rocking, LimitState::Failure, LimitState::Overturning]
-                .map(|state| answers.meaning(state)),
+            limit_states: LimitState::ALL.iter().map(|&state| answers.meaning(state)).collect(),
         };
         let content = match self.program {
             Program::OpenQuake => export::discrete(&model, &functions),

@@ -94,6 +94,16 @@ macro_rules! stages {
         pub fn commands() -> Vec<Command> {
             vec![$(command::<$stage>().clone()),*]
         }
+
+        /// Whether this command is a stage that shows a table.
+        pub fn shows_table(command: &str) -> bool {
+            [$((<$stage>::NAME, <$stage>::SHOWS_TABLE)),*].contains(&(command, true))
+        }
+
+        /// Whether this command is a stage without a progress bar.
+        pub fn lacks_progress(command: &str) -> bool {
+            [$((<$stage>::NAME, <$stage>::HAS_PROGRESS)),*].contains(&(command, false))
+        }
     };
 }
 

@@ -63,8 +63,7 @@ impl Validate {
     /// Warns if the curves were fitted to the responses they are tested on.
     fn warn_of_own_responses(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<()> {
         let responses = provenance.inputs.get(RESPONSES_ROLE);
-        let files = |fits: &FitFiles| vec![fits.pex.clone(), fits.pro.clone()];
-        for fits in self.fits.as_ref().map(files).unwrap_or_default() {
+        for (_, fits) in self.fits.iter().flat_map(FitFiles::inputs) {
             // A table in memory does not say what it was made from.
             let Source::Path(path) = fits else { continue };
             let fitted_to =
@@ -157,6 +156,8 @@ impl Declare for Validate {
         "validation.parquet",
         "Validation file to write [default: validation.parquet beside the input]",
     );
+    const SHOWS_TABLE: bool = true;
+    const HAS_PROGRESS: bool = false;
 
     fn create(options: &FitsOptions, files: &Files) -> anyhow::Result<Validate> {
         let (input, out) = (files.input(RESPONSES_ROLE)?, files.out(Self::OUTPUT.file));
@@ -200,10 +201,8 @@ impl Stage for Validate {
     }
 
     fn inputs(&self) -> Vec<(&'static str, Source)> {
-        let files = |fits: &FitFiles| vec![("pex", fits.pex.clone()), ("pro", fits.pro.clone())];
-        let mut inputs = self.fits.as_ref().map(files).unwrap_or_default();
-        inputs.push((RESPONSES_ROLE, self.input.clone()));
-        inputs
+        let fits = self.fits.iter().flat_map(FitFiles::inputs);
+        fits.chain([(RESPONSES_ROLE, self.input.clone())]).collect()
     }
 
     fn targets(&self) -> Vec<Target> {

@@ -41,22 +41,7 @@ table! {
 
 table! {
     /// Annual rates of the limit states.
-    pub struct AnnualRateRow<'a> as RATES = "annual rates" by "evaluate" {
-        state: LimitState,
-        annual_rate: f64,
-        annual_rate_low: f64,
-        annual_rate_high: f64,
-        years: f64,
-        p: f64,
-        p_low: f64,
-        p_high: f64,
-        meaning: &'a str,
-    }
-}
-
-table! {
-    /// Annual rates as they are read.
-    pub struct AnnualRate of RATES {
+    pub struct AnnualRate as RATES = "annual rates" by "evaluate" {
         state: LimitState,
         annual_rate: f64,
         annual_rate_low: f64,
@@ -162,7 +147,7 @@ pub fn rates(rows: &[RateRow]) -> Result<RecordBatch, ArrowError> {
     let rows = rows.iter().map(|row| {
         let ([annual_rate, annual_rate_low, annual_rate_high], [p, p_low, p_high]) =
             (row.annual_rate, row.probability);
-        AnnualRateRow {
+        AnnualRate {
             state: row.state,
             annual_rate,
             annual_rate_low,
@@ -171,8 +156,8 @@ pub fn rates(rows: &[RateRow]) -> Result<RecordBatch, ArrowError> {
             p,
             p_low,
             p_high,
-            meaning: &row.meaning,
+            meaning: row.meaning.clone(),
         }
     });
-    AnnualRateRow::batch(&rows.collect::<Vec<_>>())
+    AnnualRate::batch(&rows.collect::<Vec<_>>())
 }

@@ -31,7 +31,7 @@ fn function(peak: Peak, tolerance: f64) -> Function {
 }
 
 fn words() -> Model {
-    let limit_states = ["rocking", "too far", "overturning"].map(str::to_string);
+    let limit_states = ["rocking", "too far", "overturning"].map(str::to_string).to_vec();
     Model { id: "m".to_string(), description: "a < b & \"c\"".to_string(), limit_states }
 }
 

@@ -95,9 +95,16 @@ pub struct ParameterInference {
 }
 
 /// The level of the tests of a curve, all together.
-pub(crate) const REJECTED: f64 = 0.01;
+const REJECTED: f64 = 0.01;
+/// How many there are.
+const TESTS: usize = 3;
 /// A difference in probability that matters to nobody.
 const SMALL_GAP: f64 = 0.05;
+
+/// Whether a test of this probability rejects a curve.
+pub(crate) fn rejects(p: f64) -> bool {
+    p < REJECTED / TESTS as f64
+}
 
 impl Curve {
     /// Fits the curve of a sample of these measures, and tests it; what cases left out and resamples say is not asked.
@@ -152,12 +159,12 @@ impl Curve {
     }
 
     fn is_rejected(&self) -> bool {
-        let tests = [
+        let tests: [Option<Test>; TESTS] = [
             self.fit.as_ref().ok().and_then(|fit| fit.goodness.hosmer_lemeshow),
             self.spline,
             self.interaction,
         ];
-        tests.into_iter().flatten().any(|test| test.p < REJECTED / tests.len() as f64)
+        tests.into_iter().flatten().any(|test| rejects(test.p))
     }
 
     /// The curve that bends, if it is to answer: the straight one fits badly, and this one does better on cases left out.

@@ -27,11 +27,16 @@ const fragility = (() => {
 
   const usable = (value) => (value !== null && Number.isFinite(value) && value > 0 ? value : null);
 
-  /** The cubic function of a natural spline over three knots. */
-  const spline = (u, [first, before, last]) => {
+  /** The cubic functions that let a line in one value bend, none of fewer than three knots: restricted_splines in Rust. */
+  const bends = (u, knots) => {
+    if (knots.length < 3) return [];
+    const [first, before, last] = [knots[0], knots[knots.length - 2], knots[knots.length - 1]];
     const cube = (knot) => Math.max(u - knot, 0) ** 3;
-    const [a, b] = [(last - first) / (last - before), (before - first) / (last - before)];
-    return (cube(first) - a * cube(before) + b * cube(last)) / ((last - first) * (last - first));
+    const width = (last - first) * (last - first);
+    return knots.slice(0, -2).map((knot) => {
+      const [a, b] = [(last - knot) / (last - before), (before - knot) / (last - before)];
+      return (cube(knot) - a * cube(before) + b * cube(last)) / width;
+    });
   };
 
   /** b0 + b1 ln IMx + b2 ln IMy, the bend if there is one, and its variance; null where a measure is missing. */
@@ -39,7 +44,7 @@ const fragility = (() => {
     const [imX, imY] = [usable(of[x]), y === null ? 1 : usable(of[y])];
     if (imX === null || imY === null) return null;
     const [lnX, lnY] = [Math.log(imX), Math.log(imY)];
-    const bend = knots === null ? [] : y === null ? [spline(lnX, knots[0]), 0, 0] : [spline(lnX, knots[0]), spline(lnY, knots[1]), lnX * lnY];
+    const bend = knots === null ? [] : y === null ? [...bends(lnX, knots[0]), 0, 0] : [...bends(lnX, knots[0]), ...bends(lnY, knots[1]), lnX * lnY];
     const row = [1, lnX, lnY, ...bend];
     const dot = (a) => a.reduce((sum, value, k) => sum + value * row[k], 0);
     return { value: dot(b), variance: dot(covariance.map(dot)) };
@@ -102,5 +107,5 @@ const fragility = (() => {
     return [...found.values()];
   };
 
-  return { block, measures, evaluate, outOfRange };
+  return { block, measures, bends, evaluate, outOfRange };
 })();

@@ -17,18 +17,8 @@ const universal = (() => {
     return surface;
   };
 
-  /** 1, the coordinate, and restricted cubic splines over its knots. */
-  const splines = (u, knots) => {
-    if (knots.length < 3) return [1, u];
-    const [first, before, last] = [knots[0], knots[knots.length - 2], knots[knots.length - 1]];
-    const cube = (knot) => Math.max(u - knot, 0) ** 3;
-    const width = (last - first) * (last - first);
-    const bends = knots.slice(0, -2).map((knot) => {
-      const [a, b] = [(last - knot) / (last - before), (before - knot) / (last - before)];
-      return (cube(knot) - a * cube(before) + b * cube(last)) / width;
-    });
-    return [1, u, ...bends];
-  };
+  /** 1, the coordinate, and the cubic functions over its knots. */
+  const splines = (u, knots) => [1, u, ...fragility.bends(u, knots)];
 
   const logistic = (index) => 1 / (1 + Math.exp(-index));
 

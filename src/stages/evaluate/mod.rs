@@ -34,7 +34,6 @@ use crate::pipeline::files::hash;
 use crate::pipeline::options::Word;
 use crate::pipeline::stage::{Stage, beside, content_of_role, places};
 use crate::pipeline::terminal::Terminal;
-use crate::rocking::Structure;
 use crate::table::TableError;
 use crate::table::evaluated::EVALUATED;
 use crate::table::store::provenance::Provenance;
@@ -60,7 +59,7 @@ impl LimitsBy {
 
     /// The files that the fits come from, by the role each plays.
     fn fit_files(self, files: &FitFiles) -> anyhow::Result<Vec<(&'static str, Source)>> {
-        let mut sources = vec![("pex", files.pex.clone()), ("pro", files.pro.clone())];
+        let mut sources = files.inputs().to_vec();
         if self != LimitsBy::Delta {
             let [pex, pro] = resampled_fits::files(files)?;
             sources.extend([("pex bootstrap", pex.into()), ("pro bootstrap", pro.into())]);
@@ -176,18 +175,10 @@ impl Evaluate {
         Ok(Box::new(chosen))
     }
 
-    /// The structure; `answers` may know an eta where none is given.
-    fn structure(&self, answers: &dyn Answers) -> anyhow::Result<Structure> {
-        match answers.eta() {
-            Some(eta) => self.structure.structure_with_eta(eta),
-            None => self.structure.structure(),
-        }
-    }
-
     /// Answers for one intensity or one site.
     fn answer(&self, answers: &dyn Answers, console: &Console) -> anyhow::Result<Answer> {
         answers.warn(console);
-        let structure = self.structure(answers)?;
+        let structure = answers.structure(&self.structure)?;
         warn_of_size([&structure], console);
         answers.warn_of_structure(&structure, console);
         match &self.options.hazard.hazard {
@@ -282,7 +273,7 @@ impl Stage for Evaluate {
         let answers = self.answers()?;
         if let (Some(input), Some(out)) = (&self.intensities, &self.out) {
             let given = self.options.structure.structures.is_given();
-            let structure = given.then(|| self.structure(&*answers)).transpose()?;
+            let structure = given.then(|| answers.structure(&self.structure)).transpose()?;
             warn_of_size(&structure, console);
             let table = EvaluatedTable { answers, headings: self.options.headings(), structure };
             return table.write(input, out, provenance, console);

@@ -121,6 +121,7 @@ impl Declare for Ida {
         "File of overturning intensities to write; NAME.stripes, NAME.windows, NAME.shares and NAME.fragility are written beside it [default: ida.parquet beside the input]",
     )
     .with_parts(&[IDA_STRIPES.name, IDA_WINDOWS.name, IDA_SHARES.name, IDA_FRAGILITY.name]);
+    const SHOWS_TABLE: bool = true;
 
     fn create(options: &IdaOptions, files: &Files) -> anyhow::Result<Ida> {
         Ida::new(options, files.input("motions")?, files.out(Self::OUTPUT.file))

@@ -115,13 +115,14 @@ impl RankIms {
 
 /// The measures of a group that its motions have besides those of Eq. 13.
 fn further(group: &Group, rows: &[usize], motions: &MotionMeasures) -> Vec<FurtherMeasure> {
+    let structure = group.structure_of();
     let measures = motions.further.iter().map(|measure| FurtherMeasure {
         name: measure.name.clone(),
         ln: rows
             .iter()
-            .zip(group.structures())
-            .map(|(&row, structure)| {
-                let value = measure.quantity.dimensionless(measure.values[row]?, &structure);
+            .enumerate()
+            .map(|(case, &row)| {
+                let value = measure.quantity.dimensionless(measure.values[row]?, &structure(case));
                 Some(value).filter(|value| *value > 0.0).map(f64::ln)
             })
             .collect(),
@@ -172,6 +173,8 @@ p CAV / (g tan alpha) (cav); p times the integral of a^2 / (g tan alpha)^2 (aria
     const OUTPUT: Output =
         Output::file("ranking.parquet", "Ranking to write [default: ranking.parquet beside the input]")
             .with_parts(&["reliability"]);
+    const SHOWS_TABLE: bool = true;
+    const HAS_PROGRESS: bool = false;
 
     fn create(options: &RankImsOptions, files: &Files) -> anyhow::Result<RankIms> {
         let out = files.out(Self::OUTPUT.file);

@@ -275,6 +275,7 @@ impl Declare for Report {
         "report.html",
         "Page to write; its figures go into a folder of the same name [default: report.html in the input]",
     );
+    const HAS_PROGRESS: bool = false;
 
     fn create(options: &ReportOptions, files: &Files) -> anyhow::Result<Report> {
         let Source::Path(folder) = files.input("files")? else {

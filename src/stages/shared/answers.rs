@@ -1,5 +1,6 @@
 //! What answers: fits of one structure, or the surface of all, with the words of each.
 
+use super::structures::StructureSpec;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{
     Fragility, JointPeaks, LimitState, Probabilities, ResampledModel, Slice, UniversalModel,
@@ -26,6 +27,17 @@ pub trait Answers: Send + Sync {
     /// The coefficient of restitution where none is given.
     fn eta(&self) -> Option<f64> {
         None
+    }
+
+    /// The structure that is asked for.
+    ///
+    /// # Errors
+    /// If it is none, or has no eta and none is known.
+    fn structure(&self, asked: &StructureSpec) -> anyhow::Result<Structure> {
+        match self.eta() {
+            Some(eta) => asked.structure_with_eta(eta),
+            None => asked.structure(),
+        }
     }
 
     /// The demand that P_ex is about.

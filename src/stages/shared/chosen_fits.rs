@@ -3,7 +3,7 @@
 use super::answers::Answers;
 use super::surface::Surface;
 use super::transfers;
-use crate::fragility::overturning::group::REJECTED;
+use crate::fragility::overturning::group::rejects;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{
     DemandModel, Fragility, FragilityModel, Gap, JointPeaks, LimitState, Measure, OutOfRange, Probabilities,
@@ -61,7 +61,7 @@ pub enum Line {
 impl Misfit {
     /// By how much the line is off, which tests reject it, and what answers in its place.
     pub fn words(&self) -> String {
-        let reject = self.tests.iter().filter(|(_, p)| *p < REJECTED / self.tests.len() as f64);
+        let reject = self.tests.iter().filter(|(_, p)| rejects(*p));
         let tests = reject.map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
         let off = self.gap.map_or(String::new(), |Gap { straight, bent }| {
             format!(
@@ -87,124 +87,6 @@ impl Misfit {
 const SAME_ETA: f64 = 0.005;
 
 impl ChosenFits {
-    /// The probabilities at an intensity, with limits by the replicates if there are any.
-    pub fn with_limits(&self, measures: &IntensityMeasures) -> Probabilities {
-        let probabilities = self.model.probabilities(measures);
-        let Some(resampled) = &self.resampled else { return probabilities };
-        let given_rocking = probabilities.given_rocking.map(|given| resampled.with_limits(&given, measures));
-        Probabilities { given_rocking, ..probabilities }
-    }
-
-    /// How the limits come about, and what they hold, in words.
-    pub fn words_of_limits(&self) -> String {
-        let by = match &self.resampled {
-            None if self.model.overturning.spread > 0.0 => {
-                "by the delta method, for one magnitude and distance that the fits have not seen".to_string()
-            }
-            None => "by the delta method".to_string(),
-            Some(ResampledModel { replicates, limits: ReplicateLimits::Percentile }) => {
-                format!("percentiles of {} resamples, of the fits alone", replicates.len())
-            }
-            Some(ResampledModel { replicates, limits: ReplicateLimits::BiasCorrected }) => {
-                format!("bias-corrected percentiles of {} resamples, of the fits alone", replicates.len())
-            }
-        };
-        match &self.misfit {
-            Some(Misfit { answer: Line::Straight, .. }) => {
-                format!("{by}, of the fitted line alone, which its tests reject")
-            }
-            _ => by,
-        }
-    }
-
-    /// That the limits come from resamples of too few events, or that too many of these have no fit.
-    pub fn warn_of_few_events(&self, console: &Console) {
-        if let Some(ResampledModel { replicates, .. }) = &self.resampled {
-            let missing = replicates.iter().filter(|model| model.is_none()).count();
-            if missing > replicates.len() / 20 {
-                console.warn(&format!(
-                    "{missing} of {} resamples have no fit, so that they give no limits; take --limits delta",
-                    replicates.len()
-                ));
-            }
-        }
-        if self.resampled.is_some() && self.few_events {
-            console.warn("P_ro comes from fewer than 10 events, or non-events, for each coefficient: where it is small, limits by resamples are too narrow, those of --limits delta are not");
-        }
-    }
-
-    /// Warns that the tests of the curve reject it, and by how much it is off.
-    pub fn warn_of_misfit(&self, console: &Console) {
-        if let Some(misfit) = &self.misfit {
-            console.warn(&misfit.words());
-        }
-    }
-
-    /// In words: of what, over which measures.
-    pub fn words(&self) -> String {
-        let model = &self.model;
-        let of = |measures: &mut dyn Iterator<Item = Measure>| {
-            measures.map(Keyword::as_str).collect::<Vec<_>>().join(" and ")
-        };
-        let demand = of(&mut model.demand.at_strong_motion().ln_median.measures());
-        let planes = match model.demand {
-            DemandModel::Everywhere(_) => String::new(),
-            DemandModel::Biplanar { transition, .. } => {
-                format!(" in two planes that meet at im4 {transition}")
-            }
-        };
-        let overturning = of(&mut model.overturning.measures());
-        let bent = if model.overturning.bend.is_some() { ", bent" } else { "" };
-        let suite = self.suite.as_deref().map_or(String::new(), |suite| format!(", {suite}"));
-        format!("{}{suite}: P_ex of {demand}{planes}, P_ro of {overturning}{bent}", self.structure)
-    }
-
-    /// Warns if the structure is not the one that was simulated: by what is known of such transfers, or of its eta.
-    pub fn warn_of_structure(&self, structure: &Structure, console: &Console) {
-        let fitted = self.block.map(|block| (block, self.model.eta));
-        let transfer = fitted.and_then(|fitted| transfers::words(self.suite.as_deref(), fitted, structure));
-        if let Some(words) = transfer {
-            return console.warn(&words);
-        }
-        if self.is_other_eta(structure.eta) {
-            console.warn(&format!(
-                "eta is {:.4}, but the fits are of eta {:.4}, on which the curves depend: simulate and fit with this eta",
-                structure.eta, self.model.eta
-            ));
-        }
-    }
-
-    /// That these measures, of what `subject` says, lie outside of the data.
-    pub fn warn_of_range(&self, measures: &IntensityMeasures, subject: &str, console: &Console) {
-        let mut outside: Vec<OutOfRange> = self.model.out_of_range(measures).collect();
-        outside.dedup_by_key(|out| out.measure);
-        for OutOfRange { measure, value, range: [least, largest] } in outside {
-            console.warn(&format!(
-                "{subject}{} is {value:.4}, outside of {least:.4} to {largest:.4} in the data: extrapolated",
-                measure.as_str()
-            ));
-        }
-    }
-
-    /// That the p PGV / PGA of a slice lies outside of the data, or that it goes up `to` an intensity above them.
-    pub fn warn_of_slice(&self, slice: &Slice, to: f64, subject: &str, console: &Console) {
-        let strong = slice.intensity_at_im4(self.model.transition_im4().unwrap_or(1.0));
-        self.warn_of_range(&slice.measures(strong), subject, console);
-        let (largest, (unit, size)) = (slice.largest_in_data(&self.model), slice.peak.usual_unit());
-        if to > largest * (1.0 + 1e-9) {
-            console.warn(&format!(
-                "{subject}up to {:.4} {unit}, but the data only to {:.4} {unit}: extrapolated",
-                to / size,
-                largest / size
-            ));
-        }
-    }
-
-    /// Whether a structure has another slenderness or size than the one that was simulated.
-    pub fn is_other_block(&self, structure: &Structure) -> bool {
-        self.block.is_some_and(|block| transfers::is_other_block(block, structure))
-    }
-
     /// Whether this coefficient of restitution is another one than that of the fits.
     pub fn is_other_eta(&self, eta: f64) -> bool {
         (eta - self.model.eta).abs() > SAME_ETA
@@ -217,7 +99,10 @@ impl Answers for ChosenFits {
     }
 
     fn probabilities(&self, _: &Structure, measures: &IntensityMeasures) -> Probabilities {
-        self.with_limits(measures)
+        let probabilities = self.model.probabilities(measures);
+        let Some(resampled) = &self.resampled else { return probabilities };
+        let given_rocking = probabilities.given_rocking.map(|given| resampled.with_limits(&given, measures));
+        Probabilities { given_rocking, ..probabilities }
     }
 
     fn resampled(&self) -> Option<&ResampledModel> {
@@ -238,11 +123,42 @@ impl Answers for ChosenFits {
     }
 
     fn words(&self) -> String {
-        format!("fits of {}", ChosenFits::words(self))
+        let model = &self.model;
+        let of = |measures: &mut dyn Iterator<Item = Measure>| {
+            measures.map(Keyword::as_str).collect::<Vec<_>>().join(" and ")
+        };
+        let demand = of(&mut model.demand.at_strong_motion().ln_median.measures());
+        let planes = match model.demand {
+            DemandModel::Everywhere(_) => String::new(),
+            DemandModel::Biplanar { transition, .. } => {
+                format!(" in two planes that meet at im4 {transition}")
+            }
+        };
+        let overturning = of(&mut model.overturning.measures());
+        let bent = if model.overturning.bend.is_some() { ", bent" } else { "" };
+        let suite = self.suite.as_deref().map_or(String::new(), |suite| format!(", {suite}"));
+        format!("fits of {}{suite}: P_ex of {demand}{planes}, P_ro of {overturning}{bent}", self.structure)
     }
 
     fn words_of_limits(&self) -> String {
-        ChosenFits::words_of_limits(self)
+        let by = match &self.resampled {
+            None if self.model.overturning.spread > 0.0 => {
+                "by the delta method, for one magnitude and distance that the fits have not seen".to_string()
+            }
+            None => "by the delta method".to_string(),
+            Some(ResampledModel { replicates, limits: ReplicateLimits::Percentile }) => {
+                format!("percentiles of {} resamples, of the fits alone", replicates.len())
+            }
+            Some(ResampledModel { replicates, limits: ReplicateLimits::BiasCorrected }) => {
+                format!("bias-corrected percentiles of {} resamples, of the fits alone", replicates.len())
+            }
+        };
+        match &self.misfit {
+            Some(Misfit { answer: Line::Straight, .. }) => {
+                format!("{by}, of the fitted line alone, which its tests reject")
+            }
+            _ => by,
+        }
     }
 
     fn meaning(&self, state: LimitState) -> String {
@@ -270,12 +186,24 @@ impl Answers for ChosenFits {
     }
 
     fn warn(&self, console: &Console) {
-        self.warn_of_few_events(console);
-        self.warn_of_misfit(console);
+        if let Some(resampled) = &self.resampled {
+            if let Some(missing) = resampled.too_many_missing() {
+                console.warn(&format!(
+                    "{missing} of {} resamples have no fit, so that they give no limits; take --limits delta",
+                    resampled.replicates.len()
+                ));
+            }
+            if self.few_events {
+                console.warn("P_ro comes from fewer than 10 events, or non-events, for each coefficient: where it is small, limits by resamples are too narrow, those of --limits delta are not");
+            }
+        }
+        if let Some(misfit) = &self.misfit {
+            console.warn(&misfit.words());
+        }
     }
 
     fn is_other_block(&self, structure: &Structure) -> bool {
-        ChosenFits::is_other_block(self, structure)
+        self.block.is_some_and(|block| transfers::is_other_block(block, structure))
     }
 
     fn is_other_structure(&self, structure: &Structure) -> bool {
@@ -287,14 +215,40 @@ impl Answers for ChosenFits {
     }
 
     fn warn_of_structure(&self, structure: &Structure, console: &Console) {
-        ChosenFits::warn_of_structure(self, structure, console);
+        let fitted = self.block.map(|block| (block, self.model.eta));
+        let transfer = fitted.and_then(|fitted| transfers::words(self.suite.as_deref(), fitted, structure));
+        if let Some(words) = transfer {
+            return console.warn(&words);
+        }
+        if self.is_other_eta(structure.eta) {
+            console.warn(&format!(
+                "eta is {:.4}, but the fits are of eta {:.4}, on which the curves depend: simulate and fit with this eta",
+                structure.eta, self.model.eta
+            ));
+        }
     }
 
     fn warn_of_range(&self, measures: &IntensityMeasures, subject: &str, console: &Console) {
-        ChosenFits::warn_of_range(self, measures, subject, console);
+        let mut outside: Vec<OutOfRange> = self.model.out_of_range(measures).collect();
+        outside.dedup_by_key(|out| out.measure);
+        for OutOfRange { measure, value, range: [least, largest] } in outside {
+            console.warn(&format!(
+                "{subject}{} is {value:.4}, outside of {least:.4} to {largest:.4} in the data: extrapolated",
+                measure.as_str()
+            ));
+        }
     }
 
     fn warn_of_slice(&self, slice: &Slice, to: f64, subject: &str, console: &Console) {
-        ChosenFits::warn_of_slice(self, slice, to, subject, console);
+        let strong = slice.intensity_at_im4(self.model.transition_im4().unwrap_or(1.0));
+        self.warn_of_range(&slice.measures(strong), subject, console);
+        let (largest, (unit, size)) = (slice.largest_in_data(&self.model), slice.peak.usual_unit());
+        if to > largest * (1.0 + 1e-9) {
+            console.warn(&format!(
+                "{subject}up to {:.4} {unit}, but the data only to {:.4} {unit}: extrapolated",
+                to / size,
+                largest / size
+            ));
+        }
     }
 }

@@ -122,6 +122,11 @@ impl FitFiles {
         Ok(FitFiles { pex: files.input("pex")?, pro: files.input("pro")?, options })
     }
 
+    /// The files, by the role each plays.
+    pub fn inputs(&self) -> [(&'static str, Source); 2] {
+        [("pex", self.pex.clone()), ("pro", self.pro.clone())]
+    }
+
     /// Reads the files and chooses.
     ///
     /// # Errors

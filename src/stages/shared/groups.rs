@@ -72,13 +72,6 @@ impl Group {
             _ => first.clone(),
         }
     }
-
-    /// That of each response.
-    pub fn structures(&self) -> impl Iterator<Item = Structure> {
-        let (p, alpha) = (self.blocks.column(0), self.blocks.column(1));
-        let of = |(p_rad_s, alpha_rad)| Structure { p_rad_s, alpha_rad, ..self.structure() };
-        p.into_iter().zip(alpha).map(of)
-    }
 }
 
 /// The groups of a responses file, or of the stripes of ida, in the order in which they first appear.

@@ -3,7 +3,7 @@
 use super::answers::Answers;
 use crate::fragility::universal::{self, Scenarios, other_structure};
 use crate::fragility::{Fragility, JointPeaks, LimitState, Slice, UniversalModel};
-use crate::keyword;
+use crate::keyword::{self, Keyword};
 use crate::motion::{IntensityMeasures, Suite};
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
@@ -54,6 +54,11 @@ impl Surface {
 
 fn known_suite(word: &str) -> Option<Suite> {
     keyword::parse(word).ok().filter(|suite| Suite::SYNTHETIC.contains(suite))
+}
+
+fn warn_of_outside(name: &str, value: f64, [least, largest]: [f64; 2], console: &Console) {
+    console
+        .warn(&format!("{name} is {value:.4}, outside of {least} to {largest} of the surface: extrapolated"));
 }
 
 impl Answers for Surface {
@@ -116,21 +121,14 @@ impl Answers for Surface {
 
     fn warn_of_structure(&self, structure: &Structure, console: &Console) {
         for other in other_structure(structure) {
-            let (parameter, [least, largest]) = (other.parameter, other.range);
-            console.warn(&format!(
-                "{parameter} is {:.4}, outside of {least} to {largest} of the surface: extrapolated",
-                other.value
-            ));
+            warn_of_outside(other.parameter, other.value, other.range, console);
         }
     }
 
     fn warn_of_range(&self, measures: &IntensityMeasures, subject: &str, console: &Console) {
         for out in self.0.out_of_range(measures) {
-            let (measure, [least, largest]) = (keyword::Keyword::as_str(out.measure), out.range);
-            console.warn(&format!(
-                "{subject}{measure} is {:.4}, outside of {least} to {largest} of the surface: extrapolated",
-                out.value
-            ));
+            let name = format!("{subject}{}", out.measure.as_str());
+            warn_of_outside(&name, out.value, out.range, console);
         }
     }
 

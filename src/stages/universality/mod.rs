@@ -250,6 +250,8 @@ impl Declare for Universality {
         "File to write [default: universality.parquet beside the input]",
     )
     .with_parts(&["pooled"]);
+    const SHOWS_TABLE: bool = true;
+    const HAS_PROGRESS: bool = false;
 
     fn create(options: &UniversalityOptions, files: &Files) -> anyhow::Result<Universality> {
         Universality::new(options, files.input("responses")?, files.out(Self::OUTPUT.file))
