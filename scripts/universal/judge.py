@@ -1,6 +1,7 @@
 """Holds the surface against 60 structures and all cells that it has not seen, both at once, and against records:
-python judge.py MOTIONS EQUIPMENT RECORDS OUT.json RESPONSES..."""
+python judge.py MOTIONS EQUIPMENT RECORDS[,RECORDS...] OUT.json RESPONSES..."""
 
+import itertools
 import json
 import sys
 
@@ -178,15 +179,15 @@ def main():
         result[NAMES[limit]] = said
         print(NAMES[limit], json.dumps(said, indent=1), flush=True)
     final = fit.both(train, knots, None, starts)
-    seen = of.read([records], None)
     result["records"] = {}
-    for limit in EVENTS:
+    for file, limit in itertools.product(records.split(","), EVENTS):
+        seen = of.read([file], None)
         cases = of.some(seen, np.ones(len(seen["im4"]), bool) if limit is None else ~seen["overturned"])
         happened = event(cases, limit)
         p = 1 / (1 + np.exp(-(final[0] if limit is None else final[1]).index(of.columns_of(cases, limit or 0.2))))
         q = np.clip(paper_probability(cases, limit), 1e-6, 1 - 1e-6)
         score = lambda p: float(np.where(happened, np.log(p), np.log1p(-p)).mean())
-        result["records"][NAMES[limit]] = {
+        result["records"][f"{file}: {NAMES[limit]}"] = {
             "n": len(happened), "seen": int(happened.sum()), "expected": float(p.sum()), "log_score": score(np.clip(p, 1e-6, 1 - 1e-6)),
             "share": score(np.full(len(p), happened.mean())), "equipment expected": float(q.sum()), "equipment log_score": score(q),
             "reliability": reliability(p, happened),
