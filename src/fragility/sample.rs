@@ -23,7 +23,7 @@ pub struct Sample {
 /// Which of the labels is that of the cluster; the first is the row.
 pub const CLUSTER: usize = 1;
 /// Fewer clusters say too little of how they differ: limits that allow for it come out too narrow (Cameron & Miller 2015, section VI).
-const MANY: usize = 20;
+pub const MANY: usize = 20;
 
 impl Sample {
     /// Of an event; `event` says whether it happened, or that a case does not count.

@@ -90,6 +90,12 @@ impl UniversalModel {
         Some(PARSED.curves.each_ref().map(|curve| curve.at(&functions, self.scenarios)))
     }
 
+    /// The probability of overturning given rocking, without limits; none where the ground has no velocity.
+    pub fn p_ro(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<f64> {
+        let functions = PARSED.functions(self, structure, measures)?;
+        Some(logistic(PARSED.curves[0].value(&functions)))
+    }
+
     fn given_rocking(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<GivenRocking> {
         let [overturning, exceeding] = self.indices(structure, measures)?;
         let (p_ro, p_ex) = (overturning.probability(), exceeding.probability());
@@ -244,15 +250,21 @@ impl Surface {
 }
 
 impl Curve {
+    /// Its terms, with the product of functions of each.
+    fn products<'s>(&'s self, functions: &'s Functions) -> impl Iterator<Item = (&'s Term, f64)> {
+        let product = move |term: &Term| term.functions.iter().zip(functions).map(|(&k, of)| of[k]).product();
+        self.terms.iter().map(move |term| (term, product(term))).filter(|(_, product)| *product != 0.0)
+    }
+
+    fn value(&self, functions: &Functions) -> f64 {
+        self.products(functions).map(|(term, product)| term.coefficient * product).sum()
+    }
+
     fn at(&self, functions: &Functions, scenarios: Scenarios) -> LogitIndex {
         let replicates = self.terms.first().map_or(0, |term| term.deviations.len());
         let spread = self.spread[scenarios as usize];
         let mut index = LogitIndex { value: 0.0, deviations: vec![0.0; replicates], spread };
-        for term in &self.terms {
-            let product: f64 = term.functions.iter().zip(functions).map(|(&k, of)| of[k]).product();
-            if product == 0.0 {
-                continue;
-            }
+        for (term, product) in self.products(functions) {
             index.value += term.coefficient * product;
             let pairs = index.deviations.iter_mut().zip(&term.deviations);
             pairs.for_each(|(sum, deviation)| *sum += deviation * product);

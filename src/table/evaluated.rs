@@ -25,6 +25,8 @@ table! {
         p_f_r_high: Option<f64>,
         p_f: Option<f64>,
         out_of_range: Option<Measure>,
+        distance: Option<f64>,
+        p_ro_universal: Option<f64>,
     }
 }
 
@@ -64,6 +66,10 @@ pub struct EvaluatedRow {
     pub probabilities: Probabilities,
     /// A measure outside of the range of the data.
     pub out_of_range: Option<Measure>,
+    /// How far the question is from the middle of the data, their rim being 1; none without rocking.
+    pub distance: Option<f64>,
+    /// P_ro by the surface that is shipped, where fits answer.
+    pub p_ro_universal: Option<f64>,
 }
 
 impl From<&EvaluatedRow> for ProbabilityRow {
@@ -91,6 +97,8 @@ impl From<&EvaluatedRow> for ProbabilityRow {
             p_f_r_high: p_f_r.map(|p| p.high),
             p_f: row.probabilities.limit_states().map(|[_, failure, _]| failure.value),
             out_of_range: row.out_of_range,
+            distance: row.distance,
+            p_ro_universal: row.p_ro_universal,
         }
     }
 }

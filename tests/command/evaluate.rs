@@ -342,6 +342,23 @@ fn few_events_are_told_with_what_to_take() {
 }
 
 #[test]
+fn limits_from_few_magnitudes_and_distances_are_doubted() {
+    for (cells, few) in
+        [("--mw 6.5 --re 5:20:5 --samples 30", true), ("--mw 6:7:0.5 --re 5:20:2.5 --samples 6", false)]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        succeed(folder.path(), &format!("sample-scenarios {cells}"));
+        succeed(folder.path(), "synthesize-motions --suite csgm");
+        succeed(folder.path(), "simulate --structures paper");
+        succeed(folder.path(), "fit-pex --transition 1.3");
+        succeed(folder.path(), "fit-pro");
+        let call = "evaluate --structure electrical-equipment --p 2.5 --alpha 0.2 --pga 0.5 --pgv 0.6";
+        let told = succeed(folder.path(), call);
+        assert_eq!(told.contains("fewer than 20 magnitudes and distances, or earthquakes"), few, "{told}");
+    }
+}
+
+#[test]
 fn questions_without_an_answer_are_explained() {
     let (folder, fits) = fitted();
     let ask = |rest: &str, code, expected: &[&str]| {

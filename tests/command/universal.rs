@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{ArrayRef, Float64Array};
+use arrow_array::{Array, ArrayRef, Float64Array};
 
 use crate::clusters::rows as rows_of;
 use crate::common::{fail, rockfrag, succeed, write};
@@ -131,7 +131,7 @@ fn what_the_surface_does_not_know_is_said() {
 fn a_table_is_answered_row_by_row() {
     let folder = tempfile::tempdir().unwrap();
     let column = |values: &[f64]| Arc::new(Float64Array::from(values.to_vec())) as ArrayRef;
-    let rows = [(2.5, 0.2, 0.92, 0.5, 0.6), (1.0, 0.15, 0.9, 0.3, 0.9)];
+    let rows = [(2.5, 0.2, 0.92, 0.5, 0.6), (1.0, 0.15, 0.92, 0.3, 0.9)];
     let of = |k: fn(&(f64, f64, f64, f64, f64)) -> f64| column(&rows.iter().map(k).collect::<Vec<_>>());
     write(
         &folder.path().join("t.parquet"),
@@ -145,12 +145,30 @@ fn a_table_is_answered_row_by_row() {
     );
     let said = succeed(folder.path(), "evaluate --in t.parquet --out e.parquet");
     assert!(said.contains("2 rows by the universal fragility surface"), "{said}");
-    let table = rows_of(&folder.path().join("e.parquet"));
-    let p_ro = table.column_by_name("p_ro").unwrap().as_primitive::<Float64Type>().clone();
-    for (row, (p, alpha, eta, pga, pgv)) in rows.into_iter().enumerate() {
-        let asked = format!("evaluate --p {p} --alpha {alpha} --eta {eta} --pga {pga} --pgv {pgv}");
-        let answer = json(folder.path(), &asked);
-        assert!((value(&answer, "p_ro", "value") - p_ro.value(row)).abs() < 1e-12);
+    let (_, fits) = fitted();
+    succeed(folder.path(), &format!("evaluate {fits} --in t.parquet --out own.parquet"));
+    for (file, fits) in [("e.parquet", ""), ("own.parquet", &fits)] {
+        let table = rows_of(&folder.path().join(file));
+        let column = |name: &str| table.column_by_name(name).unwrap().as_primitive::<Float64Type>().clone();
+        for (row, (p, alpha, eta, pga, pgv)) in rows.into_iter().enumerate() {
+            let asked =
+                format!("evaluate {fits} --p {p} --alpha {alpha} --eta {eta} --pga {pga} --pgv {pgv}");
+            let answer = json(folder.path(), &asked);
+            for name in ["p_ro", "distance"] {
+                let difference = value(&answer, name, "value") - column(name).value(row);
+                assert!(difference.abs() < 1e-12, "{name} of row {row} of {file}: {difference}");
+            }
+            let surface = column("p_ro_universal");
+            assert_eq!(
+                surface.is_null(row),
+                fits.is_empty(),
+                "the surface is beside fits, and not beside itself"
+            );
+            if !fits.is_empty() {
+                let difference = value(&answer, "p_ro_universal", "value") - surface.value(row);
+                assert!(difference.abs() < 1e-12, "row {row}: {difference}");
+            }
+        }
     }
 }
 

@@ -1,14 +1,12 @@
 //! A figure of our own: what other measures gain over those of the paper.
 
 use super::dots::{self, Dots};
+use crate::fragility::probability::Z_95;
 use crate::report::axis::{Axis, range};
 use crate::report::data::{Ranking, ReportData};
 use crate::report::drawing::Ink;
 use crate::report::figure::Figure;
 use crate::report::text::Label;
-
-/// Half the width of 95 % limits, standard errors.
-const HALF_WIDTH: f64 = 1.96;
 
 /// Draws one figure, one panel a structure, suite and target.
 pub fn figures(data: &ReportData) -> Vec<Figure> {
@@ -26,7 +24,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
 }
 
 fn panel(Ranking { name, candidates }: &Ranking) -> Dots {
-    let limits = |gain: f64, error: f64| [gain, gain - HALF_WIDTH * error, gain + HALF_WIDTH * error];
+    let limits = |gain: f64, error: f64| [gain, gain - Z_95 * error, gain + Z_95 * error];
     let [low, high] =
         range(candidates.iter().flat_map(|(_, gain, error)| limits(*gain, *error)).chain([0.0]));
     let margin = 0.05 * (high - low).max(1e-3);

@@ -1,5 +1,6 @@
 use rayon::prelude::*;
 
+use crate::fragility::universal::Scenarios;
 use crate::fragility::{PeaksDoubt, doubt_of_peaks};
 use crate::pipeline::console::Console;
 use crate::pipeline::stream::pipelined;
@@ -63,8 +64,11 @@ impl EvaluatedTable {
     }
 
     fn row(&self, intensity: &Intensity) -> EvaluatedRow {
-        let measures = &intensity.measures;
-        let probabilities = self.answers.probabilities(&intensity.structure, measures);
+        let Intensity { structure, measures, .. } = intensity;
+        let probabilities = self.answers.probabilities(structure, measures);
+        let rocks = probabilities.p_nr == 0.0;
+        let distance = self.answers.model().distance(structure, measures).filter(|_| rocks);
+        let surface = self.answers.surface(Scenarios::One).filter(|_| rocks);
         EvaluatedRow {
             p_rad_s: intensity.structure.p_rad_s,
             alpha_rad: intensity.structure.alpha_rad,
@@ -72,6 +76,8 @@ impl EvaluatedTable {
             pgv_m_s: intensity.pgv_m_s,
             probabilities,
             out_of_range: self.answers.model().outside(measures).first().map(|out| out.measure),
+            distance: distance.map(|(distance, _)| distance),
+            p_ro_universal: surface.and_then(|surface| surface.p_ro(structure, measures)),
         }
     }
 }

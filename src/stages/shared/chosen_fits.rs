@@ -4,6 +4,7 @@ use super::answers::Answers;
 use super::surface::Surface;
 use super::transfers;
 use crate::fragility::overturning::group::rejects;
+use crate::fragility::sample::MANY;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{
     DemandModel, Fragility, FragilityModel, Gap, JointPeaks, LimitState, Measure, OutOfRange, Probabilities,
@@ -28,6 +29,8 @@ pub struct ChosenFits {
     pub resampled: Option<ResampledModel>,
     /// Whether P_ro comes from so few events that some limits are too narrow.
     pub few_events: bool,
+    /// Whether it comes from so few magnitudes and distances, or earthquakes, that little is known of how these differ.
+    pub few_clusters: bool,
     /// Akaike's criterion of the curve of P_ro for each case: the least is of the best model.
     pub aic_per_case: f64,
     /// What speaks against the curve of P_ro, if anything does.
@@ -196,6 +199,11 @@ impl Answers for ChosenFits {
             if self.few_events {
                 console.warn("P_ro comes from fewer than 10 events, or non-events, for each coefficient: where it is small, limits by resamples are too narrow, those of --limits delta are not");
             }
+        }
+        if self.few_clusters {
+            console.warn(&format!(
+                "P_ro comes from fewer than {MANY} magnitudes and distances, or earthquakes: by how much these differ is known badly, and low and high may be too narrow"
+            ));
         }
         if let Some(misfit) = &self.misfit {
             console.warn(&misfit.words());

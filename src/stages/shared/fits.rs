@@ -211,6 +211,7 @@ impl FitFiles {
             model,
             resampled: None,
             few_events,
+            few_clusters: curve.clustered_covariance.is_none(),
             aic_per_case: curve.aic.unwrap_or(f64::INFINITY) / curve.n as f64,
             misfit,
             block,

@@ -229,6 +229,8 @@ columns! {
     p_f_r_high: Float64, "1", "upper 95 % limit of p_f_r";
     p_f: Float64, "1", "probability of failure over the whole tree; exactly 0 without rocking";
     out_of_range: Text, "1", "a measure outside of the range of the data of the fits";
+    distance: Float64, "1", "how far the question is from the middle of the data (0) to their rim (1) and beyond, in the coordinate in which it is farthest";
+    p_ro_universal: Float64, "1", "p_ro by the universal surface; null where it answers itself";
     im_hybrid: Float64, "1", "hybrid measure of P_ro: im_x^(lambda/(1 + lambda)) im_y^(1/(1 + lambda)) (Eq. 23)";
     asked = "quantity": Text, "1", "a probability, or a measure of the intensity";
     value: Float64, "1", "best estimate";
