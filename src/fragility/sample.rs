@@ -24,6 +24,10 @@ pub struct Sample {
 pub const CLUSTER: usize = 1;
 /// Fewer clusters say too little of how they differ: limits that allow for it come out too narrow (Cameron & Miller 2015, section VI).
 pub const MANY: usize = 20;
+/// Of more cases than these, some will do to see how clusters differ: what is known of that hangs on how many clusters there are.
+const ENOUGH: usize = 1 << 14;
+/// Steps of this share of a turn come to no case, cell or cluster more often than to another, however these follow each other.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl Sample {
     /// Of an event; `event` says whether it happened, or that a case does not count.
@@ -102,6 +106,23 @@ impl Sample {
         let mut columns = Columns::new(self.measures + more + 4, &Arc::default());
         self.columns.each(self.measures + 4, of_block, |some| columns.append(&some));
         Sample { columns, measures: self.measures + more }
+    }
+
+    /// Cases from all over the sample, as many as are enough to see how clusters differ; none where all of them are no more.
+    pub fn thinned(&self) -> Option<Sample> {
+        let share = ENOUGH as f64 / self.cases() as f64;
+        if share >= 1.0 {
+            return None;
+        }
+        let of_block = |first: usize, columns: &[&[f64]]| -> Vec<Vec<f64>> {
+            let is_kept = |case: &usize| ((first + case) as f64 * GOLDEN).fract() < share;
+            let kept: Vec<usize> = (0..columns[0].len()).filter(is_kept).collect();
+            columns.iter().map(|column| kept.iter().map(|&case| column[case]).collect()).collect()
+        };
+        let width = self.measures + 4;
+        let mut columns = Columns::new(width, &Arc::default());
+        self.columns.each(width, of_block, |some| columns.append(&some));
+        Some(Sample { columns, measures: self.measures })
     }
 
     /// Whether the cases are of many clusters.

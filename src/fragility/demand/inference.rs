@@ -77,9 +77,11 @@ impl<'a> DemandInference<'a> {
             let means = rows.indices(&fit.coefficients).into_iter();
             means.map(|mean| exceeding_index(mean, limit, fit.residual_sd)).collect()
         };
-        let design = self.sample.design();
+        let thinned = self.sample.thinned();
+        let some = thinned.as_ref().unwrap_or(self.sample);
+        let refit = |weights: &[f64]| self.refit_to(some, weights);
         let ln_limit = limit.ln();
-        HeldOut::new(&design, Link::Probit, |weights| self.refit(weights), index, |ln_edp| ln_edp > ln_limit)
+        HeldOut::new(&some.design(), Link::Probit, refit, index, |ln_edp| ln_edp > ln_limit)
     }
 
     /// The fit itself.
@@ -90,7 +92,11 @@ impl<'a> DemandInference<'a> {
 
     /// The regression where each case of the sample counts so often; none if they do not determine it.
     pub fn refit(&self, weights: &[f64]) -> Option<DemandReplicate> {
-        let design = self.sample.design();
+        self.refit_to(self.sample, weights)
+    }
+
+    fn refit_to(&self, sample: &Sample, weights: &[f64]) -> Option<DemandReplicate> {
+        let design = sample.design();
         let coefficients = &self.coefficients + self.influence.step(&design, weights)?;
         let degrees = weights.iter().sum::<f64>() - coefficients.len() as f64;
         let squares = |rows: &Rows| {

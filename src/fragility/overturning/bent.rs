@@ -118,11 +118,14 @@ impl BentSample {
         let cluster = |rows: &Rows, case: usize| rows.labels[CLUSTER][case] as usize;
         let clustered = || Influence::of_regression(&fit).clustered_covariance(&design, &bread, cluster);
         let covariance = if self.sample.has_many_clusters() { clustered() } else { bread.clone() };
-        let refit = |weights: &[f64]| Some(self.maximum(Some(weights), &at, TOLERANCE)?.at);
+        let of_some = |sample| BentSample { sample, penalty: self.penalty.clone(), ..*self };
+        let thinned = self.sample.thinned().map(of_some);
+        let some = thinned.as_ref().unwrap_or(self);
+        let refit = |weights: &[f64]| Some(some.maximum(Some(weights), &at, TOLERANCE)?.at);
         let index = |b: &DVector<f64>, rows: &Rows| rows.indices(b.as_slice());
-        let held_out = HeldOut::new(&design, link, refit, index, |y| y != 0.0);
+        let held_out = HeldOut::new(&some.sample.design(), link, refit, index, |y| y != 0.0);
         let (coefficients, covariance) = (self.placed(&at), self.placed_covariance(&covariance));
-        Some(BentFit { knots: self.knots, coefficients, covariance, held_out, gap: self.gap(straight, &fit) })
+        Some(BentFit { knots: self.knots, coefficients, covariance, held_out, gap: some.gap(straight, &fit) })
     }
 
     /// The coefficients in each resample, as [`BentFit`] has them. How often each case is drawn is held in memory here, however many
@@ -169,7 +172,6 @@ impl BentSample {
         placed
     }
 
-    /// Holds the probabilities of all cases in memory, as few curves have to.
     fn gap(&self, straight: &BinaryFit, bent: &BinaryFit) -> Gap {
         // The terms of the line come first.
         let of_block = |rows: &Rows| -> Vec<Gap> {

@@ -57,11 +57,12 @@ impl<'a> CurveInference<'a> {
 
     /// What cases say that were left out, whole clusters of the sample at once.
     pub fn held_out(&self) -> Option<HeldOut> {
-        let (design, link) = (self.sample.design(), self.fit.link);
+        let thinned = self.sample.thinned();
+        let some = CurveInference::new(thinned.as_ref().unwrap_or(self.sample), self.fit);
         HeldOut::new(
-            &design,
-            link,
-            |weights| self.coefficients(weights),
+            &some.sample.design(),
+            self.fit.link,
+            |weights| some.coefficients(weights),
             |b, rows| rows.indices(b.as_slice()),
             |y| y != 0.0,
         )
