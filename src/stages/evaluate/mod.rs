@@ -201,7 +201,8 @@ impl Evaluate {
         };
         match (self.format, out) {
             (Format::Parquet, _) | (_, Target::Memory(..)) => {
-                let mut writer = TableWriter::create(out.clone(), &answer.table, provenance.clone())?;
+                let provenance = Provenance { shown: answer.shown.clone(), ..provenance.clone() };
+                let mut writer = TableWriter::create(out.clone(), &answer.table, provenance)?;
                 writer.append(&answer.rows)?;
                 Ok(writer.finish()?)
             }
