@@ -3,6 +3,7 @@
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rockfrag::fragility::demand::DemandInference;
 use rockfrag::fragility::overturning::Curve;
 use rockfrag::fragility::{CurveInference, CurveModel, CurveParameter, Event, Measure, ProbitIndex, Sample};
 use rockfrag::keyword::{self, Keyword};
@@ -117,15 +118,17 @@ pub fn profile_limits<'py>(
     Ok(Some((limits.low, limits.high)))
 }
 
-/// Least squares of a response on columns: coefficients, their covariance, the residual standard deviation.
+/// Least squares of a response on columns: coefficients, their covariance by clusters (each case one of its own where there are none),
+/// the residual standard deviation.
 #[pyfunction]
 pub fn fit_line<'py>(
     py: Python<'py>,
     columns: Vec<Column<'py>>,
     response: Column<'py>,
+    clusters: Option<Vec<usize>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let columns = vectors(&columns)?;
-    let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let owned = vectors(&columns)?;
+    let columns: Vec<&[f64]> = owned.iter().map(Vec::as_slice).collect();
     let response = response.as_slice()?;
     let told = PyDict::new(py);
     let fit = match least_squares(&columns, response) {
@@ -141,9 +144,12 @@ pub fn fit_line<'py>(
         }
     };
     let k = fit.coefficients.len();
+    let sample = Sample::of_columns(owned.clone(), response.to_vec());
+    let clusters = clusters.unwrap_or_else(|| (0..response.len()).collect());
+    let covariance = DemandInference::new(&sample, &fit).clustered_covariance(&clusters);
     told.set_item("status", fit.status().as_str())?;
     told.set_item("params", fit.values().iter().copied().collect::<Vec<f64>>().into_pyarray(py))?;
-    told.set_item("cov_params", PyArray2::from_vec2(py, &matrix(k, |i, j| fit.covariance[(i, j)]))?)?;
+    told.set_item("cov_params", PyArray2::from_vec2(py, &matrix(k, |i, j| covariance[(i, j)]))?)?;
     told.set_item("residual_sd", fit.residual_sd)?;
     told.set_item("df_resid", fit.n - k)?;
     told.set_item("r2", fit.r2)?;
@@ -182,6 +188,12 @@ fn unzipped<'py>(py: Python<'py>, indices: impl Iterator<Item = ProbitIndex>) ->
     let (values, errors): (Vec<f64>, Vec<f64>) =
         indices.map(|index| (index.value, index.standard_error)).unzip();
     (values.into_pyarray(py), errors.into_pyarray(py))
+}
+
+/// The probability of an F as large or larger.
+#[pyfunction]
+pub fn f_upper_tail(f: f64, degrees: f64, further: f64) -> f64 {
+    rockfrag::statistics::f_upper_tail(f, degrees, further)
 }
 
 /// The index of P_ex, from ln of the median demand and the variance of that.

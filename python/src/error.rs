@@ -4,8 +4,18 @@ use pyo3::prelude::*;
 use rockfrag::pipeline::UsageError;
 use rockfrag::table::TableError;
 
+/// What has another name in Python than on the command line.
+const OTHER_WORDS: [(&str, &str); 3] = [
+    ("--in TABLE", "intensities=TABLE"),
+    ("--columns pga_g=HEADING", "columns=\"pga_g=HEADING\""),
+    ("beam-mass-ratio", "beam_mass_ratio"),
+];
+
 /// A message in the words of Python: `--limit-state` is `limit_state`.
 pub fn in_python(message: &str) -> String {
+    let message = OTHER_WORDS
+        .iter()
+        .fold(message.to_string(), |message, (words, python)| message.replace(words, python));
     let word = |word: &str| match word.split_once("--") {
         Some((before, option))
             if before.chars().all(|c| !c.is_alphanumeric()) && option.starts_with(char::is_lowercase) =>

@@ -28,7 +28,8 @@ mod _rockfrag {
 
     #[pymodule_export]
     use crate::curves::{
-        exceeding, failure, fit_curve, fit_line, normal_quantile, probabilities, profile_limits, t_quantile,
+        exceeding, f_upper_tail, failure, fit_curve, fit_line, normal_quantile, probabilities,
+        profile_limits, t_quantile,
     };
     #[pymodule_export]
     use crate::probability::probability;
@@ -37,7 +38,7 @@ mod _rockfrag {
     #[pymodule_export]
     use crate::stages::{call, partition_file, stages};
     #[pymodule_export]
-    use crate::table::PyTable;
+    use crate::table::{PyTable, restored};
     #[pymodule_export]
     use crate::tools::{command, inspect_file, run_pipeline, seed_spread};
 

@@ -8,9 +8,9 @@ use arrow_array::types::{Float32Type, Float64Type, Int32Type, Int64Type};
 use arrow_array::{Array, ArrayRef, RecordBatch, StructArray};
 use arrow_schema::{ArrowError, DataType, Field};
 use numpy::IntoPyArray;
-use pyo3::exceptions::{PyKeyError, PyTypeError};
+use pyo3::exceptions::{PyImportError, PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyCapsule, PyDict, PyList};
+use pyo3::types::{PyCapsule, PyDict, PyList, PySlice, PyTuple};
 use pyo3_arrow::error::PyArrowResult;
 use pyo3_arrow::ffi::{ArrayIterator, to_schema_pycapsule, to_stream_pycapsule};
 use pyo3_arrow::input::AnyRecordBatch;
@@ -18,9 +18,11 @@ use rockfrag::table::store::source::{MemoryTable, MemoryTables, Source};
 
 /// A table that a stage has made.
 ///
-/// It has the columns of the file that the command would write, in memory. ``table["edp"]`` is a column as a NumPy array.
-/// Any library that speaks the Arrow PyCapsule interface takes the whole without a copy: ``polars.DataFrame(table)``,
-/// ``pyarrow.table(table)``, ``duckdb.sql("from table")``. Two tables are equal if their columns and all values are.
+/// It has the columns of the file that the command would write, in memory. ``table["edp"]`` is a column as a NumPy array,
+/// ``table[["edp", "outcome"]]`` a table of two columns, ``table[2:5]`` one of three rows. polars, pyarrow and DuckDB take the whole
+/// without a copy, by the Arrow PyCapsule interface: ``polars.DataFrame(table)``, ``pyarrow.table(table)``,
+/// ``duckdb.sql("from table")``. For pandas call ``table.to_pandas()``. Two tables are equal if their columns and all values are.
+/// A table can be pickled, with its metadata; that needs pyarrow.
 ///
 /// Examples
 /// --------
@@ -32,6 +34,8 @@ use rockfrag::table::store::source::{MemoryTable, MemoryTables, Source};
 /// ['scenario_id', 'cell', 'sample', 'mw']
 /// >>> scenarios["re_km"]
 /// array([5., 5., 5.])
+/// >>> scenarios[["scenario_id", "mw"]][1:].shape
+/// (2, 2)
 /// >>> scenarios.metadata["parameters"]["seed"]
 /// 42
 /// >>> scenarios == rockfrag.sample_scenarios(mw=6.5, re=5, samples=3, seed=42)
@@ -67,23 +71,54 @@ impl PyTable {
         slf.py().import(module)?.getattr(function)?.call1((slf,))
     }
 
-    /// Batches of so many of the first rows.
-    fn first(&self, rows: usize) -> Vec<RecordBatch> {
-        let mut left = rows;
-        let mut first = Vec::new();
-        for batch in self.table.batches.iter().filter(|batch| batch.num_rows() > 0) {
-            first.push(batch.slice(0, left.min(batch.num_rows())));
-            left -= first[first.len() - 1].num_rows();
-            if left == 0 {
-                break;
+    /// The batches of some rows.
+    fn between(&self, start: usize, rows: usize) -> Vec<RecordBatch> {
+        let (mut before, mut left) = (start, rows);
+        let mut some = Vec::new();
+        for batch in &self.table.batches {
+            let skipped = before.min(batch.num_rows());
+            let taken = left.min(batch.num_rows() - skipped);
+            (before, left) = (before - skipped, left - taken);
+            if taken > 0 {
+                some.push(batch.slice(skipped, taken));
             }
         }
-        first
+        some
+    }
+
+    /// The same table with other rows or columns.
+    fn with(&self, py: Python, table: MemoryTable) -> PyTable {
+        let parts = self.parts.iter().map(|(name, part)| (name.clone(), part.clone_ref(py))).collect();
+        PyTable { table, parts, made: self.made.clone() }
+    }
+
+    /// The place of a column.
+    fn place(&self, column: &str) -> PyResult<usize> {
+        let known = self.table.schema.column_with_name(column).map(|(place, _)| place);
+        known.ok_or_else(|| {
+            PyKeyError::new_err(format!("no column '{column}'; there are {}", self.columns().join(", ")))
+        })
+    }
+
+    fn column<'py>(&self, py: Python<'py>, column: &str) -> PyResult<Bound<'py, PyAny>> {
+        let place = self.place(column)?;
+        let arrays: Vec<ArrayRef> =
+            self.table.batches.iter().map(|batch| batch.column(place).clone()).collect();
+        column_of(py, self.table.schema.field(place).data_type(), &arrays)
+    }
+
+    fn of_columns(&self, py: Python, columns: &[String]) -> PyResult<PyTable> {
+        let places = columns.iter().map(|column| self.place(column)).collect::<PyResult<Vec<usize>>>()?;
+        let failed = |error: ArrowError| PyTypeError::new_err(error.to_string());
+        let batches = self.table.batches.iter().map(|batch| batch.project(&places));
+        let batches = batches.collect::<Result<_, _>>().map_err(failed)?;
+        let schema = Arc::new(self.table.schema.project(&places).map_err(failed)?);
+        Ok(self.with(py, MemoryTable { schema, batches, ..self.table.clone() }))
     }
 
     /// Whether all values are those of a table with as many rows, however these are cut into batches.
     fn has_rows_of(&self, other: &PyTable) -> bool {
-        let (mut ours, mut theirs) = (self.first(usize::MAX), other.first(usize::MAX));
+        let (mut ours, mut theirs) = (self.between(0, usize::MAX), other.between(0, usize::MAX));
         ours.reverse();
         theirs.reverse();
         loop {
@@ -103,13 +138,13 @@ impl PyTable {
 
 #[pymethods]
 impl PyTable {
-    /// The names of the columns, in order; units are in their suffixes and, with the meaning, in the metadata of the Arrow fields.
+    /// Names of the columns, in order. A name ends in its unit; the metadata of the Arrow fields have unit and meaning.
     #[getter]
     fn columns(&self) -> Vec<&str> {
         self.table.schema.fields().iter().map(|field| field.name().as_str()).collect()
     }
 
-    /// How many rows and columns there are.
+    /// Numbers of rows and columns.
     #[getter]
     fn shape(&self) -> (usize, usize) {
         (self.__len__(), self.table.schema.fields().len())
@@ -123,44 +158,86 @@ impl PyTable {
         Ok(parts)
     }
 
-    /// How it was made: stage, version, parameters (with the seed) and warnings.
+    /// How the table was made: stage, version, parameters (with the seed) and warnings.
     #[getter]
     fn metadata<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         py.import("json")?.getattr("loads")?.call1((&self.made,))
     }
 
-    /// The first rows, without a copy.
+    /// Returns the first rows, without a copy.
     #[pyo3(signature = (n=5))]
-    fn head(&self, py: Python, n: usize) -> PyTable {
-        let parts = self.parts.iter().map(|(name, part)| (name.clone(), part.clone_ref(py))).collect();
-        let table = MemoryTable { batches: self.first(n), ..self.table.clone() };
-        PyTable { table, parts, made: self.made.clone() }
+    fn head(&self, py: Python, n: isize) -> PyResult<PyTable> {
+        let rows = usize::try_from(n)
+            .map_err(|_| PyValueError::new_err(format!("n is {n}; expected a number of rows, 0 or more")))?;
+        Ok(self.with(py, MemoryTable { batches: self.between(0, rows), ..self.table.clone() }))
     }
 
-    /// As a ``polars.DataFrame``.
+    /// Returns a ``polars.DataFrame``, without a copy.
     fn to_polars<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         PyTable::convert(slf, "polars", "DataFrame")
     }
 
-    /// As a ``pyarrow.Table``.
+    /// Returns a ``pyarrow.Table``, without a copy.
     fn to_pyarrow<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         PyTable::convert(slf, "pyarrow", "table")
     }
 
-    /// As a ``pandas.DataFrame``, by way of pyarrow.
+    /// Returns a ``pandas.DataFrame``; needs pyarrow.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         PyTable::to_pyarrow(slf)?.call_method0("to_pandas")
     }
 
-    /// A column as a NumPy array: where a number is missing NaN, where anything else is missing None.
-    fn __getitem__<'py>(&self, py: Python<'py>, column: &str) -> PyResult<Bound<'py, PyAny>> {
-        let Some((place, field)) = self.table.schema.column_with_name(column) else {
-            let message = format!("no column '{column}'; there are {}", self.columns().join(", "));
-            return Err(PyKeyError::new_err(message));
-        };
-        let arrays: Vec<ArrayRef> =
-            self.table.batches.iter().map(|batch| batch.column(place).clone()).collect();
-        column_of(py, field.data_type(), &arrays)
+    /// A column as a NumPy array: where a number is missing NaN, where anything else is missing None. Rows by a slice, and columns by a
+    /// list of their names, are a table.
+    fn __getitem__<'py>(&self, py: Python<'py>, key: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        if let Ok(column) = key.extract::<String>() {
+            return self.column(py, &column);
+        }
+        if let Ok(rows) = key.cast::<PySlice>() {
+            let rows = rows.indices(self.__len__() as isize)?;
+            if rows.step == 1 {
+                let batches = self.between(rows.start as usize, rows.slicelength);
+                let table = self.with(py, MemoryTable { batches, ..self.table.clone() });
+                return Ok(Bound::new(py, table)?.into_any());
+            }
+        } else if key.is_instance_of::<PyList>()
+            && let Ok(columns) = key.extract::<Vec<String>>()
+        {
+            return Ok(Bound::new(py, self.of_columns(py, &columns)?)?.into_any());
+        }
+        Err(PyTypeError::new_err(format!(
+            "table[{}]; expected the name of a column, a list of names, or rows from:to; filter and sort table.to_polars() or \
+             table.to_pandas()",
+            key.repr()?
+        )))
+    }
+
+    /// What an editor offers within the brackets.
+    fn _ipython_key_completions_(&self) -> Vec<&str> {
+        self.columns()
+    }
+
+    /// No array: pandas would take the names of the columns for values.
+    #[pyo3(signature = (dtype=None, copy=None))]
+    fn __array__(&self, dtype: Option<&Bound<PyAny>>, copy: Option<bool>) -> PyResult<()> {
+        let _ = (dtype, copy);
+        Err(PyTypeError::new_err(
+            "a Table is no single array; take table.to_pandas() for pandas, or a column as table['name']",
+        ))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
+        let py = slf.py();
+        let whole =
+            PyTable::to_pyarrow(slf).map_err(|error| match error.is_instance_of::<PyImportError>(py) {
+                true => PyTypeError::new_err("to pickle a Table needs pyarrow: pip install pyarrow"),
+                false => error,
+            })?;
+        let restored = py.import("rockfrag._rockfrag")?.getattr("restored")?;
+        let table = slf.get();
+        let parts: Vec<(&String, &Py<PyTable>)> =
+            table.parts.iter().map(|(name, part)| (name, part)).collect();
+        (restored, (whole, table.made.as_str(), parts)).into_pyobject(py)
     }
 
     fn __contains__(&self, column: &str) -> bool {
@@ -213,6 +290,13 @@ impl PyTable {
         let reader = ArrayIterator::new(arrays, Arc::new(field));
         to_stream_pycapsule(py, Box::new(reader), requested_schema)
     }
+}
+
+/// The table that was pickled.
+#[pyfunction]
+pub fn restored(table: AnyRecordBatch, made: String, parts: Vec<(String, Py<PyTable>)>) -> PyResult<PyTable> {
+    let (batches, schema) = table.into_table()?.into_inner();
+    Ok(PyTable { table: MemoryTable { name: PathBuf::new(), schema, batches }, parts, made })
 }
 
 /// A column as a NumPy array.

@@ -4,6 +4,7 @@ import pathlib
 
 import matplotlib
 import numpy as np
+import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -57,12 +58,107 @@ def test_statsmodels_clusters():
 def test_statsmodels_demand():
     curve = fit_demand(IM, EDP, limit_state=0.1)
     seen = ~OVERTURNED
-    theirs = sm.OLS(np.log(EDP[seen]), design(IM[seen])).fit()
+    theirs = sm.OLS(np.log(EDP[seen]), design(IM[seen])).fit(cov_type="HC1", use_t=True)
+    assert curve.cov_type == theirs.cov_type
     for name in ["params", "bse", "rsquared", "nobs", "df_resid"]:
         assert np.allclose(getattr(curve, name), getattr(theirs, name)), name
     assert np.allclose(curve.conf_int(), theirs.conf_int())
     assert np.isclose(curve.dispersion, theirs.scale**0.5)
     assert np.isclose(curve.probability(curve.median), 0.5)
+    cluster = np.arange(40) % 21
+    curve = fit_demand(IM, EDP, limit_state=0.1, cluster=cluster)
+    theirs = sm.OLS(np.log(EDP[seen]), design(IM[seen])).fit(cov_type="cluster", cov_kwds={"groups": cluster[seen]}, use_t=True)
+    assert np.allclose(curve.bse, theirs.bse) and curve.cov_type == theirs.cov_type
+
+
+def test_coefficients_are_a_frame_as_in_statsmodels():
+    theirs = sm.Probit(OVERTURNED.astype(float), design(IM)).fit(disp=False, tol=1e-12)
+    demand = sm.OLS(np.log(EDP[~OVERTURNED]), design(IM[~OVERTURNED])).fit(cov_type="HC1", use_t=True)
+    for curve, fit in [(fit_fragility(IM, OVERTURNED), theirs), (fit_demand(IM, EDP, limit_state=0.1), demand)]:
+        frame, expected = curve.summary_frame(alpha=0.1), fit.t_test(np.eye(2)).summary_frame(alpha=0.1)
+        assert list(frame.columns) == list(expected.columns) and list(frame.index) == list(curve.param_names)
+        assert np.allclose(frame.to_numpy(), expected.to_numpy(), rtol=1e-5)
+
+
+def by_clusters(count):
+    return np.arange(40) * count // 40
+
+
+def test_few_clusters_say_nothing_in_statsmodels():
+    model = sm.Probit(OVERTURNED.astype(float), design(IM))
+    plain = model.fit(disp=False).bse
+    # The scores of all clusters sum to 0: of two clusters, one follows from the other, and a covariance of two coefficients from
+    # one vector is singular.
+    two = model.fit(disp=False, cov_type="cluster", cov_kwds={"groups": by_clusters(2)})
+    assert np.linalg.matrix_rank(two.cov_params()) == 1 and two.bse[0] < 0.1 * plain[0]
+    # Limits by ten clusters that differ hold the truth less often than they say, by fifty about as often.
+    rng, held = np.random.default_rng(1), {}
+    for count in (5, 50):
+        groups = np.arange(200) % count
+        within = 0
+        for _ in range(100):
+            shared, x = rng.normal(size=(2, count)), rng.normal(size=200)
+            x = 0.5 * shared[0][groups] + 0.5 * x
+            happened = 1.5 * x + 0.6 * shared[1][groups] + 0.8 * rng.normal(size=200) > 0
+            fit = sm.Probit(happened.astype(float), sm.add_constant(x)).fit(disp=False, cov_type="cluster", cov_kwds={"groups": groups})
+            within += abs(fit.params[1] - 1.5) < 1.96 * fit.bse[1]
+        held[count] = within / 100
+    assert held[5] < 0.87 < 0.89 < held[50], held
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_one_cluster_or_two_are_refused(count):
+    for call in [
+        lambda: fit_fragility(IM, OVERTURNED, cluster=by_clusters(count)),
+        lambda: fit_demand(IM, EDP, limit_state=0.1, cluster=by_clusters(count)),
+        lambda: fit_failure(IM, EDP, OVERTURNED, limit_state=0.1, cluster=by_clusters(count)),
+    ]:
+        with pytest.raises(OptionError, match=f"cluster has {count} labels.*expected 20 or more, at least 3"):
+            call()
+
+
+def test_few_clusters_are_doubted():
+    for count, doubted in [(5, True), (19, True), (20, False), (40, False)]:
+        curve = fit_fragility(IM, OVERTURNED, cluster=by_clusters(count))
+        assert any(f"{count} clusters" in doubt for doubt in curve.doubts) == doubted
+    with pytest.warns(RockfragWarning, match="5 clusters: standard errors by fewer than 20 are too small"):
+        fit_demand(IM, EDP, limit_state=0.1, cluster=by_clusters(5))
+
+
+@pytest.mark.parametrize("wrong, words", [(-0.1, "-0.1"), (np.inf, "inf")])
+def test_demands_that_cannot_be_are_refused(wrong, words):
+    safe = np.flatnonzero(~OVERTURNED)[[2, 5]]
+    edp = EDP.copy()
+    edp[safe] = wrong
+    expected = f"edp: 2 of 40 cases .*the first, case {safe[0]}, is {words}; expected 0 or more"
+    with pytest.raises(OptionError, match=expected):
+        fit_demand(IM, edp, limit_state=0.1)
+    with pytest.raises(OptionError, match=expected):
+        fit_failure(IM, edp, OVERTURNED, limit_state=0.1)
+    # What overturned has no demand, whatever stands there.
+    edp = np.where(OVERTURNED, wrong, EDP)
+    assert fit_failure(IM, edp, OVERTURNED, limit_state=0.1) == fit_failure(IM, EDP, OVERTURNED, limit_state=0.1)
+    with pytest.raises(OptionError, match=f"1 of 40 cases did not overturn and are missing.*case {safe[0]}, is nan"):
+        fit_failure(IM, np.where(np.arange(40) == safe[0], np.nan, EDP), OVERTURNED, limit_state=0.1)
+
+
+def test_nullable_columns_of_pandas():
+    frame = pd.DataFrame({"im": IM, "happened": OVERTURNED, "edp": EDP}).convert_dtypes()
+    assert str(frame.dtypes["happened"]) == "boolean" and str(frame.dtypes["edp"]) == "Float64"
+    assert fit_fragility(frame.im, frame.happened) == fit_fragility(IM, OVERTURNED)
+    # NA stands where it overturned.
+    assert frame.edp.isna().any() and fit_demand(frame.im, frame.edp, limit_state=0.1) == fit_demand(IM, EDP, limit_state=0.1)
+    whole = pd.array(np.arange(1, 41), dtype="Int64")
+    assert fit_fragility(whole, frame.happened) == fit_fragility(np.arange(1.0, 41.0), OVERTURNED)
+    for values in [whole, frame.im.array]:
+        missing = values.copy()
+        missing[3] = pd.NA
+        with pytest.raises(OptionError, match="im: case 3 is missing; expected finite numbers above 0"):
+            fit_fragility(missing, frame.happened)
+    with pytest.raises(OptionError, match="outcome: case 3 is missing; expected bool"):
+        fit_fragility(IM, frame.happened.where(np.arange(40) != 3, pd.NA))
+    with pytest.raises(OptionError, match="cluster: case 3 is missing"):
+        fit_fragility(IM, OVERTURNED, cluster=missing)
 
 
 def test_pyfragility():
@@ -108,12 +204,15 @@ def test_the_stages(out, responses):
     pro, pex = of(pq.read_table(out / "pro.parquet").to_pandas()), of(pq.read_table(out / "pex.parquet").to_pandas())
     assert (curve.theta, curve.beta, curve.llf, curve.status) == (pro.theta, pro.beta, pro.log_likelihood, pro.status)
     assert (demand.params[0], demand.params[1], demand.dispersion) == (pex.ln_a, pex.b1, pex.beta)
+    for name in ["mu", "beta"]:
+        assert curve.profile_interval(name) == (pro[f"{name}_profile_low"], pro[f"{name}_profile_high"])
+    assert curve.profile_interval("theta") == pytest.approx(np.exp(curve.profile_interval("mu")))
     assert np.isclose(demand.beta, pex.zeta)
     hybrid = fit_fragility(np.column_stack([responses.im4, 1 / responses.im3]), overturned)
     row = pq.read_table(out / "pro.parquet").to_pandas().query(
         "suite == 'csgm' and structure == 'electrical-equipment' and im_y == 'im3_inv'"
     )
-    assert np.isclose(hybrid.exponent, row["lambda"].item()) and np.isclose(hybrid.theta, row.theta.item())
+    assert np.isclose(hybrid.lambda_, row["lambda"].item()) and np.isclose(hybrid.theta, row.theta.item())
     with pytest.raises(OptionError, match="no single axis"):
         hybrid.plot()
 
@@ -124,7 +223,6 @@ def test_failure_is_that_of_evaluate(out, responses, recwarn):
     fits = {"suite": "csgm", "structure": "electrical-equipment", "model": "univariate", "measure": "im5"}
     intensities = {"pga_m_s2": np.array([4.0, 6.0, 9.0]), "pgv_m_s": np.array([0.3, 0.6, 0.9])}
     # Of motions that share no magnitude and distance, as arrays share none: the limits then hold no differences between these.
-    # Robust errors, since there are many of them.
     alone = pq.read_table(out / "responses.parquet").drop_columns(["mw", "re_km"])
     pex, pro = rockfrag.fit_pex(alone), rockfrag.fit_pro(alone)
     answers = rockfrag.evaluate(pex, pro, pa.table(intensities), **fits, p=2.5, alpha=0.2)
@@ -132,8 +230,10 @@ def test_failure_is_that_of_evaluate(out, responses, recwarn):
     assert np.allclose(curve.probability(im5), answers["p_f"])
     overturning = fit_fragility(responses.im5, responses.outcome == "overturning", cluster=each)
     assert np.allclose(overturning.confidence_band(im5), [answers["p_ro_low"], answers["p_ro_high"]])
-    # Errors of the demand are robust in the stage, not in the fit of arrays.
-    assert np.allclose(curve.confidence_band(im5), [answers["p_f_r_low"], answers["p_f_r_high"]], atol=0.06)
+    # Each case has a variance of its own in both, and shares nothing with others.
+    for demand in [curve.demand, fit_demand(responses.im5, responses.edp, limit_state=0.1)]:
+        assert np.allclose(demand.confidence_band(im5), [answers["p_ex_low"], answers["p_ex_high"]])
+    assert np.allclose(curve.confidence_band(im5), [answers["p_f_r_low"], answers["p_f_r_high"]])
 
 
 def test_separated_outcomes_have_a_curve_with_firth_only():
@@ -175,6 +275,7 @@ def test_lists_scalars_and_shapes():
         (lambda: fit_fragility(IM, OVERTURNED, cluster=[1, 2]), "label for each of 40"),
         (lambda: fit_fragility(IM, OVERTURNED).confidence_band(1.0, level=95), "level is 95"),
         (lambda: fit_fragility(IM, OVERTURNED).profile_interval("gamma"), "gamma"),
+        (lambda: fit_fragility(IM, OVERTURNED).conf_int(95), "alpha is 95; .* such as 0.05 for 95 % limits"),
         (lambda: fit_demand(IM, EDP, limit_state=-1.0), "limit_state is -1"),
     ],
 )
@@ -199,6 +300,15 @@ def test_plots_and_summaries():
         assert type(curve).__name__ in repr(curve)
         assert "<table>" in curve._repr_html_()
         assert str(curve.summary()).count("\n") >= 2
+        assert f" over {curve.im_name}: " in str(curve.summary())
+
+
+def test_the_legend_names_the_link():
+    matplotlib.use("Agg")
+    for link in ["probit", "cloglog"]:
+        axes = fit_fragility(IM, OVERTURNED, link=link).plot()
+        assert axes.get_legend_handles_labels()[1][0].startswith(f"{link}, median 1")
+    matplotlib.pyplot.close("all")
 
 
 def test_a_curve_keeps_what_it_was_fitted_to():

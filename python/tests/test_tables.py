@@ -1,6 +1,8 @@
 """Tables go to and come from the libraries that speak Arrow."""
 
+import copy
 import pathlib
+import pickle
 
 import duckdb
 import numpy as np
@@ -84,6 +86,67 @@ def test_tables_are_equal_by_their_values(out):
     assert of(1) == rockfrag.synthesize_motions(out / "scenarios.parquet", dt=0.01, suite="pulse", seed=1, row_group=7)
     assert of(1).head(3) == of(1).head(3) and of(1).head(3) != of(1)
     assert of(1).head(3).shape == (3, len(of(1).columns))
+
+
+def test_rows_and_columns_are_tables(out, expected):
+    responses = rockfrag.simulate(out / "motions.parquet", structures=STRUCTURES)
+    for rows in [slice(2, 5), slice(-3, None), slice(None), slice(6, 40), slice(200, 300)]:
+        assert responses[rows].to_polars().equals(expected[rows]), rows
+    some = responses[["edp", "outcome"]][2:5]
+    assert some.to_polars().equals(expected[["edp", "outcome"]][2:5]) and some.metadata == responses.metadata
+    for key in [3, 2.5, slice(None, None, 2), np.array([True, False]), ("edp", "outcome")]:
+        with pytest.raises(TypeError, match=r"expected the name of a column, a list of names, or rows from:to; .*to_polars\(\)"):
+            responses[key]
+    with pytest.raises(KeyError, match="no column 'pga'; there are motion_id"):
+        responses[["edp", "pga"]]
+    with pytest.raises(ValueError, match="n is -1; expected a number of rows, 0 or more"):
+        responses.head(-1)
+    assert responses._ipython_key_completions_() == responses.columns
+
+
+def test_tables_can_be_pickled(out):
+    with pytest.warns(rockfrag.RockfragWarning):
+        fits = rockfrag.fit_pex(out / "responses.parquet")
+    for table in [fits, fits[2:5], fits[:0], rockfrag.synthesize_motions(out / "scenarios.parquet", dt=0.01)]:
+        for again in [pickle.loads(pickle.dumps(table)), copy.deepcopy(table)]:
+            assert again == table and again.metadata == table.metadata
+            assert pa.schema(again).equals(pa.schema(table), check_metadata=True)
+            assert {name: len(part) for name, part in again.parts.items()} == {name: len(part) for name, part in table.parts.items()}
+
+
+def test_pandas_is_told_how_to_take_a_table():
+    scenarios = rockfrag.sample_scenarios(mw=6.5, re=5, samples=3)
+    for take in [pd.DataFrame, np.asarray, pd.Series]:
+        with pytest.raises(TypeError, match=r"take table.to_pandas\(\) for pandas"):
+            take(scenarios)
+    assert pl.DataFrame(scenarios).equals(scenarios.to_polars())
+
+
+def test_whole_numbers_are_numbers_and_nulls_are_named():
+    peaks = pd.DataFrame({"pga_m_s2": pd.array([3, 5, 8], dtype="Int64"), "pgv_m_s": pd.array([0.3, 0.6, 1.0], dtype="Float64")})
+    ask = lambda table: rockfrag.evaluate(intensities=table, width=0.5, height=2.0)
+    assert ask(peaks) == ask(peaks.astype(float)) == ask(pl.DataFrame(peaks))
+    with pytest.raises(rockfrag.TableError, match="intensities: row 1, column 'pgv_m_s': null; expected a number"):
+        ask(peaks.assign(pgv_m_s=pd.array([0.3, pd.NA, 1.0], dtype="Float64")))
+
+
+def test_a_file_is_in_the_format_of_its_name(out, tmp_path):
+    point = {"width": 0.5, "height": 2.0, "pga": 0.5, "pgv": 0.6}
+    answer = rockfrag.evaluate(**point)
+    file = rockfrag.evaluate(**point, out=tmp_path / "a.csv")
+    assert pl.read_csv(file)["value"].to_list() == pytest.approx(pl.Series(answer["value"], nan_to_null=True).to_list())
+    rockfrag.evaluate(**point, out=tmp_path / "a.parquet")
+    intensities = {"pga_m_s2": [3.0, 5.0], "pgv_m_s": [0.3, 0.6]}
+    for write in [
+        lambda out: rockfrag.sample_scenarios(samples=2, out=out),
+        lambda out: rockfrag.evaluate(intensities=pl.DataFrame(intensities), width=0.5, height=2.0, out=out),
+        lambda out: rockfrag.fit_pro(pathlib.Path("responses.parquet"), out=out),
+        lambda out: rockfrag.simulate("motions.parquet", structures="paper", out=out),
+    ]:
+        for ending in ["csv", "xlsx", "JSON"]:
+            with pytest.raises(rockfrag.OptionError, match=f"t.{ending}; this table is written as Parquet: expected a name that ends in .parquet"):
+                write(tmp_path / f"t.{ending}")
+            assert not (tmp_path / f"t.{ending}").exists()
 
 
 def test_tables_show_what_they_are(out):

@@ -61,6 +61,11 @@ impl HazardCurve {
         }
     }
 
+    /// Returns all intensities, each with its rate.
+    pub fn points(&self) -> &[(f64, f64)] {
+        &self.points
+    }
+
     /// Returns the first intensity and the last, each with its rate.
     pub fn ends(&self) -> [(f64, f64); 2] {
         [self.points[0], self.points[self.points.len() - 1]]

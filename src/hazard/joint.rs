@@ -19,6 +19,21 @@ pub struct JointHazard {
 }
 
 impl JointHazard {
+    /// Finds the annual rates at which the values of one peak are reached, from the smallest on.
+    pub fn exceedance(&self, peak: impl Fn(&PairOfPeaks) -> f64) -> Vec<(f64, f64)> {
+        let mut values: Vec<(f64, f64)> = self.bins.iter().map(|bin| (peak(bin), bin.annual_rate)).collect();
+        values.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let mut sum = 0.0;
+        for (_, rate) in &mut values {
+            sum += *rate;
+            *rate = sum;
+        }
+        values.reverse();
+        // Of equal values the first holds the rates of all.
+        values.dedup_by_key(|(value, _)| *value);
+        values
+    }
+
     /// Sums the mean annual rates of events that have these probabilities at a PGA and PGV: the sum over the bins of rate times
     /// probability.
     pub fn mean_annual_rates<const N: usize>(

@@ -237,14 +237,38 @@ impl Files {
         self.out.clone().or_else(in_run)
     }
 
-    /// The output as it is asked for, or `file` beside the first input.
-    pub fn out(&self, file: &str) -> Target {
+    /// The table as it is asked for, or `file` beside the first input.
+    ///
+    /// # Errors
+    /// If it is asked for under the name of another kind of file.
+    pub fn out(&self, file: &str) -> anyhow::Result<Target> {
         let beside_input = || match self.inputs.first() {
             Some((_, source)) => beside(source.name(), file).into(),
             None => file.into(),
         };
-        self.asked(file).unwrap_or_else(beside_input)
+        let out = self.asked(file).unwrap_or_else(beside_input);
+        expect_parquet(&out)?;
+        Ok(out)
     }
+}
+
+/// Endings of files that hold a table in another format.
+const OTHER_FORMATS: [&str; 9] = ["csv", "tsv", "txt", "json", "xlsx", "xls", "html", "feather", "arrow"];
+
+/// That a table is not written under the name of another kind of file.
+///
+/// # Errors
+/// If it is.
+pub fn expect_parquet(out: &Target) -> anyhow::Result<()> {
+    let Some(path) = out.path() else { return Ok(()) };
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if !OTHER_FORMATS.contains(&&*ending) || path.is_dir() {
+        return Ok(());
+    }
+    Err(UsageError::because(format!(
+        "out is {}; this table is written as Parquet: expected a name that ends in .parquet (polars, pandas and DuckDB turn it into {ending})",
+        path.display()
+    )))
 }
 
 /// A stage in pipeline.yaml, or as it is called: its options, and the inputs that are named.

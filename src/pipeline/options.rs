@@ -160,7 +160,7 @@ impl fmt::Display for Steps {
 
 /// A value that the file may give as a number, as text, or as a list of them.
 #[derive(Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number, text, or a list of them")]
 enum Plain {
     Number(f64),
     Text(String),
@@ -210,17 +210,14 @@ impl<T: Serialize> Serialize for Several<T> {
     }
 }
 
-impl<'de, T: Deserialize<'de> + FromStr<Err: fmt::Display>> Deserialize<'de> for Several<T> {
+impl<'de, T: FromStr<Err: fmt::Display>> Deserialize<'de> for Several<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Several<T>, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(untagged)]
-        enum OneOrMore<T> {
-            More(Vec<T>),
-            Text(String),
-        }
-        match OneOrMore::deserialize(deserializer)? {
-            OneOrMore::More(values) => Ok(Several(values)),
-            OneOrMore::Text(text) => text.parse().map_err(D::Error::custom),
+        match Plain::deserialize(deserializer)? {
+            Plain::List(parts) => {
+                let values = parts.into_iter().map(|part| part.text().parse().map_err(D::Error::custom));
+                Ok(Several(values.collect::<Result<_, _>>()?))
+            }
+            one => one.text().parse().map_err(D::Error::custom),
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use serde_json::Value;
 
-use super::text::Label;
-use crate::fragility::{Case, DemandLaw, FragilityModel, Gap, Measure, Predictor};
+use super::text::{Label, number};
+use crate::fragility::{Case, DemandLaw, FragilityModel, Gap, Measure, Peak, Predictor};
+use crate::keyword::Keyword;
 use crate::rocking::{Outcome, Structure, TracePoint};
 use crate::statistics::FitStatus;
 
@@ -73,6 +74,26 @@ pub struct Rates {
     pub name: String,
     pub years: f64,
     pub states: Vec<StateRate>,
+    /// The hazard that they are over, where the file says.
+    pub hazard: Option<Hazard>,
+}
+
+/// How often motions of some strength come to a site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hazard {
+    /// Name of its file.
+    pub file: String,
+    /// Number of its rows.
+    pub rows: usize,
+    /// Of one peak or of both.
+    pub curves: Vec<PeakCurve>,
+}
+
+/// Values of a peak, m/s2 or m/s, and annual rates at which they are exceeded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PeakCurve {
+    pub peak: Peak,
+    pub points: Vec<(f64, f64)>,
 }
 
 /// Value, lower and upper limit of a limit state.
@@ -318,6 +339,27 @@ impl ReportData {
     }
 }
 
+impl Hazard {
+    /// Says which file it is and what that holds.
+    pub fn words(&self) -> String {
+        let of = |PeakCurve { peak, points }: &PeakCurve| {
+            let (unit, size) = peak.usual_unit();
+            let ends =
+                [points.first(), points.last()].map(|end| end.map_or(f64::NAN, |(value, _)| value / size));
+            let [from, to] = ends.map(number::short);
+            format!("{} from {from} to {to} {unit}", peak.as_str().to_uppercase())
+        };
+        let peaks: Vec<String> = self.curves.iter().map(of).collect();
+        let (file, rows, peaks) = (&self.file, number::count(self.rows), peaks.join(" and "));
+        match self.curves.len() {
+            1 => format!("{file}: annual rates of exceedance at {rows} values of {peaks}"),
+            _ => format!(
+                "{file}: annual rates of {rows} pairs of {peaks}, drawn as rates of exceedance of each"
+            ),
+        }
+    }
+}
+
 impl Group {
     /// Names the group in titles, cut to their width.
     pub fn name(&self) -> String {
@@ -371,6 +413,11 @@ pub fn measure_label(measure: Measure) -> Label {
         Measure::Im6 => "*ω*_{m} PGV / (*g* tan *α*)",
         Measure::Im3Inverse => "*p* PGV / PGA",
     })
+}
+
+/// Labels a peak in its usual unit on an axis.
+pub fn peak_label(peak: Peak) -> Label {
+    Label::plain(format!("{} ({})", peak.as_str().to_uppercase(), peak.usual_unit().0))
 }
 
 /// Labels the demand on an axis.

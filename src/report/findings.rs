@@ -156,7 +156,7 @@ fn judgement(status: FitStatus, gap: Option<Gap>) -> String {
 }
 
 fn at_site(html: &mut String, rates: &Rates) {
-    let Rates { name, years, states } = rates;
+    let Rates { name, years, states, hazard } = rates;
     let years = format!("probability in {} years", number::plain(*years));
     let title = format!("At the site: {name}");
     let _ = writeln!(html, "<h4>{}</h4>", escape(&title));
@@ -165,6 +165,13 @@ fn at_site(html: &mut String, rates: &Rates) {
         vec![state.words.clone(), rate, p]
     });
     answers(html, &title, &["limit state", "annual rate", &years], rows);
+    if let Some(hazard) = hazard {
+        let _ = writeln!(
+            html,
+            "<p>The hazard is <a href=\"#figure-hazard\">{}</a>.</p>",
+            escape(&hazard.words())
+        );
+    }
 }
 
 /// A table whose rows stand as blocks in a narrow window.

@@ -282,7 +282,7 @@ impl Declare for ComparePaper {
 
     fn create(options: &ComparePaperOptions, files: &Files) -> anyhow::Result<ComparePaper> {
         let inputs = [files.input("pex")?, files.input("pro")?, files.input("responses")?];
-        ComparePaper::new(options, inputs, files.out(Self::OUTPUT.file))
+        ComparePaper::new(options, inputs, files.out(Self::OUTPUT.file)?)
     }
 }
 

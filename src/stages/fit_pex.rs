@@ -163,7 +163,7 @@ impl Declare for FitPex {
             .with_parts(&["scan", "bootstrap"]);
 
     fn create(options: &FitPexOptions, files: &Files) -> anyhow::Result<FitPex> {
-        FitPex::new(options, files.input("responses")?, files.out(Self::OUTPUT.file))
+        FitPex::new(options, files.input("responses")?, files.out(Self::OUTPUT.file)?)
     }
 }
 

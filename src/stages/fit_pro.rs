@@ -113,7 +113,7 @@ impl Declare for FitPro {
             .with_parts(&["bootstrap"]);
 
     fn create(options: &FitProOptions, files: &Files) -> anyhow::Result<FitPro> {
-        FitPro::new(options, files.input("responses")?, files.out(Self::OUTPUT.file))
+        FitPro::new(options, files.input("responses")?, files.out(Self::OUTPUT.file)?)
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::{ArgMatches, Command};
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::compare_paper::ComparePaper;
 use super::evaluate::Evaluate;
@@ -77,7 +77,7 @@ macro_rules! stages {
         ) -> anyhow::Result<Vec<Box<dyn Stage>>> {
             $(if subcommand == <$stage>::NAME {
                 let section: Section<$stage> =
-                    serde_json::from_str(options).map_err(|error| UsageError::because(error.to_string()))?;
+                    serde_json::from_str(options).map_err(|error| refused::<$stage>(options, &error))?;
                 let given = <$stage>::INPUTS.iter();
                 let inputs = given.filter_map(|input| Some((input.role, inputs.get(input.role)?.clone()))).collect();
                 return section.stages(&Files { inputs, out, run: None }, None);
@@ -105,6 +105,27 @@ macro_rules! stages {
             [$((<$stage>::NAME, <$stage>::HAS_PROGRESS)),*].contains(&(command, false))
         }
     };
+}
+
+/// Why options cannot be read: which of them, and what is wrong with it.
+fn refused<S: Declare>(options: &str, error: &serde_json::Error) -> anyhow::Error {
+    let words = |error: &serde_json::Error| {
+        let said = error.to_string();
+        said.rsplit_once(" at line ").map_or(said.clone(), |(said, _)| said.to_string())
+    };
+    let options: Map<String, Value> = serde_json::from_str(options).unwrap_or_default();
+    // Each by itself; what is left are options that do not go together.
+    let alone = options.into_iter().find_map(|(name, value)| {
+        let option = Value::Object(Map::from_iter([(name.clone(), value.clone())]));
+        let said = words(&serde_json::from_value::<Section<S>>(option).err()?);
+        let of_type = said.strip_prefix("invalid ").and_then(|said| said.split_once(", expected "));
+        let expected = of_type.map(|(_, expected)| expected).or(said.strip_prefix("expected "));
+        Some(match expected {
+            Some(expected) => format!("--{name} is {value}; expected {expected}"),
+            None => format!("--{name}: {said}"),
+        })
+    });
+    UsageError::because(alone.unwrap_or_else(|| words(error)))
 }
 
 stages! {

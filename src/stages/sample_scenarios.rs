@@ -97,7 +97,7 @@ impl Declare for SampleScenarios {
         Output::file("scenarios.parquet", "Scenarios file to write [default: scenarios.parquet]");
 
     fn create(options: &SampleScenariosOptions, files: &Files) -> anyhow::Result<SampleScenarios> {
-        SampleScenarios::new(options, files.out(Self::OUTPUT.file))
+        SampleScenarios::new(options, files.out(Self::OUTPUT.file)?)
     }
 }
 

@@ -160,7 +160,7 @@ impl Declare for Validate {
     const HAS_PROGRESS: bool = false;
 
     fn create(options: &FitsOptions, files: &Files) -> anyhow::Result<Validate> {
-        let (input, out) = (files.input(RESPONSES_ROLE)?, files.out(Self::OUTPUT.file));
+        let (input, out) = (files.input(RESPONSES_ROLE)?, files.out(Self::OUTPUT.file)?);
         Ok(Validate { fits: FitFiles::if_asked(options, files)?, options: options.clone(), input, out })
     }
 }

@@ -2,6 +2,7 @@
 
 use arrow_array::RecordBatch;
 use arrow_schema::ArrowError;
+use serde::{Deserialize, Serialize};
 
 use super::row::{WriteRow, table};
 use crate::fragility::{LimitState, Measure, Probabilities};
@@ -54,6 +55,26 @@ table! {
         p_high: f64,
         meaning: String,
     }
+}
+
+/// The hazard behind annual rates, as their file holds it for a report.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RecordedHazard {
+    /// Name of its file.
+    pub file: String,
+    /// How many rows that has.
+    pub rows: usize,
+    /// One of a hazard curve, two of a joint hazard of PGA and PGV.
+    pub curves: Vec<RecordedCurve>,
+}
+
+/// How often a peak is exceeded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RecordedCurve {
+    /// `pga` or `pgv`.
+    pub peak: String,
+    /// The peak, m/s2 or m/s, and the annual rate at which it is exceeded.
+    pub points: Vec<(f64, f64)>,
 }
 
 /// Probabilities of one structure at one intensity, as a row among many.

@@ -88,6 +88,20 @@ fn the_worked_example_of_section_3_is_answered() {
 }
 
 #[test]
+fn a_table_is_not_written_under_the_name_of_another_format() {
+    let (folder, fits) = fitted();
+    let run = run_folder().display().to_string();
+    for (call, file) in [
+        (format!("evaluate {fits} --p 2.5 --alpha 0.2 --in {run}/motions.parquet --out t.csv"), "t.csv"),
+        (format!("simulate --in {run}/motions.parquet --structures paper --out r.XLSX"), "r.XLSX"),
+        (format!("fit-pro --in {run}/responses.parquet --out p.json"), "p.json"),
+    ] {
+        fail(folder.path(), &call, 2, &[file, "written as Parquet", "ends in .parquet"]);
+        assert!(!folder.path().join(file).exists(), "{file}");
+    }
+}
+
+#[test]
 fn answers_come_in_every_format() {
     let (folder, fits) = fitted();
     let ask = |rest: &str| {

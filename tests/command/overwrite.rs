@@ -64,9 +64,9 @@ fn what_something_else_made_is_kept_unless_it_is_given_up() {
     let at = |name: &str| folder.path().join(name);
     let column: Arc<dyn Array> = Arc::new(Float64Array::from(vec![1.0]));
     write(&at("others.parquet"), vec![("x", column)]);
-    std::fs::write(at("thesis.txt"), "a thesis\n").unwrap();
+    std::fs::write(at("thesis.odt"), "a thesis\n").unwrap();
     for (name, says) in [
-        ("thesis.txt", "a file that rockfrag did not make"),
+        ("thesis.odt", "a file that rockfrag did not make"),
         ("others.parquet", "a file that rockfrag did not make"),
         ("out/pex.parquet", "made by fit-pex"),
     ] {
@@ -77,7 +77,7 @@ fn what_something_else_made_is_kept_unless_it_is_given_up() {
     }
     let told = succeed(
         folder.path(),
-        &format!("simulate --in out/motions.parquet --out thesis.txt {PAPER} --overwrite"),
+        &format!("simulate --in out/motions.parquet --out thesis.odt {PAPER} --overwrite"),
     );
     assert!(told.contains("responses"), "{told}");
     // What the same stage made is made again as ever, and an empty file holds nothing to lose.

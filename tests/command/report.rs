@@ -214,7 +214,52 @@ fn rates_of_a_site_stand_in_the_findings() {
             "{findings}"
         );
         assert!(warnings.iter().all(|words| findings.contains(words)), "{warnings:?} are not in {findings}");
+        let drawn: Vec<[f64; 2]> =
+            rows(&at(folder), "hazard").iter().map(|row| [3, 5].map(|column| number(&row[column]))).collect();
+        let known =
+            std::fs::read_to_string(format!("{}/data/hazard.csv", env!("CARGO_MANIFEST_DIR"))).unwrap();
+        let known = known.lines().filter(|line| line.starts_with(|first: char| first.is_ascii_digit()));
+        let known: Vec<Vec<f64>> = known.map(|line| line.split(',').map(number).collect()).collect();
+        assert_eq!(drawn.len(), known.len());
+        for ([pga_g, rate], known) in drawn.iter().zip(&known) {
+            assert!((pga_g / known[0] - 1.0).abs() < 1e-9 && *rate == known[1], "{pga_g} {rate} {known:?}");
+        }
+        let words = "hazard.csv: annual rates of exceedance at";
+        assert!(page.matches(words).count() >= 2 && findings.contains(words), "{findings}");
     }
+}
+
+#[test]
+fn a_joint_hazard_is_drawn_by_each_peak() {
+    let (folder, fits) = fitted();
+    let at = |name: &str| folder.path().join(name);
+    let data = format!("{}/data", env!("CARGO_MANIFEST_DIR"));
+    succeed(
+        folder.path(),
+        &format!("evaluate {fits} --p 2.5 --alpha 0.2 --hazard {data}/hazard_joint.csv --out rates.parquet"),
+    );
+    std::fs::create_dir(at("out")).unwrap();
+    std::fs::copy(run_folder().join("responses.parquet"), at("out/responses.parquet")).unwrap();
+    succeed(folder.path(), "report --in out --rates rates.parquet --out page/report.html --dpi 50");
+    let known = std::fs::read_to_string(format!("{data}/hazard_joint.csv")).unwrap();
+    let bins: Vec<Vec<f64>> = known
+        .lines()
+        .filter(|line| line.starts_with(|first: char| first.is_ascii_digit()))
+        .map(|line| line.split(',').map(number).collect())
+        .collect();
+    let drawn = rows(&at("page"), "hazard");
+    for (peak, label) in [(0, "PGA (g)"), (1, "PGV (m/s)")] {
+        let curve: Vec<_> = drawn.iter().filter(|row| row[2] == label).collect();
+        assert!(curve.len() > 5, "{label}");
+        for row in curve {
+            let (value, rate) = (number(&row[3]), number(&row[5]));
+            let reached = bins.iter().filter(|bin| bin[peak] > value * (1.0 - 1e-6));
+            let expected: f64 = reached.map(|bin| bin[2]).sum();
+            assert!((rate / expected - 1.0).abs() < 1e-6, "{label} {value}: {rate} for {expected}");
+        }
+    }
+    let page = std::fs::read_to_string(at("page/report.html")).unwrap();
+    assert!(page.contains("hazard_joint.csv: annual rates of"), "the hazard has no name");
 }
 
 #[test]

@@ -32,6 +32,15 @@ fn the_rate_of_a_jump_is_the_hazard_there() {
 }
 
 #[test]
+fn a_joint_hazard_has_a_curve_of_each_peak() {
+    let bin = |(pga_m_s2, pgv_m_s, annual_rate)| PairOfPeaks { pga_m_s2, pgv_m_s, annual_rate };
+    let bins = [(2.0, 0.3, 0.125), (1.0, 0.3, 0.5), (2.0, 0.1, 0.25), (4.0, 0.2, 0.0625)].map(bin).to_vec();
+    let joint = JointHazard { bins };
+    assert_eq!(joint.exceedance(|bin| bin.pga_m_s2), [(1.0, 0.9375), (2.0, 0.4375), (4.0, 0.0625)]);
+    assert_eq!(joint.exceedance(|bin| bin.pgv_m_s), [(0.1, 0.9375), (0.2, 0.6875), (0.3, 0.625)]);
+}
+
+#[test]
 fn motions_beyond_the_curve_count_as_its_last_one() {
     let curve = HazardCurve::new(vec![(0.1, 0.01), (1.0, 0.001)]).unwrap();
     let [all, half] = curve.mean_annual_rates(&[], |_| [1.0, 0.5]);

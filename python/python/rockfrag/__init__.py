@@ -14,18 +14,18 @@ and curves of any outcomes, as arrays::
     curve.probability([0.5, 1.0]), curve.confidence_band([0.5, 1.0]), curve.plot()
 
 A table is anything that speaks Arrow (polars, pyarrow, pandas, DuckDB, :class:`Table`), or the path of a Parquet file or of a
-folder of them, which is then read as it is needed. A result is a :class:`Table`, or with ``out`` a file, which is left as it is
-where it is up to date. The rows are those of the command line, on any number of threads.
+folder of them, which is read as needed. A result is a :class:`Table`; with ``out`` it is a file, and a file that is up to date is
+left as it is. The rows are those of the command line, on any number of threads.
 
-Each stage of the command line is a function with its options, in the words of ``rockfrag STAGE --help``. Common to all are ``out``
-(path to write; the path is returned), ``threads`` (all cores unless given), ``progress`` (called with the number of steps done and of
-all, a few times a second) and ``force`` (make even a file that is up to date). Ctrl-C ends a call at the next batch, and what was
-being written is removed. Names of columns end in their units.
+Each stage of the command line is a function with its options, in the words of ``rockfrag STAGE --help``. All stages take ``out`` (file
+to write; its path is returned), ``threads`` (all cores unless given), ``progress`` (called with the number of steps done and of all, a
+few times a second) and ``force`` (also make a file that is up to date). Ctrl-C ends a call at the next batch and removes what was
+being written. Names of columns end in their units.
 
-Random numbers come from ``seed``: 42 unless given, so that a call gives the same rows every time; ``seed=None`` takes a fresh one, which
-``Table.metadata`` and :func:`inspect` tell.
+Random numbers come from ``seed``: 42 unless given, so that a call gives the same rows every time. ``seed=None`` takes a fresh seed;
+``Table.metadata`` and :func:`inspect` tell it.
 
-``rockfrag.datasets`` has small data to try it on, ``rockfrag.ray`` partitions on a cluster.
+``rockfrag.datasets`` has small data to try, ``rockfrag.ray`` runs partitions on a cluster.
 """
 
 import importlib

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import numpy.typing as npt
 
-from . import _rockfrag, _show
+from . import _checks, _rockfrag, _show
 from .errors import OptionError
 
 if TYPE_CHECKING:
+    import pandas
     from matplotlib.axes import Axes
 
 Floats = npt.NDArray[np.float64]
@@ -18,7 +19,7 @@ Link = Literal["probit", "logit", "cloglog"]
 
 
 class Curve:
-    """A probability over a measure of intensity: what all curves can do."""
+    """A probability over a measure of intensity: the methods that all curves share."""
 
     im: Floats
     im_name: str
@@ -32,12 +33,12 @@ class Curve:
         return "probit"
 
     def probability(self, im: npt.ArrayLike) -> Floats:
-        """The probability at intensities.
+        """Computes the probability at intensities.
 
         Parameters
         ----------
         im : array_like of shape (m,) or (m, 2)
-            Intensities, in the unit of the fit; a column each of two measures.
+            Intensities in the unit of the fit; of two measures a column each.
 
         Returns
         -------
@@ -47,14 +48,14 @@ class Curve:
         return probabilities(self._link(), self._index(measures)[0]).reshape(shape)[()]
 
     def confidence_band(self, im: npt.ArrayLike, level: float = 0.95) -> tuple[Floats, Floats]:
-        """Limits of confidence of the probability, each intensity on its own.
+        """Computes limits of confidence of the probability, at each intensity on its own.
 
-        They are those of the index by the delta method, and so lie between 0 and 1.
+        The delta method gives limits of the index; their probabilities lie between 0 and 1.
 
         Parameters
         ----------
         im : array_like of shape (m,) or (m, 2)
-            Intensities.
+            Intensities in the unit of the fit; of two measures a column each.
         level : float, default 0.95
             Probability with which the limits hold the truth.
 
@@ -72,16 +73,16 @@ class Curve:
     limits = confidence_band
 
     def plot(self, ax: Axes | None = None, *, im: npt.ArrayLike | None = None, level: float = 0.95) -> Axes:
-        """Draws the curve, its limits of confidence, and the cases at 0 and 1.
+        """Draws the curve, its limits of confidence, and the cases at 0 and 1. Needs matplotlib.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Axes to draw on; those of a new figure if not given. matplotlib is needed.
+            Axes to draw on; a new figure if not given.
         im : array_like of shape (m,), optional
-            Intensities at which to draw; those of the cases, and a tenth beyond, if not given.
+            Intensities to draw at; by default from the least case to the largest, and 10 % beyond.
         level : float, default 0.95
-            Of the limits.
+            Probability with which the limits hold the truth.
 
         Returns
         -------
@@ -98,7 +99,7 @@ class Curve:
             import matplotlib.pyplot as plt
 
             ax = plt.subplots(layout="constrained")[1]
-        where = np.geomspace(self.im.min() / 1.1, self.im.max() * 1.1, 200) if im is None else np.asarray(im, dtype=float)
+        where = np.geomspace(self.im.min() / 1.1, self.im.max() * 1.1, 200) if im is None else _checks.floats("im", im)
         (line,) = ax.plot(where, self.probability(where), label=self._label())
         low, high = self.confidence_band(where, level)
         ax.fill_between(where, low, high, color=line.get_color(), alpha=0.2, lw=0, label=f"{100 * level:g} % limits")
@@ -113,7 +114,7 @@ class Curve:
         return "fitted"
 
     def summary(self) -> _show.Summary:
-        """What was fitted, with errors and limits, to print or to show in a notebook.
+        """Shows what was fitted, with errors and limits, in a terminal or a notebook.
 
         Returns
         -------
@@ -139,10 +140,12 @@ class Regression(Curve):
     params: Floats
     #: Their names.
     param_names: tuple[str, ...]
+    #: Where the standard errors come from, as in statsmodels: nonrobust (the likelihood), HC1 (robust to unequal variance) or cluster.
+    cov_type: Literal["nonrobust", "HC1", "cluster"]
     _cov_params: Floats
 
     def cov_params(self) -> Floats:
-        """Covariance of the coefficients.
+        """Gives the covariance of the coefficients.
 
         Returns
         -------
@@ -162,20 +165,53 @@ class Regression(Curve):
         return int(self.im.shape[0])
 
     def conf_int(self, alpha: float = 0.05) -> Floats:
-        """Limits of confidence of the coefficients, by their standard errors.
+        """Computes limits of confidence of the coefficients from their standard errors.
 
         Parameters
         ----------
         alpha : float, default 0.05
-            Probability with which the limits miss the truth.
+            Probability with which the limits miss the truth: 0.05 for 95 % limits.
 
         Returns
         -------
         ndarray of shape (k, 2)
+
+        Raises
+        ------
+        OptionError
+            If ``alpha`` is not between 0 and 1.
         """
-        half = self._error_quantile(1.0 - alpha) * self.bse
+        half = self._error_quantile(1.0 - _checks.share("alpha", alpha, "0.05 for 95 % limits")) * self.bse
         limits: Floats = np.column_stack([self.params - half, self.params + half])
         return limits
+
+    def summary_frame(self, alpha: float = 0.05) -> pandas.DataFrame:
+        """Makes a table of the coefficients, with the columns of ``summary_frame`` in statsmodels. Needs pandas.
+
+        Parameters
+        ----------
+        alpha : float, default 0.05
+            Probability with which the limits miss the truth: 0.05 for 95 % limits.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each coefficient: estimate, standard error, their ratio z (or t), its p-value, lower and upper limit.
+        """
+        import pandas
+
+        limits, ratio = self.conf_int(alpha), self.params / self.bse
+        name = self._ratio
+        columns = {"coef": self.params, "std err": self.bse, name: ratio, f"P>|{name}|": self._p_values(ratio)}
+        columns |= {"Conf. Int. Low": limits[:, 0], "Conf. Int. Upp.": limits[:, 1]}
+        return pandas.DataFrame(columns, index=list(self.param_names))
+
+    #: What the ratio of a coefficient to its standard error is called.
+    _ratio: Literal["z", "t"] = "z"
+
+    def _p_values(self, ratio: Floats) -> Floats:
+        values: Floats = 2.0 * probabilities("probit", -np.abs(ratio))
+        return values
 
     def _error_quantile(self, level: float) -> float:
         return quantile(level)
@@ -188,7 +224,7 @@ class Regression(Curve):
 def measures_of(im: npt.ArrayLike, count: int) -> tuple[Floats, tuple[int, ...]]:
     """Intensities as rows, and the shape of what is asked at them."""
     # A copy that nobody can change: a curve keeps what it was fitted to.
-    values = np.array(im, dtype=np.float64)
+    values = _checks.floats("im", im, "finite numbers above 0")
     values.flags.writeable = False
     if count == 2:
         if values.shape[-1:] != (2,):
@@ -198,7 +234,9 @@ def measures_of(im: npt.ArrayLike, count: int) -> tuple[Floats, tuple[int, ...]]
         rows, shape = values.reshape(-1, 1), values.shape
     wrong = np.flatnonzero(~((rows > 0.0) & np.isfinite(rows)).all(axis=1))
     if wrong.size:
-        raise OptionError(f"im: case {wrong[0]} is {rows[wrong[0]].tolist()}; expected finite numbers above 0")
+        found = rows[wrong[0]]
+        words = "missing" if np.isnan(found).any() else _checks.shown(found.item() if count == 1 else found.tolist())
+        raise OptionError(f"im: case {wrong[0]} is {words}; expected finite numbers above 0")
     return rows, shape
 
 
@@ -207,9 +245,7 @@ def probabilities(link: Link, index: Floats) -> Floats:
 
 
 def quantile(level: float) -> float:
-    if not 0.0 < level < 1.0:
-        raise OptionError(f"level is {level}; expected a probability between 0 and 1, such as 0.95")
-    return _rockfrag.normal_quantile(0.5 * (1.0 + level))
+    return _rockfrag.normal_quantile(0.5 * (1.0 + _checks.share("level", level, "0.95")))
 
 
 def _same(a: object, b: object) -> bool:

@@ -6,17 +6,20 @@ Words of regressions are those of statsmodels (``params``, ``bse``, ``cov_params
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _rockfrag, _show
+from . import _checks, _rockfrag, _show
 from ._curve import Curve, Floats, Link, Regression, measures_of, quantile
 from .errors import FitError, OptionError
 
 Estimator = Literal["ml", "firth"]
-Parameter = Literal["theta", "beta", "lambda"]
+Parameter = Literal["theta", "mu", "beta", "lambda"]
+
+#: Fewer clusters say too little of how they differ: errors by them come out too small (Cameron & Miller 2015, section VI).
+_MANY = 20
 
 _WHY = {
     "too_few_events": "fewer than 5 events, or fewer than 5 others; take more cases, or estimator='firth', which needs one of each",
@@ -35,10 +38,27 @@ _DOUBTS = {
 _FEW = "few events: standard errors of theta and beta are too small; take profile_interval, and confidence_band for probabilities"
 
 
-class FragilityCurve(Regression):
-    """The probability of an event over a measure of intensity, or over two: what :func:`fit_fragility` gives.
+def _clusters(
+    cluster: npt.ArrayLike | None, seen: npt.NDArray[np.bool_], coefficients: int
+) -> tuple[list[int] | None, list[str]]:
+    """The clusters of the cases that are seen, and what to doubt where they are few."""
+    if cluster is None:
+        return None, []
+    numbers = np.array(_checks.labels("cluster", cluster, seen.size))[seen]
+    count = len(np.unique(numbers))
+    if count <= coefficients:
+        raise OptionError(
+            f"cluster has {count} labels among {numbers.size} cases; expected {_MANY} or more, at least {coefficients + 1}: errors of "
+            f"{coefficients} coefficients by fewer mean nothing; leave cluster out"
+        )
+    few = f"{count} clusters: standard errors by fewer than {_MANY} are too small"
+    return numbers.tolist(), [few] if count < _MANY else []
 
-    P = F(b0 + b1 ln im + ...), F as ``link`` says; with the probit Phi((ln im - ln theta) / beta).
+
+class FragilityCurve(Regression):
+    """The probability of an event over one measure of intensity, or over two. :func:`fit_fragility` makes it.
+
+    P = F(b0 + b1 ln im + ...), where ``link`` chooses F. With the probit, P = Phi((ln im - ln theta) / beta).
     """
 
     def __init__(
@@ -51,16 +71,14 @@ class FragilityCurve(Regression):
         cluster: npt.ArrayLike | None,
         im_name: str,
     ) -> None:
-        groups = None
-        if cluster is not None:
-            labels = np.asarray(cluster)
-            if labels.shape != outcome.shape:
-                raise OptionError(f"cluster has shape {labels.shape}; expected a label for each of {outcome.size} cases")
-            groups = np.unique(labels, return_inverse=True)[1].tolist()
+        _checks.word("link", link, get_args(Link))
+        _checks.word("estimator", estimator, get_args(Estimator))
+        groups, few_clusters = _clusters(cluster, np.ones(outcome.size, dtype=np.bool_), im.shape[1] + 1)
+        self.cov_type = "nonrobust" if groups is None else "cluster"
         self.im, self.outcome, self.im_name = im, outcome, im_name
         #: How the index becomes a probability: probit, logit or cloglog.
         self.link: Link = link
-        #: What was maximised: ml (the likelihood) or firth (Firth's penalised one).
+        #: What was maximised: ml (the likelihood) or firth (Firth's penalised likelihood).
         self.estimator: Estimator = estimator
         fit = _rockfrag.fit_curve(self._columns(), outcome, link, estimator, groups)
         #: ok, or what to doubt: misfit, far_median, falling.
@@ -87,7 +105,7 @@ class FragilityCurve(Regression):
         self.tests: dict[str, float | None] = {"hosmer_lemeshow": fit["hosmer_lemeshow_p"], "spline": fit["spline_p"]}
         doubts = [_DOUBTS[self.status]] if self.status in _DOUBTS else []
         #: What to doubt about the curve, in words.
-        self.doubts: list[str] = doubts + ([_FEW] if fit["few_events"] else [])
+        self.doubts: list[str] = [*doubts, *([_FEW] if fit["few_events"] else []), *few_clusters]
 
     def _columns(self) -> list[Floats]:
         return [np.ascontiguousarray(column) for column in np.log(self.im).T]
@@ -100,11 +118,11 @@ class FragilityCurve(Regression):
         return self.link
 
     def _label(self) -> str:
-        return f"median {_show.number(self.median)}, β {_show.number(self.beta)}"
+        return f"{self.link}, median {_show.number(self.median)}, β {_show.number(self.beta)}"
 
     @property
     def theta(self) -> float:
-        """The median: the intensity at which the event is as likely as not. Of two measures, of the hybrid one."""
+        """The median: the intensity at which the event has probability one half. Of two measures, that of their hybrid."""
         return float(np.exp(self._parameters["mu"][0]))
 
     #: The same as :attr:`theta`.
@@ -112,22 +130,24 @@ class FragilityCurve(Regression):
 
     @property
     def beta(self) -> float:
-        """The dispersion: one over the slope on ln im. With the probit the standard deviation of ln of the capacity."""
+        """The dispersion: one over the slope on ln im. With the probit, the standard deviation of ln capacity."""
         return self._parameters["beta"][0]
 
     @property
-    def exponent(self) -> float | None:
-        """Of two measures, lambda: the hybrid measure is im1^(lambda/(1 + lambda)) im2^(1/(1 + lambda)) (Eq. 23)."""
+    def lambda_(self) -> float | None:
+        """Lambda of two measures, None of one: the hybrid measure is im1^(lambda/(1 + lambda)) im2^(1/(1 + lambda)) (Eq. 23)."""
         known = self._parameters.get("lambda")
         return None if known is None else known[0]
 
     def profile_interval(self, param: Parameter, level: float = 0.95) -> tuple[float, float]:
-        """Limits of confidence by the profile likelihood, which assumes no symmetry.
+        """Computes limits of confidence by the profile likelihood, which need not be symmetric.
+
+        They are the columns ``mu_profile_low``, ``mu_profile_high`` and so on of :func:`fit_pro`.
 
         Parameters
         ----------
-        param : {'theta', 'beta', 'lambda'}
-            Of what; lambda of two measures only.
+        param : {'theta', 'mu', 'beta', 'lambda'}
+            The median, its logarithm, the dispersion, or lambda of two measures.
         level : float, default 0.95
             Probability with which the limits hold the truth.
 
@@ -135,18 +155,26 @@ class FragilityCurve(Regression):
         -------
         low, high : float
             Infinite where the likelihood sets no limit.
+
+        Raises
+        ------
+        OptionError
+            If the curve has no such parameter, or ``level`` is not between 0 and 1.
         """
+        _checks.word("param", param, ["mu", *self._shown()])
         name = "mu" if param == "theta" else param
-        if name not in self._parameters:
-            raise OptionError(f"param is {param!r}; expected one of theta, beta, and of two measures lambda")
         quantile(level)
         limits = _rockfrag.profile_limits(self._columns(), self.outcome, self.link, self.estimator, name, level)
         assert limits is not None
         low, high = np.exp(limits) if param == "theta" else limits
         return float(low), float(high)
 
+    def _shown(self) -> list[Parameter]:
+        """The parameters that have limits."""
+        return ["theta", "beta", "lambda"] if "lambda" in self._parameters else ["theta", "beta"]
+
     def summary(self) -> _show.Summary:
-        """What was fitted: parameters with standard errors and 95 % limits by the profile likelihood.
+        """Shows the parameters with standard errors and 95 % limits by the profile likelihood.
 
         Returns
         -------
@@ -154,10 +182,8 @@ class FragilityCurve(Regression):
         """
         theta = self.theta
         found = {**self._parameters, "theta": (theta, theta * self._parameters["mu"][1])}
-        names: tuple[Parameter, ...] = ("theta", "beta", "lambda")
-        shown: list[Parameter] = [name for name in names if name in found]
-        rows = [[name, *map(_show.number, (*found[name], *self.profile_interval(name)))] for name in shown]
-        title = f"FragilityCurve: {self.outcome.sum()} events of {self.nobs} cases, {self.link}, {self.estimator}"
+        rows = [[name, *map(_show.number, (*found[name], *self.profile_interval(name)))] for name in self._shown()]
+        title = f"FragilityCurve over {self.im_name}: {self.outcome.sum()} events of {self.nobs} cases, {self.link}, {self.estimator}"
         scores = f"llf {self.llf:.4f}, aic {self.aic:.4f}, bic {self.bic:.4f}, auc {self.auc:.3f}, brier {self.brier:.3f}"
         return _show.Summary(title, [scores, *(f"doubt: {doubt}" for doubt in self.doubts)], ["", "estimate", "se", "low", "high"], rows)
 
@@ -169,18 +195,31 @@ class FragilityCurve(Regression):
 
 
 class DemandCurve(Regression):
-    """The probability of a demand above a limit over a measure of intensity: what :func:`fit_demand` gives (Eqs. 14 to 16).
+    """The probability that the demand exceeds a limit, over a measure of intensity (Eqs. 14 to 16). :func:`fit_demand` makes it.
 
-    ln edp = ln a + b1 ln im + ..., normal about that with the standard deviation ``dispersion``.
+    ln edp is normal about ln a + b1 ln im + ..., with the standard deviation ``dispersion``.
     """
 
-    def __init__(self, im: Floats, edp: Floats, *, limit_state: float, im_name: str) -> None:
+    def __init__(
+        self,
+        im: Floats,
+        edp: Floats,
+        seen: npt.NDArray[np.bool_],
+        *,
+        limit_state: float,
+        cluster: npt.ArrayLike | None,
+        im_name: str,
+    ) -> None:
+        groups, few_clusters = _clusters(cluster, seen, im.shape[1] + 1)
+        self.cov_type = "HC1" if groups is None else "cluster"
+        im, edp = im[seen], edp[seen]
+        im.flags.writeable = edp.flags.writeable = False
         self.im, self.edp, self.im_name = im, edp, im_name
-        #: The demand whose exceedance the probability is about.
+        #: The limit: the demand that is exceeded.
         self.limit_state: float = limit_state
         self.outcome = edp > limit_state
         columns = [np.ascontiguousarray(column) for column in np.log(im).T]
-        fit = _rockfrag.fit_line(columns, np.log(edp))
+        fit = _rockfrag.fit_line(columns, np.log(edp), groups)
         #: ok, or falling.
         self.status: str = fit["status"]
         if "params" not in fit:
@@ -198,7 +237,7 @@ class DemandCurve(Regression):
         #: p of Ramsey's test of the form.
         self.tests: dict[str, float | None] = {"reset": fit["reset_p"]}
         #: What to doubt about the curve, in words.
-        self.doubts: list[str] = ["the demand falls as the measure grows"] if self.status == "falling" else []
+        self.doubts: list[str] = [*(["the demand falls as the measure grows"] if self.status == "falling" else []), *few_clusters]
 
     def _index(self, im: Floats) -> tuple[Floats, Floats]:
         ln_median, variance = self._linear(im)
@@ -208,12 +247,12 @@ class DemandCurve(Regression):
         return f"P(edp > {_show.number(self.limit_state)})"
 
     def demand(self, im: npt.ArrayLike) -> Floats:
-        """The median demand at intensities.
+        """Computes the median demand at intensities.
 
         Parameters
         ----------
         im : array_like of shape (m,) or (m, 2)
-            Intensities.
+            Intensities in the unit of the fit; of two measures a column each.
 
         Returns
         -------
@@ -225,7 +264,7 @@ class DemandCurve(Regression):
 
     @property
     def theta(self) -> float:
-        """The intensity of one measure at which the limit is as likely exceeded as not."""
+        """The intensity at which the median demand is the limit. Of two measures, where both have this value."""
         return float(np.exp((np.log(self.limit_state) - self.params[0]) / self.params[1:].sum()))
 
     #: The same as :attr:`theta`.
@@ -233,11 +272,11 @@ class DemandCurve(Regression):
 
     @property
     def beta(self) -> float:
-        """The dispersion of the curve over ln im: that of the demand over the slope (zeta of the stages)."""
+        """The dispersion of the curve over ln im: that of the demand divided by the slope (``zeta`` of :func:`fit_pex`)."""
         return float(self.dispersion / self.params[1:].sum())
 
     def summary(self) -> _show.Summary:
-        """What was fitted: coefficients with standard errors and 95 % limits by Student's t.
+        """Shows the coefficients with robust standard errors and 95 % limits by Student's t.
 
         Returns
         -------
@@ -246,12 +285,16 @@ class DemandCurve(Regression):
         limits = self.conf_int()
         columns = zip(self.param_names, self.params, self.bse, limits[:, 0], limits[:, 1])
         rows = [[name, *map(_show.number, map(float, cells))] for name, *cells in columns]
-        title = f"DemandCurve: edp above {_show.number(self.limit_state)}, {self.nobs} cases"
-        lines = [f"dispersion {self.dispersion:.4f}, R2 {self.rsquared:.4f}", *(f"doubt: {doubt}" for doubt in self.doubts)]
+        title = f"DemandCurve over {self.im_name}: edp above {_show.number(self.limit_state)}, {self.nobs} cases"
+        lines = [f"dispersion {self.dispersion:.4f}, R2 {self.rsquared:.4f}, errors {self.cov_type}", *(f"doubt: {doubt}" for doubt in self.doubts)]
         return _show.Summary(title, lines, ["", "estimate", "se", "low", "high"], rows)
 
+    _ratio = "t"
+
+    def _p_values(self, ratio: Floats) -> Floats:
+        return np.array([_rockfrag.f_upper_tail(value, 1.0, float(self.df_resid)) for value in ratio**2])
+
     def _error_quantile(self, level: float) -> float:
-        quantile(level)
         return _rockfrag.t_quantile(0.5 * (1.0 + level), float(self.df_resid))
 
     def __repr__(self) -> str:
@@ -262,7 +305,7 @@ class DemandCurve(Regression):
 
 
 class FailureCurve(Curve):
-    """The probability of failure given rocking, by overturning or by a demand above the limit: what :func:`fit_failure` gives.
+    """The probability of failure given rocking: overturning, or a demand above the limit. :func:`fit_failure` makes it.
 
     P_f = P_ro + (1 - P_ro) P_ex (Eq. 12).
     """
@@ -274,7 +317,7 @@ class FailureCurve(Curve):
         self.demand: DemandCurve = demand
         self.im, self.im_name, self.outcome = overturning.im, overturning.im_name, failed
         #: What to doubt about either curve, in words.
-        self.doubts: list[str] = [*overturning.doubts, *demand.doubts]
+        self.doubts: list[str] = list(dict.fromkeys([*overturning.doubts, *demand.doubts]))
 
     def _index(self, im: Floats) -> tuple[Floats, Floats]:
         return _rockfrag.failure(self.overturning._index(im), self.demand._index(im))
@@ -283,7 +326,7 @@ class FailureCurve(Curve):
         return "failure"
 
     def summary(self) -> _show.Summary:
-        """Median and dispersion of both curves, with what to doubt.
+        """Shows median and dispersion of both curves, with what to doubt.
 
         Returns
         -------
@@ -291,7 +334,7 @@ class FailureCurve(Curve):
         """
         curves: dict[str, FragilityCurve | DemandCurve] = {"overturning": self.overturning, f"edp above {_show.number(self.demand.limit_state)}": self.demand}
         rows = [[name, *map(_show.number, (curve.median, curve.beta)), str(curve.nobs)] for name, curve in curves.items()]
-        title = f"FailureCurve: {int(self.outcome.sum())} failures of {len(self.im)} cases"
+        title = f"FailureCurve over {self.im_name}: {int(self.outcome.sum())} failures of {len(self.im)} cases"
         return _show.Summary(title, [f"doubt: {doubt}" for doubt in self.doubts], ["", "median", "beta", "cases"], rows)
 
     def __repr__(self) -> str:

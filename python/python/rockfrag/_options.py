@@ -8,28 +8,30 @@ import json
 import os
 import secrets
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 
+from . import _checks
 from ._structure import Structure, spec_of
 from ._types import PathLike, Progress
-from .errors import OptionError
+from .errors import OptionError, RockfragError
 
 Settings = dict[str, "int | bool | Progress | None"]
 
 
 def to_json(options: Mapping[str, object]) -> str:
-    """Options that are given, under the names that they have on the command line."""
-    return json.dumps({_kebab(name): _plain(value) for name, value in options.items()})
+    """Options that are given and checked, under the names that they have on the command line."""
+    return json.dumps({_kebab(name): value for name, value in options.items()})
 
 
 def settings(threads: int | None, progress: Progress | None, force: bool | None, overwrite: bool | None) -> Settings:
     """The settings of a call."""
-    if threads is not None and threads < 1:
-        raise OptionError(f"threads is {threads}; expected 1 or more")
-    return {"threads": threads, "progress": progress, "force": bool(force), "overwrite": bool(overwrite)}
+    if progress is not None and not callable(progress):
+        raise _checks.wrong("progress", progress, "a function of the number of steps done and of all")
+    flags = {name: _checks.flag(name, value or False) for name, value in (("force", force), ("overwrite", overwrite))}
+    return {"threads": None if threads is None else _checks.integer("threads", threads, 1), "progress": progress, **flags}
 
 
 def seed(given: int | np.random.Generator | None) -> int:
@@ -38,14 +40,16 @@ def seed(given: int | np.random.Generator | None) -> int:
         return secrets.randbits(32)
     if isinstance(given, np.random.Generator):
         return int(given.integers(2**32))
-    return int(given)
+    return _checks.integer("seed", given)
 
 
 def partition(given: tuple[int, int] | str) -> str:
     """Partition i of n, as the command line writes it."""
     if isinstance(given, str):
         return given
-    index, of = given
+    if not isinstance(given, tuple) or len(given) != 2:
+        raise _checks.wrong("partition", given, "(i, n) with i from 0 to n - 1")
+    index, of = (_checks.integer("partition", number) for number in given)
     return f"{index}/{of}"
 
 
@@ -55,26 +59,82 @@ def hazard_file(given: object) -> Iterator[object]:
     if given is None or isinstance(given, (str, os.PathLike)):
         yield given
         return
-    columns = given
-    if not isinstance(given, Mapping):
-        import pyarrow
-
-        columns = pyarrow.table(given).to_pydict()
-    assert isinstance(columns, Mapping)
+    columns = _columns(given)
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
         file = Path(folder, "hazard.csv")
         with file.open("w", newline="") as opened:
             writer = csv.writer(opened)
             writer.writerow(columns)
             writer.writerows(zip(*columns.values(), strict=True))
-        yield str(file)
+        try:
+            yield str(file)
+        except RockfragError as error:
+            # The file is none of the caller's.
+            error.args = (str(error).replace(str(file), "hazard"),)
+            raise
+
+
+def _columns(hazard: object) -> dict[str, list[object]]:
+    """The columns of a hazard, all of one length."""
+    if hasattr(hazard, "__arrow_c_stream__"):
+        import pyarrow
+
+        hazard = pyarrow.table(hazard).to_pydict()
+    if not isinstance(hazard, Mapping):
+        raise _checks.wrong("hazard", hazard, "a path, a table that speaks Arrow, or a mapping of columns")
+    columns: dict[str, list[object]] = {}
+    for name, values in hazard.items():
+        array = np.asarray(values)
+        if array.ndim != 1:
+            raise _checks.wrong(f"hazard: column {name!r}", values, "an array of numbers")
+        columns[name] = array.tolist()
+    lengths = {name: len(values) for name, values in columns.items()}
+    if len(set(lengths.values())) > 1:
+        words = ", ".join(f"{name} {length}" for name, length in lengths.items())
+        raise OptionError(f"hazard: columns of different lengths ({words}); expected a value of each in every row")
+    return columns
+
+
+def structures(given: object) -> object:
+    """Structures, or the path of a file of them."""
+    if isinstance(given, (str, os.PathLike)):
+        return os.fsdecode(given)
+    several = [given] if isinstance(given, (Structure, Mapping)) else given
+    expected = "a Structure, several, or the path of a YAML or CSV file of them"
+    if not isinstance(several, Iterable):
+        raise _checks.wrong("structures", given, expected)
+    specs = []
+    for structure in several:
+        if not isinstance(structure, (Structure, Mapping)):
+            raise _checks.wrong("structures", given, expected)
+        specs.append(spec_of(structure))
+    return specs
+
+
+def checked(name: str, kind: str, value: object) -> object:
+    """The value of an option, if it is of its kind."""
+    if name == "structures":
+        return structures(value)
+    if kind == "paths":
+        several = value if isinstance(value, Iterable) and not isinstance(value, (str, os.PathLike)) else [value]
+        return [_checks.path(name, one) for one in several]
+    check = _KINDS.get(kind)
+    return _plain(name, value) if check is None else check(name, value)
+
+
+_KINDS: dict[str, Callable[[str, object], object]] = {
+    "float": _checks.number,
+    "int": _checks.integer,
+    "bool": _checks.flag,
+    "path": _checks.path,
+}
 
 
 def path(out: PathLike | None, *, may_be_folder: bool) -> str | None:
     """A path as text. Where partitions can be written, one without a suffix is a folder; a slash at its end changes nothing."""
     if out is None:
         return None
-    plain = Path(out)
+    plain = Path(_checks.path("out", out))
     return f"{plain}/" if may_be_folder and not plain.suffix else str(plain)
 
 
@@ -82,16 +142,15 @@ def _kebab(name: str) -> str:
     return name.rstrip("_").replace("_", "-")
 
 
-def _plain(value: object) -> object:
-    """What JSON knows: text, numbers, lists of text, and structures, of which one is a list too."""
-    if value is None or isinstance(value, (str, bool, int, float)):
+def _plain(name: str, value: object) -> object:
+    """What JSON knows: text, numbers, and lists of text."""
+    value = _checks.plain(value)
+    if isinstance(value, (str, bool, int)):
         return value
+    if isinstance(value, float):
+        return _checks.number(name, value)
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
-    if isinstance(value, (Structure, Mapping)):
-        return [spec_of(value)]
-    if isinstance(value, np.ndarray) and value.ndim == 0 or isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, Iterable):
-        return [spec_of(one) if isinstance(one, (Structure, Mapping)) else str(_plain(one)) for one in value]
-    raise TypeError(f"{value!r} is no option; expected text, numbers or lists of them")
+        return os.fsdecode(value)
+    if isinstance(value, Iterable) and not isinstance(value, Mapping):
+        return [str(_plain(name, one)) for one in value]
+    raise _checks.wrong(name, value, "text, a number, or several")

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from . import _rockfrag
+from . import _checks, _rockfrag
 from ._structure import Structure
 from .errors import OptionError, RockfragWarning
 
@@ -18,7 +18,7 @@ Numbers = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Probability:
-    """Probabilities with 95 % limits, each of the shape of the question; NaN where there is none, such as P_ro without rocking."""
+    """Probabilities with 95 % limits, each of the shape of the arguments; NaN where there is none, such as P_ro without rocking."""
 
     #: No rocking: 1 below uplift, 0 from there on.
     p_nr: Numbers
@@ -30,7 +30,7 @@ class Probability:
     p_ro: Numbers
     p_ro_low: Numbers
     p_ro_high: Numbers
-    #: Failure over the whole tree, the one or the other.
+    #: Failure, the one or the other, with or without rocking.
     p_f: Numbers
     p_f_low: Numbers
     p_f_high: Numbers
@@ -60,35 +60,40 @@ def probability(
     suite: Literal["csgm", "pulse", "hfc"] | None = None,
     limit_state: float | None = None,
 ) -> Probability:
-    """Probabilities of rocking too far and of overturning, by the universal surface: no fits are needed.
+    """Computes probabilities of rocking too far and of overturning from the universal surface, without fits.
 
     All arrays broadcast against each other.
 
     Parameters
     ----------
     structure : Structure, optional
-        One structure, in place of its parameters.
+        One structure, instead of parameters or dimensions.
     pga, pgv : array_like
         Peak ground acceleration, g, and velocity, m/s.
     width, height : array_like, optional
-        Of solid blocks, m.
+        Dimensions of solid blocks, m.
     p, alpha, eta : array_like, optional
-        Frequency parameter, rad/s, slenderness, rad, and coefficient of restitution, in place of dimensions. ``eta`` may also be
-        given with dimensions; by default it is that of a rectangular block (Housner 1963).
+        Frequency parameter, rad/s, slenderness, rad, and coefficient of restitution, instead of dimensions. ``eta`` also goes with
+        dimensions; the default is then that of a rectangular block (Housner 1963).
     suite : {'csgm', 'pulse', 'hfc'}, optional
-        Kind of motion: a pulse with high frequencies (the default), or one of the two alone.
+        Kind of motion: pulse with high frequencies (csgm, the default), or one of the two alone.
     limit_state : float, optional
-        Demand |theta|max / alpha that P_ex is about, 0.02 to 0.5; 0.1 if not given.
+        Demand |theta|max / alpha whose exceedance P_ex is about, 0.02 to 0.5; 0.1 if not given.
 
     Returns
     -------
     Probability
-        A :class:`RockfragWarning` says what is extrapolated or can hardly be meant.
+        Probabilities and limits, each of the shape to which the arguments broadcast.
+
+    Warns
+    -----
+    RockfragWarning
+        If an answer is extrapolated, or a value is likely in another unit.
 
     Raises
     ------
     OptionError
-        If a number cannot be right, or there are neither dimensions nor p, alpha and eta.
+        If a number cannot be right, shapes do not broadcast, or there are neither dimensions nor p, alpha and eta.
 
     Examples
     --------
@@ -100,19 +105,25 @@ def probability(
     """
     given = {"width": width, "height": height, "p": p, "alpha": alpha, "eta": eta}
     if structure is not None:
+        if not isinstance(structure, Structure):
+            raise _checks.wrong("structure", structure, "a Structure")
         if any(values is not None for values in given.values()):
             raise OptionError("a structure and parameters of one; expected one of the two")
         given = {"p": structure.p, "alpha": structure.alpha, "eta": structure.eta}
     names = [name for name, values in given.items() if values is not None]
     if {"width", "height"} - set(names) and {"p", "alpha", "eta"} - set(names):
         raise OptionError("no structure; expected a Structure, width and height (m), or p, alpha and eta")
-    arrays = [np.asarray(values, dtype=np.float64) for values in (pga, pgv, *(given[name] for name in names))]
+    if suite is not None:
+        _checks.word("suite", suite, ("csgm", "pulse", "hfc"))
+    limit = None if limit_state is None else _checks.number("limit_state", limit_state)
+    asked = {"pga": pga, "pgv": pgv, **given}
+    arrays = [_checks.floats(name, asked[name]) for name in ("pga", "pgv", *names)]
     try:
         shaped = np.broadcast_arrays(*arrays)
     except ValueError as error:
         raise OptionError(f"arrays of different lengths: {error}") from error
     flat = [np.ascontiguousarray(array).reshape(-1) for array in shaped]
-    said, doubts = _rockfrag.probability(dict(zip(names, flat[2:], strict=True)), flat[0], flat[1], suite, limit_state)
+    said, doubts = _rockfrag.probability(dict(zip(names, flat[2:], strict=True)), flat[0], flat[1], suite, limit)
     for words in doubts:
         warnings.warn(words, RockfragWarning, stacklevel=2)
     return Probability(**{name: values.reshape(shaped[0].shape)[()] for name, values in said.items()})

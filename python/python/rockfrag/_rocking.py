@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import numpy.typing as npt
 
-from . import _rockfrag, _show
+from . import _checks, _rockfrag, _show
 from ._structure import spec_of
 from ._types import StructureLike
+from .errors import OptionError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Response:
-    """Rotation over time, at every sample and every event, and what came of it. Two are equal if all values are."""
+    """Rotation over time, at every sample and every event, and the outcome. Two are equal if all values are."""
 
     #: Time from the first sample, s; shape (n,).
     time_s: npt.NDArray[np.float64]
@@ -31,7 +32,7 @@ class Response:
     events: list[tuple[float, str]]
     #: no_rocking, safe_rocking or overturning.
     outcome: Literal["no_rocking", "safe_rocking", "overturning"]
-    #: Largest rotation over slenderness (Eq. 7); none if it overturns.
+    #: Largest rotation over slenderness (Eq. 7); None if it overturns.
     edp: float | None
     #: Impacts within the duration of the record.
     impacts: int
@@ -48,12 +49,12 @@ class Response:
         return self.theta_rad / self.alpha_rad
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws rotation over slenderness over time, with a tick at each impact.
+        """Draws rotation over slenderness against time, with a tick at each impact. Needs matplotlib.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Axes to draw on; those of a new figure if not given.
+            Axes to draw on; a new figure if not given.
 
         Returns
         -------
@@ -91,7 +92,7 @@ class Response:
 
 
 def response(acceleration_m_s2: npt.ArrayLike, dt_s: float, structure: StructureLike, *, tail_s: float = 10.0) -> Response:
-    """Solves the rocking motion of one structure in one ground motion (section 2.2).
+    """Computes the rocking motion of one structure in one ground motion (section 2.2).
 
     Parameters
     ----------
@@ -100,19 +101,19 @@ def response(acceleration_m_s2: npt.ArrayLike, dt_s: float, structure: Structure
     dt_s : float
         Time between samples, s.
     structure : Structure or mapping
-        The structure; or its parameters, as ``{"p": 2.5, "alpha": 0.20, "eta": 0.92}``.
+        The structure, or its parameters: ``{"p": 2.5, "alpha": 0.20, "eta": 0.92}``.
     tail_s : float, default 10.0
-        Quiet time after the record, in which free rocking shows, s.
+        Time without ground motion after the record, in which free rocking shows, s; 0 to 1000.
 
     Returns
     -------
     Response
-        Rotation and velocity over time, and what came of it.
+        Rotation and velocity over time, and the outcome.
 
     Raises
     ------
     OptionError
-        If a parameter of the structure is missing or cannot be right, or there are no samples.
+        If a parameter of the structure is missing or cannot be right, or the acceleration has fewer than 2 samples or one that is not finite.
 
     Examples
     --------
@@ -123,5 +124,8 @@ def response(acceleration_m_s2: npt.ArrayLike, dt_s: float, structure: Structure
     >>> rockfrag.response(pulse, 0.01, block)
     <rockfrag.Response: overturning, 1 impacts, 247 points in 2.432 s>
     """
-    samples = np.ascontiguousarray(acceleration_m_s2, dtype=np.float64)
-    return Response(**_rockfrag.response(samples, dt_s, json.dumps(spec_of(structure)), tail_s))
+    samples = _checks.floats("acceleration_m_s2", acceleration_m_s2, "accelerations in m/s2")
+    if samples.ndim != 1:
+        raise OptionError(f"acceleration_m_s2 has shape {samples.shape}; expected one motion, shape (n,)")
+    step, tail = _checks.number("dt_s", dt_s), _checks.number("tail_s", tail_s)
+    return Response(**_rockfrag.response(samples, step, json.dumps(spec_of(structure)), tail))

@@ -8,7 +8,6 @@ from __future__ import annotations
 import inspect
 import json
 import keyword
-import os
 import re
 import textwrap
 from collections.abc import Callable, Mapping
@@ -44,6 +43,7 @@ _OWN = {
     "hazard": "Hazard",
     "seed": "int | Generator | None",
     "structures": "Structures",
+    "universality model": "Literal['univariate', 'bivariate']",
     "synthesize-motions suite": f"{_SUITES} | Iterable[{_SUITES}]",
     "trace": "int | str | Iterable[int | str]",
     "transition": "float | Literal['found']",
@@ -52,13 +52,23 @@ _OWN = {
 _SEED = 42
 #: What Python has other words for than the command line.
 _HELP = {
-    "hazard": "CSV file, or table or mapping of its columns: pga_g or pgv_m_s with annual_rate_of_exceedance, or both with "
+    "hazard": "CSV file, or its columns as a table or mapping: pga_g or pgv_m_s with annual_rate_of_exceedance, or both with "
     "annual_rate_of_occurrence.",
-    "partition": "(i, n): only partition i of n, i from 0 to n - 1; ``out`` is then a folder, in which it is part-0000i.parquet.",
-    "seed": "Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a fresh one of the operating "
-    "system, as NumPy does, and a numpy.random.Generator draws one. The seed is recorded: ``Table.metadata``, ``inspect``.",
-    "synthesize-motions suite": "Suites, one or several: pulse, csgm (pulse and high frequencies), hfc (high frequencies alone).",
-    "structures": "A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.",
+    "partition": "(i, n): do only partition i of n, with i from 0 to n - 1. ``out`` is then a folder; the file in it is part-0000i.parquet.",
+    "seed": "Seed of the random numbers. The same seed makes the same rows, on any machine. None takes a fresh seed, as in NumPy; a "
+    "numpy.random.Generator draws one. ``Table.metadata`` and ``inspect`` tell the seed.",
+    "synthesize-motions suite": "One suite or several: pulse, csgm (pulse with high frequencies), hfc (high frequencies alone).",
+    "structures": "One Structure or several; the path of a YAML or CSV file of them; or 'paper', for both structures of the paper.",
+}
+_KEPT = "its path is returned. A file that is up to date is left as it is."
+_HELP |= {
+    "evaluate columns": "Which headings of ``hazard`` or of ``intensities`` stand for which columns, as "
+    "'pga_g=PGA,annual_rate_of_exceedance=rate'.",
+    "evaluate out": f"File to write: .parquet, or for one intensity or a site also .csv, .json or .txt; {_KEPT}",
+    "export out": f"File to write; {_KEPT}",
+    "report out": f"Page to write, NAME.html; {_KEPT} Figures go into the folder NAME beside it.",
+    "simulate out": f"Parquet file to write, or without a suffix a folder of partitions; {_KEPT}",
+    "synthesize-motions out": f"Parquet file to write, or without a suffix a folder of partitions; {_KEPT}",
 }
 #: Types as a docstring has them.
 _SPOKEN = {
@@ -71,17 +81,17 @@ _SPOKEN = {
     "Generator": "numpy.random.Generator",
 }
 _COMMON = {
-    "out": ("PathLike | None", None, "Path to write; it is returned. A file that is up to date is left as it is."),
-    "threads": ("int | None", None, "All cores if not given."),
+    "out": ("PathLike | None", None, f"Parquet file to write; {_KEPT}"),
+    "threads": ("int | None", None, "Number of threads; all cores if not given."),
     "progress": ("Progress | None", None, "Called with the number of steps done and of all, a few times a second."),
-    "force": ("bool", False, "Make even a file that is up to date."),
-    "overwrite": ("bool", False, "Write over a file that another stage or program has made."),
+    "force": ("bool", False, "Also make a file that is up to date."),
+    "overwrite": ("bool", False, "Replace a file that another stage or program has made."),
 }
 _RAISES = {
-    "OptionError": "If an option is unknown, out of range, or does not go with another.",
-    "TableError": "If a table lacks a column or rows, or holds a value that cannot be used.",
-    "MissingFileError": "If a file is not there.",
-    "FileError": "If a file cannot be read or written, or is not this stage's to write over.",
+    "OptionError": "If an option has a wrong type, is out of range, or does not go with another.",
+    "TableError": "If a table lacks a column, has no rows, or holds a value that cannot be used.",
+    "MissingFileError": "If a file does not exist.",
+    "FileError": "If a file cannot be read or written.",
 }
 
 
@@ -155,7 +165,7 @@ def _signature(stage: Stage) -> inspect.Signature:
     kind = "TableLike" if stage.makes_table or stage.name == "export" else "PathLike"
     tables = [_parameter(str(table["role"]), kind) for table in stage.inputs if table["required"]]
     first = [_parameter(_python(option["name"]), _annotation(stage, option)) for option in stage.options if option["positional"]]
-    optional = [_parameter(str(table["role"]), "TableLike | None", None) for table in stage.inputs if not table["required"]]
+    optional = [_parameter(str(table["role"]), f"{kind} | None", None) for table in stage.inputs if not table["required"]]
     keywords = []
     for option in stage.options:
         if not option["positional"]:
@@ -188,23 +198,23 @@ def _docstring(stage: Stage, signature: inspect.Signature) -> str:
         help = _HELP.get(f"{stage.name} {parameter.name}") or _HELP.get(parameter.name) or helps[parameter.name]
         lines += [f"{parameter.name} : {kind}", *_wrapped(help)]
     parts = ", ".join(f'``parts["{part}"]``' for part in stage.output["parts"])
-    made = "A table in memory, or the path of ``out``." if stage.makes_table else "The path of ``out``."
-    made += f" With {parts} where there are such." if parts else ""
+    made = "A table in memory; with ``out``, the path of the file." if stage.makes_table else "The path of the file."
+    made += f" Further tables, where there are any: {parts}." if parts else ""
     lines += ["", "Returns", "-------", "Table or pathlib.Path" if stage.makes_table else "pathlib.Path", *_wrapped(made)]
     lines += ["", "Raises", "------"]
     for error, reason in _RAISES.items():
         lines += [error, *_wrapped(reason)]
-    lines += ["", "Warns", "-----", "RockfragWarning", *_wrapped("Of each result to be looked at twice.")]
+    lines += ["", "Warns", "-----", "RockfragWarning", *_wrapped("If a result is doubtful: a fit that failed, an intensity outside of the data.")]
     example = EXAMPLES.get(stage.name, "").strip()
-    about = _wrapped(f"{stage.about}.".replace("..", "."), indent="")
-    return "\n".join([*about, "", *lines, "", "Examples", "--------", *example.splitlines()]) + "\n"
+    about = [line for paragraph in stage.about.split("\n\n") for line in [*_wrapped(f"{paragraph.rstrip('.')}.", indent=""), ""]]
+    return "\n".join([*about, *lines, "", "Examples", "--------", *example.splitlines()]) + "\n"
 
 
 def _wrapped(text: str, indent: str = "    ") -> list[str]:
     """A help of the command line in the words of Python: options without dashes, defaults where the type stands."""
     text = re.sub(r" \[default: [^\]]*\](?=\.|$)", "", text) if "[default: 42]" in text else text
-    for stage in STAGES:
-        text = text.replace(stage.name, _python(stage.name)) if "-" in stage.name else text
+    for name in [*(stage.name for stage in STAGES), "seed-spread"]:
+        text = text.replace(name, _python(name)) if "-" in name else text
     text = re.sub(r"--([a-z][a-z-]*)", lambda option: f"``{_python(option[1])}``", text)
     return textwrap.wrap(text, 100, initial_indent=indent, subsequent_indent=indent)
 
@@ -212,7 +222,7 @@ def _wrapped(text: str, indent: str = "    ") -> list[str]:
 def _function(stage: Stage) -> Callable[..., Table | Path]:
     signature = _signature(stage)
     roles = {str(table["role"]) for table in stage.inputs}
-    paths = {_python(option["name"]) for option in stage.options if option["type"] == "paths"}
+    kinds = {_python(option["name"]): str(option["type"]) for option in stage.options}
     has_seed = any(option["name"] == "seed" for option in stage.options)
 
     def call(*arguments: object, **keywords: object) -> Table | Path:
@@ -225,13 +235,11 @@ def _function(stage: Stage) -> Callable[..., Table | Path]:
         settings = _options.settings(*(given.pop(name, None) for name in ("threads", "progress", "force", "overwrite")))
         out = _options.path(given.pop("out", None), may_be_folder=stage.has_partitions)
         inputs = {role: given.pop(role) for role in roles & given.keys()}
-        for name in paths & given.keys():
-            if isinstance(given[name], (str, os.PathLike)):
-                given[name] = [given[name]]
         with _options.hazard_file(given.get("hazard")) as hazard:
             if hazard is not None:
                 given["hazard"] = hazard
-            return _rockfrag.call(stage.name, inputs, _options.to_json(given), out, settings)
+            options = {name: _options.checked(name, kinds[name], value) for name, value in given.items()}
+            return _rockfrag.call(stage.name, inputs, _options.to_json(options), out, settings)
 
     call.__name__ = call.__qualname__ = _python(stage.name)
     call.__module__ = __name__

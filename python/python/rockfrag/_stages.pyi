@@ -34,39 +34,39 @@ def compare_paper(
     responses : Arrow table or path
         Responses that both were fitted to, from simulate.
     spread : path, optional
-        CSV file of our numbers over seeds, from seed-spread [default: the built-in one, for the paper's
+        CSV file of our numbers over seeds, from seed_spread [default: the built-in one, for the paper's
         set-up].
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write; its path is returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``.
+        A table in memory; with ``out``, the path of the file.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -167,7 +167,8 @@ def evaluate(
     beam_mass_ratio : float, optional
         For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
-        A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
+        One Structure or several; the path of a YAML or CSV file of them; or 'paper', for both
+        structures of the paper.
     name : str, optional
         Name of the structure in the file of ``structures`` [default: the only one].
     pga : float, optional
@@ -179,7 +180,7 @@ def evaluate(
     tm : float, optional
         Mean period, s, if the measure needs it.
     hazard : path, Arrow table or mapping, optional
-        CSV file, or table or mapping of its columns: pga_g or pgv_m_s with annual_rate_of_exceedance,
+        CSV file, or its columns as a table or mapping: pga_g or pgv_m_s with annual_rate_of_exceedance,
         or both with annual_rate_of_occurrence.
     ratio : float, optional
         p PGV / PGA of all motions, for a hazard of one peak only [default: distributed as in the
@@ -187,8 +188,8 @@ def evaluate(
     years : float, default 50.0
         Time of exposure, years.
     columns : str, optional
-        Which headings of the file of ``hazard`` or ``in_`` stand for which columns, as
-        pga_g=PGA,annual_rate_of_exceedance=rate.
+        Which headings of ``hazard`` or of ``intensities`` stand for which columns, as
+        'pga_g=PGA,annual_rate_of_exceedance=rate'.
     format : {'table', 'csv', 'json', 'parquet'}, optional
         Format of the answer: table (to read), csv, json, or parquet (with ``out``) [default: by the
         ending of ``out``, or table].
@@ -198,36 +199,37 @@ def evaluate(
         Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the
         dimensions, or as in the fits].
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        File to write: .parquet, or for one intensity or a site also .csv, .json or .txt; its path is
+        returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``.
+        A table in memory; with ``out``, the path of the file.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -340,7 +342,8 @@ def export(
     beam_mass_ratio : float, optional
         For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
-        A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
+        One Structure or several; the path of a YAML or CSV file of them; or 'paper', for both
+        structures of the paper.
     name : str, optional
         Name of the structure in the file of ``structures`` [default: the only one].
     to : {'openquake', 'openquake-continuous', 'pelicun'}, optional
@@ -362,36 +365,36 @@ def export(
         Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the
         dimensions, or as in the fits].
     out : path
-        Path to write; it is returned. A file that is up to date is left as it is.
+        File to write; its path is returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     pathlib.Path
-        The path of ``out``.
+        The path of the file.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -442,41 +445,41 @@ def fit_pex(
     confidence : float, default 0.95
         Confidence level of all limits.
     seed : int or numpy.random.Generator or None, default 42
-        Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
-        fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
-        seed is recorded: ``Table.metadata``, ``inspect``.
+        Seed of the random numbers. The same seed makes the same rows, on any machine. None takes a
+        fresh seed, as in NumPy; a numpy.random.Generator draws one. ``Table.metadata`` and ``inspect``
+        tell the seed.
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write; its path is returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``. With ``parts["scan"]``, ``parts["bootstrap"]`` where
-        there are such.
+        A table in memory; with ``out``, the path of the file. Further tables, where there are any:
+        ``parts["scan"]``, ``parts["bootstrap"]``.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -545,40 +548,41 @@ def fit_pro(
     confidence : float, default 0.95
         Confidence level of all limits.
     seed : int or numpy.random.Generator or None, default 42
-        Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
-        fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
-        seed is recorded: ``Table.metadata``, ``inspect``.
+        Seed of the random numbers. The same seed makes the same rows, on any machine. None takes a
+        fresh seed, as in NumPy; a numpy.random.Generator draws one. ``Table.metadata`` and ``inspect``
+        tell the seed.
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write; its path is returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``. With ``parts["bootstrap"]`` where there are such.
+        A table in memory; with ``out``, the path of the file. Further tables, where there are any:
+        ``parts["bootstrap"]``.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -669,41 +673,42 @@ def ida(
     beam_mass_ratio : float, optional
         For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
-        A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
+        One Structure or several; the path of a YAML or CSV file of them; or 'paper', for both
+        structures of the paper.
     simd : {'scalar', 'neon', 'avx2', 'avx512'}, optional
         Vector instructions of the solver, as in simulate [default: the fastest of this processor].
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write; its path is returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``. With ``parts["stripes"]``, ``parts["windows"]``,
-        ``parts["shares"]``, ``parts["fragility"]`` where there are such.
+        A table in memory; with ``out``, the path of the file. Further tables, where there are any:
+        ``parts["stripes"]``, ``parts["windows"]``, ``parts["shares"]``, ``parts["fragility"]``.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -821,36 +826,36 @@ def import_motions(
     keep_going : bool, default False
         Import the rest where files cannot be read, and warn of those.
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write; its path is returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``.
+        A table in memory; with ``out``, the path of the file.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -910,11 +915,13 @@ def rank_ims(
     overwrite: bool = False,
 ) -> Table:
     """Rank intensity measures, alone, in pairs and triples, by how well they predict held-out cells or
-    earthquakes  Besides im1 to im6 of the paper, the measures of ``motions``, made dimensionless with p
-    and g tan alpha: p D of the significant durations (d5_75, d5_95); p^2 PGD / (g tan alpha) (pgd), the
-    same of the Housner intensity (housner); p CAV / (g tan alpha) (cav); p times the integral of a^2 /
-    (g tan alpha)^2 (arias); Sa / (g tan alpha) (sa_0p50 is that at 0.5 s). Measures enter as a product,
-    each to a power that the fit finds. PGA, PGV, Tm and Tp are those of im1 to im6.
+    earthquakes.
+
+    Besides im1 to im6 of the paper, the measures of ``motions``, made dimensionless with p and g tan
+    alpha: p D of the significant durations (d5_75, d5_95); p^2 PGD / (g tan alpha) (pgd), the same of
+    the Housner intensity (housner); p CAV / (g tan alpha) (cav); p times the integral of a^2 / (g tan
+    alpha)^2 (arias); Sa / (g tan alpha) (sa_0p50 is that at 0.5 s). Measures enter as a product, each
+    to a power that the fit finds. PGA, PGV, Tm and Tp are those of im1 to im6.
 
     Parameters
     ----------
@@ -936,36 +943,37 @@ def rank_ims(
         Further columns of ``motions`` to rank as measures. The unit at the end of the name says how to
         make them dimensionless: fiv3_m_s by p v / (g tan alpha).
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write; its path is returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``. With ``parts["reliability"]`` where there are such.
+        A table in memory; with ``out``, the path of the file. Further tables, where there are any:
+        ``parts["reliability"]``.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -998,7 +1006,7 @@ def rank_ims(
 
 def report(
     files: PathLike,
-    rates: TableLike | None = None,
+    rates: PathLike | None = None,
     *,
     title: str | None = None,
     author: str | None = None,
@@ -1021,7 +1029,7 @@ def report(
     ----------
     files : path
         Folder of the files: responses.parquet or its partitions, and what else there is of them.
-    rates : Arrow table or path, optional
+    rates : path, optional
         Annual rates of evaluate ``hazard``, in a Parquet file or a folder of them [default:
         evaluated.parquet in the folder].
     title : str, optional
@@ -1042,36 +1050,37 @@ def report(
     dpi : float, default 300.0
         Dots per inch of the PNG files.
     out : path
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Page to write, NAME.html; its path is returned. A file that is up to date is left as it is.
+        Figures go into the folder NAME beside it.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     pathlib.Path
-        The path of ``out``.
+        The path of the file.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -1107,9 +1116,9 @@ def sample_scenarios(
     Parameters
     ----------
     seed : int or numpy.random.Generator or None, default 42
-        Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
-        fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
-        seed is recorded: ``Table.metadata``, ``inspect``.
+        Seed of the random numbers. The same seed makes the same rows, on any machine. None takes a
+        fresh seed, as in NumPy; a numpy.random.Generator draws one. ``Table.metadata`` and ``inspect``
+        tell the seed.
     samples : int, default 100
         Scenarios in each cell of the grid.
     mw : float, iterable of float, or 'first:last:step', default '5.5:7.5:0.5'
@@ -1119,36 +1128,36 @@ def sample_scenarios(
     design : {'lhs', 'random', 'sobol'}, default 'lhs'
         How to sample each cell: lhs (Latin hypercube), random or sobol.
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write; its path is returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``.
+        A table in memory; with ``out``, the path of the file.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -1216,46 +1225,49 @@ def simulate(
     beam_mass_ratio : float, optional
         For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
-        A Structure, or several, or a YAML or CSV file of them, or the word paper for both of the paper.
+        One Structure or several; the path of a YAML or CSV file of them; or 'paper', for both
+        structures of the paper.
     simd : {'scalar', 'neon', 'avx2', 'avx512'}, optional
         Vector instructions of the solver: scalar, neon, avx2 or avx512; all give the same bits
         [default: the fastest of this processor].
     trace : int or str or iterable of int or str, optional
         Also write the rotation over time for these motions, to NAME.trace.parquet beside the output.
     partition : tuple[int, int], optional
-        (i, n): only partition i of n, i from 0 to n - 1; ``out`` is then a folder, in which it is
-        part-0000i.parquet.
+        (i, n): do only partition i of n, with i from 0 to n - 1. ``out`` is then a folder; the file in
+        it is part-0000i.parquet.
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write, or without a suffix a folder of partitions; its path is returned. A file
+        that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``. With ``parts["trace"]`` where there are such.
+        A table in memory; with ``out``, the path of the file. Further tables, where there are any:
+        ``parts["trace"]``.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -1323,11 +1335,11 @@ def synthesize_motions(
     scenarios : Arrow table or path
         Scenarios to read.
     seed : int or numpy.random.Generator or None, default 42
-        Seed of the random numbers. The same seed makes the same rows, on any machine; None takes a
-        fresh one of the operating system, as NumPy does, and a numpy.random.Generator draws one. The
-        seed is recorded: ``Table.metadata``, ``inspect``.
+        Seed of the random numbers. The same seed makes the same rows, on any machine. None takes a
+        fresh seed, as in NumPy; a numpy.random.Generator draws one. ``Table.metadata`` and ``inspect``
+        tell the seed.
     suite : {'pulse', 'csgm', 'hfc'} or iterable of {'pulse', 'csgm', 'hfc'}, default ('pulse', 'csgm')
-        Suites, one or several: pulse, csgm (pulse and high frequencies), hfc (high frequencies alone).
+        One suite or several: pulse, csgm (pulse with high frequencies), hfc (high frequencies alone).
     dt : float, default 0.005
         Time between samples, s.
     difference : {'absolute', 'signed', 'clamp', 'none'}, default 'absolute'
@@ -1355,39 +1367,40 @@ def synthesize_motions(
     row_group : int, default 128
         Scenarios in a row group, which are held in memory together; the rows do not depend on it.
     partition : tuple[int, int], optional
-        (i, n): only partition i of n, i from 0 to n - 1; ``out`` is then a folder, in which it is
-        part-0000i.parquet.
+        (i, n): do only partition i of n, with i from 0 to n - 1. ``out`` is then a folder; the file in
+        it is part-0000i.parquet.
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write, or without a suffix a folder of partitions; its path is returned. A file
+        that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``.
+        A table in memory; with ``out``, the path of the file.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -1430,7 +1443,7 @@ def universality(
     responses: TableLike,
     *,
     reference: str = 'electrical-equipment',
-    model: Literal['univariate', 'bivariate', 'paper', 'universal'] = 'bivariate',
+    model: Literal['univariate', 'bivariate'] = 'bivariate',
     measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     transition: float = 1.3,
     limit_state: float = 0.1,
@@ -1448,7 +1461,7 @@ def universality(
         Responses of all structures to read.
     reference : str, default 'electrical-equipment'
         Structure whose curves to transfer to all others.
-    model : {'univariate', 'bivariate', 'paper', 'universal'}, default 'bivariate'
+    model : {'univariate', 'bivariate'}, default 'bivariate'
         bivariate (two planes over im4 and im3, hybrid curve of im4 and im3_inv) or univariate.
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
         Measure of the univariate model, im1 to im6 [default: im5].
@@ -1457,36 +1470,37 @@ def universality(
     limit_state : float, default 0.1
         Limit state of P_ex: a demand |theta|max / alpha.
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write; its path is returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``. With ``parts["pooled"]`` where there are such.
+        A table in memory; with ``out``, the path of the file. Further tables, where there are any:
+        ``parts["pooled"]``.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------
@@ -1504,7 +1518,7 @@ def universality(
     responses: TableLike,
     *,
     reference: str = 'electrical-equipment',
-    model: Literal['univariate', 'bivariate', 'paper', 'universal'] = 'bivariate',
+    model: Literal['univariate', 'bivariate'] = 'bivariate',
     measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
     transition: float = 1.3,
     limit_state: float = 0.1,
@@ -1555,36 +1569,36 @@ def validate(
     structure : str, optional
         Structure of the fits [default: all].
     out : path, optional
-        Path to write; it is returned. A file that is up to date is left as it is.
+        Parquet file to write; its path is returned. A file that is up to date is left as it is.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all, a few times a second.
     force : bool, default False
-        Make even a file that is up to date.
+        Also make a file that is up to date.
     overwrite : bool, default False
-        Write over a file that another stage or program has made.
+        Replace a file that another stage or program has made.
 
     Returns
     -------
     Table or pathlib.Path
-        A table in memory, or the path of ``out``.
+        A table in memory; with ``out``, the path of the file.
 
     Raises
     ------
     OptionError
-        If an option is unknown, out of range, or does not go with another.
+        If an option has a wrong type, is out of range, or does not go with another.
     TableError
-        If a table lacks a column or rows, or holds a value that cannot be used.
+        If a table lacks a column, has no rows, or holds a value that cannot be used.
     MissingFileError
-        If a file is not there.
+        If a file does not exist.
     FileError
-        If a file cannot be read or written, or is not this stage's to write over.
+        If a file cannot be read or written.
 
     Warns
     -----
     RockfragWarning
-        Of each result to be looked at twice.
+        If a result is doubtful: a fit that failed, an intensity outside of the data.
 
     Examples
     --------

@@ -6,28 +6,27 @@ import json
 from collections.abc import Mapping
 from typing import Literal
 
-import numpy as np
-
-from . import _rockfrag
+from . import _checks, _rockfrag
 from ._types import StructureLike
+from .errors import OptionError
 
 
 class Structure:
     """A rocking structure, by its frequency parameter, slenderness and coefficient of restitution.
 
-    Of a block or a frame that is known by its dimensions, use :meth:`block` or :meth:`frame`.
+    :meth:`block` and :meth:`frame` make one from dimensions.
 
     Parameters
     ----------
     p : float
-        Frequency parameter, rad/s. Of a rectangular block sqrt(3 g / (4 R)), R its half diagonal.
+        Frequency parameter, rad/s; sqrt(3 g / (4 R)) for a rectangular block of half diagonal R.
     alpha : float
         Slenderness, rad: the angle between the side and the diagonal.
     eta : float or 'housner'
-        Coefficient of restitution: angular velocity after an impact over that before it; ``'housner'`` is
+        Coefficient of restitution: angular velocity after an impact over that before it. ``'housner'`` is
         1 - 1.5 sin(alpha)^2.
     name : str, optional
-        What it is called in tables; of its parameters if not given.
+        Name in tables; made of the parameters if not given.
 
     Raises
     ------
@@ -59,20 +58,25 @@ class Structure:
     def block(
         cls, width: float, height: float, *, eta: float | Literal["housner"] | None = None, name: str | None = None
     ) -> Structure:
-        """A solid rectangular block.
+        """Makes a solid rectangular block from its dimensions.
 
         Parameters
         ----------
         width, height : float
-            m.
+            Dimensions, m.
         eta : float or 'housner', optional
-            Coefficient of restitution; by default that of the geometry, 1 - 1.5 sin(alpha)^2 (Housner 1963).
+            Coefficient of restitution; 1 - 1.5 sin(alpha)^2 if not given (Housner 1963).
         name : str, optional
-            What it is called in tables.
+            Name in tables; made of the parameters if not given.
 
         Returns
         -------
         Structure
+
+        Raises
+        ------
+        OptionError
+            If a dimension cannot be right, or is likely in another unit.
 
         Examples
         --------
@@ -92,22 +96,27 @@ class Structure:
         eta: float | Literal["housner"] | None = None,
         name: str | None = None,
     ) -> Structure:
-        """A rigid beam on free-standing columns.
+        """Makes a frame: a rigid beam on free-standing columns.
 
         Parameters
         ----------
         width, height : float
-            Of a column, m.
+            Dimensions of a column, m.
         beam_mass_ratio : float
-            Mass of the beam over that of all columns.
+            Mass of the beam over the mass of all columns.
         eta : float or 'housner', optional
-            Coefficient of restitution; by default that of the geometry.
+            Coefficient of restitution; that of the geometry if not given.
         name : str, optional
-            What it is called in tables.
+            Name in tables; made of the parameters if not given.
 
         Returns
         -------
         Structure
+
+        Raises
+        ------
+        OptionError
+            If a dimension cannot be right, or is likely in another unit.
 
         Examples
         --------
@@ -126,14 +135,14 @@ class Structure:
         return structure
 
     def _set(self, made: str, given: Mapping[str, float | str], name: str | None) -> None:
-        plain = {key: value if isinstance(value, str) else float(value) for key, value in given.items()}
-        self._given = plain if name is None else {**plain, "name": name}
+        plain = {key: _parameter(key, value) for key, value in given.items()}
+        self._given = plain if name is None else {**plain, "name": _checks.text("name", name)}
         self._made = made
         self._resolved = _rockfrag.structure(json.dumps(spec_of(self)))
 
     @property
     def name(self) -> str:
-        """What it is called in tables."""
+        """Name in tables."""
         return self._resolved[0]
 
     @property
@@ -163,6 +172,24 @@ class Structure:
 
 def spec_of(structure: StructureLike) -> dict[str, object]:
     """The parameters as given, by the names of the command line; of a mapping, without those that are None."""
-    given: Mapping[str, object] = structure._given if isinstance(structure, Structure) else structure
-    numbers = {key: value.item() if isinstance(value, np.generic) else value for key, value in given.items() if value is not None}
-    return {key.replace("_", "-"): value for key, value in numbers.items()}
+    if isinstance(structure, Structure):
+        given: Mapping[str, object] = structure._given
+    elif isinstance(structure, Mapping):
+        given = structure
+    else:
+        raise _checks.wrong("structure", structure, "a Structure, or a mapping of its parameters")
+    return {key.replace("_", "-"): _parameter(key, value) for key, value in given.items() if value is not None}
+
+
+def _parameter(name: str, value: object) -> float | str:
+    """A parameter of a structure."""
+    if name == "name":
+        return _checks.text(name, value)
+    known = ["p", "alpha", "eta", "width", "height", "beam_mass_ratio"]
+    if name.replace("-", "_") not in known:
+        raise OptionError(f"{name!r} is no parameter of a structure; expected name, {', '.join(known)}")
+    if name != "eta":
+        return _checks.number(name, value)
+    if value == "housner":
+        return "housner"
+    return _checks.number(name, value, "a finite number, or 'housner'")

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, overload
 
 import numpy as np
 
-from . import _options, _rockfrag, _show
+from . import _checks, _options, _rockfrag, _show
 from ._types import PathLike, Progress
 
 
@@ -29,22 +28,22 @@ class Column:
 
 @dataclass(frozen=True, repr=False)
 class FileInfo:
-    """What a Parquet file holds and where it came from. Printed, it is what ``rockfrag inspect`` prints."""
+    """What a Parquet file holds and how it was made. It prints as ``rockfrag inspect`` does."""
 
     path: Path
     rows: int
     bytes: int
     columns: list[Column]
-    #: What made it, if rockfrag did.
+    #: The stage that made it; None if another program did.
     stage: str | None
     version: str | None
-    #: All parameters that its rows depend on, with the seed.
+    #: All parameters that the rows depend on, with the seed.
     parameters: dict[str, object]
-    #: The fingerprint of what each input held, by the role that it played.
+    #: A fingerprint of each input, by its role.
     inputs: dict[str, str]
-    #: What was warned of while it was made.
+    #: Warnings of the stage that made it.
     warnings: list[str]
-    #: The fingerprint of its rows.
+    #: A fingerprint of the rows.
     content: str | None
     _text: str = field(compare=False)
 
@@ -60,12 +59,12 @@ class FileInfo:
 
 
 def inspect(file: PathLike) -> FileInfo:
-    """Shows what a file holds and where it came from.
+    """Tells what a Parquet file holds and how it was made.
 
     Parameters
     ----------
     file : path
-        A Parquet file, ours or another's.
+        A Parquet file of rockfrag or of any other program.
 
     Returns
     -------
@@ -74,7 +73,7 @@ def inspect(file: PathLike) -> FileInfo:
     Raises
     ------
     MissingFileError
-        If it is not there.
+        If the file does not exist.
     FileError
         If it is no Parquet file.
 
@@ -88,7 +87,7 @@ def inspect(file: PathLike) -> FileInfo:
     ('sample-scenarios', 105, 7)
     >>> folder.cleanup()
     """
-    told, text = _rockfrag.inspect_file(os.fspath(file))
+    told, text = _rockfrag.inspect_file(_checks.path("file", file))
     found = json.loads(told)
     made = found["made"] or {"stage": None, "version": None, "parameters": {}, "inputs": {}, "warnings": [], "content": None}
     columns = [Column(**column) for column in found["columns"]]
@@ -130,29 +129,31 @@ def run(
     force: bool = False,
     overwrite: bool = False,
 ) -> dict[str, list[Path]] | str:
-    """Runs all stages of a pipeline file, skipping what is up to date.
+    """Runs all stages of a pipeline file and skips those that are up to date.
 
     Parameters
     ----------
     pipeline : path, default 'pipeline.yaml'
         The pipeline file.
     out : path, optional
-        Folder of all files; as the pipeline file says, or out beside it, if not given.
+        Folder of all files; by default the one that the pipeline file names, or ``out`` beside it.
     seed : int or numpy.random.Generator, optional
-        Seed of all stages; as the pipeline file says, or 42, if not given.
+        Seed of all stages; by default that of the pipeline file, or 42.
     dry_run : bool, default False
-        Only tell the resolved plan, and why each stage would or would not run.
+        Run nothing; return the plan, and why each stage would or would not run.
     threads : int, optional
-        All cores if not given.
+        Number of threads; all cores if not given.
     progress : callable, optional
         Called with the number of steps done and of all.
-    force, overwrite : bool, default False
-        Make even what is up to date; write over files that another program has made.
+    force : bool, default False
+        Also make files that are up to date.
+    overwrite : bool, default False
+        Replace files that another program has made.
 
     Returns
     -------
     dict or str
-        The files of each stage, by its name; of a dry run the plan.
+        The files of each stage, by its name; for a dry run, the plan.
 
     Raises
     ------
@@ -174,8 +175,8 @@ def run(
     """
     settings = _options.settings(threads, progress, force, overwrite)
     own = None if seed is None else _options.seed(seed)
-    folder = None if out is None else os.fspath(out)
-    files, plan = _rockfrag.run_pipeline(os.fspath(pipeline), folder, own, dry_run, settings)
+    folder = None if out is None else _checks.path("out", out)
+    files, plan = _rockfrag.run_pipeline(_checks.path("pipeline", pipeline), folder, own, _checks.flag("dry_run", dry_run), settings)
     return plan if dry_run else {stage: list(map(Path, paths)) for stage, paths in files}
 
 
@@ -188,23 +189,23 @@ def seed_spread(
     progress: Progress | None = None,
     overwrite: bool = False,
 ) -> Path:
-    """Repeats the pipeline over seeds, to see how far its numbers move by chance.
+    """Repeats a pipeline over seeds, to show how far its numbers move by chance.
 
     Parameters
     ----------
     pipeline : path, default 'pipeline.yaml'
         The pipeline file.
     seeds : int, default 20
-        Seeds 1 to this.
+        Number of seeds: 1 to this.
     out : path, default 'seed_spread.csv'
-        CSV file of every number with every seed.
+        CSV file to write: every number with every seed.
     threads, progress, overwrite
         As of :func:`run`.
 
     Returns
     -------
     pathlib.Path
-        ``out``.
+        The file.
 
     Raises
     ------
@@ -219,4 +220,5 @@ def seed_spread(
     rockfrag.errors.OptionError: nowhere.yaml: ...
     """
     settings = _options.settings(threads, progress, False, overwrite)
-    return Path(_rockfrag.seed_spread(os.fspath(pipeline), seeds, os.fspath(out), settings))
+    paths = _checks.path("pipeline", pipeline), _checks.path("out", out)
+    return Path(_rockfrag.seed_spread(paths[0], _checks.integer("seeds", seeds, 1), paths[1], settings))

@@ -1,4 +1,4 @@
-"""What can go wrong. Every message names the file or table, the row and the column, and says what was expected."""
+"""Exceptions and warnings. Every message names the argument, file, row or column, what was found, and what was expected."""
 
 __all__ = [
     "FileError",
@@ -12,19 +12,19 @@ __all__ = [
 
 
 class RockfragError(Exception):
-    """Anything that rockfrag refuses to do or fails at."""
+    """The base of all errors of rockfrag."""
 
 
 class OptionError(RockfragError, ValueError):
-    """An option is unknown, out of range, or does not go with another."""
+    """An argument has a wrong type, is out of range, or does not go with another."""
 
 
 class TableError(RockfragError, ValueError):
-    """A table lacks a column or rows, or holds a value that cannot be used."""
+    """A table lacks a column, has no rows, or holds a value that cannot be used."""
 
 
 class FitError(RockfragError, ValueError):
-    """There is no curve to be had of the data. ``status`` is the word that the tables of fits have for the reason."""
+    """The data give no curve. ``status`` is the reason, in the word of the tables of fits: ``too_few_events``, ``separated`` and so on."""
 
     def __init__(self, message: str, status: str = "") -> None:
         super().__init__(message)
@@ -36,8 +36,8 @@ class FileError(RockfragError, OSError):
 
 
 class MissingFileError(FileError, FileNotFoundError):
-    """A file is not there."""
+    """A file does not exist."""
 
 
 class RockfragWarning(UserWarning):
-    """A result to be looked at twice: a fit that failed, an intensity outside of the data."""
+    """A result is doubtful: a fit that failed, an intensity outside of the data."""

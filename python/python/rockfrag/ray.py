@@ -1,14 +1,14 @@
 """Motions and responses in partitions on a Ray cluster, by Ray Data: ``pip install rockfrag[ray]``.
 
-A partition is a task; Ray decides where and when it runs, and runs it again elsewhere when a node is lost. Each writes its file
-under its own name once it is whole, so a task that runs twice does no harm, and one whose file is up to date does nothing: a job that was cut
-short is simply run again. Rows are those of one machine::
+Each partition is a task. Ray decides where and when it runs, and runs it again elsewhere if a node is lost. A task writes its file
+under its own name once the file is whole, so a task may run twice. A task whose file is up to date does nothing: to resume a job, run
+it again. The rows are those of one machine::
 
     rockfrag.ray.synthesize("scenarios.parquet", "motions", partitions=100)
     rockfrag.ray.simulate("motions", "responses", structures="structures.yaml")
     rockfrag.fit_pro("responses")
 
-Paths must be the same on all nodes: a shared folder, or a store that ``filesystem`` (of pyarrow or fsspec) reaches from each of them.
+Paths must be the same on all nodes: use a shared folder, or a store that ``filesystem`` (of pyarrow or fsspec) reaches from each node.
 """
 
 from __future__ import annotations
@@ -68,18 +68,18 @@ def synthesize(
     out : path
         Folder of the partitions.
     partitions : int
-        How many.
+        Number of partitions.
     filesystem : pyarrow.fs.FileSystem or fsspec.AbstractFileSystem, optional
-        Where both are, if not in a folder that all nodes see.
+        Where both are stored; by default in a folder that all nodes see.
     num_cpus : int, default 1
-        Threads of a task.
+        Number of threads of a task.
     **options
-        Those of :func:`rockfrag.synthesize_motions`.
+        Options of :func:`rockfrag.synthesize_motions`.
 
     Returns
     -------
     list of Partition
-        In order.
+        The partitions, in order.
     """
     return _each_partition(rockfrag.synthesize_motions, scenarios, out, partitions, filesystem, num_cpus, options)
 
@@ -101,16 +101,16 @@ def simulate(
     out : path
         Folder of the partitions of responses.
     filesystem : pyarrow.fs.FileSystem or fsspec.AbstractFileSystem, optional
-        Where both are, if not in a folder that all nodes see.
+        Where both are stored; by default in a folder that all nodes see.
     num_cpus : int, default 1
-        Threads of a task.
+        Number of threads of a task.
     **options
-        Those of :func:`rockfrag.simulate`.
+        Options of :func:`rockfrag.simulate`.
 
     Returns
     -------
     list of Partition
-        In order.
+        The partitions, in order.
 
     Raises
     ------

@@ -58,11 +58,15 @@ impl<'a> DemandInference<'a> {
     /// Standard errors of the coefficients where cases of one cluster may depend on each other; `clusters` are those of
     /// all cases. Of the sample of the fit.
     pub fn clustered_errors(&self, clusters: &[usize]) -> Vec<f64> {
-        let covariance = self.sandwich(|rows, case| clusters[rows.labels[0][case] as usize]);
-        covariance.diagonal().iter().map(|variance| variance.sqrt()).collect()
+        self.clustered_covariance(clusters).diagonal().iter().map(|variance| variance.sqrt()).collect()
     }
 
-    /// The covariance behind them, of the clusters of the sample.
+    /// The covariance behind them.
+    pub fn clustered_covariance(&self, clusters: &[usize]) -> DMatrix<f64> {
+        self.sandwich(|rows, case| clusters[rows.labels[0][case] as usize])
+    }
+
+    /// The same, of the clusters of the sample.
     pub fn covariance_by_cluster(&self) -> DMatrix<f64> {
         self.sandwich(|rows, case| rows.labels[CLUSTER][case] as usize)
     }

@@ -1,4 +1,5 @@
 use arrow_array::RecordBatch;
+use serde_json::Value;
 
 use super::options::Format;
 use crate::stages::shared::surface::UNIVERSAL;
@@ -14,6 +15,8 @@ const FITS_OF: &str = "fits of ";
 pub struct Answer {
     pub table: Table,
     pub rows: RecordBatch,
+    /// What a report shows of the hazard; null without one.
+    pub shown: Value,
     /// What a reader must know, above the table.
     pub heading: String,
 }

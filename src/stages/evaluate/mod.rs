@@ -29,7 +29,7 @@ use crate::keyword::Keyword;
 use crate::motion::Suite;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::declare::{Declare, Files, Input, Output};
+use crate::pipeline::declare::{Declare, Files, Input, Output, expect_parquet};
 use crate::pipeline::files::hash;
 use crate::pipeline::options::Word;
 use crate::pipeline::stage::{Stage, beside, content_of_role, places};
@@ -128,6 +128,9 @@ impl Declare for Evaluate {
             format.map_or(Self::OUTPUT.file.to_string(), |format| format!("evaluated.{}", format.ending()));
         let out = files.asked(&file).or_else(beside_table);
         let format = format.unwrap_or_else(|| out.as_ref().map_or(Format::Table, Format::of));
+        if let (Some(_), Some(out)) = (&intensities, &out) {
+            expect_parquet(out)?;
+        }
         if format == Format::Parquet && out.is_none() {
             return Err(UsageError::because("format parquet needs --out FILE"));
         }
@@ -198,7 +201,8 @@ impl Evaluate {
         };
         match (self.format, out) {
             (Format::Parquet, _) | (_, Target::Memory(..)) => {
-                let mut writer = TableWriter::create(out.clone(), &answer.table, provenance.clone())?;
+                let provenance = Provenance { shown: answer.shown.clone(), ..provenance.clone() };
+                let mut writer = TableWriter::create(out.clone(), &answer.table, provenance)?;
                 writer.append(&answer.rows)?;
                 Ok(writer.finish()?)
             }

@@ -1,3 +1,5 @@
+use serde_json::Value;
+
 use super::answer::Answer;
 use super::options::PointOptions;
 use crate::fragility::universal::Scenarios;
@@ -90,6 +92,7 @@ pub fn answer(
     Ok(Answer {
         table: ANSWER,
         rows: evaluated::answer(&rows)?,
+        shown: Value::Null,
         heading: format!(
             "{}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % limits of confidence, {}\n",
             answers.words(),

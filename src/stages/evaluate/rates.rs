@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use rayon::prelude::*;
+use serde_json::json;
 
 use super::answer::Answer;
 use super::hazard::Hazard;
@@ -21,7 +22,7 @@ use crate::pipeline::options::check;
 use crate::rocking::Structure;
 use crate::stages::shared::answers::Answers;
 use crate::stages::shared::structures::words;
-use crate::table::evaluated::{self, RATES, RateRow};
+use crate::table::evaluated::{self, RATES, RateRow, RecordedCurve, RecordedHazard};
 
 /// The annual rate of each limit state, with its limits.
 #[derive(Clone, Copy)]
@@ -70,6 +71,7 @@ pub fn answer(
     let years = options.years;
     check(years > 0.0 && years.is_finite(), "years", years, "a time above 0")?;
     let mut words_of_ratio = String::new();
+    let shown = json!(recorded(path, &hazard));
     let surface = answers.surface(Scenarios::Many);
     let surface = surface.as_ref().map(|surface| surface as &dyn Fragility);
     let (rates, by_surface) = match hazard {
@@ -105,6 +107,7 @@ pub fn answer(
     Ok(Answer {
         table: RATES,
         rows: evaluated::rates(&rows)?,
+        shown,
         heading: format!(
             "{}\nstructure of {}, over {}\n{words_of_ratio}{words_of_surface}low and high are 95 % limits of confidence, {}; they do not hold the hazard's own error\n",
             answers.words(),
@@ -113,6 +116,29 @@ pub fn answer(
             answers.words_of_limits()
         ),
     })
+}
+
+/// The most points of a curve that a file of rates holds for a report.
+const MOST_POINTS: usize = 400;
+
+/// What the file of the rates says of the hazard.
+fn recorded(path: &Path, hazard: &Hazard) -> RecordedHazard {
+    let curve = |peak: Peak, points: &[(f64, f64)]| {
+        let each = points.len().div_ceil(MOST_POINTS).max(1);
+        let last = points.last().filter(|_| !(points.len() - 1).is_multiple_of(each));
+        let points = points.iter().step_by(each).chain(last).copied().collect();
+        RecordedCurve { peak: peak.as_str().to_string(), points }
+    };
+    let (rows, curves) = match hazard {
+        Hazard::Curve(peak, known) => (known.points().len(), vec![curve(*peak, known.points())]),
+        Hazard::Joint(joint) => {
+            let pga = joint.exceedance(|bin| bin.pga_m_s2);
+            let pgv = joint.exceedance(|bin| bin.pgv_m_s);
+            (joint.bins.len(), vec![curve(Peak::Pga, &pga), curve(Peak::Pgv, &pgv)])
+        }
+    };
+    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    RecordedHazard { file, rows, curves }
 }
 
 /// Motions of one peak, and what their other peak is.

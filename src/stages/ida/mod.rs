@@ -124,7 +124,7 @@ impl Declare for Ida {
     const SHOWS_TABLE: bool = true;
 
     fn create(options: &IdaOptions, files: &Files) -> anyhow::Result<Ida> {
-        Ida::new(options, files.input("motions")?, files.out(Self::OUTPUT.file))
+        Ida::new(options, files.input("motions")?, files.out(Self::OUTPUT.file)?)
     }
 }
 

@@ -97,7 +97,7 @@ impl Declare for ImportMotions {
         Output::file("motions.parquet", "Motions file to write [default: motions.parquet]");
 
     fn create(options: &ImportMotionsOptions, files: &Files) -> anyhow::Result<ImportMotions> {
-        ImportMotions::new(options, files.out(Self::OUTPUT.file))
+        ImportMotions::new(options, files.out(Self::OUTPUT.file)?)
     }
 }
 

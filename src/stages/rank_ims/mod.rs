@@ -177,7 +177,7 @@ p CAV / (g tan alpha) (cav); p times the integral of a^2 / (g tan alpha)^2 (aria
     const HAS_PROGRESS: bool = false;
 
     fn create(options: &RankImsOptions, files: &Files) -> anyhow::Result<RankIms> {
-        let out = files.out(Self::OUTPUT.file);
+        let out = files.out(Self::OUTPUT.file)?;
         RankIms::new(options, files.input("responses")?, files.optional("motions"), out)
     }
 }

@@ -59,6 +59,7 @@ fn parse(words: &str) -> Option<Recorded> {
         inputs,
         sources: BTreeMap::new(),
         warnings: Warnings::default(),
+        shown: Value::Null,
     };
     let cache_key = provenance.cache_key();
     Some(Recorded { provenance, cache_key, content: String::new() })

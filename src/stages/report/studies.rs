@@ -4,10 +4,12 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::keyword::Keyword;
-use crate::report::data::{Analysis, Level, Ranking, Rates, StateRate, Validated, name_of};
+use crate::keyword::{self, Keyword};
+use crate::report::data::{
+    Analysis, Hazard, Level, PeakCurve, Ranking, Rates, StateRate, Validated, name_of,
+};
 use crate::studies::{Target, Verdict};
-use crate::table::evaluated::AnnualRate;
+use crate::table::evaluated::{AnnualRate, RecordedCurve, RecordedHazard};
 use crate::table::ida::{Lognormal, Share};
 use crate::table::ranking::RankingRow;
 use crate::table::row::ReadRow;
@@ -38,7 +40,9 @@ const OF_STRUCTURE: [(&str, &str, &str); 6] = [
 
 fn rates_of(file: &Path) -> anyhow::Result<Rates> {
     let rows = AnnualRate::read(file)?;
-    let parameters = recorded(file)?.map_or(Value::Null, |recorded| recorded.provenance.parameters);
+    let (parameters, shown) = recorded(file)?.map_or((Value::Null, Value::Null), |recorded| {
+        (recorded.provenance.parameters, recorded.provenance.shown)
+    });
     let words = |of: &Value, parts: &[(&str, &str, &str)]| {
         let given = parts.iter().filter_map(|(key, before, after)| {
             let value = of.get(key).filter(|value| !value.is_null())?;
@@ -66,7 +70,14 @@ fn rates_of(file: &Path) -> anyhow::Result<Rates> {
         name: format!("{structure}; by {fits}"),
         years: rows.first().map_or(f64::NAN, |row| row.years),
         states: rows.iter().map(state).collect(),
+        hazard: serde_json::from_value(shown).ok().map(hazard),
     })
+}
+
+fn hazard(RecordedHazard { file, rows, curves }: RecordedHazard) -> Hazard {
+    let curve =
+        |RecordedCurve { peak, points }| Some(PeakCurve { peak: keyword::parse(&peak).ok()?, points });
+    Hazard { file, rows, curves: curves.into_iter().filter_map(curve).collect() }
 }
 
 /// The shares of an analysis, by suite and structure, with the medians in the file of fragility beside it.

@@ -49,13 +49,16 @@ fn of_file(file: &Path) -> Option<Partition> {
 
 /// The output of a stage that may work on a partition only: `file`, or where `--out` is a folder the file of the partition in
 /// it. Where nobody says, a partition goes into a folder beside the input.
-pub fn out_of_partition(files: &Files, file: &str, partition: Option<Partition>) -> Target {
-    let (asked, out) = (files.asked(file).is_some(), files.out(file));
-    let Some(path) = out.path() else { return out };
+///
+/// # Errors
+/// If the output is asked for under the name of another kind of file.
+pub fn out_of_partition(files: &Files, file: &str, partition: Option<Partition>) -> anyhow::Result<Target> {
+    let (asked, out) = (files.asked(file).is_some(), files.out(file)?);
+    let Some(path) = out.path() else { return Ok(out) };
     let path = if asked || partition.is_none() { path.to_path_buf() } else { path.with_extension("") };
     let in_folder = is_folder(&path) || partition.is_some() && path.extension().is_none();
     let whole = Partition { index: 0, of: 1 };
-    if in_folder { path.join(partition.unwrap_or(whole).file_name()).into() } else { path.into() }
+    Ok(if in_folder { path.join(partition.unwrap_or(whole).file_name()).into() } else { path.into() })
 }
 
 /// Whether a path is a folder, or is written as one.

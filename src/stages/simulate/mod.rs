@@ -211,7 +211,7 @@ impl Declare for Simulate {
 
     fn create(options: &SimulateOptions, files: &Files) -> anyhow::Result<Simulate> {
         let partition = options.partition.map(|Parsed(partition)| partition);
-        let out = out_of_partition(files, Self::OUTPUT.file, partition);
+        let out = out_of_partition(files, Self::OUTPUT.file, partition)?;
         Simulate::new(options, files.input("motions")?, out)
     }
 

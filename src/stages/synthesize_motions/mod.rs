@@ -100,7 +100,7 @@ impl Declare for SynthesizeMotions {
 
     fn create(options: &SynthesizeMotionsOptions, files: &Files) -> anyhow::Result<SynthesizeMotions> {
         let partition = options.partition.map(|Parsed(partition)| partition);
-        let out = out_of_partition(files, Self::OUTPUT.file, partition);
+        let out = out_of_partition(files, Self::OUTPUT.file, partition)?;
         SynthesizeMotions::new(options, files.input("scenarios")?, out)
     }
 }

@@ -254,7 +254,7 @@ impl Declare for Universality {
     const HAS_PROGRESS: bool = false;
 
     fn create(options: &UniversalityOptions, files: &Files) -> anyhow::Result<Universality> {
-        Universality::new(options, files.input("responses")?, files.out(Self::OUTPUT.file))
+        Universality::new(options, files.input("responses")?, files.out(Self::OUTPUT.file)?)
     }
 }
 

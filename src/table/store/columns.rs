@@ -308,6 +308,9 @@ impl<'a> Columns<'a> {
             DataType::Float32 => {
                 Ok(array.as_primitive::<Float32Type>().iter().map(|value| value.map(f64::from)).collect())
             }
+            DataType::Int64 | DataType::Int32 => {
+                Ok(self.integers_of(array, column)?.into_iter().map(|value| Some(value? as f64)).collect())
+            }
             DataType::Null => Ok(vec![None; array.len()]),
             _ => Err(self.wrong_type(array, column)),
         }

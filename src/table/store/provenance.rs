@@ -22,6 +22,7 @@ const INPUTS: &str = "rockfrag.inputs";
 const CACHE_KEY: &str = "rockfrag.cache_key";
 const CONTENT: &str = "rockfrag.content";
 const WARNINGS: &str = "rockfrag.warnings";
+const SHOWN: &str = "rockfrag.shown";
 
 /// The version, and after a plus the fingerprint of the code that it was built from.
 pub const CODE: &str = concat!(env!("CARGO_PKG_VERSION"), "+", env!("ROCKFRAG_CODE"));
@@ -64,14 +65,16 @@ pub struct Provenance {
     pub sources: BTreeMap<String, PathBuf>,
     /// What was warned of while the rows were made.
     pub warnings: Warnings,
+    /// What a report shows of the inputs, beside the rows; null where it needs nothing.
+    pub shown: Value,
 }
 
 impl Provenance {
     /// Of a file that this version of rockfrag makes.
     pub fn new(stage: &str, parameters: Value, inputs: BTreeMap<String, String>) -> Provenance {
         let version = CODE.to_string();
-        let (sources, warnings) = (BTreeMap::new(), Warnings::default());
-        Provenance { stage: stage.to_string(), version, parameters, inputs, sources, warnings }
+        let (sources, warnings, shown) = (BTreeMap::new(), Warnings::default(), Value::Null);
+        Provenance { stage: stage.to_string(), version, parameters, inputs, sources, warnings, shown }
     }
 
     /// With the places of its inputs.
@@ -98,6 +101,7 @@ impl Provenance {
         ]
         .into_iter()
         .chain((!warnings.is_empty()).then(|| (WARNINGS, serde_json::json!(warnings).to_string())))
+        .chain((!self.shown.is_null()).then(|| (SHOWN, self.shown.to_string())))
         .map(|(key, value)| KeyValue::new(key.to_string(), value))
         .collect()
     }
@@ -129,6 +133,7 @@ pub(super) fn recorded_in(path: &Path, metadata: &ParquetMetaData) -> Result<Opt
         return Err(TableError::Newer { path: path.to_path_buf(), version, format, known: FORMAT_VERSION });
     }
     let warnings = get(WARNINGS).and_then(|words| serde_json::from_str(&words).ok()).unwrap_or_default();
+    let shown = get(SHOWN).and_then(|shown| serde_json::from_str(&shown).ok()).unwrap_or_default();
     let recorded = || {
         Some(Recorded {
             provenance: Provenance {
@@ -138,6 +143,7 @@ pub(super) fn recorded_in(path: &Path, metadata: &ParquetMetaData) -> Result<Opt
                 inputs: serde_json::from_str(&get(INPUTS)?).ok()?,
                 sources: BTreeMap::new(),
                 warnings: Warnings(Arc::new(Mutex::new(warnings))),
+                shown,
             },
             cache_key: get(CACHE_KEY)?,
             content: get(CONTENT)?,

@@ -58,9 +58,9 @@ class Published(TypedDict):
 
 
 def load_outcomes() -> Outcomes:
-    """Forty outcomes of one block, to fit fragility curves to.
+    """Loads forty outcomes of one block, to fit fragility curves to.
 
-    A block of 0.5 m by 2.0 m in forty motions with a velocity pulse. The motions are made up, not recorded.
+    The block of 0.5 m by 2.0 m meets forty motions with a velocity pulse. The motions are made up, not recorded.
 
     Returns
     -------
@@ -86,7 +86,7 @@ def load_outcomes() -> Outcomes:
 
 
 def load_hazard() -> Hazard:
-    """An example of a hazard curve near an active fault, of no real site.
+    """Loads an example of a hazard curve near an active fault, of no real site.
 
     Returns
     -------
@@ -106,7 +106,7 @@ def load_hazard() -> Hazard:
 
 
 def load_paper() -> Published:
-    """The numbers that Dimitrakopoulos & Paraskeva (2015) publish.
+    """Loads the numbers that Dimitrakopoulos & Paraskeva (2015) publish.
 
     Returns
     -------
@@ -133,7 +133,7 @@ def load_paper() -> Published:
 
 
 def load_structures() -> list[Structure]:
-    """The two structures of the paper: a frame, and electrical equipment.
+    """Loads the two structures of the paper: a frame, and electrical equipment.
 
     Returns
     -------
