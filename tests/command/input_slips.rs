@@ -4,7 +4,7 @@ use crate::common::{rockfrag, succeed};
 use crate::evaluate::run_folder;
 
 /// Files that are not quite right.
-const FILES: [(&str, &str); 17] = [
+const FILES: [(&str, &str); 19] = [
     ("semicolons.csv", "name;Width;Height\nblock;0,6;2,4\n"),
     ("capitals.csv", "\u{feff}Name,Width,HEIGHT,eta\nblock,0.6,2.4,housner\n"),
     ("comma.csv", "name,p,alpha,eta\na,\"2,0\",0.2,0.9\n"),
@@ -21,11 +21,13 @@ const FILES: [(&str, &str); 17] = [
     ("german.csv", "PGA_g;Annual rate of exceedance\n0,1;0,05\n0,4;0,002\n"),
     ("no_bins.csv", "pga_g,pgv_m_s,annual_rate_of_occurrence\n"),
     ("fast.csv", "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.05,3,0.01\n"),
+    ("site.csv", "Site amplification;\nf (Hz);Factor\n0,1;1,0\n;\n10;2,5\n"),
+    ("site_word.csv", "f (Hz),Factor\n0.1,1.0\n10,high\n"),
     ("table.csv", "motion_id,dt_s\n1,0.01\n"),
 ];
 
 /// In place of RUN: a folder of files; of FITS: the fits of a structure in it.
-const CALLS: [(&str, i32, &[&str]); 78] = [
+const CALLS: [(&str, i32, &[&str]); 80] = [
     // No structure is anyone's unless it is named.
     ("simulate --in RUN/motions.parquet", 2, &["no structure", "--width", "--structures FILE", "paper"]),
     ("ida --in RUN/motions.parquet", 2, &["no structure", "--p, --alpha and --eta"]),
@@ -126,6 +128,12 @@ const CALLS: [(&str, i32, &[&str]); 78] = [
     ("evaluate FITS --p 2.5 --alpha 0.2 --hazard german.csv --ratio 0.3", 0, &[]),
     ("evaluate FITS --p 2.5 --alpha 0.2 --hazard no_bins.csv", 1, &["no rows"]),
     ("evaluate FITS --p 2.5 --alpha 0.2 --hazard fast.csv", 0, &["1 of 1 bins", "exchanged"]),
+    ("synthesize-motions --in RUN/scenarios.parquet --suite hfc --out m.parquet --site site.csv", 0, &[]),
+    (
+        "synthesize-motions --in RUN/scenarios.parquet --site site_word.csv",
+        2,
+        &["site_word.csv", "line 3, column 'Factor'", "'high'"],
+    ),
     // Numbers of flags.
     (
         "evaluate --width 0,5 --height 2 --pga 0.5 --pgv 0.6",
