@@ -79,7 +79,7 @@ attack: | $(ROCKFRAG)
 	python3 scripts/attack/faults.py $(ROCKFRAG) 200
 	PROPTEST_CASES=100000 cargo test --release --locked --test robust
 
-# A headless Chromium looks at the report.
+# A headless Chromium looks at the report, and at the book if it is built.
 check-report: $(OUT)/report.html
 	scripts/check_report.sh $(ROCKFRAG) $(OUT)
 

@@ -16,7 +16,7 @@ import sys
 import tempfile
 import time
 
-from selenium import webdriver
+import browser as chromium
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
@@ -28,21 +28,8 @@ QUESTIONS = 20
 PAGES = 12
 
 
-def open_browser():
-    options = webdriver.ChromeOptions()
-    options.binary_location = "/usr/bin/chromium"
-    for argument in ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--allow-file-access-from-files"]:
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    return webdriver.Chrome(options=options, service=webdriver.ChromeService("/usr/bin/chromedriver"))
-
-
 def view(width, height, scheme, media=""):
-    metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
-    features = [{"name": "prefers-color-scheme", "value": scheme}]
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})
-    browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
+    chromium.view(browser, width, height, scheme, media)
 
 
 def screenshot(name):
@@ -229,13 +216,11 @@ def check_width():
 
 
 def check_axe(scheme):
-    browser.execute_script(pathlib.Path(axe).read_text())
-    found = browser.execute_async_script("axe.run().then(arguments[0])")["violations"]
-    found = [f"{v['id']} ({v['help']}): {v['nodes'][0]['html'][:160]}" for v in found]
+    found = chromium.violations(browser, axe)
     assert not found, f"{scheme}: axe-core: {found}"
 
 
-browser = open_browser()
+browser = chromium.open_browser()
 browser.set_script_timeout(120)
 try:
     view(1280, 900, "light")

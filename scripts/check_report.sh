@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Opens a report in a headless Chromium and looks at it: check_report.sh ROCKFRAG DIR [SCREENSHOTS], where DIR holds the
-# files of a run. Needs Debian's chromium and chromium-driver (installed when they are missing and it may), Python with
-# venv, and npm for axe-core. Where none of this can be had it says so and leaves the page unchecked.
+# files of a run; then at the book, if scripts/build_docs.sh has built it into target/book. Needs Debian's chromium and
+# chromium-driver (installed when they are missing and it may), Python with venv, and npm for axe-core. Where none of this
+# can be had it says so and leaves the pages unchecked.
 set -euo pipefail
 rockfrag=$(realpath "$1") run=$(realpath "$2") screenshots=${3:-}
 cd "$(dirname "$0")"
@@ -24,3 +25,5 @@ npm install --silent --no-fund --no-audit --prefix "$work" axe-core > /dev/null 
 "$rockfrag" report --quiet --force --in "$run" --out "$work/report.html"
 "$work/venv/bin/python" check_report.py "$rockfrag" "$run" "$work/report.html" \
     "$work/node_modules/axe-core/axe.min.js" ${screenshots:+"$screenshots"}
+book=../target/book
+[ ! -d "$book" ] || "$work/venv/bin/python" check_book.py "$book" "$work/node_modules/axe-core/axe.min.js"

@@ -5,15 +5,18 @@ use std::fmt;
 /// An enum whose variants each have one word.
 pub trait Keyword: Copy + PartialEq + 'static {
     const ALL: &'static [Self];
+    /// What to do about words that one may well expect on the list.
+    const ADVICE: &'static [(&'static str, &'static str)] = &[];
 
     fn as_str(self) -> &'static str;
 }
 
 /// Gives each variant of an enum its word.
 macro_rules! keywords {
-    ($type:ident { $($variant:ident = $word:literal),* $(,)? }) => {
+    ($type:ident { $($variant:ident = $word:literal),* $(,)? } $(but $advice:expr)?) => {
         impl $crate::keyword::Keyword for $type {
             const ALL: &'static [Self] = &[$(Self::$variant),*];
+            $(const ADVICE: &'static [(&'static str, &'static str)] = $advice;)?
 
             fn as_str(self) -> &'static str {
                 match self {
@@ -30,14 +33,16 @@ pub(crate) use keywords;
 pub struct UnknownKeyword {
     word: String,
     known: Vec<&'static str>,
+    advice: Option<&'static str>,
 }
 
 impl fmt::Display for UnknownKeyword {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "'{}' is none of {}", self.word, self.known.join(", "))?;
-        match nearest(&self.word, &self.known) {
-            Some(near) => write!(f, "; did you mean '{near}'?"),
-            None => Ok(()),
+        match (self.advice, nearest(&self.word, &self.known)) {
+            (Some(advice), _) => write!(f, "; {advice}"),
+            (None, Some(near)) => write!(f, "; did you mean '{near}'?"),
+            (None, None) => Ok(()),
         }
     }
 }
@@ -51,7 +56,8 @@ impl std::error::Error for UnknownKeyword {}
 pub fn parse<T: Keyword>(word: &str) -> Result<T, UnknownKeyword> {
     let known = || T::ALL.iter().map(|keyword| keyword.as_str());
     let found = T::ALL.iter().find(|keyword| keyword.as_str() == word);
-    found.copied().ok_or_else(|| UnknownKeyword { word: word.to_string(), known: known().collect() })
+    let advice = T::ADVICE.iter().find(|(other, _)| *other == word).map(|(_, advice)| *advice);
+    found.copied().ok_or_else(|| UnknownKeyword { word: word.to_string(), known: known().collect(), advice })
 }
 
 /// Finds the known word that is most like this one, if any is.

@@ -15,6 +15,7 @@ use self::shared::{Common, Format, Printed, Progress, expect_no_idle, with_commo
 use crate::allocator::keep_freed_buffers;
 use crate::pipeline::cache::May;
 use crate::pipeline::console::Console;
+use crate::pipeline::options::with_number_messages;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
 use crate::pipeline::{UsageError, cache};
@@ -118,7 +119,7 @@ fn command() -> Command {
         false => stage,
     });
     let command = command.subcommands(stages.collect::<Vec<_>>());
-    with_common(Tool::augment_subcommands(command))
+    with_number_messages(with_common(Tool::augment_subcommands(command)))
         .about("Dimensionless fragility curves for rocking structures in near-fault earthquakes")
         .after_help(FIRST)
 }
@@ -196,7 +197,12 @@ fn obey(matches: &ArgMatches) -> anyhow::Result<()> {
         }
         Tool::Man { folder } => {
             std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
-            clap_mangen::generate_to(command(), &folder).with_context(|| folder.display().to_string())
+            clap_mangen::generate_to(command(), &folder).with_context(|| folder.display().to_string())?;
+            let first = folder.join("rockfrag.1");
+            print(&format!(
+                "wrote {} and a page of each command; read them with: man -l FILE\n",
+                first.display()
+            ))
         }
     }
 }
@@ -219,7 +225,7 @@ fn stages_of(config: &Config, pipeline: &Path, out: Option<PathBuf>) -> anyhow::
     Ok(stages)
 }
 
-/// Runs stages, then prints what they found: in words, and their tables.
+/// Runs stages, then prints what they found: their tables, and then in words, which stay in sight.
 fn run_all(stages: &[Box<dyn Stage>], format: Format, may: May, console: &Console) -> anyhow::Result<()> {
     let is_of_paper = Config::is_of_paper(stages)?;
     let expected = is_of_paper.then(Warnings::default);
@@ -239,7 +245,7 @@ fn run_all(stages: &[Box<dyn Stage>], format: Format, may: May, console: &Consol
                 stages.iter().map(|stage| stage.show(&terminal)).collect::<anyhow::Result<String>>()?;
             let gap = if findings.is_empty() || shown.is_empty() { "" } else { "\n" };
             print(&format!(
-                "{}{gap}{shown}",
+                "{shown}{gap}{}",
                 findings.iter().map(|line| format!("{line}\n")).collect::<String>()
             ))
         }

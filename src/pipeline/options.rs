@@ -1,5 +1,6 @@
 //! Options as they stand on the command line and in pipeline.yaml: one struct serves both.
 
+use std::any::TypeId;
 use std::error::Error;
 use std::ffi::OsStr;
 use std::fmt;
@@ -101,6 +102,31 @@ impl<T: fmt::Display> fmt::Display for Parsed<T> {
     }
 }
 
+/// The command with words of ours about flags whose numbers are none.
+pub fn with_number_messages(command: Command) -> Command {
+    let of_flag = |arg: Arg| match arg.get_value_parser().type_id() {
+        id if id == TypeId::of::<f64>() => arg.value_parser(number::<f64>),
+        id if id == TypeId::of::<u32>() => arg.value_parser(number::<u32>),
+        id if id == TypeId::of::<u64>() => arg.value_parser(number::<u64>),
+        id if id == TypeId::of::<usize>() => arg.value_parser(number::<usize>),
+        _ => arg,
+    };
+    command.mut_args(of_flag).mut_subcommands(|subcommand| subcommand.mut_args(of_flag))
+}
+
+fn number<T: FromStr + 'static>(text: &str) -> Result<T, String> {
+    text.parse().map_err(|_| match TypeId::of::<T>() == TypeId::of::<f64>() {
+        true => format!("expected a number, such as 2.5{}", comma_slip(text)),
+        false => "expected a whole number, 0 or more".to_string(),
+    })
+}
+
+/// What to say of a text besides, if it is a number but for a decimal comma.
+pub fn comma_slip(text: &str) -> &'static str {
+    let is_one = text.contains(',') && text.replace(',', ".").parse::<f64>().is_ok();
+    if is_one { ": write a point before the decimals, not a comma" } else { "" }
+}
+
 /// Several values, separated by commas on the command line, a list (or such text) in the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Several<T>(pub Vec<T>);
@@ -128,8 +154,11 @@ impl FromStr for Steps {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Steps, String> {
-        let expected =
-            || format!("'{text}': expected a number, numbers separated by commas, or first:last:step");
+        let comma = text.split(':').map(str::trim).map(comma_slip).max().filter(|_| text.contains(':'));
+        let expected = || {
+            let comma = comma.unwrap_or_default();
+            format!("'{text}': expected a number, numbers separated by commas, or first:last:step{comma}")
+        };
         let numbers = |separator| {
             let parts = text.split(separator).map(|part| part.trim().parse::<f64>());
             let numbers = parts.collect::<Result<Vec<f64>, _>>().map_err(|_| expected())?;

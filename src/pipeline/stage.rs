@@ -103,13 +103,14 @@ pub fn content_of_role(role: &str, source: &Source) -> Result<String, TableError
 }
 
 /// Who makes what plays a role, in words.
-const MAKERS: [(&str, &str); 6] = [
+const MAKERS: [(&str, &str); 7] = [
     ("scenarios", "sample-scenarios makes"),
     ("motions", "synthesize-motions makes, or import-motions of records and CSV"),
     ("responses", "simulate makes"),
     ("pex", "fit-pex makes"),
     ("pro", "fit-pro makes"),
-    ("intensities", "a Parquet table with pga_m_s2 and pgv_m_s has"),
+    ("intensities", "a Parquet table with pga_m_s2 and pgv_m_s has; a hazard in CSV is for --hazard"),
+    ("rates", "evaluate --hazard hazard.csv --out rates.parquet writes"),
 ];
 
 /// The folder of a file.

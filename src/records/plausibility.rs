@@ -6,14 +6,16 @@ use crate::units::G_M_S2;
 
 /// Time steps of records, s: from instruments of 200 to 500 samples a second down to film digitised by hand, with a margin.
 const STEPS_S: (f64, f64) = (1e-4, 0.1);
+/// The fewest samples of a motion that rises, peaks and dies away: half a second at the longest steps of film.
+const FEWEST_SAMPLES: usize = 25;
 /// The largest recorded PGA is that of Iwate-Miyagi 2008, IWTH25: 4278 cm/s2 as the vector of all three components (Yamada, Mori & Heaton
 /// 2009, The slapdown phase in high-acceleration records of large earthquakes, Seismological Research Letters 80), and so less of one;
 /// with a margin, m/s2.
 const LARGEST_PGA_M_S2: f64 = 5.0 * G_M_S2;
-/// The largest recorded PGV of a component is about 3 m/s, of both 3.9 m/s (Chi-Chi 1999, TCU068; not checked in a source); with a margin, m/s.
+/// Chi-Chi 1999 reached a PGV of 3.18 m/s (Wikipedia, "1999 Jiji earthquake"; no source was found that none was larger); with a margin, m/s.
 const LARGEST_PGV_M_S: f64 = 5.0;
-/// The range of PGV/PGA, s: TCU068 has 0.8, sites on deep sediments up to 0.9, and sines of 30 Hz 0.005; the records of FEMA
-/// P695 have 0.06 to 0.47.
+/// The range of PGV/PGA, s: sines of 30 Hz have 0.005; the records of FEMA P695 have 0.06 to 0.47, and records with the longest pulses about
+/// 0.9 (from memory, without a source).
 const PGV_PGA_S: (f64, f64) = (0.005, 1.0);
 /// The highest mean frequency, Hz: the ground damps what is faster, on the hardest rock above some 20 Hz; the records of FEMA
 /// P695 have 1.5 to 14.
@@ -47,6 +49,12 @@ pub fn doubt(acceleration: &[f64], dt_s: f64) -> Option<Doubt> {
             "time steps of records are 0.0001 to 0.1 s; milliseconds, or sample numbers in place of times?",
         );
     }
+    if acceleration.len() < FEWEST_SAMPLES {
+        return impossible(
+            format!("{} samples", acceleration.len()),
+            "a motion that rises, peaks and dies away has 25 or more; a part of a record, or another table?",
+        );
+    }
     let pga = peak(acceleration);
     if pga == 0.0 {
         return impossible("0 throughout".to_string(), "a motion without motion; another column?");
@@ -75,7 +83,7 @@ pub fn doubt(acceleration: &[f64], dt_s: f64) -> Option<Doubt> {
     if pgv > LARGEST_PGV_M_S {
         return impossible(
             format!("PGV {} m/s", rounded(pgv)),
-            "the largest ever recorded is about 4 m/s; another unit or time step, or an offset?",
+            "records reach about 3 m/s; another unit or time step, or an offset?",
         );
     }
     if pgv > PGV_PGA_S.1 * pga {

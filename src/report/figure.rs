@@ -1,6 +1,8 @@
 //! A figure, the places of its panels, and long series cut to what can be seen.
 
 use super::drawing::{Drawing, ONE_COLUMN, TWO_COLUMNS};
+use super::panel::{Mark, legend_places};
+use super::text::Label;
 
 /// A drawing with its name, title and caption.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,9 +55,11 @@ impl Grid {
         Grid { count, columns, width, panel_height, above: 0.0 }
     }
 
-    /// Adds room for a legend.
-    pub fn with_legend(self) -> Grid {
-        Grid { above: 15.0, ..self }
+    /// Adds room for a legend of these entries.
+    pub fn with_legend(self, entries: &[(Mark, Label)]) -> Grid {
+        let [_, last] =
+            legend_places(entries, self.legend_at(), self.width).last().unwrap_or(self.legend_at());
+        Grid { above: last + 5.0, ..self }
     }
 
     /// Makes an empty drawing of the size of all panels.

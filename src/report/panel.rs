@@ -259,12 +259,31 @@ pub enum Mark {
 
 const MARK_WIDTH: f64 = 14.0;
 const BETWEEN: f64 = 12.0;
+const LEGEND_LINE: f64 = 12.0;
 
-/// Draws a legend, a line of marks and words that begins at `at`.
+/// Where the entries of a legend lie in a figure of this width: side by side, and on further lines where they are too long for that.
+pub fn legend_places(
+    entries: &[(Mark, Label)],
+    [left, top]: Point,
+    width: f64,
+) -> impl Iterator<Item = Point> {
+    let [mut x, mut y] = [left, top];
+    entries.iter().map(move |(_, label)| {
+        let long = MARK_WIDTH + 3.0 + label.width(LETTERS);
+        if x > left && x + long > width {
+            [x, y] = [left, y + LEGEND_LINE];
+        }
+        let place = [x, y];
+        x += long + BETWEEN;
+        place
+    })
+}
+
+/// Draws a legend from its upper left corner.
 pub fn legend(drawing: &mut Drawing, at: Point, entries: &[(Mark, Label)]) {
-    let [mut x, y] = at;
-    for (mark, label) in entries {
-        let (left, middle) = (x, [x + 0.5 * MARK_WIDTH, y - 2.6]);
+    let places: Vec<Point> = legend_places(entries, at, drawing.width).collect();
+    for ((mark, label), [left, y]) in entries.iter().zip(places) {
+        let middle = [left + 0.5 * MARK_WIDTH, y - 2.6];
         match *mark {
             Mark::Dot(paint) => drawing.dots(vec![middle], 2.0, Paint { opacity: 1.0, ..paint }),
             Mark::Line(stroke) => drawing.line(&[[left, middle[1]], [left + MARK_WIDTH, middle[1]]], stroke),
@@ -274,8 +293,6 @@ pub fn legend(drawing: &mut Drawing, at: Point, entries: &[(Mark, Label)]) {
                 drawing.dots(vec![middle], 1.8, ink.full());
             }
         }
-        x += MARK_WIDTH + 3.0;
-        drawing.text([x, y], Anchor::Start, LETTERS, Ink::Text, label.clone());
-        x += label.width(LETTERS) + BETWEEN;
+        drawing.text([left + MARK_WIDTH + 3.0, y], Anchor::Start, LETTERS, Ink::Text, label.clone());
     }
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::shared::answers::Answers;
-use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions};
+use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions, note_fits_of_run};
 use super::shared::structure_options::StructureOptions;
 use super::shared::structures::{StructureSpec, warn_of_size, words};
 use super::shared::surface::Surface;
@@ -200,6 +200,9 @@ impl Stage for Export {
             Some(fits) => Box::new(fits.choose()?),
             None => Box::new(Surface::new(self.options.fits.suite.as_deref(), None, Scenarios::Many)?),
         };
+        if self.fits.is_none() {
+            note_fits_of_run(&self.options.fits, console);
+        }
         let structure = answers.structure(&self.structure)?;
         answers.warn(console);
         warn_of_size([&structure], console);

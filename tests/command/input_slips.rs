@@ -4,10 +4,12 @@ use crate::common::{rockfrag, succeed};
 use crate::evaluate::run_folder;
 
 /// Files that are not quite right.
-const FILES: [(&str, &str); 15] = [
+const FILES: [(&str, &str); 19] = [
     ("semicolons.csv", "name;Width;Height\nblock;0,6;2,4\n"),
     ("capitals.csv", "\u{feff}Name,Width,HEIGHT,eta\nblock,0.6,2.4,housner\n"),
     ("comma.csv", "name,p,alpha,eta\na,\"2,0\",0.2,0.9\n"),
+    ("titled.csv", "Blocks of a museum;;\nName;Width;HEIGHT\n;;\nblock;0,6;2,4\n;;\n"),
+    ("capital_comma.csv", "Blocks\nName,Width,HEIGHT\nblock,\"0,6\",2.4\n"),
     ("typo.csv", "name,widht,height\nblock,0.6,2.4\n"),
     ("millimetres.csv", "name,width,height\nblock,600,2400\n"),
     ("map.yaml", "frame: { p: 1, alpha: 0.15, eta: 0.92 }\n"),
@@ -19,11 +21,13 @@ const FILES: [(&str, &str); 15] = [
     ("german.csv", "PGA_g;Annual rate of exceedance\n0,1;0,05\n0,4;0,002\n"),
     ("no_bins.csv", "pga_g,pgv_m_s,annual_rate_of_occurrence\n"),
     ("fast.csv", "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.05,3,0.01\n"),
+    ("site.csv", "Site amplification;\nf (Hz);Factor\n0,1;1,0\n;\n10;2,5\n"),
+    ("site_word.csv", "f (Hz),Factor\n0.1,1.0\n10,high\n"),
     ("table.csv", "motion_id,dt_s\n1,0.01\n"),
 ];
 
 /// In place of RUN: a folder of files; of FITS: the fits of a structure in it.
-const CALLS: [(&str, i32, &[&str]); 66] = [
+const CALLS: [(&str, i32, &[&str]); 80] = [
     // No structure is anyone's unless it is named.
     ("simulate --in RUN/motions.parquet", 2, &["no structure", "--width", "--structures FILE", "paper"]),
     ("ida --in RUN/motions.parquet", 2, &["no structure", "--p, --alpha and --eta"]),
@@ -95,6 +99,12 @@ const CALLS: [(&str, i32, &[&str]); 66] = [
     ("simulate --in RUN/motions.parquet --out s.parquet --structures semicolons.csv", 0, &["1 structure"]),
     ("simulate --in RUN/motions.parquet --out c.parquet --structures capitals.csv", 0, &["1 structure"]),
     ("simulate --in RUN/motions.parquet --structures comma.csv", 2, &["line 2, column 'p'", "'2,0'", "2.5"]),
+    ("simulate --in RUN/motions.parquet --out t.parquet --structures titled.csv", 0, &["1 structure"]),
+    (
+        "simulate --in RUN/motions.parquet --structures capital_comma.csv",
+        2,
+        &["line 3, column 'Width'", "'0,6'", "a point before the decimals"],
+    ),
     ("simulate --in RUN/motions.parquet --structures typo.csv", 2, &["'widht'", "width and height"]),
     ("simulate --in RUN/motions.parquet --structures map.yaml", 2, &["expected a list", "- { name: block"]),
     ("simulate --in RUN/motions.parquet --structures key.yaml", 2, &["'Width'", "did you mean 'width'?"]),
@@ -118,7 +128,49 @@ const CALLS: [(&str, i32, &[&str]); 66] = [
     ("evaluate FITS --p 2.5 --alpha 0.2 --hazard german.csv --ratio 0.3", 0, &[]),
     ("evaluate FITS --p 2.5 --alpha 0.2 --hazard no_bins.csv", 1, &["no rows"]),
     ("evaluate FITS --p 2.5 --alpha 0.2 --hazard fast.csv", 0, &["1 of 1 bins", "exchanged"]),
+    ("synthesize-motions --in RUN/scenarios.parquet --suite hfc --out m.parquet --site site.csv", 0, &[]),
+    (
+        "synthesize-motions --in RUN/scenarios.parquet --site site_word.csv",
+        2,
+        &["site_word.csv", "line 3, column 'Factor'", "'high'"],
+    ),
+    // Numbers of flags.
+    (
+        "evaluate --width 0,5 --height 2 --pga 0.5 --pgv 0.6",
+        2,
+        &["'0,5'", "--width", "a point before the decimals"],
+    ),
+    (
+        "evaluate --width half --height 2 --pga 0.5 --pgv 0.6",
+        2,
+        &["'half'", "expected a number, such as 2.5"],
+    ),
+    (
+        "evaluate --p 2.5 --alpha 0.2 --eta 0,92 --pga 0.5 --pgv 0.6",
+        2,
+        &["'0,92'", "a point before the decimals"],
+    ),
+    ("sample-scenarios --mw 5,5:7,5:0,5", 2, &["first:last:step", "a point before the decimals"]),
+    ("sample-scenarios --samples 10,5", 2, &["'10,5'", "--samples", "a whole number, 0 or more"]),
+    ("run --threads 1,5", 2, &["'1,5'", "--threads", "a whole number"]),
+    // Limits that there are none of.
+    (
+        "evaluate FITS --p 2.5 --alpha 0.2 --pga 0.5 --pgv 0.6 --limits profile",
+        2,
+        &["of the parameters", "fit-pro"],
+    ),
+    (
+        "evaluate --model universal --p 2.5 --alpha 0.2 --eta 0.92 --pga 0.5 --pgv 0.6 --limits bc",
+        2,
+        &["the universal surface has its own", "leave --limits out"],
+    ),
     // Files in the wrong place.
+    (
+        "report --in RUN --out x.html --rates table.csv",
+        1,
+        &["table.csv: not a Parquet file", "evaluate --hazard"],
+    ),
+    ("inspect table.csv", 1, &["table.csv: not a Parquet file", "CSV is for import-motions"]),
     ("simulate --in table.csv --structures paper", 1, &["table.csv: not a Parquet file", "import-motions"]),
     ("fit-pro --in table.csv", 1, &["the responses that simulate makes"]),
     ("fit-pex --in RUN/motions.parquet", 1, &["made by synthesize-motions", "output of simulate"]),

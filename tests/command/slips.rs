@@ -375,6 +375,13 @@ fn equal_refusals_are_told_once_and_what_is_accepted_is_named() {
     assert!(told.contains("3 records: 3 at2; unit g (3 by the file)"), "{told}");
     assert!(told.contains("warning: 2 motions: the largest ever recorded"), "{told}");
     assert_eq!(succeed(folder.path(), &format!("{call} --accept-implausible --force --quiet")), "");
+    write(folder.path(), "two.csv", b"time,acc_g\n0,0.1\n0.01,0.2\n");
+    fail(
+        folder.path(),
+        "import-motions two.csv",
+        1,
+        &["two.csv: 2 samples", "25 or more", "--accept-implausible"],
+    );
     // What is scaled is judged as it was recorded.
     succeed(folder.path(), "import-motions c.at2 --scale 100 --force");
     let section = "import-motions: { files: [a.at2, b.at2], accept-implausible: true }\n";

@@ -65,7 +65,28 @@ fn three_commands_of_records_answer() {
 
 #[test]
 fn three_commands_of_a_site_answer() {
-    run_start("site");
+    let folder = run_start("site");
+    // Fits that lie in the folder of the run are not passed over without a word.
+    let flags = "--pex out/pex.parquet --pro out/pro.parquet";
+    let said = succeed(folder.path(), "evaluate --structures structures.csv --pga 0.5 --pgv 0.6");
+    assert!(said.contains(&format!("there are fits in out; {flags} takes them")), "{said}");
+    let said =
+        succeed(folder.path(), "evaluate --model universal --structures structures.csv --pga 0.5 --pgv 0.6");
+    assert!(!said.contains("there are fits in out"), "{said}");
+    let asked = "--structure museum-piece --p 2.5 --alpha 0.2 --pga 0.5 --pgv 0.6";
+    fail(folder.path(), &format!("evaluate {asked}"), 2, &[&format!("expected {flags}")]);
+    fail(folder.path(), "fit-pro", 1, &["responses.parquet: no such file; there is out/responses.parquet"]);
+    // A figure of one panel is narrower than its legend in one line.
+    let figure = std::fs::read_to_string(folder.path().join("out/report/overturning.svg")).unwrap();
+    let place = |words: &str| {
+        let text = figure[..figure.find(words).unwrap()].rsplit("<text").next().unwrap();
+        let number = |name: &str| -> f64 {
+            text.split(&format!(" {name}=\"")).nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+        };
+        [number("x"), number("y")]
+    };
+    let [first, last] = ["share in a bin", "beyond the data"].map(place);
+    assert!(last[0] == first[0] && last[1] > first[1], "{first:?} {last:?}");
 }
 
 #[test]
@@ -211,7 +232,9 @@ fn every_shell_gets_completions_of_every_command() {
 #[test]
 fn every_command_has_a_manual_page() {
     let folder = tempfile::tempdir().unwrap();
-    stdout(folder.path(), "man pages");
+    assert!(
+        stdout(folder.path(), "man pages").starts_with("wrote pages/rockfrag.1 and a page of each command")
+    );
     for name in names(folder.path()) {
         let page = std::fs::read_to_string(folder.path().join(format!("pages/rockfrag-{name}.1"))).unwrap();
         assert!(page.contains(".TH rockfrag-"), "{page}");

@@ -16,12 +16,12 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         return Vec::new();
     }
     let shown = &data.analyses[..data.analyses.len().min(MOST)];
-    let grid = Grid::of(shown.len(), 118.0).with_legend();
-    let mut drawing = grid.drawing();
     let entries = [
         (Mark::Bar(Ink::Data(0)), Label::plain("share at a level")),
         (Mark::Line(Ink::Data(1).line(1.3)), Label::plain("lognormal, at it or below")),
     ];
+    let grid = Grid::of(shown.len(), 118.0).with_legend(&entries);
+    let mut drawing = grid.drawing();
     legend(&mut drawing, grid.legend_at(), &entries);
     for (index, analysis) in shown.iter().enumerate() {
         let (corner, width) = grid.place(index);

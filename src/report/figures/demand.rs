@@ -36,9 +36,9 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
 }
 
 fn figure(group: &Group) -> Figure {
-    let grid = Grid::of(OVER.len(), 118.0).with_legend();
-    let mut drawing = grid.drawing();
     let entries = CLASSES.map(|(_, words, paint, _)| (Mark::Dot(paint), Label::plain(words)));
+    let grid = Grid::of(OVER.len(), 118.0).with_legend(&entries);
+    let mut drawing = grid.drawing();
     legend(&mut drawing, grid.legend_at(), &entries);
     let demands = || group.safe().map(|response| response.case.edp);
     let top = TOP * demands().fold(1.0, f64::max);

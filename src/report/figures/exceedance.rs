@@ -28,8 +28,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
     if groups.is_empty() {
         return Vec::new();
     }
-    let grid = Grid::of(groups.len(), 118.0).with_legend();
-    let mut drawing = grid.drawing();
+    let grid = Grid::of(groups.len(), 118.0);
     let mut entries: Vec<(Mark, Label)> = SHARES
         .iter()
         .enumerate()
@@ -45,6 +44,8 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
             entry.1 = Label::plain(format!("{} %", number::plain(100.0 * share)));
         }
     }
+    let grid = grid.with_legend(&entries);
+    let mut drawing = grid.drawing();
     legend(&mut drawing, grid.legend_at(), &entries);
     for (index, (group, planes, alone)) in groups.iter().enumerate() {
         let (corner, width) = grid.place(index);

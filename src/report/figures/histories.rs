@@ -58,14 +58,14 @@ fn figure(motion: &Motion, pair: &[History; 2]) -> Figure {
         [Label::plain("time (s)"), Label::marked("*θ* (rad)")],
         [Label::marked("*p t*"), Label::marked("*θ* / *α*")],
     ];
-    let grid = Grid::of(labels.len(), 110.0).with_legend();
-    let mut drawing = grid.drawing();
     let words = |history: &History| {
         let Structure { p_rad_s, alpha_rad, .. } = history.structure;
         Label::plain(format!("p = {} rad/s, α = {} rad", number::short(p_rad_s), number::short(alpha_rad)))
     };
     let entries: Vec<(Mark, Label)> =
         pair.iter().zip(strokes).map(|(history, stroke)| (Mark::Line(stroke), words(history))).collect();
+    let grid = Grid::of(labels.len(), 110.0).with_legend(&entries);
+    let mut drawing = grid.drawing();
     legend(&mut drawing, grid.legend_at(), &entries);
     let titles = ["in their own units", "dimensionless"];
     for (index, ([x, y], title)) in labels.into_iter().zip(titles).enumerate() {

@@ -35,9 +35,9 @@ fn figure(groups: &[&Group]) -> Figure {
     let structure = &groups[0].structure;
     let with_period =
         groups.iter().all(|group| group.responses.iter().any(|response| response.tp_s.is_some()));
-    let grid = Grid::of(groups.len(), 130.0).with_legend();
-    let mut drawing = grid.drawing();
     let entries = CLASSES.map(|(_, words, paint, _)| (Mark::Dot(paint), Label::plain(words)));
+    let grid = Grid::of(groups.len(), 130.0).with_legend(&entries);
+    let mut drawing = grid.drawing();
     legend(&mut drawing, grid.legend_at(), &entries);
     let place = |response: &ReportResponse| match with_period {
         true => [response.tp_s.unwrap_or(f64::NAN), response.pgv_m_s],

@@ -103,13 +103,13 @@ fn figure(
     im_x: Measure,
     [name, title, measure, of_paper]: [&str; 4],
 ) -> Figure {
-    let grid = Grid::of(groups.len(), 118.0).with_legend();
-    let mut drawing = grid.drawing();
     let entries = [
         (Mark::Bar(Ink::Data(0)), Label::plain("share in a bin")),
         (Mark::Line(Ink::Data(1).line(1.3)), Label::plain("curve, 95 % band")),
         (Mark::Line(Ink::Data(1).dashed(1.3, Dash::Short)), Label::plain("beyond the data")),
     ];
+    let grid = Grid::of(groups.len(), 118.0).with_legend(&entries);
+    let mut drawing = grid.drawing();
     legend(&mut drawing, grid.legend_at(), &entries);
     let mut off = Vec::new();
     for (place, (group, curve)) in groups.iter().enumerate() {

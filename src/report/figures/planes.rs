@@ -77,13 +77,13 @@ fn figure(
     if groups.is_empty() {
         return None;
     }
-    let grid = Grid::of(groups.len(), 125.0).with_legend();
-    let mut drawing = grid.drawing();
     let entries = [
         (Mark::Dot(Ink::Data(2).full()), Label::plain(SIDES[0])),
         (Mark::Dot(Ink::Data(0).full()), Label::plain(SIDES[1])),
         (Mark::Line(Ink::Text.line(1.2)), Label::plain("planes")),
     ];
+    let grid = Grid::of(groups.len(), 125.0).with_legend(&entries);
+    let mut drawing = grid.drawing();
     legend(&mut drawing, grid.legend_at(), &entries);
     for (index, (group, Sides { points, planes })) in groups.iter().enumerate() {
         let (corner, width) = grid.place(index);

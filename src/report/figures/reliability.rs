@@ -27,14 +27,14 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
     if panels.is_empty() {
         return Vec::new();
     }
-    let grid = Grid::of(panels.len(), 140.0).with_legend();
-    let mut drawing = grid.drawing();
     let inks = [Ink::Data(1), Ink::Data(0)];
     let entries = [
         (Mark::Bar(inks[0]), Label::marked("*P*_{ro}")),
         (Mark::Bar(inks[1]), Label::marked("*P*_{ex}")),
         (Mark::Line(Ink::Muted.dashed(0.7, Dash::Short)), Label::plain("predicted = observed")),
     ];
+    let grid = Grid::of(panels.len(), 140.0).with_legend(&entries);
+    let mut drawing = grid.drawing();
     legend(&mut drawing, grid.legend_at(), &entries);
     for (index, (group, forecasts)) in panels.iter().enumerate() {
         let (corner, width) = grid.place(index);

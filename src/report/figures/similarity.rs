@@ -58,14 +58,14 @@ fn figure(groups: &[&Group]) -> Figure {
             of: |_, response| [response.case.measures.im5, response.case.edp],
         },
     ];
-    let grid = Grid::of(views.len(), 130.0).with_legend();
-    let mut drawing = grid.drawing();
     let stroke = |index: usize| Ink::Data(index).dashed(1.6, DASHES[index % DASHES.len()]);
     let entries: Vec<(Mark, Label)> = groups
         .iter()
         .enumerate()
         .map(|(index, group)| (Mark::Line(stroke(index)), Label::plain(&group.structure.name)))
         .collect();
+    let grid = Grid::of(views.len(), 130.0).with_legend(&entries);
+    let mut drawing = grid.drawing();
     legend(&mut drawing, grid.legend_at(), &entries);
     for (index, View { title, x, y, of }) in views.into_iter().enumerate() {
         let (corner, width) = grid.place(index);

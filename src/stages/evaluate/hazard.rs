@@ -1,5 +1,4 @@
-//! Hazard in CSV files: a column for each peak that it knows, and one of annual rates or of probabilities in some years. Lines that
-//! begin with # are words.
+//! Hazard in CSV files: a column for each peak that it knows, and one of annual rates, of probabilities in some years or of return periods.
 
 use std::path::Path;
 
@@ -19,6 +18,9 @@ const EXCEEDANCE: &str = "annual_rate_of_exceedance";
 const OCCURRENCE: &str = "annual_rate_of_occurrence";
 /// `probability_of_exceedance_in_50_years`, or of any other time.
 const PROBABILITY: (&str, &str) = ("probability_of_exceedance_in_", "_years");
+
+/// `return_period`, or `return_period_` with one of these units.
+const RETURN_PERIOD: (&str, [&str; 5]) = ("return_period", ["years", "year", "yrs", "yr", "a"]);
 
 /// The largest file: a joint hazard of two million pairs.
 const MOST_MIB: u64 = 64;
@@ -41,6 +43,8 @@ enum Cell {
     Exceedance,
     /// The probability of that in so many years.
     ExceedanceIn(f64),
+    /// The mean time between exceedances, years: one over their annual rate.
+    ReturnPeriod,
     /// An annual rate at which a pair of peaks occurs.
     Occurrence,
 }
@@ -54,10 +58,16 @@ impl Cell {
             let years: f64 = name.strip_prefix(PROBABILITY.0)?.strip_suffix(PROBABILITY.1)?.parse().ok()?;
             (years > 0.0 && years.is_finite()).then_some(Cell::ExceedanceIn(years))
         };
+        let period = || {
+            let unit = name.strip_prefix(RETURN_PERIOD.0)?;
+            let is_known =
+                unit.is_empty() || unit.strip_prefix('_').is_some_and(|unit| RETURN_PERIOD.1.contains(&unit));
+            is_known.then_some(Cell::ReturnPeriod)
+        };
         match name {
             EXCEEDANCE => Some(Cell::Exceedance),
             OCCURRENCE => Some(Cell::Occurrence),
-            _ => INTENSITIES.iter().find_map(of_peak).or_else(years),
+            _ => INTENSITIES.iter().find_map(of_peak).or_else(years).or_else(period),
         }
     }
 
@@ -86,6 +96,8 @@ impl Cell {
             )),
             Cell::Exceedance | Cell::Occurrence if value < 0.0 => Err("0 or more".to_string()),
             Cell::Exceedance | Cell::Occurrence => Ok(value),
+            Cell::ReturnPeriod if percent.is_none() && value > 0.0 => Ok(value.recip()),
+            Cell::ReturnPeriod => Err("years above 0".to_string()),
             Cell::ExceedanceIn(years) if value > 0.0 && value < 1.0 => Ok(-(-value).ln_1p() / years),
             Cell::ExceedanceIn(_) if value > 1.0 => {
                 Err("a probability above 0 and below 1; if it is in percent, write 10%".to_string())
@@ -95,8 +107,8 @@ impl Cell {
     }
 }
 
-/// Reads a hazard: pga_g, pga_m_s2 or pgv_m_s with annual_rate_of_exceedance or probability_of_exceedance_in_50_years; or a PGA and
-/// a PGV with annual_rate_of_occurrence. The file may have other headings.
+/// Reads a hazard: pga_g, pga_m_s2 or pgv_m_s with annual_rate_of_exceedance, probability_of_exceedance_in_50_years or return_period; or a
+/// PGA and a PGV with annual_rate_of_occurrence. The file may have other headings.
 ///
 /// # Errors
 /// If the file cannot be read, has other columns, or holds what is no hazard.
@@ -106,14 +118,18 @@ pub fn read(path: &Path, headings: &Headings) -> anyhow::Result<Hazard> {
 }
 
 fn of(text: &str, headings: &Headings) -> anyhow::Result<Hazard> {
-    let mut table = CsvText::new(text)?;
-    // A heading may say that what is under it is in percent.
-    let in_percent: Vec<bool> = table.names.iter().map(|name| name.contains('%')).collect();
+    let is_known = |name: &str| {
+        Cell::of(name).is_some() || headings.headings().any(|other| text_file::plain(other) == name)
+    };
+    let mut table = CsvText::new(text, is_known)?;
     table.rename(headings).map_err(|error| anyhow!(error))?;
-    let names = table.names.clone();
+    let named = table.headings.clone();
     // Peaks first, PGA before PGV.
     let mut columns: Vec<(usize, Cell)> =
-        names.iter().enumerate().filter_map(|(at, name)| Some((at, Cell::of(name)?))).collect();
+        table.names.iter().enumerate().filter_map(|(at, name)| Some((at, Cell::of(name)?))).collect();
+    // Tables of hazard often give both.
+    let has_rate = columns.iter().any(|(_, cell)| matches!(cell, Cell::Exceedance | Cell::ExceedanceIn(_)));
+    columns.retain(|(_, cell)| !(has_rate && *cell == Cell::ReturnPeriod));
     columns.sort_by_key(|(_, cell)| match cell {
         Cell::Peak(Peak::Pga, _) => 0,
         Cell::Peak(Peak::Pgv, _) => 1,
@@ -121,16 +137,17 @@ fn of(text: &str, headings: &Headings) -> anyhow::Result<Hazard> {
     });
     let cell = |(line, record): &(u64, StringRecord), (at, cell): (usize, Cell)| {
         let text = record.get(at).unwrap_or_default();
-        let sign = if in_percent[at] && !text.ends_with('%') { "%" } else { "" };
+        // A heading may say that what is under it is in percent.
+        let sign = if named[at].contains('%') && !text.ends_with('%') { "%" } else { "" };
         cell.read(&format!("{text}{sign}"))
-            .map_err(|expected| anyhow!("line {line}, column '{}': '{text}'; expected {expected}", names[at]))
+            .map_err(|expected| anyhow!("line {line}, column '{}': '{text}'; expected {expected}", named[at]))
     };
-    // A spreadsheet may leave empty rows at the end.
-    let is_empty = |row: &(u64, StringRecord)| row.1.iter().all(|cell| cell.trim().is_empty());
     let rows = table.rows().map(|row| row.map_err(|error| anyhow!(error)));
-    let rows = rows.filter(|row| !row.as_ref().is_ok_and(is_empty));
     match columns[..] {
-        [im @ (_, Cell::Peak(peak, _)), rate @ (_, Cell::Exceedance | Cell::ExceedanceIn(_))] => {
+        [
+            im @ (_, Cell::Peak(peak, _)),
+            rate @ (_, Cell::Exceedance | Cell::ExceedanceIn(_) | Cell::ReturnPeriod),
+        ] => {
             let point = |row| Ok((cell(&row, im)?, cell(&row, rate)?));
             let points = rows.map(|row| point(row?)).collect::<anyhow::Result<Vec<_>>>()?;
             Ok(Hazard::Curve(peak, HazardCurve::new(points)?))
@@ -151,11 +168,12 @@ fn of(text: &str, headings: &Headings) -> anyhow::Result<Hazard> {
             }
         }
         _ => bail!(
-            "columns {}; expected pga_g, pga_m_s2 or pgv_m_s with {EXCEEDANCE} or {}50{}, or a PGA and pgv_m_s with {OCCURRENCE}; \
-             --columns pga_g=HEADING takes another heading",
-            names.join(", "),
+            "{}; expected pga_g, pga_m_s2 or pgv_m_s with {EXCEEDANCE}, {}50{} or {}, or a PGA and pgv_m_s with \
+             {OCCURRENCE}; --columns pga_g=HEADING takes another heading",
+            if named.is_empty() { "empty".to_string() } else { format!("columns {}", named.join(", ")) },
             PROBABILITY.0,
-            PROBABILITY.1
+            PROBABILITY.1,
+            RETURN_PERIOD.0
         ),
     }
 }

@@ -19,7 +19,7 @@ pub use self::options::{EvaluateOptions, HazardOptions, LimitsBy, PointOptions};
 use self::table::EvaluatedTable;
 use super::shared::answers::Answers;
 use super::shared::chosen_fits::ChosenFits;
-use super::shared::fits::{FIT_INPUTS, FitFiles, ModelForm};
+use super::shared::fits::{FIT_INPUTS, FitFiles, ModelForm, note_fits_of_run};
 use super::shared::resampled_fits;
 use super::shared::structures::{StructureSpec, warn_of_size};
 use super::shared::surface::{PAPER_LIMIT, Surface};
@@ -89,7 +89,7 @@ impl Declare for Evaluate {
     const ABOUT: &'static str = "Compute probabilities of rocking, failure and overturning: at one intensity, at each row of a \
          table, or per year at a site";
     const EXAMPLES: &'static str = "rockfrag evaluate --model universal --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6\n\
-        rockfrag evaluate --model universal --width 0.5 --height 2.0 --hazard hazard.csv --ratio 0.36";
+        rockfrag evaluate --model universal --width 0.5 --height 2.0 --hazard hazard.csv";
     const HELPS: &'static [(&'static str, &'static str)] = &[
         (
             "suite",
@@ -107,7 +107,7 @@ impl Declare for Evaluate {
             INTENSITIES,
             "in",
             "",
-            "Parquet table with pga_m_s2 and pgv_m_s, and if they vary p_rad_s, alpha_rad, eta, tp_s and tm_s",
+            "Parquet table with pga_m_s2 and pgv_m_s and, where they vary, p_rad_s, alpha_rad, eta, tp_s and tm_s",
         )
         .if_named()
         .under("Many intensities")
@@ -161,7 +161,8 @@ impl Evaluate {
         let Some(fits) = &self.fits else {
             if limits != LimitsBy::Delta {
                 return Err(UsageError::because(
-                    "limits percentile and bc are of fits; the universal surface has its own",
+                    "limits percentile and bc are of fits, and the universal surface has its own; leave --limits out, or name fits \
+                     with --pex and --pro",
                 ));
             }
             return Ok(Box::new(Surface::new(self.options.fits.suite.as_deref(), limit, scenarios)?));
@@ -275,6 +276,9 @@ impl Stage for Evaluate {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let answers = self.answers()?;
+        if self.fits.is_none() {
+            note_fits_of_run(&self.options.fits, console);
+        }
         if let (Some(input), Some(out)) = (&self.intensities, &self.out) {
             let given = self.options.structure.structures.is_given();
             let structure = given.then(|| answers.structure(&self.structure)).transpose()?;

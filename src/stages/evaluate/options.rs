@@ -91,7 +91,8 @@ pub struct PointOptions {
 #[command(next_help_heading = "Hazard of a site")]
 pub struct HazardOptions {
     /// CSV file with the columns pga_g, pga_m_s2 or pgv_m_s, and annual_rate_of_exceedance or
-    /// probability_of_exceedance_in_50_years (or another number); or PGA and PGV with annual_rate_of_occurrence
+    /// probability_of_exceedance_in_50_years (or another number) or return_period (years); or PGA and PGV with
+    /// annual_rate_of_occurrence
     #[arg(long, value_name = "FILE")]
     pub hazard: Option<PathBuf>,
     /// p PGV / PGA of all motions, for a hazard of one peak only [default: distributed as in the motions of the fits]
@@ -119,7 +120,9 @@ pub enum LimitsBy {
     BiasCorrected,
 }
 
-keywords!(LimitsBy { Delta = "delta", Percentile = "percentile", BiasCorrected = "bc" });
+keywords!(LimitsBy { Delta = "delta", Percentile = "percentile", BiasCorrected = "bc" } but &[
+    ("profile", "profile limits are of the parameters of a curve, in the columns *_profile_* of fit-pro"),
+]);
 
 /// How an answer is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -94,7 +94,7 @@ pub fn answer(
         rows: evaluated::answer(&rows)?,
         shown: Value::Null,
         heading: format!(
-            "{}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % limits of confidence, {}\n",
+            "{}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % confidence limits, {}\n",
             answers.words(),
             words(structure),
             answers.limit(),

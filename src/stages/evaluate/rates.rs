@@ -109,7 +109,7 @@ pub fn answer(
         rows: evaluated::rates(&rows)?,
         shown,
         heading: format!(
-            "{}\nstructure of {}, over {}\n{words_of_ratio}{words_of_surface}low and high are 95 % limits of confidence, {}; they do not hold the hazard's own error\n",
+            "{}\nstructure of {}, over {}\n{words_of_ratio}{words_of_surface}low and high are 95 % confidence limits, {}; they do not cover the hazard's own error\n",
             answers.words(),
             words(structure),
             path.display(),

@@ -110,8 +110,8 @@ impl Ida {
 impl Declare for Ida {
     type Options = IdaOptions;
     const NAME: &'static str = IDA.stage;
-    const ABOUT: &'static str = "Run incremental dynamic analysis: find the intensity from which each motion overturns each structure, and \
-         the share of larger ones that does";
+    const ABOUT: &'static str = "Run incremental dynamic analysis: find the lowest intensity at which each motion overturns each structure, \
+         and the share of larger ones at which it does";
     const EXAMPLES: &'static str =
         "rockfrag ida --in recorded.parquet --width 0.5 --height 2.0 --measure im5";
     const INPUTS: &'static [Input] =

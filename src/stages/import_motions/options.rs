@@ -75,7 +75,7 @@ pub struct ImportMotionsOptions {
     /// Also compute the Housner intensity, which takes 15 times as long or more
     #[arg(long)]
     pub housner: bool,
-    /// Import motions that no earthquake is likely to have made (by PGA, PGV, time step, spikes or drift), and warn of them
+    /// Import motions that no earthquake is likely to have made (by length, PGA, PGV, time step, spikes or drift), and warn of them
     #[arg(long)]
     pub accept_implausible: bool,
     /// Import the rest where files cannot be read, and warn of those

@@ -54,7 +54,7 @@ pub struct ReportOptions {
     /// Author, below the title
     #[arg(long)]
     pub author: Option<String>,
-    /// Date, in words of your own: the page takes none from a clock
+    /// Date, in your own words; without it the page has none
     #[arg(long)]
     pub date: Option<String>,
     /// Suite to show [default: all]
@@ -260,7 +260,7 @@ impl Declare for Report {
             "files",
             "in",
             "",
-            "Folder of the files: responses.parquet or its partitions, and what else there is of them",
+            "Folder of the files: responses.parquet or its partitions, and any files of other stages",
         )
         .folder("out"),
         Input::file(

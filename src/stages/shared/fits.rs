@@ -10,6 +10,7 @@ use crate::fragility::demand::Form;
 use crate::fragility::{DemandModel, FragilityModel, Gap, Measure, has_few_events};
 use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
+use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, StageOptions};
 use crate::pipeline::options::{Word, defaults};
 use crate::stages::fit_pex::FitPex;
@@ -79,6 +80,19 @@ impl Default for FitsOptions {
 
 impl StageOptions for FitsOptions {}
 
+/// Tells of fits that could have answered in place of the universal surface, if nobody asked for that.
+pub fn note_fits_of_run(options: &FitsOptions, console: &Console) {
+    if let (None, Some(flags)) = (options.model, flags_of_run()) {
+        console.note(&format!("there are fits in out; {flags} takes them in place of the universal surface"));
+    }
+}
+
+/// The flags that name the fits of a run from here, if there are any.
+fn flags_of_run() -> Option<&'static str> {
+    let are_there = ["out/pex.parquet", "out/pro.parquet"].iter().all(|file| Path::new(file).exists());
+    are_there.then_some("--pex out/pex.parquet --pro out/pro.parquet")
+}
+
 impl FitFiles {
     /// The fits that are asked for; none where the universal surface is, by its name, or because there are none and nothing is said
     /// of them.
@@ -93,9 +107,10 @@ impl FitFiles {
             return Ok(None);
         }
         if none {
-            return Err(UsageError::because(
-                "no pex.parquet and pro.parquet here; expected --pex FILE and --pro FILE, or --model universal, which needs no fits",
-            ));
+            let flags = flags_of_run().unwrap_or("--pex FILE and --pro FILE");
+            return Err(UsageError::because(format!(
+                "no pex.parquet and pro.parquet here; expected {flags}, or --model universal, which needs no fits"
+            )));
         }
         // Of one file alone, the other is where it always is.
         let mut files = files.clone();

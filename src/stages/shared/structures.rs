@@ -11,12 +11,15 @@ use serde_json::{Value, json};
 
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{explain, from_scalar};
+use crate::pipeline::options::{comma_slip, explain, from_scalar};
 use crate::rocking::{Structure, StructureError, housner_eta, judge};
 use crate::table::store::text_file::{self, CsvText};
 
 /// The largest file: hundreds of thousands of structures.
 const MOST_MIB: u64 = 16;
+
+/// The columns of a CSV file of structures.
+const COLUMNS: [&str; 7] = ["name", "p", "alpha", "eta", "width", "height", "beam_mass_ratio"];
 
 /// The ways to give a structure.
 pub const WAYS: &str =
@@ -47,7 +50,10 @@ impl FromStr for Restitution {
         match (text, text.parse()) {
             ("housner", _) => Ok(Restitution::Housner),
             (_, Ok(eta)) => Ok(Restitution::Given(eta)),
-            _ => Err(format!("'{text}': expected a number above 0 and up to 1, or housner")),
+            _ => Err(format!(
+                "'{text}': expected a number above 0 and up to 1, or housner{}",
+                comma_slip(text)
+            )),
         }
     }
 }
@@ -154,7 +160,9 @@ impl StructureSpec {
 
     /// Takes a cell of a CSV file.
     fn set(&mut self, column: &str, text: &str) -> Result<(), String> {
-        let number = || text.parse().map_err(|_| format!("'{text}'; expected a number, such as 2.5"));
+        let number = || {
+            text.parse().map_err(|_| format!("'{text}'; expected a number, such as 2.5{}", comma_slip(text)))
+        };
         match column {
             "name" => self.name = Some(text.to_string()),
             "eta" => self.eta = Some(text.parse()?),
@@ -339,13 +347,16 @@ fn from_yaml(text: &str) -> Result<Vec<StructureSpec>, String> {
 }
 
 fn from_csv(text: &str) -> Result<Vec<StructureSpec>, String> {
-    let table = CsvText::new(text).map_err(|error| error.to_string())?;
-    let names = table.names.clone();
+    let is_known = |name: &str| COLUMNS.contains(&name);
+    let table = CsvText::new(text, is_known).map_err(|error| error.to_string())?;
+    let (names, headings) = (table.names.clone(), table.headings.clone());
     let spec = |row: Result<(u64, csv::StringRecord), String>| {
         let (line, record) = row?;
         let mut spec = StructureSpec::default();
-        for (name, cell) in names.iter().zip(&record).filter(|(_, cell)| !cell.is_empty()) {
-            spec.set(name, cell).map_err(|wrong| format!("line {line}, column '{name}': {wrong}"))?;
+        for ((name, heading), cell) in names.iter().zip(&headings).zip(&record) {
+            if !cell.is_empty() {
+                spec.set(name, cell).map_err(|wrong| format!("line {line}, column '{heading}': {wrong}"))?;
+            }
         }
         Ok(spec)
     };

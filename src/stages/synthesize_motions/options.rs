@@ -13,7 +13,7 @@ use crate::pipeline::UsageError;
 use crate::pipeline::declare::StageOptions;
 use crate::pipeline::options::{DEFAULT_SEED, Parsed, Several, Steps, Word, check, defaults};
 use crate::table::store::partition::Partition;
-use crate::table::store::text_file;
+use crate::table::store::text_file::{self, CsvText};
 
 /// The largest table of site amplification.
 const MOST_SITE_MIB: u64 = 1;
@@ -130,8 +130,7 @@ impl SynthesizeMotionsOptions {
                 };
                 let text = text_file::text(Path::new(file), MOST_SITE_MIB, "amplification by frequency")
                     .with_context(expected)?;
-                let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize();
-                let rows = rows.collect::<Result<Vec<(f64, f64)>, _>>().with_context(expected)?;
+                let rows = amplification(&text).map_err(anyhow::Error::msg).with_context(expected)?;
                 Site::table(rows).with_context(expected)
             }
         }
@@ -146,4 +145,22 @@ impl SynthesizeMotionsOptions {
         check(fine, "suite", words.join(","), "some of pulse, csgm and hfc, each once")?;
         Ok(suites)
     }
+}
+
+/// Frequencies (Hz) and factors: the first two columns of a CSV file.
+fn amplification(text: &str) -> Result<Vec<(f64, f64)>, String> {
+    let table = CsvText::new(text, |_| false).map_err(|error| error.to_string())?;
+    let headings = table.headings.clone();
+    let pair = |row: Result<(u64, csv::StringRecord), String>| {
+        let (line, row) = row?;
+        let number = |column: usize| {
+            let (text, heading) = (row.get(column).unwrap_or_default(), headings.get(column));
+            let heading = heading.map_or("", String::as_str);
+            text.parse().map_err(|_| {
+                format!("line {line}, column '{heading}': '{text}'; expected a number, such as 2.5")
+            })
+        };
+        Ok((number(0)?, number(1)?))
+    };
+    table.rows().map(pair).collect()
 }

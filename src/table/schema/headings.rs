@@ -54,33 +54,38 @@ impl Headings {
     /// Whether a heading stands for one of the columns.
     pub fn may_be(&self, heading: &str, columns: &[Column]) -> bool {
         let has_other = |column: &Column| self.columns().any(|other| other == column.name);
-        self.0.iter().any(|(_, other)| other == heading)
+        self.headings().any(|other| other == heading)
             || columns.iter().any(|column| column.name == heading && !has_other(column))
     }
 
-    /// What each of these headings stands for; `alike` says whether one is meant by a pair.
+    /// The headings that stand for columns of another name.
+    pub fn headings(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|(_, heading)| heading.as_str())
+    }
+
+    /// What each of these headings stands for, which is the column of its `plain` name where no pair says otherwise.
     ///
     /// # Errors
     /// With the first pair that has none of these headings.
     pub fn renamed(
         &self,
         headings: &[String],
-        alike: impl Fn(&str, &str) -> bool,
+        plain: impl Fn(&str) -> String,
     ) -> Result<Vec<String>, String> {
-        let missing = |(_, heading): &&(String, String)| !headings.iter().any(|other| alike(other, heading));
-        if let Some((column, heading)) = self.0.iter().find(missing) {
+        let names: Vec<String> = headings.iter().map(|heading| plain(heading)).collect();
+        if let Some((column, heading)) = self.0.iter().find(|(_, heading)| !names.contains(&plain(heading))) {
             return Err(format!(
                 "no heading '{heading}' for {column}; expected one of {}",
                 headings.join(", ")
             ));
         }
-        let name = |heading: &String| match self.0.iter().find(|(_, other)| alike(heading, other)) {
+        let renamed = |name: String| match self.0.iter().find(|(_, heading)| plain(heading) == name) {
             Some((column, _)) => column.clone(),
             // Another heading stands for the column of this name.
-            None if self.columns().any(|column| column == heading) => format!("{heading} of the file"),
-            None => heading.clone(),
+            None if self.columns().any(|column| column == name) => format!("{name} of the file"),
+            None => name,
         };
-        Ok(headings.iter().map(name).collect())
+        Ok(names.into_iter().map(renamed).collect())
     }
 
     /// The schema of a Parquet file under the names of columns.
@@ -92,7 +97,7 @@ impl Headings {
             return Ok(schema.clone());
         }
         let headings: Vec<String> = schema.fields().iter().map(|field| field.name().clone()).collect();
-        let names = self.renamed(&headings, |one, other| one == other);
+        let names = self.renamed(&headings, str::to_string);
         let names = names.map_err(|message| TableError::Read { path: path.to_path_buf(), message })?;
         let fields = schema.fields().iter().zip(names);
         let fields = fields.map(|(field, name)| field.as_ref().clone().with_name(name)).collect::<Vec<_>>();

@@ -148,7 +148,10 @@ fn open_file(path: &Path) -> Result<File, TableError> {
         Ok(file) => Ok(file),
         Err(source) if source.kind() == std::io::ErrorKind::NotFound => Err(TableError::Missing {
             path: path.to_path_buf(),
-            hint: "run the stage that makes it first, or name another file".to_string(),
+            hint: match Path::new("out").join(path) {
+                of_run if of_run.exists() => format!("there is {}: name that", of_run.display()),
+                _ => "run the stage that makes it first, or name another file".to_string(),
+            },
         }),
         Err(source) => Err(TableError::io(path, source)),
     }
@@ -167,7 +170,7 @@ pub(super) fn not_parquet(path: &Path, source: ParquetError) -> TableError {
         return TableError::Codec { path, message };
     }
     if !begins_as_parquet(&path) {
-        let expected = "a table that rockfrag made, or one with its columns".to_string();
+        let expected = "a table that rockfrag made, or one with its columns; CSV is for import-motions, --structures and --hazard".to_string();
         return TableError::NoParquet { path, expected };
     }
     TableError::NotParquet { path, cause: source }

@@ -23,9 +23,26 @@ pub fn bytes(path: &Path, most_mib: u64, expected: &str) -> Result<Vec<u8>> {
 /// # Errors
 /// As [`bytes`], or if it is not UTF-8.
 pub fn text(path: &Path, most_mib: u64, expected: &str) -> Result<String> {
-    let no_text = |_| Error::new(ErrorKind::InvalidData, format!("not UTF-8; expected {expected}"));
-    String::from_utf8(bytes(path, most_mib, expected)?).map_err(no_text)
+    let bytes = bytes(path, most_mib, expected)?;
+    let other = OTHERS.iter().find(|(begins, _)| bytes.starts_with(begins));
+    let what = other.map_or("not UTF-8", |(_, what)| what);
+    let no_text = || {
+        let words =
+            format!("{what}; expected {expected} in UTF-8: save it as such, from a spreadsheet as CSV UTF-8");
+        Error::new(ErrorKind::InvalidData, words)
+    };
+    String::from_utf8(bytes)
+        .map_err(|_| no_text())
+        .and_then(|text| if other.is_none() { Ok(text) } else { Err(no_text()) })
 }
+
+/// How files begin that are no text in UTF-8, and what they are.
+const OTHERS: [(&[u8], &str); 4] = [
+    (b"\xff\xfe", "UTF-16, a spreadsheet's \"Unicode text\""),
+    (b"\xfe\xff", "UTF-16, a spreadsheet's \"Unicode text\""),
+    (b"PK\x03\x04", "an Excel workbook or another zip archive"),
+    (b"\xd0\xcf\x11\xe0", "an old Excel workbook"),
+];
 
 fn read(path: &Path, most_mib: u64) -> Result<Vec<u8>> {
     let most = most_mib << 20;
@@ -54,29 +71,48 @@ pub fn write(path: &Path, content: impl AsRef<[u8]>) -> std::result::Result<(), 
     Ok(())
 }
 
-/// The table of a CSV file, as spreadsheets of any country write it: names in any letter case; semicolons between the cells, and then a
-/// comma before the decimals. Lines that begin with # are words.
+/// The table of a CSV file, as spreadsheets of any country write it: headings in any letter case; commas between the cells, or semicolons
+/// or tabs and then perhaps a comma before the decimals; titles above the headings; rows of empty cells. Lines that begin with # are
+/// words.
 pub struct CsvText<'a> {
-    /// The names of the columns, in lower case, with underscores.
+    /// The headings as they stand in the file.
+    pub headings: Vec<String>,
+    /// The columns that they name: `pga_g` is that of `PGA (g)`.
     pub names: Vec<String>,
-    has_semicolons: bool,
+    has_decimal_commas: bool,
     reader: Reader<&'a [u8]>,
 }
 
+/// Rows in which the headings must stand.
+const HEADER: usize = 50;
+
 impl<'a> CsvText<'a> {
-    /// Reads the names.
+    /// Reads the headings: the first row in which one names a column that `is_known`, else the first of several cells.
     ///
     /// # Errors
     /// If the text is no CSV.
-    pub fn new(text: &'a str) -> csv::Result<CsvText<'a>> {
+    pub fn new(text: &'a str, is_known: impl Fn(&str) -> bool) -> csv::Result<CsvText<'a>> {
         let text = text.trim_start_matches('\u{feff}');
-        let header = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
-        let has_semicolons = header.contains(';') && !header.contains(',');
-        let mut builder = ReaderBuilder::new();
-        builder.comment(Some(b'#')).trim(Trim::All).delimiter(if has_semicolons { b';' } else { b',' });
-        let mut reader = builder.from_reader(text.as_bytes());
-        let names = reader.headers()?.iter().map(plain).collect();
-        Ok(CsvText { names, has_semicolons, reader })
+        let has_known = |row: &StringRecord| row.iter().any(|cell| is_known(&plain(cell)));
+        let has_several = |row: &StringRecord| row.iter().filter(|cell| !cell.is_empty()).count() > 1;
+        let is_row = |_: &StringRecord| true;
+        let kinds: [&dyn Fn(&StringRecord) -> bool; 3] = [&has_known, &has_several, &is_row];
+        let found = kinds.iter().find_map(|is_header| {
+            let by = |separator: &u8| {
+                let mut rows = reader(text, *separator).into_records().take(HEADER);
+                let at = rows.position(|row| row.as_ref().is_ok_and(is_header))?;
+                Some((at, *separator))
+            };
+            b",;\t".iter().filter_map(by).min_by_key(|(at, _)| *at)
+        });
+        let (above, separator) = found.unwrap_or((0, b','));
+        let (mut reader, mut row) = (reader(text, separator), StringRecord::new());
+        for _ in 0..=above {
+            reader.read_record(&mut row)?;
+        }
+        let headings: Vec<String> = row.iter().map(str::to_string).collect();
+        let names = headings.iter().map(|heading| plain(heading)).collect();
+        Ok(CsvText { headings, names, has_decimal_commas: separator != b',', reader })
     }
 
     /// Takes other headings for columns.
@@ -84,18 +120,23 @@ impl<'a> CsvText<'a> {
     /// # Errors
     /// With the first that is not there.
     pub fn rename(&mut self, headings: &Headings) -> std::result::Result<(), String> {
-        self.names = headings.renamed(&self.names, |name, heading| name == plain(heading))?;
+        self.names = headings.renamed(&self.headings, plain)?;
         Ok(())
     }
 
-    /// The rows with their lines, in order.
+    /// The rows that are not empty with their lines, in order.
     pub fn rows(self) -> impl Iterator<Item = std::result::Result<(u64, StringRecord), String>> + use<'a> {
-        let has_semicolons = self.has_semicolons;
-        self.reader.into_records().map(move |record| {
-            let record = record.map_err(|error| explain(&error))?;
-            let line = record.position().map_or(0, Position::line);
-            if !has_semicolons {
-                return Ok((line, record));
+        let (has_decimal_commas, columns) = (self.has_decimal_commas, self.headings.len());
+        let is_empty = |row: &StringRecord| row.iter().all(str::is_empty);
+        let rows = self.reader.into_records().filter(move |row| !row.as_ref().is_ok_and(is_empty));
+        rows.map(move |row| {
+            let row = row.map_err(|error| error.to_string())?;
+            let line = row.position().map_or(0, Position::line);
+            if row.len() != columns {
+                return Err(format!(
+                    "line {line}: {} cells under {columns} headings; if commas are decimal signs, separate the cells by semicolons",
+                    row.len()
+                ));
             }
             let with_point = |cell: &str| {
                 let point = cell.replace(',', ".");
@@ -105,23 +146,22 @@ impl<'a> CsvText<'a> {
                     cell.to_string()
                 }
             };
-            Ok((line, record.iter().map(with_point).collect()))
+            let row = if has_decimal_commas { row.iter().map(with_point).collect() } else { row };
+            Ok((line, row))
         })
     }
 }
 
-/// A heading as the name of a column.
-fn plain(heading: &str) -> String {
-    heading.to_lowercase().replace([' ', '-'], "_")
+/// Reads the rows of a text, the headings too.
+fn reader(text: &str, separator: u8) -> Reader<&[u8]> {
+    let mut builder = ReaderBuilder::new();
+    builder.has_headers(false).flexible(true).comment(Some(b'#')).trim(Trim::All).delimiter(separator);
+    builder.from_reader(text.as_bytes())
 }
 
-/// What is wrong with a row.
-fn explain(error: &csv::Error) -> String {
-    let csv::ErrorKind::UnequalLengths { pos, expected_len, len } = error.kind() else {
-        return error.to_string();
-    };
-    let line = pos.as_ref().map_or(0, Position::line);
-    format!(
-        "line {line}: {len} cells under {expected_len} headings; if commas are decimal signs, separate the cells by semicolons"
-    )
+/// A heading as the name of a column: in lower case, with underscores for what is no letter or digit.
+pub fn plain(heading: &str) -> String {
+    let lower = heading.to_lowercase();
+    let words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join("_")
 }
