@@ -115,7 +115,8 @@ fn curves_of_many_cases_are_those_of_few() {
             near(of_many.regression.coefficients[k], of_few.regression.coefficients[k], 1e-10, &what);
         }
         near(of_many.regression.log_likelihood, m * of_few.regression.log_likelihood, 1e-10, &what);
-        near(many.held_out.unwrap().log_score, few.held_out.unwrap().log_score, 1e-6, &what);
+        // Of many, only some are left out.
+        near(many.held_out.unwrap().log_score, few.held_out.unwrap().log_score, 1e-3, &what);
         assert!(many.clustered_covariance.is_some(), "{what}");
         let (of_many, of_few) = (&of_many.goodness, &of_few.goodness);
         near(of_many.auc, of_few.auc, 1e-12, &what);
