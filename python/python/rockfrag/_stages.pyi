@@ -139,7 +139,7 @@ def evaluate(
     pro : Arrow table or path, optional
         Overturning curves, from fit_pro.
     intensities : Arrow table or path, optional
-        Parquet table with pga_m_s2 and pgv_m_s, and if they vary p_rad_s, alpha_rad, eta, tp_s and
+        Parquet table with pga_m_s2 and pgv_m_s and, where they vary, p_rad_s, alpha_rad, eta, tp_s and
         tm_s.
     structure : str, optional
         Structure of the fits [default: the only one].
@@ -638,8 +638,8 @@ def ida(
     force: bool = False,
     overwrite: bool = False,
 ) -> Table:
-    """Run incremental dynamic analysis: find the intensity from which each motion overturns each
-    structure, and the share of larger ones that does.
+    """Run incremental dynamic analysis: find the lowest intensity at which each motion overturns each
+    structure, and the share of larger ones at which it does.
 
     Parameters
     ----------
@@ -821,8 +821,8 @@ def import_motions(
     housner : bool, default False
         Also compute the Housner intensity, which takes 15 times as long or more.
     accept_implausible : bool, default False
-        Import motions that no earthquake is likely to have made (by PGA, PGV, time step, spikes or
-        drift), and warn of them.
+        Import motions that no earthquake is likely to have made (by length, PGA, PGV, time step, spikes
+        or drift), and warn of them.
     keep_going : bool, default False
         Import the rest where files cannot be read, and warn of those.
     out : path, optional
@@ -1028,7 +1028,7 @@ def report(
     Parameters
     ----------
     files : path
-        Folder of the files: responses.parquet or its partitions, and what else there is of them.
+        Folder of the files: responses.parquet or its partitions, and any files of other stages.
     rates : path, optional
         Annual rates of evaluate ``hazard``, in a Parquet file or a folder of them [default:
         evaluated.parquet in the folder].
@@ -1037,7 +1037,7 @@ def report(
     author : str, optional
         Author, below the title.
     date : str, optional
-        Date, in words of your own: the page takes none from a clock.
+        Date, in your own words; without it the page has none.
     suite : str, optional
         Suite to show [default: all].
     structure : str, optional
@@ -1209,7 +1209,7 @@ def simulate(
     Parameters
     ----------
     motions : Arrow table or path
-        Motions to read, a file or a folder: ours, or anyone's with motion_id, dt_s and
+        Motions to read, a file or a folder; those of other programs need motion_id, dt_s and
         acceleration_m_s2.
     p : float, optional
         Frequency parameter of the structure, rad/s.
