@@ -180,8 +180,8 @@ def main():
         print(NAMES[limit], json.dumps(said, indent=1), flush=True)
     final = fit.both(train, knots, None, starts)
     result["records"] = {}
-    for file, limit in itertools.product(records.split(","), EVENTS):
-        seen = of.read([file], None)
+    seen = {file: of.read([file], None) for file in records.split(",")}
+    for (file, seen), limit in itertools.product(seen.items(), EVENTS):
         cases = of.some(seen, np.ones(len(seen["im4"]), bool) if limit is None else ~seen["overturned"])
         happened = event(cases, limit)
         p = 1 / (1 + np.exp(-(final[0] if limit is None else final[1]).index(of.columns_of(cases, limit or 0.2))))

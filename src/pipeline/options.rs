@@ -114,7 +114,11 @@ pub fn with_number_messages(command: Command) -> Command {
     command.mut_args(of_flag).mut_subcommands(|subcommand| subcommand.mut_args(of_flag))
 }
 
-fn number<T: FromStr + 'static>(text: &str) -> Result<T, String> {
+/// The number that a text is, or what was expected.
+///
+/// # Errors
+/// If it is none.
+pub fn number<T: FromStr + 'static>(text: &str) -> Result<T, String> {
     text.parse().map_err(|_| match TypeId::of::<T>() == TypeId::of::<f64>() {
         true => format!("expected a number, such as 2.5{}", comma_slip(text)),
         false => "expected a whole number, 0 or more".to_string(),

@@ -1,7 +1,7 @@
 //! A figure, the places of its panels, and long series cut to what can be seen.
 
 use super::drawing::{Drawing, ONE_COLUMN, TWO_COLUMNS};
-use super::panel::{Mark, legend_places};
+use super::panel::{Mark, legend, legend_places};
 use super::text::Label;
 
 /// A drawing with its name, title and caption.
@@ -46,6 +46,8 @@ const RIGHT: f64 = 9.0;
 const TITLE: f64 = 17.0;
 /// Room below it, for ticks and the label of the axis.
 const BELOW: f64 = 28.0;
+/// Where a legend begins.
+const LEGEND: [f64; 2] = [LEFT, 10.0];
 
 impl Grid {
     /// Puts one panel into the width of a column, more in pairs across the page.
@@ -55,11 +57,13 @@ impl Grid {
         Grid { count, columns, width, panel_height, above: 0.0 }
     }
 
-    /// Adds room for a legend of these entries.
-    pub fn with_legend(self, entries: &[(Mark, Label)]) -> Grid {
-        let [_, last] =
-            legend_places(entries, self.legend_at(), self.width).last().unwrap_or(self.legend_at());
-        Grid { above: last + 5.0, ..self }
+    /// Adds room for a legend of these entries, and makes a drawing of the size of all panels that has it.
+    pub fn with_legend(self, entries: &[(Mark, Label)]) -> (Grid, Drawing) {
+        let [_, last] = legend_places(entries, LEGEND, self.width).last().unwrap_or(LEGEND);
+        let grid = Grid { above: last + 5.0, ..self };
+        let mut drawing = grid.drawing();
+        legend(&mut drawing, LEGEND, entries);
+        (grid, drawing)
     }
 
     /// Makes an empty drawing of the size of all panels.
@@ -75,11 +79,6 @@ impl Grid {
         let left = column * across + LEFT;
         let top = self.above + row * (TITLE + self.panel_height + BELOW) + TITLE;
         ([left, top], across - LEFT - RIGHT)
-    }
-
-    /// Returns where a legend begins.
-    pub fn legend_at(&self) -> [f64; 2] {
-        [LEFT, 10.0]
     }
 }
 

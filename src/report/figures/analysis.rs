@@ -4,7 +4,7 @@ use crate::report::axis::Axis;
 use crate::report::data::{Analysis, ReportData};
 use crate::report::drawing::Ink;
 use crate::report::figure::{Figure, Grid};
-use crate::report::panel::{Estimate, Mark, Panel, legend};
+use crate::report::panel::{Estimate, Mark, Panel};
 use crate::report::text::{Label, number};
 
 /// The most panels, the others are in the table.
@@ -20,9 +20,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         (Mark::Bar(Ink::Data(0)), Label::plain("share at a level")),
         (Mark::Line(Ink::Data(1).line(1.3)), Label::plain("lognormal, at it or below")),
     ];
-    let grid = Grid::of(shown.len(), 118.0).with_legend(&entries);
-    let mut drawing = grid.drawing();
-    legend(&mut drawing, grid.legend_at(), &entries);
+    let (grid, mut drawing) = Grid::of(shown.len(), 118.0).with_legend(&entries);
     for (index, analysis) in shown.iter().enumerate() {
         let (corner, width) = grid.place(index);
         draw(&mut drawing, analysis, corner, width, grid.panel_height);

@@ -4,7 +4,7 @@ use crate::report::axis::Axis;
 use crate::report::data::{Group, ReportData, ReportResponse, demand_label};
 use crate::report::drawing::{Ink, Paint};
 use crate::report::figure::{Figure, Grid};
-use crate::report::panel::{Mark, Panel, dot_scale, legend};
+use crate::report::panel::{Mark, Panel, dot_scale};
 use crate::report::text::Label;
 use crate::rocking::Outcome;
 
@@ -37,9 +37,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
 
 fn figure(group: &Group) -> Figure {
     let entries = CLASSES.map(|(_, words, paint, _)| (Mark::Dot(paint), Label::plain(words)));
-    let grid = Grid::of(OVER.len(), 118.0).with_legend(&entries);
-    let mut drawing = grid.drawing();
-    legend(&mut drawing, grid.legend_at(), &entries);
+    let (grid, mut drawing) = Grid::of(OVER.len(), 118.0).with_legend(&entries);
     let demands = || group.safe().map(|response| response.case.edp);
     let top = TOP * demands().fold(1.0, f64::max);
     let demand = |response: &ReportResponse| match response.case.outcome {

@@ -7,7 +7,7 @@ use crate::report::axis::Axis;
 use crate::report::data::{Group, Planes, ReportData, measure_label};
 use crate::report::drawing::{Dash, Ink, Stroke};
 use crate::report::figure::{Figure, Grid};
-use crate::report::panel::{Mark, Panel, legend};
+use crate::report::panel::{Mark, Panel};
 use crate::report::text::{Label, number};
 use crate::statistics::estimate::quantile;
 
@@ -44,9 +44,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
             entry.1 = Label::plain(format!("{} %", number::plain(100.0 * share)));
         }
     }
-    let grid = grid.with_legend(&entries);
-    let mut drawing = grid.drawing();
-    legend(&mut drawing, grid.legend_at(), &entries);
+    let (grid, mut drawing) = grid.with_legend(&entries);
     for (index, (group, planes, alone)) in groups.iter().enumerate() {
         let (corner, width) = grid.place(index);
         let largest = group.safe().map(|response| response.case.measures.im4).fold(1.5, f64::max);

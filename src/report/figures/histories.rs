@@ -4,7 +4,7 @@ use crate::report::axis::{Axis, range};
 use crate::report::data::{Motion, ReportData};
 use crate::report::drawing::{Dash, Ink, Stroke};
 use crate::report::figure::{Figure, Grid, envelope};
-use crate::report::panel::{Mark, Panel, legend};
+use crate::report::panel::{Mark, Panel};
 use crate::report::text::{Label, number};
 use crate::rocking::{Outcome, Record, Structure, trace};
 
@@ -64,9 +64,7 @@ fn figure(motion: &Motion, pair: &[History; 2]) -> Figure {
     };
     let entries: Vec<(Mark, Label)> =
         pair.iter().zip(strokes).map(|(history, stroke)| (Mark::Line(stroke), words(history))).collect();
-    let grid = Grid::of(labels.len(), 110.0).with_legend(&entries);
-    let mut drawing = grid.drawing();
-    legend(&mut drawing, grid.legend_at(), &entries);
+    let (grid, mut drawing) = Grid::of(labels.len(), 110.0).with_legend(&entries);
     let titles = ["in their own units", "dimensionless"];
     for (index, ([x, y], title)) in labels.into_iter().zip(titles).enumerate() {
         let lines = pair.each_ref().map(|history| {

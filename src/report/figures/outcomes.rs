@@ -5,7 +5,7 @@ use crate::report::axis::Axis;
 use crate::report::data::{Group, ReportData, ReportResponse};
 use crate::report::drawing::{Ink, Paint};
 use crate::report::figure::{Figure, Grid};
-use crate::report::panel::{MOST_POINTS, Mark, Panel, dot_scale, legend};
+use crate::report::panel::{MOST_POINTS, Mark, Panel, dot_scale};
 use crate::report::text::{Label, number};
 use crate::rocking::Outcome;
 
@@ -36,9 +36,7 @@ fn figure(groups: &[&Group]) -> Figure {
     let with_period =
         groups.iter().all(|group| group.responses.iter().any(|response| response.tp_s.is_some()));
     let entries = CLASSES.map(|(_, words, paint, _)| (Mark::Dot(paint), Label::plain(words)));
-    let grid = Grid::of(groups.len(), 130.0).with_legend(&entries);
-    let mut drawing = grid.drawing();
-    legend(&mut drawing, grid.legend_at(), &entries);
+    let (grid, mut drawing) = Grid::of(groups.len(), 130.0).with_legend(&entries);
     let place = |response: &ReportResponse| match with_period {
         true => [response.tp_s.unwrap_or(f64::NAN), response.pgv_m_s],
         false => [response.pga_m_s2, response.pgv_m_s],

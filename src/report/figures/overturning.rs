@@ -9,7 +9,7 @@ use crate::report::axis::{Axis, range};
 use crate::report::data::{Curve, Group, ReportData, ReportResponse, measure_label};
 use crate::report::drawing::{Anchor, Dash, Drawing, Ink};
 use crate::report::figure::{Figure, Grid};
-use crate::report::panel::{Estimate, Mark, Panel, legend};
+use crate::report::panel::{Estimate, Mark, Panel};
 use crate::report::text::{Label, number};
 use crate::statistics::FitStatus;
 use crate::statistics::estimate::quantile;
@@ -108,9 +108,7 @@ fn figure(
         (Mark::Line(Ink::Data(1).line(1.3)), Label::plain("curve, 95 % band")),
         (Mark::Line(Ink::Data(1).dashed(1.3, Dash::Short)), Label::plain("beyond the data")),
     ];
-    let grid = Grid::of(groups.len(), 118.0).with_legend(&entries);
-    let mut drawing = grid.drawing();
-    legend(&mut drawing, grid.legend_at(), &entries);
+    let (grid, mut drawing) = Grid::of(groups.len(), 118.0).with_legend(&entries);
     let mut off = Vec::new();
     for (place, (group, curve)) in groups.iter().enumerate() {
         let (corner, width) = grid.place(place);

@@ -5,7 +5,7 @@ use crate::report::axis::{Axis, range};
 use crate::report::data::{Group, ReportData, ReportResponse};
 use crate::report::drawing::Ink;
 use crate::report::figure::{Figure, Grid};
-use crate::report::panel::{Mark, Panel, legend};
+use crate::report::panel::{Mark, Panel};
 use crate::report::text::{Label, number};
 use crate::statistics::least_squares;
 
@@ -82,9 +82,7 @@ fn figure(
         (Mark::Dot(Ink::Data(0).full()), Label::plain(SIDES[1])),
         (Mark::Line(Ink::Text.line(1.2)), Label::plain("planes")),
     ];
-    let grid = Grid::of(groups.len(), 125.0).with_legend(&entries);
-    let mut drawing = grid.drawing();
-    legend(&mut drawing, grid.legend_at(), &entries);
+    let (grid, mut drawing) = Grid::of(groups.len(), 125.0).with_legend(&entries);
     for (index, (group, Sides { points, planes })) in groups.iter().enumerate() {
         let (corner, width) = grid.place(index);
         let view = View::edge_on(planes);

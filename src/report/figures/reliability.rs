@@ -6,7 +6,7 @@ use crate::report::axis::Axis;
 use crate::report::data::{Group, ReportData, ReportResponse};
 use crate::report::drawing::{Dash, Ink};
 use crate::report::figure::{Figure, Grid};
-use crate::report::panel::{Estimate, Mark, Panel, legend};
+use crate::report::panel::{Estimate, Mark, Panel};
 use crate::report::text::Label;
 use crate::studies::wilson_limits;
 
@@ -33,9 +33,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         (Mark::Bar(inks[1]), Label::marked("*P*_{ex}")),
         (Mark::Line(Ink::Muted.dashed(0.7, Dash::Short)), Label::plain("predicted = observed")),
     ];
-    let grid = Grid::of(panels.len(), 140.0).with_legend(&entries);
-    let mut drawing = grid.drawing();
-    legend(&mut drawing, grid.legend_at(), &entries);
+    let (grid, mut drawing) = Grid::of(panels.len(), 140.0).with_legend(&entries);
     for (index, (group, forecasts)) in panels.iter().enumerate() {
         let (corner, width) = grid.place(index);
         let axis = |words: &str| Axis::linear([0.0, 1.0], Label::plain(words));

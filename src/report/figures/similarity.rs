@@ -6,7 +6,7 @@ use crate::report::axis::Axis;
 use crate::report::data::{Group, ReportData, ReportResponse, demand_label, measure_label};
 use crate::report::drawing::{Dash, Ink};
 use crate::report::figure::{Figure, Grid};
-use crate::report::panel::{Mark, Panel, legend};
+use crate::report::panel::{Mark, Panel};
 use crate::report::text::Label;
 use crate::statistics::estimate::quantile;
 
@@ -64,9 +64,7 @@ fn figure(groups: &[&Group]) -> Figure {
         .enumerate()
         .map(|(index, group)| (Mark::Line(stroke(index)), Label::plain(&group.structure.name)))
         .collect();
-    let grid = Grid::of(views.len(), 130.0).with_legend(&entries);
-    let mut drawing = grid.drawing();
-    legend(&mut drawing, grid.legend_at(), &entries);
+    let (grid, mut drawing) = Grid::of(views.len(), 130.0).with_legend(&entries);
     for (index, View { title, x, y, of }) in views.into_iter().enumerate() {
         let (corner, width) = grid.place(index);
         let clouds: Vec<Vec<[f64; 2]>> =

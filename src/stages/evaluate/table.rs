@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 
 use crate::fragility::universal::Scenarios;
-use crate::fragility::{PeaksDoubt, doubt_of_peaks};
+use crate::fragility::{PeaksDoubt, UniversalModel, doubt_of_peaks};
 use crate::pipeline::console::Console;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
@@ -43,11 +43,13 @@ impl EvaluatedTable {
         self.answers.warn(console);
         let mut writer = TableWriter::create(out.clone(), &EVALUATED, provenance.clone())?;
         let mut suspect = Suspect::default();
+        let surface = self.answers.surface(Scenarios::One);
         let bar = console.bar(&provenance.stage, total);
         pipelined(
             intensities.map(|batch| Ok(batch?)),
             |intensities| {
-                let rows: Vec<EvaluatedRow> = intensities.par_iter().map(|one| self.row(one)).collect();
+                let row = |one| self.row(one, surface.as_ref());
+                let rows: Vec<EvaluatedRow> = intensities.par_iter().map(row).collect();
                 let suspect = Suspect::among(&rows, &intensities, &*self.answers);
                 bar.inc(rows.len() as u64)?;
                 Ok((evaluated::batch(&rows)?, suspect))
@@ -63,12 +65,12 @@ impl EvaluatedTable {
         Ok(format!("{total} rows by the {}", self.answers.words()))
     }
 
-    fn row(&self, intensity: &Intensity) -> EvaluatedRow {
+    fn row(&self, intensity: &Intensity, surface: Option<&UniversalModel>) -> EvaluatedRow {
         let Intensity { structure, measures, .. } = intensity;
         let probabilities = self.answers.probabilities(structure, measures);
         let rocks = probabilities.p_nr == 0.0;
         let distance = self.answers.model().distance(structure, measures).filter(|_| rocks);
-        let surface = self.answers.surface(Scenarios::One).filter(|_| rocks);
+        let surface = surface.filter(|_| rocks);
         EvaluatedRow {
             p_rad_s: intensity.structure.p_rad_s,
             alpha_rad: intensity.structure.alpha_rad,

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
-use crate::pipeline::options::{comma_slip, explain, from_scalar};
+use crate::pipeline::options::{self, comma_slip, explain, from_scalar};
 use crate::rocking::{Structure, StructureError, housner_eta, judge};
 use crate::table::store::text_file::{self, CsvText};
 
@@ -160,9 +160,7 @@ impl StructureSpec {
 
     /// Takes a cell of a CSV file.
     fn set(&mut self, column: &str, text: &str) -> Result<(), String> {
-        let number = || {
-            text.parse().map_err(|_| format!("'{text}'; expected a number, such as 2.5{}", comma_slip(text)))
-        };
+        let number = || options::number(text).map_err(|expected| format!("'{text}'; {expected}"));
         match column {
             "name" => self.name = Some(text.to_string()),
             "eta" => self.eta = Some(text.parse()?),

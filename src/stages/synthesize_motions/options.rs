@@ -11,7 +11,7 @@ use crate::motion::stochastic::LowCut;
 use crate::motion::{Difference, Epoch, MotionModel, StochasticModel, Suite};
 use crate::pipeline::UsageError;
 use crate::pipeline::declare::StageOptions;
-use crate::pipeline::options::{DEFAULT_SEED, Parsed, Several, Steps, Word, check, defaults};
+use crate::pipeline::options::{DEFAULT_SEED, Parsed, Several, Steps, Word, check, defaults, number};
 use crate::table::store::partition::Partition;
 use crate::table::store::text_file::{self, CsvText};
 
@@ -153,14 +153,12 @@ fn amplification(text: &str) -> Result<Vec<(f64, f64)>, String> {
     let headings = table.headings.clone();
     let pair = |row: Result<(u64, csv::StringRecord), String>| {
         let (line, row) = row?;
-        let number = |column: usize| {
+        let cell = |column: usize| {
             let (text, heading) = (row.get(column).unwrap_or_default(), headings.get(column));
             let heading = heading.map_or("", String::as_str);
-            text.parse().map_err(|_| {
-                format!("line {line}, column '{heading}': '{text}'; expected a number, such as 2.5")
-            })
+            number(text).map_err(|expected| format!("line {line}, column '{heading}': '{text}'; {expected}"))
         };
-        Ok((number(0)?, number(1)?))
+        Ok((cell(0)?, cell(1)?))
     };
     table.rows().map(pair).collect()
 }

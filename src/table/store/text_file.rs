@@ -31,9 +31,10 @@ pub fn text(path: &Path, most_mib: u64, expected: &str) -> Result<String> {
             format!("{what}; expected {expected} in UTF-8: save it as such, from a spreadsheet as CSV UTF-8");
         Error::new(ErrorKind::InvalidData, words)
     };
-    String::from_utf8(bytes)
-        .map_err(|_| no_text())
-        .and_then(|text| if other.is_none() { Ok(text) } else { Err(no_text()) })
+    match (String::from_utf8(bytes), other) {
+        (Ok(text), None) => Ok(text),
+        _ => Err(no_text()),
+    }
 }
 
 /// How files begin that are no text in UTF-8, and what they are.
