@@ -18,7 +18,7 @@
 #![deny(clippy::disallowed_methods)]
 
 mod batch;
-mod fused;
+pub mod fused;
 mod incremental;
 mod lanes;
 mod polynomial;

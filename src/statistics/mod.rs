@@ -38,6 +38,7 @@ pub use goodness::{auc, brier_score, expected_log_score, log_score};
 pub use link::ln_probability_series;
 pub use link::{Information, Link};
 pub use regression::{LinearFit, RegressionError, least_squares};
+pub use search::{minimum, root};
 pub use separation::is_separated;
 
 use crate::keyword::keywords;

@@ -184,21 +184,3 @@ fn predictor(names: Names, numbers: [(&'static str, Option<f64>); 13]) -> Result
 fn rows<const ALL: usize, const N: usize, const K: usize>(flat: &[f64; ALL]) -> [[f64; K]; N] {
     std::array::from_fn(|row| std::array::from_fn(|column| flat[row * K + column]))
 }
-
-#[cfg(test)]
-mod tests {
-    use std::path::Path;
-
-    use super::*;
-    use crate::table::row::ReadRow;
-
-    #[test]
-    fn planes_are_told_apart_in_a_file_that_was_sorted_elsewhere() {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/files/pex.parquet");
-        let mut rows = PexRow::read(file).unwrap();
-        rows.retain(|row| row.structure == "electrical-equipment");
-        rows.reverse();
-        let [below, above] = planes(rows.iter()).unwrap();
-        assert!(below.range_low < above.range_low && below.range_high == above.range_low);
-    }
-}

@@ -1,10 +1,15 @@
 //! Fragility as files of other programs. scripts/check_exports.sh asks these programs themselves.
 
+use std::path::Path;
+
 use crate::paper_model::{equipment, model};
 use rockfrag::export::{
     Function, GAP, Model, continuous, discrete, levels, metadata, parameters, plain_id, whole_curve_end,
 };
 use rockfrag::fragility::{Fragility, Peak, Slice};
+use rockfrag::table::fits::planes;
+use rockfrag::table::pex::PexRow;
+use rockfrag::table::row::ReadRow;
 
 fn slice(peak: Peak) -> Slice {
     Slice { structure: equipment(), peak, ratio: 0.4 }
@@ -139,4 +144,14 @@ fn the_range_of_the_data_stands_beside() {
     assert_eq!(range["To"].as_f64(), Some(function.range_of_data[1] / 9.81));
     assert_eq!(json["equipment"]["LimitStates"]["LS2"]["DS2"]["Description"], "too far");
     assert!(discrete(&words(), &[function]).contains("data from PGA 0.2027 (uplift) to 1.5001"));
+}
+
+#[test]
+fn planes_are_told_apart_in_a_file_that_was_sorted_elsewhere() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/files/pex.parquet");
+    let mut rows = PexRow::read(file).unwrap();
+    rows.retain(|row| row.structure == "electrical-equipment");
+    rows.reverse();
+    let [below, above] = planes(rows.iter()).unwrap();
+    assert!(below.range_low < above.range_low && below.range_high == above.range_low);
 }

@@ -12,6 +12,7 @@ mod normal;
 mod paper;
 mod paper_model;
 mod regressions_and_curves;
+mod search;
 mod universal;
 mod universality;
 mod validation;

@@ -3,7 +3,7 @@
 use crate::noise::synthetic_motion;
 use proptest::prelude::*;
 use rockfrag::keyword::Keyword;
-use rockfrag::rocking::{Outcome, Problem, Record, Response, Simd, Structure, simulate, simulate_all};
+use rockfrag::rocking::{Outcome, Problem, Record, Response, Simd, Structure, fused, simulate, simulate_all};
 
 /// The registers that this processor has, of one number first.
 fn all_registers() -> impl Iterator<Item = Simd> {
@@ -153,5 +153,32 @@ proptest! {
             let answers = simulate_all(&[problem(&samples), problem(&mirrored)], simd);
             prop_assert_eq!(answers[0], answers[1]);
         }
+    }
+}
+
+#[test]
+fn fused_bits_are_those_of_the_processor_or_the_library() {
+    let mut state = 1_u64;
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state
+    };
+    for case in 0..2_000_000 {
+        // Exponents near each other, where digits cancel, and any.
+        let mut number = |spread: u64| {
+            let (mantissa, exponent) = (next() >> 12, 1023 - spread / 2 + (next() >> 32) % spread);
+            let thin = if next() >> 62 == 0 { mantissa & !0xfff_ffff_ffff } else { mantissa };
+            f64::from_bits((next() >> 63) << 63 | exponent << 52 | thin)
+        };
+        let spread = [4, 120, 2000][case % 3];
+        let (a, b) = (number(spread), number(spread));
+        let c = match case % 5 {
+            0 => -a * b,
+            1 => -a * b * (1.0 + f64::EPSILON),
+            2 => 0.0,
+            _ => number(spread),
+        };
+        let (ours, theirs) = (fused::mul_add(a, b, c), a.mul_add(b, c));
+        assert_eq!(ours.to_bits(), theirs.to_bits(), "{a:e} {b:e} {c:e}: {ours:e} for {theirs:e}");
     }
 }
