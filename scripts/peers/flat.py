@@ -45,6 +45,7 @@ def replicate(source, out, rows, groups):
     random = np.random.default_rng(1)
     schema = table.schema.with_metadata(None)
     writer = pq.ParquetWriter(out, schema, compression="zstd", compression_level=1)
+    waiting = []
     for first in range(0, rows, table.num_rows):
         some = table.slice(0, min(table.num_rows, rows - first))
         column = {name: some[name].combine_chunks() for name in some.column_names}
@@ -60,7 +61,10 @@ def replicate(source, out, rows, groups):
         column["motion_id"] = pa.array(numbers)
         if groups > 1:
             column["structure"] = pa.array([f"s{k % groups}" for k in numbers])
-        writer.write_table(pa.table(list(column.values()), schema=schema), row_group_size=65536)
+        waiting.append(pa.table(list(column.values()), schema=schema))
+        if len(waiting) * table.num_rows >= 100_000 or first + len(some) == rows:
+            writer.write_table(pa.concat_tables(waiting), row_group_size=len(waiting) * table.num_rows)
+            waiting = []
     writer.close()
 
 
