@@ -52,9 +52,29 @@ impl Simd {
 }
 
 /// Runs `work` compiled for the widest registers that the processor has; its loops, and what it calls, must be inlined to
-/// gain by it. A closure that changes what it captures is inlined only if it is short; a struct always is.
+/// gain by it.
 pub fn widest<T>(work: impl NullaryFnOnce<Output = T>) -> T {
     widest_registers(Plain(work))
+}
+
+/// Does the same for a closure, marked as always inlined: what it changes is handed to it, since one that changes what it captures is
+/// called in a way that need not be inlined.
+pub fn widest_on<A, T>(changed: A, work: impl Fn(A) -> T) -> T {
+    widest(On { changed, work })
+}
+
+struct On<A, F> {
+    changed: A,
+    work: F,
+}
+
+impl<A, T, F: Fn(A) -> T> NullaryFnOnce for On<A, F> {
+    type Output = T;
+
+    #[inline(always)]
+    fn call(self) -> T {
+        (self.work)(self.changed)
+    }
 }
 
 /// Does the same for work that names the registers itself.

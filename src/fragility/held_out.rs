@@ -9,7 +9,7 @@ use crate::statistics::binary::as_numbers;
 use crate::statistics::columns::Columns;
 use crate::statistics::design::{Design, Rows};
 use crate::statistics::link::Link;
-use crate::wide::widest;
+use crate::wide::widest_on;
 
 /// What cases tell that were left out, each cluster of magnitude and distance (or earthquake) as a whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,9 +106,10 @@ impl HeldOut {
             let mut values = vec![0.0; indices.len()];
             for (k, shift) in shifts.iter().enumerate() {
                 values.iter_mut().zip(&indices).for_each(|(value, index)| *value = index + shift);
-                widest(
+                widest_on(
+                    &mut values,
                     #[inline(always)]
-                    || link.ln_probabilities(&events, &mut values),
+                    |values| link.ln_probabilities(&events, values),
                 );
                 values.iter().zip(&at).for_each(|(value, &slot)| sums[slot][k] += value);
             }

@@ -3,7 +3,7 @@
 use super::fourier::Complex64;
 
 use crate::keyword::keywords;
-use crate::wide::widest;
+use crate::wide::widest_on;
 
 /// What becomes of the difference D = |H| - |P| of the Fourier amplitudes of high frequencies and pulse. The literature
 /// leaves it open where the pulse is the larger one.
@@ -64,9 +64,10 @@ pub fn combine(high_frequency: &mut [Complex64], pulse: &[Complex64], difference
 
 /// Adds the pulse to what is kept of the high frequencies.
 fn add(high_frequency: &mut [Complex64], pulse: &[Complex64], kept: impl Fn(f64) -> f64) {
-    widest(
+    widest_on(
+        high_frequency,
         #[inline(always)]
-        || {
+        |high_frequency| {
             for (h, p) in high_frequency.iter_mut().zip(pulse) {
                 let power = h.norm_sqr();
                 let kept = kept((p.norm_sqr() / power).sqrt());

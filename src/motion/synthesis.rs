@@ -10,7 +10,7 @@ use super::scenario::{Scenario, Suite};
 use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window, quality_exponent};
 use crate::random::{Purpose, normals, stream};
 use crate::units::CM_PER_M;
-use crate::wide::widest;
+use crate::wide::widest_on;
 
 /// Quiet time before and after all that moves, s: the zero-phase filters reach this far.
 const MARGIN_S: f64 = 2.0;
@@ -214,10 +214,10 @@ impl Synthesizer {
         let mean_square = inner.iter().map(|x| x.norm_sqr()).sum::<f64>() / inner.len() as f64;
         // From the continuous spectrum to the discrete one.
         let scale = 1.0 / (mean_square.sqrt() * self.model.dt_s);
-        let noise = &mut self.noise;
-        widest(
+        widest_on(
+            &mut self.noise,
             #[inline(always)]
-            || noise.iter_mut().zip(amplitudes).for_each(|(x, amplitude)| *x *= scale * amplitude),
+            |noise| noise.iter_mut().zip(amplitudes).for_each(|(x, amplitude)| *x *= scale * amplitude),
         );
         // Without a mean the ground comes to rest.
         self.noise[0] = Complex64::ZERO;

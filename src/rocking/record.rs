@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::wide::widest;
+use crate::wide::widest_on;
 
 /// Accepted time steps, s.
 const TIME_STEPS_S: RangeInclusive<f64> = 1e-6..=10.0;
@@ -85,9 +85,10 @@ impl<'a> Record<'a> {
 
 /// Finds the largest absolute value; not finite if one of them is not, since the bits of infinity and NaN are above all others.
 fn largest(values: &[f64]) -> f64 {
-    widest(
+    widest_on(
+        values,
         #[inline(always)]
-        || {
+        |values| {
             let mut largest = 0;
             for value in values {
                 largest = largest.max(value.abs().to_bits());

@@ -24,6 +24,8 @@ static HELD: AtomicUsize = AtomicUsize::new(0);
 #[derive(Debug)]
 pub struct Columns {
     width: usize,
+    /// Rows of a block.
+    block: usize,
     rows: usize,
     full: Vec<Place>,
     /// The last rows, column by column.
@@ -41,7 +43,13 @@ enum Place {
 impl Columns {
     /// Of no rows yet; columns that share a scratch share its file.
     pub fn new(width: usize, scratch: &Arc<Scratch>) -> Columns {
-        Columns { width, rows: 0, full: Vec::new(), open: vec![Vec::new(); width], scratch: scratch.clone() }
+        Columns::in_blocks(BLOCK, width, scratch)
+    }
+
+    /// The same in blocks of so many rows.
+    pub fn in_blocks(block: usize, width: usize, scratch: &Arc<Scratch>) -> Columns {
+        let open = vec![Vec::new(); width];
+        Columns { width, block, rows: 0, full: Vec::new(), open, scratch: scratch.clone() }
     }
 
     /// How many rows there are.
@@ -51,14 +59,14 @@ impl Columns {
 
     /// Whether one block has them all.
     pub fn is_small(&self) -> bool {
-        self.rows <= BLOCK
+        self.rows <= self.block
     }
 
     /// Adds a row.
     pub fn push(&mut self, row: &[f64]) {
         self.open.iter_mut().zip(row).for_each(|(column, value)| column.push(*value));
         self.rows += 1;
-        if self.open[0].len() == BLOCK {
+        if self.open[0].len() == self.block {
             self.close();
         }
     }
@@ -67,11 +75,11 @@ impl Columns {
     pub fn append(&mut self, columns: &[Vec<f64>]) {
         let (mut from, rows) = (0, columns[0].len());
         while from < rows {
-            let to = rows.min(from + BLOCK - self.open[0].len());
+            let to = rows.min(from + self.block - self.open[0].len());
             self.open.iter_mut().zip(columns).for_each(|(open, column)| open.extend(&column[from..to]));
             self.rows += to - from;
             from = to;
-            if self.open[0].len() == BLOCK {
+            if self.open[0].len() == self.block {
                 self.close();
             }
         }
@@ -102,14 +110,14 @@ impl Columns {
         let mut read = Vec::new();
         let columns: Vec<&[f64]> = match self.full.get(block) {
             None => self.open[..wanted].iter().map(Vec::as_slice).collect(),
-            Some(Place::Memory(values)) => values.chunks(BLOCK).take(wanted).collect(),
+            Some(Place::Memory(values)) => values.chunks(self.block).take(wanted).collect(),
             Some(Place::File(at)) => {
-                read.resize(wanted * BLOCK, 0.0);
+                read.resize(wanted * self.block, 0.0);
                 self.scratch.read(*at, &mut read);
-                read.chunks(BLOCK).collect()
+                read.chunks(self.block).collect()
             }
         };
-        work(block * BLOCK, &columns)
+        work(block * self.block, &columns)
     }
 
     /// Calls `take` with what `work` makes of each block, in order. It is given the number of the first row and the first `wanted`

@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 use pulp::NullaryFnOnce;
 
 use crate::statistics::columns::Columns;
-use crate::statistics::sorted::Sorter;
-use crate::wide::widest;
+use crate::statistics::sorted::at_ranks;
+use crate::wide::{widest, widest_on};
 
 /// Predictors that follow from those in the columns, block by block.
 pub type Further<'a> = &'a (dyn Fn(&[&[f64]]) -> Vec<Vec<f64>> + Sync);
@@ -239,8 +239,13 @@ impl NullaryFnOnce for Products<'_> {
 
     #[inline(always)]
     fn call(self) -> Vec<f64> {
-        let of_all = self.columns.iter().enumerate();
-        of_all.flat_map(|(i, a)| self.columns[..=i].iter().map(move |b| sum_of_products(a, b))).collect()
+        let mut products = Vec::with_capacity(triangle_count(self.columns.len()));
+        for (i, a) in self.columns.iter().enumerate() {
+            for b in &self.columns[..=i] {
+                products.push(sum_of_products(a, b));
+            }
+        }
+        products
     }
 }
 
@@ -310,11 +315,29 @@ impl Spline {
     /// The columns that make a straight line in `values` a natural cubic spline with four knots: two (Hastie, Tibshirani &
     /// Friedman 2009, The elements of statistical learning, Eqs. 5.4 and 5.5).
     pub fn columns(&self, values: &[f64]) -> Vec<Vec<f64>> {
+        let column = |k: usize| {
+            let mut column = values.to_vec();
+            widest_on(
+                &mut column,
+                #[inline(always)]
+                |column| {
+                    for x in column {
+                        *x = self.bend(k, *x);
+                    }
+                },
+            );
+            column
+        };
+        [0, 1].map(column).into()
+    }
+
+    #[inline(always)]
+    fn bend(&self, k: usize, x: f64) -> f64 {
         let knots = &self.0;
         let scale = knots[3] - knots[0];
         let cube = |x: f64| (x / scale).max(0.0).powi(3);
-        let d = |k: usize, x: f64| (cube(x - knots[k]) - cube(x - knots[3])) * scale / (knots[3] - knots[k]);
-        [0, 1].map(|k| values.iter().map(|&x| d(k, x) - d(2, x)).collect()).into()
+        let d = |k: usize| (cube(x - knots[k]) - cube(x - knots[3])) * scale / (knots[3] - knots[k]);
+        d(k) - d(2)
     }
 }
 
@@ -337,24 +360,14 @@ pub fn restricted_splines(u: f64, knots: &[f64]) -> impl Iterator<Item = f64> + 
 
 /// The values of a predictor with these shares of all below them.
 fn quantiles<const N: usize>(design: &Design, predictor: usize, shares: [f64; N]) -> [f64; N] {
-    let mut sorter = Sorter::default();
-    design.each(
-        0,
-        |rows| rows.x[1 + predictor].to_vec(),
-        |values| values.into_iter().for_each(|value| sorter.push((value, 0.0))),
-    );
     let last = (design.cases() - 1) as f64;
     let places = shares.map(|share| share * last);
-    let mut around = [[f64::NAN; 2]; N];
-    for (rank, (value, _)) in sorter.sorted().enumerate() {
-        for (around, place) in around.iter_mut().zip(places) {
-            let ends = [place.floor() as usize, place.ceil() as usize];
-            around.iter_mut().zip(ends).filter(|(_, end)| *end == rank).for_each(|(v, _)| *v = value);
-        }
-    }
+    let ranks: Vec<usize> =
+        places.iter().flat_map(|place| [place.floor() as usize, place.ceil() as usize]).collect();
+    let values = at_ranks(design.columns, predictor, &ranks);
     std::array::from_fn(|k| {
-        let ([below, above], place) = (around[k], places[k]);
-        below + (place - place.floor()) * (above - below)
+        let [below, above] = [values[2 * k], values[2 * k + 1]];
+        below + (places[k] - places[k].floor()) * (above - below)
     })
 }
 

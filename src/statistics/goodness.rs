@@ -87,19 +87,22 @@ impl Goodness {
         let (mut sorter, mut squares) = (Sorter::default(), 0.0);
         let of_block = |rows: &Rows| {
             let indices = fit.indices(rows);
-            let square = |(index, y): (&f64, &f64)| (fit.link.probability(*index) - y).powi(2);
-            let squares = indices.iter().zip(rows.y).map(square).sum::<f64>();
-            (squares, indices.into_iter().zip(rows.y.iter().copied()).collect::<Vec<_>>())
+            let probabilities: Vec<f64> = indices.iter().map(|index| fit.link.probability(*index)).collect();
+            let squares = probabilities.iter().zip(rows.y).map(|(p, y)| (p - y).powi(2)).sum::<f64>();
+            // Its sign says whether the event happened.
+            let signed = probabilities.iter().zip(rows.y).map(|(p, y)| p.copysign(y - 0.5));
+            (squares, indices.into_iter().zip(signed).collect::<Vec<_>>())
         };
         design.each(0, of_block, |(more, pairs)| {
             squares += more;
             pairs.into_iter().for_each(|pair| sorter.push(pair));
         });
         let (mut area, mut index_range) = (Area::default(), [f64::INFINITY, f64::NEG_INFINITY]);
-        let rising = sorter.sorted().map(|(index, event)| {
-            area.add(index, event != 0.0);
+        let rising = sorter.sorted().map(|(index, signed)| {
+            let event = signed.is_sign_positive();
+            area.add(index, event);
             widen(&mut index_range, [index; 2]);
-            (fit.link.probability(index), event != 0.0)
+            (signed.abs(), event)
         });
         let tenths = tenths(design.cases(), rising);
         Goodness {

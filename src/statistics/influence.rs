@@ -10,7 +10,7 @@ use super::derivatives::{Scores, derivatives};
 use super::design::{Design, Rows};
 use super::link::Link;
 use super::newton::{Along, newton_step};
-use crate::wide::widest;
+use crate::wide::widest_on;
 
 /// How many labels cases have by which they may be clusters.
 const LABELS: usize = 2;
@@ -52,9 +52,10 @@ impl Influence {
     fn scores(&self, rows: &Rows) -> (Vec<f64>, Vec<f64>) {
         let (mut slope, mut curvature) =
             (rows.indices(self.coefficients.as_slice()), vec![0.0; rows.count()]);
-        widest(
+        widest_on(
+            Scores { slope: &mut slope, curvature: &mut curvature },
             #[inline(always)]
-            || self.score(rows.y, Scores { slope: &mut slope, curvature: &mut curvature }),
+            |scores| self.score(rows.y, scores),
         );
         (slope, curvature)
     }

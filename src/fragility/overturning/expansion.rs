@@ -24,7 +24,7 @@ use crate::statistics::derivatives::Scores;
 use crate::statistics::design::{Design, Rows, triangle_place};
 use crate::statistics::link::{Link, ln_probability_series};
 use crate::statistics::newton::Objective;
-use crate::wide::widest;
+use crate::wide::{widest, widest_on};
 
 /// The degree of the polynomial.
 const ORDER: usize = 6;
@@ -75,11 +75,12 @@ impl Series {
         let indices = rows.indices(self.fitted.as_slice());
         let (mut values, mut slopes, mut curvatures) =
             (indices.clone(), indices.clone(), vec![0.0; indices.len()]);
-        widest(
+        widest_on(
+            (&mut values, Scores { slope: &mut slopes, curvature: &mut curvatures }),
             #[inline(always)]
-            || {
-                self.link.ln_probabilities(rows.y, &mut values);
-                self.link.scores(rows.y, Scores { slope: &mut slopes, curvature: &mut curvatures });
+            |(values, scores)| {
+                self.link.ln_probabilities(rows.y, values);
+                self.link.scores(rows.y, scores);
             },
         );
         let of_case = |case: usize| {
