@@ -7,6 +7,7 @@ use crate::motion::IntensityMeasures;
 use crate::resampling::Sizes;
 use crate::rocking::Outcome;
 use crate::statistics::columns::{BLOCK, Columns, Scratch};
+use crate::statistics::spread::Spread;
 
 /// A case among others.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -134,21 +135,14 @@ impl CaseTable {
         sizes
     }
 
-    /// All of them, in memory.
-    pub fn to_vec(&self) -> Vec<Case> {
-        let mut all = Vec::with_capacity(self.len());
-        self.each(|some| some.to_vec(), |some| all.extend(some.into_iter().map(|placed| placed.case)));
-        all
-    }
-
-    /// The cell of each.
-    pub fn cells(&self) -> Vec<usize> {
-        self.columns.column(WIDTH - 2).into_iter().map(|cell| cell as usize).collect()
-    }
-
-    /// The cluster of each.
-    pub fn clusters(&self) -> Vec<usize> {
-        self.columns.column(WIDTH - 1).into_iter().map(|cluster| self.cluster(cluster)).collect()
+    /// All of them, or of more than `most` some that are spread over all: of tables of one length the same rows.
+    pub fn spread(&self, most: usize) -> Vec<Placed> {
+        let mut spread = Spread::new(most);
+        self.each(
+            |some| some.to_vec(),
+            |some: Vec<Placed>| some.into_iter().for_each(|case| spread.push(case)),
+        );
+        spread.into_kept()
     }
 
     fn placed(&self, first: usize, columns: &[&[f64]]) -> Vec<Placed> {

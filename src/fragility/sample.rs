@@ -10,6 +10,7 @@ use crate::statistics::binary::as_numbers;
 use crate::statistics::columns::Columns;
 use crate::statistics::design::Design;
 use crate::statistics::regression::{LinearFit, RegressionError, regress};
+use crate::statistics::spread::is_among;
 
 /// The cases of a regression or a curve that have all its measures.
 #[derive(Debug)]
@@ -26,8 +27,6 @@ pub const CLUSTER: usize = 1;
 pub const MANY: usize = 20;
 /// Of more cases than these, some will do to see how clusters differ: what is known of that hangs on how many clusters there are.
 const ENOUGH: usize = 1 << 14;
-/// Steps of this share of a turn come to no case, cell or cluster more often than to another, however these follow each other.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl Sample {
     /// Of an event; `event` says whether it happened, or that a case does not count.
@@ -115,7 +114,7 @@ impl Sample {
             return None;
         }
         let of_block = |first: usize, columns: &[&[f64]]| -> Vec<Vec<f64>> {
-            let is_kept = |case: &usize| ((first + case) as f64 * GOLDEN).fract() < share;
+            let is_kept = |case: &usize| is_among(first + case, share);
             let kept: Vec<usize> = (0..columns[0].len()).filter(is_kept).collect();
             columns.iter().map(|column| kept.iter().map(|&case| column[case]).collect()).collect()
         };

@@ -154,7 +154,10 @@ pub struct Ranking {
 pub struct Group {
     pub suite: Option<String>,
     pub structure: Structure,
+    /// All of them, or of very many some that are spread over all.
     pub responses: Vec<ReportResponse>,
+    /// How many more there are.
+    pub not_drawn: usize,
     /// Regressions of the demand on one measure of Eq. 13 each.
     pub univariate: Vec<Regression>,
     /// The two planes: below the transition and from there on.

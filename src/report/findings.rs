@@ -283,6 +283,15 @@ fn own_doubts(data: &ReportData) -> Vec<String> {
             regressions().count()
         ));
     }
+    let not_drawn: usize = data.groups.iter().map(|group| group.not_drawn).sum();
+    if not_drawn > 0 {
+        let drawn: usize = data.groups.iter().map(|group| group.responses.len()).sum();
+        doubts.push(format!(
+            "Figures show {} of {} responses, spread over all of them; the table of outcomes counts all.",
+            number::count(drawn),
+            number::count(drawn + not_drawn)
+        ));
+    }
     if data.left_out > 0 {
         doubts.push(format!(
             "{} pairs of structure and motions are not drawn; --groups, --suite and --structure choose others.",

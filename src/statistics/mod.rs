@@ -26,6 +26,7 @@ pub(crate) mod regression;
 pub(crate) mod search;
 pub(crate) mod separation;
 pub(crate) mod sorted;
+pub(crate) mod spread;
 
 pub use binary::Estimator;
 pub use binary::{BinaryError, BinaryFit, binary_regression};

@@ -29,3 +29,7 @@ pub use transfer::{Curve, CurveForm, CurveSubject};
 pub use universality::{BesideOwn, Transfer, Verdict};
 pub use validation::{Forecast, Forecasts};
 pub use validation::{Validation, calibration_in_the_large, calibration_slope, wilson_limits};
+
+/// Cases that a study takes in all; of more some that are spread over them. How sure its answers are hangs on how many cells or
+/// earthquakes there are.
+pub const MOST_CASES: usize = 1 << 20;

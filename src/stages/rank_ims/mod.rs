@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 use super::fit_pex::TransitionAt;
 use super::simulate::Simulate;
 use super::synthesize_motions::SynthesizeMotions;
+use crate::fragility::{Case, Placed};
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
@@ -114,15 +115,20 @@ impl RankIms {
 }
 
 /// The measures of a group that its motions have besides those of Eq. 13.
-fn further(group: &Group, rows: &[usize], motions: &MotionMeasures) -> Vec<FurtherMeasure> {
+fn further(
+    group: &Group,
+    placed: &[Placed],
+    rows: &[usize],
+    motions: &MotionMeasures,
+) -> Vec<FurtherMeasure> {
     let structure = group.structure_of();
     let measures = motions.further.iter().map(|measure| FurtherMeasure {
         name: measure.name.clone(),
-        ln: rows
+        ln: placed
             .iter()
-            .enumerate()
-            .map(|(case, &row)| {
-                let value = measure.quantity.dimensionless(measure.values[row]?, &structure(case));
+            .map(|case| {
+                let value = measure.values[rows[case.row]]?;
+                let value = measure.quantity.dimensionless(value, &structure(case.row));
                 Some(value).filter(|value| *value > 0.0).map(f64::ln)
             })
             .collect(),
@@ -235,10 +241,12 @@ impl Stage for RankIms {
         })?;
         let mut rows_of = rows_of.into_iter();
         let mut samples: Vec<(&Group, RankingSample)> = Vec::new();
-        for group in &groups {
+        for (group, placed) in groups.iter().zip(groups::spread(&groups, console)) {
             let rows = rows_of.next().transpose()?.unwrap_or_default();
-            let further = motions.as_ref().map_or(Vec::new(), |motions| further(group, &rows, motions));
-            let (cases, clusters) = (group.cases.to_vec(), group.cases.clusters());
+            let further =
+                motions.as_ref().map_or(Vec::new(), |motions| further(group, &placed, &rows, motions));
+            let (cases, clusters): (Vec<Case>, Vec<usize>) =
+                placed.iter().map(|placed| (placed.case, placed.cluster)).unzip();
             let sample = |&target: &Target| {
                 let limit_state = self.options.limit_state;
                 (group, RankingSample::new(target, &cases, &clusters, &further, limit_state))

@@ -5,9 +5,13 @@ use super::ReportOptions;
 use crate::pipeline::UsageError;
 use crate::report::data::{Group, ReportResponse, Summary};
 use crate::rocking::Outcome;
+use crate::statistics::spread::Spread;
 use crate::table::responses::{RESPONSES, ResponseCase};
 use crate::table::row::Row;
 use crate::table::store::reader::Batches;
+
+/// Responses of a suite and structure that the figures show.
+const MOST_DRAWN: usize = 1 << 17;
 
 /// The responses of the suites and structures that are to be drawn, what came of all that are asked for, and how many pairs
 /// of both are not drawn.
@@ -22,7 +26,11 @@ pub fn read(
             sorted.add(&row, options);
         }
     }
-    let Sorted { mut groups, names, summaries, .. } = sorted;
+    let Sorted { mut groups, drawn, names, summaries, .. } = sorted;
+    for (group, drawn) in groups.iter_mut().zip(drawn) {
+        group.not_drawn = drawn.passed_over();
+        group.responses = drawn.into_kept();
+    }
     if groups.is_empty() {
         let known =
             names.iter().map(|(suite, structure)| format!("{} {structure}", suite.as_deref().unwrap_or("-")));
@@ -44,6 +52,8 @@ type Name = (Option<Arc<str>>, Arc<str>);
 #[derive(Default)]
 struct Sorted {
     groups: Vec<Group>,
+    /// The responses of each, to be drawn.
+    drawn: Vec<Spread<ReportResponse>>,
     /// Of all groups of the file; those that are shown first, in the same order as `groups`.
     names: Vec<Name>,
     /// What came of them, in the same order; nothing of those that are not asked for.
@@ -63,13 +73,8 @@ impl Sorted {
             let above = |limit: f64| usize::from(case.outcome == Outcome::SafeRocking && case.edp > limit);
             summary.exceeded = self.limit.map(|limit| summary.exceeded.unwrap_or(0) + above(limit));
         }
-        let Some(group) = self.groups.get_mut(place) else { return };
-        group.responses.push(ReportResponse {
-            case,
-            pga_m_s2: row.pga_m_s2,
-            pgv_m_s: row.pgv_m_s,
-            tp_s: row.tp_s,
-        });
+        let Some(drawn) = self.drawn.get_mut(place) else { return };
+        drawn.push(ReportResponse { case, pga_m_s2: row.pga_m_s2, pgv_m_s: row.pgv_m_s, tp_s: row.tp_s });
     }
 
     /// The place of the suite and structure of a response; those that are drawn come first.
@@ -101,10 +106,12 @@ impl Sorted {
             suite,
             structure: row.structure(),
             responses: Vec::new(),
+            not_drawn: 0,
             univariate: Vec::new(),
             planes: None,
             curves: Vec::new(),
         });
+        self.drawn.push(Spread::new(MOST_DRAWN));
         self.names.insert(index, name);
         self.summaries.insert(index, summary);
         index

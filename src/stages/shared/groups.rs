@@ -6,10 +6,12 @@ use std::sync::Arc;
 use anyhow::anyhow;
 use rayon::prelude::*;
 
-use crate::fragility::{Case, CaseTable, Clusters, JointPeaks, SharedBy};
+use crate::fragility::{Case, CaseTable, Clusters, JointPeaks, Placed, SharedBy};
+use crate::pipeline::console::Console;
 use crate::rocking::Block;
 use crate::rocking::Structure;
 use crate::statistics::columns::{Columns, Scratch};
+use crate::studies::MOST_CASES;
 use crate::table::TableError;
 use crate::table::ida::IDA_STRIPES;
 use crate::table::responses::{RESPONSES, ResponseCase};
@@ -72,6 +74,18 @@ impl Group {
             _ => first.clone(),
         }
     }
+}
+
+/// The cases of each group that a study takes, and says so where these are not all.
+pub fn spread(groups: &[Group], console: &Console) -> Vec<Vec<Placed>> {
+    let spread = |group: &Group| group.cases.spread(MOST_CASES / groups.len());
+    let cases: Vec<Vec<Placed>> = groups.iter().map(spread).collect();
+    let (all, taken): (usize, usize) =
+        (groups.iter().map(|group| group.cases.len()).sum(), cases.iter().map(Vec::len).sum());
+    if taken < all {
+        console.note(&format!("{taken} of {all} responses are taken, spread over all of them"));
+    }
+    cases
 }
 
 /// The groups of a responses file, or of the stripes of ida, in the order in which they first appear.

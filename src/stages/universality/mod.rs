@@ -12,9 +12,7 @@ use super::shared::fits::ModelForm;
 use super::shared::groups::{self, Group};
 use super::shared::uncertainty::LIMIT_STATE;
 use super::simulate::Simulate;
-use crate::fragility::Case;
-use crate::fragility::Event;
-use crate::fragility::Measure;
+use crate::fragility::{Case, Event, Measure, Placed};
 use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
@@ -75,6 +73,8 @@ struct SuiteOfGroups<'a> {
     groups: Vec<&'a Group>,
     /// The cases of each.
     cases: Vec<Vec<Case>>,
+    /// The cell of each motion; where all share one, each is its own.
+    cells: Vec<usize>,
     reference: usize,
 }
 
@@ -126,7 +126,11 @@ impl Universality {
     }
 
     /// The groups of each suite, which must have the reference and the same motions throughout.
-    fn suites<'a>(&self, groups: &'a [Group]) -> anyhow::Result<Vec<SuiteOfGroups<'a>>> {
+    fn suites<'a>(
+        &self,
+        groups: &'a [Group],
+        placed: &[Vec<Placed>],
+    ) -> anyhow::Result<Vec<SuiteOfGroups<'a>>> {
         let mut names: Vec<&Option<String>> = Vec::new();
         for group in groups {
             if !names.contains(&&group.suite) {
@@ -134,7 +138,8 @@ impl Universality {
             }
         }
         let of = |name: &Option<String>| {
-            let groups: Vec<&Group> = groups.iter().filter(|group| group.suite == *name).collect();
+            let of_suite = groups.iter().zip(placed).filter(|(group, _)| group.suite == *name);
+            let (groups, placed): (Vec<&Group>, Vec<&Vec<Placed>>) = of_suite.unzip();
             let place = groups.iter().position(|group| group.structure == self.options.reference);
             let file = self.input.name().display();
             let Some(reference) = place else {
@@ -145,16 +150,17 @@ impl Universality {
                     known.join(", ")
                 )));
             };
-            let cells = groups[reference].cases.cells();
-            if let Some(other) = groups.iter().find(|group| group.cases.cells() != cells) {
+            let own = &groups[reference].cases;
+            if let Some(other) = groups.iter().find(|group| !group.cases.has_cells_of(own)) {
                 anyhow::bail!(
                     "{file}: '{}' has responses to other motions than '{}'; expected the output of one simulate",
                     other.structure,
                     self.options.reference
                 );
             }
-            let cases = groups.iter().map(|group| group.cases.to_vec()).collect();
-            Ok(SuiteOfGroups { groups, cases, reference })
+            let cases_of = |placed: &&Vec<Placed>| placed.iter().map(|placed| placed.case).collect();
+            let (cases, cells) = (placed.iter().map(cases_of).collect(), cells(placed[reference]));
+            Ok(SuiteOfGroups { groups, cases, cells, reference })
         };
         names.into_iter().map(of).collect()
     }
@@ -162,19 +168,19 @@ impl Universality {
     /// Holds all structures against the reference.
     fn judge(&self, suite: &SuiteOfGroups, event: Event) -> anyhow::Result<Judgement> {
         let (subject, reference) = (self.subject(event), suite.groups[suite.reference]);
-        let cells = cells(reference);
         let pooled = pooled(&subject, suite);
         let row = |(k, group): (usize, &&Group)| {
-            let transfer = Transfer::new(&subject, &suite.cases[suite.reference], &suite.cases[k], &cells)
-                .map_err(|status| {
-                    anyhow::anyhow!(
-                        "{}: the curve of {} of '{}' is {}; choose another --reference",
-                        self.input.name().display(),
-                        event.as_str(),
-                        reference.structure,
-                        status.as_str()
-                    )
-                })?;
+            let transfer =
+                Transfer::new(&subject, &suite.cases[suite.reference], &suite.cases[k], &suite.cells)
+                    .map_err(|status| {
+                        anyhow::anyhow!(
+                            "{}: the curve of {} of '{}' is {}; choose another --reference",
+                            self.input.name().display(),
+                            event.as_str(),
+                            reference.structure,
+                            status.as_str()
+                        )
+                    })?;
             let log_score = |fit: &Result<PooledFit, FitStatus>| fit.as_ref().ok()?.log_scores[k];
             let log_scores = [0, 1, 2, 3].map(|terms: usize| log_score(&pooled[terms]));
             let (suite, structure) = (group.suite.as_deref(), group.structure());
@@ -212,9 +218,8 @@ impl Universality {
     }
 }
 
-/// The cell of each motion; where all share one, each is its own.
-fn cells(group: &Group) -> Vec<usize> {
-    let cells = group.cases.cells();
+fn cells(placed: &[Placed]) -> Vec<usize> {
+    let cells: Vec<usize> = placed.iter().map(|placed| placed.cell).collect();
     let one_cell = cells.iter().all(|&cell| cell == cells[0]);
     if one_cell { (0..cells.len()).collect() } else { cells }
 }
@@ -285,7 +290,7 @@ impl Stage for Universality {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let groups = groups::read(&self.input)?;
-        let suites = self.suites(&groups)?;
+        let suites = self.suites(&groups, &groups::spread(&groups, console))?;
         let mut structures = 0;
         let mut writer = TableWriter::create(self.out.clone(), &UNIVERSALITY, provenance.clone())?;
         let mut pooled_writer = TableWriter::create(self.pooled_target(), &POOLED, provenance.clone())?;
