@@ -97,7 +97,7 @@ def main():
             fits = ("--pex", folder / "pex.parquet", "--pro", folder / "pro.parquet")
             commands = {
                 stage: (given.rockfrag, "--quiet", stage, "--in", folder if stage == "report" else file)
-                + (fits if stage == "validate" else ())
+                + (fits if stage == "validate" else ("--reference", "s0") if stage == "universality" else ())
                 for stage in given.stages
             }
             python = lambda code: (sys.executable, "-c", f"MEASURES = {MEASURES}\n{code}", file)

@@ -1,7 +1,6 @@
-"""Holds the surface against 60 structures and all cells that it has not seen, both at once, and against records:
-python judge.py MOTIONS EQUIPMENT RECORDS[,RECORDS...] OUT.json RESPONSES..."""
+"""Tests fits like the surface on 60 structures and all cells that they have not seen, both at once:
+python judge.py MOTIONS EQUIPMENT OUT.json RESPONSES..."""
 
-import itertools
 import json
 import sys
 
@@ -97,11 +96,13 @@ def coverage(index, happened, unit, spread):
     return out
 
 
-def equipment_curves(cases):
+def equipment_curves(equipment, motions):
     """The forms of the paper, fitted to its equipment: hybrid probit of overturning, planes of the demand."""
     from scipy.optimize import minimize
     from scipy.special import log_ndtr
 
+    cases = of.read([equipment], motions)
+    cases = of.some(cases, (cases["suite"] == 1) & (cases["motion_id"] < 4200))
     lines = lambda c: np.stack([np.ones_like(c["im4"]), np.log(c["im4"]), np.log(c["im3"])], axis=1)
     d, y = lines(cases), cases["overturned"]
     pro = minimize(lambda b: -log_ndtr(np.where(y, 1, -1) * (d @ b)).sum(), np.array([0.0, 1.0, -1.0]), method="BFGS").x
@@ -123,15 +124,13 @@ def equipment_curves(cases):
 
 
 def main():
-    motions, equipment, records, out, *files = sys.argv[1:]
+    motions, equipment, out, *files = sys.argv[1:]
     train = of.read(files, motions, 0.08)
     train = of.some(train, train["structure"] < FIRST_TEST)
     test = of.read(files[-1:], motions)
     test = of.some(test, test["structure"] >= FIRST_TEST)
     knots = of.knots_of(train)
-    paper = of.read([equipment], motions)
-    paper = of.some(paper, (paper["suite"] == 1) & (paper["motion_id"] < 4200))
-    paper_probability = equipment_curves(paper)
+    paper_probability = equipment_curves(equipment, motions)
     index = {limit: np.full(len(test["im4"]), np.nan) for limit in EVENTS}
     starts = (None, None)
     for fold in range(FOLDS):
@@ -178,21 +177,6 @@ def main():
                 said[f"coverage {name}, spread {spread}"] = coverage(eta, happened, unit, spread)
         result[NAMES[limit]] = said
         print(NAMES[limit], json.dumps(said, indent=1), flush=True)
-    final = fit.both(train, knots, None, starts)
-    result["records"] = {}
-    seen = {file: of.read([file], None) for file in records.split(",")}
-    for (file, seen), limit in itertools.product(seen.items(), EVENTS):
-        cases = of.some(seen, np.ones(len(seen["im4"]), bool) if limit is None else ~seen["overturned"])
-        happened = event(cases, limit)
-        p = 1 / (1 + np.exp(-(final[0] if limit is None else final[1]).index(of.columns_of(cases, limit or 0.2))))
-        q = np.clip(paper_probability(cases, limit), 1e-6, 1 - 1e-6)
-        score = lambda p: float(np.where(happened, np.log(p), np.log1p(-p)).mean())
-        result["records"][f"{file}: {NAMES[limit]}"] = {
-            "n": len(happened), "seen": int(happened.sum()), "expected": float(p.sum()), "log_score": score(np.clip(p, 1e-6, 1 - 1e-6)),
-            "share": score(np.full(len(p), happened.mean())), "equipment expected": float(q.sum()), "equipment log_score": score(q),
-            "reliability": reliability(p, happened),
-        }  # fmt: skip
-    print(json.dumps(result["records"], indent=1))
     json.dump(result, open(out, "w"), indent=1)
 
 

@@ -23,7 +23,8 @@ call simulate --in motions.parquet --structures part.csv --out equipment.parquet
 python3 "$here/fit.py" "$root/data/universal.csv" "$root/tests/reference/fits/universal_answers.csv" motions.parquet responses_?.parquet
 python3 "$here/peaks.py" "$root/data/universal.csv" rock.parquet soil.parquet
 
-# How well it does, for docs/universal.md; with records.parquet of scripts/near_fault_records.py in the folder, on these too:
-#     simulate --in records.parquet --structures structures.csv --out records_responses.parquet
-#     python3 judge.py motions.parquet equipment.parquet records_responses.parquet judged.json responses_?.parquet
+# How well it does, for docs/universal.md; on records with a file of scripts/near_fault_records.py:
+#     python3 judge.py motions.parquet equipment.parquet judged.json responses_?.parquet
 #     python3 compare.py motions.parquet responses_?.parquet
+#     simulate --in records.parquet --structures structures.csv --out records_responses.parquet
+#     python3 records.py motions.parquet equipment.parquet records_responses.parquet

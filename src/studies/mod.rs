@@ -32,4 +32,4 @@ pub use validation::{Validation, calibration_in_the_large, calibration_slope, wi
 
 /// Cases that a study takes in all; of more some that are spread over them. How sure its answers are hangs on how many cells or
 /// earthquakes there are.
-pub const MOST_CASES: usize = 1 << 20;
+pub const MOST_CASES: usize = 1 << 19;

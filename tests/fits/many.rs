@@ -139,3 +139,14 @@ fn curves_of_many_cases_are_those_of_few() {
 fn f32_of(value: f64) -> f32 {
     value as f32
 }
+
+#[test]
+fn some_of_many_cases_are_spread_over_all_clusters() {
+    let some = table(COPIES).spread(40_000);
+    assert!((20_000..=40_000).contains(&some.len()), "{} cases", some.len());
+    assert!(some.is_sorted_by(|a, b| a.row < b.row));
+    let mut of_cluster = [0.0; 40];
+    some.iter().for_each(|case| of_cluster[case.cluster] += 40.0 / some.len() as f64);
+    assert!(of_cluster.iter().all(|share| (share - 1.0).abs() < 0.02), "{of_cluster:?}");
+    assert_eq!(table(1).spread(40_000).len(), CASES);
+}

@@ -150,6 +150,12 @@ impl Universality {
                     known.join(", ")
                 )));
             };
+            if groups.len() == 1 {
+                return Err(UsageError::because(format!(
+                    "{file}: '{}' is its only structure; expected others to test its curves on",
+                    self.options.reference
+                )));
+            }
             let own = &groups[reference].cases;
             if let Some(other) = groups.iter().find(|group| !group.cases.has_cells_of(own)) {
                 anyhow::bail!(
