@@ -3,7 +3,7 @@
     python flat.py rockfrag responses.parquet --rows 1e5 1e6 1e7 [--groups 60] [--statsmodels 1e6]
 
 The responses are those of one structure under one suite, again and again: each copy has motions a few percent stronger or
-weaker, and numbers of its own. With --groups rows go to so many structures in turns. DuckDB reads the columns that the fits read and
+weaker, and numbers of its own. With --groups copies go to so many structures in turns. DuckDB reads the columns that the fits read and
 takes mean and covariance of their logarithms; statsmodels fits the curves alone (seven probits, no limits and tests), up to so many rows.
 """
 
@@ -60,7 +60,7 @@ def replicate(source, out, rows, groups):
             column[name] = pa.array(changed, from_pandas=True)
         column["motion_id"] = pa.array(numbers)
         if groups > 1:
-            column["structure"] = pa.array([f"s{k % groups}" for k in numbers])
+            column["structure"] = pa.array([f"s{first // table.num_rows % groups}"] * len(some))
         waiting.append(pa.table(list(column.values()), schema=schema))
         if len(waiting) * table.num_rows >= 100_000 or first + len(some) == rows:
             writer.write_table(pa.concat_tables(waiting), row_group_size=len(waiting) * table.num_rows)
