@@ -92,7 +92,7 @@ def path(name: str, given: object) -> str:
 def floats(name: str, given: npt.ArrayLike | None, expected: str = "numbers", *, may_be_bool: bool = False) -> Floats:
     """Numbers as an array of their own; NaN where one is missing (None, or NA of pandas)."""
     if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
-        raise OptionError(f"{name} has {np.ma.count_masked(given)} masked values; expected {expected}: leave them out (compressed), or fill them")
+        raise OptionError(f"{name} has {int(np.ma.getmaskarray(given).sum())} masked values; expected {expected}: leave them out (compressed), or fill them")
     try:
         array = np.asarray(given)
     except ValueError as error:

@@ -77,8 +77,8 @@ def hazard_file(given: object) -> Iterator[object]:
 
 def warn_of_sizes(intensities: object) -> None:
     """Says so where the dimensions of blocks stand in a table of intensities, whose structures go by other columns."""
-    names = getattr(intensities, "column_names", None) or getattr(intensities, "columns", ())
-    known = {name for name in names if isinstance(name, str)}
+    names: Iterable[object] = getattr(intensities, "column_names", getattr(intensities, "columns", ()))
+    known = set(map(str, names))
     if {"width", "height"} <= known and "p_rad_s" not in known:
         words = "intensities: columns width and height are not read; expected p_rad_s and alpha_rad (p and alpha of Structure.block), or"
         warnings.warn(f"{words} rockfrag.probability(width=..., height=...)", RockfragWarning, stacklevel=3)
