@@ -9,7 +9,7 @@ use rockfrag::fragility::{CurveInference, CurveModel, CurveParameter, Event, Mea
 use rockfrag::keyword::{self, Keyword};
 use rockfrag::normal;
 use rockfrag::pipeline::UsageError;
-use rockfrag::statistics::{FitStatus, Link, RegressionError, Test, least_squares, reset};
+use rockfrag::statistics::{FitStatus, Link, RegressionError, Test, is_separated, least_squares, reset};
 
 use crate::error::to_python;
 
@@ -96,6 +96,9 @@ pub fn fit_curve<'py>(
     told.set_item("brier", fit.goodness.brier)?;
     told.set_item("hosmer_lemeshow_p", p(fit.goodness.hosmer_lemeshow))?;
     told.set_item("spline_p", p(curve.spline))?;
+    let columns = vectors(&ln_im)?;
+    let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    told.set_item("separated", is_separated(&columns, happened.as_slice()?))?;
     told.set_item("few_events", curve.has_few_events())?;
     Ok(told)
 }

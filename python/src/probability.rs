@@ -18,7 +18,7 @@ use rockfrag::units::G_M_S2;
 
 use crate::error::to_python;
 
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 15] = [
     "p_nr",
     "p_ex",
     "p_ex_low",
@@ -26,6 +26,9 @@ const NAMES: [&str; 12] = [
     "p_ro",
     "p_ro_low",
     "p_ro_high",
+    "p_o",
+    "p_o_low",
+    "p_o_high",
     "p_f",
     "p_f_low",
     "p_f_high",
@@ -109,11 +112,11 @@ fn row(surface: &Surface, spec: &StructureSpec, pga_g: f64, pgv_m_s: f64) -> any
     let given = said.given_rocking;
     let [p_ex, p_ro] =
         [given.map(|given| given.p_ex), given.map(|given| given.p_ro)].map(|p| p.unwrap_or(none));
-    let p_f = said.limit_states().map_or(none, |[_, failure, _]| failure);
+    let [_, p_f, p_o] = said.limit_states().unwrap_or([none; 3]);
     let distance = surface.model().distance(&structure, &measures).map_or(f64::NAN, |(distance, _)| distance);
     let three = |Probability { value, low, high }: Probability| [value, low, high];
-    let ([ex, ex_low, ex_high], [ro, ro_low, ro_high], [f, f_low, f_high]) =
-        (three(p_ex), three(p_ro), three(p_f));
+    let ([ex, ex_low, ex_high], [ro, ro_low, ro_high]) = (three(p_ex), three(p_ro));
+    let ([o, o_low, o_high], [f, f_low, f_high]) = (three(p_o), three(p_f));
     Ok(Row {
         numbers: [
             said.p_nr,
@@ -123,6 +126,9 @@ fn row(surface: &Surface, spec: &StructureSpec, pga_g: f64, pgv_m_s: f64) -> any
             ro,
             ro_low,
             ro_high,
+            o,
+            o_low,
+            o_high,
             f,
             f_low,
             f_high,

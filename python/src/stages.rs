@@ -54,6 +54,7 @@ pub fn call(
         for stage in stages {
             // What stays in memory has no file to say how it was made.
             let provenance = Provenance::new(stage.name(), stage.parameters(), BTreeMap::new());
+            cache::warn_of_partitions(stage.as_ref(), console);
             stage.execute(&provenance, console)?;
             let Provenance { stage: name, version, parameters, .. } = provenance;
             let warnings = console.warnings.all();

@@ -323,3 +323,42 @@ def test_a_curve_keeps_what_it_was_fitted_to():
             kept[0] = 99.0
     with pytest.raises(rockfrag.OptionError, match="finite"):
         rockfrag.fit_fragility(np.where(np.arange(40) == 3, np.inf, forty["pgv_m_s"]), forty["overturned"])
+
+
+@pytest.mark.parametrize("link", ["probit", "logit", "cloglog"])
+@pytest.mark.parametrize("unit", [1e-3, 1.0, 300.0])
+def test_separated_outcomes_have_limits_by_firth_and_a_doubt(link, unit):
+    im = unit * np.geomspace(0.3, 3.0, 12)
+    with pytest.warns(RockfragWarning, match="separates the outcomes"):
+        curve = fit_fragility(im, im > unit, estimator="firth", link=link)
+    for name, value in [("beta", curve.beta), ("theta", curve.theta)]:
+        low, high = curve.profile_interval(name)
+        assert 0.0 <= low < value < high, name
+    assert not [doubt for doubt in fit_fragility(IM, OVERTURNED, estimator="firth").doubts if "separates" in doubt]
+
+
+def test_errors_of_median_and_dispersion():
+    model = sm.Probit(OVERTURNED.astype(float), design(IM)).fit(disp=False, tol=1e-12)
+    curve, (b0, b1) = fit_fragility(IM, OVERTURNED), model.params
+    gradient = curve.theta * np.array([-1.0 / b1, b0 / b1**2])
+    assert np.isclose(curve.se_theta, np.sqrt(gradient @ model.cov_params() @ gradient), rtol=1e-6)
+    assert np.isclose(curve.se_beta, model.bse[1] / b1**2, rtol=1e-6)
+    demand = fit_demand(IM, EDP, limit_state=0.1)
+    step = 1e-6
+
+    def moved(name):
+        """How theta or beta moves with each coefficient."""
+        derivatives = []
+        for k in range(2):
+            values = []
+            for side in (1.0, -1.0):
+                a, b = demand.params + side * step * np.eye(2)[k]
+                values.append(np.exp((np.log(0.1) - a) / b) if name == "theta" else demand.dispersion / b)
+            derivatives.append((values[0] - values[1]) / (2.0 * step))
+        return np.array(derivatives)
+
+    theta, beta = moved("theta"), moved("beta")
+    assert np.isclose(demand.se_theta, np.sqrt(theta @ demand.cov_params() @ theta), rtol=1e-6)
+    assert np.isclose(demand.se_beta**2, beta @ demand.cov_params() @ beta + demand.beta**2 / (2 * demand.df_resid), rtol=1e-6)
+    summary = str(fit_failure(IM, EDP, OVERTURNED, limit_state=0.1).summary())
+    assert f"{demand.se_theta:.4g}" in summary and f"{curve.se_beta:.4g}" in summary

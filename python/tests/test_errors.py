@@ -90,6 +90,8 @@ BLOCK = {"width": 0.5, "height": 2.0}
         (lambda: rockfrag.import_motions([3]), "files is 3; expected a path"),
         (lambda: rockfrag.evaluate(**BLOCK, pga=[0.5, 0.6], pgv=0.6), r"pga is \[0.5, 0.6\]; expected a finite number"),
         (lambda: rockfrag.evaluate(**BLOCK, pga=0.5), r"expected pga \(g\) and pgv \(m/s\); or intensities=TABLE"),
+        (lambda: rockfrag.evaluate(structure=rockfrag.Structure.block(0.5, 2.0), pga=0.5, pgv=0.6), "give a Structure as structures="),
+        (lambda: rockfrag.fit_fragility([True] * 40, FORTY["overturned"]), "im: case 0 is True; expected finite numbers above 0"),
         (lambda: rockfrag.evaluate(**BLOCK, hazard=3), "hazard is 3; expected a path, a table"),
         (lambda: rockfrag.evaluate(**BLOCK, hazard={"pga_g": [1, 2], "rate": [1]}), r"different lengths \(pga_g 2, rate 1\)"),
         (lambda: rockfrag.response([[1.0, 2.0]], 0.01, BLOCK), r"shape \(1, 2\); expected one motion, shape \(n,\)"),
@@ -136,3 +138,16 @@ def test_a_fit_of_nothing_says_what_is_there_and_what_would_help():
     responses = rockfrag.simulate(motions(), p=2.0, alpha=0.02, eta=0.92)
     with pytest.warns(rockfrag.RockfragWarning, match="too_few|too few"), pytest.raises(rockfrag.RockfragError, match="none of 7 curves"):
         rockfrag.fit_pro(responses)
+
+
+def test_an_unknown_argument_is_named_with_the_nearest():
+    with pytest.raises(TypeError, match="^fit_pex has no argument 'limit_stat'; did you mean 'limit_state'"):
+        rockfrag.fit_pex(motions(), limit_stat=0.2)
+    with pytest.raises(TypeError, match="^simulate has no argument 'qqq'; help"):
+        rockfrag.simulate(motions(), qqq=1)
+
+
+def test_sizes_in_a_table_of_intensities_are_not_passed_over_in_silence():
+    blocks = pl.DataFrame({"pga_m_s2": [5.0], "pgv_m_s": [0.6], "width": [0.5], "height": [2.0]})
+    with pytest.warns(rockfrag.RockfragWarning, match="intensities: columns width and height are not read.*p_rad_s and alpha_rad"):
+        rockfrag.evaluate(intensities=blocks, p=2.5, alpha=0.2, eta=0.92)

@@ -59,3 +59,32 @@ def test_answers_compare_and_travel():
     one = rockfrag.probability(**ask)
     assert one == pickle.loads(pickle.dumps(one)) and one != rockfrag.probability(**{**ask, "pgv": 0.5})
     assert isinstance(rockfrag.probability(**{**ask, "pga": 0.5}).p_f, float)
+
+
+def test_overturning_of_all_motions_is_nothing_without_rocking():
+    said = rockfrag.probability(width=0.5, height=2.0, pga=[0.1, 0.5], pgv=0.6)
+    assert said.p_o[0] == said.p_o_low[0] == said.p_o_high[0] == 0.0 and np.isnan(said.p_ro[0])
+    assert (said.p_o[1], said.p_o_low[1], said.p_o_high[1]) == (said.p_ro[1], said.p_ro_low[1], said.p_ro_high[1])
+    frame = said.to_pandas()
+    assert len(frame) == 2 and frame["p_f"].tolist() == said.p_f.tolist()
+
+
+@pytest.mark.parametrize(
+    "wrong, message",
+    [
+        ({"pga": np.ma.array([0.3, 0.5], mask=[False, True])}, "pga has 1 masked values; expected numbers"),
+        ({"pga": [True, False]}, "pga: case 0 is True; expected numbers"),
+        ({"pgv": np.array([True])}, "pgv: case 0 is True; expected numbers"),
+        ({"pga": [0.5, 0.6], "pgv": [0.5, 0.6, 0.7]}, r"shapes do not go together: pga \(2,\), pgv \(3,\)"),
+        ({"height": None}, "width without height; expected a Structure"),
+        ({"width": None, "height": None, "p": 2.0, "alpha": 0.2}, "p and alpha without eta; expected a Structure"),
+    ],
+)
+def test_what_is_no_number_or_missing_is_named(wrong, message):
+    with pytest.raises(rockfrag.OptionError, match=message):
+        rockfrag.probability(**{"width": 0.5, "height": 2.0, "pga": 0.5, "pgv": 0.6, **wrong})
+
+
+def test_no_mask_is_no_harm():
+    plain = rockfrag.probability(width=0.5, height=2.0, pga=[0.3, 0.5], pgv=0.6)
+    assert rockfrag.probability(width=0.5, height=2.0, pga=np.ma.array([0.3, 0.5]), pgv=0.6) == plain

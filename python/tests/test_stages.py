@@ -62,7 +62,8 @@ def test_words_that_types_name_are_those_of_the_command(name, tmp_path):
     [
         ("print('ray' in sys.modules, 'ray' in dir(rockfrag))", "False True"),
         ("sys.modules['ray'] = None\nprint(getattr(rockfrag, 'ray', 'none'))", "none"),
-        ("sys.modules['ray'] = None\ntry:\n    rockfrag.ray\nexcept AttributeError as error:\n    print(error)", "pip install rockfrag[ray]"),
+        ("sys.modules['ray'] = None\ntry:\n    rockfrag.ray\nexcept AttributeError as error:\n    print(error)", "pip install 'rockfrag[ray]'"),
+        ("sys.modules['ray'] = None\ntry:\n    import rockfrag.ray\nexcept ImportError as error:\n    print(error)", "rockfrag.ray needs Ray, and"),
         ("print({'matplotlib', 'polars', 'pandas', 'pyarrow', 'scipy'} & set(sys.modules))", "set()"),
     ],
 )

@@ -3,14 +3,15 @@
 use std::fs::{File, TryLockError};
 use std::path::Path;
 
-use serde_json::Value;
-
 use super::console::Console;
 use super::replace;
 use super::stage::{Stage, folder_of};
 use super::terminal::Weight;
 use crate::table::TableError;
-use crate::table::store::provenance::Provenance;
+use crate::table::store::folder::partition_of;
+use crate::table::store::partition::Partition;
+use crate::table::store::provenance::{self, Provenance};
+use crate::table::store::source::Source;
 
 /// What a run may do that it does not do by itself.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -114,12 +115,32 @@ pub fn run(stage: &dyn Stage, may: May, console: &Console) -> anyhow::Result<()>
     let start = std::time::Instant::now();
     // What this stage warns of stands in its files too.
     let console = &Console { warnings: planned.warnings.clone(), ..console.clone() };
+    warn_of_partitions(stage, console);
     let summary = stage.execute(&planned, console)?;
     let took_s = start.elapsed().as_secs_f64();
     if !summary.is_empty() {
         console.stage(name, &format!("{summary} in {took_s:.2} s"), Weight::Plain);
     }
     Ok(())
+}
+
+/// Says so where a stage that puts together all that it reads is given a partition.
+pub fn warn_of_partitions(stage: &dyn Stage, console: &Console) {
+    if Partition::among(&stage.parameters()).is_some() {
+        return;
+    }
+    for (_, source) in stage.inputs() {
+        if let Source::Path(path) = source
+            && path.is_file()
+            && let Ok(Some(partition)) = partition_of(&path)
+            && partition.of > 1
+        {
+            let (path, folder) = (path.display(), folder_of(&path).display());
+            console.warn(&format!(
+                "{path} is partition {partition}, counted from 0; give the folder, {folder}, to read all"
+            ));
+        }
+    }
 }
 
 /// The first thing in which two ways of making a file differ.
@@ -130,22 +151,14 @@ fn difference(before: &Provenance, now: &Provenance) -> String {
     if before.version != now.version {
         return format!("made by version {}, this is {}", before.version, now.version);
     }
-    if let (Value::Object(old), Value::Object(new)) = (&before.parameters, &now.parameters)
-        && let Some((name, value)) = new.iter().find(|(name, value)| old.get(*name) != Some(value))
-    {
-        let old = old.get(name).map_or("nothing".to_string(), short);
-        return format!("{name} changed from {old} to {}", short(value));
+    if let Some((name, old, new)) = provenance::difference(&before.parameters, &now.parameters) {
+        return format!("{name} changed from {old} to {new}");
     }
     let changed = now.inputs.iter().find(|(role, content)| before.inputs.get(*role) != Some(content));
     match changed {
         Some((role, _)) => format!("the {role} changed"),
         None => "its parameters changed".to_string(),
     }
-}
-
-fn short(value: &Value) -> String {
-    let text = value.to_string();
-    if text.chars().count() > 60 { format!("{}...", text.chars().take(57).collect::<String>()) } else { text }
 }
 
 fn file_name(path: &Path) -> String {

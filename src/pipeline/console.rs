@@ -42,6 +42,20 @@ pub struct Console {
     pub expected: Option<Warnings>,
 }
 
+/// What is to be said of a suite and structure.
+pub struct OfGroup {
+    /// In which `{}` stands for the group.
+    pub words: String,
+    pub group: String,
+    /// What differs from group to group, at the end.
+    pub counts: String,
+}
+
+/// Of more suites and structures than this a warning tells how many they are,
+const MOST_GROUPS: usize = 10;
+/// and names these first ones.
+const NAMED: usize = 3;
+
 /// Progress through the steps of a stage.
 pub struct Progress {
     bar: ProgressBar,
@@ -99,6 +113,28 @@ impl Console {
         }
         for (reason, what) in by_reason {
             self.warn(&format!("{reason}: {}", what.join(", ")));
+        }
+    }
+
+    /// The same of suites and structures: one line for all where it would be many.
+    pub fn warn_each_group(&self, warnings: impl Iterator<Item = (OfGroup, String)>) {
+        let warnings: Vec<(OfGroup, String)> = warnings.collect();
+        let mut groups: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+        for (OfGroup { words, group, .. }, _) in &warnings {
+            let known = groups.entry(words).or_default();
+            if !known.contains(&group.as_str()) {
+                known.push(group);
+            }
+        }
+        let are_few = |words: &str| groups[words].len() <= MOST_GROUPS;
+        let few = warnings.iter().filter(|(reason, _)| are_few(&reason.words));
+        self.warn_each(few.map(|(OfGroup { words, group, counts }, what)| {
+            (words.replace("{}", group) + counts, what.clone())
+        }));
+        for (words, groups) in groups.iter().filter(|(words, _)| !are_few(words)) {
+            let words = words.replace("{}", &format!("{} suites and structures", groups.len()));
+            let (named, more) = (groups[..NAMED].join("; "), groups.len() - NAMED);
+            self.warn(&format!("{words}: {named}; and {more} more (the rows of the file tell of each)"));
         }
     }
 

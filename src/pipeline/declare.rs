@@ -203,6 +203,9 @@ impl Output {
     }
 }
 
+/// The option that has a stage do a part of its work only.
+const PARTITION: &str = "partition";
+
 /// The flag of outputs.
 pub const OUT: &str = "out";
 
@@ -379,6 +382,13 @@ impl<S: Declare> AnySection for Section<S> {
     }
 
     fn stages_in(&self, run: &Path, seed: Option<u64>) -> anyhow::Result<Vec<Box<dyn Stage>>> {
+        if object(&self.options)?.get(PARTITION).is_some_and(|partition| !partition.is_null()) {
+            let name = S::NAME;
+            return Err(UsageError::because(format!(
+                "{name} has a partition, and a run makes whole files; take it out of the pipeline file, and name it where a stage is \
+                 called: rockfrag --config FILE {name} --partition i/n"
+            )));
+        }
         self.stages(&self.files(Some(run), None), seed)
     }
 }

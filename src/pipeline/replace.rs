@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::UsageError;
 use super::stage::{Stage, folder_of};
+use crate::table::TableError;
 use crate::table::store::folder::parquet_files;
 use crate::table::store::partition::Partition;
 use crate::table::store::provenance::Provenance;
@@ -13,6 +14,9 @@ use crate::table::store::source::Source;
 
 /// The owner of a file that says nothing of rockfrag.
 pub const FOREIGN: &str = "a file that rockfrag did not make";
+
+/// Of one that was cut off or damaged.
+const UNREADABLE: &str = "not readable, and so nobody knows who made it";
 
 /// The bytes at the start of a text by which a stage knows it for its own.
 const HEAD: u64 = 2048;
@@ -85,6 +89,7 @@ fn other_owner(stage: &dyn Stage, target: &Path, there: &Metadata) -> Option<Str
     match stage.recorded(target) {
         Ok(Some(recorded)) if recorded.provenance.stage == stage.name() => None,
         Ok(Some(recorded)) => Some(format!("made by {}", recorded.provenance.stage)),
+        Err(TableError::NotParquet { .. }) => Some(UNREADABLE.to_string()),
         _ if head(target).is_some_and(|head| stage.is_own_text(&head)) => None,
         _ => Some(FOREIGN.to_string()),
     }

@@ -13,7 +13,7 @@ use super::simulate::Simulate;
 use crate::fragility::CaseTable;
 use crate::fragility::demand::{Regression, RegressionOptions, ScanPoint};
 use crate::keyword::Keyword;
-use crate::pipeline::console::Console;
+use crate::pipeline::console::{Console, OfGroup};
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{check, check_bound, defaults, from_scalar};
 use crate::pipeline::stage::Stage;
@@ -218,7 +218,7 @@ impl Stage for FitPex {
             scans.extend(fitted.scan.into_iter().map(scan));
         }
         let missing = rows.iter().filter(|row| row.regression.status() != FitStatus::Ok);
-        console.warn_each(missing.map(|row| (reason(row), measures(&row.regression))));
+        console.warn_each_group(missing.map(|row| (reason(row), measures(&row.regression))));
         let fitted = rows.iter().filter(|row| row.regression.status() == FitStatus::Ok).count();
         ensure!(
             fitted > 0,
@@ -246,10 +246,11 @@ fn measures(regression: &Regression) -> String {
 }
 
 /// What is wrong with a regression, for a message.
-fn reason(GroupRegression { suite, structure, regression, .. }: &GroupRegression) -> String {
+fn reason(GroupRegression { suite, structure, regression, .. }: &GroupRegression) -> OfGroup {
     let suite = suite.as_deref().unwrap_or("the motions");
-    match regression.status() {
-        FitStatus::Falling => format!("the demand for {suite}, {structure}, falls with the measure"),
-        status => format!("no fit of the demand for {suite}, {structure}: {}", status.as_str()),
-    }
+    let words = match regression.status() {
+        FitStatus::Falling => "the demand for {}, falls with the measure".to_string(),
+        status => format!("no fit of the demand for {{}}: {}", status.as_str()),
+    };
+    OfGroup { words, group: format!("{suite}, {structure}"), counts: String::new() }
 }

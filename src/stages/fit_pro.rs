@@ -13,7 +13,7 @@ use super::simulate::Simulate;
 use crate::fragility::overturning::{BentFit, Curve, CurveOptions, Gap, LEAST_EVENTS, Pair};
 use crate::fragility::{CaseTable, CurveModel, Event};
 use crate::keyword::Keyword;
-use crate::pipeline::console::Console;
+use crate::pipeline::console::{Console, OfGroup};
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
 use crate::pipeline::stage::Stage;
@@ -155,10 +155,10 @@ impl Stage for FitPro {
             rows.extend(curves.into_iter().map(row));
         }
         let missing = rows.iter().filter(|row| !row.curve.status().is_usable());
-        console.warn_each(missing.map(|row| (reason(row), measures(&row.curve))));
-        console.warn_each(rows.iter().filter_map(doubt));
+        console.warn_each_group(missing.map(|row| (reason(row), measures(&row.curve))));
+        console.warn_each_group(rows.iter().filter_map(doubt));
         let few = rows.iter().filter(|row| row.curve.has_few_events());
-        console.warn_each(few.map(|row| (few_events(row), measures(&row.curve))));
+        console.warn_each_group(few.map(|row| (few_events(row), measures(&row.curve))));
         ensure!(rows.iter().any(|row| row.curve.status().is_usable()), nothing_fits(&rows));
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PRO_BOOTSTRAP, provenance.clone())?;
@@ -185,13 +185,13 @@ fn measures(curve: &Curve) -> String {
 }
 
 /// What speaks against a curve that there is, for a message.
-fn doubt(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> Option<(String, String)> {
-    let suite = suite.as_deref().unwrap_or("the motions");
+fn doubt(row: &GroupCurve) -> Option<(OfGroup, String)> {
+    let curve = &row.curve;
     let (event, of) = (curve.event.as_str(), measures(curve));
     let fit = curve.fit.as_ref().ok()?;
     match curve.status() {
         FitStatus::Misfit => Some((
-            format!("straight curves of {event} for {suite}, {structure}, fit badly (tests reject them)"),
+            of_group(row, format!("straight curves of {event} for {{}}, fit badly (tests reject them)")),
             match (&curve.bent, curve.bent_answer()) {
                 (Some(BentFit { gap: Gap { straight, bent }, .. }), Some(_)) => {
                     format!("{of} ({straight:.2} for {bent:.2}; the bent one answers)")
@@ -205,8 +205,11 @@ fn doubt(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> Option<(Str
             },
         )),
         FitStatus::FarMedian => Some((
-            format!(
-                "medians of {event} for {suite}, {structure}, lie far outside of the data, so that these measures say little"
+            of_group(
+                row,
+                format!(
+                    "medians of {event} for {{}}, lie far outside of the data, so that these measures say little"
+                ),
             ),
             format!("{of} (by a factor of {})", factor(fit.factor_of_median())),
         )),
@@ -236,29 +239,35 @@ fn nothing_fits(rows: &[GroupCurve]) -> String {
 }
 
 /// Which limits to take where events are few, for a message.
-fn few_events(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> String {
+fn few_events(row: &GroupCurve) -> OfGroup {
+    let GroupCurve { curve, .. } = row;
+    let words = format!(
+        "few {} for {{}}: standard errors of parameters are too small, their profile limits (columns *_profile_*) are not; for \
+         probabilities, evaluate --limits delta holds what it says",
+        if 2 * curve.events > curve.n { "cases without the event" } else { "events" }
+    );
+    let reason = of_group(row, words);
+    let counts = format!("({} of {} cases)", curve.events.min(curve.n - curve.events), curve.n);
+    OfGroup { group: format!("{} {counts}", reason.group), ..reason }
+}
+
+fn of_group(GroupCurve { suite, structure, .. }: &GroupCurve, words: String) -> OfGroup {
     let suite = suite.as_deref().unwrap_or("the motions");
-    format!(
-        "few {} for {suite}, {structure} ({} of {} cases): standard errors of parameters are too small, their profile limits \
-         (columns *_profile_*) are not; for probabilities, evaluate --limits delta holds what it says",
-        if 2 * curve.events > curve.n { "cases without the event" } else { "events" },
-        curve.events.min(curve.n - curve.events),
-        curve.n
-    )
+    OfGroup { words, group: format!("{suite}, {structure}"), counts: String::new() }
 }
 
 /// What is wrong with a curve, for a message.
-fn reason(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> String {
-    let suite = suite.as_deref().unwrap_or("the motions");
+fn reason(row: &GroupCurve) -> OfGroup {
+    let curve = &row.curve;
     let Curve { events, n, .. } = curve;
     let event = curve.event.as_str();
     match curve.status() {
         FitStatus::Falling => {
-            format!("the probability of {event} for {suite}, {structure}, falls with the measure")
+            of_group(row, format!("the probability of {event} for {{}}, falls with the measure"))
         }
-        status => format!(
-            "no curve of {event} for {suite}, {structure}: {} ({events} of {n} cases)",
-            status.as_str()
-        ),
+        status => OfGroup {
+            counts: format!(" ({events} of {n} cases)"),
+            ..of_group(row, format!("no curve of {event} for {{}}: {}", status.as_str()))
+        },
     }
 }

@@ -406,3 +406,28 @@ fn questions_without_an_answer_are_explained() {
     hazard(good, "--ratio 1 --model univariate --measure im6", 2, &["need the period"]);
     hazard(good, "--ratio 1 --model univariate --measure im1", 2, &["im1 is falling", "choose a measure"]);
 }
+
+#[test]
+fn a_table_of_pga_in_g_is_doubted() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = |scale: f64| {
+        let peaks = |values: [f64; 3]| Arc::new(Float64Array::from(values.to_vec())) as ArrayRef;
+        let pga = peaks([0.3, 0.5, 0.8].map(|pga| pga * scale));
+        write(&folder.path().join("g.parquet"), vec![("pga_m_s2", pga), ("pgv_m_s", peaks([0.3, 0.5, 0.8]))]);
+        let call = "evaluate --in g.parquet --p 2.5 --alpha 0.2 --eta 0.92 --out e.parquet";
+        succeed(folder.path(), call)
+    };
+    let told = table(1.0);
+    assert!(told.contains("no row rocks: PGA is at most 0.8 m/s2; is it in g?"), "{told}");
+    let told = table(9.81);
+    assert!(!told.contains("no row rocks"), "{told}");
+}
+
+#[test]
+fn one_fit_alone_asks_for_the_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = run_folder().display();
+    let ask = "--p 2.5 --alpha 0.2 --pga 1 --pgv 1";
+    fail(folder.path(), &format!("evaluate --pro {run}/pro.parquet {ask}"), 2, &["--pro", "--pex FILE too"]);
+    fail(folder.path(), &format!("evaluate --pex {run}/pex.parquet {ask}"), 2, &["--pex", "--pro FILE too"]);
+}

@@ -145,3 +145,122 @@ fn a_partition_may_have_no_rows() {
         succeed(folder.path(), "simulate --in few --out r --partition 0/3 --p 2.5 --alpha 0.2 --eta 0.92");
     assert!(told.contains("0 responses"), "{told}");
 }
+
+/// A folder with three partitions of motions and of their responses.
+fn with_responses() -> tempfile::TempDir {
+    let folder = partitioned(3);
+    for i in 0..3 {
+        succeed(folder.path(), &format!("{SIMULATE} --partition {i}/3"));
+    }
+    folder
+}
+
+const SYNTHESIZE: &str = "synthesize-motions --config pipeline.yaml --in out/scenarios.parquet --out parts";
+const SIMULATE: &str = "simulate --config pipeline.yaml --in parts --out responses";
+
+#[test]
+fn partitions_made_in_different_ways_are_no_table() {
+    let folder = with_responses();
+    // Of motions: one option each.
+    for option in ["kappa 0.05", "seed 8", "dt 0.02", "suite csgm"] {
+        succeed(folder.path(), &format!("{SYNTHESIZE} --partition 1/3 --{option}"));
+        let name = option.split(' ').next().unwrap();
+        let told = ["part-00001.parquet has", name, "but part-00000.parquet has", "--partition 1/3"];
+        fail(folder.path(), "simulate --in parts --structures paper --out one.parquet", 1, &told);
+        fail(folder.path(), "inspect parts", 1, &told);
+    }
+    // Their responses: of other motions than the others.
+    succeed(folder.path(), &format!("{SIMULATE} --partition 1/3"));
+    let told = ["part-00001.parquet is made of other motions than part-00000.parquet"];
+    fail(folder.path(), "fit-pro --in responses --out pro.parquet", 1, &told);
+    succeed(folder.path(), &format!("{SYNTHESIZE} --partition 1/3"));
+    succeed(folder.path(), &format!("{SIMULATE} --partition 1/3"));
+    succeed(folder.path(), "fit-pro --in responses --out pro.parquet");
+    // Other structures for one of them.
+    let other = "simulate --in parts --out responses --partition 1/3 --p 2 --alpha 0.2 --eta 0.9";
+    succeed(folder.path(), other);
+    fail(
+        folder.path(),
+        "fit-pro --in responses --out pro.parquet",
+        1,
+        &["part-00001.parquet has structures"],
+    );
+    // Other scenarios for one of them.
+    succeed(
+        folder.path(),
+        "sample-scenarios --samples 10 --mw 6.5,7.5 --re 5,10 --seed 9 --out other.parquet",
+    );
+    let other = SYNTHESIZE.replace("out/scenarios", "other");
+    succeed(folder.path(), &format!("{other} --partition 2/3"));
+    fail(folder.path(), "inspect parts", 1, &["part-00002.parquet is made of other scenarios"]);
+}
+
+#[test]
+fn partitions_of_a_file_and_of_a_folder_do_not_mix() {
+    let folder = with_responses();
+    // The cut of a file is another one than that of the folder.
+    let of_file = SIMULATE.replace("--in parts", "--in out/motions.parquet");
+    succeed(folder.path(), &format!("{of_file} --partition 2/3"));
+    let told = ["part-00002.parquet is made of other motions", "--partition 2/3"];
+    fail(folder.path(), "fit-pro --in responses --out pro.parquet", 1, &told);
+}
+
+#[test]
+fn motions_may_go_once_their_responses_are_there() {
+    let folder = with_responses();
+    std::fs::remove_dir_all(folder.path().join("parts")).unwrap();
+    succeed(folder.path(), "fit-pro --in responses --out pro.parquet");
+}
+
+#[test]
+fn one_partition_alone_is_fitted_with_a_warning() {
+    let folder = with_responses();
+    let told = succeed(folder.path(), "fit-pro --in responses/part-00002.parquet --out pro.parquet");
+    assert!(
+        told.contains("part-00002.parquet is partition 2/3") && told.contains("give the folder"),
+        "{told}"
+    );
+    let told = succeed(folder.path(), "fit-pro --in responses --out all.parquet");
+    assert!(!told.contains("give the folder"), "{told}");
+}
+
+#[test]
+fn a_copy_of_a_partition_is_named() {
+    let folder = with_responses();
+    let at = |name: &str| folder.path().join("responses").join(name);
+    std::fs::copy(at("part-00001.parquet"), at("part-00001-copy.parquet")).unwrap();
+    let told =
+        ["part-00001-copy.parquet is partition 1/3, as is part-00001.parquet", "remove part-00001-copy"];
+    fail(folder.path(), "fit-pro --in responses --out pro.parquet", 1, &told);
+}
+
+#[test]
+fn a_partition_that_was_cut_off_is_made_again_with_overwrite() {
+    let folder = with_responses();
+    let part = folder.path().join("responses/part-00001.parquet");
+    let bytes = std::fs::read(&part).unwrap();
+    std::fs::write(&part, &bytes[..bytes.len() / 2]).unwrap();
+    fail(
+        folder.path(),
+        "fit-pro --in responses --out pro.parquet",
+        1,
+        &["part-00001.parquet", "--overwrite"],
+    );
+    let again = format!("{SIMULATE} --partition 1/3");
+    fail(folder.path(), &again, 2, &["part-00001.parquet: not readable", "--overwrite"]);
+    succeed(folder.path(), &format!("{again} --overwrite"));
+    assert_eq!(std::fs::read(&part).unwrap(), bytes);
+}
+
+#[test]
+fn a_partition_goes_into_a_folder_and_into_no_run() {
+    let (folder, file) = small_pipeline();
+    succeed(folder.path(), "sample-scenarios --config pipeline.yaml --out s.parquet");
+    let call = "synthesize-motions --config pipeline.yaml --in s.parquet --partition 1/4";
+    fail(folder.path(), &format!("{call} --out m.parquet"), 2, &["out is m.parquet", "folder, such as m"]);
+    // Its own name is one that it may have.
+    succeed(folder.path(), &format!("{call} --out m/part-00001.parquet"));
+    let pipeline = std::fs::read_to_string(&file).unwrap().replace("dt: 0.01", "dt: 0.01, partition: 1/4");
+    std::fs::write(&file, pipeline).unwrap();
+    fail(folder.path(), "run", 2, &["synthesize-motions has a partition", "--partition i/n"]);
+}

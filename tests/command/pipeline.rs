@@ -161,3 +161,19 @@ fn uplift_has_curves_of_its_own() {
     // PGA decides uplift, so its curve is separated and says so.
     assert!(told.contains("no curve of rocking") && told.contains("im4"), "{told}");
 }
+
+#[test]
+fn warnings_of_many_structures_are_told_together() {
+    let (folder, _) = small_pipeline();
+    succeed(folder.path(), "run");
+    let row = |k: u32| format!("s{k},{},0.2,0.92\n", 1.0 + 0.1 * f64::from(k));
+    let structures: String = (0..12).map(row).collect();
+    std::fs::write(folder.path().join("s.csv"), format!("name,p,alpha,eta\n{structures}")).unwrap();
+    succeed(folder.path(), "simulate --in out/motions.parquet --structures s.csv --out many.parquet");
+    for stage in ["fit-pex", "fit-pro"] {
+        let told = succeed(folder.path(), &format!("{stage} --in many.parquet --out {stage}.parquet"));
+        let lines = told.lines().filter(|line| line.starts_with("warning:")).count();
+        assert!(lines < 30 && told.contains("suites and structures"), "{stage}: {lines} lines\n{told}");
+        assert!(told.contains("; and "), "{told}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Firth's estimator against firthmodels (logistic) and the penalised likelihood in 30 digits (the other links).
 
-use rockfrag::fragility::{CurveInference, CurveModel, CurveParameter, fit_overturning};
+use rockfrag::fragility::{CurveInference, CurveModel, CurveParameter, Sample, fit_overturning};
 use rockfrag::keyword::Keyword;
 use rockfrag::statistics::{BinaryFit, Estimator, FitStatus, Link, binary_regression, is_separated};
 
@@ -47,6 +47,34 @@ fn penalised_profile_limits_equal_firthmodels() {
     let beta = CurveInference::new(&sample, &fit.regression).profile_limits(CurveParameter::Beta, 0.95);
     answers.check(&format!("firth_logit_{set}_high1"), 1.0 / beta.low, 1e-6);
     answers.check(&format!("firth_logit_{set}_low1"), 1.0 / beta.high, 1e-6);
+}
+
+#[test]
+fn what_separates_has_profile_limits() {
+    // Measures in any unit, few cases and many, a wide gap between the outcomes and none; steep curves have intercepts far from 0.
+    for (cases, gap) in [(6, 0.0), (12, 0.5), (40, 0.0), (200, 1.0)] {
+        for unit in [1e-3, 1.0, 300.0] {
+            let ln_im = |case: usize| {
+                let x = 2.0 * case as f64 / cases as f64 - 1.0;
+                f64::ln(unit) + x + gap * x.signum()
+            };
+            let x: Vec<f64> = (0..cases).map(ln_im).collect();
+            let happened = (0..cases).map(|case| f64::from(u8::from(2 * case >= cases))).collect();
+            let sample = Sample::of_columns(vec![x], happened);
+            for &link in Link::ALL {
+                let what = format!("{cases} cases, gap {gap}, unit {unit}, {link:?}");
+                let model = CurveModel { link, estimator: Estimator::Firth, ..CurveModel::default() };
+                let fit = fit_overturning(&sample, &model).unwrap();
+                let inference = CurveInference::new(&sample, &fit.regression);
+                for &parameter in inference.curve_parameters() {
+                    let limits = inference.profile_limits(parameter, 0.95);
+                    let value = inference.fitted(parameter);
+                    assert!(limits.low < value && value < limits.high, "{what}: {parameter:?} {limits:?}");
+                }
+                assert!(inference.profile_limits(CurveParameter::Beta, 0.95).low >= 0.0, "{what}");
+            }
+        }
+    }
 }
 
 #[test]

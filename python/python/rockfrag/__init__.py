@@ -109,8 +109,8 @@ else:
         if name == "ray":
             try:
                 return importlib.import_module("rockfrag.ray")
-            except ModuleNotFoundError as missing:
-                raise AttributeError(f"rockfrag.ray needs {missing.name}: pip install rockfrag[ray]") from missing
+            except ImportError as missing:
+                raise AttributeError(str(missing)) from missing
         raise AttributeError(f"module 'rockfrag' has no attribute {name!r}")
 
 

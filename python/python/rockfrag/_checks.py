@@ -89,20 +89,22 @@ def path(name: str, given: object) -> str:
     return os.fsdecode(given)
 
 
-def floats(name: str, given: npt.ArrayLike | None, expected: str = "numbers") -> Floats:
+def floats(name: str, given: npt.ArrayLike | None, expected: str = "numbers", *, may_be_bool: bool = False) -> Floats:
     """Numbers as an array of their own; NaN where one is missing (None, or NA of pandas)."""
+    if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
+        raise OptionError(f"{name} has {int(np.ma.getmaskarray(given).sum())} masked values; expected {expected}: leave them out (compressed), or fill them")
     try:
         array = np.asarray(given)
     except ValueError as error:
         raise OptionError(f"{name}: rows of different lengths; expected {expected}") from error
-    if array.dtype.kind in "biuf":
+    if array.dtype.kind in ("biuf" if may_be_bool else "iuf"):
         return np.array(array, dtype=np.float64, order="C")
-    if array.dtype.kind not in "OUSc":
+    if array.dtype.kind not in "bOUSc":
         raise wrong(name, given, expected)
     width = array.shape[1] if array.ndim == 2 else 1
     values = [math.nan if is_missing(value) else plain(value) for value in array.reshape(-1).tolist()]
     for place, value in enumerate(values):
-        if not isinstance(value, Real):
+        if not isinstance(value, Real) or isinstance(value, bool) and not may_be_bool:
             where = name if array.ndim == 0 else f"{name}: case {place // width}"
             raise wrong(where, value, expected)
     return np.array(values, dtype=np.float64).reshape(array.shape)

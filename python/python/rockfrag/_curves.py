@@ -35,6 +35,7 @@ _DOUBTS = {
     "far_median": "the median lies far outside of the data",
     "falling": "the probability falls as the measure grows",
 }
+_SEPARATED = "the measure separates the outcomes: how steep the curve is comes from Firth's penalty; see profile_interval, and take more cases"
 _FEW = "few events: standard errors of theta and beta are too small; take profile_interval, and confidence_band for probabilities"
 
 
@@ -105,7 +106,12 @@ class FragilityCurve(Regression):
         self.tests: dict[str, float | None] = {"hosmer_lemeshow": fit["hosmer_lemeshow_p"], "spline": fit["spline_p"]}
         doubts = [_DOUBTS[self.status]] if self.status in _DOUBTS else []
         #: What to doubt about the curve, in words.
-        self.doubts: list[str] = [*doubts, *([_FEW] if fit["few_events"] else []), *few_clusters]
+        self.doubts: list[str] = [
+            *doubts,
+            *([_SEPARATED] if fit["separated"] else []),
+            *([_FEW] if fit["few_events"] else []),
+            *few_clusters,
+        ]
 
     def _columns(self) -> list[Floats]:
         return [np.ascontiguousarray(column) for column in np.log(self.im).T]
@@ -132,6 +138,16 @@ class FragilityCurve(Regression):
     def beta(self) -> float:
         """The dispersion: one over the slope on ln im. With the probit, the standard deviation of ln capacity."""
         return self._parameters["beta"][0]
+
+    @property
+    def se_theta(self) -> float:
+        """Standard error of :attr:`theta`, by the delta method."""
+        return self.theta * self._parameters["mu"][1]
+
+    @property
+    def se_beta(self) -> float:
+        """Standard error of :attr:`beta`, by the delta method."""
+        return self._parameters["beta"][1]
 
     @property
     def lambda_(self) -> float | None:
@@ -180,12 +196,11 @@ class FragilityCurve(Regression):
         -------
         Summary
         """
-        theta = self.theta
-        found = {**self._parameters, "theta": (theta, theta * self._parameters["mu"][1])}
+        found = {**self._parameters, "theta": (self.theta, self.se_theta)}
         rows = [[name, *map(_show.number, (*found[name], *self.profile_interval(name)))] for name in self._shown()]
         title = f"FragilityCurve over {self.im_name}: {self.outcome.sum()} events of {self.nobs} cases, {self.link}, {self.estimator}"
         scores = f"llf {self.llf:.4f}, aic {self.aic:.4f}, bic {self.bic:.4f}, auc {self.auc:.3f}, brier {self.brier:.3f}"
-        return _show.Summary(title, [scores, *(f"doubt: {doubt}" for doubt in self.doubts)], ["", "estimate", "se", "low", "high"], rows)
+        return _show.Summary(title, [scores, *(f"doubt: {doubt}" for doubt in self.doubts)], ["", "estimate", "se", "profile low", "profile high"], rows)
 
     def __repr__(self) -> str:
         return (
@@ -275,6 +290,23 @@ class DemandCurve(Regression):
         """The dispersion of the curve over ln im: that of the demand divided by the slope (``zeta`` of :func:`fit_pex`)."""
         return float(self.dispersion / self.params[1:].sum())
 
+    @property
+    def se_theta(self) -> float:
+        """Standard error of :attr:`theta`, by the delta method."""
+        slope = self.params[1:].sum()
+        of_slopes = np.full(self.params.size - 1, -np.log(self.theta) / slope)
+        return self.theta * self._error(np.array([-1.0 / slope, *of_slopes]))
+
+    @property
+    def se_beta(self) -> float:
+        """Standard error of :attr:`beta`, by the delta method, of a normal demand about the line."""
+        slope = self.params[1:].sum()
+        of_slopes = np.full(self.params.size - 1, -self.beta / slope)
+        return float(np.hypot(self._error(np.array([0.0, *of_slopes])), self.beta / np.sqrt(2.0 * self.df_resid)))
+
+    def _error(self, gradient: Floats) -> float:
+        return float(np.sqrt(gradient @ self._cov_params @ gradient))
+
     def summary(self) -> _show.Summary:
         """Shows the coefficients with robust standard errors and 95 % limits by Student's t.
 
@@ -326,16 +358,16 @@ class FailureCurve(Curve):
         return "failure"
 
     def summary(self) -> _show.Summary:
-        """Shows median and dispersion of both curves, with what to doubt.
+        """Shows median and dispersion of both curves with standard errors, and what to doubt.
 
         Returns
         -------
         Summary
         """
         curves: dict[str, FragilityCurve | DemandCurve] = {"overturning": self.overturning, f"edp above {_show.number(self.demand.limit_state)}": self.demand}
-        rows = [[name, *map(_show.number, (curve.median, curve.beta)), str(curve.nobs)] for name, curve in curves.items()]
+        rows = [[name, *map(_show.number, (curve.theta, curve.se_theta, curve.beta, curve.se_beta)), str(curve.nobs)] for name, curve in curves.items()]
         title = f"FailureCurve over {self.im_name}: {int(self.outcome.sum())} failures of {len(self.im)} cases"
-        return _show.Summary(title, [f"doubt: {doubt}" for doubt in self.doubts], ["", "median", "beta", "cases"], rows)
+        return _show.Summary(title, [f"doubt: {doubt}" for doubt in self.doubts], ["", "theta", "se", "beta", "se", "cases"], rows)
 
     def __repr__(self) -> str:
         return f"FailureCurve(overturning={self.overturning!r}, demand={self.demand!r})"

@@ -81,9 +81,9 @@ def fit_fragility(
     >>> low, high = curve.confidence_band([0.5, 1.0])
     >>> curve.summary()
     FragilityCurve over PGV, m/s: 14 events of 40 cases, probit, ml
-           estimate      se     low   high
-    theta     1.066  0.1274  0.8583  1.503
-     beta    0.4667  0.1441  0.2765   1.02
+           estimate      se  profile low  profile high
+    theta     1.066  0.1274       0.8583         1.503
+     beta    0.4667  0.1441       0.2765          1.02
     llf -18.1989, aic 40.3978, bic 43.7756, auc 0.830, brier 0.154
     doubt: few events: standard errors of theta and beta are too small; take profile_interval, and confidence_band for probabilities
     """
@@ -250,7 +250,7 @@ def _columns_of(im: npt.ArrayLike) -> Floats:
 def _cases(im: npt.ArrayLike, outcome: npt.ArrayLike) -> tuple[Floats, npt.NDArray[np.bool_]]:
     values = _columns_of(im)
     measures, shape = measures_of(values, values.ndim)
-    happened = _checks.floats("outcome", outcome, "bool, or 0 and 1")
+    happened = _checks.floats("outcome", outcome, "bool, or 0 and 1", may_be_bool=True)
     if happened.shape != shape or len(shape) != 1:
         raise OptionError(f"im has shape {values.shape}, outcome {happened.shape}; expected (n,) or (n, 2), and (n,)")
     wrong = np.flatnonzero((happened != 0) & (happened != 1))

@@ -8,6 +8,7 @@ import json
 import os
 import secrets
 import tempfile
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
@@ -16,7 +17,7 @@ import numpy as np
 from . import _checks
 from ._structure import Structure, spec_of
 from ._types import PathLike, Progress
-from .errors import OptionError, RockfragError
+from .errors import OptionError, RockfragError, RockfragWarning
 
 Settings = dict[str, "int | bool | Progress | None"]
 
@@ -74,6 +75,15 @@ def hazard_file(given: object) -> Iterator[object]:
             raise
 
 
+def warn_of_sizes(intensities: object) -> None:
+    """Says so where the dimensions of blocks stand in a table of intensities, whose structures go by other columns."""
+    names: Iterable[object] = getattr(intensities, "column_names", getattr(intensities, "columns", ()))
+    known = set(map(str, names))
+    if {"width", "height"} <= known and "p_rad_s" not in known:
+        words = "intensities: columns width and height are not read; expected p_rad_s and alpha_rad (p and alpha of Structure.block), or"
+        warnings.warn(f"{words} rockfrag.probability(width=..., height=...)", RockfragWarning, stacklevel=3)
+
+
 def _columns(hazard: object) -> dict[str, list[object]]:
     """The columns of a hazard, all of one length."""
     if hasattr(hazard, "__arrow_c_stream__"):
@@ -115,6 +125,8 @@ def checked(name: str, kind: str, value: object) -> object:
     """The value of an option, if it is of its kind."""
     if name == "structures":
         return structures(value)
+    if name == "structure" and isinstance(value, Structure):
+        raise OptionError("structure names a fit, as text; give a Structure as structures=")
     if kind == "paths":
         several = value if isinstance(value, Iterable) and not isinstance(value, (str, os.PathLike)) else [value]
         return [_checks.path(name, one) for one in several]

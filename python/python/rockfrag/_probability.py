@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, fields
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,9 @@ import numpy.typing as npt
 from . import _checks, _rockfrag
 from ._structure import Structure
 from .errors import OptionError, RockfragWarning
+
+if TYPE_CHECKING:
+    import pandas
 
 Numbers = npt.NDArray[np.float64]
 
@@ -30,6 +33,10 @@ class Probability:
     p_ro: Numbers
     p_ro_low: Numbers
     p_ro_high: Numbers
+    #: Overturning, with or without rocking: p_ro where it rocks, 0 where it does not.
+    p_o: Numbers
+    p_o_low: Numbers
+    p_o_high: Numbers
     #: Failure, the one or the other, with or without rocking.
     p_f: Numbers
     p_f_low: Numbers
@@ -45,6 +52,17 @@ class Probability:
         return all(np.array_equal(getattr(self, at.name), getattr(other, at.name), equal_nan=True) for at in fields(self))
 
     __hash__ = None  # type: ignore[assignment]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Makes a table, a row for each answer, of several dimensions in the order of C. Needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+        """
+        import pandas
+
+        return pandas.DataFrame({at.name: np.ravel(getattr(self, at.name)) for at in fields(self)})
 
 
 def probability(
@@ -112,7 +130,9 @@ def probability(
         given = {"p": structure.p, "alpha": structure.alpha, "eta": structure.eta}
     names = [name for name, values in given.items() if values is not None]
     if {"width", "height"} - set(names) and {"p", "alpha", "eta"} - set(names):
-        raise OptionError("no structure; expected a Structure, width and height (m), or p, alpha and eta")
+        missing = [sorted(group - set(names)) for group in ({"width", "height"}, {"p", "alpha", "eta"}) if group & set(names) - {"eta"}]
+        told = f"{' and '.join(names)} without {' and '.join(missing[0])}" if missing else "no structure"
+        raise OptionError(f"{told}; expected a Structure, width and height (m), or p, alpha and eta")
     if suite is not None:
         _checks.word("suite", suite, ("csgm", "pulse", "hfc"))
     limit = None if limit_state is None else _checks.number("limit_state", limit_state)
@@ -121,7 +141,8 @@ def probability(
     try:
         shaped = np.broadcast_arrays(*arrays)
     except ValueError as error:
-        raise OptionError(f"arrays of different lengths: {error}") from error
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(("pga", "pgv", *names), arrays))
+        raise OptionError(f"shapes do not go together: {shapes}; expected shapes that broadcast") from error
     flat = [np.ascontiguousarray(array).reshape(-1) for array in shaped]
     said, doubts = _rockfrag.probability(dict(zip(names, flat[2:], strict=True)), flat[0], flat[1], suite, limit)
     for words in doubts:

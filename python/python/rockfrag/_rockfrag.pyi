@@ -95,6 +95,7 @@ class _Curve(TypedDict):
     brier: float
     hosmer_lemeshow_p: float | None
     spline_p: float | None
+    separated: bool
     few_events: bool
 
 class _Line(TypedDict):

@@ -5,6 +5,7 @@ What type checkers and editors see of them is ``_stages.pyi``, which ``python -m
 
 from __future__ import annotations
 
+import difflib
 import inspect
 import json
 import keyword
@@ -219,6 +220,15 @@ def _wrapped(text: str, indent: str = "    ") -> list[str]:
     return textwrap.wrap(text, 100, initial_indent=indent, subsequent_indent=indent)
 
 
+def _expect_known(stage: Stage, signature: inspect.Signature, keywords: Mapping[str, object]) -> None:
+    """That a stage has arguments of these names."""
+    for name in keywords:
+        if name not in signature.parameters:
+            near = difflib.get_close_matches(name, signature.parameters, 1)
+            hint = f"did you mean {near[0]!r}?" if near else f"help(rockfrag.{_python(stage.name)}) lists them"
+            raise TypeError(f"{_python(stage.name)} has no argument {name!r}; {hint}")
+
+
 def _function(stage: Stage) -> Callable[..., Table | Path]:
     signature = _signature(stage)
     roles = {str(table["role"]) for table in stage.inputs}
@@ -226,6 +236,7 @@ def _function(stage: Stage) -> Callable[..., Table | Path]:
     has_seed = any(option["name"] == "seed" for option in stage.options)
 
     def call(*arguments: object, **keywords: object) -> Table | Path:
+        _expect_known(stage, signature, keywords)
         bound = signature.bind(*arguments, **keywords).arguments
         given = {name: value for name, value in bound.items() if value is not None}
         if has_seed and "seed" in bound:
@@ -235,6 +246,7 @@ def _function(stage: Stage) -> Callable[..., Table | Path]:
         settings = _options.settings(*(given.pop(name, None) for name in ("threads", "progress", "force", "overwrite")))
         out = _options.path(given.pop("out", None), may_be_folder=stage.has_partitions)
         inputs = {role: given.pop(role) for role in roles & given.keys()}
+        _options.warn_of_sizes(inputs.get("intensities"))
         with _options.hazard_file(given.get("hazard")) as hazard:
             if hazard is not None:
                 given["hazard"] = hazard

@@ -21,9 +21,12 @@ from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, TypedDict, cast
 
-import pyarrow.fs
-import pyarrow.parquet
-import ray.data
+try:
+    import pyarrow.fs
+    import pyarrow.parquet
+    import ray.data
+except ModuleNotFoundError as missing:
+    raise ImportError(f"rockfrag.ray needs Ray, and {missing.name} is not there: pip install 'rockfrag[ray]'") from missing
 
 import rockfrag
 from rockfrag._options import partition as words_of

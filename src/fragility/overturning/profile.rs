@@ -13,6 +13,8 @@ use crate::statistics::search::root;
 const TOLERANCE: f64 = 1e-13;
 /// To which limits are exact, in standard errors.
 const CLOSE: f64 = 1e-10;
+/// How much calmer the coefficients are from which a search starts that failed.
+const CALMER: [f64; 2] = [1.0, 0.5];
 /// Steps outwards, each twice the last, before a limit counts as infinitely far.
 const MOST_STEPS: usize = 20;
 
@@ -67,11 +69,15 @@ impl Profile<'_> {
         };
         let mut inside = Place { value, coefficients: b.clone(), depth: 0.0 };
         let mut step = side * depth * error;
+        // Whether there are places where no maximum was found.
+        let mut is_rough = false;
         for _ in 0..MOST_STEPS {
             let next = inside.value + step;
             let at_edge = self.parameter == CurveParameter::Beta && next * value <= 0.0;
             let Some(outside) = self.at(if at_edge { 0.0 } else { next }, &inside.coefficients) else {
-                return f64::NAN;
+                step *= 0.5;
+                is_rough = true;
+                continue;
             };
             if outside.depth >= depth {
                 // The depth is nearly a line, so that Brent's method needs few trials.
@@ -83,15 +89,33 @@ impl Profile<'_> {
             }
             (inside, step) = (outside, 2.0 * step);
         }
-        side * f64::INFINITY
+        if is_rough { f64::NAN } else { side * f64::INFINITY }
     }
 
-    /// The place where the parameter has this value, searched from coefficients nearby.
+    /// The place where the parameter has this value, searched from coefficients nearby, or from calmer ones: a penalised
+    /// likelihood of outcomes that are separated has a summit only near them.
     fn at(&self, value: f64, near: &DVector<f64>) -> Option<Place> {
-        let (start, directions) = self.constrained(value, near);
-        let maximum = maximise(self.likelihood, &start, Along::Columns(&directions), TOLERANCE)?;
+        let from = |near: &DVector<f64>| {
+            let (start, directions) = self.constrained(value, near);
+            maximise(self.likelihood, &start, Along::Columns(&directions), TOLERANCE)
+        };
+        let mut calmer = CALMER.iter().map(|&share| self.calmer(value, near, share));
+        let maximum = from(near).or_else(|| calmer.find_map(|near| from(&near)))?;
         let fall = self.fit.objective - maximum.objective.value;
         Some(Place { value, coefficients: maximum.at, depth: (2.0 * fall).max(0.0).sqrt() })
+    }
+
+    /// Coefficients of a flatter curve; for the slope itself, of a curve with this slope and a median nearer to the old one than
+    /// the intercept alone would leave it.
+    fn calmer(&self, value: f64, near: &DVector<f64>, share: f64) -> DVector<f64> {
+        let scale = match self.parameter {
+            CurveParameter::Beta => 1.0 + (value / slope(near) - 1.0) * share,
+            CurveParameter::Lambda | CurveParameter::Mu => 1.0 - 0.9 * share,
+        };
+        let median = self.fit.link.median_index();
+        let mut calm = near * scale;
+        calm[0] += median * (1.0 - scale);
+        calm
     }
 
     /// Coefficients that have this value of the parameter, and the directions that keep it.

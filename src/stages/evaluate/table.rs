@@ -15,6 +15,8 @@ use crate::table::store::writer::TableWriter;
 
 /// Rows that are read at once, and written as a row group.
 const BATCH: usize = 16_384;
+/// Accelerations up to this number may have been meant in g.
+const LARGEST_PGA_IN_G: f64 = 3.0;
 
 /// Probabilities at each intensity of a table.
 pub struct EvaluatedTable {
@@ -93,6 +95,8 @@ struct Suspect {
     without_measure: usize,
     doubtful_size: usize,
     doubtful: [usize; PeaksDoubt::ALL.len()],
+    rocking: usize,
+    largest_pga_m_s2: f64,
 }
 
 impl Suspect {
@@ -110,6 +114,8 @@ impl Suspect {
                 rows.iter().filter(is_so).count()
             }),
             without_measure: rows.iter().filter(has_no_measure).count(),
+            rocking: rows.iter().filter(|row| row.probabilities.p_nr == 0.0).count(),
+            largest_pga_m_s2: rows.iter().map(|row| row.pga_m_s2).fold(0.0, f64::max),
         }
     }
 
@@ -119,6 +125,8 @@ impl Suspect {
         self.other_block += more.other_block;
         self.without_measure += more.without_measure;
         self.doubtful_size += more.doubtful_size;
+        self.rocking += more.rocking;
+        self.largest_pga_m_s2 = self.largest_pga_m_s2.max(more.largest_pga_m_s2);
         self.doubtful.iter_mut().zip(more.doubtful).for_each(|(sum, more)| *sum += more);
     }
 
@@ -140,6 +148,12 @@ impl Suspect {
             if rows > 0 {
                 console.warn(&format!("{rows} rows have {reason}"));
             }
+        }
+        if self.rocking == 0 && self.largest_pga_m_s2 <= LARGEST_PGA_IN_G {
+            console.warn(&format!(
+                "no row rocks: PGA is at most {} m/s2; is it in g? multiply the column pga_m_s2 by 9.81",
+                self.largest_pga_m_s2
+            ));
         }
     }
 }

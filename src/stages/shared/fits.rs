@@ -114,8 +114,16 @@ impl FitFiles {
         }
         // Of one file alone, the other is where it always is.
         let mut files = files.clone();
-        for (role, file) in [("pex", FitPex::OUTPUT.file), ("pro", FitPro::OUTPUT.file)] {
+        for (role, file, other) in [("pex", FitPex::OUTPUT.file, "pro"), ("pro", FitPro::OUTPUT.file, "pex")]
+        {
             if files.optional(role).is_none() {
+                let given = files.optional(other).filter(|given| given.name().exists());
+                if let Some(given) = given.filter(|_| !Path::new(file).exists()) {
+                    return Err(UsageError::because(format!(
+                        "--{other} {} alone, and no {file} here; expected both fits: --{role} FILE too",
+                        given.name().display()
+                    )));
+                }
                 files.inputs.push((role, Path::new(file).into()));
             }
         }

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use serde_json::Value;
+
 use crate::pipeline::UsageError;
 use crate::pipeline::declare::Files;
 use crate::table::store::folder;
@@ -15,6 +17,8 @@ pub struct PartitionedInput {
     pub partition: Option<Partition>,
     /// The part of the input that counts, if not all of it.
     pub rows: Option<Partition>,
+    /// Of what table the input is a partition, if it is one.
+    whole: Option<String>,
 }
 
 impl PartitionedInput {
@@ -26,19 +30,32 @@ impl PartitionedInput {
     pub fn new(source: Source, asked: Option<Partition>) -> anyhow::Result<PartitionedInput> {
         match (&source, asked) {
             (Source::Path(folder), Some(asked)) if folder.is_dir() => {
-                let source = folder::partition(folder, asked)?.into();
-                Ok(PartitionedInput { source, partition: Some(asked), rows: None })
+                let file = folder::partition(folder, asked)?;
+                let whole = Some(folder::whole_of(&file)?);
+                Ok(PartitionedInput { source: file.into(), partition: Some(asked), rows: None, whole })
             }
             (Source::Path(file), asked) if file.is_file() => match (of_file(file), asked) {
                 (Some(own), Some(asked)) if own != asked => Err(UsageError::because(format!(
                     "{} is partition {own}; expected it without --partition {asked}",
                     file.display()
                 ))),
-                (Some(own), _) => Ok(PartitionedInput { source, partition: Some(own), rows: None }),
-                (None, asked) => Ok(PartitionedInput { source, partition: asked, rows: asked }),
+                (Some(own), _) => {
+                    let whole = Some(folder::whole_of(file)?);
+                    Ok(PartitionedInput { source, partition: Some(own), rows: None, whole })
+                }
+                (None, asked) => Ok(PartitionedInput { source, partition: asked, rows: asked, whole: None }),
             },
-            _ => Ok(PartitionedInput { source, partition: asked, rows: asked }),
+            _ => Ok(PartitionedInput { source, partition: asked, rows: asked, whole: None }),
         }
+    }
+
+    /// Parameters of the stage with which partition this is, and of what.
+    pub fn add_to(&self, parameters: Value) -> Value {
+        let mut parameters = Partition::add_to(self.partition, parameters);
+        if let Some(whole) = &self.whole {
+            parameters[folder::WHOLE_INPUT] = whole.as_str().into();
+        }
+        parameters
     }
 }
 
@@ -56,9 +73,18 @@ pub fn out_of_partition(files: &Files, file: &str, partition: Option<Partition>)
     let (asked, out) = (files.asked(file).is_some(), files.out(file)?);
     let Some(path) = out.path() else { return Ok(out) };
     let path = if asked || partition.is_none() { path.to_path_buf() } else { path.with_extension("") };
-    let in_folder = is_folder(&path) || partition.is_some() && path.extension().is_none();
-    let whole = Partition { index: 0, of: 1 };
-    Ok(if in_folder { path.join(partition.unwrap_or(whole).file_name()).into() } else { path.into() })
+    let own = partition.unwrap_or(Partition { index: 0, of: 1 }).file_name();
+    if is_folder(&path) || partition.is_some() && path.extension().is_none() {
+        return Ok(path.join(own).into());
+    }
+    if let Some(partition) = partition.filter(|_| path.file_name().is_none_or(|name| name != &*own)) {
+        return Err(UsageError::because(format!(
+            "out is {}; partition {partition} is a file in a folder: expected the name of the folder, such as {}",
+            path.display(),
+            path.with_extension("").display()
+        )));
+    }
+    Ok(path.into())
 }
 
 /// Whether a path is a folder, or is written as one.

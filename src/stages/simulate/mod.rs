@@ -31,7 +31,6 @@ use crate::table::responses::{RESPONSES, ResponseRow};
 use crate::table::responses::{TRACE, TraceRow};
 use crate::table::row::{WriteRow, schema_of};
 use crate::table::store::folder;
-use crate::table::store::partition::Partition;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 
@@ -261,7 +260,7 @@ impl Stage for Simulate {
 
     fn parameters(&self) -> Value {
         let parameters = json!({ "structures": parameters(&self.structures), "trace": self.traced });
-        Partition::add_to(self.input.partition, parameters)
+        self.input.add_to(parameters)
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {

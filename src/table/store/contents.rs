@@ -3,12 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use parquet::arrow::ArrowWriter;
-use serde_json::Value;
 
 use super::fingerprint::Fingerprint;
 use super::folder;
 use super::footer::{Footer, of_file};
-use super::partition::PARAMETER;
+use super::partition::Partition;
 use super::provenance::{Provenance, Recorded, recorded_in_file};
 use super::source::{MemoryTable, Source};
 use crate::table::TableError;
@@ -41,9 +40,7 @@ pub fn recorded(path: &Path) -> Result<Option<Recorded>, TableError> {
         .collect::<Result<Option<Vec<_>>, _>>()?;
     let Some(all_recorded) = all_recorded else { return Ok(None) };
     let mut provenance = all_recorded[0].provenance.clone();
-    if let Value::Object(parameters) = &mut provenance.parameters {
-        parameters.remove(PARAMETER);
-    }
+    provenance.parameters = Partition::without(provenance.parameters);
     let content = hash_of_all(all_recorded.iter().map(|recorded| recorded.content.as_str()));
     Ok(Some(Recorded { cache_key: provenance.cache_key(), provenance, content }))
 }

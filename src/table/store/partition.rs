@@ -7,7 +7,7 @@ use std::str::FromStr;
 use serde_json::Value;
 
 /// The parameter under which a file says which partition it is.
-pub(super) const PARAMETER: &str = "partition";
+const PARAMETER: &str = "partition";
 
 /// Part `index`, counted from 0, of `of` parts of a table: a run of its rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,6 +38,14 @@ impl Partition {
     pub fn add_to(partition: Option<Partition>, mut parameters: Value) -> Value {
         if let (Some(partition), Value::Object(parameters)) = (partition, &mut parameters) {
             parameters.insert(PARAMETER.to_string(), partition.to_string().into());
+        }
+        parameters
+    }
+
+    /// The parameters that all partitions of a table have in common.
+    pub fn without(mut parameters: Value) -> Value {
+        if let Value::Object(parameters) = &mut parameters {
+            parameters.remove(PARAMETER);
         }
         parameters
     }

@@ -27,6 +27,41 @@ const SHOWN: &str = "rockfrag.shown";
 /// The version, and after a plus the fingerprint of the code that it was built from.
 pub const CODE: &str = concat!(env!("CARGO_PKG_VERSION"), "+", env!("ROCKFRAG_CODE"));
 
+/// The first parameter of `now` that is another one `before`: its name, the value before, and the value now; of what has
+/// parts the first part that differs.
+pub fn difference(before: &Value, now: &Value) -> Option<(String, String, String)> {
+    let (Value::Object(old), Value::Object(new)) = (before, now) else { return None };
+    let name = new.keys().chain(old.keys()).find(|name| old.get(*name) != new.get(*name))?;
+    let (old, new) = match (old.get(name), new.get(name)) {
+        (Some(old), Some(new)) => parts_that_differ(old, new),
+        (old, new) => {
+            let words = |value: Option<&Value>| value.map_or("nothing".to_string(), short);
+            (words(old), words(new))
+        }
+    };
+    Some((name.clone(), old, new))
+}
+
+fn parts_that_differ(old: &Value, new: &Value) -> (String, String) {
+    match (old, new) {
+        (Value::Array(before), Value::Array(now)) if before.len() == now.len() => {
+            let differ = |(old, new): &(&Value, &Value)| old != new;
+            before.iter().zip(now).find(differ).map(|(old, new)| parts_that_differ(old, new))
+        }
+        (Value::Object(_), Value::Object(_)) => {
+            let named = |(name, old, new)| (format!("{name} {old}"), format!("{name} {new}"));
+            difference(old, new).map(named)
+        }
+        _ => None,
+    }
+    .unwrap_or_else(|| (short(old), short(new)))
+}
+
+fn short(value: &Value) -> String {
+    let text = value.to_string();
+    if text.chars().count() > 60 { format!("{}...", text.chars().take(57).collect::<String>()) } else { text }
+}
+
 /// The warnings of a stage while it works; whoever writes its files takes them from here.
 #[derive(Debug, Clone, Default)]
 pub struct Warnings(Arc<Mutex<Vec<String>>>);
