@@ -247,11 +247,15 @@ fn nothing_fits(rows: &[GroupCurve]) -> String {
 /// Which limits to take where events are few, for a message.
 fn few_events(GroupCurve { suite, structure, curve, .. }: &GroupCurve) -> String {
     let suite = suite.as_deref().unwrap_or("the motions");
+    let few = curve.events.min(curve.n - curve.events);
+    let of_probabilities = match few < LEAST_EVENTS {
+        true => "probabilities say little more than a limit, and theirs may miss the truth",
+        false => "for probabilities, evaluate --limits delta holds what it says",
+    };
     format!(
-        "few {} for {suite}, {structure} ({} of {} cases): standard errors of parameters are too small, their profile limits \
-         (columns *_profile_*) are not; for probabilities, evaluate --limits delta holds what it says",
+        "few {} for {suite}, {structure} ({few} of {} cases): standard errors of parameters are too small, their profile limits \
+         (columns *_profile_*) are not; {of_probabilities}",
         if 2 * curve.events > curve.n { "cases without the event" } else { "events" },
-        curve.events.min(curve.n - curve.events),
         curve.n
     )
 }

@@ -112,7 +112,7 @@ impl ChosenFits {
         };
         let what = what.replace("(s)", if few == 1 { "" } else { "s" });
         (few < LEAST_EVENTS)
-            .then(|| format!("from {few} {what} of {n} motions: says little more than {limit} limit"))
+            .then(|| format!("from {few} {what} of {n} motions: this says little more than {limit} limit"))
     }
 }
 
@@ -222,7 +222,7 @@ impl Answers for ChosenFits {
         }
         if let Some(doubt) = self.doubt_of_events() {
             console.warn(&format!(
-                "P_ro is {doubt}; its limits may miss the truth: simulate more motions, or stronger ones, or ask --model universal"
+                "P_ro comes {doubt}; its limits may miss the truth: simulate more motions, or stronger ones, or ask --model universal"
             ));
         }
         if self.few_clusters {
