@@ -36,7 +36,7 @@ pub enum HazardError {
     #[error("point {point}: expected a larger intensity than before, and no larger rate")]
     Unordered { point: usize },
     #[error(
-        "rows go from rare to frequent, and the largest intensity is exceeded {rate} times a year, more often than strong motions come: are the two columns exchanged?"
+        "rows go from rare to frequent, and the largest intensity is exceeded {rate} times a year, more often than strong motions come; check that the two columns are not exchanged"
     )]
     Exchanged { rate: f64 },
 }

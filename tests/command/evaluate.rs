@@ -440,7 +440,7 @@ fn a_hazard_from_rare_to_frequent_is_the_same() {
         std::fs::write(folder.path().join("h.csv"), text).unwrap();
         fail(folder.path(), "evaluate --width 0.5 --height 2.0 --hazard h.csv", 1, expected);
     };
-    refused("pga_g,annual_rate_of_exceedance\n0.01,0.1\n0.001,0.5\n", &["columns exchanged"]);
+    refused("pga_g,annual_rate_of_exceedance\n0.01,0.1\n0.001,0.5\n", &["columns are not exchanged"]);
     refused(
         "PGA,annual_rate_of_exceedance\n0.1,0.01\n0.5,0.001\n",
         &["column 'PGA' has no unit", "pga_m_s2"],

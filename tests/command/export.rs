@@ -81,7 +81,7 @@ fn the_two_files_of_pelicun_have_two_names() {
     // It needs the whole curve, and is told what that means; OpenQuake's table ends at what was ever recorded.
     let told = succeed(folder.path(), &format!("{block} --out fr.csv"));
     assert!(told.contains("no PGA above 4.5 g") && told.contains("whole curve"), "{told}");
-    for (im, end) in [("pga", 4.5), ("pgv", 0.3 * 4.5 * 9.81 / 2.6717)] {
+    for (im, end) in [("pga", 4.5), ("pgv", 100.0 * 0.3 * 4.5 * 9.81 / 2.6717)] {
         let out = format!("--im {im} --out {im}.xml");
         let told = succeed(folder.path(), &format!("{} {out}", block.replace("pelicun", "openquake")));
         assert!(!told.contains("warning"), "{told}");

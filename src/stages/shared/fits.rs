@@ -128,15 +128,19 @@ impl FitFiles {
                 "no pex.parquet and pro.parquet here; expected {flags}, or --model universal, which needs no fits"
             )));
         }
-        for (role, other) in [("pex", "pro"), ("pro", "pex")] {
-            if let (None, Some(found)) = (files.optional(role), files.optional(other)) {
+        let mut files = files.clone();
+        for (role, file, other) in [("pex", FitPex::OUTPUT.file, "pro"), ("pro", FitPro::OUTPUT.file, "pex")]
+        {
+            let (None, Some(found)) = (files.optional(role), files.optional(other)) else { continue };
+            if found.name().exists() {
                 return Err(UsageError::because(format!(
                     "found {}, but no {role}.parquet; expected --{role} FILE beside it, or --model universal, which needs neither",
                     found.name().display()
                 )));
             }
+            files.inputs.push((role, Path::new(file).into()));
         }
-        FitFiles::new(options, files).map(Some)
+        FitFiles::new(options, &files).map(Some)
     }
 
     /// Joins the options and the files of a stage.

@@ -116,7 +116,7 @@ impl StructureSpec {
             }
             (Some(_), Some(_), None, None, None, None) => {
                 return Err(UsageError::because(format!(
-                    "structure '{name}': eta is missing; expected it beside p and alpha, a number (0.92 in the paper) or housner (1 - 1.5 sin^2 alpha)"
+                    "structure '{name}': eta is missing; expected p, alpha and eta (a number, 0.92 in the paper, or housner: 1 - 1.5 sin^2 alpha)"
                 )));
             }
             _ if self.given().is_empty() && self.name.is_none() => {
