@@ -78,8 +78,8 @@ pub fn answer(
     let mut peaks_of_fits = "";
     let (rates, by_surface) = match hazard {
         Hazard::Curve(peak, curve) => {
-            options.ratio.and_then(doubt_of_ratio).into_iter().for_each(|doubt| console.warn(&doubt));
             let line = Line::new(options.ratio, structure, peak, answers)?;
+            options.ratio.and_then(doubt_of_ratio).into_iter().for_each(|doubt| console.warn(&doubt));
             let rates = along_line(&line, &curve, answers, console)?;
             words_of_ratio = line.words(&curve, answers);
             if let Ratio::Distributed(_) = line.ratio {
