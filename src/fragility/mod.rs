@@ -60,5 +60,5 @@ pub use probability::{Probability, ProbitIndex};
 pub use probability::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use resampled::{ReplicateLimits, ResampledModel};
 pub use sample::Sample;
-pub use slice::{Lognormal, Peak, PeaksDoubt, Slice, doubt_of_peaks};
+pub use slice::{Lognormal, Peak, PeaksDoubt, STRONGEST_PGA_M_S2, Slice, doubt_of_peaks, doubt_of_ratio};
 pub use universal::UniversalModel;

@@ -1,5 +1,7 @@
 //! A line through the plane of PGA and PGV along which a fragility depends on one peak alone.
 
+use std::ops::RangeInclusive;
+
 use super::case::Measure;
 use super::model::FragilityModel;
 use super::predictor::Predictor;
@@ -28,7 +30,7 @@ const LARGEST_PEAK: f64 = 20.0;
 const LARGEST_PEAKS_RATIO_S: f64 = 2.0;
 
 /// PGA, m/s2, above all that was recorded: 4.36 g as a vector of three components (`records/plausibility.rs`).
-const STRONGEST_PGA_M_S2: f64 = 4.5 * G_M_S2;
+pub const STRONGEST_PGA_M_S2: f64 = 4.5 * G_M_S2;
 
 impl Peak {
     /// The unit in which it is usually stated, and its size in m/s2 or m/s.
@@ -110,6 +112,18 @@ pub fn doubt_of_peaks(pga_m_s2: f64, pgv_m_s: f64) -> Option<PeaksDoubt> {
     PeaksDoubt::ALL.into_iter().find(|doubt| doubt.holds(pga_m_s2, pgv_m_s))
 }
 
+/// Where p PGV / PGA (rad/s, m/s and m/s2) of motions that rock a structure lies, far out.
+const USUAL_RATIOS: RangeInclusive<f64> = 0.05..=1.0;
+
+/// Why hardly any motions have this p PGV / PGA, if so.
+pub fn doubt_of_ratio(ratio: f64) -> Option<String> {
+    (!USUAL_RATIOS.contains(&ratio)).then(|| {
+        format!(
+            "ratio is {ratio}, but p PGV / PGA (p in rad/s, PGV in m/s, PGA in m/s2) is usually 0.1 to 0.6: is the PGA in g, or the PGV in cm/s?"
+        )
+    })
+}
+
 /// All motions whose p PGV / PGA is the same, ordered by one of the two peaks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slice {
@@ -169,6 +183,11 @@ impl Slice {
             intensity = intensity.next_up();
         }
         intensity
+    }
+
+    /// The intensity (m/s2 or m/s) at which the PGA is the strongest that was ever recorded.
+    pub fn intensity_at_strongest_pga(&self) -> f64 {
+        self.intensity_at_im4(STRONGEST_PGA_M_S2 / self.structure.uplift_acceleration_m_s2())
     }
 
     /// The intensities at which probabilities jump: uplift, and the transition of P_ex.

@@ -159,8 +159,11 @@ pub fn limits() -> [f64; 2] {
     PARSED.range("limit")
 }
 
+/// By how much, relative to it, a value may pass a bound: what a print of it does not show.
+const UNSEEN: f64 = 1e-5;
+
 fn is_outside(value: f64, [least, largest]: [f64; 2]) -> bool {
-    value < least || value > largest
+    value < least * (1.0 - UNSEEN) || value > largest * (1.0 + UNSEEN)
 }
 
 fn logistic(index: f64) -> f64 {

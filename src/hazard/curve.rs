@@ -16,6 +16,9 @@ const GAUSS_LEGENDRE: [(f64, f64); 8] = [
     (0.980_144_928_248_768_1, 0.050_614_268_145_188_13),
 ];
 
+/// A rate a year that the largest intensity of a hazard curve hardly has: a column with intensities in it has.
+const FREQUENT: f64 = 0.02;
+
 /// Annual rates at which intensities are exceeded; between its points ln rate is linear in ln IM.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HazardCurve {
@@ -33,17 +36,17 @@ pub enum HazardError {
     #[error("point {point}: expected a larger intensity than before, and no larger rate")]
     Unordered { point: usize },
     #[error(
-        "intensities fall and rates rise; expected the smallest intensity first, if the two columns are not exchanged"
+        "rows go from rare to frequent, and the largest intensity is exceeded {rate} times a year, more often than strong motions come; check that the two columns are not exchanged"
     )]
-    Falling,
+    Exchanged { rate: f64 },
 }
 
 impl HazardCurve {
-    /// Checks intensities and their annual rates of exceedance.
+    /// Checks intensities and their annual rates of exceedance, from frequent to rare or the other way.
     ///
     /// # Errors
-    /// If there are fewer than two points, or one is not positive or not in order: intensities rise, rates do not.
-    pub fn new(points: Vec<(f64, f64)>) -> Result<HazardCurve, HazardError> {
+    /// If there are fewer than two points, or one is not positive or not in order: as intensities rise, rates do not.
+    pub fn new(mut points: Vec<(f64, f64)>) -> Result<HazardCurve, HazardError> {
         if points.len() < 2 {
             return Err(HazardError::TooFewPoints(points.len()));
         }
@@ -53,8 +56,13 @@ impl HazardCurve {
             return Err(HazardError::NotPositive { point, im, rate });
         }
         match points.windows(2).position(|pair| pair[0].0 >= pair[1].0 || pair[0].1 < pair[1].1) {
-            Some(_) if points.windows(2).all(|pair| pair[0].0 > pair[1].0 && pair[0].1 < pair[1].1) => {
-                Err(HazardError::Falling)
+            Some(_) if points.windows(2).all(|pair| pair[0].0 > pair[1].0 && pair[0].1 <= pair[1].1) => {
+                let (_, rate) = points[0];
+                if rate > FREQUENT {
+                    return Err(HazardError::Exchanged { rate });
+                }
+                points.reverse();
+                Ok(HazardCurve { points })
             }
             Some(before) => Err(HazardError::Unordered { point: before + 1 }),
             None => Ok(HazardCurve { points }),

@@ -116,6 +116,16 @@ pub struct Analysis {
     pub theta: Option<[f64; 3]>,
 }
 
+/// What is scaled in an analysis, with its unit.
+pub fn scaled_words(measure: &str) -> String {
+    match measure {
+        "pga" => "PGA (g)".to_string(),
+        "pgv" => "PGV (m/s)".to_string(),
+        "scale" => "scale of the motions".to_string(),
+        other => other.to_uppercase(),
+    }
+}
+
 /// One intensity of an analysis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Level {

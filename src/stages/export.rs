@@ -13,7 +13,7 @@ use super::shared::structures::{StructureSpec, warn_of_size, words};
 use super::shared::surface::Surface;
 use crate::export::{self, Function, Model, plain_id};
 use crate::fragility::universal::Scenarios;
-use crate::fragility::{LimitState, Peak, Slice};
+use crate::fragility::{LimitState, Peak, STRONGEST_PGA_M_S2, Slice, doubt_of_ratio};
 use crate::keyword::Keyword;
 use crate::keyword::keywords;
 use crate::pipeline::UsageError;
@@ -25,6 +25,7 @@ use crate::table::TableError;
 use crate::table::store::provenance::{Provenance, Recorded};
 use crate::table::store::source::{Source, Target};
 use crate::table::store::text_file;
+use crate::units::G_M_S2;
 
 /// For which program, and at which intensities.
 #[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
@@ -43,19 +44,24 @@ pub struct ExportOptions {
     /// Intensity of the functions: pga (g) or pgv (m/s)
     #[arg(long, default_value = "pga", help_heading = "Export")]
     pub im: Word<Peak>,
-    /// p PGV / PGA of the motions: one function for each of these numbers
+    /// p PGV / PGA of the motions (p in rad/s, PGV in m/s, PGA in m/s2, not g; usually 0.1 to 0.6): one function for each of these
+    /// numbers
     #[arg(long, value_name = "RATIO,...", help_heading = "Export")]
     pub ratio: Option<Steps>,
     /// Intensities of the table, g or m/s: first:last:step, or numbers separated by commas [default: as many as --tolerance needs]
     #[arg(long, value_name = "IM,...", conflicts_with_all = ["upto", "tolerance"], help_heading = "Export")]
     pub levels: Option<Steps>,
-    /// Largest intensity, g or m/s [default: as in the data; for pelicun, where all probabilities are 1]
+    /// Largest intensity, g or m/s [default: as in the data, but no more than 4.5 g, the strongest PGA ever recorded; for pelicun,
+    /// where all probabilities are 1]
     #[arg(long, value_name = "IM", help_heading = "Export")]
     pub upto: Option<f64>,
     /// Largest error of linear interpolation between levels [default: 1e-6; for pelicun 1e-5]
     #[arg(long, value_name = "P", help_heading = "Export")]
     pub tolerance: Option<f64>,
 }
+
+/// How the name of pelicun's second file ends.
+const METADATA: &str = "json";
 
 /// The largest error of lines between levels where nothing else is said.
 const TOLERANCE: f64 = 1e-6;
@@ -143,6 +149,13 @@ impl Declare for Export {
         let Target::Path(out) = files.asked(file).unwrap_or_else(|| file.into()) else {
             return Err(UsageError::because("export writes text; expected the name of a file"));
         };
+        let beside = out.extension().filter(|ending| ending.eq_ignore_ascii_case(METADATA));
+        if let (Program::Pelicun, Some(_)) = (program, beside) {
+            return Err(UsageError::because(format!(
+                "out is {}, the name of the JSON that is written beside the functions; expected a name that ends in .csv",
+                out.display()
+            )));
+        }
         Ok(Export {
             options: options.clone(),
             program,
@@ -158,7 +171,7 @@ impl Declare for Export {
 impl Export {
     /// The description of pelicun's functions, beside them.
     fn metadata(&self) -> Option<PathBuf> {
-        (self.program == Program::Pelicun).then(|| self.out.with_extension("json"))
+        (self.program == Program::Pelicun).then(|| self.out.with_extension(METADATA))
     }
 }
 
@@ -200,13 +213,14 @@ impl Stage for Export {
             Some(fits) => Box::new(fits.choose()?),
             None => Box::new(Surface::new(self.options.fits.suite.as_deref(), None, Scenarios::Many)?),
         };
-        if self.fits.is_none() {
-            note_fits_of_run(&self.options.fits, console);
-        }
         let structure = answers.structure(&self.structure)?;
+        if self.fits.is_none() {
+            note_fits_of_run(&self.options.fits, Some(&structure), console);
+        }
         answers.warn(console);
         warn_of_size([&structure], console);
         answers.warn_of_structure(&structure, console);
+        self.ratios.iter().filter_map(|&ratio| doubt_of_ratio(ratio)).for_each(|doubt| console.warn(&doubt));
         let functions = self.ratios.iter().map(|&ratio| {
             let slice = Slice { structure: structure.clone(), peak: self.options.im.0, ratio };
             self.function(&slice, &*answers, console)
@@ -251,6 +265,12 @@ impl Export {
             model.limit_states(slice, intensity).map_or([f64::NAN; 3], |states| states.map(|p| p.value))
         };
         let range_of_data = [jumps[0], model.largest_in_data(slice)];
+        if range_of_data[1] <= range_of_data[0] {
+            return Err(UsageError::because(format!(
+                "ratio {}: with this p PGV / PGA no motion of the data rocks this structure; usually it is 0.1 to 0.6, with p in rad/s, PGV in m/s and PGA in m/s2",
+                slice.ratio
+            )));
+        }
         let overturning = |intensity: f64| reaching(intensity)[2];
         let rises = overturning(jumps[0]) < overturning(range_of_data[1]);
         if !rises {
@@ -264,9 +284,20 @@ impl Export {
                 "P_ro is not lognormal: it bends, or is the surface's; expected --to openquake, which takes a table, or --model paper, the straight line",
             ));
         }
-        let levels = self.levels(&jumps, range_of_data[1], reaching)?;
+        let strongest = slice.intensity_at_strongest_pga();
+        let levels = self.levels(&jumps, range_of_data[1].min(strongest), reaching)?;
+        let last = levels[levels.len() - 1];
         let id = plain_id(&format!("{}{}{}", slice.structure.name, export::OF_RATIO, slice.ratio));
-        answers.warn_of_slice(slice, levels[levels.len() - 1], &format!("{id}: "), console);
+        answers.warn_of_slice(slice, last, &format!("{id}: "), console);
+        if last > strongest * (1.0 + 1e-9) {
+            let ((unit, size), pga_g) = (slice.peak.usual_unit(), STRONGEST_PGA_M_S2 / G_M_S2);
+            let why = if self.options.upto.is_some() { "" } else { "; the file needs the whole curve" };
+            console.warn(&format!(
+                "{id}: up to {:.3e} {unit}, but no PGA above {pga_g} g ({:.4} {unit} here) was ever recorded{why}: use no probability from beyond it",
+                last / size,
+                strongest / size
+            ));
+        }
         let probabilities = levels.iter().map(|&level| reaching(level)).collect();
         Ok(Function { id, peak: slice.peak, levels, probabilities, overturning: lognormal, range_of_data })
     }
@@ -275,7 +306,7 @@ impl Export {
     fn levels(
         &self,
         jumps: &[f64],
-        largest_in_data: f64,
+        usual_end: f64,
         reaching: impl Fn(f64) -> [f64; 3],
     ) -> anyhow::Result<Vec<f64>> {
         // pelicun knows a whole distribution or none.
@@ -286,7 +317,7 @@ impl Export {
                 "pelicun needs curves that end at a probability of 1, which these never reach; expected --to openquake, or --model paper",
             ));
         }
-        let end = self.options.upto.map_or(whole.unwrap_or(largest_in_data), |upto| upto * self.unit());
+        let end = self.options.upto.map_or(whole.unwrap_or(usual_end), |upto| upto * self.unit());
         let mut levels = match &self.options.levels {
             Some(steps) => {
                 let given = steps.values.iter().map(|level| level * self.unit());

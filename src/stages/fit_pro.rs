@@ -12,7 +12,8 @@ use super::shared::uncertainty::uncertainty;
 use super::simulate::Simulate;
 use crate::fragility::overturning::{BentFit, Curve, CurveOptions, Gap, LEAST_EVENTS, Pair};
 use crate::fragility::{CaseTable, CurveModel, Event};
-use crate::keyword::Keyword;
+use crate::keyword::{self, Keyword};
+use crate::motion::Suite;
 use crate::pipeline::console::{Console, OfGroup};
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
 use crate::pipeline::options::{Parsed, Several, Word, check, defaults};
@@ -227,11 +228,19 @@ fn nothing_fits(rows: &[GroupCurve]) -> String {
     let counts: BTreeSet<String> =
         rows.iter().map(|row| format!("{} of {}", row.curve.events, row.curve.n)).collect();
     let counts = counts.into_iter().collect::<Vec<_>>().join(", ");
+    let is_synthetic = |row: &GroupCurve| {
+        let suite = row.suite.as_deref().and_then(|suite| keyword::parse(suite).ok());
+        suite.is_some_and(|suite| Suite::SYNTHETIC.contains(&suite))
+    };
+    let more = match rows.iter().all(is_synthetic) {
+        true => "more motions (more samples of sample-scenarios, in pipeline.yaml or by --samples)",
+        false => "more motions, or stronger ones (import-motions --scale),",
+    };
     format!(
         "none of {} curves can be fitted, and no file is written: {event} in {counts} cases; expected {LEAST_EVENTS} or more with it, \
          and {LEAST_EVENTS} or more without\n\
-         more motions, or stronger ones (import-motions --scale), answer the same question with more events\n\
-         --estimator firth answers it from one event on, and in spite of separation, with wide limits\n\
+         {more} answer the same question with more events; rockfrag evaluate without fits answers by the universal surface, with none\n\
+         --estimator firth answers it from one event on, and in spite of separation; from so few it says little more than an upper limit\n\
          ida scales each motion until it overturns a structure; fit-pro reads its stripes (ida.stripes.parquet), which tell what \
          these motions would do if they were stronger",
         rows.len()
@@ -241,14 +250,18 @@ fn nothing_fits(rows: &[GroupCurve]) -> String {
 /// Which limits to take where events are few, for a message.
 fn few_events(row: &GroupCurve) -> OfGroup {
     let GroupCurve { curve, .. } = row;
+    let few = curve.events.min(curve.n - curve.events);
+    let of_probabilities = match few < LEAST_EVENTS {
+        true => "probabilities say little more than a limit, and theirs may miss the truth",
+        false => "for probabilities, evaluate --limits delta holds what it says",
+    };
     let words = format!(
-        "few {} for {{}}: standard errors of parameters are too small, their profile limits (columns *_profile_*) are not; for \
-         probabilities, evaluate --limits delta holds what it says",
+        "few {} for {{}}: standard errors of parameters are too small, their profile limits (columns *_profile_*) are not; \
+         {of_probabilities}",
         if 2 * curve.events > curve.n { "cases without the event" } else { "events" }
     );
     let reason = of_group(row, words);
-    let counts = format!("({} of {} cases)", curve.events.min(curve.n - curve.events), curve.n);
-    OfGroup { group: format!("{} {counts}", reason.group), ..reason }
+    OfGroup { group: format!("{} ({few} of {} cases)", reason.group, curve.n), ..reason }
 }
 
 fn of_group(GroupCurve { suite, structure, .. }: &GroupCurve, words: String) -> OfGroup {

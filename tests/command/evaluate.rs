@@ -428,6 +428,94 @@ fn one_fit_alone_asks_for_the_other() {
     let folder = tempfile::tempdir().unwrap();
     let run = run_folder().display();
     let ask = "--p 2.5 --alpha 0.2 --pga 1 --pgv 1";
-    fail(folder.path(), &format!("evaluate --pro {run}/pro.parquet {ask}"), 2, &["--pro", "--pex FILE too"]);
-    fail(folder.path(), &format!("evaluate --pex {run}/pex.parquet {ask}"), 2, &["--pex", "--pro FILE too"]);
+    fail(
+        folder.path(),
+        &format!("evaluate --pro {run}/pro.parquet {ask}"),
+        2,
+        &["pro.parquet", "expected --pex FILE"],
+    );
+    fail(
+        folder.path(),
+        &format!("evaluate --pex {run}/pex.parquet {ask}"),
+        2,
+        &["pex.parquet", "expected --pro FILE"],
+    );
+}
+
+#[test]
+fn a_hazard_that_misleads_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |rows: &str, rest: &str| {
+        std::fs::write(folder.path().join("h.csv"), rows).unwrap();
+        succeed(folder.path(), &format!("evaluate --width 0.5 --height 2.0 --hazard h.csv {rest}"))
+    };
+    let short = told("pga_g,annual_rate_of_exceedance\n0.1,0.01\n0.3,0.002\n", "");
+    assert!(short.contains("too low to use") && short.contains("extend the curve"), "{short}");
+    let long = "PGA (g),return_period\n0.05,50\n0.2,100\n1,5000\n4,900000\n";
+    let plain = told(long, "");
+    assert!(!plain.contains("warning"), "{plain}");
+    let in_m_s2 = told("PGA (g),return_period\n0.5,50\n2,100\n10,5000\n14.7,50000\n", "");
+    assert!(in_m_s2.contains("reaches 14.7000 g") && in_m_s2.contains("ever recorded"), "{in_m_s2}");
+    let ratio = told(long, "--ratio 2.5");
+    assert!(ratio.contains("ratio is 2.5") && ratio.contains("PGA in m/s2"), "{ratio}");
+}
+
+#[test]
+fn a_hazard_from_rare_to_frequent_is_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let answer = |rows: &[&str]| {
+        let text = format!("pga_g,annual_rate_of_exceedance\n{}\n", rows.join("\n"));
+        std::fs::write(folder.path().join("h.csv"), text).unwrap();
+        stdout(folder.path(), "evaluate --width 0.5 --height 2.0 --hazard h.csv")
+    };
+    let rows = ["0.1,0.01", "0.5,0.001", "2,0.000001"];
+    let turned: Vec<&str> = rows.into_iter().rev().collect();
+    assert_eq!(answer(&rows), answer(&turned));
+    let refused = |text: &str, expected: &[&str]| {
+        std::fs::write(folder.path().join("h.csv"), text).unwrap();
+        fail(folder.path(), "evaluate --width 0.5 --height 2.0 --hazard h.csv", 1, expected);
+    };
+    refused("pga_g,annual_rate_of_exceedance\n0.01,0.1\n0.001,0.5\n", &["columns are not exchanged"]);
+    refused(
+        "PGA,annual_rate_of_exceedance\n0.1,0.01\n0.5,0.001\n",
+        &["column 'PGA' has no unit", "pga_m_s2"],
+    );
+}
+
+#[test]
+fn what_is_missing_is_named() {
+    let (folder, _) = fitted();
+    let ask = |rest: &str, expected: &[&str]| {
+        fail(folder.path(), &format!("evaluate {rest}"), 2, expected);
+    };
+    ask("--width 0.6 --height 1.8 --pga 0.5", &["depends strongly on the PGV", "to 1.05 m/s", "both ends"]);
+    ask("--p 2 --alpha 0.2 --pga 0.5 --pgv 0.5", &["eta is missing"]);
+    std::fs::copy(run_folder().join("pex.parquet"), folder.path().join("pex.parquet")).unwrap();
+    let lone = "--width 0.6 --height 1.8 --pga 0.5 --pgv 0.5";
+    ask(lone, &["found pex.parquet, but no pro.parquet", "--model universal, which needs neither"]);
+    succeed(folder.path(), &format!("evaluate {lone} --model universal"));
+}
+
+#[test]
+fn a_curve_from_one_overturning_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipeline = PIPELINE.split("simulate:").next().unwrap();
+    let structure = "simulate: { structures: [{ name: block, width: 0.8, height: 2.4 }] }\n";
+    let fits = "fit-pex: { transition: 1.3 }\nfit-pro: { estimator: firth }\n";
+    let pipeline = pipeline.replace("[pulse, csgm]", "[csgm]") + structure + fits;
+    std::fs::write(folder.path().join("pipeline.yaml"), &pipeline).unwrap();
+    let run = rockfrag(folder.path()).args(["run"]).output().unwrap();
+    let [said, found] = [run.stderr, run.stdout].map(|text| String::from_utf8(text).unwrap());
+    assert!(said.contains("overturned, of 240 motions: block by 1\n"), "{said}");
+    assert!(
+        found.contains("from 1 overturning of 212 motions: this says little more than an upper"),
+        "{found}"
+    );
+    let fits = "--pex out/pex.parquet --pro out/pro.parquet";
+    let told =
+        succeed(folder.path(), &format!("evaluate {fits} --width 0.8 --height 2.4 --pga 0.6 --pgv 0.5"));
+    assert!(told.contains("P_ro comes from 1 overturning of 212 motions"), "{told}");
+    // Of synthesized motions there can be more; they are not scaled.
+    std::fs::write(folder.path().join("pipeline.yaml"), pipeline.replace("firth", "ml")).unwrap();
+    fail(folder.path(), "run", 1, &["1 of 212", "more samples", "pipeline.yaml", "without fits"]);
 }

@@ -71,3 +71,34 @@ fn the_surface_is_exported_where_there_are_no_fits() {
     succeed(folder.path(), &format!("{block} --to openquake --model universal --suite pulse --out p.xml"));
     fail(folder.path(), &format!("{block} --to openquake --model paper"), 2, &["no pex.parquet"]);
 }
+
+#[test]
+fn the_two_files_of_pelicun_have_two_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = "export --width 0.5 --height 2.0 --ratio 0.3 --tolerance 1e-3 --to pelicun";
+    fail(folder.path(), &format!("{block} --out fr.json"), 2, &["out is fr.json", "ends in .csv"]);
+    assert!(std::fs::read_dir(folder.path()).unwrap().next().is_none());
+    // It needs the whole curve, and is told what that means; OpenQuake's table ends at what was ever recorded.
+    let told = succeed(folder.path(), &format!("{block} --out fr.csv"));
+    assert!(told.contains("no PGA above 4.5 g") && told.contains("whole curve"), "{told}");
+    for (im, end) in [("pga", 4.5), ("pgv", 100.0 * 0.3 * 4.5 * 9.81 / 2.6717)] {
+        let out = format!("--im {im} --out {im}.xml");
+        let told = succeed(folder.path(), &format!("{} {out}", block.replace("pelicun", "openquake")));
+        assert!(!told.contains("warning"), "{told}");
+        let xml = std::fs::read_to_string(folder.path().join(format!("{im}.xml"))).unwrap();
+        let levels = xml.split("</imls>").next().unwrap();
+        let last: f64 = levels.rsplit([' ', '>']).next().unwrap().parse().unwrap();
+        assert!((last / end - 1.0).abs() < 1e-3, "{last} for {end}");
+    }
+}
+
+#[test]
+fn a_ratio_in_other_units_is_noticed() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = "export --width 0.5 --height 2.0 --to openquake --tolerance 1e-2";
+    fail(folder.path(), &format!("{block} --ratio 23"), 2, &["ratio 23", "usually it is 0.1 to 0.6", "m/s2"]);
+    let told = succeed(folder.path(), &format!("{block} --ratio 2"));
+    assert!(told.contains("ratio is 2,") && told.contains("is the PGA in g"), "{told}");
+    let told = succeed(folder.path(), &format!("{block} --ratio 0.6 --out usual.xml"));
+    assert!(!told.contains("ratio is"), "{told}");
+}

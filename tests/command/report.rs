@@ -331,6 +331,11 @@ fn motions_without_a_period_are_counted_by_how_they_ended() {
         "{outcomes}"
     );
     assert!(page.contains("3 of 6 responses are to motions without a pulse period"));
+    // Captions tell of what is shown.
+    let bars = caption("overturning");
+    assert!(bars.contains("There is no curve.") && !bars.contains("the band is"), "{bars}");
+    let no_curve = "no curve: 2 of 5 overturn, 5 of each are needed";
+    assert!(page.contains(no_curve), "{page}");
 }
 
 #[test]
@@ -384,6 +389,30 @@ fn what_cannot_be_drawn_is_refused_with_a_reason() {
     fail(folder.path(), &format!("report --in {run} --out r.html --dpi 5000"), 2, &["dpi is 5000"]);
     fail(folder.path(), &format!("report --in {run} --out r.html --suite csmg"), 2, &["csgm frame"]);
     assert!(!folder.path().join("r.html").exists());
+    let file = format!("{run}/pro.parquet");
+    fail(folder.path(), &format!("report --in {file}"), 2, &["pro.parquet, a file", "expected the folder"]);
+}
+
+#[test]
+fn an_analysis_of_peaks_has_their_units() {
+    let folder = tempfile::tempdir().unwrap();
+    succeed(folder.path(), "sample-scenarios --mw 6.5,7 --re 10 --samples 8");
+    succeed(folder.path(), "synthesize-motions --suite csgm --dt 0.01");
+    let said = succeed(folder.path(), "simulate --p 2.5 --alpha 0.2 --eta 0.92");
+    // So few motions have their names told.
+    assert!(
+        said.contains("overturned, of 16 motions: p2.5-alpha0.2-eta0.92 by ") && said.contains(" ("),
+        "{said}"
+    );
+    succeed(folder.path(), "ida --p 2.5 --alpha 0.2 --eta 0.92 --measure pga");
+    succeed(folder.path(), "report --in . --dpi 50");
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(page.contains("Medians of the lowest PGA (g): p2.5-alpha0.2-eta0.92"));
+    let table = page.split("Incremental dynamic analysis: lowest").last().unwrap();
+    let table = table.split("</table>").next().unwrap();
+    for cell in ["csgm", "p2.5-alpha0.2-eta0.92", "PGA (g)", ">ok<"] {
+        assert!(table.contains(cell), "{cell} is not in {table}");
+    }
 }
 
 #[test]

@@ -190,3 +190,34 @@ fn a_hazard_gives_rates() {
         assert!(low < rates[2] && rates[2] < high);
     }
 }
+
+#[test]
+fn what_the_surface_says_is_told_in_its_own_words() {
+    let (folder, fits) = fitted();
+    let surface = words(folder.path(), "evaluate --p 2.5 --alpha 0.2 --eta 0.92 --pga 0.3 --pgv 0.2");
+    assert!(!surface.contains("Eq. 14") && !surface.contains("Eq. 20"), "{surface}");
+    assert!(surface.contains("recorded motions overturned 7 to 18 % more often"), "{surface}");
+    let structure = format!("evaluate {fits} --p 2.5 --alpha 0.2");
+    let own = words(folder.path(), &format!("{structure} --pga 0.3 --pgv 0.2"));
+    assert!(own.contains("Eq. 20") && own.contains("times the fits"), "{own}");
+    let near = words(folder.path(), &format!("{structure} --pga 0.5 --pgv 0.6"));
+    assert!(near.contains(" from the fits"), "{near}");
+    std::fs::write(
+        folder.path().join("h.csv"),
+        "pga_g,annual_rate_of_exceedance\n0.1,0.01\n0.5,0.001\n2,0.000001\n",
+    )
+    .unwrap();
+    let by_both = |ratio: &str| words(folder.path(), &format!("{structure} --hazard h.csv {ratio}"));
+    assert!(by_both("").contains("with the PGV / PGA of the motions of the fits"));
+    assert!(!by_both("--ratio 0.3").contains("with the PGV / PGA"));
+}
+
+#[test]
+fn fits_of_a_run_are_offered_to_their_own_structure() {
+    let folder = run_folder().parent().unwrap();
+    let told = |structure: &str| succeed(folder, &format!("evaluate {structure} --pga 0.5 --pgv 0.6"));
+    assert!(told("--p 2.5 --alpha 0.2 --eta 0.92").contains("there are fits in out"));
+    for other in ["--p 2.5 --alpha 0.2 --eta 0.85", "--p 3.5 --alpha 0.2 --eta 0.92"] {
+        assert!(!told(other).contains("there are fits"), "{other}");
+    }
+}

@@ -1,7 +1,7 @@
 //! A figure of our own: shares of scaled motions that overturn a structure, from the incremental dynamic analysis.
 
 use crate::report::axis::Axis;
-use crate::report::data::{Analysis, ReportData};
+use crate::report::data::{Analysis, ReportData, scaled_words};
 use crate::report::drawing::Ink;
 use crate::report::figure::{Figure, Grid};
 use crate::report::panel::{Estimate, Mark, Panel};
@@ -33,7 +33,8 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         name: "ida".to_string(),
         title: "Incremental dynamic analysis".to_string(),
         caption: format!(
-            "Share of the scaled motions that overturn the structure at each level, with 95 % limits (Wilson), and the lognormal distribution of the lowest intensities that do. The two differ where structures survive stronger motions than some that overturn them. Medians of the lowest: {}.",
+            "Share of the scaled motions that overturn the structure at each level, with 95 % limits (Wilson), and the lognormal distribution of the lowest intensities that do. The two differ where structures survive stronger motions than some that overturn them. Medians of the lowest {}: {}.",
+            scaled_words(&shown[0].measure),
             middles.collect::<Vec<_>>().join("; ")
         ),
         made: String::new(),
@@ -49,7 +50,7 @@ fn draw(
     height: f64,
 ) {
     let intensities = || analysis.levels.iter().map(|level| level.intensity);
-    let x = Axis::log_over(intensities(), Label::plain(analysis.measure.as_str()));
+    let x = Axis::log_over(intensities(), Label::plain(scaled_words(&analysis.measure)));
     let y = Axis::linear([-0.04, 1.04], Label::plain("share that overturns"));
     let panel = Panel { corner, width, height, x, y };
     let estimates: Vec<Estimate> = analysis

@@ -81,16 +81,20 @@ fn figure(parts: &Parts) -> Figure {
         }
         panel.frame(&mut drawing, Label::plain(*title).bold());
     }
-    let made = match pulse_m_s2 {
-        Some(_) => {
-            "The high frequencies are what the combination keeps of them: the whole motion less the pulse."
-        }
-        None => "The file holds no pulse of this motion.",
+    let (title, made) = match pulse_m_s2 {
+        Some(_) => (
+            "A ground motion and its parts",
+            format!(
+                " The high frequencies are what the combination keeps of them: the whole motion less the pulse. {}",
+                super::of_paper("Figure 1")
+            ),
+        ),
+        None => ("A ground motion", String::new()),
     };
     Figure {
         name: "motion".to_string(),
-        title: "A ground motion and its parts".to_string(),
-        caption: format!("Acceleration and velocity of {words}. {made} {}", super::of_paper("Figure 1")),
+        title: title.to_string(),
+        caption: format!("Acceleration and velocity of {words}.{made}"),
         made: String::new(),
         drawing,
     }

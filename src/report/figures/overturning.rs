@@ -1,6 +1,7 @@
 //! Figures 11 and 12: the probability of overturning, with the data in bins.
 
 use super::sorted;
+use crate::fragility::overturning::LEAST_EVENTS;
 use crate::fragility::{Gap, Measure, Predictor, Probability, ProbitIndex};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -108,7 +109,9 @@ fn figure(
         (Mark::Line(Ink::Data(1).line(1.3)), Label::plain("curve, 95 % band")),
         (Mark::Line(Ink::Data(1).dashed(1.3, Dash::Short)), Label::plain("beyond the data")),
     ];
-    let (grid, mut drawing) = Grid::of(groups.len(), 118.0).with_legend(&entries);
+    let has_curves = groups.iter().any(|(_, curve)| curve.is_some());
+    let entries = if has_curves { &entries[..] } else { &entries[..1] };
+    let (grid, mut drawing) = Grid::of(groups.len(), 118.0).with_legend(entries);
     let mut off = Vec::new();
     for (place, (group, curve)) in groups.iter().enumerate() {
         let (corner, width) = grid.place(place);
@@ -124,6 +127,13 @@ fn figure(
             format!("Bars that miss the curve, which is off there by more than chance: {}", off.join("; "))
         }
     };
+    let of_curves = match has_curves {
+        false => ". There is no curve".to_string(),
+        true => format!(
+            "; the band is that of the curve alone, and dots of few motions lie outside of it. {off}. Beyond the data a curve goes on until it ends, or says where it is at {} times the largest measure",
+            number::plain(FURTHEST)
+        ),
+    };
     let rocked = || groups.iter().flat_map(|(group, _)| group.rocked().map(|(response, _)| response));
     let left_out = rocked().filter(|response| im_x.of(&response.case).is_none()).count();
     let left_out = match left_out {
@@ -134,8 +144,7 @@ fn figure(
         name: name.to_string(),
         title: title.to_string(),
         caption: format!(
-            "Probability of overturning given rocking over {measure}. Dots are shares in bins, larger where they hold more motions, with their own 95 % limits (Wilson); the band is that of the curve alone, and dots of few motions lie outside of it. {off}. Beyond the data a curve goes on until it ends, or says where it is at {} times the largest measure.{left_out} {}",
-            number::plain(FURTHEST),
+            "Probability of overturning given rocking over {measure}. Dots are shares in bins, larger where they hold more motions, with their own 95 % limits (Wilson){of_curves}.{left_out} {}",
             super::of_paper(of_paper)
         ),
         made: String::new(),
@@ -211,7 +220,11 @@ fn draw(
     panel.frame(drawing, Label::plain(group.name()).bold());
     let (all, events) = (cases.len(), cases.iter().filter(|(_, event, _)| *event).count());
     let counts = format!("{} of {} overturn", number::count(events), number::count(all));
-    let notes = [Some(counts), doubt(curve), beyond];
+    let few = events.min(all - events) < LEAST_EVENTS;
+    let notes = match (curve, few) {
+        (None, true) => [Some(format!("no curve: {counts}, {LEAST_EVENTS} of each are needed")), None, None],
+        _ => [Some(counts), doubt(curve), beyond],
+    };
     for (line, words) in notes.into_iter().flatten().enumerate() {
         panel.note(drawing, [0.03, 0.1 + 0.09 * line as f64], Anchor::Start, Label::plain(words));
     }

@@ -168,12 +168,26 @@ fn of(text: &str, headings: &Headings) -> anyhow::Result<Hazard> {
             }
         }
         _ => bail!(
-            "{}; expected pga_g, pga_m_s2 or pgv_m_s with {EXCEEDANCE}, {}50{} or {}, or a PGA and pgv_m_s with \
+            "{}{}; expected pga_g, pga_m_s2 or pgv_m_s with {EXCEEDANCE}, {}50{} or {}, or a PGA and pgv_m_s with \
              {OCCURRENCE}; --columns pga_g=HEADING takes another heading",
             if named.is_empty() { "empty".to_string() } else { format!("columns {}", named.join(", ")) },
+            without_unit(&named),
             PROBABILITY.0,
             PROBABILITY.1,
             RETURN_PERIOD.0
         ),
     }
+}
+
+/// The first heading of a peak that says no unit, in words; nothing where there is none.
+fn without_unit(headings: &[String]) -> String {
+    let peaks = [("pga", "g, as pga_g, or m/s2, as pga_m_s2"), ("pgv", "m/s, as pgv_m_s")];
+    let lacks = |heading: &String| {
+        let plain = text_file::plain(heading);
+        let (_, units) = peaks.iter().find(|(peak, _)| plain.split('_').any(|word| word == *peak))?;
+        Cell::of(&plain)
+            .is_none()
+            .then(|| format!("; column '{heading}' has no unit that is known: is it in {units}?"))
+    };
+    headings.iter().find_map(lacks).unwrap_or_default()
 }

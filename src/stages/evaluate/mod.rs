@@ -276,12 +276,12 @@ impl Stage for Evaluate {
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let answers = self.answers()?;
+        let given = self.options.structure.structures.is_given();
+        let structure = given.then(|| answers.structure(&self.structure)).transpose()?;
         if self.fits.is_none() {
-            note_fits_of_run(&self.options.fits, console);
+            note_fits_of_run(&self.options.fits, structure.as_ref(), console);
         }
         if let (Some(input), Some(out)) = (&self.intensities, &self.out) {
-            let given = self.options.structure.structures.is_given();
-            let structure = given.then(|| answers.structure(&self.structure)).transpose()?;
             warn_of_size(&structure, console);
             let table = EvaluatedTable { answers, headings: self.options.headings(), structure };
             return table.write(input, out, provenance, console);

@@ -95,7 +95,8 @@ pub struct HazardOptions {
     /// annual_rate_of_occurrence
     #[arg(long, value_name = "FILE")]
     pub hazard: Option<PathBuf>,
-    /// p PGV / PGA of all motions, for a hazard of one peak only [default: distributed as in the motions of the fits]
+    /// p PGV / PGA of all motions, for a hazard of one peak only: p in rad/s, PGV in m/s, PGA in m/s2 (not g), usually 0.1 to 0.6
+    /// [default: distributed as in the motions of the fits]
     #[arg(long)]
     pub ratio: Option<f64>,
     /// Time of exposure, years

@@ -11,7 +11,8 @@ use super::hazard::Hazard;
 use super::options::HazardOptions;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{
-    Fragility, FragilityModel, JointPeaks, LimitState, Peak, PeaksDoubt, Probability, Slice, doubt_of_peaks,
+    Fragility, FragilityModel, JointPeaks, LimitState, Peak, PeaksDoubt, Probability, STRONGEST_PGA_M_S2,
+    Slice, doubt_of_peaks, doubt_of_ratio,
 };
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
@@ -74,11 +75,16 @@ pub fn answer(
     let shown = json!(recorded(path, &hazard));
     let surface = answers.surface(Scenarios::Many);
     let surface = surface.as_ref().map(|surface| surface as &dyn Fragility);
+    let mut peaks_of_fits = "";
     let (rates, by_surface) = match hazard {
         Hazard::Curve(peak, curve) => {
             let line = Line::new(options.ratio, structure, peak, answers)?;
+            options.ratio.and_then(doubt_of_ratio).into_iter().for_each(|doubt| console.warn(&doubt));
             let rates = along_line(&line, &curve, answers, console)?;
             words_of_ratio = line.words(&curve, answers);
+            if let Ratio::Distributed(_) = line.ratio {
+                peaks_of_fits = ", with the PGV / PGA of the motions of the fits in place of its own";
+            }
             let of = |model: &dyn Fragility| over_curve(&line, &curve, model);
             (with_limits(rates, answers, of), surface.map(of))
         }
@@ -90,7 +96,7 @@ pub fn answer(
     };
     let words_of_surface = by_surface.map_or(String::new(), |Rates { overturning: Probability { value, low, high }, .. }| {
         let words = format!(
-            "by the universal surface (--model universal) the annual rate of overturning is {value:.1e} ({low:.1e} to {high:.1e})"
+            "by the universal surface (--model universal) the annual rate of overturning is {value:.1e} ({low:.1e} to {high:.1e}){peaks_of_fits}"
         );
         if !(low..=high).contains(&rates.overturning.value) {
             console.warn(&words);
@@ -252,13 +258,25 @@ fn along_line(
             uplift / size
         ));
     }
+    if slice.peak == Peak::Pga && last > STRONGEST_PGA_M_S2 {
+        console.warn(&format!(
+            "the hazard reaches {:.4} {unit}: {}",
+            last / size,
+            PeaksDoubt::StrongestEver.words()
+        ));
+    }
     let overturning = rates.overturning.value;
     let uncounted = rate_beyond * (1.0 - at_last[2].value);
-    if uncounted > 0.01 * overturning {
+    let ends = format!(
+        "the hazard ends at {:.4} {unit}; stronger motions count as this one, and could add {uncounted:.1e} a year",
+        last / size
+    );
+    if uncounted >= overturning {
         console.warn(&format!(
-            "the hazard ends at {:.4} {unit}; stronger motions count as this one, and could add {uncounted:.1e} a year",
-            last / size
+            "{ends} to the {overturning:.1e} of overturning: this annual rate is too low to use; extend the curve to stronger, rarer motions"
         ));
+    } else if uncounted > 0.01 * overturning {
+        console.warn(&ends);
     }
     Ok(rates)
 }

@@ -281,6 +281,12 @@ impl Declare for Report {
         let Source::Path(folder) = files.input("files")? else {
             return Err(UsageError::because("files: a table in memory; expected a folder of files"));
         };
+        if folder.is_file() {
+            return Err(UsageError::because(format!(
+                "in is {}, a file; expected the folder of the files, such as out",
+                folder.display()
+            )));
+        }
         let Target::Path(out) =
             files.asked(Self::OUTPUT.file).unwrap_or(folder.join(Self::OUTPUT.file).into())
         else {

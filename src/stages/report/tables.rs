@@ -4,7 +4,7 @@ use polars::prelude::{AnyValue, DataFrame};
 
 use crate::fragility::demand::Form;
 use crate::keyword::Keyword;
-use crate::report::data::{Column, Table};
+use crate::report::data::{Column, Table, scaled_words};
 use crate::report::number;
 use crate::table::schema;
 use crate::table::store::frame::{frame_of, stacked};
@@ -50,6 +50,8 @@ enum Cell {
     Limits([schema::Column; 3]),
     /// The probability of a test.
     Chance(schema::Column),
+    /// A measure that is scaled, with its unit.
+    Scaled(schema::Column),
 }
 
 const fn value(words: &'static str, column: schema::Column) -> Head {
@@ -62,6 +64,10 @@ const fn limits(words: &'static str, columns: [schema::Column; 3]) -> Head {
 
 const fn chance(words: &'static str, column: schema::Column) -> Head {
     Head { words, of: Cell::Chance(column) }
+}
+
+const fn scaled(words: &'static str, column: schema::Column) -> Head {
+    Head { words, of: Cell::Scaled(column) }
 }
 
 const SUITE: Head = value("motions", schema::suite);
@@ -139,8 +145,8 @@ const SHOWN: [Shown; 8] = [
         columns: &[
             SUITE,
             STRUCTURE,
-            value("scaled", schema::measure),
-            value("motions", schema::n),
+            scaled("scaled", schema::measure),
+            value("number", schema::n),
             value("never overturn", schema::n_safe),
             value("with safe windows", schema::n_with_windows),
             limits("median θ", [schema::theta, schema::theta_low, schema::theta_high]),
@@ -236,7 +242,7 @@ pub fn read(files: &[(&'static str, PathBuf)]) -> anyhow::Result<Vec<Table>> {
 impl Head {
     fn columns(&self) -> &[schema::Column] {
         match &self.of {
-            Cell::Value(column) | Cell::Chance(column) => std::slice::from_ref(column),
+            Cell::Value(column) | Cell::Chance(column) | Cell::Scaled(column) => std::slice::from_ref(column),
             Cell::Limits(columns) => columns,
         }
     }
@@ -252,19 +258,23 @@ impl Head {
                 number::with_limits([0, 1, 2].map(|part| float(&columns[part])), DIGITS)
             }
             Cell::Chance(column) if float(column) < LEAST_P => format!("< {LEAST_P}"),
+            Cell::Scaled(column) => {
+                scaled_words(at(column).as_ref().and_then(AnyValue::get_str).unwrap_or_default())
+            }
             _ => words(at(&self.columns()[0])),
         }
     }
 }
 
-/// A value as it is read by people.
+/// A value as it is read by people, however its file keeps texts.
 fn words(value: Option<AnyValue>) -> String {
+    match value.as_ref().and_then(AnyValue::get_str) {
+        Some("im3_inv") => return "1/IM3".to_string(),
+        Some(measure) if measure.len() == 3 && measure.starts_with("im") => return measure.to_uppercase(),
+        Some(text) => return text.replace('_', " "),
+        None => {}
+    }
     match value {
-        Some(AnyValue::String("im3_inv")) => "1/IM3".to_string(),
-        Some(AnyValue::String(measure)) if measure.len() == 3 && measure.starts_with("im") => {
-            measure.to_uppercase()
-        }
-        Some(AnyValue::String(text)) => text.replace('_', " "),
         Some(AnyValue::Float64(value)) => number::readable(value, DIGITS),
         Some(AnyValue::Int64(count)) => count.to_string(),
         Some(AnyValue::Int32(count)) => count.to_string(),

@@ -98,7 +98,8 @@ fn probability(fits: &ChosenFits) -> Option<String> {
         }),
         fits.model.out_of_range(&measures).next().map(|_| "outside of its data"),
     ];
-    let doubts: String = doubts.into_iter().flatten().map(|doubt| format!("; {doubt}")).collect();
+    let doubts = doubts.into_iter().flatten().map(str::to_string).chain(fits.doubt_of_events());
+    let doubts: String = doubts.map(|doubt| format!("; {doubt}")).collect();
     let [value, low, high] = [p.value, p.low, p.high].map(short);
     Some(format!("{value} for {} ({low} to {high}{doubts})", structure.name))
 }

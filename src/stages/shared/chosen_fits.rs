@@ -3,6 +3,7 @@
 use super::answers::Answers;
 use super::surface::Surface;
 use super::transfers;
+use crate::fragility::overturning::LEAST_EVENTS;
 use crate::fragility::overturning::group::rejects;
 use crate::fragility::sample::MANY;
 use crate::fragility::universal::Scenarios;
@@ -27,6 +28,8 @@ pub struct ChosenFits {
     pub model: FragilityModel,
     /// The same fits to resampled cases, where limits come from them.
     pub resampled: Option<ResampledModel>,
+    /// Overturnings that P_ro comes from, and the cases among which they are.
+    pub events: [usize; 2],
     /// Whether P_ro comes from so few events that some limits are too narrow.
     pub few_events: bool,
     /// Whether it comes from so few magnitudes and distances, or earthquakes, that little is known of how these differ.
@@ -68,19 +71,19 @@ impl Misfit {
         let tests = reject.map(|(test, p)| format!("{test} p {p:.0e}")).collect::<Vec<_>>().join(", ");
         let off = self.gap.map_or(String::new(), |Gap { straight, bent }| {
             format!(
-                ", off by {:.2} and more at one case of twenty ({straight:.2} for {bent:.2})",
+                "; in 1 case of 20 it is off by {:.2} or more, as {straight:.2} where a curve with a bend has {bent:.2}",
                 (straight - bent).abs()
             )
         });
         let scores = self.log_scores.map_or(String::new(), |[straight, bent]| {
-            format!(", whose log score on cells left out is {bent:.4} for {straight:.4}")
+            format!(" (log score on held-out cells {bent:.4} against {straight:.4}, nearer to 0 is better)")
         });
         match self.answer {
             Line::Bent => format!(
-                "tests reject the paper's straight line for P_ro ({tests}){off}: the bent curve answers{scores}; --model paper takes the line"
+                "the paper's curve of P_ro fits these data badly ({tests}{off}), so a curve with a bend answers{scores}; --model paper takes the paper's"
             ),
             Line::Straight => format!(
-                "P_ro is the paper's straight line, which its tests reject ({tests}){off}; low and high do not hold this error"
+                "the paper's curve of P_ro, which answers, fits these data badly ({tests}{off}); low and high do not hold this error"
             ),
         }
     }
@@ -89,10 +92,27 @@ impl Misfit {
 /// A difference in eta that the response hardly feels.
 const SAME_ETA: f64 = 0.005;
 
+/// Whether two coefficients of restitution are as far apart as the response feels.
+pub fn is_other_eta(one: f64, other: f64) -> bool {
+    (one - other).abs() > SAME_ETA
+}
+
 impl ChosenFits {
     /// Whether this coefficient of restitution is another one than that of the fits.
     pub fn is_other_eta(&self, eta: f64) -> bool {
-        (eta - self.model.eta).abs() > SAME_ETA
+        is_other_eta(eta, self.model.eta)
+    }
+
+    /// That P_ro says little, if it comes from so few overturnings, or motions without, that ordinary estimates refuse them.
+    pub fn doubt_of_events(&self) -> Option<String> {
+        let [events, n] = self.events;
+        let (few, what, limit) = match 2 * events <= n {
+            true => (events, "overturning(s)", "an upper"),
+            false => (n - events, "motion(s) without overturning", "a lower"),
+        };
+        let what = what.replace("(s)", if few == 1 { "" } else { "s" });
+        (few < LEAST_EVENTS)
+            .then(|| format!("from {few} {what} of {n} motions: this says little more than {limit} limit"))
     }
 }
 
@@ -199,6 +219,11 @@ impl Answers for ChosenFits {
             if self.few_events {
                 console.warn("P_ro comes from fewer than 10 events, or non-events, for each coefficient: where it is small, limits by resamples are too narrow, those of --limits delta are not");
             }
+        }
+        if let Some(doubt) = self.doubt_of_events() {
+            console.warn(&format!(
+                "P_ro comes {doubt}; its limits may miss the truth: simulate more motions, or stronger ones, or ask --model universal"
+            ));
         }
         if self.few_clusters {
             console.warn(&format!(

@@ -5,7 +5,8 @@ use std::path::Path;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use super::chosen_fits::{ChosenFits, Line, Misfit};
+use super::chosen_fits::{ChosenFits, Line, Misfit, is_other_eta};
+use super::transfers::is_other_block;
 use crate::fragility::demand::Form;
 use crate::fragility::{DemandModel, FragilityModel, Gap, Measure, has_few_events};
 use crate::keyword::{Keyword, keywords};
@@ -13,6 +14,7 @@ use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, StageOptions};
 use crate::pipeline::options::{Word, defaults};
+use crate::rocking::Structure;
 use crate::stages::fit_pex::FitPex;
 use crate::stages::fit_pro::FitPro;
 use crate::statistics::FitStatus;
@@ -81,15 +83,29 @@ impl Default for FitsOptions {
 impl StageOptions for FitsOptions {}
 
 /// Tells of fits that could have answered in place of the universal surface, if nobody asked for that.
-pub fn note_fits_of_run(options: &FitsOptions, console: &Console) {
-    if let (None, Some(flags)) = (options.model, flags_of_run()) {
+/// With a structure, only of fits of this one.
+pub fn note_fits_of_run(options: &FitsOptions, structure: Option<&Structure>, console: &Console) {
+    let are_of = |structure: &Structure| {
+        let rows = ProRow::read(Path::new(PRO_OF_RUN)).unwrap_or_default();
+        rows.iter().any(|row| {
+            row.block().is_some_and(|block| !is_other_block(block, structure))
+                && row.eta.is_some_and(|eta| !is_other_eta(eta, structure.eta))
+        })
+    };
+    if let (None, Some(flags)) = (options.model, flags_of_run())
+        && structure.is_none_or(are_of)
+    {
         console.note(&format!("there are fits in out; {flags} takes them in place of the universal surface"));
     }
 }
 
+/// The fits of a run from here.
+const PEX_OF_RUN: &str = "out/pex.parquet";
+const PRO_OF_RUN: &str = "out/pro.parquet";
+
 /// The flags that name the fits of a run from here, if there are any.
 fn flags_of_run() -> Option<&'static str> {
-    let are_there = ["out/pex.parquet", "out/pro.parquet"].iter().all(|file| Path::new(file).exists());
+    let are_there = [PEX_OF_RUN, PRO_OF_RUN].iter().all(|file| Path::new(file).exists());
     are_there.then_some("--pex out/pex.parquet --pro out/pro.parquet")
 }
 
@@ -112,16 +128,15 @@ impl FitFiles {
                 "no pex.parquet and pro.parquet here; expected {flags}, or --model universal, which needs no fits"
             )));
         }
-        // Of one file alone, the other is where it always is.
         let mut files = files.clone();
         for (role, file, other) in [("pex", FitPex::OUTPUT.file, "pro"), ("pro", FitPro::OUTPUT.file, "pex")]
         {
             if files.optional(role).is_none() {
-                let given = files.optional(other).filter(|given| given.name().exists());
-                if let Some(given) = given.filter(|_| !Path::new(file).exists()) {
+                let found = files.optional(other).filter(|found| found.name().exists());
+                if let Some(found) = found.filter(|_| !Path::new(file).exists()) {
                     return Err(UsageError::because(format!(
-                        "--{other} {} alone, and no {file} here; expected both fits: --{role} FILE too",
-                        given.name().display()
+                        "found {}, but no {file}; expected --{role} FILE beside it, or --model universal, which needs neither",
+                        found.name().display()
                     )));
                 }
                 files.inputs.push((role, Path::new(file).into()));
@@ -224,6 +239,7 @@ impl FitFiles {
         let answer = if bent.is_some() { Line::Bent } else { Line::Straight };
         let overturning = bent.unwrap_or(straight);
         let limit = regressions.first().map_or(f64::NAN, |row| row.limit_state);
+        let events = [curve.n_events, curve.n];
         let few_events = has_few_events(curve.n_events, curve.n, overturning.measures().count());
         let model = FragilityModel { demand, limit, overturning, eta };
         let (suite, structure) = group.clone();
@@ -233,6 +249,7 @@ impl FitFiles {
             structure,
             model,
             resampled: None,
+            events,
             few_events,
             few_clusters: curve.clustered_covariance.is_none(),
             aic_per_case: curve.aic.unwrap_or(f64::INFINITY) / curve.n as f64,

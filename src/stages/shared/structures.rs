@@ -114,6 +114,11 @@ impl StructureSpec {
             (None, None, _, Some(width), Some(height), Some(ratio)) => {
                 Structure::frame(&name, width, height, ratio, of_dimensions((width / height).atan()))
             }
+            (Some(_), Some(_), None, None, None, None) => {
+                return Err(UsageError::because(format!(
+                    "structure '{name}': eta is missing; expected p, alpha and eta (a number, 0.92 in the paper, or housner: 1 - 1.5 sin^2 alpha)"
+                )));
+            }
             _ if self.given().is_empty() && self.name.is_none() => {
                 return Err(UsageError::because(format!("no structure; expected {WAYS}")));
             }

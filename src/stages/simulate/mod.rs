@@ -1,6 +1,7 @@
 //! simulate: every structure through every motion.
 
 mod options;
+mod overturned;
 
 use std::path::{Path, PathBuf};
 
@@ -10,6 +11,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 pub use self::options::{SimulateOptions, simd};
+use self::overturned::Overturned;
 use super::shared::motions::{DistinctIds, FOR_RANKING, Judge, Peaks, note_passed_over, record};
 use super::shared::partitions::{PartitionedInput, is_folder, out_of_partition};
 use super::shared::reasons::{Case, Reasons};
@@ -92,10 +94,13 @@ impl Simulate {
             .collect();
         let mut responses = simulate_all(&problems, self.simd).into_iter();
         let mut rows = Vec::with_capacity(problems.len());
+        let mut overturned = Overturned::new(&self.structures);
         for (motion, record) in motions.iter().zip(&records) {
             let peaks = Peaks::of(motion, record, intensity);
-            let each = self.structures.iter().zip(&mut responses);
-            rows.extend(each.map(|(structure, response)| peaks.response_row(motion, structure, response)));
+            for (place, (structure, response)) in self.structures.iter().zip(&mut responses).enumerate() {
+                overturned.add(place, motion, &response);
+                rows.push(peaks.response_row(motion, structure, response));
+            }
         }
         let traced = motions.iter().zip(&records);
         let traced = traced.filter(|(motion, _)| self.traced.contains(&motion.motion_id.to_string()));
@@ -106,6 +111,7 @@ impl Simulate {
             .collect();
         Ok(Responded {
             doubts,
+            overturned,
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             rows: ResponseRow::batch_in(&rows, &schema_of(&RESPONSES, by_name))?,
             traces: traces.collect::<anyhow::Result<_>>()?,
@@ -175,6 +181,7 @@ struct Responded {
     rows: RecordBatch,
     traces: Vec<Trace>,
     doubts: Vec<Case>,
+    overturned: Overturned,
 }
 
 /// The trace of a motion.
@@ -271,6 +278,7 @@ impl Stage for Simulate {
         let mut writer = motions::writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
         let (mut ids, judge) = (DistinctIds::default(), Judge::new(motions.of_others()));
         let (mut traces, mut doubts): (Vec<Trace>, Reasons) = (Vec::new(), Reasons::default());
+        let mut overturned = Overturned::new(&self.structures);
         let pool = Pool::new(Scratch::default);
         let bar = console.bar(self.name(), total);
         pipelined(
@@ -292,7 +300,10 @@ impl Stage for Simulate {
                 Ok(responded.into_iter().flatten())
             },
             |responded| {
-                for Responded { motion_ids, rows, traces: traced, doubts: doubtful } in responded {
+                for Responded { motion_ids, rows, traces: traced, doubts: doubtful, overturned: more } in
+                    responded
+                {
+                    overturned.append(more);
                     ids.add(self.input.source.name(), &motion_ids)?;
                     traces.extend(traced);
                     doubtful.into_iter().for_each(|case| doubts.add(case));
@@ -312,6 +323,7 @@ impl Stage for Simulate {
         writer.finish()?;
         bar.finish();
         doubts.lines("motions").for_each(|line| console.warn(&line));
+        console.note(&overturned.words(&self.structures, total));
         Ok(format!(
             "{} responses of {} structure(s)",
             total * self.structures.len() as u64,
