@@ -183,8 +183,8 @@ def evaluate(
         CSV file, or its columns as a table or mapping: pga_g or pgv_m_s with annual_rate_of_exceedance,
         or both with annual_rate_of_occurrence.
     ratio : float, optional
-        p PGV / PGA of all motions, for a hazard of one peak only: p in rad/s, PGV in m/s, PGA in
-        m/s2 (not g), usually 0.1 to 0.6 [default: distributed as in the motions of the fits].
+        p PGV / PGA of all motions, for a hazard of one peak only: p in rad/s, PGV in m/s, PGA in m/s2
+        (not g), usually 0.1 to 0.6 [default: distributed as in the motions of the fits].
     years : float, default 50.0
         Time of exposure, years.
     columns : str, optional
@@ -352,14 +352,14 @@ def export(
     im : {'pga', 'pgv'}, default 'pga'
         Intensity of the functions: pga (g) or pgv (m/s).
     ratio : float, iterable of float, or 'first:last:step', optional
-        p PGV / PGA of the motions (p in rad/s, PGV in m/s, PGA in m/s2, not g; usually 0.1 to 0.6):
-        one function for each of these numbers.
+        p PGV / PGA of the motions (p in rad/s, PGV in m/s, PGA in m/s2, not g; usually 0.1 to 0.6): one
+        function for each of these numbers.
     levels : float, iterable of float, or 'first:last:step', optional
         Intensities of the table, g or m/s: first:last:step, or numbers separated by commas [default: as
         many as ``tolerance`` needs].
     upto : float, optional
-        Largest intensity, g or m/s [default: as in the data, but no more than 4.5 g, the strongest
-        PGA ever recorded; for pelicun, where all probabilities are 1].
+        Largest intensity, g or m/s [default: as in the data, but no more than 4.5 g, the strongest PGA
+        ever recorded; for pelicun, where all probabilities are 1].
     tolerance : float, optional
         Largest error of linear interpolation between levels [default: 1e-6; for pelicun 1e-5].
     eta : float or {'housner'}, optional
