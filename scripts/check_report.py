@@ -85,6 +85,8 @@ def check_alone():
     beside = pathlib.Path(report).with_suffix("")
     names = [figure.get_attribute("id").removeprefix("figure-") for figure in browser.find_elements(By.TAG_NAME, "figure")]
     for name in [*names[:3], names[-1]]:
+        # Chromium drops what a page starts beyond ten downloads in a second.
+        time.sleep(1)
         for kind in ["svg", "png", "csv"]:
             browser.execute_script("arguments[0].click()", browser.find_element(By.CSS_SELECTOR, f"#figure-{name} .files a[download$={kind}]"))
             made = folder / f"{name}.{kind}"

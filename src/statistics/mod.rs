@@ -41,6 +41,7 @@ pub use link::{Information, Link};
 pub use regression::{LinearFit, RegressionError, least_squares};
 pub use search::{minimum, root};
 pub use separation::is_separated;
+pub use spread::Spread;
 
 use crate::keyword::keywords;
 

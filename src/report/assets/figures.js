@@ -55,11 +55,8 @@
   const png = async (figure, words) => {
     const DOTS_PER_POINT = 300 / 72;
     const picture = new Image();
-    // Not decode(), which now and then refuses large drawings that load.
-    await new Promise((loaded, failed) => {
-      Object.assign(picture, { onload: loaded, onerror: failed });
-      picture.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg(figure, words, document.getElementById("fonts").textContent))}`;
-    });
+    picture.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg(figure, words, document.getElementById("fonts").textContent))}`;
+    await picture.decode();
     const { width, height } = figure.querySelector("svg").viewBox.baseVal;
     const canvas = Object.assign(document.createElement("canvas"), { width: Math.ceil(width * DOTS_PER_POINT), height: Math.ceil(height * DOTS_PER_POINT) });
     canvas.getContext("2d").drawImage(picture, 0, 0, canvas.width, canvas.height);

@@ -12,6 +12,7 @@ use crate::table::schema::headings::Headings;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::store::writer::TableWriter;
+use crate::units::G_M_S2;
 
 /// Rows that are read at once, and written as a row group.
 const BATCH: usize = 16_384;
@@ -151,7 +152,7 @@ impl Suspect {
         }
         if self.rocking == 0 && self.largest_pga_m_s2 <= LARGEST_PGA_IN_G {
             console.warn(&format!(
-                "no row rocks: PGA is at most {} m/s2; is it in g? multiply the column pga_m_s2 by 9.81",
+                "no row rocks: PGA is at most {} m/s2; is it in g? multiply the column pga_m_s2 by {G_M_S2}",
                 self.largest_pga_m_s2
             ));
         }

@@ -5,7 +5,7 @@ use super::ReportOptions;
 use crate::pipeline::UsageError;
 use crate::report::data::{Group, ReportResponse, Summary};
 use crate::rocking::Outcome;
-use crate::statistics::spread::Spread;
+use crate::statistics::Spread;
 use crate::table::responses::{RESPONSES, ResponseCase};
 use crate::table::row::Row;
 use crate::table::store::reader::Batches;
