@@ -2,8 +2,8 @@
 """What rockfrag is made of: dependencies.py checks it, dependencies.py sbom prints it as CycloneDX, dependencies.py unsafe
 counts the unsafe code in it. Only what is built into the program counts, not what tests and benchmarks need.
 
-The check fails where a crate has a licence that is not allowed or comes from elsewhere than crates.io, or where the lock file
-is not up to date; it names crates that are there in several versions.
+The check fails where a crate has a licence that is not allowed or comes from elsewhere than crates.io, where tests or the Python
+package would compile it again, or where the lock file is not up to date; it names crates that are there in several versions.
 """
 
 import json
@@ -40,8 +40,20 @@ def allowed(licence):
     return any(all(part.strip() in ALLOWED for part in way.split(" AND ")) for way in alternatives)
 
 
+def features(*of):
+    tree = cargo("tree", *of, "--prefix", "none", "--format", "{p} {f}", "--target", TARGET)
+    return {line.removesuffix(" (*)") for line in tree.splitlines()}
+
+
+def compiled_twice():
+    """Crates that the program needs with other features than tests and the Python package do: each would compile them again."""
+    everything = features("--workspace", "--edges", "normal,build,dev")
+    return sorted(features("--package", "rockfrag", "--edges", "normal,build") - everything)
+
+
 def check(found):
-    wrong = [f"{p['name']} {p['version']}: licence {p['license']}" for p in found if not allowed(p["license"])]
+    wrong = [f"{line}: tests and the Python package need other features, so that it is compiled again" for line in compiled_twice()]
+    wrong += [f"{p['name']} {p['version']}: licence {p['license']}" for p in found if not allowed(p["license"])]
     wrong += [f"{p['name']} {p['version']}: from {p['source']}" for p in found if p["source"] != REGISTRY]
     versions = {}
     for package in found:

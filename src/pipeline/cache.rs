@@ -1,14 +1,13 @@
 //! Whether a stage is up to date: the cache key recorded in its files equals that of what it would do.
 
 use std::fs::{File, TryLockError};
-use std::path::Path;
 
 use super::console::Console;
 use super::replace;
 use super::stage::{Stage, folder_of};
 use super::terminal::Weight;
 use crate::table::TableError;
-use crate::table::store::folder::partition_of;
+use crate::table::store::folder::{file_name, partition_of};
 use crate::table::store::partition::Partition;
 use crate::table::store::provenance::{self, Provenance};
 use crate::table::store::source::Source;
@@ -159,8 +158,4 @@ fn difference(before: &Provenance, now: &Provenance) -> String {
         Some((role, _)) => format!("the {role} changed"),
         None => "its parameters changed".to_string(),
     }
-}
-
-fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }

@@ -18,6 +18,7 @@ use serde_json::{Map, Value, json};
 use super::UsageError;
 use super::options::Steps;
 use super::stage::{Stage, beside};
+use crate::table::store::partition;
 use crate::table::store::source::{Source, Target};
 
 /// Options of a stage: one struct serves the command line, pipeline.yaml and Python.
@@ -203,9 +204,6 @@ impl Output {
     }
 }
 
-/// The option that has a stage do a part of its work only.
-const PARTITION: &str = "partition";
-
 /// The flag of outputs.
 pub const OUT: &str = "out";
 
@@ -382,7 +380,7 @@ impl<S: Declare> AnySection for Section<S> {
     }
 
     fn stages_in(&self, run: &Path, seed: Option<u64>) -> anyhow::Result<Vec<Box<dyn Stage>>> {
-        if object(&self.options)?.get(PARTITION).is_some_and(|partition| !partition.is_null()) {
+        if object(&self.options)?.get(partition::PARAMETER).is_some_and(|partition| !partition.is_null()) {
             let name = S::NAME;
             return Err(UsageError::because(format!(
                 "{name} has a partition, and a run makes whole files; take it out of the pipeline file, and name it where a stage is \

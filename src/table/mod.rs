@@ -49,7 +49,7 @@ pub enum TableError {
         source: std::io::Error,
     },
     /// The file cannot be read as Parquet.
-    #[error("{}: not a readable Parquet file ({cause}); make it again: what rockfrag made, by the same command with --overwrite", path.display())]
+    #[error("{}: not a readable Parquet file ({cause}); make it again; if rockfrag made it, by the same command with --overwrite", path.display())]
     NotParquet {
         path: PathBuf,
         /// What the reader said.

@@ -24,6 +24,7 @@ use crate::rocking::Structure;
 use crate::stages::shared::answers::Answers;
 use crate::stages::shared::structures::words;
 use crate::table::evaluated::{self, RATES, RateRow, RecordedCurve, RecordedHazard};
+use crate::table::store::folder::file_name;
 
 /// The annual rate of each limit state, with its limits.
 #[derive(Clone, Copy)]
@@ -143,7 +144,7 @@ fn recorded(path: &Path, hazard: &Hazard) -> RecordedHazard {
             (joint.bins.len(), vec![curve(Peak::Pga, &pga), curve(Peak::Pgv, &pgv)])
         }
     };
-    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let file = file_name(path);
     RecordedHazard { file, rows, curves }
 }
 

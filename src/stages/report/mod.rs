@@ -38,7 +38,7 @@ use crate::table::pex::PexRow;
 use crate::table::row::ReadRow;
 use crate::table::store::contents;
 use crate::table::store::contents::footer;
-use crate::table::store::folder;
+use crate::table::store::folder::{self, file_name};
 use crate::table::store::partition::Partition;
 use crate::table::store::provenance::{Provenance, Recorded};
 use crate::table::store::source::{Source, Target};
@@ -218,7 +218,7 @@ fn finish(figures: &mut [(Part, Figure)], made: &str) {
 fn file(path: &Path) -> Result<File, TableError> {
     let footer = footer(path)?;
     let recorded = contents::recorded(path)?;
-    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let name = file_name(path);
     let rows = usize::try_from(footer.rows).unwrap_or(0);
     let mut warnings = Vec::new();
     for part in folder::files(path)? {
@@ -340,7 +340,7 @@ impl Stage for Report {
             text_file::write(&path("csv"), csv(&figure.drawing.plotted)?)?;
             Ok(text_file::write(&path("png"), &png(figure, self.options.dpi)?)?)
         })?;
-        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = file_name(&folder);
         let recorded = provenance::words(provenance);
         let html = page(&data, Page { figures: &figures, folder: &name, provenance: &recorded });
         text_file::write(&self.out, &html)?;

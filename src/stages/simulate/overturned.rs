@@ -28,7 +28,7 @@ impl Overturned {
     /// Adds what came of the structure at this place.
     pub fn add(&mut self, structure: usize, motion: &Motion, response: &Response) {
         if response.outcome == Outcome::Overturning {
-            self.merge(structure, 1, [motion.motion_id.to_string()]);
+            self.merge(structure, 1, std::iter::once_with(|| motion.motion_id.to_string()));
         }
     }
 

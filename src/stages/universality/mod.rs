@@ -150,12 +150,6 @@ impl Universality {
                     known.join(", ")
                 )));
             };
-            if groups.len() == 1 {
-                return Err(UsageError::because(format!(
-                    "{file}: '{}' is its only structure; expected others to test its curves on",
-                    self.options.reference
-                )));
-            }
             let own = &groups[reference].cases;
             if let Some(other) = groups.iter().find(|group| !group.cases.has_cells_of(own)) {
                 anyhow::bail!(
@@ -168,7 +162,15 @@ impl Universality {
             let (cases, cells) = (placed.iter().map(cases_of).collect(), cells(placed[reference]));
             Ok(SuiteOfGroups { groups, cases, cells, reference })
         };
-        names.into_iter().map(of).collect()
+        let suites: Vec<SuiteOfGroups> = names.into_iter().map(of).collect::<anyhow::Result<_>>()?;
+        if suites.iter().all(|suite| suite.groups.len() == 1) {
+            return Err(UsageError::because(format!(
+                "{}: '{}' is its only structure; expected others to test its curves on",
+                self.input.name().display(),
+                self.options.reference
+            )));
+        }
+        Ok(suites)
     }
 
     /// Holds all structures against the reference.

@@ -109,9 +109,9 @@ fn expect_one_table(folder: &Path, files: &[PathBuf]) -> Result<(), TableError> 
     let mut seen: BTreeMap<u64, usize> = BTreeMap::new();
     for (at, partition) in partitions.iter().enumerate() {
         if let Some(other) = seen.insert(partition.index, at) {
-            let is_copy = name(&files[at]) != partition.file_name();
+            let is_copy = file_name(&files[at]) != partition.file_name();
             let (copy, other) = if is_copy { (at, other) } else { (other, at) };
-            let (copy, other) = (name(&files[copy]), name(&files[other]));
+            let (copy, other) = (file_name(&files[copy]), file_name(&files[other]));
             let problem =
                 format!("{copy} is partition {partition}, as is {other}; expected it once: remove {copy}");
             return Err(unusable(folder, problem));
@@ -122,10 +122,10 @@ fn expect_one_table(folder: &Path, files: &[PathBuf]) -> Result<(), TableError> 
         None if (partitions.len() as u64) < of => return Err(missing(folder, partitions.len() as u64, of)),
         None => {}
     }
-    let others = || (1..made.len()).map(|at| (at, unlike(made[0], made[at], &name(&files[0]))));
+    let others = || (1..made.len()).map(|at| (at, unlike(made[0], made[at], &file_name(&files[0]))));
     match others().find_map(|(at, unlike)| Some((at, unlike?))) {
         Some((at, unlike)) => {
-            let (file, partition) = (name(&files[at]), partitions[at]);
+            let (file, partition) = (file_name(&files[at]), partitions[at]);
             let way_out = format!("make it again with --partition {partition}, or the others");
             Err(unusable(folder, format!("{file} {unlike}; expected partitions of one table: {way_out}")))
         }
@@ -151,7 +151,8 @@ fn unlike(first: &Provenance, other: &Provenance, first_name: &str) -> Option<St
     }
 }
 
-fn name(file: &Path) -> String {
+/// The name of a file without its folders.
+pub fn file_name(file: &Path) -> String {
     file.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 

@@ -6,8 +6,8 @@ use std::str::FromStr;
 
 use serde_json::Value;
 
-/// The parameter under which a file says which partition it is.
-const PARAMETER: &str = "partition";
+/// The option that has a stage do a part of its work only, and the parameter under which a file says which partition it is.
+pub const PARAMETER: &str = "partition";
 
 /// Part `index`, counted from 0, of `of` parts of a table: a run of its rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
