@@ -9,9 +9,9 @@
 //!                                                                                   |-> fit-pro -> pro --|-> compare-paper
 //!                                                                                   |-> rank-ims         |-> evaluate
 //!                                                                                                         |-> export
-//!                            responses of many structures, to hold the curves of one against --|-> universality
-//!                                                  responses of other motions, to hold the fits against --|-> validate
-//!                                                      all of these files, in figures and a page to look at --|-> report
+//!                            responses of many structures, to test the curves of one on --|-> universality
+//!                                                       responses of other motions, to test the fits on --|-> validate
+//!                                                                 all of these files, in figures and a page --|-> report
 //! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from
 //! ```
 //!
@@ -28,6 +28,8 @@
 //! These know no files, threads or command line, nor do [`export`], which words fragility for other programs, and
 //! [`report`], which draws it. [`table`] reads and writes the files, [`pipeline`] decides what must run, [`stages`] joins
 //! them: a file or folder a subcommand. `docs/architecture.md` has the picture.
+
+#![deny(clippy::disallowed_methods)]
 
 #[cfg(feature = "pipeline")]
 mod allocator;

@@ -97,7 +97,7 @@ fn farthest(coordinates: impl Iterator<Item = (&'static str, f64, [f64; 2])>) ->
     let distance = |(name, value, [least, largest]): (&'static str, f64, [f64; 2])| {
         let [value, least, largest] = match name {
             "eta" => [value, least, largest],
-            _ => [value, least, largest].map(f64::ln),
+            _ => [value, least, largest].map(libm::log),
         };
         let (middle, half) = (0.5 * (least + largest), 0.5 * (largest - least));
         ((value - middle).abs() / half, name)

@@ -41,7 +41,7 @@ const TOLERANCE: f64 = 1e-14;
 /// # Errors
 /// The status, if fewer than two capacities are known, or all are the same.
 pub fn fit_capacities(capacities: &[KnownCapacity]) -> Result<CapacityFit, FitStatus> {
-    let known: Vec<f64> = capacities.iter().filter_map(KnownCapacity::exact).map(f64::ln).collect();
+    let known: Vec<f64> = capacities.iter().filter_map(KnownCapacity::exact).map(libm::log).collect();
     if known.len() < 2 {
         return Err(FitStatus::TooFewEvents);
     }
@@ -58,10 +58,10 @@ pub fn fit_capacities(capacities: &[KnownCapacity]) -> Result<CapacityFit, FitSt
     let of_mu = DVector::from_vec(vec![-shift / (per_beta * per_beta), 1.0 / per_beta]);
     let se_ln_theta = (&covariance * &of_mu).dot(&of_mu).sqrt();
     let se_ln_beta = covariance[(0, 0)].sqrt() / per_beta;
-    let lognormal = Lognormal { theta: (middle + shift / per_beta).exp(), beta: 1.0 / per_beta };
+    let lognormal = Lognormal { theta: libm::exp(middle + shift / per_beta), beta: 1.0 / per_beta };
     let limits = |value: f64, se_ln: f64| Limits {
-        low: value * (-Z_95 * se_ln).exp(),
-        high: value * (Z_95 * se_ln).exp(),
+        low: value * libm::exp(-Z_95 * se_ln),
+        high: value * libm::exp(Z_95 * se_ln),
     };
     Ok(CapacityFit {
         lognormal,
@@ -83,12 +83,12 @@ fn log_likelihood(capacities: &[KnownCapacity], middle: f64, at: &DVector<f64>) 
             KnownCapacity::Below(x) => (x, Some(1.0)),
             KnownCapacity::Above(x) => (x, Some(-1.0)),
         };
-        let x = x.ln() - middle;
+        let x = libm::log(*x) - middle;
         let index = per_beta * x - shift;
         let slope = DVector::from_vec(vec![x, -1.0]);
         let weight = match censored {
             None => {
-                value += per_beta.ln() - 0.5 * index * index;
+                value += libm::log(per_beta) - 0.5 * index * index;
                 gradient[0] += 1.0 / per_beta;
                 information[(0, 0)] += 1.0 / (per_beta * per_beta);
                 gradient -= &slope * index;

@@ -7,7 +7,7 @@ use super::sample::CLUSTER;
 use crate::resampling::folds::MOST_FOLDS;
 use crate::statistics::binary::as_numbers;
 use crate::statistics::columns::Columns;
-use crate::statistics::design::{Design, Rows};
+use crate::statistics::design::{Design, Rows, dot};
 use crate::statistics::link::Link;
 use crate::wide::widest_on;
 
@@ -122,16 +122,20 @@ impl HeldOut {
             }
         });
         let log_score: f64 = likelihoods.values().map(|of_cluster| of_cluster[STEPS_EACH_SIDE]).sum();
-        let integrated = |spread: f64| -> f64 {
-            let weights: Vec<f64> =
-                shifts.iter().map(|u| (-0.5 * (u / spread) * (u / spread)).exp()).collect();
-            let total: f64 = weights.iter().sum();
-            let of_cluster = |values: &[f64; SHIFTS]| {
+        // Relative to the most likely shift, so that none underflows.
+        let relative: Vec<(f64, [f64; SHIFTS])> = likelihoods
+            .values()
+            .map(|values| {
                 let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-                let sum: f64 = values.iter().zip(&weights).map(|(value, w)| w * (value - most).exp()).sum();
-                most + (sum / total).ln()
-            };
-            likelihoods.values().map(of_cluster).sum()
+                (most, values.map(|value| libm::exp(value - most)))
+            })
+            .collect();
+        let integrated = |spread: f64| -> f64 {
+            let weights = shifts.map(|u| libm::exp(-0.5 * (u / spread) * (u / spread)));
+            let total: f64 = weights.iter().sum();
+            let of_cluster =
+                |(most, values): &(f64, [f64; SHIFTS])| most + libm::log(dot(values, &weights) / total);
+            relative.iter().map(of_cluster).sum()
         };
         let tried =
             (0..SPREADS).map(|k| LEAST_SPREAD * RATIO.powi(k)).map(|spread| (integrated(spread), spread));

@@ -59,16 +59,16 @@ impl RatioGiven {
     }
 
     fn ratio(&self, intensity: f64, deviations: f64) -> f64 {
-        let (u, [b0, b1, b2]) = (intensity.ln(), self.coefficients);
+        let (u, [b0, b1, b2]) = (libm::log(intensity), self.coefficients);
         let bend: f64 = restricted_splines(u, &self.knots).sum();
-        (b0 + b1 * u + b2 * bend + deviations * self.sd).exp()
+        libm::exp(b0 + b1 * u + b2 * bend + deviations * self.sd)
     }
 }
 
 impl JointPeaks {
     /// That of these motions (m/s2 and m/s); none with fewer than three, or if a peak is not above 0 or the same in all.
     pub fn of(pga_m_s2: &[f64], pgv_m_s: &[f64]) -> Option<JointPeaks> {
-        let ln = |values: &[f64]| values.iter().map(|value| value.ln()).collect::<Vec<f64>>();
+        let ln = |values: &[f64]| values.iter().map(|&value| libm::log(value)).collect::<Vec<f64>>();
         JointPeaks::of_logarithms(&columns_of(&[&ln(pga_m_s2)], ln(pgv_m_s)))
     }
 

@@ -92,10 +92,10 @@ impl Predictor {
     /// Its value and variance; none where a measure is missing.
     pub fn at(&self, measures: &IntensityMeasures) -> Option<Predicted> {
         let ln_y = match self.im_y {
-            Some(im_y) => im_y.among(measures)?.ln(),
+            Some(im_y) => libm::log(im_y.among(measures)?),
             None => 0.0,
         };
-        let row = [1.0, self.im_x.among(measures)?.ln(), ln_y];
+        let row = [1.0, libm::log(self.im_x.among(measures)?), ln_y];
         let dot = |a: &[f64; 3]| a[0] * row[0] + a[1] * row[1] + a[2] * row[2];
         let line = dot(&self.coefficients);
         let (value, variance) = match &self.bend {
@@ -118,7 +118,7 @@ impl Predictor {
             return None;
         }
         let [b0, b1, b2] = self.coefficients;
-        Some(((self.at(measures)?.value - b0) / (b1 + b2)).exp())
+        Some(libm::exp((self.at(measures)?.value - b0) / (b1 + b2)))
     }
 
     /// The measures it needs.

@@ -69,10 +69,10 @@ impl ProbitIndex {
         }
         // d value / d index: the ratio of densities, times the probability that the other branch does not fail.
         let share = |of: ProbitIndex, other: ProbitIndex| {
-            let densities = (0.5 * (value * value - of.value * of.value)).exp();
+            let densities = libm::exp(0.5 * (value * value - of.value * of.value));
             densities * normal::cdf(-other.value) * of.standard_error
         };
-        let standard_error = share(overturning, exceeding).hypot(share(exceeding, overturning));
+        let standard_error = libm::hypot(share(overturning, exceeding), share(exceeding, overturning));
         ProbitIndex { value, standard_error }
     }
 }
@@ -85,13 +85,13 @@ pub fn p_exceeding(ln_median_demand: f64, limit: f64, beta: f64) -> f64 {
 
 /// The argument of Phi in [`p_exceeding`].
 pub fn exceeding_index(ln_median_demand: f64, limit: f64, beta: f64) -> f64 {
-    (ln_median_demand - limit.ln()) / beta
+    (ln_median_demand - libm::log(limit)) / beta
 }
 
 /// Probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta) by the probit (Eq. 20; Eq. 24 of a hybrid), for every
 /// link one half at IM = exp(mu).
 pub fn p_overturning(im: f64, mu: f64, beta: f64, link: Link) -> f64 {
-    link.probability((im.ln() - mu) / beta + link.median_index())
+    link.probability((libm::log(im) - mu) / beta + link.median_index())
 }
 
 /// Probability of no rocking, which IM4 = PGA/(g tan alpha) decides: 1 below uplift, 0 from there on; NaN of NaN.

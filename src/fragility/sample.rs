@@ -41,7 +41,7 @@ impl Sample {
     /// Of ln EDP in safe rocking, where the first measure lies in `range`.
     pub fn of_demands<C: Cases + ?Sized>(cases: &C, measures: &[Measure], range: Range<f64>) -> Sample {
         Sample::of(cases, measures, |case, first| {
-            (case.has_demand() && range.contains(&first)).then(|| case.edp.ln())
+            (case.has_demand() && range.contains(&first)).then(|| libm::log(case.edp))
         })
     }
 
@@ -60,7 +60,7 @@ impl Sample {
                     !value.is_nan()
                 });
                 if let Some(y) = has_all.then(|| observed(case, values[0])).flatten() {
-                    values[..measures.len()].iter_mut().for_each(|value| *value = value.ln());
+                    values[..measures.len()].iter_mut().for_each(|value| *value = libm::log(*value));
                     values[measures.len()..].copy_from_slice(&[
                         y,
                         *row as f64,
@@ -161,7 +161,7 @@ impl Sample {
 
     /// Least and largest value of each measure.
     pub fn ranges(&self) -> Vec<[f64; 2]> {
-        (0..self.measures).map(|measure| self.design().range(measure).map(f64::exp)).collect()
+        (0..self.measures).map(|measure| self.design().range(measure).map(libm::exp)).collect()
     }
 
     /// Least squares of what was observed on the logarithms of the measures.

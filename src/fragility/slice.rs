@@ -146,17 +146,17 @@ pub struct Lognormal {
 impl Lognormal {
     /// The probability that the capacity is up to an intensity.
     pub fn p_up_to(&self, intensity: f64) -> f64 {
-        normal::cdf((intensity / self.theta).ln() / self.beta)
+        normal::cdf(libm::log(intensity / self.theta) / self.beta)
     }
 
     /// Arithmetic mean: theta exp(beta^2 / 2).
     pub fn mean(&self) -> f64 {
-        self.theta * (0.5 * self.beta * self.beta).exp()
+        self.theta * libm::exp(0.5 * self.beta * self.beta)
     }
 
     /// Arithmetic standard deviation: mean sqrt(exp(beta^2) - 1).
     pub fn standard_deviation(&self) -> f64 {
-        self.mean() * (self.beta * self.beta).exp_m1().sqrt()
+        self.mean() * libm::expm1(self.beta * self.beta).sqrt()
     }
 }
 
@@ -204,7 +204,7 @@ impl Slice {
         let index = |intensity: f64| curve.at(&self.measures(intensity)).map(|index| index.value);
         let at_one = index(1.0)?;
         let slope = index(std::f64::consts::E)? - at_one;
-        (slope > 0.0).then(|| Lognormal { theta: (-at_one / slope).exp(), beta: 1.0 / slope })
+        (slope > 0.0).then(|| Lognormal { theta: libm::exp(-at_one / slope), beta: 1.0 / slope })
     }
 
     /// The largest intensity for which there are data. Along a slice only IM4 and IM5 grow, each in proportion.

@@ -167,7 +167,7 @@ fn is_outside(value: f64, [least, largest]: [f64; 2]) -> bool {
 }
 
 fn logistic(index: f64) -> f64 {
-    1.0 / (1.0 + (-index).exp())
+    1.0 / (1.0 + libm::exp(-index))
 }
 
 /// The file, read.
@@ -239,12 +239,12 @@ impl Surface {
     ) -> Option<Functions> {
         let is = |suite: Suite| f64::from(u8::from(model.motions == suite));
         let coordinates = [
-            (measures.im4.ln() + 0.05).ln(),
-            Measure::Im3.among(measures)?.ln(),
+            libm::log(libm::log(measures.im4) + 0.05),
+            libm::log(Measure::Im3.among(measures)?),
             (structure.eta - 0.85) / 0.1,
-            (structure.alpha_rad / 0.15).ln(),
-            (structure.p_rad_s / 2.0).ln(),
-            (model.limit / 0.2).ln(),
+            libm::log(structure.alpha_rad / 0.15),
+            libm::log(structure.p_rad_s / 2.0),
+            libm::log(model.limit / 0.2),
             is(Suite::Pulse),
             is(Suite::Hfc),
         ];

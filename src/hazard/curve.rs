@@ -92,13 +92,13 @@ impl HazardCurve {
         let mut rates = probabilities(last).map(|p| p * rate_beyond);
         for segment in self.points.windows(2) {
             let [(low, rate), (high, rate_at_high)] = [segment[0], segment[1]];
-            let slope = (rate / rate_at_high).ln() / (high / low).ln();
-            let mut edges = vec![low.ln(), high.ln()];
-            edges.extend(breaks.iter().filter(|&&im| low < im && im < high).map(|im| im.ln()));
+            let slope = libm::log(rate / rate_at_high) / libm::log(high / low);
+            let mut edges = vec![libm::log(low), libm::log(high)];
+            edges.extend(breaks.iter().filter(|&&im| low < im && im < high).map(|im| libm::log(*im)));
             edges.sort_by(f64::total_cmp);
             for (ln_im, width) in edges.windows(2).flat_map(|edge| nodes(edge[0], edge[1])) {
-                let density = slope * rate * (-slope * (ln_im - low.ln())).exp() * width;
-                for (sum, p) in rates.iter_mut().zip(probabilities(ln_im.exp())) {
+                let density = slope * rate * libm::exp(-slope * (ln_im - libm::log(low))) * width;
+                for (sum, p) in rates.iter_mut().zip(probabilities(libm::exp(ln_im))) {
                     *sum += p * density;
                 }
             }

@@ -14,5 +14,5 @@ pub use joint::{JointHazard, PairOfPeaks};
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate independently of each other
 /// (Poisson): 1 - exp(-rate years).
 pub fn probability_in_years(annual_rate: f64, years: f64) -> f64 {
-    -(-annual_rate * years).exp_m1()
+    -libm::expm1(-annual_rate * years)
 }

@@ -13,8 +13,6 @@
 //! fourier        transforms of real series, planned once for each length; butterfly: their passes over registers
 //! ```
 
-#![deny(clippy::disallowed_methods)]
-
 mod butterfly;
 mod combine;
 mod design;

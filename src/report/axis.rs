@@ -60,7 +60,7 @@ impl Axis {
     pub fn fraction(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => (value - self.low) / (self.high - self.low),
-            Scale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
+            Scale::Log => libm::log(value / self.low) / libm::log(self.high / self.low),
         }
     }
 
@@ -68,7 +68,7 @@ impl Axis {
     pub fn value(&self, fraction: f64) -> f64 {
         match self.scale {
             Scale::Linear => self.low + fraction * (self.high - self.low),
-            Scale::Log => self.low * (self.high / self.low).powf(fraction),
+            Scale::Log => self.low * libm::pow(self.high / self.low, fraction),
         }
     }
 
@@ -114,7 +114,7 @@ fn linear_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
     let step = nice_step((high - low) / most.max(2) as f64);
     let first = (low / step - 1e-9).ceil() as i64;
     let last = (high / step + 1e-9).floor() as i64;
-    let decimals = (-step.log10().floor()).max(0.0) as usize;
+    let decimals = (-libm::log10(step).floor()).max(0.0) as usize;
     let tick = |k: i64| {
         let value = k as f64 * step;
         Tick { value, label: Some(Label::plain(number::fixed(value, decimals))) }
@@ -124,14 +124,14 @@ fn linear_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
 
 /// Rounds up to 1, 2 or 5 times a power of ten.
 fn nice_step(least: f64) -> f64 {
-    let power = 10_f64.powf(least.log10().floor());
+    let power = libm::pow(10.0, libm::log10(least).floor());
     let step = [1.0, 2.0, 5.0].into_iter().find(|factor| factor * power >= least * (1.0 - 1e-9));
     step.unwrap_or(10.0) * power
 }
 
 /// Labels as many ticks as fit: several in each decade, one, or one in so many decades.
 fn log_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
-    let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
+    let decades = libm::log10(low).floor() as i32..=libm::log10(high).ceil() as i32;
     let inside = |value: &f64| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(value);
     let at = |factors: &'static [f64], every: i32| {
         let decades = decades.clone().filter(move |decade| decade.rem_euclid(every) == 0);

@@ -60,8 +60,9 @@ fn panel(Plotted { title, corner, size, axes, series }: &Plotted) -> Value {
 
 /// Points without anything besides, of which there may be many: sixteen bits a coordinate, from end to end of their own.
 fn cloud(of: &Series, axes: &[Axis; 2]) -> Value {
-    let scaled =
-        |point: &[f64]| [0, 1].map(|axis| if axes[axis].is_log() { point[axis].ln() } else { point[axis] });
+    let scaled = |point: &[f64]| {
+        [0, 1].map(|axis| if axes[axis].is_log() { libm::log(point[axis]) } else { point[axis] })
+    };
     let finite = |point: &[f64; 2]| point.iter().all(|part| part.is_finite());
     let points: Vec<[f64; 2]> = of.points().map(scaled).filter(finite).collect();
     let ends = [0, 1].map(|axis| range(points.iter().map(|point| point[axis])));
@@ -115,13 +116,17 @@ fn in_space(group: &Group) -> Option<Value> {
     let points: Vec<[f64; 3]> = group
         .safe()
         .filter_map(|response| {
-            Some([im_x.of(&response.case)?.ln(), im_y.of(&response.case)?.ln(), response.case.edp.ln()])
+            Some([
+                libm::log(im_x.of(&response.case)?),
+                libm::log(im_y.of(&response.case)?),
+                libm::log(response.case.edp),
+            ])
         })
         .collect();
     let every = points.len().div_ceil(MOST_IN_SPACE).max(1);
     let rounded = |number: f64| (number * 1000.0).round() / 1000.0;
     let shown: Vec<[f64; 3]> = points.iter().step_by(every).map(|point| point.map(rounded)).collect();
-    Some(json!({ "name": group.name(), "transition": transition.ln(), "points": shown, "every": every,
+    Some(json!({ "name": group.name(), "transition": libm::log(transition), "points": shown, "every": every,
         "sides": sides.map(|side| side.law.ln_median.coefficients) }))
 }
 

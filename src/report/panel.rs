@@ -159,7 +159,7 @@ impl Panel {
             0 => None,
             count if most <= 1 => Some(count as usize * SHADES - 1),
             count => {
-                let share = f64::from(count).ln() / f64::from(most).ln();
+                let share = libm::log(f64::from(count)) / libm::log(f64::from(most));
                 Some(((share * SHADES as f64) as usize).min(SHADES - 1))
             }
         };

@@ -141,7 +141,7 @@ pub mod number {
 
     /// Writes a power of ten, marked for a label.
     pub fn power(value: f64) -> String {
-        format!("10^{{{}}}", fixed(value.log10().round(), 0))
+        format!("10^{{{}}}", fixed(libm::log10(value).round(), 0))
     }
 
     /// Writes a number with three significant digits.
@@ -157,7 +157,7 @@ pub mod number {
         if !value.is_finite() {
             return "\u{2013}".to_string();
         }
-        match value.abs().log10().floor() as i32 {
+        match libm::log10(value.abs()).floor() as i32 {
             magnitude @ -4..6 => fixed(value, (digits - 1 - magnitude).max(0) as usize),
             _ => minus(format!("{value:.*e}", (digits - 1).max(0) as usize)),
         }

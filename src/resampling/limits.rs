@@ -93,7 +93,7 @@ pub fn acceleration_of(moves: &Moves, sizes: &Sizes) -> f64 {
         squares += share.powi(2) * (second - mean * first);
         cubes -= share.powi(3) * (third - 3.0 * mean * second + 2.0 * mean * mean * first);
     }
-    if squares > 0.0 { cubes / (6.0 * squares.powf(1.5)) } else { 0.0 }
+    if squares > 0.0 { cubes / (6.0 * libm::pow(squares, 1.5)) } else { 0.0 }
 }
 
 /// The share of values below `x`, ties counted half.

@@ -15,8 +15,6 @@
 //! incremental  one motion at rising intensity: where a structure overturns, and which stronger motions it survives
 //! ```
 
-#![deny(clippy::disallowed_methods)]
-
 mod batch;
 pub mod fused;
 mod incremental;

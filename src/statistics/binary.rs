@@ -320,11 +320,11 @@ pub fn penalty(likelihood: &BinaryLikelihood, coefficients: &DVector<f64>) -> Op
         .iter_mut()
         .map(|slope| {
             slope.fill_upper_triangle_with_lower_triangle();
-            &inverse * &*slope
+            inverse.tr_mul(slope)
         })
         .collect();
     curvature.fill_upper_triangle_with_lower_triangle();
-    curvature += DMatrix::from_fn(k, k, |i, j| 0.5 * (&relative[i] * &relative[j]).trace());
-    let value = factor.l_dirty().diagonal().map(f64::ln).sum();
+    curvature += DMatrix::from_fn(k, k, |i, j| 0.5 * relative[i].tr_dot(&relative[j]));
+    let value = factor.l_dirty().diagonal().map(libm::log).sum();
     Some(Penalty { value, gradient, curvature, information })
 }

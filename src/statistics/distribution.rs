@@ -43,7 +43,7 @@ pub fn chi_squared_upper_tail(x: f64, degrees: usize) -> f64 {
     let (mut a, mut tail) = if degrees % 2 == 1 { (0.5, libm::erfc(half.sqrt())) } else { (0.0, 0.0) };
     while a < 0.5 * degrees as f64 {
         tail += if half > 0.0 {
-            (a * half.ln() - half - libm::lgamma(a + 1.0)).exp()
+            libm::exp(a * libm::log(half) - half - libm::lgamma(a + 1.0))
         } else {
             f64::from(a == 0.0)
         };
@@ -57,11 +57,12 @@ fn incomplete_beta(a: f64, b: f64, x: f64, y: f64) -> f64 {
     if x <= 0.0 || y <= 0.0 {
         return if x <= 0.0 { 0.0 } else { 1.0 };
     }
-    let ln_front = libm::lgamma(a + b) - libm::lgamma(a) - libm::lgamma(b) + a * x.ln() + b * y.ln();
+    let ln_front =
+        libm::lgamma(a + b) - libm::lgamma(a) - libm::lgamma(b) + a * libm::log(x) + b * libm::log(y);
     if x < (a + 1.0) / (a + b + 2.0) {
-        ln_front.exp() * continued_fraction(a, b, x) / a
+        libm::exp(ln_front) * continued_fraction(a, b, x) / a
     } else {
-        1.0 - ln_front.exp() * continued_fraction(b, a, y) / b
+        1.0 - libm::exp(ln_front) * continued_fraction(b, a, y) / b
     }
 }
 

@@ -31,12 +31,12 @@ impl Estimate {
 
     /// Of the exponential: the error by the delta method, the limits those of this one.
     pub fn exp(&self) -> Estimate {
-        let value = self.value.exp();
+        let value = libm::exp(self.value);
         Estimate {
             value,
             standard_error: value * self.standard_error,
-            low: self.low.exp(),
-            high: self.high.exp(),
+            low: libm::exp(self.low),
+            high: libm::exp(self.high),
         }
     }
 

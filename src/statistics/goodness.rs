@@ -233,13 +233,13 @@ pub fn brier_score(probabilities: &[f64], events: &[bool]) -> f64 {
 
 /// Logarithmic score: the mean logarithm of the probability of what happened, 0 at best.
 pub fn log_score(probabilities: &[f64], events: &[bool]) -> f64 {
-    let of = |(p, &event): (&f64, &bool)| if event { p.ln() } else { (-p).ln_1p() };
+    let of = |(p, &event): (&f64, &bool)| if event { libm::log(*p) } else { libm::log1p(-p) };
     probabilities.iter().zip(events).map(of).sum::<f64>() / events.len() as f64
 }
 
 /// The logarithmic score that right probabilities have in the mean.
 pub fn expected_log_score(probabilities: &[f64]) -> f64 {
     let times_ln = |weight: f64, ln: f64| if weight > 0.0 { weight * ln } else { 0.0 };
-    let of = |&p: &f64| times_ln(p, p.ln()) + times_ln(1.0 - p, (-p).ln_1p());
+    let of = |&p: &f64| times_ln(p, libm::log(p)) + times_ln(1.0 - p, libm::log1p(-p));
     probabilities.iter().map(of).sum::<f64>() / probabilities.len() as f64
 }

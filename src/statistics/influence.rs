@@ -107,7 +107,7 @@ impl Influence {
             let square = |sum, total: &DVector<f64>| sum + total * total.transpose();
             (totals.len() as f64, totals.values().fold(DMatrix::zeros(k, k), square))
         };
-        bread * meat * bread * (g / (g - 1.0) * (n - 1.0) / (n - k as f64))
+        bread.tr_mul(&meat.tr_mul(bread)) * (g / (g - 1.0) * (n - 1.0) / (n - k as f64))
     }
 
     /// The change of the coefficients without each of some cases in turn, of which `bread` is the inverse information: exact for

@@ -34,8 +34,8 @@ impl Link {
     pub fn probability(self, index: f64) -> f64 {
         match self {
             Link::Probit => normal::cdf(index),
-            Link::Logit => 1.0 / (1.0 + (-index).exp()),
-            Link::Cloglog => -(-index.exp()).exp_m1(),
+            Link::Logit => 1.0 / (1.0 + libm::exp(-index)),
+            Link::Cloglog => -libm::expm1(-libm::exp(index)),
         }
     }
 
@@ -43,7 +43,7 @@ impl Link {
     pub fn median_index(self) -> f64 {
         match self {
             Link::Probit | Link::Logit => 0.0,
-            Link::Cloglog => std::f64::consts::LN_2.ln(),
+            Link::Cloglog => libm::log(std::f64::consts::LN_2),
         }
     }
 
@@ -52,10 +52,10 @@ impl Link {
         let z = if event { index } else { -index };
         match self {
             Link::Probit => probit_ln_probability(index, event),
-            Link::Logit if z > 0.0 => -(-z).exp().ln_1p(),
-            Link::Logit => z - z.exp().ln_1p(),
-            Link::Cloglog if event => (-(-index.exp()).exp_m1()).ln(),
-            Link::Cloglog => -index.exp(),
+            Link::Logit if z > 0.0 => -libm::log1p(libm::exp(-z)),
+            Link::Logit => z - libm::log1p(libm::exp(z)),
+            Link::Cloglog if event => libm::log(-libm::expm1(-libm::exp(index))),
+            Link::Cloglog => -libm::exp(index),
         }
     }
 
@@ -132,7 +132,7 @@ impl Link {
                 Information { weight, ln_weight_slope: 1.0 - 2.0 * p, ln_weight_curvature: -2.0 * weight }
             }
             Link::Cloglog => {
-                let hazard = index.exp();
+                let hazard = libm::exp(index);
                 let ratio = hazard_ratio(hazard);
                 Information {
                     weight: hazard * ratio,
@@ -172,14 +172,14 @@ fn probit_score(index: f64, event: bool) -> Score {
 fn logit_score(index: f64, event: bool) -> Score {
     let sign = if event { 1.0 } else { -1.0 };
     let z = sign * index;
-    let (p, q) = (1.0 / (1.0 + (-z).exp()), 1.0 / (1.0 + z.exp()));
+    let (p, q) = (1.0 / (1.0 + libm::exp(-z)), 1.0 / (1.0 + libm::exp(z)));
     Score { slope: sign * q, curvature: p * q }
 }
 
 /// [`Link::score`] of the complementary log-log.
 #[inline(always)]
 fn cloglog_score(index: f64, event: bool) -> Score {
-    let hazard = index.exp();
+    let hazard = libm::exp(index);
     if event {
         let ratio = hazard_ratio(hazard);
         Score { slope: ratio, curvature: (ratio * (ratio + hazard - 1.0)).max(0.0) }
@@ -190,7 +190,7 @@ fn cloglog_score(index: f64, event: bool) -> Score {
 
 /// f / F of the complementary log-log: m / (exp(m) - 1) with m = exp(index).
 fn hazard_ratio(hazard: f64) -> f64 {
-    if hazard > 0.0 { hazard / hazard.exp_m1() } else { 1.0 }
+    if hazard > 0.0 { hazard / libm::expm1(hazard) } else { 1.0 }
 }
 
 /// The factors of t^0, t, t^2 ... in [`Link::ln_probability`] at `index + t`, from that at the index and its first derivative.
@@ -212,7 +212,7 @@ pub fn ln_probability_series<const N: usize>(
         (Link::Logit, _) => series(sign * slope, |q, n| product(q, q, n) - q[n]),
         // Of r = h / (exp(h) - 1) with the hazard h = exp(index): r' = r (1 - h - r).
         (Link::Cloglog, true) => {
-            let hazard: [f64; N] = series(index.exp(), |h, n| h[n]);
+            let hazard: [f64; N] = series(libm::exp(index), |h, n| h[n]);
             series(slope, |r, n| r[n] - product(&hazard, r, n) - product(r, r, n))
         }
         // Of h, in t = -u.

@@ -72,8 +72,8 @@ pub fn newton_step(here: &Objective, along: Along) -> Option<DVector<f64>> {
     match along {
         Along::All => Some(here.information.clone().cholesky()?.solve(&here.gradient)),
         Along::Columns(directions) => {
-            let information = directions.transpose() * &here.information * directions;
-            let gradient = directions.transpose() * &here.gradient;
+            let information = directions.tr_mul(&here.information.tr_mul(directions));
+            let gradient = directions.tr_mul(&here.gradient);
             Some(directions * information.cholesky()?.solve(&gradient))
         }
     }

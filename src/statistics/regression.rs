@@ -100,15 +100,13 @@ pub fn regress(design: &Design) -> Result<LinearFit, RegressionError> {
     let intercept = moments.means[k - 1] - means.dot(&slopes);
     let mut coefficients = slopes.insert_row(0, intercept);
     // (X'X)^-1 of the design itself.
-    let from_deviations =
-        DMatrix::from_fn(
-            k,
-            k,
-            |i, j| if i == 0 && j > 0 { -means[j - 1] } else { f64::from(u8::from(i == j)) },
-        );
+    let from_deviations = DMatrix::from_fn(k, k, |i, j| match (i, j) {
+        (1.., 0) => -means[i - 1],
+        _ => f64::from(u8::from(i == j)),
+    });
     let mut inverse = of_deviations.inverse().insert_row(0, 0.0).insert_column(0, 0.0);
     inverse[(0, 0)] = 1.0 / n as f64;
-    let inverse = &from_deviations * inverse * from_deviations.transpose();
+    let inverse = from_deviations.tr_mul(&inverse.tr_mul(&from_deviations));
     let of_residuals = |rows: &Rows| {
         let mut residuals = rows.indices(coefficients.as_slice());
         residuals.iter_mut().zip(rows.y).for_each(|(fitted, y)| *fitted = y - *fitted);

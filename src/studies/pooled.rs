@@ -206,7 +206,7 @@ fn demand(
         let cases = means.into_iter().zip(&ln_edp).zip(&owners).zip(counts);
         for (((mean, &ln_edp), &owner), _) in cases.filter(|(_, count)| **count == 0.0) {
             let index = exceeding_index(mean, subject.limit, refit.residual_sd);
-            add(scores, owner, index, ln_edp > subject.limit.ln());
+            add(scores, owner, index, ln_edp > libm::log(subject.limit));
         }
         Ok(())
     })?;

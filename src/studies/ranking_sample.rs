@@ -83,12 +83,12 @@ impl RankingSample {
         let rows: Vec<usize> = (0..cases.len()).filter(|&row| target.counts(&cases[row])).collect();
         let of_paper = target.measures_of_paper().map(|measure| FurtherMeasure {
             name: measure.as_str().to_string(),
-            ln: cases.iter().map(|case| measure.of(case).map(f64::ln)).collect(),
+            ln: cases.iter().map(|case| measure.of(case).map(libm::log)).collect(),
         });
-        let ln_limit = limit_state.ln();
-        let ln_edp: Vec<f64> = rows.iter().map(|&row| cases[row].edp.ln()).collect();
+        let ln_limit = libm::log(limit_state);
+        let ln_edp: Vec<f64> = rows.iter().map(|&row| libm::log(cases[row].edp)).collect();
         let happened = |&row: &usize| match target {
-            Target::Demand => cases[row].edp.ln() > ln_limit,
+            Target::Demand => libm::log(cases[row].edp) > ln_limit,
             Target::Overturning => cases[row].outcome == Outcome::Overturning,
         };
         let mut sample = RankingSample {

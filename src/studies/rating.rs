@@ -165,13 +165,13 @@ impl Breaks {
     pub fn new(sample: &RankingSample, folds: Option<&Folds>, transition: Option<f64>) -> Breaks {
         let count = folds.map_or(0, |folds| folds.count);
         if let Some(im4) = transition {
-            return Breaks { all: Some(im4.ln()), without: vec![Some(im4.ln()); count] };
+            return Breaks { all: Some(libm::log(im4)), without: vec![Some(libm::log(im4)); count] };
         }
         let [Some(im4), Some(im3)] = PLANE.map(|measure| sample.place(measure)) else {
             return Breaks { all: None, without: vec![None; count] };
         };
         let search = TransitionSearch::new(&sample.demands(&[im4, im3]));
-        let find = |weights: &[f64]| Some(search.find(weights)?.im4.ln());
+        let find = |weights: &[f64]| Some(libm::log(search.find(weights)?.im4));
         Breaks {
             all: find(&vec![1.0; sample.len()]),
             without: folds
@@ -204,7 +204,7 @@ impl Part {
     }
 
     fn log_likelihood(&self) -> f64 {
-        -0.5 * self.n * ((2.0 * PI * self.rss() / self.n).ln() + 1.0)
+        -0.5 * self.n * (libm::log(2.0 * PI * self.rss() / self.n) + 1.0)
     }
 }
 
@@ -267,7 +267,7 @@ pub fn rate_demand(
             let (means, residual_sd) = &laws[law.part_at(ln_im4[case])];
             let z = (sample.ln_edp[case] - means[case]) / residual_sd;
             Prediction {
-                log_score: -0.5 * (z * z + (2.0 * PI).ln()) - residual_sd.ln(),
+                log_score: -0.5 * (z * z + libm::log(2.0 * PI)) - libm::log(*residual_sd),
                 index: (means[case] - sample.ln_limit) / residual_sd,
             }
         }
@@ -290,7 +290,7 @@ pub fn rate_demand(
     Ok(Rating {
         log_likelihood,
         aic: 2.0 * parameters - 2.0 * log_likelihood,
-        bic: parameters * (n as f64).ln() - 2.0 * log_likelihood,
+        bic: parameters * libm::log(n as f64) - 2.0 * log_likelihood,
         fitted: Skill::of(&fitted, &sample.happened),
         beta,
         zeta: if let [_, slope] = coefficients[..] { Some(beta / slope) } else { None },

@@ -86,7 +86,7 @@ fn expected_at(odds: f64, probabilities: &[f64]) -> f64 {
 
 /// The logarithm of the factor of the odds with which as many events are expected as were seen.
 fn shift_to(seen: usize, expected_at: impl Fn(f64) -> f64) -> Option<f64> {
-    let expected = |shift: f64| expected_at(shift.exp());
+    let expected = |shift: f64| expected_at(libm::exp(shift));
     let (seen, [mut low, mut high]) = (seen as f64, SHIFTS);
     if !(expected(low) < seen && seen < expected(high)) {
         return None;

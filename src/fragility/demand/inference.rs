@@ -84,7 +84,7 @@ impl<'a> DemandInference<'a> {
         let thinned = self.sample.thinned();
         let some = thinned.as_ref().unwrap_or(self.sample);
         let refit = |weights: &[f64]| self.refit_to(some, weights);
-        let ln_limit = limit.ln();
+        let ln_limit = libm::log(limit);
         HeldOut::new(&some.design(), Link::Probit, refit, index, |ln_edp| ln_edp > ln_limit)
     }
 

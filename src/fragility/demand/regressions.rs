@@ -25,7 +25,7 @@ pub struct Plane {
 impl Plane {
     /// ln of the median demand at these measures (Eqs. 16 and 18).
     pub fn ln_demand(&self, im_x: f64, im_y: f64) -> f64 {
-        self.ln_a + self.b1 * im_x.ln() + self.b2 * im_y.ln()
+        self.ln_a + self.b1 * libm::log(im_x) + self.b2 * libm::log(im_y)
     }
 }
 

@@ -50,15 +50,15 @@ pub struct SmoothFit {
 impl SmoothFit {
     /// ln of the median demand at these measures.
     pub fn ln_demand(&self, im4: f64, im3: f64) -> f64 {
-        let at = |fit: &LinearFit| dot(&[1.0, im4.ln(), im3.ln()], fit.values().as_slice());
-        let share = share(im4.ln(), self.width.value);
+        let at = |fit: &LinearFit| dot(&[1.0, libm::log(im4), libm::log(im3)], fit.values().as_slice());
+        let share = share(libm::log(im4), self.width.value);
         (1.0 - share) * at(&self.low) + share * at(&self.high)
     }
 }
 
 /// The share of the upper plane.
 fn share(ln_im4: f64, width: f64) -> f64 {
-    -(-ln_im4 / width).exp_m1()
+    -libm::expm1(-ln_im4 / width)
 }
 
 /// A fit of both planes for one width.
@@ -103,8 +103,8 @@ pub fn fit_smooth(sample: &Sample, confidence: f64) -> Result<SmoothFit, FitStat
 fn settled(design: &Design, ln_width: f64) -> Result<Planes, FitStatus> {
     let at = |ln_width: f64| {
         let planes = planes(design, ln_width).ok_or(FitStatus::Collinear)?;
-        let slope = linearised(design, &planes.coefficients, ln_width.exp()).gradient[6];
-        Ok((planes, slope * ln_width.exp()))
+        let slope = linearised(design, &planes.coefficients, libm::exp(ln_width)).gradient[6];
+        Ok((planes, slope * libm::exp(ln_width)))
     };
     let (mut before, mut here) = (at(ln_width)?, at(ln_width + NEARBY)?);
     for _ in 0..MOST_STEPS {
@@ -120,7 +120,7 @@ fn settled(design: &Design, ln_width: f64) -> Result<Planes, FitStatus> {
 
 /// The best planes for one width; none if the cases do not determine both.
 fn planes(design: &Design, ln_width: f64) -> Option<Planes> {
-    let further = |x: &[&[f64]]| shares(x, ln_width.exp());
+    let further = |x: &[&[f64]]| shares(x, libm::exp(ln_width));
     let design = design.with(3, &further);
     let ln_edp = |rows: &Rows, cases: Range<usize>, scores: Scores| {
         scores.slope.copy_from_slice(&rows.y[cases]);
@@ -166,7 +166,7 @@ fn linearised(design: &Design, b: &DVector<f64>, width: f64) -> Objective {
 }
 
 fn with_errors(sample: &Sample, planes: &Planes, confidence: f64) -> Result<SmoothFit, FitStatus> {
-    let (n, width) = (sample.cases(), planes.ln_width.exp());
+    let (n, width) = (sample.cases(), libm::exp(planes.ln_width));
     let b = &planes.coefficients;
     let variance = planes.rss / (n - PARAMETERS) as f64;
     let information = linearised(&sample.design(), b, width).information;

@@ -40,7 +40,7 @@ pub struct Transition {
 /// estimation, Econometrica 68, 575-603; for the same scatter on both sides). None without a scan.
 pub fn transition_limits(scan: &[ScanPoint], confidence: f64) -> Option<Limits> {
     let least = scan.iter().map(|point| point.pooled_rss).min_by(f64::total_cmp)?;
-    let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
+    let critical = -2.0 * libm::log(1.0 - confidence.sqrt());
     let likely = |point: &&ScanPoint| {
         let cases = (point.n_low + point.n_high) as f64;
         cases * (point.pooled_rss - least) / least <= critical
@@ -137,7 +137,7 @@ impl TransitionSearch {
         let ln_im4 = columns[0];
         let mut order: Vec<usize> = (0..ln_im4.len()).collect();
         order.sort_by(|&a, &b| ln_im4[a].total_cmp(&ln_im4[b]));
-        let below = |im4: f64| order.partition_point(|&case| ln_im4[case] < im4.ln());
+        let below = |im4: f64| order.partition_point(|&case| ln_im4[case] < libm::log(im4));
         let below = places().map(below).collect();
         TransitionSearch { refits: DemandRefits::in_order(means, columns, rows, &order), below }
     }

@@ -84,7 +84,7 @@ impl OverturningFit {
     /// By which factor of the measure the median lies outside of the data; 1 inside.
     pub fn factor_of_median(&self) -> f64 {
         let [least, largest] = self.goodness.index_range;
-        (self.beta.value * least.max(-largest)).exp().max(1.0)
+        libm::exp(self.beta.value * least.max(-largest)).max(1.0)
     }
 }
 
@@ -122,7 +122,7 @@ pub fn fit_overturning(sample: &Sample, model: &CurveModel) -> Result<Overturnin
         beta: estimate(CurveParameter::Beta),
         theta: mu.exp(),
         aic: 2.0 * parameters - 2.0 * log_likelihood,
-        bic: parameters * (n as f64).ln() - 2.0 * log_likelihood,
+        bic: parameters * libm::log(n as f64) - 2.0 * log_likelihood,
         goodness,
         n,
         events,

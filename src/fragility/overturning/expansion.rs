@@ -188,7 +188,7 @@ impl Polynomial {
         Objective {
             value: factors.iter().zip(&values).map(|([factor], [value])| factor * value).sum(),
             gradient: self.inverse.tr_mul(&gradient),
-            information: self.inverse.tr_mul(&information) * &self.inverse,
+            information: self.inverse.tr_mul(&information.tr_mul(&self.inverse)),
         }
     }
 }

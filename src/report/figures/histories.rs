@@ -39,7 +39,7 @@ fn pair(structure: &Structure, motion: &Motion) -> Option<[History; 2]> {
     if !SHOWN.contains(&(peak / structure.alpha_rad)) {
         return None;
     }
-    let alpha_rad = (STOCKIER * structure.alpha_rad.tan()).atan();
+    let alpha_rad = libm::atan(STOCKIER * libm::tan(structure.alpha_rad));
     let similar = Structure { p_rad_s: FASTER * structure.p_rad_s, alpha_rad, ..structure.clone() };
     let scaled: Vec<f64> = acceleration.iter().map(|a| STOCKIER * a).collect();
     Some([first, history(similar, &scaled, dt_s / FASTER)?])

@@ -158,11 +158,11 @@ fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
 
 /// Puts values of x and y into bins of equal ratio of x: for each its middle, and the y in it.
 fn by_ratio(values: &[[f64; 2]], [low, high]: [f64; 2], count: usize) -> Vec<(f64, Vec<f64>)> {
-    let ratio = (high / low).powf(1.0 / count as f64);
-    let middle = |bin: usize| low * ratio.powf(bin as f64 + 0.5);
+    let ratio = libm::pow(high / low, 1.0 / count as f64);
+    let middle = |bin: usize| low * libm::pow(ratio, bin as f64 + 0.5);
     let mut bins: Vec<(f64, Vec<f64>)> = (0..count).map(|bin| (middle(bin), Vec::new())).collect();
     for &[x, y] in values {
-        let bin = ((x / low).ln() / ratio.ln()).floor();
+        let bin = (libm::log(x / low) / libm::log(ratio)).floor();
         if bin >= 0.0
             && let Some((_, inside)) = bins.get_mut(bin as usize)
         {

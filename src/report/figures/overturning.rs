@@ -257,22 +257,22 @@ fn end_of_curve(largest: f64, at: impl Fn(f64) -> Option<Probability>) -> (f64, 
         return (largest, Some(words));
     }
     const STEPS: i32 = 100;
-    let values = (0..=STEPS).map(|step| largest * FURTHEST.powf(f64::from(step) / f64::from(STEPS)));
+    let values = (0..=STEPS).map(|step| largest * libm::pow(FURTHEST, f64::from(step) / f64::from(STEPS)));
     (values.into_iter().find(|value| p(*value) >= END).unwrap_or(FURTHEST * largest), None)
 }
 
 /// Puts cases into bins of equal ratio of the measure.
 fn bins(cases: &[(f64, bool, Option<f64>)], [low, high]: [f64; 2]) -> Vec<Bin> {
-    let ratio = (high / low).ln().max(f64::MIN_POSITIVE);
+    let ratio = libm::log(high / low).max(f64::MIN_POSITIVE);
     let count = (cases.len() / CASES).clamp(FEWEST_BINS, BINS);
-    let place = |value: f64| (((value / low).ln() / ratio * count as f64) as usize).min(count - 1);
+    let place = |value: f64| ((libm::log(value / low) / ratio * count as f64) as usize).min(count - 1);
     let members: Vec<Vec<&(f64, bool, Option<f64>)>> =
         (0..count).map(|bin| cases.iter().filter(|(value, ..)| place(*value) == bin).collect()).collect();
     let most = members.iter().map(Vec::len).max().unwrap_or(1).max(1) as f64;
     let bin = |inside: &Vec<&(f64, bool, Option<f64>)>| {
         let (n, events) = (inside.len(), inside.iter().filter(|(_, event, _)| *event).count());
         let mean = |of: f64| of / n as f64;
-        let x = mean(inside.iter().map(|(value, ..)| value.ln()).sum()).exp();
+        let x = libm::exp(mean(inside.iter().map(|(value, ..)| libm::log(*value)).sum()));
         let limits = wilson_limits(events, n);
         let radius = RADII[0] + (RADII[1] - RADII[0]) * (n as f64 / most).sqrt();
         let at = [x, events as f64 / n as f64];
@@ -291,7 +291,7 @@ fn probability(index: &Predictor, value: f64, second: Option<(Measure, f64)>) ->
         None => super::with(super::NOTHING, index.im_x, value),
         Some((im_y, at)) => {
             let [_, b1, b2] = index.coefficients;
-            let im_x = ((b1 + b2) / b1 * value.ln() - b2 / b1 * at.ln()).exp();
+            let im_x = libm::exp((b1 + b2) / b1 * libm::log(value) - b2 / b1 * libm::log(at));
             super::with(super::with(super::NOTHING, index.im_x, im_x), im_y, at)
         }
     };

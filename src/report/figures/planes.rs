@@ -31,8 +31,8 @@ pub fn over_measures(data: &ReportData) -> Vec<Figure> {
     let sides = |group: &Group| {
         let fitted = group.planes?;
         let point = |response: &ReportResponse| {
-            let ln = |measure: Measure| measure.of(&response.case).map(f64::ln);
-            Some([ln(Measure::Im4)?, ln(Measure::Im3)?, response.case.edp.ln()])
+            let ln = |measure: Measure| measure.of(&response.case).map(libm::log);
+            Some([ln(Measure::Im4)?, ln(Measure::Im3)?, libm::log(response.case.edp)])
         };
         let planes = fitted.sides.map(|side| side.law.ln_median.coefficients);
         Some(Sides { points: points(group, fitted.transition, point), planes })
@@ -48,7 +48,7 @@ pub fn over_measures(data: &ReportData) -> Vec<Figure> {
 pub fn over_pulse(data: &ReportData) -> Vec<Figure> {
     let sides = |group: &Group| {
         let point = |response: &ReportResponse| {
-            Some([response.pgv_m_s.ln(), response.tp_s?.ln(), response.case.edp.ln()])
+            Some([libm::log(response.pgv_m_s), libm::log(response.tp_s?), libm::log(response.case.edp)])
         };
         let points = points(group, group.planes?.transition, point);
         let planes = [plane_through(&points[0])?, plane_through(&points[1])?];

@@ -28,8 +28,8 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
 /// An axis from power of ten to power of ten.
 fn decades(values: impl Iterator<Item = f64>, label: Label) -> Axis {
     let [least, largest] = range(values.filter(|value| *value > 0.0));
-    let decade = |power: f64| 10_f64.powf(power);
-    Axis::log([decade(least.log10().floor()), decade(largest.log10().ceil())], label)
+    let decade = |power: f64| libm::pow(10.0, power);
+    Axis::log([decade(libm::log10(least).floor()), decade(libm::log10(largest).ceil())], label)
 }
 
 fn rates(data: &ReportData) -> Figure {

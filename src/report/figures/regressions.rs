@@ -41,7 +41,8 @@ fn figure(group: &Group) -> Figure {
         if let Some(regression) = group.on(*measure) {
             let law = &regression.law;
             let [ln_a, b, _] = law.ln_median.coefficients;
-            let line: Vec<[f64; 2]> = panel.x.steps(2).map(|x| [x, (ln_a + b * x.ln()).exp()]).collect();
+            let line: Vec<[f64; 2]> =
+                panel.x.steps(2).map(|x| [x, libm::exp(ln_a + b * libm::log(x))]).collect();
             panel.curve(&mut drawing, "regression", &line, Ink::Data(1).line(1.2));
             title = Label::marked(&format!(
                 "*R*^{{2}} {}  *β* {}  *ζ* {}",

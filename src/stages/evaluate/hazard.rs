@@ -98,7 +98,7 @@ impl Cell {
             Cell::Exceedance | Cell::Occurrence => Ok(value),
             Cell::ReturnPeriod if percent.is_none() && value > 0.0 => Ok(value.recip()),
             Cell::ReturnPeriod => Err("years above 0".to_string()),
-            Cell::ExceedanceIn(years) if value > 0.0 && value < 1.0 => Ok(-(-value).ln_1p() / years),
+            Cell::ExceedanceIn(years) if value > 0.0 && value < 1.0 => Ok(-libm::log1p(-value) / years),
             Cell::ExceedanceIn(_) if value > 1.0 => {
                 Err("a probability above 0 and below 1; if it is in percent, write 10%".to_string())
             }

@@ -215,7 +215,7 @@ impl Line {
             Ratio::Distributed(peaks) => (-LAST_NODE..=LAST_NODE)
                 .map(|node| STEP * f64::from(node))
                 .map(|z| {
-                    (p * peaks.pgv_over_pga(peak, intensity, z), STEP * (-0.5 * z * z).exp() / TAU.sqrt())
+                    (p * peaks.pgv_over_pga(peak, intensity, z), STEP * libm::exp(-0.5 * z * z) / TAU.sqrt())
                 })
                 .collect(),
         }

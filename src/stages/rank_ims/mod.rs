@@ -129,7 +129,7 @@ fn further(
             .map(|case| {
                 let value = measure.values[rows[case.row]]?;
                 let value = measure.quantity.dimensionless(value, &structure(case.row));
-                Some(value).filter(|value| *value > 0.0).map(f64::ln)
+                Some(value).filter(|value| *value > 0.0).map(libm::log)
             })
             .collect(),
     });

@@ -75,7 +75,7 @@ fn gap(row: &ProRow) -> Option<Gap> {
 /// The middle of a curve over p PGV / (g tan alpha), as a PGV.
 fn median(row: &ProRow, summary: &Summary) -> Median {
     let Structure { p_rad_s, alpha_rad, .. } = summary.structure;
-    let pgv_m_s = |im5: f64| im5 * G_M_S2 * alpha_rad.tan() / p_rad_s;
+    let pgv_m_s = |im5: f64| im5 * G_M_S2 * libm::tan(alpha_rad) / p_rad_s;
     let limits = || Some([row.theta?, row.theta_low.unwrap_or(0.0), row.theta_high.unwrap_or(f64::INFINITY)]);
     let there = limits().filter(|_| row.is_ok());
     Median { status: row.status, pgv_m_s: there.map(|limits| limits.map(pgv_m_s)), gap: gap(row) }

@@ -175,7 +175,7 @@ impl Builder {
         let block = Block { p_rad_s, alpha_rad };
         let structure = Structure { name: String::new(), p_rad_s, alpha_rad, eta: row.eta };
         let pgv_m_s = case.measures.im5 * structure.uplift_acceleration_m_s2() / p_rad_s;
-        group.peaks.push(&[pga_m_s2.ln(), pgv_m_s.ln()]);
+        group.peaks.push(&[libm::log(pga_m_s2), libm::log(pgv_m_s)]);
         group.blocks.push(&[p_rad_s, alpha_rad]);
         group.is_one_block &= block == group.first;
     }

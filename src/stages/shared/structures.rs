@@ -109,10 +109,10 @@ impl StructureSpec {
                 Structure::new(&name, p, alpha, eta.of(alpha))
             }
             (None, None, _, Some(width), Some(height), None) => {
-                Structure::rectangular_block(&name, width, height, of_dimensions((width / height).atan()))
+                Structure::rectangular_block(&name, width, height, of_dimensions(libm::atan(width / height)))
             }
             (None, None, _, Some(width), Some(height), Some(ratio)) => {
-                Structure::frame(&name, width, height, ratio, of_dimensions((width / height).atan()))
+                Structure::frame(&name, width, height, ratio, of_dimensions(libm::atan(width / height)))
             }
             (Some(_), Some(_), None, None, None, None) => {
                 return Err(UsageError::because(format!(

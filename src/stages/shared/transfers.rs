@@ -30,7 +30,7 @@ struct Transfer {
 
 /// |ln(ratio)| of slenderness and of p.
 fn ln_ratios(block: Block, other: Block) -> [f64; 2] {
-    let ln_ratio = |a: f64, b: f64| (a / b).ln().abs();
+    let ln_ratio = |a: f64, b: f64| libm::log(a / b).abs();
     [ln_ratio(block.alpha_rad, other.alpha_rad), ln_ratio(block.p_rad_s, other.p_rad_s)]
 }
 

@@ -240,8 +240,8 @@ fn pooled<'a, 'c>(subject: &CurveSubject, suite: &'c SuiteOfGroups<'a>) -> Vec<R
         let structure = group.structure();
         PooledStructure {
             cases,
-            ln_p: (structure.p_rad_s / of_reference.p_rad_s).ln(),
-            ln_alpha: (structure.alpha_rad / of_reference.alpha_rad).ln(),
+            ln_p: libm::log(structure.p_rad_s / of_reference.p_rad_s),
+            ln_alpha: libm::log(structure.alpha_rad / of_reference.alpha_rad),
             eta: group.eta - reference.eta,
         }
     };

@@ -129,7 +129,7 @@ impl Judged<'_> {
     /// How the loss grows with the distance from the reference.
     fn write_growth(&self, reference: &str, text: &mut String) -> anyhow::Result<()> {
         let Some(origin) = self.rows.iter().find(|row| row.structure == reference) else { return Ok(()) };
-        let octaves = |one: f64, other: f64| (one / other).log2().abs();
+        let octaves = |one: f64, other: f64| libm::log2(one / other).abs();
         // A loss may be missing only where a structure has no curve of its own.
         let known = self.rows.iter().filter(|row| row.status == FitStatus::Ok);
         let known: Vec<(&UniversalityRow, f64)> = known.filter_map(|row| Some((*row, row.loss?))).collect();

@@ -109,7 +109,7 @@ fn short(number: f64) -> String {
     if number == 0.0 {
         return "0".to_string();
     }
-    match number.abs().log10().floor() as i32 {
+    match libm::log10(number.abs()).floor() as i32 {
         magnitude @ -4..5 => format!("{number:.*}", (3 - magnitude).max(0) as usize),
         _ => format!("{number:.3e}"),
     }
