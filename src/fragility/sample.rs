@@ -27,6 +27,8 @@ pub const CLUSTER: usize = 1;
 pub const MANY: usize = 20;
 /// Of more cases than these, some will do to see how clusters differ: what is known of that hangs on how many clusters there are.
 const ENOUGH: usize = 1 << 14;
+/// By how much a number at most changes when its logarithm is taken and undone.
+const ROUNDING: f64 = 1e-14;
 
 impl Sample {
     /// Of an event; `event` says whether it happened, or that a case does not count.
@@ -159,9 +161,14 @@ impl Sample {
         self.columns.column(self.measures + 1).into_iter().map(|row| row as usize).collect()
     }
 
-    /// Least and largest value of each measure.
+    /// Least and largest value of each measure, a rounding error further out: they return from their logarithms, and no case of
+    /// the sample may lie outside.
     pub fn ranges(&self) -> Vec<[f64; 2]> {
-        (0..self.measures).map(|measure| self.design().range(measure).map(libm::exp)).collect()
+        let of = |measure| {
+            let [least, largest] = self.design().range(measure).map(libm::exp);
+            [least * (1.0 - ROUNDING), largest * (1.0 + ROUNDING)]
+        };
+        (0..self.measures).map(of).collect()
     }
 
     /// Least squares of what was observed on the logarithms of the measures.
