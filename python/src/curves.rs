@@ -5,7 +5,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rockfrag::fragility::demand::DemandInference;
 use rockfrag::fragility::overturning::Curve;
-use rockfrag::fragility::{CurveInference, CurveModel, CurveParameter, Event, Measure, ProbitIndex, Sample};
+use rockfrag::fragility::{
+    CurveInference, CurveModel, CurveParameter, Event, Measure, Probability, ProbitIndex, Sample,
+};
 use rockfrag::keyword::{self, Keyword};
 use rockfrag::normal;
 use rockfrag::pipeline::UsageError;
@@ -215,17 +217,19 @@ pub fn exceeding<'py>(
     Ok(unzipped(py, places.map(index)))
 }
 
-/// The index of failure given rocking, from those of P_ro and P_ex with their standard errors.
+/// Limits of failure given rocking, from P_ro and P_ex with theirs: value, low, high.
 #[pyfunction]
-pub fn failure<'py>(
+pub fn failure_limits<'py>(
     py: Python<'py>,
-    overturning: (Column<'py>, Column<'py>),
-    exceeding: (Column<'py>, Column<'py>),
-) -> PyResult<Indices<'py>> {
-    fn indices<'a>((values, errors): &'a (Column, Column)) -> PyResult<Vec<ProbitIndex>> {
-        let index = |(&value, &standard_error): (&'a f64, &'a f64)| ProbitIndex { value, standard_error };
-        Ok(values.as_slice()?.iter().zip(errors.as_slice()?).map(index).collect())
-    }
-    let both = indices(&overturning)?.into_iter().zip(indices(&exceeding)?);
-    Ok(unzipped(py, both.map(|(overturning, exceeding)| ProbitIndex::of_failure(overturning, exceeding))))
+    overturning: [Column<'py>; 3],
+    exceeding: [Column<'py>; 3],
+) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+    let [ro, ex] = [&overturning, &exceeding].map(|of| -> PyResult<Vec<Probability>> {
+        let [value, low, high] = [of[0].as_slice()?, of[1].as_slice()?, of[2].as_slice()?];
+        let probability = |k: usize| Probability { value: value[k], low: low[k], high: high[k] };
+        Ok((0..value.len()).map(probability).collect())
+    });
+    let limits = ro?.into_iter().zip(ex?).map(|(ro, ex)| Probability::of_failure(ro, ex));
+    let (low, high): (Vec<f64>, Vec<f64>) = limits.map(|p| (p.low, p.high)).unzip();
+    Ok((low.into_pyarray(py), high.into_pyarray(py)))
 }

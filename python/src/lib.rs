@@ -28,7 +28,7 @@ mod _rockfrag {
 
     #[pymodule_export]
     use crate::curves::{
-        exceeding, f_upper_tail, failure, fit_curve, fit_line, normal_quantile, probabilities,
+        exceeding, f_upper_tail, failure_limits, fit_curve, fit_line, normal_quantile, probabilities,
         profile_limits, t_quantile,
     };
     #[pymodule_export]

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::thread;
 use std::time::Duration;
 
@@ -73,12 +73,25 @@ impl Listener for Heard {
     }
 }
 
+/// The process that has used rockfrag first. A child made by fork has none of its threads, and would wait for them without end.
+static OWNER: OnceLock<u32> = OnceLock::new();
+
+fn expect_own_threads() -> anyhow::Result<()> {
+    anyhow::ensure!(
+        *OWNER.get_or_init(std::process::id) == std::process::id(),
+        "this process was forked from one that had used rockfrag, and lacks its threads; expected multiprocessing with the start method \
+         'spawn' or 'forkserver': multiprocessing.get_context('spawn')"
+    );
+    Ok(())
+}
+
 /// Runs `work` on a thread of its own, with as many threads as `settings` says, until it is done or Python interrupts it.
 pub fn run<T: Send>(
     py: Python,
     settings: &Settings,
     work: impl FnOnce(&Console) -> anyhow::Result<T> + Send,
 ) -> PyResult<T> {
+    expect_own_threads().map_err(|error| to_python(py, &error))?;
     let heard = Arc::new(Heard::default());
     let console = Console { listener: Some(heard.clone()), ..Console::default() };
     let (finished, wait) = sync_channel(1);

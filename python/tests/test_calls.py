@@ -72,3 +72,34 @@ def test_control_c_ends_a_call_and_leaves_nothing(tmp_path):
 def test_control_c_ends_refits(out):
     responses = str(out / "responses.parquet")
     assert interrupted("", f"rockfrag.fit_pex({responses!r}, bootstrap=1_000_000)") == "interrupted\n"
+
+
+FORKED = """
+import multiprocessing, rockfrag
+def used(_):
+    return len(rockfrag.sample_scenarios(samples=1))
+if __name__ == "__main__":
+    used(0)
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        print(pool.map(used, [0]))
+    try:
+        with multiprocessing.get_context("fork").Pool(1) as pool:
+            pool.map(used, [0])
+    except rockfrag.RockfragError as error:
+        print(error)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="processes are not forked here")
+def test_a_forked_process_is_told_to_spawn(tmp_path):
+    script = tmp_path / "forked.py"
+    script.write_text(FORKED)
+    told = subprocess.run([sys.executable, "-W", "ignore", script], capture_output=True, text=True, timeout=120, check=True)
+    assert told.stdout.startswith("[35]") and "start method 'spawn'" in told.stdout, told
+
+
+def test_motions_in_g_are_asked_for_their_unit():
+    rng = np.random.default_rng(1)
+    table = pa.table({"motion_id": ["a", "b"], "dt_s": [0.01, 0.01], "acceleration_m_s2": [list(0.2 * rng.normal(size=500)) for _ in "ab"]})
+    with pytest.warns(rockfrag.RockfragWarning, match="no motion rocks: PGA is at most .* is it in g?"):
+        rockfrag.simulate(table, width=0.5, height=2.0)

@@ -106,6 +106,16 @@ def test_few_clusters_say_nothing_in_statsmodels():
     assert held[5] < 0.87 < 0.89 < held[50], held
 
 
+def test_limits_shown_are_those_of_the_errors_by_cluster():
+    curve = fit_fragility(IM, OVERTURNED, cluster=by_clusters(20))
+    text = str(curve.summary())
+    assert "20 clusters" in text and "profile" not in text
+    spread = np.exp(1.959964 * curve.se_theta / curve.theta)
+    for limit in (curve.theta / spread, curve.theta * spread):
+        assert f"{limit:.4g}" in text
+    assert "profile low" in str(fit_fragility(IM, OVERTURNED).summary())
+
+
 @pytest.mark.parametrize("count", [1, 2])
 def test_one_cluster_or_two_are_refused(count):
     for call in [

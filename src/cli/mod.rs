@@ -14,7 +14,7 @@ use serde_json::json;
 use self::shared::{Common, Format, Printed, Progress, expect_no_idle, with_common};
 use crate::allocator::keep_freed_buffers;
 use crate::pipeline::cache::May;
-use crate::pipeline::console::Console;
+use crate::pipeline::console::{Console, say};
 use crate::pipeline::options::with_number_messages;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::terminal::Terminal;
@@ -133,7 +133,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(matches) => match obey(&matches) {
             Ok(()) => 0,
             Err(error) => {
-                eprintln!("error: {error:#}");
+                say(&format!("error: {error:#}"));
                 if error.is::<UsageError>() { 2 } else { 1 }
             }
         },

@@ -145,11 +145,8 @@ impl FragilityModel {
         let exceeding = self.demand.law(measures).exceeding(measures, self.limit)?;
         let index = self.overturning.at(measures)?;
         let overturning = ProbitIndex { value: index.value, standard_error: index.variance.sqrt() };
-        Some(GivenRocking {
-            p_ex: exceeding.probability(),
-            p_ro: overturning.probability(),
-            p_failure: ProbitIndex::of_failure(overturning, exceeding).probability(),
-        })
+        let (p_ex, p_ro) = (exceeding.probability(), overturning.probability());
+        Some(GivenRocking { p_ex, p_ro, p_failure: Probability::of_failure(p_ro, p_ex) })
     }
 
     /// The measures that lie outside of the range of the data, of P_ex and of P_ro; none without rocking, which needs no

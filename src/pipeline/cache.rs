@@ -101,7 +101,9 @@ pub fn lock_folder(stage: &dyn Stage, access: Access, console: &Console) -> anyh
 /// Those of the stage.
 pub fn run(stage: &dyn Stage, may: May, console: &Console) -> anyhow::Result<()> {
     let planned = stage.provenance()?;
-    let name = stage.name();
+    let partition = Partition::among(&planned.parameters);
+    let name =
+        &partition.map_or(stage.name().to_string(), |partition| format!("{} {partition}", stage.name()));
     replace::check(stage, &planned, may.overwrite)?;
     if !may.force && freshness(stage, &planned) == Freshness::UpToDate {
         console.stage(name, "up to date", Weight::Faint);
@@ -115,6 +117,9 @@ pub fn run(stage: &dyn Stage, may: May, console: &Console) -> anyhow::Result<()>
     // What this stage warns of stands in its files too.
     let console = &Console { warnings: planned.warnings.clone(), ..console.clone() };
     warn_of_partitions(stage, console);
+    if let Some(warning) = replace::unlike_others(stage, &planned) {
+        console.warn(&warning);
+    }
     let summary = stage.execute(&planned, console)?;
     let took_s = start.elapsed().as_secs_f64();
     if !summary.is_empty() {

@@ -1,7 +1,7 @@
 //! What a run says while it works: on stderr, and progress only where someone watches; or to the program that called.
 
 use std::collections::BTreeMap;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::Arc;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -78,13 +78,19 @@ impl Progress {
     }
 }
 
+/// Writes a line to stderr in one call, so that lines of several processes do not mix.
+pub fn say(line: &str) {
+    // Where nobody listens, nothing is lost.
+    let _ = std::io::stderr().write_all(format!("{line}\n").as_bytes());
+}
+
 impl Console {
     /// A line that tells what was done.
     pub fn note(&self, line: &str) {
         match &self.listener {
             Some(listener) => listener.note(line),
             None if self.quiet => {}
-            None => eprintln!("{line}"),
+            None => say(line),
         }
     }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::UsageError;
 use super::stage::{Stage, folder_of};
 use crate::table::TableError;
-use crate::table::store::folder::parquet_files;
+use crate::table::store::folder::{file_name, parquet_files, unlike};
 use crate::table::store::partition::Partition;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::Source;
@@ -105,13 +105,8 @@ fn head(path: &Path) -> Option<String> {
 fn expect_same_cut(stage: &dyn Stage, planned: &Provenance) -> anyhow::Result<()> {
     let own = Partition::among(&planned.parameters);
     for target in stage.outputs() {
-        let mut others: Vec<PathBuf> = vec![target.clone()];
-        if own.is_some() {
-            // The files of a larger cut come last; all would be many to open for each of many partitions.
-            let there = parquet_files(folder_of(&target)).unwrap_or_default();
-            others.extend(there.first().into_iter().chain(there.last()).cloned());
-        }
-        for other in others {
+        let others = if own.is_some() { beside(&target) } else { Vec::new() };
+        for other in std::iter::once(target.clone()).chain(others) {
             let Ok(Some(recorded)) = stage.recorded(&other) else { continue };
             let there = Partition::among(&recorded.provenance.parameters);
             let fits = if other == target { there == own } else { there.map(|p| p.of) == own.map(|p| p.of) };
@@ -129,4 +124,29 @@ fn expect_same_cut(stage: &dyn Stage, planned: &Provenance) -> anyhow::Result<()
         }
     }
     Ok(())
+}
+
+/// Says in which way a partition is made otherwise than those in its folder, which then cannot be read as one table.
+pub fn unlike_others(stage: &dyn Stage, planned: &Provenance) -> Option<String> {
+    Partition::among(&planned.parameters)?;
+    let of_target = |target: PathBuf| {
+        let others = beside(&target).into_iter().filter(|other| *other != target);
+        let words = |other: PathBuf| {
+            let there = stage.recorded(&other).ok()??.provenance;
+            let unlike = unlike(&there, planned, &file_name(&other))?;
+            (there.stage == planned.stage).then(|| format!("{} {unlike}", target.display()))
+        };
+        others.filter_map(words).next()
+    };
+    let found = stage.outputs().into_iter().find_map(of_target)?;
+    Some(format!("{found}; a folder is read only if all its partitions are made alike"))
+}
+
+/// The first and the last file in the folder of a target. Those of a larger cut come last; all would be many to open for each of
+/// many partitions.
+fn beside(target: &Path) -> Vec<PathBuf> {
+    let there = parquet_files(folder_of(target)).unwrap_or_default();
+    let mut ends: Vec<PathBuf> = there.first().into_iter().chain(there.last()).cloned().collect();
+    ends.dedup();
+    ends
 }

@@ -264,3 +264,33 @@ fn a_partition_goes_into_a_folder_and_into_no_run() {
     std::fs::write(&file, pipeline).unwrap();
     fail(folder.path(), "run", 2, &["synthesize-motions has a partition", "--partition i/n"]);
 }
+
+#[test]
+fn a_partition_under_the_name_of_another_is_refused() {
+    let folder = with_responses();
+    let at = |name: &str| folder.path().join(name);
+    let swap = |folder: &str| {
+        let file = |part: &str| at(&format!("{folder}/{part}.parquet"));
+        std::fs::rename(file("part-00001"), at("away")).unwrap();
+        std::fs::rename(file("part-00002"), file("part-00001")).unwrap();
+        std::fs::rename(at("away"), file("part-00002")).unwrap();
+    };
+    swap("responses");
+    let expected = "part-00001.parquet holds partition 2/3; expected that in part-00002.parquet: rename it";
+    fail(folder.path(), "fit-pro --in responses --out pro.parquet", 1, &[expected]);
+    swap("parts");
+    let call = "simulate --config pipeline.yaml --in parts --out again --partition 1/3";
+    fail(folder.path(), call, 1, &[expected]);
+    assert!(!at("again/part-00001.parquet").exists());
+}
+
+#[test]
+fn a_partition_with_other_options_than_its_neighbours_is_warned_of() {
+    let folder = partitioned(3);
+    let call =
+        "synthesize-motions --config pipeline.yaml --in out/scenarios.parquet --out parts --partition 1/3";
+    let told = succeed(folder.path(), &format!("{call} --seed 8"));
+    assert!(told.contains("seed 8, but part-00000.parquet has"), "{told}");
+    // Every line says of which partition it is.
+    assert!(told.contains("synthesize-motions 1/3 "), "{told}");
+}

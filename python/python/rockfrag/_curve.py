@@ -29,6 +29,14 @@ class Curve:
     def _index(self, im: Floats) -> tuple[Floats, Floats]:
         raise NotImplementedError
 
+    def _probability(self, im: Floats) -> Floats:
+        return probabilities(self._link(), self._index(im)[0])
+
+    def _limits(self, im: Floats, level: float) -> tuple[Floats, Floats]:
+        index, error = self._index(im)
+        half = quantile(level) * error
+        return probabilities(self._link(), index - half), probabilities(self._link(), index + half)
+
     def _link(self) -> Link:
         return "probit"
 
@@ -45,12 +53,13 @@ class Curve:
         ndarray of shape (m,)
         """
         measures, shape = measures_of(im, self._count())
-        return probabilities(self._link(), self._index(measures)[0]).reshape(shape)[()]
+        return self._probability(measures).reshape(shape)[()]
 
     def confidence_band(self, im: npt.ArrayLike, level: float = 0.95) -> tuple[Floats, Floats]:
         """Computes limits of confidence of the probability, at each intensity on its own.
 
-        The delta method gives limits of the index; their probabilities lie between 0 and 1.
+        The delta method gives limits of the index; their probabilities lie between 0 and 1. Those of failure follow from those of both
+        curves (Zou & Donner 2008) and are never below either.
 
         Parameters
         ----------
@@ -64,9 +73,7 @@ class Curve:
         low, high : ndarray of shape (m,)
         """
         measures, shape = measures_of(im, self._count())
-        index, error = self._index(measures)
-        half = quantile(level) * error
-        low, high = (probabilities(self._link(), bound).reshape(shape)[()] for bound in (index - half, index + half))
+        low, high = (limit.reshape(shape)[()] for limit in self._limits(measures, level))
         return low, high
 
     #: The same as :meth:`confidence_band`.

@@ -76,6 +76,7 @@ class FragilityCurve(Regression):
         _checks.word("estimator", estimator, get_args(Estimator))
         groups, few_clusters = _clusters(cluster, np.ones(outcome.size, dtype=np.bool_), im.shape[1] + 1)
         self.cov_type = "nonrobust" if groups is None else "cluster"
+        self._clusters = 0 if groups is None else len(set(groups))
         self.im, self.outcome, self.im_name = im, outcome, im_name
         #: How the index becomes a probability: probit, logit or cloglog.
         self.link: Link = link
@@ -158,7 +159,8 @@ class FragilityCurve(Regression):
     def profile_interval(self, param: Parameter, level: float = 0.95) -> tuple[float, float]:
         """Computes limits of confidence by the profile likelihood, which need not be symmetric.
 
-        They are the columns ``mu_profile_low``, ``mu_profile_high`` and so on of :func:`fit_pro`.
+        They are the columns ``mu_profile_low``, ``mu_profile_high`` and so on of :func:`fit_pro`. They take the cases as independent:
+        with ``cluster`` they are too narrow, and :meth:`summary` shows limits by the errors of the clusters.
 
         Parameters
         ----------
@@ -190,17 +192,27 @@ class FragilityCurve(Regression):
         return ["theta", "beta", "lambda"] if "lambda" in self._parameters else ["theta", "beta"]
 
     def summary(self) -> _show.Summary:
-        """Shows the parameters with standard errors and 95 % limits by the profile likelihood.
+        """Shows the parameters with standard errors and 95 % limits by the profile likelihood, or by the errors of clusters.
 
         Returns
         -------
         Summary
         """
         found = {**self._parameters, "theta": (self.theta, self.se_theta)}
-        rows = [[name, *map(_show.number, (*found[name], *self.profile_interval(name)))] for name in self._shown()]
+        by_cluster = self.cov_type == "cluster"
+        limits = self._clustered_interval if by_cluster else self.profile_interval
+        rows = [[name, *map(_show.number, (*found[name], *limits(name)))] for name in self._shown()]
+        low, high = ("low", "high") if by_cluster else ("profile low", "profile high")
         title = f"FragilityCurve over {self.im_name}: {self.outcome.sum()} events of {self.nobs} cases, {self.link}, {self.estimator}"
+        title += f", errors and limits by {self._clusters} clusters" if by_cluster else ""
         scores = f"llf {self.llf:.4f}, aic {self.aic:.4f}, bic {self.bic:.4f}, auc {self.auc:.3f}, brier {self.brier:.3f}"
-        return _show.Summary(title, [scores, *(f"doubt: {doubt}" for doubt in self.doubts)], ["", "estimate", "se", "profile low", "profile high"], rows)
+        return _show.Summary(title, [scores, *(f"doubt: {doubt}" for doubt in self.doubts)], ["", "estimate", "se", low, high], rows)
+
+    def _clustered_interval(self, param: Parameter) -> tuple[float, float]:
+        name = "mu" if param == "theta" else param
+        value, error = self._parameters[name]
+        low, high = (value + sign * quantile(0.95) * error for sign in (-1.0, 1.0))
+        return (float(np.exp(low)), float(np.exp(high))) if param == "theta" else (low, high)
 
     def __repr__(self) -> str:
         return (
@@ -351,8 +363,13 @@ class FailureCurve(Curve):
         #: What to doubt about either curve, in words.
         self.doubts: list[str] = list(dict.fromkeys([*overturning.doubts, *demand.doubts]))
 
-    def _index(self, im: Floats) -> tuple[Floats, Floats]:
-        return _rockfrag.failure(self.overturning._index(im), self.demand._index(im))
+    def _probability(self, im: Floats) -> Floats:
+        p_ro, p_ex = self.overturning._probability(im), self.demand._probability(im)
+        return p_ro + (1.0 - p_ro) * p_ex
+
+    def _limits(self, im: Floats, level: float) -> tuple[Floats, Floats]:
+        both = [(curve._probability(im), *curve._limits(im, level)) for curve in (self.overturning, self.demand)]
+        return _rockfrag.failure_limits(*both)
 
     def _label(self) -> str:
         return "failure"

@@ -6,18 +6,16 @@ use crate::pipeline::console::Console;
 use crate::pipeline::stream::pipelined;
 use crate::rocking::Structure;
 use crate::stages::shared::answers::Answers;
+use crate::stages::shared::motions::in_g;
 use crate::table::evaluated::{self, EVALUATED, EvaluatedRow};
 use crate::table::intensities::{Intensity, IntensityBatches};
 use crate::table::schema::headings::Headings;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::store::writer::TableWriter;
-use crate::units::G_M_S2;
 
 /// Rows that are read at once, and written as a row group.
 const BATCH: usize = 16_384;
-/// Accelerations up to this number may have been meant in g.
-const LARGEST_PGA_IN_G: f64 = 3.0;
 
 /// Probabilities at each intensity of a table.
 pub struct EvaluatedTable {
@@ -150,11 +148,10 @@ impl Suspect {
                 console.warn(&format!("{rows} rows have {reason}"));
             }
         }
-        if self.rocking == 0 && self.largest_pga_m_s2 <= LARGEST_PGA_IN_G {
-            console.warn(&format!(
-                "no row rocks: PGA is at most {} m/s2; is it in g? multiply the column pga_m_s2 by {G_M_S2}",
-                self.largest_pga_m_s2
-            ));
+        if self.rocking == 0
+            && let Some(question) = in_g("row", "pga_m_s2", self.largest_pga_m_s2)
+        {
+            console.warn(&question);
         }
     }
 }

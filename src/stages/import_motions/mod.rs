@@ -203,8 +203,12 @@ impl Stage for ImportMotions {
         }
         writer.made_otherwise(incomplete(provenance, &refused));
         writer.finish()?;
+        let others = match self.out.path() {
+            Some(_) => "are imported; with --keep-going the command succeeds all the same",
+            None => "come with --keep-going",
+        };
         bail!(
-            "{}\n{} motions of the others are imported; with --keep-going the command succeeds all the same",
+            "{}\n{} motions of the others {others}",
             summary(&refused, self.importer.files.len()),
             seen.len()
         )

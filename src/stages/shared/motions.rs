@@ -16,6 +16,7 @@ use crate::table::motions::{Motion, MotionId};
 use crate::table::responses::ResponseRow;
 use crate::table::schema;
 use crate::table::store::source::Source;
+use crate::units::G_M_S2;
 
 /// The record of a motion of the file at `path`, whose samples are these (m/s2).
 ///
@@ -96,6 +97,18 @@ impl Peaks {
     pub fn scaled(&self, factor: f64) -> Peaks {
         Peaks { pga_m_s2: factor * self.pga_m_s2, pgv_m_s: factor * self.pgv_m_s, ..*self }
     }
+}
+
+/// Accelerations up to this number may have been meant in g.
+const LARGEST_PGA_IN_G: f64 = 3.0;
+
+/// Asks whether a column is in g, where nothing rocks and its largest acceleration is so small.
+pub fn in_g(what: &str, column: &str, largest_m_s2: f64) -> Option<String> {
+    (largest_m_s2 <= LARGEST_PGA_IN_G).then(|| {
+        format!(
+            "no {what} rocks: PGA is at most {largest_m_s2} m/s2; is it in g? multiply the column {column} by {G_M_S2}"
+        )
+    })
 }
 
 /// By which share the peak that a file of others gives may miss that of the samples.

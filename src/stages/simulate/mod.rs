@@ -98,7 +98,7 @@ impl Simulate {
         for (motion, record) in motions.iter().zip(&records) {
             let peaks = Peaks::of(motion, record, intensity);
             for (place, (structure, response)) in self.structures.iter().zip(&mut responses).enumerate() {
-                overturned.add(place, motion, &response);
+                overturned.add(place, motion, record, &response);
                 rows.push(peaks.response_row(motion, structure, response));
             }
         }
@@ -276,7 +276,9 @@ impl Stage for Simulate {
         note_passed_over(&self.input.source, &own_columns(&self.input.source)?, FOR_RANKING, console);
         let (total, by_name) = (motions.rows(), motions.ids_are_names());
         let mut writer = motions::writer(self.out.clone(), &RESPONSES, by_name, provenance)?;
-        let (mut ids, judge) = (DistinctIds::default(), Judge::new(motions.of_others()));
+        let of_others = motions.of_others();
+        let (from_others, mut ids, judge) =
+            (!of_others.is_empty(), DistinctIds::default(), Judge::new(of_others));
         let (mut traces, mut doubts): (Vec<Trace>, Reasons) = (Vec::new(), Reasons::default());
         let mut overturned = Overturned::new(&self.structures);
         let pool = Pool::new(Scratch::default);
@@ -323,6 +325,9 @@ impl Stage for Simulate {
         writer.finish()?;
         bar.finish();
         doubts.lines("motions").for_each(|line| console.warn(&line));
+        if let Some(question) = overturned.question().filter(|_| from_others) {
+            console.warn(&question);
+        }
         console.note(&overturned.words(&self.structures, total));
         Ok(format!(
             "{} responses of {} structure(s)",

@@ -56,10 +56,13 @@ pub fn partition_of(file: &Path) -> Result<Option<Partition>, TableError> {
 /// The file of a folder that is this partition, whether or not the others are there already.
 ///
 /// # Errors
-/// If it is missing, or is a partition of another number.
+/// If it is missing, or is another partition, or one of another number.
 pub fn partition(folder: &Path, wanted: Partition) -> Result<PathBuf, TableError> {
     let file = folder.join(wanted.file_name());
     let of = match partition_of(&file)? {
+        Some(there) if there.of == wanted.of && there != wanted => {
+            return Err(unusable(folder, misnamed(&file, there)));
+        }
         Some(Partition { of, .. }) => of,
         None => parquet_files(folder)?.len() as u64,
     };
@@ -118,7 +121,10 @@ fn expect_one_table(folder: &Path, files: &[PathBuf]) -> Result<(), TableError> 
         }
     }
     match (0..of).zip(&partitions).find(|(index, partition)| *index != partition.index) {
-        Some((index, _)) => return Err(missing(folder, index, of)),
+        Some((index, _)) if !seen.contains_key(&index) => return Err(missing(folder, index, of)),
+        Some((index, partition)) => {
+            return Err(unusable(folder, misnamed(&files[index as usize], *partition)));
+        }
         None if (partitions.len() as u64) < of => return Err(missing(folder, partitions.len() as u64, of)),
         None => {}
     }
@@ -134,7 +140,7 @@ fn expect_one_table(folder: &Path, files: &[PathBuf]) -> Result<(), TableError> 
 }
 
 /// How a partition was made otherwise than the first one, in words.
-fn unlike(first: &Provenance, other: &Provenance, first_name: &str) -> Option<String> {
+pub fn unlike(first: &Provenance, other: &Provenance, first_name: &str) -> Option<String> {
     let parameters = |made: &Provenance| Partition::without(made.parameters.clone());
     match difference(&parameters(first), &parameters(other)) {
         Some((name, ..)) if name == WHOLE_INPUT => {
@@ -154,6 +160,12 @@ fn unlike(first: &Provenance, other: &Provenance, first_name: &str) -> Option<St
 /// The name of a file without its folders.
 pub fn file_name(file: &Path) -> String {
     file.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// What a file is that has the name of another partition.
+fn misnamed(file: &Path, partition: Partition) -> String {
+    let (name, expected) = (file_name(file), partition.file_name());
+    format!("{name} holds partition {partition}; expected that in {expected}: rename it, or make both again")
 }
 
 fn missing(folder: &Path, index: u64, of: u64) -> TableError {
