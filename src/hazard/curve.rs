@@ -79,6 +79,16 @@ impl HazardCurve {
         [self.points[0], self.points[self.points.len() - 1]]
     }
 
+    /// The annual rate at which an intensity is exceeded; beyond the ends of the curve that of the end.
+    pub fn exceedance(&self, im: f64) -> f64 {
+        let above = self.points.partition_point(|&(point, _)| point <= im);
+        if above == 0 || above == self.points.len() {
+            return self.points[above.saturating_sub(1)].1;
+        }
+        let [(low, rate), (high, rate_at_high)] = [self.points[above - 1], self.points[above]];
+        rate * libm::exp(libm::log(rate_at_high / rate) * libm::log(im / low) / libm::log(high / low))
+    }
+
     /// Integrates the mean annual rates of events that have these probabilities at an intensity: P(im) |dH(im)|.
     ///
     /// Gauss-Legendre on short panels in ln IM, none across a point of the curve or one of `breaks`, where a probability

@@ -3,11 +3,14 @@
 //! ```text
 //! curve  annual rate of exceedance of one intensity; the convolution integral
 //! joint  annual rate of occurrence of pairs of PGA and PGV; the sum over them
+//! count  the rate counted among motions that are weighted to have the hazard's rates, without a fragility
 //! ```
 
+mod count;
 mod curve;
 mod joint;
 
+pub use count::{Count, CountedMotion, CountedRate, counted_rates};
 pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
 

@@ -253,7 +253,9 @@ fn few_events(row: &GroupCurve) -> OfGroup {
     let few = curve.events.min(curve.n - curve.events);
     let of_probabilities = match few < LEAST_EVENTS {
         true => "probabilities say little more than a limit, and theirs may miss the truth",
-        false => "for probabilities, evaluate --limits delta holds what it says",
+        false => {
+            "limits of one probability by evaluate --limits delta hold what they say among these motions, those of annual rates do not"
+        }
     };
     let words = format!(
         "few {} for {{}}: standard errors of parameters are too small, their profile limits (columns *_profile_*) are not; \

@@ -1,36 +1,80 @@
-//! validate: curves tested on responses that they were not fitted to, such as those to recorded motions.
+//! validate: curves tested on responses that they were not fitted to, such as those to recorded motions; with a hazard, annual
+//! rates counted without any curve.
 
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+use clap::Args;
 use polars::prelude::DataFrame;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use super::evaluate::hazard::{self, Hazard};
 use super::shared::chosen_fits::ChosenFits;
+use super::shared::counts::{self, COUNTED, RESPONSES_ROLE};
 use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions, ModelForm};
 use super::shared::groups::{self, Group};
 use super::shared::surface::{PAPER_LIMIT, Surface};
 use super::simulate::Simulate;
-use crate::fragility::Event;
 use crate::fragility::universal::Scenarios;
+use crate::fragility::{Event, Peak, Placed, Probabilities};
+use crate::hazard::{Count, CountedRate, HazardCurve};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
-use crate::pipeline::declare::{Declare, Files, Input, Output};
-use crate::pipeline::stage::Stage;
+use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
+use crate::pipeline::files::hash;
+use crate::pipeline::options::{Parsed, defaults};
+use crate::pipeline::stage::{Stage, content_of_role, places};
 use crate::pipeline::terminal::Terminal;
 use crate::studies::Forecasts;
+use crate::table::TableError;
 use crate::table::row::WriteRow;
+use crate::table::schema::headings::Headings;
 use crate::table::store::contents::recorded;
 use crate::table::store::frame::read_frame;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::validation::{self, VALIDATION, ValidationRow};
 
-/// The role that responses play here as in the fits.
-const RESPONSES_ROLE: &str = "responses";
+/// Which fits, and a hazard.
+#[derive(Debug, Clone, PartialEq, Args, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", default)]
+pub struct ValidateOptions {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub fits: FitsOptions,
+    /// CSV file of a hazard of one peak, as of evaluate: counts the annual rates in the motions themselves, weighted to have its
+    /// rates, beside those of the fits
+    #[arg(long, value_name = "FILE", help_heading = "Hazard of a site")]
+    pub hazard: Option<PathBuf>,
+    /// Which headings of the file of --hazard stand for which columns, as pga_g=PGA,annual_rate_of_exceedance=rate
+    #[arg(long, value_name = "COLUMN=HEADING,...", requires = "hazard", help_heading = "Hazard of a site")]
+    pub columns: Option<Parsed<Headings>>,
+}
+
+impl Default for ValidateOptions {
+    fn default() -> Self {
+        defaults()
+    }
+}
+
+impl StageOptions for ValidateOptions {
+    fn resolve_paths(&mut self, folder: &Path) {
+        if let Some(hazard) = &mut self.hazard {
+            *hazard = folder.join(&*hazard);
+        }
+    }
+}
+
+/// A hazard of one peak.
+type Curve = (Peak, HazardCurve);
 
 /// The stage, ready to run.
 pub struct Validate {
     /// The fits; without them the surface that is shipped.
     fits: Option<FitFiles>,
-    options: FitsOptions,
+    options: ValidateOptions,
     input: Source,
     out: Target,
 }
@@ -83,6 +127,7 @@ impl Validate {
         &self,
         fits: &FitFiles,
         groups: &[Group],
+        curve: Option<&Curve>,
         provenance: &Provenance,
         console: &Console,
     ) -> anyhow::Result<Vec<ValidationRow>> {
@@ -91,14 +136,14 @@ impl Validate {
         self.warn_of_own_responses(provenance, console)?;
         let of_group = |group: &Group| -> Vec<ValidationRow> {
             let fits = choice.usable().filter(|fits| fits.structure == group.structure);
-            fits.flat_map(|fits| rows(group, fits)).collect()
+            fits.flat_map(|fits| rows(group, fits, curve)).collect()
         };
         Ok(groups.iter().flat_map(of_group).collect())
     }
 
     /// Of each group, as motions of the suite that is asked for, or of its own; combined ones where that is none of the surface.
-    fn by_surface(&self, groups: &[Group]) -> anyhow::Result<Vec<ValidationRow>> {
-        let asked = self.options.suite.as_deref();
+    fn by_surface(&self, groups: &[Group], curve: Option<&Curve>) -> anyhow::Result<Vec<ValidationRow>> {
+        let asked = self.options.fits.suite.as_deref();
         let mut rows = Vec::new();
         for group in groups {
             let surface = match asked {
@@ -106,12 +151,51 @@ impl Validate {
                 None => Surface::beside(group.suite.as_deref(), PAPER_LIMIT, Scenarios::One),
             };
             let structure = group.structure_of();
+            let probabilities =
+                |case: &Placed| surface.0.probabilities(&structure(case.row), &case.case.measures);
+            let count = curve.and_then(|curve| count(group, curve, surface.0.limit, probabilities));
             for event in EVENTS {
                 let forecasts = Forecasts::by_surface(&surface.0, &group.cases, event, &structure);
-                rows.extend(row(group, Some(surface.0.motions.as_str()), event, surface.0.limit, &forecasts));
+                rows.extend(row(
+                    group,
+                    Some(surface.0.motions.as_str()),
+                    event,
+                    surface.0.limit,
+                    &forecasts,
+                    count.as_ref(),
+                ));
             }
         }
         Ok(rows)
+    }
+
+    /// The hazard that rates are counted for.
+    fn curve(&self) -> anyhow::Result<Option<Curve>> {
+        let Some(path) = &self.options.hazard else { return Ok(None) };
+        let headings = self.options.columns.clone().map_or(Headings::default(), |Parsed(headings)| headings);
+        match hazard::read(path, &headings)? {
+            Hazard::Curve(peak, curve) => Ok(Some((peak, curve))),
+            Hazard::Joint(_) => bail!(
+                "{}: a joint hazard; expected one of PGA or of PGV, by which the motions are weighted",
+                path.display()
+            ),
+        }
+    }
+
+    /// Warns where the curves have a rate that a count excludes.
+    fn warn_of_rates(rows: &[ValidationRow], console: &Console) {
+        for row in rows.iter().filter(|row| row.rates_agree() == Some(false)) {
+            let [counted, low, high, expected] =
+                [row.counted_rate, row.counted_rate_low, row.counted_rate_high, row.expected_rate]
+                    .map(|rate| rate.unwrap_or(f64::NAN));
+            console.warn(&format!(
+                "{}: the curves of {} have an annual rate of {} of {expected:.1e} at these motions, a count of them {counted:.1e} \
+                 ({low:.1e} to {high:.1e})",
+                row.structure,
+                row.fits_suite.as_deref().unwrap_or("no suite"),
+                row.event.as_str(),
+            ));
+        }
     }
 
     /// Warns if something happened which the curves hold impossible.
@@ -132,7 +216,7 @@ impl Validate {
 }
 
 impl Declare for Validate {
-    type Options = FitsOptions;
+    type Options = ValidateOptions;
     const NAME: &'static str = VALIDATION.stage;
     const ABOUT: &'static str = "Test fits on responses they were not fitted to, such as those to records: observed and \
          expected counts, scores";
@@ -159,21 +243,41 @@ impl Declare for Validate {
     const SHOWS_TABLE: bool = true;
     const HAS_PROGRESS: bool = false;
 
-    fn create(options: &FitsOptions, files: &Files) -> anyhow::Result<Validate> {
+    fn create(options: &ValidateOptions, files: &Files) -> anyhow::Result<Validate> {
         let (input, out) = (files.input(RESPONSES_ROLE)?, files.out(Self::OUTPUT.file)?);
-        Ok(Validate { fits: FitFiles::if_asked(options, files)?, options: options.clone(), input, out })
+        Ok(Validate { fits: FitFiles::if_asked(&options.fits, files)?, options: options.clone(), input, out })
     }
 }
 
 const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
 
 /// All events of a group by the fits of one suite; those that cannot happen in any case are left out.
-fn rows<'a>(group: &'a Group, fits: &'a ChosenFits) -> impl Iterator<Item = ValidationRow> + 'a {
+fn rows<'a>(
+    group: &'a Group,
+    fits: &'a ChosenFits,
+    curve: Option<&Curve>,
+) -> impl Iterator<Item = ValidationRow> + 'a {
     // Many magnitudes and distances: the limits are of the fits.
     let model = fits.model.over_many_cells();
+    let probabilities = |case: &Placed| model.probabilities(&case.case.measures);
+    let count = curve.and_then(|curve| count(group, curve, model.limit, probabilities));
     EVENTS.into_iter().filter_map(move |event| {
         let forecasts = Forecasts::new(&model, &group.cases, event);
-        row(group, fits.suite.as_deref(), event, model.limit, &forecasts)
+        row(group, fits.suite.as_deref(), event, model.limit, &forecasts, count.as_ref())
+    })
+}
+
+/// What is counted of each of [`COUNTED`], and then what the curves expect of each.
+fn count(
+    group: &Group,
+    (peak, curve): &Curve,
+    limit: f64,
+    probabilities: impl Fn(&Placed) -> Probabilities,
+) -> Option<Count<4>> {
+    counts::count(group, *peak, curve, |case| {
+        let [_, failure, overturning] = probabilities(case).limit_states()?;
+        let [failed, overturned] = counts::happened(case, limit);
+        Some([failed, overturned, failure.value, overturning.value])
     })
 }
 
@@ -183,8 +287,13 @@ fn row(
     event: Event,
     limit: f64,
     forecasts: &Forecasts,
+    count: Option<&Count<4>>,
 ) -> Option<ValidationRow> {
-    Some(ValidationRow::new(
+    let rates = COUNTED.iter().position(|counted| *counted == event).zip(count).map(|(at, count)| {
+        let CountedRate { value: expected, .. } = count.rates[COUNTED.len() + at];
+        (count.rates[at], expected)
+    });
+    let row = ValidationRow::new(
         group.suite.as_deref(),
         &group.structure,
         suite,
@@ -192,7 +301,11 @@ fn row(
         limit,
         &forecasts.validation()?,
         forecasts.without_measure,
-    ))
+    );
+    Some(match rates {
+        Some((counted, expected)) => row.with_rates(counted, expected),
+        None => row,
+    })
 }
 
 impl Stage for Validate {
@@ -210,10 +323,25 @@ impl Stage for Validate {
     }
 
     fn parameters(&self) -> Value {
-        match &self.fits {
+        let mut parameters = match &self.fits {
             Some(fits) => json!(fits.options),
-            None => json!({ "model": ModelForm::Universal.as_str(), "suite": self.options.suite }),
+            None => json!({ "model": ModelForm::Universal.as_str(), "suite": self.options.fits.suite }),
+        };
+        if let Some(columns) = &self.options.columns {
+            parameters["columns"] = json!(columns);
         }
+        parameters
+    }
+
+    fn provenance(&self) -> anyhow::Result<Provenance> {
+        let sources = self.inputs();
+        let content =
+            |(role, source): &(&str, Source)| Ok((role.to_string(), content_of_role(role, source)?));
+        let mut inputs = sources.iter().map(content).collect::<Result<BTreeMap<_, _>, TableError>>()?;
+        if let Some(hazard) = &self.options.hazard {
+            inputs.insert("hazard".to_string(), hash(hazard).with_context(|| hazard.display().to_string())?);
+        }
+        Ok(Provenance::new(Self::NAME, self.parameters(), inputs).of_sources(places(&sources)))
     }
 
     fn show(&self, terminal: &Terminal) -> anyhow::Result<String> {
@@ -225,10 +353,12 @@ impl Stage for Validate {
     }
 
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
+        let curve = self.curve()?;
+        let curve = curve.as_ref();
         let groups = groups::read(&self.input)?;
         let (rows, by) = match &self.fits {
-            Some(fits) => (self.by_fits(fits, &groups, provenance, console)?, ""),
-            None => (self.by_surface(&groups)?, " by the universal surface"),
+            Some(fits) => (self.by_fits(fits, &groups, curve, provenance, console)?, ""),
+            None => (self.by_surface(&groups, curve)?, " by the universal surface"),
         };
         if rows.is_empty() {
             anyhow::bail!(
@@ -237,7 +367,16 @@ impl Stage for Validate {
             );
         }
         self.warn_of_impossible(&rows, console);
+        Self::warn_of_rates(&rows, console);
         ValidationRow::write(&rows, self.out.clone(), provenance)?;
-        Ok(format!("{} counts of {} groups of responses{by}", rows.len(), groups.len()))
+        let rates: Vec<bool> = rows.iter().filter_map(ValidationRow::rates_agree).collect();
+        let agree = match rates.len() {
+            0 => String::new(),
+            all => format!(
+                ", {} of {all} annual rates agree with those counted",
+                rates.iter().filter(|agree| **agree).count()
+            ),
+        };
+        Ok(format!("{} counts of {} groups of responses{by}{agree}", rows.len(), groups.len()))
     }
 }

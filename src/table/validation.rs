@@ -7,6 +7,7 @@ use super::schema::{self, Column};
 use super::store::frame::{names, read_frame};
 use super::store::text;
 use crate::fragility::Event;
+use crate::hazard::CountedRate;
 use crate::studies::Validation;
 
 table! {
@@ -36,6 +37,10 @@ table! {
         extrapolated: usize,
         impossible: usize,
         without_measure: usize,
+        counted_rate: Option<f64>,
+        counted_rate_low: Option<f64>,
+        counted_rate_high: Option<f64>,
+        expected_rate: Option<f64>,
     }
 }
 
@@ -76,7 +81,27 @@ impl ValidationRow {
             extrapolated: validation.extrapolated,
             impossible: validation.impossible,
             without_measure,
+            counted_rate: None,
+            counted_rate_low: None,
+            counted_rate_high: None,
+            expected_rate: None,
         }
+    }
+
+    /// With the annual rate that was counted, and that of the curves at the same motions.
+    pub fn with_rates(self, CountedRate { value, limits }: CountedRate, expected: f64) -> ValidationRow {
+        ValidationRow {
+            counted_rate: Some(value),
+            counted_rate_low: Some(limits.low),
+            counted_rate_high: Some(limits.high),
+            expected_rate: Some(expected),
+            ..self
+        }
+    }
+
+    /// Whether the curves have a rate within the limits of the counted one, if it was counted.
+    pub fn rates_agree(&self) -> Option<bool> {
+        Some((self.counted_rate_low?..=self.counted_rate_high?).contains(&self.expected_rate?))
     }
 }
 
@@ -100,11 +125,28 @@ const SHOWN: [Column; 16] = [
     schema::extrapolated,
 ];
 
+/// The same where annual rates were counted.
+const SHOWN_OF_RATES: [Column; 11] = [
+    schema::suite,
+    schema::structure,
+    schema::fits_suite,
+    schema::predicted,
+    schema::n_predicted,
+    schema::seen,
+    schema::expected,
+    schema::counted_rate,
+    schema::counted_rate_low,
+    schema::counted_rate_high,
+    schema::expected_rate,
+];
+
 /// A validation file as a table to read.
 ///
 /// # Errors
 /// If it is none.
 pub fn show(path: &Path) -> anyhow::Result<String> {
     let frame = read_frame(path, &VALIDATION)?;
-    Ok(text::aligned(&frame.select(names(&SHOWN))?))
+    let counted = frame.column(schema::counted_rate.name)?.null_count() < frame.height();
+    let shown = if counted { &SHOWN_OF_RATES[..] } else { &SHOWN[..] };
+    Ok(text::aligned(&frame.select(names(shown))?))
 }

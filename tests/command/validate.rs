@@ -1,5 +1,6 @@
 //! validate as a user calls it.
 
+use arrow_array::Array;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
@@ -71,4 +72,71 @@ fn responses_of_other_structures_are_refused() {
     let pex = format!("--pex {run}/pex.parquet --pro {run}/pro.parquet");
     let call = format!("validate --in {run}/responses.parquet {pex} --suite csmg");
     fail(folder.path(), &call, 2, &["--suite csgm"]);
+}
+
+#[test]
+fn a_hazard_counts_rates_without_a_curve() {
+    let (folder, fits) = fitted();
+    let run = run_folder().display();
+    let hazard = format!("{}/data/hazard.csv", env!("CARGO_MANIFEST_DIR"));
+    let call = format!("validate --in {run}/responses.parquet {fits} --hazard {hazard} --out v.parquet");
+    let told = succeed(folder.path(), &call);
+    assert!(told.contains("annual rates agree with those counted"), "{told}");
+    let file = std::fs::File::open(folder.path().join("v.parquet")).unwrap();
+    let rows =
+        ParquetRecordBatchReaderBuilder::try_new(file).unwrap().build().unwrap().next().unwrap().unwrap();
+    for row in 0..rows.num_rows() {
+        let event = rows["event"].as_string::<i32>().value(row).to_string();
+        let rate = |name: &str| {
+            let rates = rows[name].as_primitive::<Float64Type>();
+            (!rates.is_null(row)).then(|| rates.value(row))
+        };
+        let rates = ["counted_rate_low", "counted_rate", "counted_rate_high", "expected_rate"].map(rate);
+        match rates {
+            [Some(low), Some(counted), Some(high), Some(_)] => assert!(low < counted && counted < high),
+            rates => assert!(event == "exceeding" && rates == [None; 4], "{event}: {rates:?}"),
+        }
+    }
+    std::fs::copy(hazard.replace("hazard.csv", "hazard_joint.csv"), folder.path().join("joint.csv")).unwrap();
+    let call = format!("validate --in {run}/responses.parquet {fits} --hazard joint.csv --out j.parquet");
+    fail(folder.path(), &call, 1, &["joint hazard", "expected one of PGA"]);
+}
+
+#[test]
+fn a_rate_of_fits_is_counted_where_their_responses_are() {
+    let (folder, fits) = fitted();
+    let hazard = format!("{}/data/hazard.csv", env!("CARGO_MANIFEST_DIR"));
+    let ask = |fits: &str, rest: &str| {
+        let call = format!("evaluate {fits} --p 2.5 --alpha 0.2 --hazard {hazard} {rest}");
+        let output = rockfrag(folder.path()).args(call.split_whitespace()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let counted = "counted without a curve in";
+    assert!(ask(&fits, "").contains(counted));
+    // With another ratio than that of the motions, or of another structure, a count says nothing.
+    assert!(!ask(&fits, "--ratio 0.3").contains("counted"));
+    assert!(!ask(&fits, "--eta 0.8").contains("counted"));
+    let run = run_folder();
+    for file in ["pex.parquet", "pro.parquet"] {
+        std::fs::copy(run.join(file), folder.path().join(file)).unwrap();
+    }
+    let alone = fits.replace(&format!("{}/", run.display()), "");
+    assert!(ask(&alone, "").contains("rockfrag validate --in RESPONSES --hazard"));
+    // By what it holds, not by its name.
+    std::fs::copy(run.join("responses.parquet"), folder.path().join("others.parquet")).unwrap();
+    assert!(ask(&alone, "").contains(&format!("{counted} ")) && ask(&alone, "").contains("others.parquet"));
+}
+
+#[test]
+fn rates_from_few_overturnings_say_that_their_limits_are_too_narrow() {
+    let (folder, fits) = fitted();
+    let hazard = format!("{}/data/hazard.csv", env!("CARGO_MANIFEST_DIR"));
+    let ask = |fits: &str| succeed(folder.path(), &format!("evaluate {fits} --hazard {hazard}"));
+    let few = fits.replace("electrical-equipment", "frame --model univariate --p 1.0 --alpha 0.15");
+    let told = ask(&few);
+    assert!(told.contains("annual rates from 6 overturnings of 240 motions"), "{told}");
+    assert!(told.contains("by the universal surface") && told.contains("too high on average"), "{told}");
+    let told = ask(&format!("{fits} --p 2.5 --alpha 0.2"));
+    assert!(!told.contains("annual rates from"), "{told}");
 }

@@ -1,6 +1,7 @@
 //! The fits, their limits and what is made of them, against statsmodels, scipy and closed forms.
 
 mod bent;
+mod counted_rates;
 mod coverage;
 mod evaluate;
 #[cfg(feature = "pipeline")]

@@ -66,6 +66,9 @@ _HELP |= {
     "evaluate columns": "Which headings of ``hazard`` or of ``intensities`` stand for which columns, as "
     "'pga_g=PGA,annual_rate_of_exceedance=rate'.",
     "evaluate out": f"File to write: .parquet, or for one intensity or a site also .csv, .json or .txt; {_KEPT}",
+    "validate hazard": "CSV file, or its columns as a table or mapping: pga_g or pgv_m_s with annual_rate_of_exceedance. Counts annual "
+    "rates in the motions themselves, weighted to have its rates, beside those of the fits.",
+    "validate columns": "Which headings of ``hazard`` stand for which columns, as 'pga_g=PGA,annual_rate_of_exceedance=rate'.",
     "export out": f"File to write; {_KEPT}",
     "report out": f"Page to write, NAME.html; {_KEPT} Figures go into the folder NAME beside it.",
     "simulate out": f"Parquet file to write, or without a suffix a folder of partitions; {_KEPT}",

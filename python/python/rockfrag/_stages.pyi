@@ -1539,6 +1539,8 @@ def validate(
     *,
     model: Literal['univariate', 'bivariate', 'paper', 'universal'] | None = None,
     measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
+    hazard: Hazard | None = None,
+    columns: str | None = None,
     suite: str | None = None,
     structure: str | None = None,
     out: None = None,
@@ -1565,6 +1567,13 @@ def validate(
         universal where there are no fits].
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
         Measure of the univariate model, im1 to im6 [default: im5, or the two of paper].
+    hazard : path, Arrow table or mapping, optional
+        CSV file, or its columns as a table or mapping: pga_g or pgv_m_s with annual_rate_of_exceedance.
+        Counts annual rates in the motions themselves, weighted to have its rates, beside those of the
+        fits.
+    columns : str, optional
+        Which headings of ``hazard`` stand for which columns, as
+        'pga_g=PGA,annual_rate_of_exceedance=rate'.
     suite : str, optional
         Suite of the fits [default: all].
     structure : str, optional
@@ -1623,6 +1632,8 @@ def validate(
     *,
     model: Literal['univariate', 'bivariate', 'paper', 'universal'] | None = None,
     measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
+    hazard: Hazard | None = None,
+    columns: str | None = None,
     suite: str | None = None,
     structure: str | None = None,
     out: PathLike,

@@ -188,7 +188,8 @@ impl Evaluate {
         match &self.options.hazard.hazard {
             Some(path) => {
                 let hazard = hazard::read(path, &self.options.headings())?;
-                rates::answer(&self.options.hazard, path, hazard, answers, &structure, console)
+                let fits = self.fits.as_ref();
+                rates::answer(&self.options.hazard, path, hazard, answers, &structure, fits, console)
             }
             None => point::answer(&self.options.point, answers, &structure, console),
         }

@@ -10,7 +10,7 @@ use crate::pipeline::console::Console;
 use crate::pipeline::options::{check, check_bound};
 use crate::rocking::Structure;
 use crate::stages::shared::answers::Answers;
-use crate::stages::shared::structures::words;
+use crate::stages::shared::structures::{words, words_of_friction};
 use crate::table::evaluated::{self, ANSWER, AnswerRow};
 use crate::table::schema::{self, Column};
 use crate::units::G_M_S2;
@@ -112,9 +112,10 @@ pub fn answer(
         rows: evaluated::answer(&rows)?,
         shown: Value::Null,
         heading: format!(
-            "{}\nstructure of {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % confidence limits, {}\n",
+            "{}\nstructure of {}, {}, at PGA {pga_g} g and PGV {pgv_m_s} m/s\nlimit state |theta|max / alpha = {}; low and high are 95 % confidence limits, {}\n",
             answers.words(),
             words(structure),
+            words_of_friction(structure),
             answers.limit(),
             answers.words_of_limits(),
         ),

@@ -11,10 +11,10 @@ use super::hazard::Hazard;
 use super::options::HazardOptions;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{
-    Fragility, FragilityModel, JointPeaks, LimitState, Peak, PeaksDoubt, Probability, STRONGEST_PGA_M_S2,
-    Slice, doubt_of_peaks, doubt_of_ratio,
+    Fragility, FragilityModel, JointPeaks, LimitState, Peak, PeaksDoubt, Placed, Probability,
+    STRONGEST_PGA_M_S2, Slice, doubt_of_peaks, doubt_of_ratio,
 };
-use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
+use crate::hazard::{CountedRate, HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
@@ -22,7 +22,11 @@ use crate::pipeline::console::Console;
 use crate::pipeline::options::check;
 use crate::rocking::Structure;
 use crate::stages::shared::answers::Answers;
-use crate::stages::shared::structures::words;
+use crate::stages::shared::counts;
+use crate::stages::shared::fits::FitFiles;
+use crate::stages::shared::groups;
+use crate::stages::shared::structures::{words, words_of_friction};
+use crate::statistics::Limits;
 use crate::table::evaluated::{self, RATES, RateRow, RecordedCurve, RecordedHazard};
 use crate::table::store::folder::file_name;
 
@@ -68,11 +72,13 @@ pub fn answer(
     hazard: Hazard,
     answers: &dyn Answers,
     structure: &Structure,
+    fits: Option<&FitFiles>,
     console: &Console,
 ) -> anyhow::Result<Answer> {
     let years = options.years;
     check(years > 0.0 && years.is_finite(), "years", years, "a time above 0")?;
     let mut words_of_ratio = String::new();
+    let mut words_of_count = String::new();
     let shown = json!(recorded(path, &hazard));
     let surface = answers.surface(Scenarios::Many);
     let surface = surface.as_ref().map(|surface| surface as &dyn Fragility);
@@ -85,6 +91,9 @@ pub fn answer(
             words_of_ratio = line.words(&curve, answers);
             if let Ratio::Distributed(_) = line.ratio {
                 peaks_of_fits = ", with the PGV / PGA of the motions of the fits in place of its own";
+            }
+            if let (Ratio::Distributed(_), Some(fits)) = (line.ratio, fits) {
+                words_of_count = words_of_count_beside(&rates, fits, path, &line, &curve, answers, console);
             }
             let of = |model: &dyn Fragility| over_curve(&line, &curve, model);
             (with_limits(rates, answers, of), surface.map(of))
@@ -99,8 +108,10 @@ pub fn answer(
         let words = format!(
             "by the universal surface (--model universal) the annual rate of overturning is {value:.1e} ({low:.1e} to {high:.1e}){peaks_of_fits}"
         );
-        if !(low..=high).contains(&rates.overturning.value) {
-            console.warn(&words);
+        match answers.doubt_of_rates() {
+            Some(doubt) => console.warn(&format!("{doubt}; {words}")),
+            None if !(low..=high).contains(&rates.overturning.value) => console.warn(&words),
+            None => {}
         }
         words + "\n"
     });
@@ -116,13 +127,79 @@ pub fn answer(
         rows: evaluated::rates(&rows)?,
         shown,
         heading: format!(
-            "{}\nstructure of {}, over {}\n{words_of_ratio}{words_of_surface}low and high are 95 % confidence limits, {}; they do not cover the hazard's own error\n",
+            "{}\nstructure of {}, {}, over {}\n{words_of_ratio}{words_of_surface}{words_of_count}low and high are 95 % confidence limits, {}; they do not cover the hazard's own error\n",
             answers.words(),
             words(structure),
+            words_of_friction(structure),
             path.display(),
             answers.words_of_limits()
         ),
     })
+}
+
+/// Beside the rates those that are counted among the motions of the fits, without any curve; a warning where one of the fits lies
+/// outside of its limits.
+fn words_of_count_beside(
+    rates: &Rates,
+    fits: &FitFiles,
+    hazard: &Path,
+    line: &Line,
+    curve: &HazardCurve,
+    answers: &dyn Answers,
+    console: &Console,
+) -> String {
+    let structure = &line.slice.structure;
+    let Some(fitted) = answers.fitted() else { return String::new() };
+    if answers.is_other_block(structure) || answers.is_other_structure(structure) {
+        return String::new();
+    }
+    let groups = counts::responses_beside(&fits.pro).and_then(|path| Some((groups::read(&path).ok()?, path)));
+    let (peak, (unit, size)) = (line.slice.peak, line.slice.peak.usual_unit());
+    let counted = groups.and_then(|(groups, path)| {
+        let group = groups.iter().find(|group| (group.suite.as_deref(), &*group.structure) == fitted)?;
+        let happened = |case: &Placed| Some(counts::happened(case, answers.limit()));
+        Some((counts::count(group, peak, curve, happened)?, path))
+    });
+    let Some((count, path)) = counted else {
+        return format!(
+            "not counted without a curve, since no file beside {} holds the responses of these fits: rockfrag validate --in RESPONSES --hazard {} --pex {} --pro {} counts\n",
+            fits.pro.name().display(),
+            hazard.display(),
+            fits.pex.name().display(),
+            fits.pro.name().display()
+        );
+    };
+    let beyond = count.strongest / size;
+    let states = [LimitState::Failure, LimitState::Overturning];
+    let outside = |(state, rate): (LimitState, CountedRate)| {
+        let of_fits = rates.of_state(state).value;
+        let is_within = (rate.limits.low..=rate.limits.high).contains(&of_fits);
+        (!is_within).then(|| format!("{} {of_fits:.1e} for {}", state.as_str(), words_of_counted(&rate)))
+    };
+    let outside: Vec<String> = states.into_iter().zip(count.rates).filter_map(outside).collect();
+    if !outside.is_empty() {
+        let within = up_to(count.strongest, line, curve, answers.model()).overturning.value;
+        let [all, extrapolated] = [rates.overturning.value, rates.overturning.value - within];
+        console.warn(&format!(
+            "annual rates lie outside of what a count of the fits' own motions gives: {}; {extrapolated:.1e} of the {all:.1e} of overturning \
+             is above {beyond:.2} {unit}, beyond all these motions. Strong motions are few, weigh little in a fit and carry the rate: take \
+             the count rather, compare the universal surface, or fit to more strong motions (more samples, larger magnitudes, shorter \
+             distances)",
+            outside.join(", ")
+        ));
+    }
+    let [failure, overturning] = count.rates.map(|rate| words_of_counted(&rate));
+    format!(
+        "counted without a curve in {} motions of {}, weighted to have the hazard's rates: overturning {overturning}, with failure {failure}; \
+         motions above {beyond:.2} {unit}, the strongest, come {:.1e} times a year and count as those just below\n",
+        count.motions,
+        path.display(),
+        count.rate_beyond
+    )
+}
+
+fn words_of_counted(CountedRate { value, limits: Limits { low, high } }: &CountedRate) -> String {
+    format!("{value:.1e} ({low:.1e} to {high:.1e})")
 }
 
 /// The most points of a curve that a file of rates holds for a report.
@@ -169,6 +246,8 @@ enum Ratio {
 /// smooth function under a normal density is exact to 1e-8 with these.
 const STEP: f64 = 0.5;
 const LAST_NODE: i32 = 12;
+/// Times uplift: where words tell how the ratio has changed.
+const FAR: f64 = 4.0;
 
 impl Line {
     fn new(
@@ -221,6 +300,18 @@ impl Line {
         }
     }
 
+    /// The limit states at an intensity, over all ratios.
+    fn mean(&self, model: &dyn Fragility, intensity: f64) -> [f64; 9] {
+        let mut slice = self.slice.clone();
+        let mut mean = [0.0; 9];
+        for (ratio, weight) in self.ratios(intensity) {
+            slice.ratio = ratio;
+            let states = parts(model.limit_states(&slice, intensity));
+            mean.iter_mut().zip(states).for_each(|(mean, state)| *mean += weight * state);
+        }
+        mean
+    }
+
     /// Where the ratio comes from, and what another one would change.
     fn words(&self, curve: &HazardCurve, answers: &dyn Answers) -> String {
         let Ratio::Distributed(_) = self.ratio else {
@@ -229,13 +320,23 @@ impl Line {
         let overturning =
             |deviations| over_curve(&self.quantile(deviations), curve, answers.model()).overturning.value;
         let [low, median, high] = [-1.0, 0.0, 1.0].map(overturning);
-        let at_uplift = |deviations| self.quantile(deviations).ratios(self.slice.intensity_at_im4(1.0))[0].0;
+        let peak = self.slice.peak;
+        let (unit, size) = peak.usual_unit();
+        let median_at = |intensity: f64| self.quantile(0.0).ratios(intensity)[0].0;
+        let uplift = self.slice.intensity_at_im4(1.0);
+        let end = curve.ends()[1].0.min(FAR * uplift).max(uplift);
+        let (at_uplift, at_end) = (median_at(uplift), median_at(end));
+        let name = peak.as_str().to_uppercase();
+        let changes = match at_end < at_uplift {
+            true => "falls",
+            false => "rises",
+        };
         format!(
-            "p PGV / PGA is distributed as in the motions {}: {:.2} at uplift, {:.2} to {:.2} in two of three motions; with these ratios alone, overturning would have the annual rates {median:.1e}, {low:.1e} and {high:.1e} (--ratio takes one)\n",
+            "p PGV / PGA {changes} with {name}, as in the motions {}: its median is {at_uplift:.2} at uplift and {at_end:.2} at {:.4} {unit}\n\
+             if every motion had the median of its {name}, the annual rate of overturning would be {median:.1e}; one standard deviation lower or \
+             higher, {low:.1e} or {high:.1e}; --ratio sets one value at all intensities instead\n",
             answers.words_of_motions(),
-            at_uplift(0.0),
-            at_uplift(-1.0),
-            at_uplift(1.0)
+            end / size
         )
     }
 }
@@ -311,16 +412,19 @@ fn over_pairs(
 }
 
 fn over_curve(line: &Line, curve: &HazardCurve, model: &dyn Fragility) -> Rates {
-    Rates::of(curve.mean_annual_rates(&model.jumps(&line.slice), |intensity| {
-        let mut slice = line.slice.clone();
-        let mut mean = [0.0; 9];
-        for (ratio, weight) in line.ratios(intensity) {
-            slice.ratio = ratio;
-            let states = parts(model.limit_states(&slice, intensity));
-            mean.iter_mut().zip(states).for_each(|(mean, state)| *mean += weight * state);
-        }
-        mean
-    }))
+    Rates::of(curve.mean_annual_rates(&model.jumps(&line.slice), |intensity| line.mean(model, intensity)))
+}
+
+/// The rates of motions up to an intensity alone.
+fn up_to(intensity: f64, line: &Line, curve: &HazardCurve, model: &dyn Fragility) -> Rates {
+    let mut breaks = model.jumps(&line.slice);
+    breaks.push(intensity);
+    Rates::of(curve.mean_annual_rates(
+        &breaks,
+        |im| {
+            if im > intensity { [0.0; 9] } else { line.mean(model, im) }
+        },
+    ))
 }
 
 fn over_bins(structure: &Structure, joint: &JointHazard, model: &dyn Fragility) -> Rates {

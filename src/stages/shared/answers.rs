@@ -40,6 +40,16 @@ pub trait Answers: Send + Sync {
         }
     }
 
+    /// The suite and the structure whose responses were fitted; none where the surface answers.
+    fn fitted(&self) -> Option<(Option<&str>, &str)> {
+        None
+    }
+
+    /// What speaks against annual rates, where few overturnings decide them: their limits hold less than they seem to.
+    fn doubt_of_rates(&self) -> Option<String> {
+        None
+    }
+
     /// The demand that P_ex is about.
     fn limit(&self) -> f64;
 

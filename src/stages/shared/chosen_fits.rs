@@ -103,16 +103,22 @@ impl ChosenFits {
         is_other_eta(eta, self.model.eta)
     }
 
+    /// The events, or the motions without them, whichever are fewer.
+    fn fewer(&self) -> (usize, String) {
+        let [events, n] = self.events;
+        let (few, what) = match 2 * events <= n {
+            true => (events, "overturning(s)"),
+            false => (n - events, "motion(s) without overturning"),
+        };
+        (few, format!("from {few} {} of {n} motions", what.replace("(s)", if few == 1 { "" } else { "s" })))
+    }
+
     /// That P_ro says little, if it comes from so few overturnings, or motions without, that ordinary estimates refuse them.
     pub fn doubt_of_events(&self) -> Option<String> {
         let [events, n] = self.events;
-        let (few, what, limit) = match 2 * events <= n {
-            true => (events, "overturning(s)", "an upper"),
-            false => (n - events, "motion(s) without overturning", "a lower"),
-        };
-        let what = what.replace("(s)", if few == 1 { "" } else { "s" });
-        (few < LEAST_EVENTS)
-            .then(|| format!("from {few} {what} of {n} motions: this says little more than {limit} limit"))
+        let limit = if 2 * events <= n { "an upper" } else { "a lower" };
+        let (few, from) = self.fewer();
+        (few < LEAST_EVENTS).then(|| format!("{from}: this says little more than {limit} limit"))
     }
 }
 
@@ -134,6 +140,28 @@ impl Answers for ChosenFits {
 
     fn eta(&self) -> Option<f64> {
         Some(self.model.eta)
+    }
+
+    fn fitted(&self) -> Option<(Option<&str>, &str)> {
+        Some((self.suite.as_deref(), &self.structure))
+    }
+
+    fn doubt_of_rates(&self) -> Option<String> {
+        let (few, from) = self.fewer();
+        // Where fits are refused from fewer, those that are there come from samples that happen to hold many.
+        let chosen = (LEAST_EVENTS..2 * LEAST_EVENTS).contains(&few);
+        let chosen = if chosen {
+            format!(
+                "; fits from fewer than {LEAST_EVENTS} are refused, so that rates of those that answer are too high on average"
+            )
+        } else {
+            String::new()
+        };
+        self.few_events.then(|| {
+            format!(
+                "annual rates {from}: low and high take the form of the curve for right where strong motions are few, and are too narrow{chosen}"
+            )
+        })
     }
 
     fn limit(&self) -> f64 {

@@ -5,7 +5,7 @@
 //! motions            records and peaks of motions, under distinct names
 //! measures           which intensity measures are taken
 //! partitions         which part of a table a process works on, and what its file is called
-//! groups             the responses of a suite and structure
+//! groups             the responses of a suite and structure; counts: annual rates counted among them
 //! uncertainty        the limits of confidence that are asked for
 //! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
 //! resampled_fits     the same in each resample
@@ -15,6 +15,7 @@
 
 pub mod answers;
 pub mod chosen_fits;
+pub mod counts;
 pub mod fits;
 pub mod groups;
 pub mod measures;

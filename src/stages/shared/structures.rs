@@ -200,6 +200,11 @@ pub fn words(structure: &Structure) -> String {
     format!("p {p} rad/s, alpha {alpha} rad, eta {eta}")
 }
 
+/// When it slides in place of rocking, which nothing here computes.
+pub fn words_of_friction(structure: &Structure) -> String {
+    format!("which slides instead unless its friction is above {:.2}", libm::tan(structure.alpha_rad))
+}
+
 /// Warns of structures of a size that none has.
 pub fn warn_of_size<'s>(structures: impl IntoIterator<Item = &'s Structure>, console: &Console) {
     let doubts =

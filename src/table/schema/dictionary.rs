@@ -268,6 +268,10 @@ columns! {
     calibration: Float64, "1", "calibration in the large: by how much all log odds must rise for the expected count to be the seen one; null where no event, or nothing else, was seen";
     extrapolated: Int64, "1", "cases with a measure outside of the range of the data of the fit (of failure, of either)";
     without_measure: Int64, "1", "cases without a forecast, for want of a measure";
+    counted_rate: Float64, "1/a", "annual rate of the event, counted in the motions that are weighted to have the rates of the hazard; null without a hazard";
+    counted_rate_low: Float64, "1/a", "lower 95 % limit of counted_rate";
+    counted_rate_high: Float64, "1/a", "upper 95 % limit of counted_rate";
+    expected_rate: Float64, "1/a", "the same rate by the probabilities of the curves at the same motions; null without a hazard";
 }
 
 // The curve of one structure on others.
