@@ -47,7 +47,7 @@ pub struct Function {
     pub probabilities: Vec<[f64; 3]>,
     /// Overturning as a lognormal curve over the intensity, above uplift; none of a curve that bends, or of the surface.
     pub overturning: Option<Lognormal>,
-    /// Intensity at uplift, and the largest one for which there are data.
+    /// Intensity at uplift, and the largest one for which there are data and that was ever recorded.
     pub range_of_data: [f64; 2],
 }
 

@@ -67,7 +67,7 @@ fn document(
     let ranges = functions.iter().map(|function| {
         let (imt, unit) = measure(function.peak);
         let [low, high] = function.range_of_data.map(|intensity| intensity / unit);
-        format!("{}: data from {imt} {low:.4} (uplift) to {high:.4}", function.id)
+        format!("{}: holds from {imt} {low:.4} (uplift) to {high:.4}", function.id)
     });
     let meanings = LimitState::ALL.iter().zip(&model.limit_states);
     let meanings = meanings.filter(|(state, _)| states.contains(state));

@@ -26,7 +26,7 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
 }
 
 /// Writes the rows: rocking has a capacity that is known, uplift; the others have tables of their cumulative distribution, which
-/// must rise from 0 (just below uplift) to 1 (at the last level).
+/// must rise from 0 (just below uplift) to 1 (just above the last level).
 ///
 /// # Errors
 /// If memory runs out.
@@ -69,10 +69,8 @@ fn cumulative_distribution(function: &Function, state: usize, unit: f64) -> Stri
             points.push((level, p));
         }
     }
-    if let Some(&end) = function.levels.last() {
-        points.retain(|&(level, _)| level * (1.0 + GAP) < end);
-        points.push((end, 1.0));
-    }
+    // pelicun knows a whole distribution or none: what is left stands just beyond the last level.
+    points.extend(function.levels.last().map(|&end| (end * (1.0 + GAP), 1.0)));
     let join = |part: fn(&(f64, f64)) -> f64, unit: f64| {
         points.iter().map(|point| (part(point) / unit).to_string()).collect::<Vec<_>>().join(",")
     };
@@ -94,6 +92,7 @@ pub fn metadata(model: &Model, functions: &[Function]) -> Value {
     for function in functions {
         let (name, unit_name, unit) = demand(function.peak);
         let [low, high] = function.range_of_data.map(|intensity| intensity / unit);
+        let end = function.levels.last().map_or(high, |end| end / unit);
         let state = |(index, meaning): (usize, &String)| {
             (format!("LS{}", index + 1), json!({ format!("DS{}", index + 1): { "Description": meaning } }))
         };
@@ -102,7 +101,9 @@ pub fn metadata(model: &Model, functions: &[Function]) -> Value {
             function.id.clone(),
             json!({
                 "Description": model.description,
-                "Comments": format!("Data from {low:.4} {unit_name} (uplift) to {high:.4} {unit_name}; beyond them the curves are extrapolated."),
+                "Comments": format!(
+                    "Holds from {low:.4} {unit_name} (uplift) to {high:.4} {unit_name}; beyond them the curves are extrapolated. Capacities above {end:.4} {unit_name}, the last level, are set to it."
+                ),
                 "SuggestedComponentBlockSize": "1 EA",
                 "RoundUpToIntegerQuantity": "True",
                 "RangeOfData": { "Demand-Type": name, "Demand-Unit": unit_name, "From": low, "To": high },

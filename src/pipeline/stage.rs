@@ -109,7 +109,10 @@ const MAKERS: [(&str, &str); 7] = [
     ("responses", "simulate makes"),
     ("pex", "fit-pex makes"),
     ("pro", "fit-pro makes"),
-    ("intensities", "a Parquet table with pga_m_s2 and pgv_m_s has; a hazard in CSV is for --hazard"),
+    (
+        "intensities",
+        "a Parquet table with pga_m_s2 and pgv_m_s has, or a CSV file whose name ends in .csv; a hazard is for --hazard",
+    ),
     ("rates", "evaluate --hazard hazard.csv --out rates.parquet writes"),
 ];
 

@@ -72,10 +72,21 @@ pub struct Median {
 pub struct Rates {
     /// The structure and the fits, in words.
     pub name: String,
+    pub by: By,
+    /// What a reader must know of them, a sentence each.
+    pub notes: Vec<String>,
     pub years: f64,
     pub states: Vec<StateRate>,
     /// The hazard that they are over, where the file says.
     pub hazard: Option<Hazard>,
+}
+
+/// What annual rates come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum By {
+    Fits,
+    /// The universal surface.
+    Surface,
 }
 
 /// How often motions of some strength come to a site.
@@ -96,7 +107,7 @@ pub struct PeakCurve {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Value, lower and upper limit of a limit state.
+/// Value, lower and upper limit of a limit state; NaN where it has none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateRate {
     pub words: String,
@@ -324,6 +335,11 @@ const NAMED: [&str; 12] = [
 ];
 
 impl ReportData {
+    /// Whether some of the rates come from this.
+    pub fn has_rates_by(&self, by: By) -> bool {
+        self.rates.iter().any(|rates| rates.by == by)
+    }
+
     /// Says in a sentence what made the files: version, seed and options.
     pub fn made(&self) -> String {
         let mut versions: Vec<&str> = self.files.iter().map(|file| file.version.as_str()).collect();

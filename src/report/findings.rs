@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::data::{File, Median, Rates, ReportData, Summary, USEFUL_R2, name_of};
+use super::data::{By, File, Median, Rates, ReportData, Summary, USEFUL_R2, name_of};
 use super::text::{escape, number};
 use crate::fragility::Gap;
 use crate::keyword::Keyword;
@@ -17,18 +17,30 @@ const MOST_STRUCTURES: usize = 4;
 const BY_WEIGHT: [(&str, usize); 4] = [("evaluate", 6), ("validate", 4), ("fit-pro", 3), ("fit-pex", 0)];
 const MOST_WARNINGS: usize = 2;
 
+/// What gives rates without fits.
+const OF_SURFACE: &str = "Rates by the <i>universal surface</i> are not from simulations of these structures: two regressions, which come with rockfrag, give the probabilities of any rigid block or frame over PGA, PGV, p, α and η. They were fitted to simulated responses of 320 other structures. ";
+
 /// Writes the section.
 pub fn findings(html: &mut String, data: &ReportData) {
     html.push_str("<section id=\"findings\"><h2>Findings</h2>\n<h3>What was asked</h3>\n");
     let _ = writeln!(html, "<p>{}</p>", escape(&asked(data)));
     html.push_str("<h3>What came out</h3>\n");
-    came_out(html, data);
+    if !data.summaries.is_empty() {
+        came_out(html, data);
+    }
     for rates in &data.rates {
         at_site(html, rates);
     }
+    let fits = match data.summaries.is_empty() {
+        true => "",
+        false => {
+            "Each motion is computed or recorded, the rocking of each structure in it is integrated, and curves are fitted to how it ended, as in Dimitrakopoulos &amp; Paraskeva (2015). "
+        }
+    };
+    let surface = if data.has_rates_by(By::Surface) { OF_SURFACE } else { "" };
     let _ = writeln!(
         html,
-        "<h3>By what method</h3>\n<p>Each motion is computed or recorded, the rocking of each structure in it is integrated, and curves are fitted to how it ended, as in Dimitrakopoulos &amp; Paraskeva (2015). <a href=\"#method\">Method, symbols and references</a> say more. {}</p>\n<h3>How sure this is</h3>",
+        "<h3>By what method</h3>\n<p>{fits}{surface}<a href=\"#method\">Method, symbols and references</a> say more. {}</p>\n<h3>How sure this is</h3>",
         escape(&data.made())
     );
     doubts(html, data);
@@ -65,6 +77,13 @@ fn asked(data: &ReportData) -> String {
             format!("{} of {suite}{}", number::count(most), suite_words(suite))
         })
         .collect();
+    if structures.is_empty() {
+        let names: Vec<&str> = data.rates.iter().map(|rates| rates.name.as_str()).collect();
+        return format!(
+            "How often free-standing structures rock, fail and overturn at a site. {}.",
+            names.join(". ")
+        );
+    }
     let limit = match data.limit {
         Some(limit) => {
             format!(
@@ -108,11 +127,13 @@ fn came_out(html: &mut String, data: &ReportData) {
         ];
         cells.extend(above.iter().map(|_| number::share(exceeded.unwrap_or(0) + overturned, *rocked)));
         let limits = wilson_limits(*overturned, *rocked);
+        // Of none the lower limit is 0, but for rounding.
+        let low = if *overturned == 0 { 0.0 } else { limits.low.max(0.0) };
         let percent = |share: f64| number::readable(100.0 * share, 2);
         cells.push(number::share(*overturned, *rocked));
         cells.push(match rocked {
             0 => "–".to_string(),
-            _ => format!("{} to {} %", percent(limits.low.max(0.0)), percent(limits.high)),
+            _ => format!("{} to {} %", percent(low), percent(limits.high)),
         });
         let (median, status) = match curve {
             Some(Median { status, pgv_m_s, gap }) => {
@@ -156,7 +177,7 @@ fn judgement(status: FitStatus, gap: Option<Gap>) -> String {
 }
 
 fn at_site(html: &mut String, rates: &Rates) {
-    let Rates { name, years, states, hazard } = rates;
+    let Rates { name, years, states, hazard, notes, .. } = rates;
     let years = format!("probability in {} years", number::plain(*years));
     let title = format!("At the site: {name}");
     let _ = writeln!(html, "<h4>{}</h4>", escape(&title));
@@ -171,6 +192,19 @@ fn at_site(html: &mut String, rates: &Rates) {
             "<p>The hazard is <a href=\"#figure-hazard\">{}</a>.</p>",
             escape(&hazard.words())
         );
+    }
+    if !notes.is_empty() {
+        html.push_str("<ul>\n");
+        for note in notes {
+            let mut letters = note.chars();
+            let first = letters.next().filter(|_| !note.starts_with("p PGV"));
+            let sentence = match first {
+                Some(first) => first.to_uppercase().chain(letters).collect(),
+                None => note.clone(),
+            };
+            let _ = writeln!(html, "<li>{}.</li>", escape(&sentence));
+        }
+        html.push_str("</ul>\n");
     }
 }
 
@@ -192,7 +226,7 @@ fn answers(html: &mut String, title: &str, heads: &[&str], rows: impl Iterator<I
 }
 
 fn doubts(html: &mut String, data: &ReportData) {
-    html.push_str("<p>Limits are 95 % limits of confidence. They hold that there are no more motions than these, not the choice of the motions, the shape of the curve, or what is not known of the structure. A lognormal curve goes to 1 and overturning does not: do not read a probability above 0.8 as that sure.</p>\n");
+    html.push_str("<p>Limits are 95 % limits of confidence. They cover the limited number of motions, not the choice of the motions, the shape of the curve, or what is not known of the structure. A lognormal curve goes to 1 and overturning does not: do not read a probability above 0.8 as that sure.</p>\n");
     let own = own_doubts(data);
     let weight = |file: &&File| {
         let stage = file.stage.as_deref().unwrap_or_default();
@@ -211,7 +245,12 @@ fn doubts(html: &mut String, data: &ReportData) {
     for file in files {
         let File { name, stage, warnings, .. } = file;
         let most = BY_WEIGHT.get(weight(&file)).map_or(MOST_WARNINGS, |(_, most)| *most);
-        let stage = escape(stage.as_deref().unwrap_or(name));
+        let is_same = |other: &&File| other.stage == *stage;
+        let stage = match data.files.iter().filter(is_same).count() {
+            ..=1 => escape(stage.as_deref().unwrap_or(name)),
+            // One of several files of a stage.
+            _ => escape(name),
+        };
         let line = |html: &mut String, warning: &String| {
             let _ = writeln!(html, "<li><code>{stage}</code>: {}</li>", escape(warning));
         };
@@ -235,6 +274,19 @@ fn doubts(html: &mut String, data: &ReportData) {
 /// What speaks against the results by themselves.
 fn own_doubts(data: &ReportData) -> Vec<String> {
     let mut doubts = Vec::new();
+    let states = data
+        .rates
+        .iter()
+        .flat_map(|rates| rates.states.iter().filter(|state| state.words.starts_with("LS2")));
+    let mut demands: Vec<&str> = states.map(|state| without_surface(&state.words)).collect();
+    demands.sort_unstable();
+    demands.dedup();
+    if demands.len() > 1 {
+        doubts.push(format!(
+            "LS2 is not the same limit state in all of these rates, so do not compare them: {}.",
+            demands.join("; ")
+        ));
+    }
     let off: Vec<String> = data
         .summaries
         .iter()
@@ -299,4 +351,9 @@ fn own_doubts(data: &ReportData) -> Vec<String> {
         ));
     }
     doubts
+}
+
+/// The words of a limit state without what gave it.
+pub(super) fn without_surface(words: &str) -> &str {
+    words.strip_suffix(", by the universal surface").unwrap_or(words)
 }

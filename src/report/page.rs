@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use base64::prelude::{BASE64_STANDARD, Engine};
 
-use super::data::{File, ReportData, Table};
+use super::data::{By, File, ReportData, Table};
 use super::drawing::TWO_COLUMNS;
 use super::figure::Figure;
 use super::figures::Part;
@@ -109,7 +109,9 @@ pub fn page(data: &ReportData, Page { figures, folder, provenance }: Page) -> St
         html.push_str(include_str!("assets/motions.html"));
     }
     section_of_tables(&mut html, &data.tables);
-    html.push_str(&include_str!("assets/method.html").replace("{version}", env!("CARGO_PKG_VERSION")));
+    let surface = if data.has_rates_by(By::Surface) { include_str!("assets/surface.html") } else { "" };
+    let method = include_str!("assets/method.html").replace("{version}", env!("CARGO_PKG_VERSION"));
+    html.push_str(&method.replace("{surface}", surface));
     section_of_files(&mut html, &data.files);
     html.push_str("</main>\n");
     let drawn: Vec<&Figure> = figures.iter().map(|(_, figure)| figure).collect();

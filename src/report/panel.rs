@@ -181,11 +181,14 @@ impl Panel {
         drawing.record(name, &["low", "high", "n"], estimates.iter().flat_map(row).collect());
         for &Estimate { at: [x, y], low, high, radius, .. } in estimates.iter().filter(|of| self.holds(of.at))
         {
+            // A value without limits has no bar.
             let ends = [low, high].map(|end| match self.y.names.is_empty() {
                 true => [x, end.clamp(self.y.low, self.y.high)],
                 false => [end.clamp(self.x.low, self.x.high), y],
             });
-            drawing.line(&ends.map(|end| self.at(end)), ink.line(0.8));
+            if ends.as_flattened().iter().all(|end| !end.is_nan()) {
+                drawing.line(&ends.map(|end| self.at(end)), ink.line(0.8));
+            }
             drawing.dots(vec![self.at([x, y])], radius, ink.full());
         }
     }

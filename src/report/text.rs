@@ -200,7 +200,11 @@ pub mod number {
 
     /// Writes a value with its limits.
     pub fn with_limits([value, low, high]: [f64; 3], digits: i32) -> String {
-        format!("{} ({} to {})", readable(value, digits), readable(low, digits), readable(high, digits))
+        let value = readable(value, digits);
+        match low.is_nan() && high.is_nan() {
+            true => value,
+            false => format!("{value} ({} to {})", readable(low, digits), readable(high, digits)),
+        }
     }
 
     /// Writes a share of a count: `12 (34 %)`, in which no line breaks before the sign.

@@ -64,13 +64,13 @@ pub const BOUNDS: [Bound; 6] = [
         parameter: "width",
         range: (1e-4, 200.0),
         expected: "a length above 0 m, up to 200 m",
-        slip: "is it in mm?",
+        slip: "is it in cm or mm?",
     },
     Bound {
         parameter: "height",
         range: (1e-3, 200.0),
         expected: "a length above 0 m, up to 200 m",
-        slip: "is it in mm?",
+        slip: "is it in cm or mm?",
     },
     Bound {
         parameter: "beam-mass-ratio",
@@ -82,7 +82,7 @@ pub const BOUNDS: [Bound; 6] = [
         parameter: "p",
         range: (0.2, 50.0),
         expected: "a frequency parameter above 0 rad/s, from 0.2 to 50",
-        slip: "is it in Hz, or of dimensions in mm?",
+        slip: "is it in Hz, or of dimensions in cm or mm?",
     },
     Bound {
         parameter: "alpha",

@@ -6,14 +6,15 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use super::evaluate::rates::Line;
 use super::shared::answers::Answers;
 use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions, note_fits_of_run};
 use super::shared::structure_options::StructureOptions;
 use super::shared::structures::{StructureSpec, warn_of_size, words};
-use super::shared::surface::Surface;
+use super::shared::surface::{Surface, expect_no_limit};
 use crate::export::{self, Function, Model, plain_id};
 use crate::fragility::universal::Scenarios;
-use crate::fragility::{LimitState, Peak, STRONGEST_PGA_M_S2, Slice, doubt_of_ratio};
+use crate::fragility::{LimitState, Peak, STRONGEST_PGA_M_S2, doubt_of_ratio};
 use crate::keyword::Keyword;
 use crate::keyword::keywords;
 use crate::pipeline::UsageError;
@@ -34,6 +35,9 @@ pub struct ExportOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub fits: FitsOptions,
+    /// Limit state of P_ex by the universal surface: a demand |theta|max / alpha from 0.02 to 0.5 [default: 0.1]
+    #[arg(long, value_name = "DEMAND", help_heading = "Fits")]
+    pub limit_state: Option<f64>,
     #[command(flatten)]
     #[serde(flatten)]
     pub structure: StructureOptions,
@@ -45,14 +49,14 @@ pub struct ExportOptions {
     #[arg(long, default_value = "pga", help_heading = "Export")]
     pub im: Word<Peak>,
     /// p PGV / PGA of the motions (p in rad/s, PGV in m/s, PGA in m/s2, not g; usually 0.1 to 0.6): one function for each of these
-    /// numbers
+    /// numbers [default: one function, averaged over PGV / PGA given PGA, as evaluate --hazard does]
     #[arg(long, value_name = "RATIO,...", help_heading = "Export")]
     pub ratio: Option<Steps>,
     /// Intensities of the table, g or m/s: first:last:step, or numbers separated by commas [default: as many as --tolerance needs]
     #[arg(long, value_name = "IM,...", conflicts_with_all = ["upto", "tolerance"], help_heading = "Export")]
     pub levels: Option<Steps>,
     /// Largest intensity, g or m/s [default: as in the data, but no more than 4.5 g, the strongest PGA ever recorded; for pelicun,
-    /// where all probabilities are 1]
+    /// where all probabilities are 1, but no more than that either]
     #[arg(long, value_name = "IM", help_heading = "Export")]
     pub upto: Option<f64>,
     /// Largest error of linear interpolation between levels [default: 1e-6; for pelicun 1e-5]
@@ -100,7 +104,8 @@ pub struct Export {
     options: ExportOptions,
     program: Program,
     tolerance: f64,
-    ratios: Vec<f64>,
+    /// One function each; none of them stands for all ratios, averaged.
+    ratios: Vec<Option<f64>>,
     /// The fits; without them the surface that is shipped.
     fits: Option<FitFiles>,
     structure: StructureSpec,
@@ -129,11 +134,17 @@ impl Declare for Export {
                 "expected the program that reads the file: --to openquake, openquake-continuous or pelicun",
             ));
         };
-        let Some(ratio) = &options.ratio else {
-            return Err(UsageError::because("expected the p PGV / PGA of the motions: --ratio RATIO,..."));
+        let ratios = match &options.ratio {
+            Some(ratio) => ratio.values.iter().copied().map(Some).collect(),
+            None => vec![None],
         };
-        for &ratio in &ratio.values {
+        for &ratio in ratios.iter().flatten() {
             check(ratio > 0.0, "ratio", ratio, "a p PGV / PGA above 0")?;
+        }
+        if options.ratio.is_none() && options.im.0 == Peak::Pgv {
+            return Err(UsageError::because(
+                "functions of PGV are of one p PGV / PGA each: --ratio RATIO,...; only those of PGA are averaged over it",
+            ));
         }
         let usual = if program == Program::Pelicun { export::PELICUN_TOLERANCE } else { TOLERANCE };
         let (tolerance, upto) = (options.tolerance.unwrap_or(usual), options.upto);
@@ -160,9 +171,10 @@ impl Declare for Export {
             options: options.clone(),
             program,
             tolerance,
-            ratios: ratio.values.clone(),
-            fits: FitFiles::if_asked(&options.fits, files)?,
-            structure: options.structure.spec()?,
+            ratios,
+            fits: FitFiles::if_asked(&options.fits, files)?
+                .map(|fits| fits.prefer(options.structure.name.as_deref())),
+            structure: options.structure.spec(options.fits.structure.as_deref())?,
             out,
         })
     }
@@ -189,10 +201,10 @@ impl Stage for Export {
     }
 
     fn parameters(&self) -> Value {
-        let ExportOptions { to, im, ratio, levels, upto, .. } = &self.options;
+        let ExportOptions { limit_state, to, im, ratio, levels, upto, .. } = &self.options;
         json!({
             "fits": self.fits.as_ref().map_or(&self.options.fits, |fits| &fits.options), "structure": self.structure, "to": to, "im": im, "ratio": ratio, "levels": levels,
-            "upto": upto, "tolerance": self.tolerance
+            "upto": upto, "tolerance": self.tolerance, "limit-state": limit_state
         })
     }
 
@@ -210,8 +222,14 @@ impl Stage for Export {
 
     fn execute(&self, _provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let answers: Box<dyn Answers> = match &self.fits {
-            Some(fits) => Box::new(fits.choose()?),
-            None => Box::new(Surface::new(self.options.fits.suite.as_deref(), None, Scenarios::Many)?),
+            Some(fits) => {
+                expect_no_limit(self.options.limit_state)?;
+                Box::new(fits.choose()?)
+            }
+            None => {
+                let ExportOptions { fits, limit_state, .. } = &self.options;
+                Box::new(Surface::new(fits.suite.as_deref(), *limit_state, Scenarios::Many)?)
+            }
         };
         let structure = answers.structure(&self.structure)?;
         if self.fits.is_none() {
@@ -220,10 +238,11 @@ impl Stage for Export {
         answers.warn(console);
         warn_of_size([&structure], console);
         answers.warn_of_structure(&structure, console);
-        self.ratios.iter().filter_map(|&ratio| doubt_of_ratio(ratio)).for_each(|doubt| console.warn(&doubt));
+        let given = self.ratios.iter().copied().flatten();
+        given.filter_map(doubt_of_ratio).for_each(|doubt| console.warn(&doubt));
         let functions = self.ratios.iter().map(|&ratio| {
-            let slice = Slice { structure: structure.clone(), peak: self.options.im.0, ratio };
-            self.function(&slice, &*answers, console)
+            let line = Line::new(ratio, &structure, self.options.im.0, &*answers)?;
+            self.function(&line, ratio, &*answers, console)
         });
         let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
         let model = Model {
@@ -257,14 +276,19 @@ impl Stage for Export {
 }
 
 impl Export {
-    /// One slice, tabulated.
-    fn function(&self, slice: &Slice, answers: &dyn Answers, console: &Console) -> anyhow::Result<Function> {
-        let model = answers.model();
+    /// One line, tabulated.
+    fn function(
+        &self,
+        line: &Line,
+        ratio: Option<f64>,
+        answers: &dyn Answers,
+        console: &Console,
+    ) -> anyhow::Result<Function> {
+        let (model, slice) = (answers.model(), &line.slice);
         let jumps = model.jumps(slice);
-        let reaching = |intensity: f64| {
-            model.limit_states(slice, intensity).map_or([f64::NAN; 3], |states| states.map(|p| p.value))
-        };
-        let range_of_data = [jumps[0], model.largest_in_data(slice)];
+        let reaching = |intensity: f64| line.limit_states(model, intensity);
+        let strongest = slice.intensity_at_strongest_pga();
+        let range_of_data = [jumps[0], model.largest_in_data(slice).min(strongest)];
         if range_of_data[1] <= range_of_data[0] {
             return Err(UsageError::because(format!(
                 "ratio {}: with this p PGV / PGA no motion of the data rocks this structure; usually it is 0.1 to 0.6, with p in rad/s, PGV in m/s and PGA in m/s2",
@@ -278,22 +302,25 @@ impl Export {
                 "these fits do not grow with the peak along a slice, or need the period of each motion: use the bivariate model, or --measure im4 or im5",
             ));
         }
-        let lognormal = model.lognormal(slice);
+        let lognormal = line.lognormal(model);
         if self.program == Program::OpenQuakeContinuous && lognormal.is_none() {
             return Err(UsageError::because(
-                "P_ro is not lognormal: it bends, or is the surface's; expected --to openquake, which takes a table, or --model paper, the straight line",
+                "P_ro is not lognormal: it bends, is averaged over the ratio, or is the surface's; expected --to openquake, which takes a table, or --model paper, the straight line, with --ratio",
             ));
         }
-        let strongest = slice.intensity_at_strongest_pga();
-        let levels = self.levels(&jumps, range_of_data[1].min(strongest), reaching)?;
+        let end = match self.program {
+            Program::Pelicun => export::whole_curve_end(jumps[0], self.tolerance, reaching).min(strongest),
+            Program::OpenQuake | Program::OpenQuakeContinuous => range_of_data[1],
+        };
+        let levels = self.levels(&jumps, end, reaching)?;
         let last = levels[levels.len() - 1];
-        let id = plain_id(&format!("{}{}{}", slice.structure.name, export::OF_RATIO, slice.ratio));
+        let ratio = ratio.map_or("_distributed".to_string(), |ratio| ratio.to_string());
+        let id = plain_id(&format!("{}{}{ratio}", slice.structure.name, export::OF_RATIO));
         answers.warn_of_slice(slice, last, &format!("{id}: "), console);
         if last > strongest * (1.0 + 1e-9) {
             let ((unit, size), pga_g) = (slice.peak.usual_unit(), STRONGEST_PGA_M_S2 / G_M_S2);
-            let why = if self.options.upto.is_some() { "" } else { "; the file needs the whole curve" };
             console.warn(&format!(
-                "{id}: up to {:.3e} {unit}, but no PGA above {pga_g} g ({:.4} {unit} here) was ever recorded{why}: use no probability from beyond it",
+                "{id}: up to {:.3e} {unit}, but no PGA above {pga_g} g ({:.4} {unit} here) was ever recorded: use no probability from beyond it",
                 last / size,
                 strongest / size
             ));
@@ -309,16 +336,8 @@ impl Export {
         usual_end: f64,
         reaching: impl Fn(f64) -> [f64; 3],
     ) -> anyhow::Result<Vec<f64>> {
-        // pelicun knows a whole distribution or none.
-        let whole = (self.program == Program::Pelicun)
-            .then(|| export::whole_curve_end(jumps[0], self.tolerance, &reaching));
-        if whole.is_some_and(|whole| !whole.is_finite()) {
-            return Err(UsageError::because(
-                "pelicun needs curves that end at a probability of 1, which these never reach; expected --to openquake, or --model paper",
-            ));
-        }
-        let end = self.options.upto.map_or(whole.unwrap_or(usual_end), |upto| upto * self.unit());
-        let mut levels = match &self.options.levels {
+        let end = self.options.upto.map_or(usual_end, |upto| upto * self.unit());
+        let levels: Vec<f64> = match &self.options.levels {
             Some(steps) => {
                 let given = steps.values.iter().map(|level| level * self.unit());
                 std::iter::once(jumps[0]).chain(given.filter(|&level| level > jumps[0])).collect()
@@ -329,8 +348,6 @@ impl Export {
                 export::levels(&edges, self.tolerance, &reaching)
             }
         };
-        let last = levels.last().copied().unwrap_or(end);
-        levels.extend(whole.filter(|&whole| whole > last));
         let expected = format!("an intensity above uplift, {:.4}", jumps[0] / self.unit());
         check(levels.len() > 1, "the largest intensity", end / self.unit(), &expected)?;
         Ok(levels)

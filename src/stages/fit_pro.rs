@@ -212,11 +212,17 @@ fn doubt(row: &GroupCurve) -> Option<(OfGroup, String)> {
                     "medians of {event} for {{}}, lie far outside of the data, so that these measures say little"
                 ),
             ),
-            format!("{of} (by a factor of {})", factor(fit.factor_of_median())),
+            match fit.factor_of_median() {
+                far if far < LARGEST_FACTOR => format!("{of} (by a factor of {})", factor(far)),
+                _ => format!("{of} (no median can be estimated)"),
+            },
         )),
         _ => None,
     }
 }
+
+/// A median that is farther out is none.
+const LARGEST_FACTOR: f64 = 1e6;
 
 fn factor(factor: f64) -> String {
     if factor < 1000.0 { format!("{factor:.0}") } else { format!("{factor:.0e}") }

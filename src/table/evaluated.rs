@@ -47,12 +47,12 @@ table! {
     pub struct AnnualRate as RATES = "annual rates" by "evaluate" {
         state: LimitState,
         annual_rate: f64,
-        annual_rate_low: f64,
-        annual_rate_high: f64,
+        annual_rate_low: Option<f64>,
+        annual_rate_high: Option<f64>,
         years: f64,
         p: f64,
-        p_low: f64,
-        p_high: f64,
+        p_low: Option<f64>,
+        p_high: Option<f64>,
         meaning: String,
     }
 }
@@ -66,6 +66,9 @@ pub struct RecordedHazard {
     pub rows: usize,
     /// One of a hazard curve, two of a joint hazard of PGA and PGV.
     pub curves: Vec<RecordedCurve>,
+    /// What a reader of the rates must know, a sentence each.
+    #[serde(default)]
+    pub notes: Vec<String>,
 }
 
 /// How often a peak is exceeded.
@@ -174,8 +177,10 @@ pub struct RateRow {
 /// If memory runs out.
 pub fn rates(rows: &[RateRow]) -> Result<RecordBatch, ArrowError> {
     let rows = rows.iter().map(|row| {
-        let ([annual_rate, annual_rate_low, annual_rate_high], [p, p_low, p_high]) =
-            (row.annual_rate, row.probability);
+        let ([annual_rate, rate_low, rate_high], [p, low, high]) = (row.annual_rate, row.probability);
+        // Rocking follows from the hazard alone.
+        let limit = |limit: f64| (row.state != LimitState::Rocking).then_some(limit);
+        let [annual_rate_low, annual_rate_high, p_low, p_high] = [rate_low, rate_high, low, high].map(limit);
         AnnualRate {
             state: row.state,
             annual_rate,

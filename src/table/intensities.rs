@@ -1,6 +1,14 @@
 //! A table of intensities, ours (motions, responses) or anyone's: pga_m_s2 and pgv_m_s, and what else is there.
 
+use std::sync::Arc;
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::Float32Type;
+use arrow_array::{ArrayRef, Float64Array, StringArray, new_null_array};
+use arrow_schema::{DataType, Field};
+
 use super::TableError;
+use super::evaluated::EVALUATED;
 use super::schema::headings::Headings;
 use super::schema::{self, Column};
 use super::store::columns::Columns;
@@ -34,10 +42,18 @@ pub struct Intensity {
     pub measures: IntensityMeasures,
 }
 
+/// Some rows of a table of intensities.
+pub struct Intensities {
+    pub rows: Vec<Intensity>,
+    /// The columns that are kept, in the order of [`IntensityBatches::kept`].
+    pub kept: Vec<ArrayRef>,
+}
+
 /// The rows of a table of intensities, some at a time.
 pub struct IntensityBatches {
     batches: Batches,
     headings: Headings,
+    kept: Vec<Field>,
     structure: Option<Structure>,
     eta: Option<f64>,
 }
@@ -57,18 +73,27 @@ impl IntensityBatches {
     ) -> Result<IntensityBatches, TableError> {
         let columns = if structure.is_none() { READ.concat() } else { [PEAKS, PERIODS].concat() };
         let source = source.into();
-        if !headings.is_empty() {
-            // Of all columns, so that a message can name them.
-            let whole = OpenTable::open_at(&source, &STAGES, |_| true)?;
-            whole.schemas()?.iter().try_for_each(|(path, schema)| headings.schema(path, schema).map(drop))?;
-        }
-        let table = OpenTable::open_at(source, &STAGES, |name| headings.may_be(name, &columns))?;
+        // Of all columns, so that a message can name them.
+        let whole = OpenTable::open_at(&source, &STAGES, |_| true)?.schemas()?;
+        let renamed = whole.iter().map(|(path, schema)| headings.schema(path, schema));
+        let renamed = renamed.collect::<Result<Vec<_>, TableError>>()?;
+        let fields = whole[0].1.fields().iter().zip(renamed[0].fields());
+        let own_names = fields.filter(|(field, renamed)| field.name() == renamed.name());
+        let kept: Vec<Field> = own_names.filter_map(|(field, _)| kept(field)).collect();
+        let is_kept = |name: &str| kept.iter().any(|field| field.name() == name);
+        let table =
+            OpenTable::open_at(source, &STAGES, |name| is_kept(name) || headings.may_be(name, &columns))?;
         table.expect_rows(FEW_ROWS)?;
         for (path, schema) in table.schemas()? {
             expect_columns(&path, &headings.schema(&path, &schema)?, &columns)?;
         }
         let (batches, headings) = (table.batches(batch_size)?, headings.clone());
-        Ok(IntensityBatches { batches, headings, structure, eta })
+        Ok(IntensityBatches { batches, headings, kept, structure, eta })
+    }
+
+    /// The columns of the table that go along with an answer: numbers and text that are none of its own.
+    pub fn kept(&self) -> &[Field] {
+        &self.kept
     }
 
     /// How many rows the table has.
@@ -117,14 +142,45 @@ impl IntensityBatches {
 }
 
 impl Iterator for IntensityBatches {
-    type Item = Result<Vec<Intensity>, TableError>;
+    type Item = Result<Intensities, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         let batch = self.batches.next()?;
         Some(batch.and_then(|batch| {
             let rows = self.headings.batch(&batch.path, batch.rows)?;
-            self.intensities(&Batch { rows, ..batch })
+            let kept = |field: &Field| {
+                let there = rows.column_by_name(field.name()).map(plain);
+                let of_its_type = there.filter(|array| array.data_type() == field.data_type());
+                of_its_type.unwrap_or_else(|| new_null_array(field.data_type(), rows.num_rows()))
+            };
+            let kept = self.kept.iter().map(kept).collect();
+            Ok(Intensities { rows: self.intensities(&Batch { rows, ..batch })?, kept })
         }))
+    }
+}
+
+/// A column that goes along with an answer, as it stands there; none that the answer has itself, and no lists.
+fn kept(field: &Field) -> Option<Field> {
+    let kind = match field.data_type() {
+        DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => DataType::Utf8,
+        DataType::Float64 | DataType::Float32 => DataType::Float64,
+        kind @ (DataType::Int64 | DataType::Int32) => kind.clone(),
+        _ => return None,
+    };
+    let is_of_answer = EVALUATED.columns.iter().any(|column| column.name == field.name());
+    (!is_of_answer).then(|| field.clone().with_data_type(kind).with_nullable(true))
+}
+
+/// An array in one of the types in which columns are kept, if it can be.
+fn plain(array: &ArrayRef) -> ArrayRef {
+    match array.data_type() {
+        DataType::LargeUtf8 => Arc::new(array.as_string::<i64>().iter().collect::<StringArray>()),
+        DataType::Utf8View => Arc::new(array.as_string_view().iter().collect::<StringArray>()),
+        DataType::Float32 => {
+            let numbers = array.as_primitive::<Float32Type>().iter();
+            Arc::new(numbers.map(|number| number.map(f64::from)).collect::<Float64Array>())
+        }
+        _ => array.clone(),
     }
 }
 

@@ -55,7 +55,8 @@ fn what_cannot_be_exported_is_explained() {
     export("--to openquake --ratio 0.3 --levels 0.1,0.2", &["above uplift, 0.2027"]);
     export("--to openquake --ratio 0.3 --model univariate --measure im6", &["use the bivariate model"]);
     export("--to openquake-continuous --ratio 0.3", &["not lognormal", "--model paper"]);
-    export("--to openquake", &["--ratio"]);
+    export("--to openquake --im pgv", &["--ratio", "of PGA are averaged"]);
+    export("--to openquake --ratio 0.3 --limit-state 0.3", &["of the universal surface"]);
     assert!(!folder.path().join("fragility.xml").exists());
 }
 
@@ -78,9 +79,22 @@ fn the_two_files_of_pelicun_have_two_names() {
     let block = "export --width 0.5 --height 2.0 --ratio 0.3 --tolerance 1e-3 --to pelicun";
     fail(folder.path(), &format!("{block} --out fr.json"), 2, &["out is fr.json", "ends in .csv"]);
     assert!(std::fs::read_dir(folder.path()).unwrap().next().is_none());
-    // It needs the whole curve, and is told what that means; OpenQuake's table ends at what was ever recorded.
-    let told = succeed(folder.path(), &format!("{block} --out fr.csv"));
-    assert!(told.contains("no PGA above 4.5 g") && told.contains("whole curve"), "{told}");
+    // It needs the whole curve: what is left at the strongest PGA that was ever recorded stands there.
+    for (rest, end) in [("", 4.5), ("--upto 3", 3.0)] {
+        let told = succeed(
+            folder.path(),
+            &format!("{block} --ratio 0.2 --out fr.csv --overwrite {rest}").replace("--ratio 0.3 ", ""),
+        );
+        assert!(!told.contains("warning"), "{told}");
+        let csv = std::fs::read_to_string(folder.path().join("fr.csv")).unwrap();
+        let (levels, probabilities) = csv.trim_end().rsplit_once('|').unwrap();
+        assert!(probabilities.contains(",1\","), "{probabilities}");
+        let mut levels =
+            levels.rsplit('"').next().unwrap().split(',').map(|level| level.parse::<f64>().unwrap());
+        let last = levels.next_back().unwrap();
+        assert!((last / end - 1.0).abs() < 1e-4, "{last}, not {end}");
+    }
+    std::fs::remove_file(folder.path().join("fr.csv")).unwrap();
     for (im, end) in [("pga", 4.5), ("pgv", 100.0 * 0.3 * 4.5 * 9.81 / 2.6717)] {
         let out = format!("--im {im} --out {im}.xml");
         let told = succeed(folder.path(), &format!("{} {out}", block.replace("pelicun", "openquake")));

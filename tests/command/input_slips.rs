@@ -174,7 +174,11 @@ const CALLS: [(&str, i32, &[&str]); 80] = [
     ("simulate --in table.csv --structures paper", 1, &["table.csv: not a Parquet file", "import-motions"]),
     ("fit-pro --in table.csv", 1, &["the responses that simulate makes"]),
     ("fit-pex --in RUN/motions.parquet", 1, &["made by synthesize-motions", "output of simulate"]),
-    ("evaluate FITS --p 2.5 --alpha 0.2 --in table.csv", 1, &["Parquet table with pga_m_s2 and pgv_m_s"]),
+    (
+        "evaluate FITS --p 2.5 --alpha 0.2 --in table.csv",
+        1,
+        &["table.csv: columns motion_id, dt_s", "pga_g or pga_m_s2"],
+    ),
     (
         "evaluate --pex RUN/pro.parquet --pro RUN/pex.parquet --pga 1 --pgv 1",
         1,

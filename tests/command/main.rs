@@ -18,6 +18,7 @@ mod printed;
 mod rank_ims;
 mod report;
 mod shipped;
+mod site_files;
 mod slips;
 #[path = "../guard/snapshot.rs"]
 mod snapshot;

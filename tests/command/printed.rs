@@ -250,7 +250,11 @@ fn a_hazard_is_the_same_however_it_is_written() {
         let other = rates(&text, rest);
         for (row, expected) in other.as_array().unwrap().iter().zip(plain.as_array().unwrap()) {
             for column in ["annual_rate", "annual_rate_low", "p", "p_high"] {
-                let [one, other] = [row, expected].map(|row| row[column].as_f64().unwrap());
+                let [one, other] = [row, expected].map(|row| row[column].as_f64());
+                let (Some(one), Some(other)) = (one, other) else {
+                    assert!(one.is_none() && other.is_none() && row["state"] == "LS1", "{text}: {column}");
+                    continue;
+                };
                 assert!((one / other - 1.0).abs() < 1e-9, "{text}: {column} {one}, not {other}");
             }
         }
@@ -265,7 +269,7 @@ fn a_hazard_that_is_not_clear_is_refused_with_the_reason() {
         ("pga_g,annual_rate_of_exceedance\n0,1,0,05\n", ["4 cells under 2 headings", "semicolons"]),
         ("pga_g,annual_rate_of_exceedance\n0.1,\"0,05\"\n", ["'0,05'", "semicolons"]),
         ("pga_g,probability_of_exceedance_in_50_years\n0.1,50\n", ["'50'", "10%"]),
-        ("pga_g,probability_of_exceedance_in_50_years\n0.1,100%\n", ["'100%'", "below 1"]),
+        ("pga_g,probability_of_exceedance_in_50_years\n0.1,101%\n", ["'101%'", "from 0 to 1"]),
         (
             "pga_g,probability_of_exceedance_in_0_years\n0.1,0.5\n",
             ["probability_of_exceedance_in_0_years", "expected pga_g"],

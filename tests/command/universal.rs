@@ -208,8 +208,8 @@ fn what_the_surface_says_is_told_in_its_own_words() {
     )
     .unwrap();
     let by_both = |ratio: &str| words(folder.path(), &format!("{structure} --hazard h.csv {ratio}"));
-    assert!(by_both("").contains("with the PGV / PGA of the motions of the fits"));
-    assert!(!by_both("--ratio 0.3").contains("with the PGV / PGA"));
+    assert!(by_both("").contains("over PGV / PGA as in the motions of the fits"));
+    assert!(!by_both("--ratio 0.3").contains("over PGV / PGA"));
 }
 
 #[test]

@@ -143,7 +143,7 @@ fn the_range_of_the_data_stands_beside() {
     let range = &json["equipment"]["RangeOfData"];
     assert_eq!(range["To"].as_f64(), Some(function.range_of_data[1] / 9.81));
     assert_eq!(json["equipment"]["LimitStates"]["LS2"]["DS2"]["Description"], "too far");
-    assert!(discrete(&words(), &[function]).contains("data from PGA 0.2027 (uplift) to 1.5001"));
+    assert!(discrete(&words(), &[function]).contains("holds from PGA 0.2027 (uplift) to 1.5001"));
 }
 
 #[test]

@@ -139,8 +139,8 @@ def evaluate(
     pro : Arrow table or path, optional
         Overturning curves, from fit_pro.
     intensities : Arrow table or path, optional
-        Parquet table with pga_m_s2 and pgv_m_s and, where they vary, p_rad_s, alpha_rad, eta, tp_s and
-        tm_s.
+        Parquet or CSV table with pga_m_s2 (in CSV also pga_g) and pgv_m_s and, where they vary,
+        p_rad_s, alpha_rad, eta, tp_s and tm_s; its other columns go along.
     structure : str, optional
         Structure of the fits [default: the only one].
     model : {'univariate', 'bivariate', 'paper', 'universal'}, optional
@@ -292,6 +292,7 @@ def export(
     structure: str | None = None,
     model: Literal['univariate', 'bivariate', 'paper', 'universal'] | None = None,
     measure: Literal['im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'] | None = None,
+    limit_state: float | None = None,
     p: float | None = None,
     alpha: float | None = None,
     width: float | None = None,
@@ -331,6 +332,9 @@ def export(
         universal where there are no fits].
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
         Measure of the univariate model, im1 to im6 [default: im5, or the two of paper].
+    limit_state : float, optional
+        Limit state of P_ex by the universal surface: a demand |theta|max / alpha from 0.02 to 0.5
+        [default: 0.1].
     p : float, optional
         Frequency parameter of the structure, rad/s.
     alpha : float, optional
@@ -353,13 +357,14 @@ def export(
         Intensity of the functions: pga (g) or pgv (m/s).
     ratio : float, iterable of float, or 'first:last:step', optional
         p PGV / PGA of the motions (p in rad/s, PGV in m/s, PGA in m/s2, not g; usually 0.1 to 0.6): one
-        function for each of these numbers.
+        function for each of these numbers [default: one function, averaged over PGV / PGA given PGA, as
+        evaluate ``hazard`` does].
     levels : float, iterable of float, or 'first:last:step', optional
         Intensities of the table, g or m/s: first:last:step, or numbers separated by commas [default: as
         many as ``tolerance`` needs].
     upto : float, optional
         Largest intensity, g or m/s [default: as in the data, but no more than 4.5 g, the strongest PGA
-        ever recorded; for pelicun, where all probabilities are 1].
+        ever recorded; for pelicun, where all probabilities are 1, but no more than that either].
     tolerance : float, optional
         Largest error of linear interpolation between levels [default: 1e-6; for pelicun 1e-5].
     eta : float or {'housner'}, optional
@@ -1029,7 +1034,8 @@ def report(
     Parameters
     ----------
     files : path
-        Folder of the files: responses.parquet or its partitions, and any files of other stages.
+        Folder of the files: responses.parquet or its partitions, and any files of other stages; or
+        annual rates alone.
     rates : path, optional
         Annual rates of evaluate ``hazard``, in a Parquet file or a folder of them [default:
         evaluated.parquet in the folder].

@@ -35,17 +35,27 @@ pub fn estimate(row: f64, [value, low, high]: [f64; 3], n: f64) -> Estimate {
     Estimate { at: [value, row], low, high, n, radius: 1.8 }
 }
 
+/// A name that fits into a width, points.
+fn shortened(name: &str, width: f64) -> String {
+    let fits = |name: &str| Label::plain(name).width(7.0) <= width;
+    if fits(name) {
+        return name.to_string();
+    }
+    let cut = |end: usize| name.chars().take(end).chain(['\u{2026}']).collect::<String>();
+    (0..name.chars().count()).rev().map(cut).find(|name| fits(name)).unwrap_or_default()
+}
+
 /// Draws panels below each other, or two beside each other where `columns` is 2.
 pub fn draw(panels: &[Dots], columns: usize) -> Drawing {
     let names = panels.iter().flat_map(|panel| &panel.names);
     let widest = names.map(|name| Label::plain(name.as_str()).width(7.0)).fold(0.0, f64::max);
-    let left = (widest + 12.0).clamp(NAMES[0], NAMES[1]);
+    let across = TWO_COLUMNS / columns as f64;
+    let left = (widest + 12.0).clamp(NAMES[0], NAMES[1].max(0.5 * across));
     let height = |panel: &Dots| {
         let row = if panel.names.len() > MANY { NARROW_ROW } else { ROW };
         row * panel.names.len() as f64
     };
     let above = if panels[0].series.len() > 1 { LEGEND } else { 0.0 };
-    let across = TWO_COLUMNS / columns as f64;
     let mut places = Vec::new();
     let mut top = above;
     for row in panels.chunks(columns) {
@@ -62,7 +72,8 @@ pub fn draw(panels: &[Dots], columns: usize) -> Drawing {
     }
     for (of, corner) in panels.iter().zip(places) {
         let (width, height) = (across - left - RIGHT, height(of));
-        let panel = Panel { corner, width, height, x: of.x.clone(), y: Axis::names(of.names.clone()) };
+        let names = of.names.iter().map(|name| shortened(name, left - 12.0)).collect();
+        let panel = Panel { corner, width, height, x: of.x.clone(), y: Axis::names(names) };
         panel.rows(&mut drawing);
         if let Some(mark) = of.mark {
             let [top, bottom] = [panel.y.low, panel.y.high];

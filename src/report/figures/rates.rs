@@ -2,9 +2,10 @@
 
 use super::dots::{self, Dots};
 use crate::report::axis::{Axis, range};
-use crate::report::data::{Hazard, PeakCurve, Rates, ReportData, peak_label};
+use crate::report::data::{By, Hazard, PeakCurve, Rates, ReportData, peak_label};
 use crate::report::drawing::{Drawing, Ink};
 use crate::report::figure::{Figure, Grid};
+use crate::report::findings::without_surface;
 use crate::report::panel::Panel;
 use crate::report::text::{Label, number};
 
@@ -38,7 +39,8 @@ fn rates(data: &ReportData) -> Figure {
     let panel = |rates: &Rates| Dots {
         title: Label::plain(rates.name.as_str()),
         x: x.clone(),
-        names: rates.states.iter().map(|state| state.words.clone()).collect(),
+        // The title says it.
+        names: rates.states.iter().map(|state| without_surface(&state.words).to_string()).collect(),
         series: vec![(
             "rate",
             Ink::Data(1),
@@ -50,11 +52,17 @@ fn rates(data: &ReportData) -> Figure {
         mark: None,
     };
     let panels: Vec<Dots> = data.rates.iter().map(panel).collect();
+    let of_surface = "of the universal surface, for a structure that it has not seen";
+    let limits = match [By::Fits, By::Surface].map(|by| data.has_rates_by(by)) {
+        [_, false] => "of the fits".to_string(),
+        [false, true] => of_surface.to_string(),
+        [true, true] => format!("of the fits or {of_surface}"),
+    };
     Figure {
         name: "rates".to_string(),
         title: "Annual rates at the site".to_string(),
         caption: format!(
-            "Mean annual rate at which each limit state is reached, with 95 % limits of the fits; they hold neither the error of the hazard nor that of the shape of the curve. The probability in {} years stands in the findings.",
+            "Mean annual rate at which each limit state is reached, with 95 % limits {limits}; they cover neither the error of the hazard nor that of the shape of the curve. The probability in {} years stands in the findings.",
             number::plain(data.rates[0].years)
         ),
         made: String::new(),

@@ -3,7 +3,7 @@ use serde_json::Value;
 
 use super::options::Format;
 use crate::stages::shared::surface::UNIVERSAL;
-use crate::table::evaluated::{ANSWER, RATES};
+use crate::table::evaluated::{ANSWER, EVALUATED, RATES};
 use crate::table::schema::Table;
 use crate::table::store::frame::frame_of;
 use crate::table::store::text;
@@ -38,8 +38,9 @@ impl Answer {
 pub fn is_own(head: &str) -> bool {
     let begins_table = |table: &Table| {
         let names: Vec<&str> = table.columns.iter().map(|column| column.name).collect();
-        head.starts_with(&(names.join(",") + "\n"))
+        // Columns that went along stand behind those of probabilities.
+        head.strip_prefix(&names.join(",")).is_some_and(|rest| rest.starts_with([',', '\n']))
     };
     [FITS_OF, UNIVERSAL, text::JSON].iter().any(|begin| head.starts_with(begin))
-        || [ANSWER, RATES].iter().any(begins_table)
+        || [ANSWER, RATES, EVALUATED].iter().any(begins_table)
 }

@@ -1,14 +1,15 @@
 //! evaluate: probabilities at one intensity, at each of a table, or over the hazard of a site.
 
 mod answer;
+mod csv_table;
 pub mod hazard;
 mod options;
 mod point;
-mod rates;
+pub mod rates;
 mod table;
 
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use anyhow::Context;
 use serde_json::{Value, json};
@@ -22,7 +23,7 @@ use super::shared::chosen_fits::ChosenFits;
 use super::shared::fits::{FIT_INPUTS, FitFiles, ModelForm, note_fits_of_run};
 use super::shared::resampled_fits;
 use super::shared::structures::{StructureSpec, warn_of_size};
-use super::shared::surface::{PAPER_LIMIT, Surface};
+use super::shared::surface::{self, PAPER_LIMIT, Surface};
 use crate::fragility::universal::{self, Scenarios};
 use crate::fragility::{ReplicateLimits, ResampledModel};
 use crate::keyword::Keyword;
@@ -36,6 +37,7 @@ use crate::pipeline::stage::{Stage, beside, content_of_role, places};
 use crate::pipeline::terminal::Terminal;
 use crate::table::TableError;
 use crate::table::evaluated::EVALUATED;
+use crate::table::schema::headings::Headings;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
 use crate::table::store::text_file;
@@ -77,6 +79,8 @@ pub struct Evaluate {
     structure: StructureSpec,
     /// A table of intensities, if it is asked at each of them.
     intensities: Option<Source>,
+    /// Other headings of its columns.
+    headings: Headings,
     format: Format,
     /// Where the answer goes, if it is not printed.
     out: Option<Target>,
@@ -107,7 +111,7 @@ impl Declare for Evaluate {
             INTENSITIES,
             "in",
             "",
-            "Parquet table with pga_m_s2 and pgv_m_s and, where they vary, p_rad_s, alpha_rad, eta, tp_s and tm_s",
+            "Parquet or CSV table with pga_m_s2 (in CSV also pga_g) and pgv_m_s and, where they vary, p_rad_s, alpha_rad, eta, tp_s and tm_s; its other columns go along",
         )
         .if_named()
         .under("Many intensities")
@@ -115,12 +119,13 @@ impl Declare for Evaluate {
     ];
     const OUTPUT: Output = Output::file(
         "evaluated.parquet",
-        "File to write [default: stdout; with --in, evaluated.parquet beside the table]",
+        "File to write [default: stdout; with --in, evaluated.parquet beside the table; a name in .csv makes it CSV]",
     )
     .under("Output");
 
     fn create(options: &EvaluateOptions, files: &Files) -> anyhow::Result<Evaluate> {
         let fits = FitFiles::if_asked(&options.fits, files)?;
+        let fits = fits.map(|fits| fits.prefer(options.structure.name.as_deref()));
         let intensities = files.optional(INTENSITIES);
         let beside_table = || Some(beside(intensities.as_ref()?.name(), Self::OUTPUT.file).into());
         let format = options.format.map(|Word(format)| format);
@@ -128,9 +133,18 @@ impl Declare for Evaluate {
             format.map_or(Self::OUTPUT.file.to_string(), |format| format!("evaluated.{}", format.ending()));
         let out = files.asked(&file).or_else(beside_table);
         let format = format.unwrap_or_else(|| out.as_ref().map_or(Format::Table, Format::of));
-        if let (Some(_), Some(out)) = (&intensities, &out) {
+        if let (Some(_), Some(out)) = (&intensities, &out)
+            && format != Format::Csv
+        {
             expect_parquet(out)?;
         }
+        let (intensities, headings) = match intensities {
+            Some(Source::Path(path)) if csv_table::is_csv(&path) => {
+                let table = csv_table::read(&path, &options.headings())?;
+                (Some(Source::Memory(Arc::new(table))), Headings::default())
+            }
+            other => (other, options.headings()),
+        };
         if format == Format::Parquet && out.is_none() {
             return Err(UsageError::because("format parquet needs --out FILE"));
         }
@@ -139,10 +153,11 @@ impl Declare for Evaluate {
                 Some(fits) => options.limits.0.fit_files(fits)?,
                 None => Vec::new(),
             },
-            structure: options.structure.spec()?,
+            structure: options.structure.spec(options.fits.structure.as_deref())?,
             options: options.clone(),
             fits,
             intensities,
+            headings,
             format,
             out,
             printed: OnceLock::new(),
@@ -167,11 +182,7 @@ impl Evaluate {
             }
             return Ok(Box::new(Surface::new(self.options.fits.suite.as_deref(), limit, scenarios)?));
         };
-        if limit.is_some() {
-            return Err(UsageError::because(
-                "limit-state is of the universal surface; that of fits is chosen by fit-pex --limit-state",
-            ));
-        }
+        surface::expect_no_limit(limit)?;
         let mut chosen = limits.choose(fits)?;
         if scenarios == Scenarios::Many {
             chosen.model = chosen.model.over_many_cells();
@@ -187,7 +198,8 @@ impl Evaluate {
         answers.warn_of_structure(&structure, console);
         match &self.options.hazard.hazard {
             Some(path) => {
-                let hazard = hazard::read(path, &self.options.headings())?;
+                let hazard =
+                    hazard::read_and_tell(path, &self.options.headings(), |note| console.note(note))?;
                 let fits = self.fits.as_ref();
                 rates::answer(&self.options.hazard, path, hazard, answers, &structure, fits, console)
             }
@@ -284,7 +296,7 @@ impl Stage for Evaluate {
         }
         if let (Some(input), Some(out)) = (&self.intensities, &self.out) {
             warn_of_size(&structure, console);
-            let table = EvaluatedTable { answers, headings: self.options.headings(), structure };
+            let table = EvaluatedTable { answers, headings: self.headings.clone(), structure };
             return table.write(input, out, provenance, console);
         }
         self.deliver(&self.answer(&*answers, console)?, provenance)?;

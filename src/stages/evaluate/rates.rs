@@ -11,7 +11,7 @@ use super::hazard::Hazard;
 use super::options::HazardOptions;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{
-    Fragility, FragilityModel, JointPeaks, LimitState, Peak, PeaksDoubt, Placed, Probability,
+    Fragility, FragilityModel, JointPeaks, LimitState, Lognormal, Peak, PeaksDoubt, Placed, Probability,
     STRONGEST_PGA_M_S2, Slice, doubt_of_peaks, doubt_of_ratio,
 };
 use crate::hazard::{CountedRate, HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
@@ -79,7 +79,7 @@ pub fn answer(
     check(years > 0.0 && years.is_finite(), "years", years, "a time above 0")?;
     let mut words_of_ratio = String::new();
     let mut words_of_count = String::new();
-    let shown = json!(recorded(path, &hazard));
+    let hazard_shown = recorded(path, &hazard);
     let surface = answers.surface(Scenarios::Many);
     let surface = surface.as_ref().map(|surface| surface as &dyn Fragility);
     let mut peaks_of_fits = "";
@@ -90,7 +90,7 @@ pub fn answer(
             let rates = along_line(&line, &curve, answers, console)?;
             words_of_ratio = line.words(&curve, answers);
             if let Ratio::Distributed(_) = line.ratio {
-                peaks_of_fits = ", with the PGV / PGA of the motions of the fits in place of its own";
+                peaks_of_fits = ", over PGV / PGA as in the motions of the fits, not as in its own";
             }
             if let (Ratio::Distributed(_), Some(fits)) = (line.ratio, fits) {
                 words_of_count = words_of_count_beside(&rates, fits, path, &line, &curve, answers, console);
@@ -119,21 +119,31 @@ pub fn answer(
         let Probability { value, low, high } = rates.of_state(state);
         let annual_rate = [value, low, high];
         let probability = annual_rate.map(|rate| probability_in_years(rate, years));
-        RateRow { state, annual_rate, years, probability, meaning: answers.meaning(state) }
+        let meaning = match state {
+            LimitState::Rocking => format!("{}, from the hazard alone", answers.meaning(state)),
+            _ => answers.meaning(state),
+        };
+        RateRow { state, annual_rate, years, probability, meaning }
     };
     let rows: Vec<RateRow> = LimitState::ALL.iter().map(row).collect();
+    let words_of_limits = format!(
+        "low and high are 95 % confidence limits, {}; they do not cover the hazard's own error",
+        answers.words_of_limits()
+    );
+    let notes = [words_of_ratio, words_of_surface, words_of_count, words_of_limits];
+    let notes = notes.iter().flat_map(|words| words.lines()).map(str::to_string).collect::<Vec<_>>();
     Ok(Answer {
         table: RATES,
         rows: evaluated::rates(&rows)?,
-        shown,
         heading: format!(
-            "{}\nstructure of {}, {}, over {}\n{words_of_ratio}{words_of_surface}{words_of_count}low and high are 95 % confidence limits, {}; they do not cover the hazard's own error\n",
+            "{}\nstructure of {}, {}, over {}\n{}\n",
             answers.words(),
             words(structure),
             words_of_friction(structure),
             path.display(),
-            answers.words_of_limits()
+            notes.join("\n")
         ),
+        shown: json!(RecordedHazard { notes, ..hazard_shown }),
     })
 }
 
@@ -222,13 +232,13 @@ fn recorded(path: &Path, hazard: &Hazard) -> RecordedHazard {
         }
     };
     let file = file_name(path);
-    RecordedHazard { file, rows, curves }
+    RecordedHazard { file, rows, curves, notes: Vec::new() }
 }
 
 /// Motions of one peak, and what their other peak is.
-struct Line {
+pub struct Line {
     /// The slice of the motions' median p PGV / PGA at uplift, or of the only one.
-    slice: Slice,
+    pub slice: Slice,
     ratio: Ratio,
 }
 
@@ -250,7 +260,11 @@ const LAST_NODE: i32 = 12;
 const FAR: f64 = 4.0;
 
 impl Line {
-    fn new(
+    /// Of one ratio, or of those that motions of an intensity have.
+    ///
+    /// # Errors
+    /// If the ratio is none, or what answers does not know those of its motions.
+    pub fn new(
         ratio: Option<f64>,
         structure: &Structure,
         peak: Peak,
@@ -300,16 +314,27 @@ impl Line {
         }
     }
 
-    /// The limit states at an intensity, over all ratios.
-    fn mean(&self, model: &dyn Fragility, intensity: f64) -> [f64; 9] {
-        let mut slice = self.slice.clone();
-        let mut mean = [0.0; 9];
+    /// The probabilities of the limit states at an intensity with their limits, over the ratios.
+    fn parts(&self, model: &dyn Fragility, intensity: f64) -> [f64; 9] {
+        let (mut slice, mut mean) = (self.slice.clone(), [0.0; 9]);
         for (ratio, weight) in self.ratios(intensity) {
             slice.ratio = ratio;
             let states = parts(model.limit_states(&slice, intensity));
             mean.iter_mut().zip(states).for_each(|(mean, state)| *mean += weight * state);
         }
         mean
+    }
+
+    /// The probabilities of the limit states at an intensity, over the ratios; NaN where a measure is missing.
+    pub fn limit_states(&self, model: &dyn Fragility, intensity: f64) -> [f64; 3] {
+        let parts = self.parts(model, intensity);
+        // The weights of the ratios are a quadrature's.
+        [parts[0], parts[3], parts[6]].map(|p| if p > 1.0 { 1.0 } else { p })
+    }
+
+    /// Overturning along the line, where it is lognormal in the intensity.
+    pub fn lognormal(&self, model: &dyn Fragility) -> Option<Lognormal> {
+        matches!(self.ratio, Ratio::Single(_)).then(|| model.lognormal(&self.slice))?
     }
 
     /// Where the ratio comes from, and what another one would change.
@@ -412,7 +437,7 @@ fn over_pairs(
 }
 
 fn over_curve(line: &Line, curve: &HazardCurve, model: &dyn Fragility) -> Rates {
-    Rates::of(curve.mean_annual_rates(&model.jumps(&line.slice), |intensity| line.mean(model, intensity)))
+    Rates::of(curve.mean_annual_rates(&model.jumps(&line.slice), |intensity| line.parts(model, intensity)))
 }
 
 /// The rates of motions up to an intensity alone.
@@ -422,7 +447,7 @@ fn up_to(intensity: f64, line: &Line, curve: &HazardCurve, model: &dyn Fragility
     Rates::of(curve.mean_annual_rates(
         &breaks,
         |im| {
-            if im > intensity { [0.0; 9] } else { line.mean(model, im) }
+            if im > intensity { [0.0; 9] } else { line.parts(model, im) }
         },
     ))
 }

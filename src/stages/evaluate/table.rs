@@ -1,5 +1,10 @@
+use std::sync::Arc;
+
+use arrow_array::RecordBatch;
+use arrow_schema::{Schema, SchemaRef};
 use rayon::prelude::*;
 
+use super::options::Format;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{PeaksDoubt, UniversalModel, doubt_of_peaks};
 use crate::pipeline::console::Console;
@@ -8,14 +13,55 @@ use crate::rocking::Structure;
 use crate::stages::shared::answers::Answers;
 use crate::stages::shared::motions::in_g;
 use crate::table::evaluated::{self, EVALUATED, EvaluatedRow};
-use crate::table::intensities::{Intensity, IntensityBatches};
+use crate::table::intensities::{Intensities, Intensity, IntensityBatches};
 use crate::table::schema::headings::Headings;
+use crate::table::store::frame::frame_of;
 use crate::table::store::provenance::Provenance;
 use crate::table::store::source::{Source, Target};
+use crate::table::store::text;
+use crate::table::store::text_file::TextWriter;
 use crate::table::store::writer::TableWriter;
 
 /// Rows that are read at once, and written as a row group.
 const BATCH: usize = 16_384;
+
+/// Where the rows go.
+enum Writer {
+    Parquet(TableWriter),
+    Csv(TextWriter),
+}
+
+impl Writer {
+    fn create(out: &Target, schema: &SchemaRef, provenance: &Provenance) -> anyhow::Result<Writer> {
+        Ok(match out {
+            Target::Path(path) if Format::of(out) == Format::Csv => Writer::Csv(TextWriter::create(path)?),
+            _ => Writer::Parquet(TableWriter::with_schema(
+                out.clone(),
+                &EVALUATED,
+                schema.clone(),
+                provenance.clone(),
+            )?),
+        })
+    }
+
+    fn write(&mut self, rows: &RecordBatch, is_first: bool) -> anyhow::Result<()> {
+        match self {
+            Writer::Parquet(writer) => Ok(writer.write_row_group(rows)?),
+            Writer::Csv(writer) => {
+                let text = text::csv(&frame_of(rows)?)?;
+                let without_heading = || text.split_once('\n').map_or("", |(_, rows)| rows);
+                Ok(writer.write(if is_first { &text } else { without_heading() })?)
+            }
+        }
+    }
+
+    fn finish(self) -> anyhow::Result<()> {
+        match self {
+            Writer::Parquet(writer) => Ok(writer.finish()?),
+            Writer::Csv(writer) => Ok(writer.finish()?),
+        }
+    }
+}
 
 /// Probabilities at each intensity of a table.
 pub struct EvaluatedTable {
@@ -42,22 +88,26 @@ impl EvaluatedTable {
         let intensities = IntensityBatches::open(input, &self.headings, nameless, self.answers.eta(), BATCH)?;
         let total = intensities.rows();
         self.answers.warn(console);
-        let mut writer = TableWriter::create(out.clone(), &EVALUATED, provenance.clone())?;
-        let mut suspect = Suspect::default();
+        let own = EVALUATED.schema();
+        let kept = intensities.kept().iter().cloned().map(Arc::new);
+        let schema = Arc::new(Schema::new(own.fields().iter().cloned().chain(kept).collect::<Vec<_>>()));
+        let mut writer = Writer::create(out, &schema, provenance)?;
+        let (mut suspect, mut is_first) = (Suspect::default(), true);
         let surface = self.answers.surface(Scenarios::One);
         let bar = console.bar(&provenance.stage, total);
         pipelined(
             intensities.map(|batch| Ok(batch?)),
-            |intensities| {
+            |Intensities { rows: intensities, kept }| {
                 let row = |one| self.row(one, surface.as_ref());
                 let rows: Vec<EvaluatedRow> = intensities.par_iter().map(row).collect();
                 let suspect = Suspect::among(&rows, &intensities, &*self.answers);
                 bar.inc(rows.len() as u64)?;
-                Ok((evaluated::batch(&rows)?, suspect))
+                let columns = evaluated::batch(&rows)?.columns().iter().cloned().chain(kept).collect();
+                Ok((RecordBatch::try_new(schema.clone(), columns)?, suspect))
             },
             |(batch, more)| {
                 suspect.add(&more);
-                Ok(writer.write_row_group(&batch)?)
+                writer.write(&batch, std::mem::take(&mut is_first))
             },
         )?;
         bar.finish();

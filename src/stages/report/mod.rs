@@ -82,7 +82,7 @@ impl Default for ReportOptions {
 
 impl StageOptions for ReportOptions {}
 
-/// The role of the responses, which must be there.
+/// The role of the responses, which must be there where there are no rates.
 const RESPONSES: &str = "responses";
 /// The role of annual rates.
 const RATES: &str = "rates";
@@ -138,9 +138,22 @@ impl Report {
         let part =
             |part: &str| self.place(&Ida::OUTPUT.file.replace(".parquet", &format!(".{part}.parquet")));
         places.extend([("ida shares", part("shares")), ("ida fragility", part("fragility"))]);
-        let in_folder = || Some(self.place(Evaluate::OUTPUT.file)).filter(|path| studies::are_rates(path));
-        places.extend(self.rates.clone().or_else(in_folder).map(|rates| (RATES, rates)));
-        places.into_iter().filter(|(role, path)| [RESPONSES, RATES].contains(role) || path.exists()).collect()
+        let rates = self.rates.clone().or_else(|| self.rates_in_folder());
+        let must_be_there = |role: &str| role == RATES || role == RESPONSES && rates.is_none();
+        let is_there = |(role, path): &(&str, PathBuf)| must_be_there(role) || path.exists();
+        places.retain(is_there);
+        places.extend(rates.map(|rates| (RATES, rates)));
+        places
+    }
+
+    /// Annual rates in the folder: evaluated.parquet, or all files of one that holds nothing else.
+    fn rates_in_folder(&self) -> Option<PathBuf> {
+        let evaluated = self.place(Evaluate::OUTPUT.file);
+        if studies::are_rates(&evaluated) {
+            return Some(evaluated);
+        }
+        let files = folder::parquet_files(&self.folder).ok()?;
+        (!files.is_empty() && files.iter().all(|file| studies::are_rates(file))).then(|| self.folder.clone())
     }
 
     /// Where a file is: in the folder by its name, or as a folder of partitions without the ending. The folder may be that of the
@@ -169,8 +182,8 @@ impl Report {
             |role: &str| inputs.iter().find(|(other, _)| *other == role).map(|(_, path)| path.as_path());
         let regressions = there("pex").map(PexRow::read).transpose()?.unwrap_or_default();
         let limit = regressions.first().map(|row| row.limit_state);
-        let responses = self.place(Simulate::OUTPUT.file);
-        let (mut groups, mut summaries, left_out) = responses::read(&responses, &self.options, limit)?;
+        let responses = there(RESPONSES).map(|path| responses::read(path, &self.options, limit));
+        let (mut groups, mut summaries, left_out) = responses.transpose()?.unwrap_or_default();
         fits::add_regressions(&regressions, &mut groups);
         if let Some(pro) = there("pro") {
             fits::add_curves(pro, &mut groups, &mut summaries, console)?;
@@ -192,7 +205,13 @@ impl Report {
         data.rankings = there("ranking").map(studies::rankings).transpose()?.unwrap_or_default();
         data.transfers = there("universality").map(studies::transfers).transpose()?;
         data.tables = tables::read(&inputs)?;
-        data.files = inputs.iter().map(|(_, path)| file(path)).collect::<Result<_, TableError>>()?;
+        let files = inputs.iter().map(|(role, path)| match *role {
+            // Of a structure each.
+            RATES => folder::files(path),
+            _ => Ok(vec![path.clone()]),
+        });
+        let files = files.collect::<Result<Vec<_>, TableError>>()?.concat();
+        data.files = files.iter().map(|path| file(path)).collect::<Result<_, TableError>>()?;
         data.groups = groups;
         Ok(data)
     }
@@ -260,7 +279,7 @@ impl Declare for Report {
             "files",
             "in",
             "",
-            "Folder of the files: responses.parquet or its partitions, and any files of other stages",
+            "Folder of the files: responses.parquet or its partitions, and any files of other stages; or annual rates alone",
         )
         .folder("out"),
         Input::file(
@@ -327,7 +346,9 @@ impl Stage for Report {
     fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let data = self.read_data(console)?;
         contents::expect_unchanged(provenance)?;
-        let drawn = ALL.par_iter().flat_map_iter(|&(part, draw): &(Part, Draw)| {
+        // Only rates can be drawn without responses.
+        let is_drawn = |(part, _): &&(Part, Draw)| *part == Part::Site || !data.groups.is_empty();
+        let drawn = ALL.par_iter().filter(is_drawn).flat_map_iter(|&(part, draw): &(Part, Draw)| {
             draw(&data).into_iter().map(move |figure| (part, figure))
         });
         let mut figures: Vec<(Part, Figure)> = drawn.collect();

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::keyword::{self, Keyword};
 use crate::report::data::{
-    Analysis, Hazard, Level, PeakCurve, Ranking, Rates, StateRate, Validated, name_of,
+    Analysis, By, Hazard, Level, PeakCurve, Ranking, Rates, StateRate, Validated, name_of,
 };
 use crate::studies::{Target, Verdict};
 use crate::table::evaluated::{AnnualRate, RecordedCurve, RecordedHazard};
@@ -63,18 +63,22 @@ fn rates_of(file: &Path) -> anyhow::Result<Rates> {
     };
     let state = |row: &AnnualRate| StateRate {
         words: format!("{} {}", row.state.as_str(), row.meaning.replace("|theta|max / alpha", "|θ|max/α")),
-        annual_rate: [row.annual_rate, row.annual_rate_low, row.annual_rate_high],
-        probability: [row.p, row.p_low, row.p_high],
+        annual_rate: [Some(row.annual_rate), row.annual_rate_low, row.annual_rate_high]
+            .map(|rate| rate.unwrap_or(f64::NAN)),
+        probability: [Some(row.p), row.p_low, row.p_high].map(|p| p.unwrap_or(f64::NAN)),
     };
+    let shown: Option<RecordedHazard> = serde_json::from_value(shown).ok();
     Ok(Rates {
         name: format!("{structure}; by {fits}"),
+        by: if parameters.get("fits").is_none() && !parameters.is_null() { By::Surface } else { By::Fits },
+        notes: shown.iter().flat_map(|shown| shown.notes.clone()).collect(),
         years: rows.first().map_or(f64::NAN, |row| row.years),
         states: rows.iter().map(state).collect(),
-        hazard: serde_json::from_value(shown).ok().map(hazard),
+        hazard: shown.map(hazard),
     })
 }
 
-fn hazard(RecordedHazard { file, rows, curves }: RecordedHazard) -> Hazard {
+fn hazard(RecordedHazard { file, rows, curves, .. }: RecordedHazard) -> Hazard {
     let curve =
         |RecordedCurve { peak, points }| Some(PeakCurve { peak: keyword::parse(&peak).ok()?, points });
     Hazard { file, rows, curves: curves.into_iter().filter_map(curve).collect() }

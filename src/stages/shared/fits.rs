@@ -189,6 +189,18 @@ impl FitFiles {
         Ok(asked.iter().map(|group| self.join(&files, group)).collect())
     }
 
+    /// Takes the fits of the structure of this name, where none is named and there are some.
+    pub fn prefer(mut self, name: Option<&str>) -> FitFiles {
+        let are_there = |name: &&str| {
+            let rows = ProRow::read(self.pro.clone()).unwrap_or_default();
+            rows.iter().any(|row| row.structure == *name)
+        };
+        if self.options.structure.is_none() {
+            self.options.structure = name.filter(are_there).map(str::to_string);
+        }
+        self
+    }
+
     fn read(&self) -> anyhow::Result<FitRows> {
         Ok(FitRows { regressions: PexRow::read(self.pex.clone())?, curves: ProRow::read(self.pro.clone())? })
     }

@@ -102,18 +102,19 @@ pub struct StructureOptions {
 }
 
 impl StructureOptions {
-    /// The structure as it is given, or as it is in the file.
+    /// The structure as it is given, or as it is in the file: by its name, or as the one of the fits.
     ///
     /// # Errors
     /// If it is not in the file, or the file cannot be read.
-    pub fn spec(&self) -> anyhow::Result<StructureSpec> {
+    pub fn spec(&self, of_fits: Option<&str>) -> anyhow::Result<StructureSpec> {
         let StructuresOptions { parameters, structures } = &self.structures;
         let Some(structures) = structures else { return Ok(parameters.spec()) };
         let mut all = structures.resolve()?;
         let names: Vec<String> = all.iter().map(|structure| structure.name.clone()).collect();
         let place = match &self.name {
             Some(name) => names.iter().position(|known| known == name),
-            None => (names.len() == 1).then_some(0),
+            None if names.len() == 1 => Some(0),
+            None => names.iter().position(|known| of_fits == Some(known)),
         };
         let Some(place) = place else {
             let expected = format!("expected --name with one of {}", names.join(", "));

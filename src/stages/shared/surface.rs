@@ -55,6 +55,19 @@ impl Surface {
     }
 }
 
+/// That no limit state is asked of fits.
+///
+/// # Errors
+/// If one is.
+pub fn expect_no_limit(limit: Option<f64>) -> anyhow::Result<()> {
+    match limit {
+        None => Ok(()),
+        Some(_) => Err(UsageError::because(
+            "limit-state is of the universal surface; that of fits is chosen by fit-pex --limit-state",
+        )),
+    }
+}
+
 fn known_suite(word: &str) -> Option<Suite> {
     keyword::parse(word).ok().filter(|suite| Suite::SYNTHETIC.contains(suite))
 }

@@ -15,6 +15,19 @@ use crate::table::schema::Column;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Headings(Vec<(String, String)>);
 
+/// What spectral accelerations are not for.
+pub const NO_SPECTRAL: &str = "the surface and the fits need PGA or PGV";
+
+/// Whether a heading names a spectral acceleration: `SA(1.0)`, `PSA 0.2 s`, `Spectral acceleration`.
+pub fn is_spectral(heading: &str) -> bool {
+    let is_of_period = |word: &str| {
+        let period = ["psa", "sa", "psv", "sv"].iter().find_map(|begin| word.strip_prefix(begin));
+        period.is_some_and(|period| period.chars().all(|sign| sign.is_ascii_digit()))
+    };
+    let lower = heading.to_lowercase();
+    lower.split(|c: char| !c.is_alphanumeric()).any(|word| word == "spectral" || is_of_period(word))
+}
+
 impl FromStr for Headings {
     type Err = String;
 
@@ -24,7 +37,10 @@ impl FromStr for Headings {
             .map(|(column, heading)| (column.trim(), heading.trim()))
         {
             Some((column, heading)) if !column.is_empty() && !heading.is_empty() => {
-                Ok((column.to_string(), heading.to_string()))
+                match is_spectral(heading) && column.starts_with("pg") {
+                    true => Err(format!("'{heading}' is a spectral acceleration; {NO_SPECTRAL}")),
+                    false => Ok((column.to_string(), heading.to_string())),
+                }
             }
             _ => Err(format!("'{part}': expected COLUMN=HEADING, as pga_g=PGA")),
         };

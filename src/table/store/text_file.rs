@@ -2,9 +2,10 @@
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use csv::{Position, Reader, ReaderBuilder, StringRecord, Trim};
+use tempfile::NamedTempFile;
 
 use super::writer::temporary_beside;
 use crate::table::TableError;
@@ -18,7 +19,7 @@ pub fn bytes(path: &Path, most_mib: u64, expected: &str) -> Result<Vec<u8>> {
     read(path, most_mib).map_err(|error| Error::new(error.kind(), format!("{error}; expected {expected}")))
 }
 
-/// The same as text.
+/// The same as text, in which each line ends in `\n`, however the lines of the file end.
 ///
 /// # Errors
 /// As [`bytes`], or if it is not UTF-8.
@@ -32,6 +33,7 @@ pub fn text(path: &Path, most_mib: u64, expected: &str) -> Result<String> {
         Error::new(ErrorKind::InvalidData, words)
     };
     match (String::from_utf8(bytes), other) {
+        (Ok(text), None) if text.contains('\r') => Ok(text.replace("\r\n", "\n").replace('\r', "\n")),
         (Ok(text), None) => Ok(text),
         _ => Err(no_text()),
     }
@@ -66,10 +68,43 @@ fn read(path: &Path, most_mib: u64) -> Result<Vec<u8>> {
 /// # Errors
 /// If the folder is not there or cannot be written.
 pub fn write(path: &Path, content: impl AsRef<[u8]>) -> std::result::Result<(), TableError> {
-    let mut partial = temporary_beside(path)?;
-    partial.write_all(content.as_ref()).map_err(|source| TableError::io(path, source))?;
-    partial.persist(path).map_err(|refused| TableError::io(path, refused.error))?;
-    Ok(())
+    let mut writer = TextWriter::create(path)?;
+    writer.write(content)?;
+    writer.finish()
+}
+
+/// The same part by part.
+pub struct TextWriter {
+    path: PathBuf,
+    partial: NamedTempFile,
+}
+
+impl TextWriter {
+    /// Starts a file that will stand at `path` once it is finished.
+    ///
+    /// # Errors
+    /// If the folder is not there or cannot be written.
+    pub fn create(path: &Path) -> std::result::Result<TextWriter, TableError> {
+        Ok(TextWriter { path: path.to_path_buf(), partial: temporary_beside(path)? })
+    }
+
+    /// Appends a part.
+    ///
+    /// # Errors
+    /// If the disk is full.
+    pub fn write(&mut self, content: impl AsRef<[u8]>) -> std::result::Result<(), TableError> {
+        self.partial.write_all(content.as_ref()).map_err(|source| TableError::io(&self.path, source))
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    /// If it cannot be renamed.
+    pub fn finish(self) -> std::result::Result<(), TableError> {
+        let TextWriter { path, partial } = self;
+        partial.persist(&path).map_err(|refused| TableError::io(&path, refused.error))?;
+        Ok(())
+    }
 }
 
 /// The table of a CSV file, as spreadsheets of any country write it: headings in any letter case; commas between the cells, or semicolons
@@ -82,6 +117,31 @@ pub struct CsvText<'a> {
     pub names: Vec<String>,
     has_decimal_commas: bool,
     reader: Reader<&'a [u8]>,
+    lines: Lines<'a>,
+}
+
+/// The lines of a text, counted as far as rows have been read.
+struct Lines<'a> {
+    text: &'a str,
+    /// The byte up to which they are counted.
+    byte: usize,
+    count: u64,
+}
+
+impl Lines<'_> {
+    /// The line of a row for which the reader begins at `byte`: empty lines and words come before it.
+    fn of(&mut self, byte: usize) -> u64 {
+        let between = self.text.get(self.byte..byte).unwrap_or_default();
+        self.count += between.matches('\n').count() as u64;
+        self.byte = byte;
+        while let Some((line, _)) = self.text.get(self.byte..).and_then(|rest| rest.split_once('\n'))
+            && (line.is_empty() || line.starts_with('#'))
+        {
+            self.byte += line.len() + 1;
+            self.count += 1;
+        }
+        self.count
+    }
 }
 
 /// Rows in which the headings must stand.
@@ -113,7 +173,8 @@ impl<'a> CsvText<'a> {
         }
         let headings: Vec<String> = row.iter().map(str::to_string).collect();
         let names = headings.iter().map(|heading| plain(heading)).collect();
-        Ok(CsvText { headings, names, has_decimal_commas: separator != b',', reader })
+        let lines = Lines { text, byte: 0, count: 1 };
+        Ok(CsvText { headings, names, has_decimal_commas: separator != b',', reader, lines })
     }
 
     /// Takes other headings for columns.
@@ -130,9 +191,11 @@ impl<'a> CsvText<'a> {
         let (has_decimal_commas, columns) = (self.has_decimal_commas, self.headings.len());
         let is_empty = |row: &StringRecord| row.iter().all(str::is_empty);
         let rows = self.reader.into_records().filter(move |row| !row.as_ref().is_ok_and(is_empty));
+        let mut lines = self.lines;
         rows.map(move |row| {
             let row = row.map_err(|error| error.to_string())?;
-            let line = row.position().map_or(0, Position::line);
+            let byte = row.position().map_or(0, Position::byte);
+            let line = lines.of(usize::try_from(byte).unwrap_or(usize::MAX));
             if row.len() != columns {
                 return Err(format!(
                     "line {line}: {} cells under {columns} headings; if commas are decimal signs, separate the cells by semicolons",
