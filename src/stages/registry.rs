@@ -80,7 +80,7 @@ macro_rules! stages {
                     serde_json::from_str(options).map_err(|error| refused::<$stage>(options, &error))?;
                 let given = <$stage>::INPUTS.iter();
                 let inputs = given.filter_map(|input| Some((input.role, inputs.get(input.role)?.clone()))).collect();
-                return section.stages(&Files { inputs, out, run: None }, None);
+                return section.stages(&Files { inputs, out, ..Files::default() }, None);
             })*
             Err(UsageError::because(format!("no stage '{subcommand}'")))
         }
