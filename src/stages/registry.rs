@@ -161,7 +161,8 @@ impl Config {
         let failed = |why: String| UsageError::because(format!("{}: {why}", path.display()));
         let text =
             text_file::text(path, MOST_MIB, "a pipeline file").map_err(|error| failed(error.to_string()))?;
-        let mut config: Config = serde_saphyr::from_str(&text).map_err(|error| failed(explain(&error)))?;
+        let mut config: Config =
+            serde_saphyr::from_str(&text).map_err(|error| failed(explain(&error, &text)))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         config.sections_mut().for_each(|section| section.resolve_paths(folder));
         config.out = Some(beside(path, "").join(config.out.unwrap_or("out".into())));

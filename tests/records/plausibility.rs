@@ -27,6 +27,7 @@ fn every_limit_is_kept() {
     };
     assert_eq!(of(&|_, a| a, DT), "");
     assert!(of(&|_, a| 100.0 * a, DT).starts_with("PGA 29"));
+    assert!(of(&|_, a| 9.81 * a, DT).starts_with("PGA 2.8"));
     assert!(of(&|_, a| 1e-3 * a, DT).starts_with("PGA 0.000294"));
     assert!(of(&|k, a| if k == 500 { 30.0 * G } else { a }, DT).starts_with("sample 501 of 30 g"));
     assert!(of(&|_, a| a + 0.5, DT).starts_with("velocity of 5"));

@@ -43,7 +43,7 @@ pub struct FitsOptions {
     pub structure: Option<String>,
     /// bivariate (two planes over im4 and im3, curve of im4 and im3_inv) or univariate, whose curve bends where tests reject the
     /// straight line; paper (the straight line always; univariate with --measure); or universal (the surface for all structures,
-    /// without fits) [default: bivariate; universal where there are no fits]
+    /// without fits) [default: bivariate; universal where there are no fits, or those found here are of other structures]
     #[arg(long)]
     pub model: Option<Word<ModelForm>>,
     /// Measure of the univariate model, im1 to im6 [default: im5, or the two of paper]
