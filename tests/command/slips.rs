@@ -333,7 +333,7 @@ fn each_slip_is_read_as_meant_or_refused_with_the_reason() {
         let output = rockfrag(folder.path()).args(call.split_whitespace()).output().unwrap();
         let told = String::from_utf8(output.stderr).unwrap();
         let (code, words): (i32, &[&str]) = match is {
-            Read => (0, &["dt 0.01 s", "PGA 0.305 g, PGV 0.281 m/s"]),
+            Read => (0, &["dt 0.01 s", "PGA 0.305 g (r), PGV 0.281 m/s"]),
             Refused(words) if words.contains("too weak") => (0, &[words]),
             Refused(ref words) => (1, std::slice::from_ref(words)),
         };

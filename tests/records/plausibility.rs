@@ -11,7 +11,11 @@ fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
     let mut half_pulses = 0;
     for motion in MotionBatches::open(path, 64).unwrap().flat_map(Result::unwrap) {
         // Half-sine and rectangular pulses leave the ground moving.
-        if let Some(found) = doubt(&motion.acceleration_m_s2.to_vec(), motion.dt_s) {
+        let found = doubt(&motion.acceleration_m_s2.to_vec(), motion.dt_s);
+        if let Some(rare) = found.as_ref().filter(|found| !found.is_impossible) {
+            // The strongest synthetic ones are of a strength that few records have.
+            assert!(rare.reason.starts_with("few records"), "{}: {rare:?}", motion.motion_id);
+        } else if let Some(found) = found {
             assert!(found.found.starts_with("velocity of"), "{}: {found:?}", motion.motion_id);
             half_pulses += 1;
         }

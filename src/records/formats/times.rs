@@ -46,7 +46,7 @@ impl Times {
         };
         let (line, step_s, dt_s) = (self.line(at + 1), self.shown_s(steps[at]), self.shown_s(usual));
         // A gap is one long step among even ones.
-        let is_gap = steps[at] > usual && steps.get(at + 1).is_none_or(|next| is_even(*next));
+        let is_gap = usual > 0.0 && steps[at] > usual && steps.get(at + 1).is_none_or(|next| is_even(*next));
         Err(if is_gap {
             RecordFileError::Gap { line, gap_s: step_s, dt_s }
         } else {
