@@ -286,7 +286,10 @@ fn entry(text: &str, line: u64, column: u64) -> Option<(&str, &str)> {
     let (at, _) = line.char_indices().nth(usize::try_from(column).ok()?.checked_sub(1)?)?;
     let (before, value) = line.split_at(at);
     let key = before.trim_end().strip_suffix(':')?.rsplit(['{', ',', ' ']).next()?;
-    let value = value.split(['}', '#']).next().and_then(|value| value.split(", ").next())?.trim();
+    // A list goes on after its commas.
+    let end = if value.starts_with('[') { "]" } else { ", " };
+    let value = value.split(['}', '#']).next().and_then(|value| value.split_inclusive(end).next())?;
+    let value = value.trim().trim_end_matches(',');
     (!key.is_empty() && !value.is_empty()).then_some((key, value))
 }
 

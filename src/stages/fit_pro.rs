@@ -192,19 +192,16 @@ fn doubt(row: &GroupCurve) -> Option<(OfGroup, String)> {
     let fit = curve.fit.as_ref().ok()?;
     match curve.status() {
         FitStatus::Misfit => Some((
-            of_group(
-                row,
-                format!(
-                    "straight curves of {event} for {{}}, fit badly (tests reject them; in brackets their probability where 1 case of 20 is as far off)"
-                ),
-            ),
+            of_group(row, format!("straight curves of {event} for {{}}, fit badly (tests reject them)")),
             match (&curve.bent, curve.bent_answer()) {
                 (Some(BentFit { gap: Gap { straight, bent }, .. }), Some(_)) => {
-                    format!("{of} ({straight:.2}, with a bend {bent:.2}, which answers)")
+                    format!(
+                        "{of} (in 1 case of 20 as far off as {straight:.2} from {bent:.2} of the bent one, which answers)"
+                    )
                 }
                 (Some(BentFit { gap: Gap { straight, bent }, .. }), None) => {
                     format!(
-                        "{of} ({straight:.2}, with a bend {bent:.2}, which does no better on cells left out)"
+                        "{of} (in 1 case of 20 as far off as {straight:.2} from {bent:.2} of the bent one, which does no better on cells left out)"
                     )
                 }
                 (None, _) => of,

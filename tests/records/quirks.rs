@@ -183,7 +183,8 @@ fn missing_parts_are_named_with_their_line() {
 #[test]
 fn a_time_step_that_is_given_stands_for_rounded_times_and_for_no_gap() {
     let rows = |times: &dyn Fn(usize) -> String| -> String {
-        (0..400).map(|k| format!("{},{:.4}\n", times(k), 0.3 * (0.1 * k as f64).sin())).collect()
+        let row = |k: usize| format!("{},{:.4}\n", times(k), 0.3 * (0.1 * k as f64).sin());
+        "time (s),acc (g)\n".to_string() + &(0..400).map(row).collect::<String>()
     };
     let read = |text: &str, dt_s: Option<f64>| {
         let given = Given { unit: Some("g".parse().unwrap()), dt_s, ..Given::default() };
@@ -204,7 +205,7 @@ fn a_time_step_that_is_given_stands_for_rounded_times_and_for_no_gap() {
         for dt_s in [None, Some(0.005)] {
             let said = read(&gap, dt_s).unwrap_err();
             let gap_s = ((missing + 1) * 5) as f64 / 1e3;
-            assert!(said.starts_with(&format!("line 202: a gap of {gap_s} s")), "{said}");
+            assert!(said.starts_with(&format!("line 203: a gap of {gap_s} s")), "{said}");
         }
     }
 }
