@@ -6,6 +6,7 @@ use super::probability::Z_95;
 use super::slice::Lognormal;
 use crate::normal::{inverse_mills, ln_cdf};
 use crate::statistics::FitStatus;
+use crate::statistics::distribution::{chi_squared_quantile, t_quantile};
 use crate::statistics::estimate::Limits;
 use crate::statistics::newton::{Along, Objective, maximise};
 
@@ -31,12 +32,15 @@ pub struct CapacityFit {
     pub beta_limits: Limits,
 }
 
+/// The upper level of 95 % limits.
+const UPPER_95: f64 = 0.975;
 /// The gain at which the search ends.
 const TOLERANCE: f64 = 1e-14;
 
-/// The lognormal distribution of maximum likelihood; capacities above or below an intensity count with the probability of that
+/// The lognormal distribution of capacities. Where each is known, that of mean and standard deviation of their logarithms (divisor n - 1),
+/// with the exact limits of a normal sample, by Student's t and chi squared. Else that of maximum likelihood; capacities above or below an intensity count with the probability of that
 /// (Baker 2015, Efficient analytical fragility function fitting using dynamic structural analysis, Earthquake Spectra 31,
-/// 579-599, Eqs. 3-7). Limits are those of the information in the logarithms of both parameters.
+/// 579-599, Eqs. 1-7), and limits are those of the information in the logarithms of both parameters, which are too narrow for few.
 ///
 /// # Errors
 /// The status, if fewer than two capacities are known, or all are the same.
@@ -46,9 +50,13 @@ pub fn fit_capacities(capacities: &[KnownCapacity]) -> Result<CapacityFit, FitSt
         return Err(FitStatus::TooFewEvents);
     }
     let middle = known.iter().sum::<f64>() / known.len() as f64;
-    let variance = known.iter().map(|x| (x - middle).powi(2)).sum::<f64>() / known.len() as f64;
+    let squares: f64 = known.iter().map(|x| (x - middle).powi(2)).sum();
+    let variance = squares / known.len() as f64;
     if variance <= 1e-24 {
         return Err(FitStatus::Constant);
+    }
+    if known.len() == capacities.len() {
+        return Ok(of_sample(known.len(), middle, squares));
     }
     let start = DVector::from_vec(vec![1.0 / variance.sqrt(), 0.0]);
     let likelihood = |at: &DVector<f64>| log_likelihood(capacities, middle, at);
@@ -68,6 +76,19 @@ pub fn fit_capacities(capacities: &[KnownCapacity]) -> Result<CapacityFit, FitSt
         theta_limits: limits(lognormal.theta, se_ln_theta),
         beta_limits: limits(lognormal.beta, se_ln_beta),
     })
+}
+
+/// The distribution of a sample of n capacities whose logarithms have this mean and sum of squared deviations.
+fn of_sample(n: usize, mean: f64, squares: f64) -> CapacityFit {
+    let degrees = n - 1;
+    let beta = (squares / degrees as f64).sqrt();
+    let half_width = t_quantile(UPPER_95, degrees as f64) * beta / (n as f64).sqrt();
+    let beta_at = |level| (squares / chi_squared_quantile(level, degrees)).sqrt();
+    CapacityFit {
+        lognormal: Lognormal { theta: libm::exp(mean), beta },
+        theta_limits: Limits { low: libm::exp(mean - half_width), high: libm::exp(mean + half_width) },
+        beta_limits: Limits { low: beta_at(UPPER_95), high: beta_at(1.0 - UPPER_95) },
+    }
 }
 
 /// In 1/beta and (mu - middle)/beta, in which it is concave (Olsen 1978, Note on the uniqueness of the maximum likelihood

@@ -216,6 +216,8 @@ pub struct Files {
     pub out: Option<Target>,
     /// The folder of all files, in a run.
     pub run: Option<PathBuf>,
+    /// Inputs that nobody named, and that are read since they are there.
+    pub found: Vec<&'static str>,
 }
 
 impl Files {
@@ -316,7 +318,11 @@ impl<S: Declare> Section<S> {
     pub fn files(&self, run: Option<&Path>, out: Option<Target>) -> Files {
         let path = |input: &Input| self.inputs.get(input.flag).cloned().or_else(|| input.path(run));
         let inputs = S::INPUTS.iter().filter_map(|input| Some((input.role, path(input)?.into())));
-        Files { inputs: inputs.collect(), out, run: run.map(Path::to_path_buf) }
+        let is_found = |input: &&Input| {
+            matches!(input.unnamed, Unnamed::FileIfThere(_)) && !self.inputs.contains_key(input.flag)
+        };
+        let found = S::INPUTS.iter().filter(is_found).filter(|_| run.is_none()).map(|input| input.role);
+        Files { inputs: inputs.collect(), out, run: run.map(Path::to_path_buf), found: found.collect() }
     }
 }
 

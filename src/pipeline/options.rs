@@ -272,8 +272,29 @@ pub fn check_bound(bound: &Bound, value: f64) -> anyhow::Result<()> {
     check(refusal.is_none(), bound.parameter, value, &refusal.unwrap_or_default())
 }
 
-/// What is wrong with a YAML file, in one line: where, what, and for an unknown key the nearest known one.
-pub fn explain(error: &serde_saphyr::Error) -> String {
+/// What the reader of YAML says of a value of another type, and what was expected.
+const VALUES: [(&str, &str); 4] = [
+    ("invalid floating point", "a number such as 0.3, with a decimal point and no unit"),
+    ("invalid u", "a whole number such as 10"),
+    ("invalid i", "a whole number such as 10"),
+    ("expected string scalar", "one word or number"),
+];
+
+/// The key that stands before a value in a line of YAML, and the value up to where it ends.
+fn entry(text: &str, line: u64, column: u64) -> Option<(&str, &str)> {
+    let line = text.lines().nth(usize::try_from(line).ok()?.checked_sub(1)?)?;
+    let (at, _) = line.char_indices().nth(usize::try_from(column).ok()?.checked_sub(1)?)?;
+    let (before, value) = line.split_at(at);
+    let key = before.trim_end().strip_suffix(':')?.rsplit(['{', ',', ' ']).next()?;
+    // A list goes on after its commas.
+    let end = if value.starts_with('[') { "]" } else { ", " };
+    let value = value.split(['}', '#']).next().and_then(|value| value.split_inclusive(end).next())?;
+    let value = value.trim().trim_end_matches(',');
+    (!key.is_empty() && !value.is_empty()).then_some((key, value))
+}
+
+/// What is wrong with a YAML file of this text, in one line: where, what, and for an unknown key the nearest known one.
+pub fn explain(error: &serde_saphyr::Error, text: &str) -> String {
     let error = error.without_snippet();
     let place = error
         .location()
@@ -289,5 +310,12 @@ pub fn explain(error: &serde_saphyr::Error) -> String {
     let message = error.to_string();
     let line = message.lines().next().unwrap_or_default();
     // What it says of the place stands in front already.
-    format!("{place}{}", line.rsplit_once(" at line ").map_or(line, |(said, _)| said))
+    let said = line.rsplit_once(" at line ").map_or(line, |(said, _)| said);
+    let expected = VALUES.iter().find(|(begins, _)| said.starts_with(begins)).map(|(_, expected)| expected);
+    let entry = error.location().and_then(|at| entry(text, at.line(), at.column()));
+    match (expected, entry) {
+        (Some(expected), Some((key, value))) => format!("{place}{key} is {value}; expected {expected}"),
+        (Some(expected), None) => format!("{place}expected {expected}"),
+        _ => format!("{place}{said}"),
+    }
 }

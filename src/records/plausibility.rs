@@ -14,6 +14,10 @@ const FEWEST_SAMPLES: usize = 25;
 const LARGEST_PGA_M_S2: f64 = 5.0 * G_M_S2;
 /// Chi-Chi 1999 reached a PGV of 3.18 m/s (Wikipedia, "1999 Jiji earthquake"; no source was found that none was larger); with a margin, m/s.
 const LARGEST_PGV_M_S: f64 = 5.0;
+/// Above these a motion is rare enough to ask for its unit: one in m/s2 under a heading that says g is ten times too strong, and PGV/PGA
+/// does not show it; m/s2 and m/s.
+const RARE_PGA_M_S2: f64 = 2.0 * G_M_S2;
+const RARE_PGV_M_S: f64 = 2.5;
 /// The range of PGV/PGA, s: sines of 30 Hz have 0.005; the records of FEMA P695 have 0.06 to 0.47, and records with the longest pulses about
 /// 0.9 (from memory, without a source).
 const PGV_PGA_S: (f64, f64) = (0.005, 1.0);
@@ -99,12 +103,25 @@ pub fn doubt(acceleration: &[f64], dt_s: f64) -> Option<Doubt> {
             "records have up to about 20 Hz, and 0.01 s at least; a time step too short, or noise?",
         );
     }
-    let weak = Doubt {
-        found: format!("PGA {} g", rounded(pga / G_M_S2)),
-        reason: "too weak to rock anything; another unit, such as g in place of cm/s2?",
-        is_impossible: false,
-    };
-    (pga < WEAKEST_PGA_M_S2).then_some(weak)
+    let possible = |found: String, reason| Some(Doubt { found, reason, is_impossible: false });
+    let pga_g = || format!("PGA {} g", rounded(pga / G_M_S2));
+    if pga < WEAKEST_PGA_M_S2 {
+        return possible(pga_g(), "too weak to rock anything; another unit, such as g in place of cm/s2?");
+    }
+    if pga > RARE_PGA_M_S2 {
+        return possible(
+            pga_g(),
+            "few records exceed 2 g; is it in m/s2, where its heading or --unit says g?",
+        );
+    }
+    if pgv > RARE_PGV_M_S {
+        let found = format!("PGV {} m/s", rounded(pgv));
+        return possible(
+            found,
+            "few records exceed 2.5 m/s; is it in m/s2, where its heading or --unit says g?",
+        );
+    }
+    None
 }
 
 /// The place of the largest sample, if it stands alone.

@@ -56,6 +56,8 @@ impl StageOptions for ComparePaperOptions {
 pub struct ComparePaper {
     published: Vec<Published>,
     spread: Vec<SpreadRow>,
+    /// Whether that is the shipped one.
+    is_shipped: bool,
     pex: Source,
     pro: Source,
     responses: Source,
@@ -74,7 +76,8 @@ impl ComparePaper {
     ) -> anyhow::Result<ComparePaper> {
         let out = out.into();
         let spread = paper::spread(options.spread.as_deref())?;
-        Ok(ComparePaper { published: paper::published()?, spread, pex, pro, responses, out })
+        let is_shipped = options.spread.is_none();
+        Ok(ComparePaper { published: paper::published()?, spread, is_shipped, pex, pro, responses, out })
     }
 }
 
@@ -85,6 +88,9 @@ struct Ours {
     pro: Vec<ProRow>,
     published: Vec<Published>,
 }
+
+/// Motions of each suite in the paper: 100 in each of 35 cells.
+const MOTIONS_OF_PAPER: usize = 3500;
 
 /// One side of the transition, IM4 = 1.30 in the paper.
 #[derive(Clone, Copy)]
@@ -312,7 +318,7 @@ impl Stage for ComparePaper {
         self.out.path().map(paper::shown).transpose()
     }
 
-    fn execute(&self, provenance: &Provenance, _console: &Console) -> anyhow::Result<String> {
+    fn execute(&self, provenance: &Provenance, console: &Console) -> anyhow::Result<String> {
         let ours = Ours {
             groups: groups::read(&self.responses)?,
             pex: PexRow::read(self.pex.clone())?,
@@ -333,6 +339,20 @@ impl Stage for ComparePaper {
         };
         let rows: Vec<PaperRow> = self.published.iter().map(row).collect::<anyhow::Result<_>>()?;
         PaperRow::write(&rows, self.out.clone(), provenance)?;
-        Ok(format!("{} published numbers", rows.iter().filter(|row| row.published.is_some()).count()))
+        let of_paper =
+            |group: &&Group| self.published.iter().any(|p| p.is_of(&group.suite, &group.structure));
+        let other = ours.groups.iter().filter(of_paper).find(|group| group.cases.len() != MOTIONS_OF_PAPER);
+        if let Some(group) = other.filter(|_| self.is_shipped) {
+            console.note(&format!(
+                "mean, sd and z are of seeds of the paper's {MOTIONS_OF_PAPER} motions, these responses are to {}; seed-spread makes a --spread of others",
+                group.cases.len()
+            ));
+        }
+        let published = rows.iter().filter(|row| row.published.is_some());
+        let missing = published.clone().filter(|row| row.ours.is_none()).count();
+        Ok(match missing {
+            0 => format!("{} published numbers", published.count()),
+            missing => format!("{} published numbers, {missing} without ours", published.count()),
+        })
     }
 }

@@ -195,11 +195,13 @@ fn doubt(row: &GroupCurve) -> Option<(OfGroup, String)> {
             of_group(row, format!("straight curves of {event} for {{}}, fit badly (tests reject them)")),
             match (&curve.bent, curve.bent_answer()) {
                 (Some(BentFit { gap: Gap { straight, bent }, .. }), Some(_)) => {
-                    format!("{of} ({straight:.2} for {bent:.2}; the bent one answers)")
+                    format!(
+                        "{of} (in 1 case of 20 as far off as {straight:.2} from {bent:.2} of the bent one, which answers)"
+                    )
                 }
                 (Some(BentFit { gap: Gap { straight, bent }, .. }), None) => {
                     format!(
-                        "{of} ({straight:.2} for {bent:.2}; the bent one does no better on cells left out)"
+                        "{of} (in 1 case of 20 as far off as {straight:.2} from {bent:.2} of the bent one, which does no better on cells left out)"
                     )
                 }
                 (None, _) => of,

@@ -80,7 +80,7 @@ macro_rules! stages {
                     serde_json::from_str(options).map_err(|error| refused::<$stage>(options, &error))?;
                 let given = <$stage>::INPUTS.iter();
                 let inputs = given.filter_map(|input| Some((input.role, inputs.get(input.role)?.clone()))).collect();
-                return section.stages(&Files { inputs, out, run: None }, None);
+                return section.stages(&Files { inputs, out, ..Files::default() }, None);
             })*
             Err(UsageError::because(format!("no stage '{subcommand}'")))
         }
@@ -161,7 +161,8 @@ impl Config {
         let failed = |why: String| UsageError::because(format!("{}: {why}", path.display()));
         let text =
             text_file::text(path, MOST_MIB, "a pipeline file").map_err(|error| failed(error.to_string()))?;
-        let mut config: Config = serde_saphyr::from_str(&text).map_err(|error| failed(explain(&error)))?;
+        let mut config: Config =
+            serde_saphyr::from_str(&text).map_err(|error| failed(explain(&error, &text)))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         config.sections_mut().for_each(|section| section.resolve_paths(folder));
         config.out = Some(beside(path, "").join(config.out.unwrap_or("out".into())));

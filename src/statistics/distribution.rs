@@ -52,6 +52,26 @@ pub fn chi_squared_upper_tail(x: f64, degrees: usize) -> f64 {
     tail
 }
 
+/// The `x` below which chi squared with so many degrees of freedom lies with probability `p` in (0, 1).
+pub fn chi_squared_quantile(p: f64, degrees: usize) -> f64 {
+    let is_above = |x: f64| chi_squared_upper_tail(x, degrees) <= 1.0 - p;
+    let (mut low, mut high) = (0.0, 1.0);
+    while !is_above(high) {
+        high *= 2.0;
+    }
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle == low || middle == high {
+            return middle;
+        }
+        if is_above(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+}
+
 /// The regularised incomplete beta function I_x(a, b), with `y` = 1 - x, by its continued fraction.
 fn incomplete_beta(a: f64, b: f64, x: f64, y: f64) -> f64 {
     if x <= 0.0 || y <= 0.0 {

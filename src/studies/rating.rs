@@ -20,6 +20,8 @@ use crate::statistics::separation::is_separated;
 use crate::studies::candidate::{Candidate, Form};
 use crate::studies::ranking_sample::RankingSample;
 
+/// A power law needs more cases than so many for each parameter, as a smooth transition does.
+const CASES_A_PARAMETER: f64 = 2.0;
 /// Groups of a reliability curve.
 const GROUPS: usize = 10;
 
@@ -199,6 +201,11 @@ impl Part {
         self.n - self.fit.coefficients.len() as f64
     }
 
+    /// Coefficients and the variance.
+    fn parameters(&self) -> f64 {
+        self.fit.coefficients.len() as f64 + 1.0
+    }
+
     fn rss(&self) -> f64 {
         self.fit.residual_sd.powi(2) * self.degrees()
     }
@@ -273,13 +280,15 @@ pub fn rate_demand(
         }
     };
     let whole = law(breaks.all, &vec![1.0; n]).ok_or(FitStatus::TooFewCases)?;
+    if whole.parts.iter().any(|part| part.n <= CASES_A_PARAMETER * part.parameters()) {
+        return Err(FitStatus::TooFewCases);
+    }
     let fitted: Vec<Prediction> = (0..n).map(foresee(&whole)).collect();
     let held_out = folds.and_then(|folds| {
         folds.leave_out(|fold, weights| Some(foresee(&law(breaks.without[fold], weights)?)))
     });
-    let parts = whole.parts.len() as f64;
-    // Coefficients and the variance of each part, and the break.
-    let parameters = parts * (candidate.measures.len() as f64 + 2.0) + parts - 1.0;
+    // Those of each part, and the break.
+    let parameters = whole.parts.iter().map(Part::parameters).sum::<f64>() + whole.parts.len() as f64 - 1.0;
     let log_likelihood: f64 = whole.parts.iter().map(Part::log_likelihood).sum();
     let degrees: f64 = whole.parts.iter().map(Part::degrees).sum();
     let beta = (whole.parts.iter().map(Part::rss).sum::<f64>() / degrees).sqrt();

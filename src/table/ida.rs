@@ -91,12 +91,12 @@ table! {
         n_safe: usize,
         n_below: usize,
         n_with_windows: usize,
-        theta: Option<f64>,
-        theta_low: Option<f64>,
-        theta_high: Option<f64>,
-        beta: Option<f64>,
-        beta_low: Option<f64>,
-        beta_high: Option<f64>,
+        theta: Option<f64> = capacity_theta,
+        theta_low: Option<f64> = capacity_theta_low,
+        theta_high: Option<f64> = capacity_theta_high,
+        beta: Option<f64> = capacity_beta,
+        beta_low: Option<f64> = capacity_beta_low,
+        beta_high: Option<f64> = capacity_beta_high,
         status: FitStatus,
     }
 }
@@ -122,9 +122,9 @@ table! {
         suite: Option<String>,
         structure: String,
         measure: String,
-        theta: Option<f64>,
-        theta_low: Option<f64>,
-        theta_high: Option<f64>,
+        theta: Option<f64> = capacity_theta,
+        theta_low: Option<f64> = capacity_theta_low,
+        theta_high: Option<f64> = capacity_theta_high,
     }
 }
 
@@ -303,10 +303,21 @@ pub fn fragility(rows: &[FragilityRow]) -> Result<RecordBatch, ArrowError> {
     LognormalRow::batch(&rows.iter().map(of_row).collect::<Vec<_>>())
 }
 
-/// A fragility file as a table to read.
+/// A fragility file as a table to read, and what its limits are.
 ///
 /// # Errors
 /// If it is none.
 pub fn show(path: &Path) -> anyhow::Result<String> {
-    Ok(text::aligned(&read_frame(path, &IDA_FRAGILITY)?))
+    let frame = read_frame(path, &IDA_FRAGILITY)?;
+    let counts = |column| anyhow::Ok(frame.column(column)?.i64()?.iter().flatten().sum::<i64>());
+    let censored = match counts("n_safe")? + counts("n_below")? {
+        0 => "",
+        _ => {
+            "; with n_safe or n_below above 0 they come from the likelihood, and are too narrow for few motions"
+        }
+    };
+    Ok(format!(
+        "{}theta and beta are median and dispersion of the lowest intensity that overturns; low and high are their 95 % confidence limits{censored}\n",
+        text::aligned(&frame)
+    ))
 }

@@ -88,6 +88,29 @@ fn a_bad_file_is_named_and_the_rest_imported() {
 }
 
 #[test]
+fn a_record_in_another_unit_than_its_heading_and_one_that_comes_twice_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    write_csv(folder.path(), "records/a.csv", 20.0);
+    let text = std::fs::read_to_string(folder.path().join("records/a.csv")).unwrap();
+    std::fs::write(folder.path().join("records/b.csv"), &text).unwrap();
+    let in_m_s2 = text.lines().map(|row| {
+        let (time, acceleration) = row.split_once(',').unwrap();
+        format!("{time},{}\n", 9.81 * acceleration.parse::<f64>().unwrap())
+    });
+    std::fs::write(folder.path().join("records/c.csv"), in_m_s2.collect::<String>()).unwrap();
+    let told = succeed(folder.path(), "import-motions records --unit g");
+    for said in [
+        "3 records: columns (3)",
+        " g (c), PGV",
+        "warning: c: PGA 4.",
+        "is it in m/s2",
+        "warning: the same file under two names counts twice; leave one out: records/b.csv is records/a.csv",
+    ] {
+        assert!(told.contains(said), "{said}: {told}");
+    }
+}
+
+#[test]
 fn a_pipeline_may_start_from_records() {
     let folder = tempfile::tempdir().unwrap();
     for k in 1..9 {

@@ -71,6 +71,20 @@ fn fits_answer_where_they_are_or_are_asked_for() {
 }
 
 #[test]
+fn fits_that_only_lie_there_answer_for_their_own_structures() {
+    let folder = tempfile::tempdir().unwrap();
+    for file in ["pex.parquet", "pro.parquet"] {
+        std::fs::copy(run_folder().join(file), folder.path().join(file)).unwrap();
+    }
+    // The README's first command.
+    let told = succeed(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"));
+    assert!(told.contains("not of this structure, so the universal surface answers"), "{told}");
+    fail(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6 --pex pex.parquet"), 2, &["--model universal"]);
+    let own = "--p 2.5 --alpha 0.2 --eta 0.92 --pga 0.5 --pgv 0.6";
+    fail(folder.path(), &format!("evaluate {own}"), 2, &["expected the choice", "--model universal"]);
+}
+
+#[test]
 fn own_fits_say_how_far_they_are_from_the_surface() {
     let (folder, fits) = fitted();
     let structure = "--p 2.5 --alpha 0.2 --eta 0.92 --pga 0.5 --pgv 0.6";

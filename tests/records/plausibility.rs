@@ -11,7 +11,11 @@ fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
     let mut half_pulses = 0;
     for motion in MotionBatches::open(path, 64).unwrap().flat_map(Result::unwrap) {
         // Half-sine and rectangular pulses leave the ground moving.
-        if let Some(found) = doubt(&motion.acceleration_m_s2.to_vec(), motion.dt_s) {
+        let found = doubt(&motion.acceleration_m_s2.to_vec(), motion.dt_s);
+        if let Some(rare) = found.as_ref().filter(|found| !found.is_impossible) {
+            // The strongest synthetic ones are of a strength that few records have.
+            assert!(rare.reason.starts_with("few records"), "{}: {rare:?}", motion.motion_id);
+        } else if let Some(found) = found {
             assert!(found.found.starts_with("velocity of"), "{}: {found:?}", motion.motion_id);
             half_pulses += 1;
         }
@@ -27,6 +31,7 @@ fn every_limit_is_kept() {
     };
     assert_eq!(of(&|_, a| a, DT), "");
     assert!(of(&|_, a| 100.0 * a, DT).starts_with("PGA 29"));
+    assert!(of(&|_, a| 9.81 * a, DT).starts_with("PGA 2.8"));
     assert!(of(&|_, a| 1e-3 * a, DT).starts_with("PGA 0.000294"));
     assert!(of(&|k, a| if k == 500 { 30.0 * G } else { a }, DT).starts_with("sample 501 of 30 g"));
     assert!(of(&|_, a| a + 0.5, DT).starts_with("velocity of 5"));

@@ -174,8 +174,58 @@ fn missing_parts_are_named_with_their_line() {
     let error = |text: &str| read(text.as_bytes(), None, &given).unwrap_err().to_string();
     assert!(error("1.0\n2.0\n").contains("--dt"));
     assert!(error("0 1 2\n1 2 3\n").contains("--column"));
-    assert!(error("0 1\n0.01 2\n0.02 2\n0.06 2\n").contains("line 4: a time step of 0.04"));
+    assert!(error("0 1\n0.01 2\n0.02 2\n0.06 2\n").contains("line 4: a gap of 0.04 s"));
+    let uneven = "0 1\n0.01 2\n0.02 2\n0.03 2\n0.04 2\n0.08 1\n0.11 1\n";
+    assert!(error(uneven).contains("line 6: a time step of 0.04 s"));
     assert!(error("0 1\n0.01 2\n0.02 **\n").contains("line 3: '**' is not a number"));
+}
+
+#[test]
+fn a_time_step_that_is_given_stands_for_rounded_times_and_for_no_gap() {
+    let rows = |times: &dyn Fn(usize) -> String| -> String {
+        let row = |k: usize| format!("{},{:.4}\n", times(k), 0.3 * (0.1 * k as f64).sin());
+        "time (s),acc (g)\n".to_string() + &(0..400).map(row).collect::<String>()
+    };
+    let read = |text: &str, dt_s: Option<f64>| {
+        let given = Given { unit: Some("g".parse().unwrap()), dt_s, ..Given::default() };
+        let motions = read(text.as_bytes(), None, &given).map_err(|error| error.to_string())?;
+        Ok::<f64, String>(motions[0].dt_s)
+    };
+    // The mean step of even times, as their decimals bear it.
+    assert_eq!(read(&rows(&|k| format!("{:.3}", k as f64 * 0.005)), None), Ok(0.005));
+    let rounded = read(&rows(&|k| format!("{:.7}", k as f64 / 256.0)), None).unwrap();
+    assert!((rounded - 1.0 / 256.0).abs() < 2e-10, "{rounded}");
+    let rounded = rows(&|k| format!("{:.2}", k as f64 * 0.005));
+    assert!(read(&rounded, None).unwrap_err().contains("give --dt if the times are only rounded"));
+    assert_eq!(read(&rounded, Some(0.005)), Ok(0.005));
+    let said = read(&rounded, Some(0.01)).unwrap_err();
+    assert!(said.contains("where steps of --dt 0.01 s lead to"), "{said}");
+    for missing in [1, 19] {
+        let gap = rows(&|k| format!("{:.3}", (k + if k > 200 { missing } else { 0 }) as f64 * 0.005));
+        for dt_s in [None, Some(0.005)] {
+            let said = read(&gap, dt_s).unwrap_err();
+            let gap_s = ((missing + 1) * 5) as f64 / 1e3;
+            assert!(said.starts_with(&format!("line 203: a gap of {gap_s} s")), "{said}");
+        }
+    }
+}
+
+#[test]
+fn files_of_other_programs_are_named() {
+    let mut sac = vec![0_u8; 700];
+    sac[304] = 6;
+    let begins = |magic: &[u8]| [magic, &[0; 600]].concat();
+    for (bytes, what) in [
+        (begins(b"\x93NUMPY\x01\x00v\x00{'descr': '<f8'"), "a NumPy array"),
+        (begins(b"MATLAB 5.0 MAT-file, Platform: GLNXA64"), "a MAT-file"),
+        (begins(b"000001D STJ    HNEXX"), "miniSEED"),
+        (sac, "a SAC file"),
+    ] {
+        let said = read(&bytes, None, &Given::default()).unwrap_err().to_string();
+        assert!(said.starts_with(what) && said.contains("acceleration_m_s2"), "{said}");
+    }
+    // Words are none.
+    refused("MATLAB export\n", &["begins no known format"]);
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
+use rand_distr::{Distribution, StandardNormal};
 use rockfrag::fragility::{KnownCapacity, fit_capacities};
+use rockfrag::random::{Purpose, stream};
 use rockfrag::rocking::{
     Capacity, CapacityStatus, Outcome, Problem, Record, Response, SafeWindow, Scan, ScanPoint, ScanResponse,
     Simd, Structure, simulate_all,
@@ -269,17 +271,44 @@ fn the_ends_of_a_scan_are_told_apart() {
 }
 
 #[test]
-fn known_capacities_have_the_moments_of_their_logarithms() {
-    let capacities = [0.7_f64, 1.1, 1.3, 2.9];
-    let logs = capacities.map(f64::ln);
-    let mean = logs.iter().sum::<f64>() / 4.0;
-    let sd = (logs.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 4.0).sqrt();
-    let fit = fit_capacities(&capacities.map(KnownCapacity::At)).unwrap();
-    close(fit.lognormal.theta, mean.exp(), 1e-12);
-    close(fit.lognormal.beta, sd, 1e-12);
-    close(fit.theta_limits.high / fit.lognormal.theta, (1.959_963_984_540_054 * sd / 2.0).exp(), 1e-9);
-    close(fit.lognormal.beta / fit.beta_limits.low, (1.959_963_984_540_054 / 8.0_f64.sqrt()).exp(), 1e-9);
-    close(fit.lognormal.p_up_to(fit.lognormal.theta * sd.exp()), 0.841_344_746_068_542_9, 1e-12);
+fn limits_of_known_capacities_are_scipys() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/fits/capacities.csv");
+    let rows = csv::Reader::from_path(path).unwrap().into_deserialize();
+    for row in rows.map(Result::<(String, [f64; 6], String), _>::unwrap) {
+        let (_, [theta, theta_low, theta_high, beta, beta_low, beta_high], capacities) = row;
+        let known = capacities.split(' ').map(|text| KnownCapacity::At(text.parse().unwrap()));
+        let fit = fit_capacities(&known.collect::<Vec<_>>()).unwrap();
+        let (theta_limits, beta_limits) = (fit.theta_limits, fit.beta_limits);
+        close(fit.lognormal.theta, theta, 1e-12);
+        close(fit.lognormal.beta, beta, 1e-12);
+        [(theta_limits.low, theta_low), (theta_limits.high, theta_high)]
+            .into_iter()
+            .chain([(beta_limits.low, beta_low), (beta_limits.high, beta_high)])
+            .for_each(|(limit, expected)| close(limit, expected, 1e-10));
+        let above = fit.lognormal.p_up_to(theta * beta.exp());
+        close(above, 0.841_344_746_068_542_9, 1e-12);
+    }
+}
+
+#[test]
+fn limits_of_thirteen_capacities_hold_the_truth_in_19_of_20_samples() {
+    const SAMPLES: u64 = 4000;
+    let (mut of_theta, mut of_beta) = (0, 0);
+    for seed in 0..SAMPLES {
+        let mut random = stream(seed, Purpose::Sample, 0);
+        let mut draw = || {
+            let normal: f64 = StandardNormal.sample(&mut random);
+            KnownCapacity::At((0.4 * normal).exp())
+        };
+        let sample: Vec<KnownCapacity> = (0..13).map(|_| draw()).collect();
+        let fit = fit_capacities(&sample).unwrap();
+        of_theta += u32::from((fit.theta_limits.low..=fit.theta_limits.high).contains(&1.0));
+        of_beta += u32::from((fit.beta_limits.low..=fit.beta_limits.high).contains(&0.4));
+    }
+    for held in [of_theta, of_beta] {
+        let share = f64::from(held) / SAMPLES as f64;
+        assert!((share - 0.95).abs() < 0.012, "{share}");
+    }
 }
 
 #[test]

@@ -7,10 +7,9 @@ use super::header::time_step;
 use super::heading::{Content, Note, content};
 use super::table::{Table, begins_numbers};
 use super::text::lines;
+use super::times::Times;
 use crate::records::{ColumnChoice, Given, RecordedMotion, SaidUnit};
 
-/// The share by which a step of time may differ from the usual one: the times of many files are rounded.
-const UNEVEN: f64 = 0.05;
 /// The share by which a time step may differ from the one that the user gives.
 const SAME_STEP: f64 = 0.01;
 
@@ -174,10 +173,12 @@ impl Columns<'_> {
     fn time_step(&self, column: usize, given: &Given, wraps: bool) -> Result<f64, RecordFileError> {
         let line = self.table.first_line;
         let times = self.times().filter(|times| !wraps && *times != column);
-        let said = match times.map(|times| self.step_of(times)) {
-            // The user says what uneven times are meant to be.
-            Some(Err(_)) if given.dt_s.is_some() => None,
-            Some(step) => Some(step?),
+        let said = match times.map(|times| self.times_of(times)) {
+            Some(times) => match (times.step_s(), given.dt_s) {
+                // The user says what rounded times are meant to be.
+                (Err(_), Some(given_s)) => times.expect_steps(given_s).map(|()| None)?,
+                (step_s, _) => Some(step_s?),
+            },
             None => self.note.dt_s,
         };
         match (said, given.dt_s) {
@@ -194,23 +195,9 @@ impl Columns<'_> {
         }
     }
 
-    /// Computes the time step (s) of a column, which must hold even times.
-    fn step_of(&self, column: usize) -> Result<f64, RecordFileError> {
+    fn times_of(&self, column: usize) -> Times {
         let in_s = if let Content::Time(in_s) = self.contents[column] { in_s } else { 1.0 };
-        let times: Vec<f64> = self.table.column(column).map(|time| time * in_s).collect();
-        let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let mut ordered = steps.clone();
-        ordered.sort_by(f64::total_cmp);
-        let usual =
-            *ordered.get(ordered.len() / 2).ok_or(RecordFileError::TooShort { found: times.len() })?;
-        match steps.iter().position(|step| (step - usual).abs() > UNEVEN * usual.abs()) {
-            Some(index) => Err(RecordFileError::UnevenTime {
-                line: self.table.first_line + index + 1,
-                step_s: steps[index],
-                dt_s: usual,
-            }),
-            None => Ok(steps.iter().sum::<f64>() / steps.len() as f64),
-        }
+        Times::new(self.table.column(column).collect(), in_s, self.table.first_line)
     }
 }
 

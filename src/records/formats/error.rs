@@ -67,10 +67,18 @@ pub enum RecordFileError {
          allow more with --pga-tolerance"
     )]
     Peak { header_m_s2: f64, found_m_s2: f64 },
+    #[error("line {line}: a gap of {gap_s} s among time steps of {dt_s} s; fill it, or cut the record there")]
+    Gap { line: usize, gap_s: f64, dt_s: f64 },
     #[error(
-        "line {line}: a time step of {step_s:.6} s among steps of {dt_s:.6} s; expected even ones: resample the record first, or give --dt"
+        "line {line}: a time step of {step_s} s among steps of {dt_s} s; expected even ones: give --dt if the times are only \
+         rounded, else interpolate the record to even times before it is imported"
     )]
     UnevenTime { line: usize, step_s: f64, dt_s: f64 },
+    #[error(
+        "line {line}: time {time_s} s, where steps of --dt {given_s} s lead to {expected_s} s; correct --dt, or interpolate the record to \
+         even times before it is imported"
+    )]
+    OffStep { line: usize, time_s: f64, expected_s: f64, given_s: f64 },
     #[error(
         "line {line}: samples at uneven times, as digitised from film; import the corrected record instead"
     )]

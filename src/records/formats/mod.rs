@@ -10,6 +10,7 @@
 //! columns   plain numbers, with or without a column of time
 //! heading   what headings and comments above plain numbers say of them
 //! table     plain numbers as rows and columns
+//! times     the step of a column of times
 //! text      bytes to text to numbered lines
 //! numbers   numbers as Fortran and people write them, and blocks of them
 //! header    time steps, peaks and azimuths
@@ -30,6 +31,7 @@ mod peer_at2;
 mod smc;
 mod table;
 mod text;
+mod times;
 mod unit;
 
 pub use error::RecordFileError;

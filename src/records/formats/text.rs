@@ -23,12 +23,38 @@ pub fn lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
 }
 
 /// How files begin that hold no text, what they are, and what to do.
-const ARCHIVES: [(&[u8], &str, &str); 4] = [
+const ARCHIVES: [(&[u8], &str, &str); 8] = [
     (b"PK\x03\x04", "an Excel workbook or another zip archive", "save it as CSV, or unpack it"),
     (b"\xd0\xcf\x11\xe0", "an old Excel workbook", "save it as CSV"),
     (b"\x1f\x8b", "a gzip archive", "unpack it"),
-    (b"\x89HDF", "an HDF5 file", "write the acceleration as CSV"),
+    (b"\x89HDF", "an HDF5 file", TO_PARQUET),
+    (b"\x93NUMPY", "a NumPy array", TO_PARQUET),
+    (b"MATLAB 5.0 MAT-file", "a MAT-file of MATLAB", TO_PARQUET),
+    (b"MATLAB 7.3 MAT-file", "a MAT-file of MATLAB", TO_PARQUET),
+    (b"MS\x03", "miniSEED", TO_PARQUET),
 ];
+/// What to do with files that other programs read.
+const TO_PARQUET: &str =
+    "write a Parquet file with motion_id, dt_s and acceleration_m_s2 (docs/records.md shows how)";
+
+/// What binary data are that have no sure beginning, and what to do.
+fn binary(bytes: &[u8]) -> RecordFileError {
+    // Records of miniSEED 2 begin with their number, a quality and a blank.
+    let is_miniseed = bytes.first_chunk().is_some_and(|[number @ .., quality, blank]: &[u8; 8]| {
+        number.iter().all(u8::is_ascii_digit) && b"DRQM".contains(quality) && *blank == b' '
+    });
+    // The version of a SAC header stands behind seventy real numbers and six whole ones.
+    let version = bytes.get(304..).and_then(<[u8]>::first_chunk);
+    let is_sac = version.is_some_and(|&version: &[u8; 4]| {
+        matches!(i32::from_le_bytes(version), 6 | 7) || matches!(i32::from_be_bytes(version), 6 | 7)
+    });
+    let (what, cure) = match (is_miniseed, is_sac) {
+        (true, _) => ("miniSEED", TO_PARQUET),
+        (_, true) => ("a SAC file", TO_PARQUET),
+        _ => ("binary data", "unpack it if it is an archive"),
+    };
+    RecordFileError::Binary { what, cure }
+}
 
 /// Decodes the bytes of a file: UTF-16 or UTF-8 by their marks, else UTF-8, else Latin-1; with plain blanks, signs and
 /// line ends.
@@ -58,7 +84,7 @@ fn eight_bits(bytes: &[u8]) -> Result<Cow<'_, str>, RecordFileError> {
     let control = |byte: &&u8| **byte < b' ' && !matches!(**byte, b'\t' | b'\n' | b'\r' | b'\x0c' | b'\x1a');
     // Single null bytes pad the text of some real headers.
     if sample.iter().filter(control).count() * 50 > sample.len() {
-        return Err(RecordFileError::Binary { what: "binary data", cure: "unpack it if it is an archive" });
+        return Err(binary(bytes));
     }
     Ok(match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text.strip_prefix('\u{feff}').unwrap_or(text)),

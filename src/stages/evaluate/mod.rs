@@ -18,6 +18,8 @@ use self::answer::Answer;
 use self::options::Format;
 pub use self::options::{EvaluateOptions, HazardOptions, LimitsBy, PointOptions};
 use self::table::EvaluatedTable;
+use super::fit_pex::FitPex;
+use super::fit_pro::FitPro;
 use super::shared::answers::Answers;
 use super::shared::chosen_fits::ChosenFits;
 use super::shared::fits::{FIT_INPUTS, FitFiles, ModelForm, note_fits_of_run};
@@ -76,6 +78,8 @@ pub struct Evaluate {
     /// The fits that answer; without them the surface that is shipped does.
     fits: Option<FitFiles>,
     fit_files: Vec<(&'static str, Source)>,
+    /// Structures of fits that are there and of which none is the one that is asked for.
+    of_others: Option<String>,
     structure: StructureSpec,
     /// A table of intensities, if it is asked at each of them.
     intensities: Option<Source>,
@@ -124,7 +128,8 @@ impl Declare for Evaluate {
     .under("Output");
 
     fn create(options: &EvaluateOptions, files: &Files) -> anyhow::Result<Evaluate> {
-        let fits = FitFiles::if_asked(&options.fits, files)?;
+        let structure = options.structure.spec(options.fits.structure.as_deref())?;
+        let (fits, of_others) = asked_fits(options, files, &structure)?;
         let fits = fits.map(|fits| fits.prefer(options.structure.name.as_deref()));
         let intensities = files.optional(INTENSITIES);
         let beside_table = || Some(beside(intensities.as_ref()?.name(), Self::OUTPUT.file).into());
@@ -153,9 +158,10 @@ impl Declare for Evaluate {
                 Some(fits) => options.limits.0.fit_files(fits)?,
                 None => Vec::new(),
             },
-            structure: options.structure.spec(options.fits.structure.as_deref())?,
+            structure,
             options: options.clone(),
             fits,
+            of_others,
             intensities,
             headings,
             format,
@@ -163,6 +169,21 @@ impl Declare for Evaluate {
             printed: OnceLock::new(),
         })
     }
+}
+
+/// The fits that answer; where they are only found, and of other structures than the one that is asked for, the names of these.
+fn asked_fits(
+    options: &EvaluateOptions,
+    files: &Files,
+    structure: &StructureSpec,
+) -> anyhow::Result<(Option<FitFiles>, Option<String>)> {
+    let fits = FitFiles::if_asked(&options.fits, files)?;
+    let is_open = options.fits.model.is_none()
+        && options.limits.0 == LimitsBy::Delta
+        && files.optional(INTENSITIES).is_none();
+    let structure = structure.structure().ok().filter(|_| is_open);
+    let others = fits.as_ref().zip(structure).and_then(|(fits, asked)| fits.of_others(files, &asked));
+    Ok((fits.filter(|_| others.is_none()), others))
 }
 
 impl Evaluate {
@@ -291,7 +312,12 @@ impl Stage for Evaluate {
         let answers = self.answers()?;
         let given = self.options.structure.structures.is_given();
         let structure = given.then(|| answers.structure(&self.structure)).transpose()?;
-        if self.fits.is_none() {
+        if let Some(others) = &self.of_others {
+            console.note(&format!(
+                "{PEX} and {PRO} here are fits of {others}, not of this structure, so the universal surface answers; --pex {PEX} --pro {PRO} asks them",
+                PEX = FitPex::OUTPUT.file, PRO = FitPro::OUTPUT.file
+            ));
+        } else if self.fits.is_none() {
             note_fits_of_run(&self.options.fits, structure.as_ref(), console);
         }
         if let (Some(input), Some(out)) = (&self.intensities, &self.out) {

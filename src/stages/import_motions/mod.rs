@@ -193,7 +193,7 @@ impl Stage for ImportMotions {
         }
         self.expect_unchanged(provenance)?;
         told.lines().iter().for_each(|line| console.note(line));
-        told.doubts.lines("motions").for_each(|doubt| console.warn(&doubt));
+        told.doubts.lines("motions").chain(told.same_files()).for_each(|doubt| console.warn(&doubt));
         if refused.is_empty() || self.keep_going {
             writer.finish()?;
             if !refused.is_empty() {

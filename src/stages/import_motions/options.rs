@@ -27,10 +27,11 @@ pub struct ImportMotionsOptions {
     /// Format of text files: auto (by content), at2, cosmos, csmip, esm, knet, smc, or columns (plain numbers)
     #[arg(long, default_value = "auto")]
     pub format: Parsed<FormatChoice>,
-    /// Time between samples, s, for files that do not state it
+    /// Time between samples, s, for files that do not state it, or only to few decimals; one that states another is refused
     #[arg(long, value_name = "S")]
     pub dt: Option<f64>,
-    /// Unit of the acceleration, for files that do not state it: g, mg, m/s2, cm/s2 (gal), mm/s2, %g, ft/s2 or in/s2
+    /// Unit of the acceleration, for files that do not state it: g, mg, m/s2, cm/s2 (gal), mm/s2, %g, ft/s2 or in/s2. A file that
+    /// states another is refused
     #[arg(long)]
     pub unit: Option<Parsed<AccelerationUnit>>,
     /// Column of the acceleration in plain files: its number, its name, or all where one series wraps over lines [default: the one

@@ -1,16 +1,19 @@
 //! What is told of an import: what the motions are like, and what was refused.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use crate::motion::Suite;
-use crate::records::processing::{ImportedMotion, Refusal};
+use crate::records::processing::{ImportedMotion, Refusal, SourceFile};
 use crate::records::pulses::Verdict;
 use crate::records::{SaidUnit, Teller};
-use crate::stages::shared::reasons::{Case, Reasons};
+use crate::stages::shared::reasons::{Case, Reasons, listed};
 use crate::units::G_M_S2;
 
 /// Different time steps that are named one by one.
 const STEPS: usize = 5;
+
+/// Files of equal content that are named.
+const PAIRS: usize = 10;
 
 /// What the motions so far are like.
 #[derive(Default)]
@@ -21,12 +24,18 @@ pub struct Told {
     /// By time steps in whole nanoseconds.
     steps: BTreeMap<u64, usize>,
     pga_m_s2: Range,
+    /// The motion of the largest PGA.
+    strongest: String,
     pgv_m_s: Range,
     /// Records in which a pulse was looked for, and those that hold one.
     searched: usize,
     pulses: usize,
     /// Why some that are imported may be no records.
     pub doubts: Reasons,
+    /// The file that first held a content, by its hash.
+    sources: HashMap<String, String>,
+    /// Files that hold what another holds too, with the other.
+    same: BTreeSet<(String, String)>,
 }
 
 #[derive(Default)]
@@ -64,8 +73,17 @@ impl Told {
         if let Some(doubt) = &first.doubt {
             self.doubts.add(Case::of_doubt(first.motion_id.clone(), doubt));
         }
+        let SourceFile { path, blake3 } = &first.source;
+        let known = self.sources.entry(blake3.clone()).or_insert_with(|| path.clone());
+        if known != path {
+            self.same.insert((path.clone(), known.clone()));
+        }
         for motion in motions.iter().filter(|motion| motion.suite == Suite::Record) {
-            self.pga_m_s2.add(motion.measured.measures.pga_m_s2);
+            let pga_m_s2 = motion.measured.measures.pga_m_s2;
+            if self.pga_m_s2.0.is_none_or(|(_, largest)| pga_m_s2 > largest) {
+                self.strongest.clone_from(&motion.motion_id);
+            }
+            self.pga_m_s2.add(pga_m_s2);
             self.pgv_m_s.add(motion.measured.measures.pgv_m_s);
         }
     }
@@ -73,7 +91,8 @@ impl Told {
     /// What all of them are like, in two lines.
     pub fn lines(&self) -> [String; 2] {
         let joined = |parts: Vec<String>| parts.join(", ");
-        let formats = self.formats.iter().map(|(format, count)| format!("{count} {format}")).collect();
+        let formats = self.formats.iter().map(|(format, count)| format!("{format} ({count})")).collect();
+        let records = if self.records == 1 { "record" } else { "records" };
         let unit = |(said, count): (&SaidUnit, &usize)| {
             let by = if said.by == Teller::File { "by the file" } else { "by --unit" };
             format!("{} ({count} {by})", said.unit)
@@ -93,14 +112,28 @@ impl Told {
         };
         [
             format!(
-                "{} records: {}; unit {}; dt {}",
+                "{} {records}: {}; unit {}; dt {}",
                 self.records,
                 joined(formats),
                 joined(self.units.iter().map(unit).collect()),
                 joined(steps)
             ),
-            format!("PGA {}, PGV {}{pulses}", self.pga_m_s2.text(G_M_S2, "g"), self.pgv_m_s.text(1.0, "m/s")),
+            format!(
+                "PGA {} ({}), PGV {}{pulses}",
+                self.pga_m_s2.text(G_M_S2, "g"),
+                self.strongest,
+                self.pgv_m_s.text(1.0, "m/s")
+            ),
         ]
+    }
+
+    /// Which files hold the same, if any do.
+    pub fn same_files(&self) -> Option<String> {
+        let named = self.same.iter().take(PAIRS).map(|(file, known)| format!("{file} is {known}"));
+        let named: Vec<String> = named.collect();
+        let listed = listed(&named, self.same.len());
+        (!named.is_empty())
+            .then(|| format!("the same file under two names counts twice; leave one out: {listed}"))
     }
 }
 

@@ -6,6 +6,8 @@ use std::path::Path;
 use polars::prelude::{ChunkCompareEq, DataFrame};
 
 use crate::keyword::Keyword;
+use crate::statistics::FitStatus;
+use crate::studies::Target;
 use crate::table::ranking::{RANKING, RankingRow};
 use crate::table::row::ReadRow;
 use crate::table::schema::{self, Column};
@@ -76,8 +78,30 @@ fn verdict(group: &[RankingRow]) -> Result<String, std::fmt::Error> {
     let Some(paper) = find("paper", None) else {
         return Ok(line + " no predictions by the model of the paper to compare others with\n");
     };
-    let against = |row: &RankingRow| comparison(row.over_paper, row.se_over_paper);
+    let none = group.iter().filter(|row| row.terms == 0).find_map(|row| row.log_score);
+    let against = |row: &RankingRow| match (row.over_paper, row.log_score, none) {
+        (None, Some(score), Some(none)) => format!("of log score {score:.4}, {none:.4} without a measure"),
+        _ => comparison(row.over_paper, row.se_over_paper),
+    };
     write!(line, " the paper takes {} ({})", paper.measures, paper.form.as_str())?;
+    if paper.log_score.is_none() {
+        let why = match paper.status {
+            FitStatus::Ok => "too few cells or earthquakes to leave some out",
+            status => status.as_str(),
+        };
+        write!(line, ", which has no score to compare others with ({why})")?;
+    }
+    let best = group.iter().filter(|row| row.terms > 0).filter_map(|row| row.log_score).reduce(f64::max);
+    if let Some((best, none)) = best.zip(none).filter(|(best, none)| best <= none) {
+        let alone = match target {
+            Target::Demand => "the mean demand",
+            Target::Overturning => "the frequency",
+        };
+        return Ok(line
+            + &format!(
+                "\n    no measure predicts better than {alone} alone (log score {none:.4}, of the best model {best:.4})\n"
+            ));
+    }
     if let Some(best) = find("best", Some(1)) {
         write!(
             line,

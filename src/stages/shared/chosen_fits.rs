@@ -12,7 +12,7 @@ use crate::fragility::{
     ReplicateLimits, ResampledModel, Slice, UniversalModel,
 };
 use crate::keyword::Keyword;
-use crate::motion::IntensityMeasures;
+use crate::motion::{IntensityMeasures, Suite};
 use crate::pipeline::console::Console;
 use crate::rocking::Block;
 use crate::rocking::Structure;
@@ -194,7 +194,12 @@ impl Answers for ChosenFits {
     fn words_of_limits(&self) -> String {
         let by = match &self.resampled {
             None if self.model.overturning.spread > 0.0 => {
-                "by the delta method, for one magnitude and distance that the fits have not seen".to_string()
+                let of = if self.suite.as_deref() == Some(Suite::Record.as_str()) {
+                    "earthquake"
+                } else {
+                    "magnitude and distance"
+                };
+                format!("by the delta method, for one {of} that the fits have not seen")
             }
             None => "by the delta method".to_string(),
             Some(ResampledModel { replicates, limits: ReplicateLimits::Percentile }) => {

@@ -43,7 +43,7 @@ pub struct FitsOptions {
     pub structure: Option<String>,
     /// bivariate (two planes over im4 and im3, curve of im4 and im3_inv) or univariate, whose curve bends where tests reject the
     /// straight line; paper (the straight line always; univariate with --measure); or universal (the surface for all structures,
-    /// without fits) [default: bivariate; universal where there are no fits]
+    /// without fits) [default: bivariate; universal where there are no fits, or those found here are of other structures]
     #[arg(long)]
     pub model: Option<Word<ModelForm>>,
     /// Measure of the univariate model, im1 to im6 [default: im5, or the two of paper]
@@ -145,6 +145,20 @@ impl FitFiles {
         FitFiles::new(options, &files).map(Some)
     }
 
+    /// Of which structures these fits are, if nobody asked for them, and they are of others than this one.
+    pub fn of_others(&self, files: &Files, structure: &Structure) -> Option<String> {
+        let FitsOptions { suite, structure: name, measure, .. } = &self.options;
+        let is_asked = suite.is_some() || name.is_some() || measure.is_some() || files.found.len() < 2;
+        let rows = ProRow::read(self.pro.clone()).ok().filter(|_| !is_asked)?;
+        let is_of = |row: &ProRow| {
+            row.block().is_none_or(|block| !is_other_block(block, structure))
+                && row.eta.is_none_or(|eta| !is_other_eta(eta, structure.eta))
+        };
+        let mut names: Vec<&str> = rows.iter().map(|row| row.structure.as_str()).collect();
+        names.dedup();
+        (!names.is_empty() && !rows.iter().any(is_of)).then(|| names.join(", "))
+    }
+
     /// Joins the options and the files of a stage.
     ///
     /// # Errors
@@ -221,7 +235,10 @@ impl FitFiles {
             None => format!("--structure {structure}"),
         });
         let words = words.collect::<Vec<_>>().join(", or ");
-        UsageError::because(format!("{}: expected the choice of one fit: {words}", self.pex.name().display()))
+        UsageError::because(format!(
+            "{}: expected the choice of one fit: {words}; or --model universal, the surface for all structures",
+            self.pex.name().display()
+        ))
     }
 
     /// All fits of a suite and structure, joined.

@@ -350,7 +350,7 @@ fn from_yaml(text: &str) -> Result<Vec<StructureSpec>, String> {
         Some(line) if !line.starts_with(['-', '[']) => Err(format!(
             "'{line}'; expected a list, each structure on a line: - {{ name: block, width: 0.6, height: 2.4 }}"
         )),
-        _ => serde_saphyr::from_str(text).map_err(|error| explain(&error)),
+        _ => serde_saphyr::from_str(text).map_err(|error| explain(&error, text)),
     }
 }
 

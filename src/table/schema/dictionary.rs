@@ -315,6 +315,12 @@ columns! {
     overturned: Int64, "1", "motions that overturn the structure at this intensity";
     overturned_up_to: Int64, "1", "motions that do so at this intensity or a lower one";
     lognormal: Float64, "1", "probability of the same by the lognormal distribution of the overturning intensities; null: none";
+    capacity_theta = "theta": Float64, "1", "median of the lowest intensities that overturn the structure, in the unit of measure";
+    capacity_theta_low = "theta_low": Float64, "1", "lower 95 % limit of theta";
+    capacity_theta_high = "theta_high": Float64, "1", "upper 95 % limit of theta";
+    capacity_beta = "beta": Float64, "1", "standard deviation of the logarithms of these intensities";
+    capacity_beta_low = "beta_low": Float64, "1", "lower 95 % limit of beta";
+    capacity_beta_high = "beta_high": Float64, "1", "upper 95 % limit of beta";
     n_safe: Int64, "1", "motions that overturn the structure nowhere in the scan";
     n_below: Int64, "1", "motions that overturn it already at its foot";
     n_with_windows: Int64, "1", "motions with a safe window";
