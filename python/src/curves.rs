@@ -23,8 +23,12 @@ fn word<T: Keyword>(py: Python, name: &str, given: &str) -> PyResult<T> {
     keyword::parse(given).map_err(unknown)
 }
 
-fn vectors(columns: &[Column]) -> PyResult<Vec<Vec<f64>>> {
-    columns.iter().map(|column| Ok(column.as_slice()?.to_vec())).collect()
+/// The logarithms of columns, which are those of the stages and not the platform's.
+fn logarithms(columns: &[Column]) -> PyResult<Vec<Vec<f64>>> {
+    columns
+        .iter()
+        .map(|column| Ok(column.as_slice()?.iter().map(|&value| libm::log(value)).collect()))
+        .collect()
 }
 
 fn matrix(k: usize, at: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
@@ -34,7 +38,7 @@ fn matrix(k: usize, at: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
 /// A curve and the cases that it was fitted to.
 fn curve(
     py: Python,
-    ln_im: &[Column],
+    im: &[Column],
     happened: &PyReadonlyArray1<bool>,
     link: &str,
     estimator: &str,
@@ -44,9 +48,9 @@ fn curve(
         estimator: word(py, "estimator", estimator)?,
         ..CurveModel::default()
     };
-    let sample = Sample::of_happened(vectors(ln_im)?, happened.as_slice()?);
+    let sample = Sample::of_happened(logarithms(im)?, happened.as_slice()?);
     // The names are those of a hybrid measure of the paper; nothing but words depends on them.
-    let im_y = (ln_im.len() == 2).then_some(Measure::Im3Inverse);
+    let im_y = (im.len() == 2).then_some(Measure::Im3Inverse);
     let curve = py.detach(|| Curve::new(&sample, Event::Overturning, Measure::Im4, im_y, model));
     Ok((curve, sample))
 }
@@ -63,13 +67,13 @@ fn parameter_name(parameter: CurveParameter) -> &'static str {
 #[pyfunction]
 pub fn fit_curve<'py>(
     py: Python<'py>,
-    ln_im: Vec<Column<'py>>,
+    im: Vec<Column<'py>>,
     happened: PyReadonlyArray1<'py, bool>,
     link: &str,
     estimator: &str,
     clusters: Option<Vec<usize>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (curve, sample) = curve(py, &ln_im, &happened, link, estimator)?;
+    let (curve, sample) = curve(py, &im, &happened, link, estimator)?;
     let told = PyDict::new(py);
     told.set_item("status", curve.status().as_str())?;
     told.set_item("events", curve.events)?;
@@ -98,7 +102,7 @@ pub fn fit_curve<'py>(
     told.set_item("brier", fit.goodness.brier)?;
     told.set_item("hosmer_lemeshow_p", p(fit.goodness.hosmer_lemeshow))?;
     told.set_item("spline_p", p(curve.spline))?;
-    let columns = vectors(&ln_im)?;
+    let columns = logarithms(&im)?;
     let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     told.set_item("separated", is_separated(&columns, happened.as_slice()?))?;
     told.set_item("few_events", curve.has_few_events())?;
@@ -109,14 +113,14 @@ pub fn fit_curve<'py>(
 #[pyfunction]
 pub fn profile_limits<'py>(
     py: Python<'py>,
-    ln_im: Vec<Column<'py>>,
+    im: Vec<Column<'py>>,
     happened: PyReadonlyArray1<'py, bool>,
     link: &str,
     estimator: &str,
     parameter: &str,
     level: f64,
 ) -> PyResult<Option<(f64, f64)>> {
-    let (curve, sample) = curve(py, &ln_im, &happened, link, estimator)?;
+    let (curve, sample) = curve(py, &im, &happened, link, estimator)?;
     let of_name = CurveParameter::ALL.into_iter().find(|known| parameter_name(*known) == parameter);
     let (Some(parameter), Ok(fit)) = (of_name, &curve.fit) else { return Ok(None) };
     let limits = py.detach(|| CurveInference::new(&sample, &fit.regression).profile_limits(parameter, level));
@@ -128,15 +132,14 @@ pub fn profile_limits<'py>(
 #[pyfunction]
 pub fn fit_line<'py>(
     py: Python<'py>,
-    columns: Vec<Column<'py>>,
-    response: Column<'py>,
+    im: Vec<Column<'py>>,
+    edp: Column<'py>,
     clusters: Option<Vec<usize>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let owned = vectors(&columns)?;
+    let (owned, response) = (logarithms(&im)?, logarithms(&[edp])?.remove(0));
     let columns: Vec<&[f64]> = owned.iter().map(Vec::as_slice).collect();
-    let response = response.as_slice()?;
     let told = PyDict::new(py);
-    let fit = match least_squares(&columns, response) {
+    let fit = match least_squares(&columns, &response) {
         Ok(fit) => fit,
         Err(error) => {
             let status = match error {
@@ -158,7 +161,7 @@ pub fn fit_line<'py>(
     told.set_item("residual_sd", fit.residual_sd)?;
     told.set_item("df_resid", fit.n - k)?;
     told.set_item("r2", fit.r2)?;
-    told.set_item("reset_p", reset(&columns, response, &fit).map(|test| test.p))?;
+    told.set_item("reset_p", reset(&columns, &response, &fit).map(|test| test.p))?;
     Ok(told)
 }
 
@@ -186,10 +189,10 @@ pub fn t_quantile(share: f64, degrees: f64) -> f64 {
     rockfrag::statistics::t_quantile(share, degrees)
 }
 
-/// Indices and their standard errors, as arrays.
-type Indices<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+/// Indices and their standard errors, or lower and upper limits, as arrays.
+type Pairs<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
-fn unzipped<'py>(py: Python<'py>, indices: impl Iterator<Item = ProbitIndex>) -> Indices<'py> {
+fn unzipped<'py>(py: Python<'py>, indices: impl Iterator<Item = ProbitIndex>) -> Pairs<'py> {
     let (values, errors): (Vec<f64>, Vec<f64>) =
         indices.map(|index| (index.value, index.standard_error)).unzip();
     (values.into_pyarray(py), errors.into_pyarray(py))
@@ -210,7 +213,7 @@ pub fn exceeding<'py>(
     limit: f64,
     beta: f64,
     degrees: f64,
-) -> PyResult<Indices<'py>> {
+) -> PyResult<Pairs<'py>> {
     let places = ln_median.as_slice()?.iter().zip(variance.as_slice()?);
     let index =
         |(&value, &variance): (&f64, &f64)| ProbitIndex::of_exceeding(value, variance, limit, beta, degrees);
@@ -223,7 +226,7 @@ pub fn failure_limits<'py>(
     py: Python<'py>,
     overturning: [Column<'py>; 3],
     exceeding: [Column<'py>; 3],
-) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+) -> PyResult<Pairs<'py>> {
     let [ro, ex] = [&overturning, &exceeding].map(|of| -> PyResult<Vec<Probability>> {
         let [value, low, high] = [of[0].as_slice()?, of[1].as_slice()?, of[2].as_slice()?];
         let probability = |k: usize| Probability { value: value[k], low: low[k], high: high[k] };

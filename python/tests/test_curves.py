@@ -109,7 +109,7 @@ def test_few_clusters_say_nothing_in_statsmodels():
 def test_limits_shown_are_those_of_the_errors_by_cluster():
     curve = fit_fragility(IM, OVERTURNED, cluster=by_clusters(20))
     text = str(curve.summary())
-    assert "20 clusters" in text and "profile" not in text
+    assert "20 clusters" in text and "profile low" not in text
     spread = np.exp(1.959964 * curve.se_theta / curve.theta)
     for limit in (curve.theta / spread, curve.theta * spread):
         assert f"{limit:.4g}" in text
@@ -212,7 +212,9 @@ def test_the_stages(out, responses):
     demand = fit_demand(responses.im5, responses.edp, limit_state=0.1)
     of = lambda fits: fits[(fits.suite == "csgm") & (fits.structure == "electrical-equipment") & (fits.im_x == "im5")].iloc[0]
     pro, pex = of(pq.read_table(out / "pro.parquet").to_pandas()), of(pq.read_table(out / "pex.parquet").to_pandas())
-    assert (curve.theta, curve.beta, curve.llf, curve.status) == (pro.theta, pro.beta, pro.log_likelihood, pro.status)
+    assert (curve.beta, curve.llf, curve.status) == (pro.beta, pro.log_likelihood, pro.status)
+    # The exponential is NumPy's here.
+    assert curve.theta == pytest.approx(pro.theta, rel=1e-15)
     assert (demand.params[0], demand.params[1], demand.dispersion) == (pex.ln_a, pex.b1, pex.beta)
     for name in ["mu", "beta"]:
         assert curve.profile_interval(name) == (pro[f"{name}_profile_low"], pro[f"{name}_profile_high"])

@@ -136,10 +136,13 @@ def test_a_file_is_in_the_format_of_its_name(out, tmp_path):
     file = rockfrag.evaluate(**point, out=tmp_path / "a.csv")
     assert pl.read_csv(file)["value"].to_list() == pytest.approx(pl.Series(answer["value"], nan_to_null=True).to_list())
     rockfrag.evaluate(**point, out=tmp_path / "a.parquet")
-    intensities = {"pga_m_s2": [3.0, 5.0], "pgv_m_s": [0.3, 0.6]}
+    intensities = pl.DataFrame({"pga_m_s2": [3.0, 5.0], "pgv_m_s": [0.3, 0.6]})
+    table = rockfrag.evaluate(intensities=intensities, width=0.5, height=2.0)
+    file = rockfrag.evaluate(intensities=intensities, width=0.5, height=2.0, out=tmp_path / "t.csv")
+    assert pl.read_csv(file)["p_ro"].to_list() == table["p_ro"].tolist()
+    (tmp_path / "t.csv").unlink()
     for write in [
         lambda out: rockfrag.sample_scenarios(samples=2, out=out),
-        lambda out: rockfrag.evaluate(intensities=pl.DataFrame(intensities), width=0.5, height=2.0, out=out),
         lambda out: rockfrag.fit_pro(pathlib.Path("responses.parquet"), out=out),
         lambda out: rockfrag.simulate("motions.parquet", structures="paper", out=out),
     ]:

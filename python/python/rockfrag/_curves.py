@@ -115,7 +115,7 @@ class FragilityCurve(Regression):
         ]
 
     def _columns(self) -> list[Floats]:
-        return [np.ascontiguousarray(column) for column in np.log(self.im).T]
+        return [np.ascontiguousarray(column) for column in self.im.T]
 
     def _index(self, im: Floats) -> tuple[Floats, Floats]:
         index, variance = self._linear(im)
@@ -245,8 +245,8 @@ class DemandCurve(Regression):
         #: The limit: the demand that is exceeded.
         self.limit_state: float = limit_state
         self.outcome = edp > limit_state
-        columns = [np.ascontiguousarray(column) for column in np.log(im).T]
-        fit = _rockfrag.fit_line(columns, np.log(edp), groups)
+        columns = [np.ascontiguousarray(column) for column in im.T]
+        fit = _rockfrag.fit_line(columns, np.ascontiguousarray(edp), groups)
         #: ok, or falling.
         self.status: str = fit["status"]
         if "params" not in fit:

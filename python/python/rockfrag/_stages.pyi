@@ -147,7 +147,7 @@ def evaluate(
         bivariate (two planes over im4 and im3, curve of im4 and im3_inv) or univariate, whose curve
         bends where tests reject the straight line; paper (the straight line always; univariate with
         ``measure``); or universal (the surface for all structures, without fits) [default: bivariate;
-        universal where there are no fits].
+        universal where there are no fits, or those found here are of other structures].
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
         Measure of the univariate model, im1 to im6 [default: im5, or the two of paper].
     limits : {'delta', 'percentile', 'bc'}, default 'delta'
@@ -329,7 +329,7 @@ def export(
         bivariate (two planes over im4 and im3, curve of im4 and im3_inv) or univariate, whose curve
         bends where tests reject the straight line; paper (the straight line always; univariate with
         ``measure``); or universal (the surface for all structures, without fits) [default: bivariate;
-        universal where there are no fits].
+        universal where there are no fits, or those found here are of other structures].
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
         Measure of the univariate model, im1 to im6 [default: im5, or the two of paper].
     limit_state : float, optional
@@ -789,10 +789,11 @@ def import_motions(
         Format of text files: auto (by content), at2, cosmos, csmip, esm, knet, smc, or columns (plain
         numbers).
     dt : float, optional
-        Time between samples, s, for files that do not state it.
+        Time between samples, s, for files that do not state it, or only to few decimals; one that
+        states another is refused.
     unit : {'g', 'mg', 'm/s2', 'cm/s2', 'gal', 'mm/s2', '%g', 'ft/s2', 'in/s2'}, optional
         Unit of the acceleration, for files that do not state it: g, mg, m/s2, cm/s2 (gal), mm/s2, %g,
-        ft/s2 or in/s2.
+        ft/s2 or in/s2. A file that states another is refused.
     column : int or str, optional
         Column of the acceleration in plain files: its number, its name, or all where one series wraps
         over lines [default: the one with that heading, or the only one besides times].
@@ -1570,7 +1571,7 @@ def validate(
         bivariate (two planes over im4 and im3, curve of im4 and im3_inv) or univariate, whose curve
         bends where tests reject the straight line; paper (the straight line always; univariate with
         ``measure``); or universal (the surface for all structures, without fits) [default: bivariate;
-        universal where there are no fits].
+        universal where there are no fits, or those found here are of other structures].
     measure : {'im1', 'im2', 'im3', 'im4', 'im5', 'im6', 'im3_inv'}, optional
         Measure of the univariate model, im1 to im6 [default: im5, or the two of paper].
     hazard : path, Arrow table or mapping, optional
