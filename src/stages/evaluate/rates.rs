@@ -357,7 +357,7 @@ impl Line {
             false => "rises",
         };
         format!(
-            "p PGV / PGA {changes} with {name}, as in the motions {}: its median is {at_uplift:.2} at uplift and {at_end:.2} at {:.4} {unit}\n\
+            "p PGV / PGA {changes} with {name}, as in the motions {}: its median is {at_uplift:.2} at uplift and {at_end:.2} at {:.2} {unit}\n\
              if every motion had the median of its {name}, the annual rate of overturning would be {median:.1e}; one standard deviation lower or \
              higher, {low:.1e} or {high:.1e}; --ratio sets one value at all intensities instead\n",
             answers.words_of_motions(),
