@@ -191,22 +191,25 @@ fn doubt(row: &GroupCurve) -> Option<(OfGroup, String)> {
     let (event, of) = (curve.event.as_str(), measures(curve));
     let fit = curve.fit.as_ref().ok()?;
     match curve.status() {
-        FitStatus::Misfit => Some((
-            of_group(row, format!("straight curves of {event} for {{}}, fit badly (tests reject them)")),
-            match (&curve.bent, curve.bent_answer()) {
-                (Some(BentFit { gap: Gap { straight, bent }, .. }), Some(_)) => {
-                    format!(
-                        "{of} (in 1 case of 20 as far off as {straight:.2} from {bent:.2} of the bent one, which answers)"
-                    )
-                }
-                (Some(BentFit { gap: Gap { straight, bent }, .. }), None) => {
-                    format!(
-                        "{of} (in 1 case of 20 as far off as {straight:.2} from {bent:.2} of the bent one, which does no better on cells left out)"
-                    )
-                }
-                (None, _) => of,
-            },
-        )),
+        FitStatus::Misfit => {
+            let bent = match (&curve.bent, curve.bent_answer()) {
+                (None, _) => "",
+                (_, Some(_)) => "; evaluate takes the bent ones",
+                (_, None) => "; the bent ones do no better on cells left out",
+            };
+            Some((
+                of_group(
+                    row,
+                    format!("straight curves of {event} for {{}}, fit badly (tests reject them){bent}"),
+                ),
+                match &curve.bent {
+                    Some(BentFit { gap: Gap { straight, bent }, .. }) => {
+                        format!("{of} ({straight:.2} straight, {bent:.2} bent)")
+                    }
+                    None => of,
+                },
+            ))
+        }
         FitStatus::FarMedian => Some((
             of_group(
                 row,

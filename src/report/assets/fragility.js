@@ -60,22 +60,23 @@ const fragility = (() => {
     return { value, error: Math.sqrt(predicted.variance / (beta * beta) + (value * value) / (2 * degrees)) };
   };
 
-  /** The index of failure given rocking, P_ro + (1 - P_ro) P_ex, by the delta method. */
-  const failure = (overturning, demand) => {
-    const survival = normal.cdf(-overturning.value) * normal.cdf(-demand.value);
-    const [pRo, pEx] = [normal.cdf(overturning.value), normal.cdf(demand.value)];
-    const value = survival < 0.5 ? -normal.quantile(survival) : normal.quantile(pRo + (1 - pRo) * pEx);
-    if (!Number.isFinite(value)) return { value, error: 0 };
-    const share = (one, other) =>
-      Math.exp(0.5 * (value * value - one.value * one.value)) * normal.cdf(-other.value) * one.error;
-    return { value, error: Math.hypot(share(overturning, demand), share(demand, overturning)) };
-  };
-
   const probability = ({ value, error }) => ({
     value: normal.cdf(value),
     low: normal.cdf(value - Z_95 * error),
     high: normal.cdf(value + Z_95 * error),
   });
+
+  const lnSurvival = (p) => Math.max(Math.log1p(-p), Math.log(2.2250738585072014e-308));
+
+  /** Failure given rocking, P_ro + (1 - P_ro) P_ex, with limits by the recovery of variances, as in the program. */
+  const failure = (pRo, pEx) => {
+    const [ro, ex] = [pRo, pEx].map((p) => ({ value: lnSurvival(p.value), low: lnSurvival(p.low), high: lnSurvival(p.high) }));
+    const further = (limit) => Math.hypot(ro[limit] - ro.value, ex[limit] - ex.value);
+    const value = pRo.value + (1 - pRo.value) * pEx.value;
+    const low = -Math.expm1(ro.value + ex.value + further("low"));
+    const high = -Math.expm1(ro.value + ex.value - further("high"));
+    return { value, low: Math.min(Math.max(low, pRo.low, pEx.low), value), high: Math.max(high, pRo.high, pEx.high, value) };
+  };
 
   const exact = (value) => ({ value, low: value, high: value });
 
@@ -87,9 +88,9 @@ const fragility = (() => {
     const demand = exceeding(lawAt(model.demand, of), of, model.limit);
     const index = predict(model.overturning, of);
     if (demand === null || index === null) return answer;
-    const overturning = { value: index.value, error: Math.sqrt(index.variance) };
-    const p_f_r = probability(failure(overturning, demand));
-    return { ...answer, p_ex: probability(demand), p_ro: probability(overturning), p_f_r, p_f: p_f_r };
+    const [p_ex, p_ro] = [probability(demand), probability({ value: index.value, error: Math.sqrt(index.variance) })];
+    const p_f_r = failure(p_ro, p_ex);
+    return { ...answer, p_ex, p_ro, p_f_r, p_f: p_f_r };
   };
 
   /** The measures that lie outside of the data of the fits. */

@@ -113,12 +113,19 @@ impl ChosenFits {
         (few, format!("from {few} {} of {n} motions", what.replace("(s)", if few == 1 { "" } else { "s" })))
     }
 
-    /// That P_ro says little, if it comes from so few overturnings, or motions without, that ordinary estimates refuse them.
+    /// That P_ro says little, if it comes from few overturnings, or motions without: least where ordinary estimates refuse them.
     pub fn doubt_of_events(&self) -> Option<String> {
         let [events, n] = self.events;
         let limit = if 2 * events <= n { "an upper" } else { "a lower" };
         let (few, from) = self.fewer();
-        (few < LEAST_EVENTS).then(|| format!("{from}: this says little more than {limit} limit"))
+        let says = match few < LEAST_EVENTS {
+            true => format!("this says little more than {limit} limit"),
+            false if self.few_events => {
+                "too few to tell how steep the curve is; compare --model universal".to_string()
+            }
+            false => return None,
+        };
+        Some(format!("{from}: {says}"))
     }
 }
 
