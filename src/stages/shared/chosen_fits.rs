@@ -120,9 +120,7 @@ impl ChosenFits {
         let (few, from) = self.fewer();
         let says = match few < LEAST_EVENTS {
             true => format!("this says little more than {limit} limit"),
-            false if self.few_events => {
-                "too few to tell how steep the curve is; compare --model universal".to_string()
-            }
+            false if self.few_events => "too few to tell how steep the curve is".to_string(),
             false => return None,
         };
         Some(format!("{from}: {says}"))
