@@ -105,18 +105,16 @@ fn head(path: &Path) -> Option<String> {
 fn expect_same_cut(stage: &dyn Stage, planned: &Provenance) -> anyhow::Result<()> {
     let own = Partition::among(&planned.parameters);
     for target in stage.outputs() {
-        let others = if own.is_some() { beside(&target) } else { Vec::new() };
-        for other in std::iter::once(target.clone()).chain(others) {
-            let Ok(Some(recorded)) = stage.recorded(&other) else { continue };
-            let there = Partition::among(&recorded.provenance.parameters);
-            let fits = if other == target { there == own } else { there.map(|p| p.of) == own.map(|p| p.of) };
-            if !fits && recorded.provenance.stage == stage.name() {
+        for (file, made) in made_in_folder(stage, &target, own.is_some()) {
+            let there = Partition::among(&made.parameters);
+            let fits = if file == target { there == own } else { there.map(|p| p.of) == own.map(|p| p.of) };
+            if !fits {
                 let words = |partition: Option<Partition>| {
                     partition.map_or("the whole".to_string(), |partition| format!("partition {partition}"))
                 };
                 return Err(UsageError::because(format!(
                     "{}: {} is there, and this is {}; expected a folder of one cut: {WAY_OUT}",
-                    other.display(),
+                    file.display(),
                     words(there),
                     words(own)
                 )));
@@ -130,23 +128,23 @@ fn expect_same_cut(stage: &dyn Stage, planned: &Provenance) -> anyhow::Result<()
 pub fn unlike_others(stage: &dyn Stage, planned: &Provenance) -> Option<String> {
     Partition::among(&planned.parameters)?;
     let of_target = |target: PathBuf| {
-        let others = beside(&target).into_iter().filter(|other| *other != target);
-        let words = |other: PathBuf| {
-            let there = stage.recorded(&other).ok()??.provenance;
-            let unlike = unlike(&there, planned, &file_name(&other))?;
-            (there.stage == planned.stage).then(|| format!("{} {unlike}", target.display()))
-        };
-        others.filter_map(words).next()
+        let made = made_in_folder(stage, &target, true).into_iter().filter(|(file, _)| *file != target);
+        let unlike = made.filter_map(|(file, made)| unlike(&made, planned, &file_name(&file))).next()?;
+        Some(format!("{} {unlike}", target.display()))
     };
     let found = stage.outputs().into_iter().find_map(of_target)?;
     Some(format!("{found}; a folder is read only if all its partitions are made alike"))
 }
 
-/// The first and the last file in the folder of a target. Those of a larger cut come last; all would be many to open for each of
-/// many partitions.
-fn beside(target: &Path) -> Vec<PathBuf> {
-    let there = parquet_files(folder_of(target)).unwrap_or_default();
-    let mut ends: Vec<PathBuf> = there.first().into_iter().chain(there.last()).cloned().collect();
-    ends.dedup();
-    ends
+/// How this stage made the target that is there, and, of a partition, the first and the last file in its folder. Those of a larger
+/// cut come last; all would be many to open for each of many partitions.
+fn made_in_folder(stage: &dyn Stage, target: &Path, is_partition: bool) -> Vec<(PathBuf, Provenance)> {
+    let mut files = vec![target.to_path_buf()];
+    if is_partition {
+        let there = parquet_files(folder_of(target)).unwrap_or_default();
+        files.extend(there.first().into_iter().chain(there.last()).cloned());
+    }
+    let made = |file: PathBuf| Some((stage.recorded(&file).ok()??.provenance, file));
+    let made = files.into_iter().filter_map(made).filter(|(made, _)| made.stage == stage.name());
+    made.map(|(made, file)| (file, made)).collect()
 }
