@@ -106,7 +106,7 @@ impl ValidationRow {
 }
 
 /// What a reader looks at first; the file holds the rest.
-const SHOWN: [Column; 16] = [
+const SHOWN: [Column; 7] = [
     schema::suite,
     schema::structure,
     schema::fits_suite,
@@ -114,6 +114,10 @@ const SHOWN: [Column; 16] = [
     schema::n_predicted,
     schema::seen,
     schema::expected,
+];
+
+/// What follows these where events were counted,
+const SHOWN_OF_COUNTS: [Column; 9] = [
     schema::chance_low,
     schema::chance_high,
     schema::chance_p,
@@ -125,20 +129,9 @@ const SHOWN: [Column; 16] = [
     schema::extrapolated,
 ];
 
-/// The same where annual rates were counted.
-const SHOWN_OF_RATES: [Column; 11] = [
-    schema::suite,
-    schema::structure,
-    schema::fits_suite,
-    schema::predicted,
-    schema::n_predicted,
-    schema::seen,
-    schema::expected,
-    schema::counted_rate,
-    schema::counted_rate_low,
-    schema::counted_rate_high,
-    schema::expected_rate,
-];
+/// and where annual rates were.
+const SHOWN_OF_RATES: [Column; 4] =
+    [schema::counted_rate, schema::counted_rate_low, schema::counted_rate_high, schema::expected_rate];
 
 /// A validation file as a table to read.
 ///
@@ -147,6 +140,6 @@ const SHOWN_OF_RATES: [Column; 11] = [
 pub fn show(path: &Path) -> anyhow::Result<String> {
     let frame = read_frame(path, &VALIDATION)?;
     let counted = frame.column(schema::counted_rate.name)?.null_count() < frame.height();
-    let shown = if counted { &SHOWN_OF_RATES[..] } else { &SHOWN[..] };
-    Ok(text::aligned(&frame.select(names(shown))?))
+    let more = if counted { &SHOWN_OF_RATES[..] } else { &SHOWN_OF_COUNTS[..] };
+    Ok(text::aligned(&frame.select(names(&[&SHOWN, more].concat()))?))
 }
