@@ -1,16 +1,18 @@
 //! Annual rates counted among responses, and the responses that fits were made from.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::groups::Group;
 use crate::fragility::{Event, Peak, Placed};
 use crate::hazard::{Count, CountedMotion, HazardCurve, counted_rates};
 use crate::pipeline::declare::Declare;
 use crate::pipeline::options::DEFAULT_SEED;
+use crate::pipeline::stage::folder_of;
 use crate::stages::simulate::Simulate;
 use crate::studies::MOST_CASES;
 use crate::table::responses::RESPONSES;
 use crate::table::store::contents::recorded;
+use crate::table::store::folder::parquet_files;
 use crate::table::store::source::Source;
 
 /// The events whose rates are counted.
@@ -24,11 +26,7 @@ const MOST_FILES: usize = 200;
 pub fn responses_beside(fits: &Source) -> Option<PathBuf> {
     let Source::Path(fits) = fits else { return None };
     let made_of = recorded(fits).ok()??.provenance.inputs.remove(RESPONSES_ROLE)?;
-    let folder = fits.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut files: Vec<PathBuf> =
-        folder.read_dir().ok()?.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    files.retain(|file| file.extension().is_some_and(|ending| ending == "parquet"));
-    files.sort();
+    let files = parquet_files(folder_of(fits)).ok()?;
     let usual = fits.with_file_name(Simulate::OUTPUT.file);
     let holds = |file: &PathBuf| {
         let recorded = recorded(file).ok().flatten();
