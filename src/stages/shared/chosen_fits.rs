@@ -103,27 +103,26 @@ impl ChosenFits {
         is_other_eta(eta, self.model.eta)
     }
 
-    /// The events, or the motions without them, whichever are fewer.
-    fn fewer(&self) -> (usize, String) {
+    /// The overturnings, or the motions without them, whichever are fewer.
+    fn fewer(&self) -> usize {
         let [events, n] = self.events;
-        let (few, what) = match 2 * events <= n {
-            true => (events, "overturning(s)"),
-            false => (n - events, "motion(s) without overturning"),
-        };
-        (few, format!("from {few} {} of {n} motions", what.replace("(s)", if few == 1 { "" } else { "s" })))
+        events.min(n - events)
     }
 
     /// That P_ro says little, if it comes from few overturnings, or motions without: least where ordinary estimates refuse them.
     pub fn doubt_of_events(&self) -> Option<String> {
-        let [events, n] = self.events;
-        let limit = if 2 * events <= n { "an upper" } else { "a lower" };
-        let (few, from) = self.fewer();
+        let ([events, n], few) = (self.events, self.fewer());
+        let (what, limit) = match events == few {
+            true => ("overturning(s)", "an upper"),
+            false => ("motion(s) without overturning", "a lower"),
+        };
+        let what = what.replace("(s)", if few == 1 { "" } else { "s" });
         let says = match few < LEAST_EVENTS {
             true => format!("this says little more than {limit} limit"),
             false if self.few_events => "too few to tell how steep the curve is".to_string(),
             false => return None,
         };
-        Some(format!("{from}: {says}"))
+        Some(format!("from {few} {what} of {n} motions: {says}"))
     }
 }
 
@@ -152,9 +151,8 @@ impl Answers for ChosenFits {
     }
 
     fn doubt_of_rates(&self) -> Option<String> {
-        let (few, from) = self.fewer();
         // Where fits are refused from fewer, those that are there come from samples that happen to hold many.
-        let chosen = (LEAST_EVENTS..2 * LEAST_EVENTS).contains(&few);
+        let chosen = (LEAST_EVENTS..2 * LEAST_EVENTS).contains(&self.fewer());
         let chosen = if chosen {
             format!(
                 "; fits from fewer than {LEAST_EVENTS} are refused, so that rates of those that answer are too high on average"
@@ -164,7 +162,7 @@ impl Answers for ChosenFits {
         };
         self.few_events.then(|| {
             format!(
-                "annual rates {from}: low and high take the form of the curve for right where strong motions are few, and are too narrow{chosen}"
+                "annual rates of so few: low and high assume the form of the curve where strong motions are few, and are too narrow{chosen}"
             )
         })
     }
