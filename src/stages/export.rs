@@ -6,9 +6,9 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::evaluate::rates::Line;
 use super::shared::answers::Answers;
 use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions, note_fits_of_run};
+use super::shared::line::Line;
 use super::shared::structure_options::StructureOptions;
 use super::shared::structures::{StructureSpec, warn_of_size, words};
 use super::shared::surface::{Surface, expect_no_limit};

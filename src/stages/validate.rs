@@ -10,11 +10,11 @@ use polars::prelude::DataFrame;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::evaluate::hazard::{self, Hazard};
 use super::shared::chosen_fits::ChosenFits;
 use super::shared::counts::{self, COUNTED, RESPONSES_ROLE};
 use super::shared::fits::{FIT_INPUTS, FitFiles, FitsOptions, ModelForm};
 use super::shared::groups::{self, Group};
+use super::shared::hazard::{self, Hazard};
 use super::shared::surface::{PAPER_LIMIT, Surface};
 use super::simulate::Simulate;
 use crate::fragility::universal::Scenarios;

@@ -7,9 +7,9 @@ use anyhow::{Context, anyhow, bail};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::{Field, Schema};
 
-use super::hazard::Cell;
 use crate::fragility::Peak;
 use crate::pipeline::options;
+use crate::stages::shared::hazard::Cell;
 use crate::table::schema::headings::{Headings, NO_SPECTRAL, is_spectral};
 use crate::table::schema::{self, Column};
 use crate::table::store::source::MemoryTable;

@@ -2,10 +2,9 @@
 
 mod answer;
 mod csv_table;
-pub mod hazard;
 mod options;
 mod point;
-pub mod rates;
+mod rates;
 mod table;
 
 use std::collections::BTreeMap;
@@ -23,6 +22,7 @@ use super::fit_pro::FitPro;
 use super::shared::answers::Answers;
 use super::shared::chosen_fits::ChosenFits;
 use super::shared::fits::{FIT_INPUTS, FitFiles, ModelForm, note_fits_of_run};
+use super::shared::hazard;
 use super::shared::resampled_fits;
 use super::shared::structures::{StructureSpec, warn_of_size};
 use super::shared::surface::{self, PAPER_LIMIT, Surface};

@@ -1,18 +1,16 @@
 //! Annual rates over the hazard of a site.
 
-use std::f64::consts::TAU;
 use std::path::Path;
 
 use rayon::prelude::*;
 use serde_json::json;
 
 use super::answer::Answer;
-use super::hazard::Hazard;
 use super::options::HazardOptions;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{
-    Fragility, FragilityModel, JointPeaks, LimitState, Lognormal, Peak, PeaksDoubt, Placed, Probability,
-    STRONGEST_PGA_M_S2, Slice, doubt_of_peaks, doubt_of_ratio,
+    Fragility, FragilityModel, LimitState, Peak, PeaksDoubt, Placed, Probability, STRONGEST_PGA_M_S2,
+    doubt_of_peaks, doubt_of_ratio,
 };
 use crate::hazard::{CountedRate, HazardCurve, JointHazard, PairOfPeaks, probability_in_years};
 use crate::keyword::Keyword;
@@ -25,6 +23,8 @@ use crate::stages::shared::answers::Answers;
 use crate::stages::shared::counts;
 use crate::stages::shared::fits::FitFiles;
 use crate::stages::shared::groups;
+use crate::stages::shared::hazard::Hazard;
+use crate::stages::shared::line::{Line, terms};
 use crate::stages::shared::structures::{words, words_of_friction};
 use crate::statistics::Limits;
 use crate::table::evaluated::{self, RATES, RateRow, RecordedCurve, RecordedHazard};
@@ -40,8 +40,8 @@ struct Rates {
 
 impl Rates {
     /// Of the sums over a hazard.
-    fn of(parts: [f64; 9]) -> Rates {
-        let rate = |k: usize| Probability { value: parts[k], low: parts[k + 1], high: parts[k + 2] };
+    fn of(sums: [f64; 9]) -> Rates {
+        let rate = |k: usize| Probability { value: sums[k], low: sums[k + 1], high: sums[k + 2] };
         Rates { rocking: rate(0), failure: rate(3), overturning: rate(6) }
     }
 
@@ -52,16 +52,6 @@ impl Rates {
             LimitState::Overturning => self.overturning,
         }
     }
-}
-
-/// The terms of those sums: value and limits of each limit state in turn.
-fn parts(states: Option<[Probability; 3]>) -> [f64; 9] {
-    states.map_or([f64::NAN; 9], |states| {
-        let mut parts = [0.0; 9];
-        let all = states.into_iter().flat_map(|p| [p.value, p.low, p.high]);
-        parts.iter_mut().zip(all).for_each(|(part, value)| *part = value);
-        parts
-    })
 }
 
 /// The annual rate of each limit state over the hazard of a site. By the delta method the limits are those of the probabilities at
@@ -88,11 +78,11 @@ pub fn answer(
             let line = Line::new(options.ratio, structure, peak, answers)?;
             options.ratio.and_then(doubt_of_ratio).into_iter().for_each(|doubt| console.warn(&doubt));
             let rates = along_line(&line, &curve, answers, console)?;
-            words_of_ratio = line.words(&curve, answers);
-            if let Ratio::Distributed(_) = line.ratio {
+            words_of_ratio = self::words_of_ratio(&line, &curve, answers);
+            if line.is_distributed() {
                 peaks_of_fits = ", over PGV / PGA as in the motions of the fits, not as in its own";
             }
-            if let (Ratio::Distributed(_), Some(fits)) = (line.ratio, fits) {
+            if let (true, Some(fits)) = (line.is_distributed(), fits) {
                 words_of_count = words_of_count_beside(&rates, fits, path, &line, &curve, answers, console);
             }
             let of = |model: &dyn Fragility| over_curve(&line, &curve, model);
@@ -235,135 +225,35 @@ fn recorded(path: &Path, hazard: &Hazard) -> RecordedHazard {
     RecordedHazard { file, rows, curves, notes: Vec::new() }
 }
 
-/// Motions of one peak, and what their other peak is.
-pub struct Line {
-    /// The slice of the motions' median p PGV / PGA at uplift, or of the only one.
-    pub slice: Slice,
-    ratio: Ratio,
-}
-
-/// The p PGV / PGA of motions.
-#[derive(Clone, Copy)]
-enum Ratio {
-    Single(f64),
-    /// Distributed as in the motions of the fits, given the intensity.
-    Distributed(JointPeaks),
-    /// So many standard deviations above the median of that distribution.
-    Quantile(JointPeaks, f64),
-}
-
-/// The widest step and the last node of the integral over the distribution, in standard deviations: the trapezoidal rule of a
-/// smooth function under a normal density is exact to 1e-8 with these.
-const STEP: f64 = 0.5;
-const LAST_NODE: i32 = 12;
 /// Times uplift: where words tell how the ratio has changed.
 const FAR: f64 = 4.0;
 
-impl Line {
-    /// Of one ratio, or of those that motions of an intensity have.
-    ///
-    /// # Errors
-    /// If the ratio is none, or what answers does not know those of its motions.
-    pub fn new(
-        ratio: Option<f64>,
-        structure: &Structure,
-        peak: Peak,
-        answers: &dyn Answers,
-    ) -> anyhow::Result<Line> {
-        let ratio = match (ratio, answers.peaks()) {
-            (Some(ratio), _) => {
-                check(ratio > 0.0 && ratio.is_finite(), "ratio", ratio, "a p PGV / PGA above 0")?;
-                Ratio::Single(ratio)
-            }
-            (None, Some(peaks)) => Ratio::Distributed(peaks),
-            (None, None) => {
-                return Err(UsageError::because(format!(
-                    "a hazard of {} alone needs --ratio, the p PGV / PGA of its motions: what answers does not know it",
-                    peak.as_str()
-                )));
-            }
-        };
-        let mut line = Line { slice: Slice { structure: structure.clone(), peak, ratio: 1.0 }, ratio };
-        line.slice.ratio = line.quantile(0.0).ratios(line.slice.intensity_at_im4(1.0))[0].0;
-        Ok(line)
+/// Where the ratio comes from, and what another one would change.
+fn words_of_ratio(line: &Line, curve: &HazardCurve, answers: &dyn Answers) -> String {
+    if !line.is_distributed() {
+        return "p PGV / PGA is the one of --ratio at all intensities; low and high do not hold its error\n"
+            .to_string();
     }
-
-    /// The line along a quantile of the ratio alone.
-    fn quantile(&self, deviations: f64) -> Line {
-        let ratio = match self.ratio {
-            Ratio::Distributed(peaks) | Ratio::Quantile(peaks, _) => Ratio::Quantile(peaks, deviations),
-            Ratio::Single(ratio) => Ratio::Single(ratio),
-        };
-        Line { slice: self.slice.clone(), ratio }
-    }
-
-    /// The ratios at an intensity, with their weights.
-    fn ratios(&self, intensity: f64) -> Vec<(f64, f64)> {
-        let (p, peak) = (self.slice.structure.p_rad_s, self.slice.peak);
-        match self.ratio {
-            Ratio::Single(ratio) => vec![(ratio, 1.0)],
-            Ratio::Quantile(peaks, deviations) => {
-                vec![(p * peaks.pgv_over_pga(peak, intensity, deviations), 1.0)]
-            }
-            Ratio::Distributed(peaks) => (-LAST_NODE..=LAST_NODE)
-                .map(|node| STEP * f64::from(node))
-                .map(|z| {
-                    (p * peaks.pgv_over_pga(peak, intensity, z), STEP * libm::exp(-0.5 * z * z) / TAU.sqrt())
-                })
-                .collect(),
-        }
-    }
-
-    /// The probabilities of the limit states at an intensity with their limits, over the ratios.
-    fn parts(&self, model: &dyn Fragility, intensity: f64) -> [f64; 9] {
-        let (mut slice, mut mean) = (self.slice.clone(), [0.0; 9]);
-        for (ratio, weight) in self.ratios(intensity) {
-            slice.ratio = ratio;
-            let states = parts(model.limit_states(&slice, intensity));
-            mean.iter_mut().zip(states).for_each(|(mean, state)| *mean += weight * state);
-        }
-        mean
-    }
-
-    /// The probabilities of the limit states at an intensity, over the ratios; NaN where a measure is missing.
-    pub fn limit_states(&self, model: &dyn Fragility, intensity: f64) -> [f64; 3] {
-        let parts = self.parts(model, intensity);
-        // The weights of the ratios are a quadrature's.
-        [parts[0], parts[3], parts[6]].map(|p| if p > 1.0 { 1.0 } else { p })
-    }
-
-    /// Overturning along the line, where it is lognormal in the intensity.
-    pub fn lognormal(&self, model: &dyn Fragility) -> Option<Lognormal> {
-        matches!(self.ratio, Ratio::Single(_)).then(|| model.lognormal(&self.slice))?
-    }
-
-    /// Where the ratio comes from, and what another one would change.
-    fn words(&self, curve: &HazardCurve, answers: &dyn Answers) -> String {
-        let Ratio::Distributed(_) = self.ratio else {
-            return "p PGV / PGA is the one of --ratio at all intensities; low and high do not hold its error\n".to_string();
-        };
-        let overturning =
-            |deviations| over_curve(&self.quantile(deviations), curve, answers.model()).overturning.value;
-        let [low, median, high] = [-1.0, 0.0, 1.0].map(overturning);
-        let peak = self.slice.peak;
-        let (unit, size) = peak.usual_unit();
-        let median_at = |intensity: f64| self.quantile(0.0).ratios(intensity)[0].0;
-        let uplift = self.slice.intensity_at_im4(1.0);
-        let end = curve.ends()[1].0.min(FAR * uplift).max(uplift);
-        let (at_uplift, at_end) = (median_at(uplift), median_at(end));
-        let name = peak.as_str().to_uppercase();
-        let changes = match at_end < at_uplift {
-            true => "falls",
-            false => "rises",
-        };
-        format!(
-            "p PGV / PGA {changes} with {name}, as in the motions {}: its median is {at_uplift:.2} at uplift and {at_end:.2} at {:.2} {unit}\n\
-             if every motion had the median of its {name}, the annual rate of overturning would be {median:.1e}; one standard deviation lower or \
-             higher, {low:.1e} or {high:.1e}; --ratio sets one value at all intensities instead\n",
-            answers.words_of_motions(),
-            end / size
-        )
-    }
+    let overturning =
+        |deviations| over_curve(&line.quantile(deviations), curve, answers.model()).overturning.value;
+    let [low, median, high] = [-1.0, 0.0, 1.0].map(overturning);
+    let peak = line.slice.peak;
+    let (unit, size) = peak.usual_unit();
+    let uplift = line.slice.intensity_at_im4(1.0);
+    let end = curve.ends()[1].0.min(FAR * uplift).max(uplift);
+    let (at_uplift, at_end) = (line.median_ratio(uplift), line.median_ratio(end));
+    let name = peak.as_str().to_uppercase();
+    let changes = match at_end < at_uplift {
+        true => "falls",
+        false => "rises",
+    };
+    format!(
+        "p PGV / PGA {changes} with {name}, as in the motions {}: its median is {at_uplift:.2} at uplift and {at_end:.2} at {:.2} {unit}\n\
+         if every motion had the median of its {name}, the annual rate of overturning would be {median:.1e}; one standard deviation lower or \
+         higher, {low:.1e} or {high:.1e}; --ratio sets one value at all intensities instead\n",
+        answers.words_of_motions(),
+        end / size
+    )
 }
 
 fn along_line(
@@ -437,7 +327,7 @@ fn over_pairs(
 }
 
 fn over_curve(line: &Line, curve: &HazardCurve, model: &dyn Fragility) -> Rates {
-    Rates::of(curve.mean_annual_rates(&model.jumps(&line.slice), |intensity| line.parts(model, intensity)))
+    Rates::of(curve.mean_annual_rates(&model.jumps(&line.slice), |intensity| line.terms(model, intensity)))
 }
 
 /// The rates of motions up to an intensity alone.
@@ -447,14 +337,14 @@ fn up_to(intensity: f64, line: &Line, curve: &HazardCurve, model: &dyn Fragility
     Rates::of(curve.mean_annual_rates(
         &breaks,
         |im| {
-            if im > intensity { [0.0; 9] } else { line.parts(model, im) }
+            if im > intensity { [0.0; 9] } else { line.terms(model, im) }
         },
     ))
 }
 
 fn over_bins(structure: &Structure, joint: &JointHazard, model: &dyn Fragility) -> Rates {
     Rates::of(joint.mean_annual_rates(|bin| {
-        parts(model.of_structure(structure, &measures_of(structure, bin)).limit_states())
+        terms(model.of_structure(structure, &measures_of(structure, bin)).limit_states())
     }))
 }
 

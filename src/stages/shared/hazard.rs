@@ -52,7 +52,7 @@ pub enum Hazard {
 
 /// What a cell holds, as its column says.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Cell {
+pub enum Cell {
     /// A peak in a unit of this size, m/s2 or m/s.
     Peak(Peak, f64),
     /// An annual rate at which a peak is exceeded.
@@ -67,7 +67,7 @@ pub(super) enum Cell {
 
 impl Cell {
     /// What the column of this name holds.
-    pub(super) fn of(name: &str) -> Option<Cell> {
+    pub fn of(name: &str) -> Option<Cell> {
         let of_peak =
             |&(known, peak, unit): &(&str, Peak, f64)| (known == name).then_some(Cell::Peak(peak, unit));
         let years = || {
@@ -95,7 +95,7 @@ impl Cell {
     }
 
     /// The peak (m/s2 or m/s) or the annual rate that a text says; otherwise what was expected.
-    pub(super) fn read(self, text: &str) -> Result<f64, String> {
+    pub fn read(self, text: &str) -> Result<f64, String> {
         let percent = text.strip_suffix('%');
         let parsed = percent.unwrap_or(text).trim_end().parse::<f64>().ok().filter(|value| value.is_finite());
         let Some(written) = parsed else {

@@ -6,6 +6,7 @@
 //! measures           which intensity measures are taken
 //! partitions         which part of a table a process works on, and what its file is called
 //! groups             the responses of a suite and structure; counts: annual rates counted among them
+//! hazard             tables of hazard as users have them; line: probabilities along the intensities of one
 //! uncertainty        the limits of confidence that are asked for
 //! fits, chosen_fits  the choice among those of pex and pro files, and where they hold
 //! resampled_fits     the same in each resample
@@ -18,6 +19,8 @@ pub mod chosen_fits;
 pub mod counts;
 pub mod fits;
 pub mod groups;
+pub mod hazard;
+pub mod line;
 pub mod measures;
 pub mod motions;
 pub mod partitions;
