@@ -5,7 +5,9 @@
 # On Debian 12, whose cross compiler and standard library are of one version:
 #     dpkg --add-architecture arm64 && apt-get update
 #     apt-get install rustc-web libstd-rust-web-dev:arm64 libc6:arm64 gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static
-# Usage: scripts/processors.sh [count]      two hours; count takes ten minutes: qemu prints a line for each instruction
+# Usage: scripts/processors.sh                            two hours
+#        scripts/processors.sh count                      ten minutes: qemu prints a line for each instruction
+#        scripts/processors.sh aarch64 | avx2 | nehalem   the files of this processor alone
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -67,6 +69,11 @@ same() {
     echo "the same files, words and figures on $1"
 }
 program=$(realpath "$target")
-same aarch64 qemu-aarch64-static "$program/$arm/release/rockfrag"
-same $haswell qemu-x86_64-static -cpu $haswell "$program/release/rockfrag"
-same Nehalem qemu-x86_64-static -cpu Nehalem "$program/release/rockfrag"
+for processor in ${1:-aarch64 avx2 nehalem}; do
+    case $processor in
+        aarch64) same aarch64 qemu-aarch64-static "$program/$arm/release/rockfrag" ;;
+        avx2) same $haswell qemu-x86_64-static -cpu $haswell "$program/release/rockfrag" ;;
+        nehalem) same Nehalem qemu-x86_64-static -cpu Nehalem "$program/release/rockfrag" ;;
+        *) echo "$processor: expected aarch64, avx2 or nehalem" >&2 && exit 2 ;;
+    esac
+done
