@@ -5,9 +5,9 @@ use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
 use rockfrag::stages::registry::Config;
+use rockfrag::stages::shared::hazard;
 use rockfrag::stages::shared::structures::Structures;
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
-use rockfrag::stages::evaluate::hazard;
 use rockfrag::table::paper;
 use rockfrag::table::schema::headings::Headings;
 

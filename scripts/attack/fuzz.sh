@@ -17,13 +17,13 @@ spent() {
     awk -v ticks="$(getconf CLK_TCK)" '{ print int(($14 + $15) / ticks) }' "/proc/$1/stat"
 }
 
-RUSTC_WRAPPER=$PWD/scripts/attack/counters.sh nice -n 19 cargo build --locked --manifest-path fuzz/Cargo.toml
+RUSTC_WRAPPER=$PWD/scripts/attack/counters.sh nice -n 19 cargo build --profile fuzz --locked --manifest-path fuzz/Cargo.toml
 # shellcheck disable=SC2068
 for target in ${targets[@]}; do
     mkdir -p "fuzz/corpus/$target" "fuzz/artifacts/$target"
     # 4500 MB are what docs/robustness.md states as the most; 5 minutes without an end are no busy machine.
     # shellcheck disable=SC2046
-    nice -n 19 "fuzz/target/debug/$target" "fuzz/corpus/$target" $(seeds "$target") -artifact_prefix="fuzz/artifacts/$target/" \
+    nice -n 19 "fuzz/target/fuzz/$target" "fuzz/corpus/$target" $(seeds "$target") -artifact_prefix="fuzz/artifacts/$target/" \
         -rss_limit_mb=4500 -timeout=300 -max_len=65536 -print_final_stats=1 2> "fuzz/artifacts/$target.log" &
     fuzzer=$!
     while used=$(spent "$fuzzer" 2> /dev/null) && [ "$used" -lt "$seconds" ]; do
