@@ -3,7 +3,8 @@
 use serde_json::Value;
 
 use super::text::{Label, number};
-use crate::fragility::{Case, DemandLaw, FragilityModel, Gap, Measure, Peak, Predictor};
+use crate::fragility::overturning::LEAST_EVENTS;
+use crate::fragility::{Case, DemandLaw, FragilityModel, Gap, Measure, Peak, Predictor, has_few_events};
 use crate::keyword::Keyword;
 use crate::rocking::{Outcome, Structure, TracePoint};
 use crate::statistics::FitStatus;
@@ -55,6 +56,23 @@ pub struct Summary {
     pub exceeded: Option<usize>,
     /// The curve of overturning over p PGV / (g tan alpha), if there is a row of it.
     pub curve: Option<Median>,
+}
+
+impl Summary {
+    /// Names structure and suite.
+    pub fn name(&self) -> String {
+        name_of(&self.structure.name, self.suite.as_deref())
+    }
+
+    /// How many of those that rock overturn, or do not, whichever are fewer.
+    pub fn fewer(&self) -> usize {
+        self.overturned.min(self.rocked - self.overturned)
+    }
+
+    /// Whether a curve of one measure says little, or its tests do.
+    pub fn has_few_events(&self) -> bool {
+        has_few_events(self.overturned, self.rocked, 1)
+    }
 }
 
 /// The middle of a curve of overturning, and what its tests say.
@@ -125,6 +143,10 @@ pub struct Analysis {
     pub levels: Vec<Level>,
     /// Median of the lowest overturning intensity, with limits.
     pub theta: Option<[f64; 3]>,
+    /// Its dispersion, with limits.
+    pub beta: Option<[f64; 3]>,
+    /// Motions that overturn the structure at no level, and those that do at the lowest one already.
+    pub censored: [usize; 2],
 }
 
 /// What is scaled in an analysis, with its unit.
@@ -253,6 +275,22 @@ pub struct Motion {
     pub traces: Vec<Trace>,
 }
 
+impl Motion {
+    /// The demand of the first structure, if it rocks safely.
+    pub fn demand(&self) -> Option<f64> {
+        let trace = self.traces.first().filter(|trace| trace.outcome == Outcome::SafeRocking)?;
+        let peak = trace.points.iter().fold(0.0_f64, |peak, point| peak.max(point.theta_rad.abs()));
+        Some(peak / trace.alpha_rad)
+    }
+}
+
+/// The motion that brings the first structure nearest to overturning without doing so, else the one in the middle.
+pub fn most_telling(motions: &[Motion]) -> Option<usize> {
+    let demands = motions.iter().enumerate().filter_map(|(index, motion)| Some((index, motion.demand()?)));
+    let largest = demands.max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(index, _)| index);
+    largest.or((!motions.is_empty()).then_some(motions.len() / 2))
+}
+
 /// The response of a structure over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
@@ -335,6 +373,11 @@ const NAMED: [&str; 12] = [
 ];
 
 impl ReportData {
+    /// Whether so few motions overturn a structure, or do not, that what they tell when they are scaled comes first.
+    pub fn has_few_events(&self) -> bool {
+        self.summaries.iter().any(Summary::has_few_events)
+    }
+
     /// Whether some of the rates come from this.
     pub fn has_rates_by(&self, by: By) -> bool {
         self.rates.iter().any(|rates| rates.by == by)
@@ -409,6 +452,13 @@ impl Group {
     /// Counts the responses of an outcome.
     pub fn count(&self, outcome: Outcome) -> usize {
         self.responses.iter().filter(|response| response.case.outcome == outcome).count()
+    }
+
+    /// Whether enough motions overturn the structure, and enough do not, for a curve to be drawn.
+    pub fn has_curve(&self) -> bool {
+        let [overturned, safe] =
+            [Outcome::Overturning, Outcome::SafeRocking].map(|outcome| self.count(outcome));
+        overturned.min(safe) >= LEAST_EVENTS
     }
 
     /// Finds the regression on one measure.

@@ -2,12 +2,17 @@
 
 use std::fmt::Write;
 
-use super::data::{By, File, Median, Rates, ReportData, Summary, USEFUL_R2, name_of};
+use super::data::{
+    Analysis, By, File, Median, Rates, ReportData, Summary, USEFUL_R2, measure_label, scaled_words,
+};
 use super::text::{escape, number};
-use crate::fragility::Gap;
-use crate::keyword::Keyword;
+use crate::fragility::overturning::LEAST_EVENTS;
+use crate::fragility::{Gap, Measure};
+use crate::keyword::{self, Keyword};
+use crate::rocking::Structure;
 use crate::statistics::FitStatus;
 use crate::studies::wilson_limits;
+use crate::units::G_M_S2;
 
 /// The most rows on the first page; the table of curves has all.
 const MOST_ROWS: usize = 8;
@@ -25,8 +30,18 @@ pub fn findings(html: &mut String, data: &ReportData) {
     html.push_str("<section id=\"findings\"><h2>Findings</h2>\n<h3>What was asked</h3>\n");
     let _ = writeln!(html, "<p>{}</p>", escape(&asked(data)));
     html.push_str("<h3>What came out</h3>\n");
+    let is_first = data.has_few_events();
+    if is_first {
+        lowest_intensities(html, data);
+    }
     if !data.summaries.is_empty() {
+        if is_first && !data.analyses.is_empty() {
+            html.push_str("<h4>The motions as they are</h4>\n");
+        }
         came_out(html, data);
+    }
+    if !is_first {
+        lowest_intensities(html, data);
     }
     for rates in &data.rates {
         at_site(html, rates);
@@ -62,7 +77,11 @@ fn asked(data: &ReportData) -> String {
     let of = |summary: &&Summary| {
         let structure = &summary.structure;
         let [p, alpha, eta] = [structure.p_rad_s, structure.alpha_rad, structure.eta].map(number::short);
-        format!("{} (p = {p} rad/s, α = {alpha} rad, η = {eta})", structure.name)
+        format!(
+            "{} (p = {p} rad/s, α = {alpha} rad, η = {eta}; {})",
+            structure.name,
+            structure.words_of_friction()
+        )
     };
     let (count, names) = (structures.len(), structures.iter().map(of).collect::<Vec<_>>());
     let names = match count {
@@ -111,6 +130,52 @@ fn suite_words(suite: &str) -> &'static str {
     }
 }
 
+/// From which intensity on motions overturn each structure, where they were scaled until they did.
+fn lowest_intensities(html: &mut String, data: &ReportData) {
+    let Some(Analysis { measure, levels, .. }) = data.analyses.first() else { return };
+    let [low, high] = [levels.first(), levels.last()]
+        .map(|level| number::short(level.map_or(f64::NAN, |level| level.intensity)));
+    let words = match keyword::parse(measure) {
+        Ok(im) => format!("{} ({})", measure_label(im).words(), scaled_words(measure)),
+        Err(_) => scaled_words(measure),
+    };
+    let title = format!("Lowest {words} that overturns");
+    let _ = writeln!(html, "<h4>{}</h4>", escape(&title));
+    let heads = ["structure, motions", "number", "median", "as PGV (m/s)", "dispersion β", "never overturn"];
+    let as_pgv = |analysis: &Analysis| {
+        let is_its = |summary: &&Summary| summary.name() == analysis.name;
+        let Structure { p_rad_s, alpha_rad, .. } = data.summaries.iter().find(is_its)?.structure;
+        let pgv_m_s = G_M_S2 * libm::tan(alpha_rad) / p_rad_s;
+        let theta = analysis.theta.filter(|_| analysis.measure == Measure::Im5.as_str())?;
+        Some(theta.map(|im5| im5 * pgv_m_s))
+    };
+    let number =
+        |value: Option<[f64; 3]>| value.map_or("–".to_string(), |value| number::with_limits(value, 2));
+    let row = |analysis: &Analysis| {
+        let n = analysis.levels.first().map_or(0, |level| level.n);
+        let pgv = as_pgv(analysis);
+        let Analysis { name, theta, beta, censored: [safe, _], .. } = analysis;
+        vec![name.clone(), number::count(n), number(*theta), number(pgv), number(*beta), number::count(*safe)]
+    };
+    let (first, others) = data.analyses.split_at(data.analyses.len().min(MOST_ROWS));
+    answers(html, &title, &heads, first.iter().map(row));
+    let mut notes = "Each motion was scaled until it overturned the structure (<a href=\"#figure-ida\">incremental dynamic analysis</a>); half of the motions do so at the median or below it. Limits are 95 % limits for the number of motions.".to_string();
+    if data.analyses.iter().any(|analysis| analysis.censored != [0, 0]) {
+        let _ = write!(
+            notes,
+            " Some motions overturn a structure nowhere from {low} to {high}, or at {low} already: limits are too narrow there."
+        );
+    }
+    if data.has_few_events() {
+        notes.push_str(" Few of the motions as they are overturn the structures, or few do not. So these medians say more than the curves below.");
+    }
+    if !others.is_empty() {
+        let _ =
+            write!(notes, " {} more are in <a href=\"#tables\">the tables</a>.", number::count(others.len()));
+    }
+    let _ = writeln!(html, "<p>{notes}</p>");
+}
+
 /// One row a structure and suite.
 fn came_out(html: &mut String, data: &ReportData) {
     let above = data.limit.map(|limit| format!("reach {} α or overturn", number::plain(limit)));
@@ -136,9 +201,10 @@ fn came_out(html: &mut String, data: &ReportData) {
             _ => format!("{} to {} %", percent(low), percent(limits.high)),
         });
         let (median, status) = match curve {
-            Some(Median { status, pgv_m_s, gap }) => {
-                (pgv_m_s.map_or("–".to_string(), |pgv| number::with_limits(pgv, 2)), judgement(*status, *gap))
-            }
+            Some(Median { pgv_m_s, .. }) => (
+                pgv_m_s.map_or("–".to_string(), |pgv| number::with_limits(pgv, 2)),
+                judgement(summary).unwrap_or("no test speaks against it".to_string()),
+            ),
             None => ("–".to_string(), "not fitted".to_string()),
         };
         cells.extend([median, status]);
@@ -163,17 +229,21 @@ fn came_out(html: &mut String, data: &ReportData) {
     html.push_str("<p>Shares are of those that rock. The velocity is where the curve over p PGV/(g tan α) gives one half; how likely it is at another intensity is in <a href=\"#curves\">the curves</a> and the <a href=\"#calculator\">calculator</a>.</p>\n");
 }
 
-/// What the tests of a curve say, in few words.
-fn judgement(status: FitStatus, gap: Option<Gap>) -> String {
-    match (status, gap) {
-        (FitStatus::Ok, _) => "no test speaks against it".to_string(),
+/// What speaks against a curve, in few words.
+fn judgement(summary: &Summary) -> Option<String> {
+    let Median { status, gap, .. } = summary.curve?;
+    let Summary { overturned, rocked, .. } = summary;
+    let few = || format!("{} of {} overturn", number::count(*overturned), number::count(*rocked));
+    Some(match (status, gap) {
+        _ if summary.fewer() < LEAST_EVENTS => format!("none: {}, too few", few()),
+        (FitStatus::Ok, _) if summary.has_few_events() => format!("{}, so tests say little", few()),
+        (FitStatus::Ok, _) => return None,
         (FitStatus::Misfit, Some(Gap { straight, bent })) => {
             format!("misfit: {straight:.2} where a curve that bends has {bent:.2}")
         }
         (FitStatus::FarMedian, _) => "median far outside of the data".to_string(),
-        (FitStatus::TooFewEvents, _) => "none: too few overturn".to_string(),
         (status, _) => format!("none: {}", status.as_str().replace('_', " ")),
-    }
+    })
 }
 
 fn at_site(html: &mut String, rates: &Rates) {
@@ -290,11 +360,7 @@ fn own_doubts(data: &ReportData) -> Vec<String> {
     let off: Vec<String> = data
         .summaries
         .iter()
-        .filter_map(|summary| {
-            let Median { status, gap, .. } = summary.curve?;
-            let name = name_of(&summary.structure.name, summary.suite.as_deref());
-            (status != FitStatus::Ok).then(|| format!("{name} ({})", judgement(status, gap)))
-        })
+        .filter_map(|summary| Some(format!("{} ({})", summary.name(), judgement(summary)?)))
         .collect();
     if !off.is_empty() {
         let (all, first) = (data.summaries.len(), off[..off.len().min(MOST_ROWS)].join("; "));

@@ -7,7 +7,7 @@ use crate::fragility::{DemandLaw, DemandModel, Measure, Peak, PeaksDoubt, Predic
 use crate::keyword::Keyword;
 use crate::motion::intensity::velocity;
 use crate::report::axis::{Axis, range};
-use crate::report::data::{Group, Model, Motion, Planes, ReportData, Trace};
+use crate::report::data::{Group, Model, Motion, Planes, ReportData, Trace, most_telling};
 use crate::report::drawing::Ink;
 use crate::report::figure::{Envelope, Figure, envelope};
 use crate::report::plotted::{Plotted, Series};
@@ -32,6 +32,7 @@ pub fn json(data: &ReportData, figures: &[&Figure]) -> String {
         "doubts": PeaksDoubt::ALL.map(|doubt| json!({ "words": doubt.words(), "bounds": doubt.bounds() })),
         "planes": data.groups.iter().filter_map(in_space).collect::<Vec<_>>(),
         "motions": data.motions.iter().map(motion).collect::<Vec<_>>(),
+        "motion": most_telling(&data.motions),
         "figures": figures.iter().map(|of| (of.name.clone(), figure(of))).collect::<serde_json::Map<_, _>>(),
         "inks": Ink::ALL.iter().map(|ink| (ink.variable(), json!(ink.hex()))).collect::<serde_json::Map<_, _>>(),
     });

@@ -153,6 +153,11 @@ impl Structure {
         })
     }
 
+    /// Says when it slides in place of rocking, which nothing here computes.
+    pub fn words_of_friction(&self) -> String {
+        format!("slides instead unless its friction is above {:.2}", libm::tan(self.alpha_rad))
+    }
+
     /// Returns its size and slenderness.
     pub fn block(&self) -> Block {
         Block { p_rad_s: self.p_rad_s, alpha_rad: self.alpha_rad }

@@ -125,6 +125,11 @@ table! {
         theta: Option<f64> = capacity_theta,
         theta_low: Option<f64> = capacity_theta_low,
         theta_high: Option<f64> = capacity_theta_high,
+        beta: Option<f64> = capacity_beta,
+        beta_low: Option<f64> = capacity_beta_low,
+        beta_high: Option<f64> = capacity_beta_high,
+        n_safe: usize,
+        n_below: usize,
     }
 }
 

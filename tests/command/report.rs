@@ -424,3 +424,32 @@ fn lines_fit_the_window_and_only_a_terminal_gets_weights() {
     assert_eq!(quiet.table("a\nb"), "a\nb\n");
     assert_eq!(Terminal::PLAIN.line("123456789", Weight::Faint), "123456789\n");
 }
+
+#[test]
+fn of_few_records_the_medians_of_scaled_motions_come_first() {
+    let folder = tempfile::tempdir().unwrap();
+    succeed(folder.path(), "init records");
+    let records = folder.path().join("records");
+    let mut files: Vec<_> = std::fs::read_dir(&records).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files.iter().skip(12).for_each(|file| std::fs::remove_file(file).unwrap());
+    std::fs::write(folder.path().join("structures.csv"), "name,width,height,eta\ncabinet,0.6,2.2,0.9\n")
+        .unwrap();
+    let pipeline = folder.path().join("pipeline.yaml");
+    let text = std::fs::read_to_string(&pipeline).unwrap();
+    let text = text.replace("measure: im5 }", "measure: im5, steps: 12 }");
+    std::fs::write(&pipeline, text).unwrap();
+    succeed(folder.path(), "run");
+    let page = std::fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    let place = |words: &str| page.find(words).unwrap_or_else(|| panic!("no '{words}'"));
+    assert!(place("<h4>Lowest p PGV / (g tan α) (IM5) that overturns") < place("half overturn at PGV"));
+    assert!(place("id=\"figure-ida\"") < place("id=\"figure-overturning\""));
+    assert!(!page.contains("no test speaks against it"), "tests of so few say nothing");
+    place("overturn, too few");
+    place("slides instead unless its friction is above 0.27");
+    // A curve of so few would have a band from 0 to 1.
+    let points = std::fs::read_to_string(folder.path().join("out/report/overturning.csv")).unwrap();
+    assert!(points.contains("share in a bin") && !points.contains("curve"), "{points}");
+    // The motion that is drawn is that under which most happens.
+    place("the nearest to overturning that does not");
+}

@@ -2,6 +2,7 @@
   if (!document.getElementById("motions")) return;
   const choice = document.getElementById("motion");
   choice.replaceChildren(...data.motions.map(({ name }, index) => new Option(name, index)));
+  choice.value = data.motion;
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // Sixteen bits a value.

@@ -10,9 +10,19 @@ use crate::report::text::{Label, number};
 /// The most panels, the others are in the table.
 const MOST: usize = 8;
 
+/// Draws the figure where it says more than curves of few events.
+pub fn first(data: &ReportData) -> Vec<Figure> {
+    figures(data, data.has_few_events())
+}
+
+/// Draws it elsewhere.
+pub fn after(data: &ReportData) -> Vec<Figure> {
+    figures(data, !data.has_few_events())
+}
+
 /// Draws one figure, one panel a structure and suite.
-pub fn figures(data: &ReportData) -> Vec<Figure> {
-    if data.analyses.is_empty() {
+fn figures(data: &ReportData, is_here: bool) -> Vec<Figure> {
+    if data.analyses.is_empty() || !is_here {
         return Vec::new();
     }
     let shown = &data.analyses[..data.analyses.len().min(MOST)];

@@ -23,10 +23,13 @@ struct History {
     theta_rad: Vec<f64>,
 }
 
-/// Draws the first motion under which the first structure rocks well and safely.
+/// Draws the motion under which the first structure rocks most, of those that it and its like come through.
 pub fn figures(data: &ReportData) -> Vec<Figure> {
     let Some(group) = data.groups.first() else { return Vec::new() };
-    let pairs = data.motions.iter().filter_map(|motion| Some((motion, pair(&group.structure, motion)?)));
+    let demand = |motion: &&Motion| motion.demand().filter(|demand| SHOWN.contains(demand)).unwrap_or(0.0);
+    let mut motions: Vec<&Motion> = data.motions.iter().collect();
+    motions.sort_by(|a, b| demand(b).total_cmp(&demand(a)));
+    let pairs = motions.into_iter().filter_map(|motion| Some((motion, pair(&group.structure, motion)?)));
     pairs.take(1).map(|(motion, pair)| figure(motion, &pair)).collect()
 }
 
@@ -89,8 +92,9 @@ fn figure(motion: &Motion, pair: &[History; 2]) -> Figure {
         name: "histories".to_string(),
         title: "Similarity: two responses that are one".to_string(),
         caption: format!(
-            "Rotation of {}{} and of a structure of {} times its p and {} times its tan α, under the same motion {} times as fast and {} times as strong, so that ωp/p and PGA/(g tan α) are equal; η is {} for both. Left in their own units, right in dimensionless ones: there the two differ by what α adds beyond these measures. {}",
+            "Rotation of {} in motion {}{}, and of a structure of {} times its p and {} times its tan α, under the same motion {} times as fast and {} times as strong, so that ωp/p and PGA/(g tan α) are equal; η is {} for both. Left in their own units, right in dimensionless ones: there the two differ by what α adds beyond these measures. {}",
             pair[0].structure.name,
+            motion.name,
             motion.words,
             number::plain(FASTER),
             number::short(STOCKIER),

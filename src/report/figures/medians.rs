@@ -10,6 +10,8 @@ use crate::statistics::FitStatus;
 
 /// The fewest structures that are compared.
 const FEWEST: usize = 3;
+/// How far beyond a median its limits are drawn, as a ratio.
+const FARTHEST: f64 = 5.0;
 /// The most rows, the others are in the table.
 const MOST: usize = 80;
 
@@ -29,10 +31,12 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         let rows = rows.iter().enumerate().filter(|(_, (summary, _))| is_wanted(summary));
         rows.map(|(row, (summary, median))| dots::estimate(row as f64, *median, summary.n as f64)).collect()
     };
-    let ends = rows.iter().map(|(_, median)| median[0]);
+    // Limits that are farther out run off the axis.
+    let near = |[value, low, high]: [f64; 3]| [low.max(value / FARTHEST), high.min(FARTHEST * value)];
+    let ends = rows.iter().map(|(_, median)| near(*median));
     let panel = Dots {
         title: Label::plain("half of those that rock overturn"),
-        x: Axis::log_over(ends.flat_map(|value| [value / 1.2, 1.2 * value]), Label::plain("PGV (m/s)")),
+        x: Axis::log_over(ends.flat_map(|[low, high]| [low / 1.1, 1.1 * high]), Label::plain("PGV (m/s)")),
         names: rows
             .iter()
             .map(|(summary, _)| name_of(&summary.structure.name, summary.suite.as_deref()))

@@ -48,14 +48,15 @@ pub enum Part {
 }
 
 /// All kinds of figures, in the order of the page.
-pub const ALL: [(Part, Draw); 19] = [
+pub const ALL: [(Part, Draw); 20] = [
+    (Part::Curves, analysis::first),
     (Part::Curves, overturning::figures),
     (Part::Curves, exceedance::figures),
     (Part::Curves, medians::figures),
+    (Part::Curves, analysis::after),
     (Part::Site, rates::figures),
     (Part::Checks, reliability::figures),
     (Part::Checks, validation::figures),
-    (Part::Checks, analysis::figures),
     (Part::Checks, ranking::figures),
     (Part::Responses, tree::figures),
     (Part::Responses, outcomes::figures),

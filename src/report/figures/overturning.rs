@@ -52,11 +52,14 @@ fn rocking(data: &ReportData) -> impl Iterator<Item = &Group> {
 
 fn hybrids(data: &ReportData) -> Vec<(&Group, Curve)> {
     let hybrid = |group: &Group| group.curves.iter().find(|curve| curve.index.im_y.is_some()).copied();
-    rocking(data).filter_map(|group| Some((group, hybrid(group)?))).collect()
+    let with_curve = rocking(data).filter(|group| group.has_curve());
+    with_curve.filter_map(|group| Some((group, hybrid(group)?))).collect()
 }
 
 fn over_one(data: &ReportData, measure: Measure, name: &str) -> Option<Figure> {
-    let curves: Vec<_> = rocking(data).map(|group| (group, group.curve(measure, None).copied())).collect();
+    // From fewer events the band of a curve goes from 0 to 1, and the curve says nothing.
+    let curve = |group: &&Group| group.curve(measure, None).copied().filter(|_| group.has_curve());
+    let curves: Vec<_> = rocking(data).map(|group| (group, curve(&group))).collect();
     let words = measure_label(measure).words();
     let title = format!("Overturning over {words}");
     (!curves.is_empty()).then(|| figure(&curves, measure, [name, &title, &words, "Figure 11"]))

@@ -62,7 +62,7 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
 /// Predicts the probability of overturning of each case that rocked, and tells whether it did.
 fn overturning(group: &Group) -> Forecasts {
     let curve = group.curve(Measure::Im4, Some(Measure::Im3Inverse)).or(group.curve(Measure::Im5, None));
-    let Some(curve) = curve else { return Vec::new() };
+    let Some(curve) = curve.filter(|_| group.has_curve()) else { return Vec::new() };
     let forecast = |(response, overturned): (&ReportResponse, bool)| {
         Some((normal::cdf(curve.index.at(&response.case.measures)?.value), overturned))
     };

@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use crate::fragility::demand::Form;
+use crate::fragility::overturning::LEAST_EVENTS;
 use crate::fragility::{Gap, Measure};
 use crate::keyword::Keyword;
 use crate::pipeline::console::Console;
@@ -77,7 +78,7 @@ fn median(row: &ProRow, summary: &Summary) -> Median {
     let Structure { p_rad_s, alpha_rad, .. } = summary.structure;
     let pgv_m_s = |im5: f64| im5 * G_M_S2 * libm::tan(alpha_rad) / p_rad_s;
     let limits = || Some([row.theta?, row.theta_low.unwrap_or(0.0), row.theta_high.unwrap_or(f64::INFINITY)]);
-    let there = limits().filter(|_| row.is_ok());
+    let there = limits().filter(|_| row.is_ok() && summary.fewer() >= LEAST_EVENTS);
     Median { status: row.status, pgv_m_s: there.map(|limits| limits.map(pgv_m_s)), gap: gap(row) }
 }
 
@@ -93,7 +94,7 @@ pub fn models(pex: &Path, pro: &Path, groups: &[Group]) -> Vec<Model> {
             FitsOptions { suite: None, structure: None, model: Some(model), measure: measure.map(Word) };
         let files = FitFiles { pex: pex.into(), pro: pro.into(), options };
         let form = measure.map_or(ModelForm::Bivariate.as_str(), Keyword::as_str).to_string();
-        let chosen = files.choose_each().unwrap_or_default().into_iter().flatten();
+        let chosen = files.choose_each().unwrap_or_default().into_iter().filter_map(|(_, fits)| fits.ok());
         chosen.map(move |fits| {
             let (doubt, aic) = (fits.misfit.as_ref().map(Misfit::words), fits.aic_per_case);
             let ChosenFits { suite, structure, model, .. } = fits;

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use crate::keyword::Keyword;
 use crate::motion::Suite;
-use crate::report::data::{Group, Motion, Parts, Trace};
+use crate::report::data::{Group, Motion, Parts, Trace, most_telling};
+use crate::report::number;
 use crate::rocking::{Record, Structure, trace};
 use crate::table::TableError;
 use crate::table::motion_table::MotionTable;
@@ -34,8 +35,27 @@ pub fn read(
     let runs = file.runs_of(&wanted);
     let picked = runs.par_iter().map(|(run, rows)| file.pick(*run, |motion| rows.contains(&motion.row)));
     let picked = picked.collect::<Result<Vec<Vec<motions::Motion>>, TableError>>()?;
-    let shown = picked.into_par_iter().flatten().map(|motion| shown(&motion, structures)).collect();
-    Ok((shown, parts(&file, rows / 2)?))
+    let shown: Vec<Motion> =
+        picked.into_par_iter().flatten().map(|motion| shown(&motion, structures)).collect();
+    let parts = parts(&file, rows / 2)?.or_else(|| most_telling(&shown).map(|index| whole(&shown[index])));
+    Ok((shown, parts))
+}
+
+/// A motion of which no parts are known.
+fn whole(motion: &Motion) -> Parts {
+    let demand = motion.traces.first().zip(motion.demand()).map(|(trace, demand)| {
+        format!(
+            ", in which {} rocks to {} of α: of the motions shown, the nearest to overturning that does not",
+            trace.structure,
+            number::short(demand)
+        )
+    });
+    Parts {
+        words: format!("motion {}{}{}", motion.name, motion.words, demand.unwrap_or_default()),
+        dt_s: motion.dt_s,
+        pulse_m_s2: None,
+        whole_m_s2: motion.acceleration_m_s2.clone(),
+    }
 }
 
 fn shown(motion: &motions::Motion, structures: &[Structure]) -> Motion {
@@ -59,7 +79,7 @@ fn shown(motion: &motions::Motion, structures: &[Structure]) -> Motion {
     }
 }
 
-/// The first motion from this row on that has its pulse in the same row group, or else the one of this row.
+/// The first motion from this row on that has its pulse in the same row group.
 fn parts(file: &MotionTable, row: u64) -> Result<Option<Parts>, TableError> {
     let Some((run, rows)) = file.runs_of(&[row]).pop() else { return Ok(None) };
     let (motions, row) = (file.pick(run, |_| true)?, rows[0]);
@@ -70,12 +90,11 @@ fn parts(file: &MotionTable, row: u64) -> Result<Option<Parts>, TableError> {
         pulses.find(|pulse| earthquake(pulse) == earthquake(whole))
     };
     let mut combined = motions.iter().filter(|motion| motion.row >= row && is(motion, Suite::Csgm));
-    let pair = combined.find_map(|whole| Some((whole, Some(pulse_of(whole)?))));
-    let alone = || motions.iter().find(|motion| motion.row == row).map(|whole| (whole, None));
-    Ok(pair.or_else(alone).map(|(whole, pulse)| Parts {
+    let pair = combined.find_map(|whole| Some((whole, pulse_of(whole)?)));
+    Ok(pair.map(|(whole, pulse)| Parts {
         words: format!("motion {}{}", name(whole), words(whole)),
         dt_s: whole.dt_s,
-        pulse_m_s2: pulse.map(|pulse| pulse.acceleration_m_s2.to_vec()),
+        pulse_m_s2: Some(pulse.acceleration_m_s2.to_vec()),
         whole_m_s2: whole.acceleration_m_s2.to_vec(),
     }))
 }

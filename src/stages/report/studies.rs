@@ -8,6 +8,7 @@ use crate::keyword::{self, Keyword};
 use crate::report::data::{
     Analysis, By, Hazard, Level, PeakCurve, Ranking, Rates, StateRate, Validated, name_of,
 };
+use crate::stages::shared::structures::StructureSpec;
 use crate::studies::{Target, Verdict};
 use crate::table::evaluated::{AnnualRate, RecordedCurve, RecordedHazard};
 use crate::table::ida::{Lognormal, Share};
@@ -68,10 +69,13 @@ fn rates_of(file: &Path) -> anyhow::Result<Rates> {
         probability: [Some(row.p), row.p_low, row.p_high].map(|p| p.unwrap_or(f64::NAN)),
     };
     let shown: Option<RecordedHazard> = serde_json::from_value(shown).ok();
+    let spec: Option<StructureSpec> = serde_json::from_value(parameters["structure"].clone()).ok();
+    let friction = spec.and_then(|spec| spec.structure_with_eta(1.0).ok());
+    let friction = friction.map(|structure| format!("the structure {}", structure.words_of_friction()));
     Ok(Rates {
         name: format!("{structure}; by {fits}"),
         by: if parameters.get("fits").is_none() && !parameters.is_null() { By::Surface } else { By::Fits },
-        notes: shown.iter().flat_map(|shown| shown.notes.clone()).collect(),
+        notes: shown.iter().flat_map(|shown| shown.notes.clone()).chain(friction).collect(),
         years: rows.first().map_or(f64::NAN, |row| row.years),
         states: rows.iter().map(state).collect(),
         hazard: shown.map(hazard),
@@ -101,9 +105,11 @@ pub fn analyses(shares: &Path, fragility: Option<&Path>) -> anyhow::Result<Vec<A
             continue;
         }
         let is_its = |fit: &&Lognormal| fit.suite == row.suite && fit.structure == row.structure;
-        let theta =
-            fits.iter().find(is_its).and_then(|fit| Some([fit.theta?, fit.theta_low?, fit.theta_high?]));
-        analyses.push(Analysis { name, measure: row.measure, levels: vec![level], theta });
+        let fit = fits.iter().find(is_its);
+        let theta = fit.and_then(|fit| Some([fit.theta?, fit.theta_low?, fit.theta_high?]));
+        let beta = fit.and_then(|fit| Some([fit.beta?, fit.beta_low?, fit.beta_high?]));
+        let censored = fit.map_or([0, 0], |fit| [fit.n_safe, fit.n_below]);
+        analyses.push(Analysis { name, measure: row.measure, levels: vec![level], theta, beta, censored });
     }
     Ok(analyses)
 }
