@@ -1,16 +1,21 @@
 //! Slips of units, names, files and order: each is told, with what is meant or likely, and never becomes a number in silence.
 
-use crate::common::{rockfrag, succeed};
+use std::sync::Arc;
+
+use arrow_array::{ArrayRef, Float64Array, LargeStringArray};
+
+use crate::common::{rockfrag, succeed, write};
 use crate::evaluate::run_folder;
 
 /// Files that are not quite right.
-const FILES: [(&str, &str); 19] = [
+const FILES: [(&str, &str); 20] = [
     ("semicolons.csv", "name;Width;Height\nblock;0,6;2,4\n"),
     ("capitals.csv", "\u{feff}Name,Width,HEIGHT,eta\nblock,0.6,2.4,housner\n"),
     ("comma.csv", "name,p,alpha,eta\na,\"2,0\",0.2,0.9\n"),
     ("titled.csv", "Blocks of a museum;;\nName;Width;HEIGHT\n;;\nblock;0,6;2,4\n;;\n"),
     ("capital_comma.csv", "Blocks\nName,Width,HEIGHT\nblock,\"0,6\",2.4\n"),
     ("typo.csv", "name,widht,height\nblock,0.6,2.4\n"),
+    ("weights.csv", "name,width (m),height,Weight,date\nblock,0.6,2.4,3000,2026-01-01\n"),
     ("millimetres.csv", "name,width,height\nblock,600,2400\n"),
     ("map.yaml", "frame: { p: 1, alpha: 0.15, eta: 0.92 }\n"),
     ("degrees.yaml", "- { name: a, p: 2.5, alpha: 14, eta: 0.92 }\n"),
@@ -27,7 +32,7 @@ const FILES: [(&str, &str); 19] = [
 ];
 
 /// In place of RUN: a folder of files; of FITS: the fits of a structure in it.
-const CALLS: [(&str, i32, &[&str]); 80] = [
+const CALLS: [(&str, i32, &[&str]); 81] = [
     // No structure is anyone's unless it is named.
     ("simulate --in RUN/motions.parquet", 2, &["no structure", "--width", "--structures FILE", "paper"]),
     ("ida --in RUN/motions.parquet", 2, &["no structure", "--p, --alpha and --eta"]),
@@ -105,7 +110,12 @@ const CALLS: [(&str, i32, &[&str]); 80] = [
         2,
         &["line 3, column 'Width'", "'0,6'", "a point before the decimals"],
     ),
-    ("simulate --in RUN/motions.parquet --structures typo.csv", 2, &["'widht'", "width and height"]),
+    (
+        "simulate --in RUN/motions.parquet --structures typo.csv",
+        2,
+        &["'widht'", "did you mean 'width'?", "width and height"],
+    ),
+    ("simulate --in RUN/motions.parquet --out w.parquet --structures weights.csv", 0, &["1 structure"]),
     ("simulate --in RUN/motions.parquet --structures map.yaml", 2, &["expected a list", "- { name: block"]),
     ("simulate --in RUN/motions.parquet --structures key.yaml", 2, &["'Width'", "did you mean 'width'?"]),
     (
@@ -228,6 +238,14 @@ fn a_block_is_the_same_by_flags_and_in_any_file() {
     std::fs::write(folder.path().join("a.csv"), "name;Width;Height\nb;0,6;2,4\n").unwrap();
     std::fs::write(folder.path().join("b.yaml"), "- { name: b, width: 0.6, height: 2.4, eta: housner }\n")
         .unwrap();
+    // As polars and pandas write it.
+    let columns: [(&str, ArrayRef); 4] = [
+        ("name", Arc::new(LargeStringArray::from(vec!["b"]))),
+        ("width", Arc::new(Float64Array::from(vec![0.6]))),
+        ("height (m)", Arc::new(Float64Array::from(vec![2.4]))),
+        ("eta", Arc::new(Float64Array::from(vec![None]))),
+    ];
+    write(&folder.path().join("c.parquet"), columns.to_vec());
     // 2.4 m tall, 0.6 m wide: R = sqrt(0.3^2 + 1.2^2), p = sqrt(3 g / 4 R), alpha = atan(1/4), sin^2 = 1/17.
     let p = (3.0 * 9.81 / (4.0 * (0.3_f64 * 0.3 + 1.2 * 1.2).sqrt())).sqrt();
     let (alpha, eta) = (0.25_f64.atan(), 1.0 - 1.5 / 17.0);
@@ -235,6 +253,7 @@ fn a_block_is_the_same_by_flags_and_in_any_file() {
         "--width 0.6 --height 2.4".to_string(),
         "--structures a.csv".to_string(),
         "--structures b.yaml".to_string(),
+        "--structures c.parquet".to_string(),
         format!("--p {p} --alpha {alpha} --eta {eta}"),
         format!("--p {p} --alpha {alpha} --eta housner"),
     ];

@@ -55,7 +55,8 @@ pub struct StructuresOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub parameters: StructureParameters,
-    /// YAML or CSV file of structures, or the word paper for the two of the paper
+    /// YAML, CSV or Parquet file of structures: name; p, alpha and eta, or width and height (m), for a frame also beam_mass_ratio
+    /// (beam-mass-ratio in YAML). Other columns are ignored. Or the word paper, for the two of the paper
     #[arg(long, value_name = "FILE", conflicts_with_all = ["p", "alpha", "eta", "width", "height", "beam_mass_ratio"])]
     pub structures: Option<Structures>,
 }
@@ -81,7 +82,7 @@ impl StructuresOptions {
         match &self.structures {
             Some(structures) => structures.resolve(),
             None if !self.parameters.is_given() => Err(UsageError::because(
-                "no structure; expected --width M --height M of a block; or --p, --alpha and --eta; or --structures FILE; --structures paper are both of the paper",
+                "no structure; expected --width M --height M of a block; or --p, --alpha and --eta; or --structures FILE; --structures paper for the two of the paper",
             )),
             None => Ok(vec![self.parameters.spec().structure()?]),
         }

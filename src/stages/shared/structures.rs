@@ -1,25 +1,50 @@
 //! Structures as a user names them: by p, alpha and eta, as a block, as a frame, or those of the paper.
 
+use std::collections::HashSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use polars::prelude::AnyValue;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
 
+use crate::keyword::nearest;
 use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{self, comma_slip, explain, from_scalar};
 use crate::rocking::{Structure, StructureError, housner_eta, judge};
+use crate::table::store::contents::footer;
+use crate::table::store::frame::frame_of;
+use crate::table::store::reader::read_any;
 use crate::table::store::text_file::{self, CsvText};
 
 /// The largest file: hundreds of thousands of structures.
 const MOST_MIB: u64 = 16;
 
-/// The columns of a CSV file of structures.
-const COLUMNS: [&str; 7] = ["name", "p", "alpha", "eta", "width", "height", "beam_mass_ratio"];
+/// The columns of a table of structures, and the part of a structure that each is.
+const COLUMNS: [(&str, &str); 12] = [
+    ("name", "name"),
+    ("structure", "name"),
+    ("p", "p"),
+    ("p_rad_s", "p"),
+    ("alpha", "alpha"),
+    ("alpha_rad", "alpha"),
+    ("eta", "eta"),
+    ("width", "width"),
+    ("width_m", "width"),
+    ("height", "height"),
+    ("height_m", "height"),
+    ("beam_mass_ratio", "beam_mass_ratio"),
+];
+
+/// What a file must be.
+const FILE_OF_STRUCTURES: &str = "a .yaml, .yml, .parquet or .csv file of structures";
+
+/// How like a known column a heading is that is one misspelt, from 0 to 1.
+const MISSPELT: f64 = 0.8;
 
 /// The ways to give a structure.
 pub const WAYS: &str =
@@ -163,18 +188,17 @@ impl StructureSpec {
         numbers.chain(housner).collect::<Vec<_>>().join("-")
     }
 
-    /// Takes a cell of a CSV file.
-    fn set(&mut self, column: &str, text: &str) -> Result<(), String> {
+    /// Takes the cell of a table that is this part.
+    fn set(&mut self, part: &str, text: &str) -> Result<(), String> {
         let number = || options::number(text).map_err(|expected| format!("'{text}'; {expected}"));
-        match column {
+        match part {
             "name" => self.name = Some(text.to_string()),
             "eta" => self.eta = Some(text.parse()?),
             "p" => self.p = Some(number()?),
             "alpha" => self.alpha = Some(number()?),
             "width" => self.width = Some(number()?),
             "height" => self.height = Some(number()?),
-            "beam_mass_ratio" => self.beam_mass_ratio = Some(number()?),
-            _ => return Err(format!("unknown column; expected name, with {WAYS}")),
+            _ => self.beam_mass_ratio = Some(number()?),
         }
         Ok(())
     }
@@ -202,7 +226,7 @@ pub fn words(structure: &Structure) -> String {
 
 /// When it slides in place of rocking, which nothing here computes.
 pub fn words_of_friction(structure: &Structure) -> String {
-    format!("which slides instead unless its friction is above {:.2}", libm::tan(structure.alpha_rad))
+    format!("which {}", structure.words_of_friction())
 }
 
 /// Warns of structures of a size that none has.
@@ -225,7 +249,7 @@ pub enum Structures {
     /// Those of the paper.
     #[serde(serialize_with = "paper")]
     Paper,
-    /// From a YAML or CSV file.
+    /// From a YAML, CSV or Parquet file.
     File(PathBuf),
     /// From the pipeline file itself.
     List(Vec<StructureSpec>),
@@ -331,17 +355,13 @@ fn paper<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
 fn read(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
     let failed = |what: String| UsageError::because(format!("{}: {what}", path.display()));
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let read = match extension.as_str() {
-        "yaml" | "yml" => from_yaml,
-        "csv" => from_csv,
-        _ => {
-            return Err(failed(
-                "expected a .yaml, .yml or .csv file of structures, or the word paper".to_string(),
-            ));
-        }
-    };
-    let text = text_file::text(path, MOST_MIB, "structures").map_err(|error| failed(error.to_string()))?;
-    read(&text).map_err(failed)
+    let text = || text_file::text(path, MOST_MIB, "structures").map_err(|error| failed(error.to_string()));
+    match extension.as_str() {
+        "yaml" | "yml" => from_yaml(&text()?).map_err(failed),
+        "csv" => from_csv(&text()?).map_err(failed),
+        "parquet" => from_parquet(path),
+        _ => Err(failed(format!("expected {FILE_OF_STRUCTURES}, or the word paper"))),
+    }
 }
 
 fn from_yaml(text: &str) -> Result<Vec<StructureSpec>, String> {
@@ -354,19 +374,98 @@ fn from_yaml(text: &str) -> Result<Vec<StructureSpec>, String> {
     }
 }
 
+/// The part of a structure that each column of a table is; none of one that is something else.
+fn parts(names: &[String], headings: &[String]) -> Result<Vec<Option<&'static str>>, String> {
+    let part = |name: &String| COLUMNS.iter().find(|(column, _)| column == name).map(|(_, part)| *part);
+    let parts: Vec<Option<&'static str>> = names.iter().map(part).collect();
+    let has = |part| parts.contains(&Some(part));
+    // Where a structure is given in one way, the parts of the other are not missed.
+    let of_other_way: &[&str] = match (has("p") && has("alpha"), has("width") && has("height")) {
+        (true, _) => &["width", "height", "beam_mass_ratio"],
+        (false, true) => &["p", "alpha"],
+        (false, false) => &[],
+    };
+    let missing =
+        COLUMNS.iter().map(|(_, part)| *part).filter(|part| !has(part) && !of_other_way.contains(part));
+    let missing: Vec<&str> = missing.collect();
+    let is_unknown = |(_, part): &(_, &Option<&str>)| part.is_none();
+    for ((name, heading), _) in names.iter().zip(headings).zip(&parts).filter(is_unknown) {
+        let near = nearest(name, &missing).filter(|near| strsim::jaro_winkler(name, near) > MISSPELT);
+        if let Some(near) = near {
+            return Err(format!(
+                "column '{heading}': did you mean '{near}'? expected name, with {WAYS}; take the column out if it is something else"
+            ));
+        }
+    }
+    Ok(parts)
+}
+
 fn from_csv(text: &str) -> Result<Vec<StructureSpec>, String> {
-    let is_known = |name: &str| COLUMNS.contains(&name);
+    let is_known = |name: &str| COLUMNS.iter().any(|(column, _)| *column == name);
     let table = CsvText::new(text, is_known).map_err(|error| error.to_string())?;
-    let (names, headings) = (table.names.clone(), table.headings.clone());
+    let headings = table.headings.clone();
+    let parts = parts(&table.names, &headings)?;
     let spec = |row: Result<(u64, csv::StringRecord), String>| {
         let (line, record) = row?;
-        let mut spec = StructureSpec::default();
-        for ((name, heading), cell) in names.iter().zip(&headings).zip(&record) {
-            if !cell.is_empty() {
-                spec.set(name, cell).map_err(|wrong| format!("line {line}, column '{heading}': {wrong}"))?;
-            }
-        }
-        Ok(spec)
+        let cells = headings.iter().zip(&parts).zip(record.iter().map(str::to_string));
+        spec_of(cells.map(|((heading, part), cell)| (heading.as_str(), *part, cell)))
+            .map_err(|wrong| format!("line {line}, {wrong}"))
     };
     table.rows().map(spec).collect()
+}
+
+/// The structure of a row, of which each cell has a heading and is a part, or something else.
+fn spec_of<'c>(
+    cells: impl Iterator<Item = (&'c str, Option<&'static str>, String)>,
+) -> Result<StructureSpec, String> {
+    let mut spec = StructureSpec::default();
+    for (heading, part, cell) in cells.filter(|(.., cell)| !cell.is_empty()) {
+        let Some(part) = part else { continue };
+        spec.set(part, &cell).map_err(|wrong| format!("column '{heading}': {wrong}"))?;
+    }
+    Ok(spec)
+}
+
+fn from_parquet(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
+    let failed = |what: String| UsageError::because(format!("{}: {what}", path.display()));
+    let schema = footer(path)?.schema;
+    let headings: Vec<String> = schema.fields().iter().map(|field| field.name().clone()).collect();
+    let names: Vec<String> = headings.iter().map(|heading| text_file::plain(heading)).collect();
+    let parts = parts(&names, &headings).map_err(failed)?;
+    let has = |part| parts.contains(&Some(part));
+    // Before its rows are read, which may be those of motions.
+    if !(has("p") && has("alpha") || has("width") && has("height")) {
+        return Err(failed(format!(
+            "no columns p and alpha, or width and height; expected {FILE_OF_STRUCTURES}"
+        )));
+    }
+    let columns =
+        headings.iter().zip(&parts).filter_map(|(heading, part)| Some((heading.as_str(), (*part)?)));
+    let columns: Vec<(&str, &'static str)> = columns.collect();
+    let mut specs = Vec::new();
+    for batch in read_any(path)? {
+        let frame = frame_of(&batch)?;
+        for row in 0..frame.height() {
+            let cells = columns.iter().filter_map(|&(heading, part)| {
+                let text = match frame.column(heading).ok()?.get(row).ok()? {
+                    AnyValue::Null => return None,
+                    // A frame shows fewer digits.
+                    AnyValue::Float64(number) => number.to_string(),
+                    other => other.get_str().map_or_else(|| other.to_string(), str::to_string),
+                };
+                Some((heading, Some(part), text))
+            });
+            specs.push(spec_of(cells).map_err(|wrong| failed(format!("row {}, {wrong}", row + 1)))?);
+        }
+    }
+    let mut names = HashSet::new();
+    for name in specs.iter().filter_map(|spec: &StructureSpec| spec.name.as_ref()) {
+        if !names.insert(name) {
+            // Responses, for example, or fits.
+            return Err(failed(format!(
+                "several rows of '{name}'; expected {FILE_OF_STRUCTURES}, each in one row"
+            )));
+        }
+    }
+    Ok(specs)
 }

@@ -207,7 +207,7 @@ impl Declare for Simulate {
         "motions",
         "in",
         SynthesizeMotions::OUTPUT.file,
-        "Motions to read, a file or a folder; those of other programs need motion_id, dt_s and acceleration_m_s2",
+        "Motions to read; those of other programs need motion_id, dt_s and acceleration_m_s2",
     )];
     const OUTPUT: Output = Output::file(
         "responses.parquet",

@@ -1,7 +1,7 @@
 //! Narrow tables whole, as polars frames: filtered, sorted and shown there.
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int32Type, Int64Type};
+use arrow_array::types::{Float32Type, Float64Type, Int32Type, Int64Type};
 use arrow_array::{ArrayRef, RecordBatch};
 use polars::prelude::{Column, DataFrame, DataType, IntoColumn, NamedFrom, PolarsError, Series};
 
@@ -57,7 +57,7 @@ fn data_type(kind: Kind) -> DataType {
     }
 }
 
-/// The rows of a batch; columns that are neither text, 64-bit numbers nor counts are left out.
+/// The rows of a batch; columns that are neither text, numbers nor counts are left out.
 ///
 /// # Errors
 /// If two columns have one name.
@@ -72,8 +72,14 @@ fn column(name: &str, array: &ArrayRef) -> Option<Column> {
     let name = name.into();
     let series = if let Some(text) = array.as_string_opt::<i32>() {
         Series::new(name, text.iter().collect::<Vec<_>>())
+    } else if let Some(text) = array.as_string_opt::<i64>() {
+        Series::new(name, text.iter().collect::<Vec<_>>())
+    } else if let Some(text) = array.as_string_view_opt() {
+        Series::new(name, text.iter().collect::<Vec<_>>())
     } else if let Some(numbers) = array.as_primitive_opt::<Float64Type>() {
         Series::new(name, numbers.iter().collect::<Vec<_>>())
+    } else if let Some(numbers) = array.as_primitive_opt::<Float32Type>() {
+        Series::new(name, numbers.iter().map(|number| number.map(f64::from)).collect::<Vec<_>>())
     } else if let Some(counts) = array.as_primitive_opt::<Int64Type>() {
         Series::new(name, counts.iter().collect::<Vec<_>>())
     } else {
