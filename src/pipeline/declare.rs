@@ -95,6 +95,10 @@ enum Unnamed {
     Nothing,
 }
 
+/// Tables that may be a folder of partitions, and what the help of their flags says of it.
+const PARTED: [&str; 2] = ["motions.parquet", "responses.parquet"];
+const OF_PARTITIONS: &str = "; a file, or a folder of partitions";
+
 impl Input {
     /// Declares an input that is `file` unless a flag names another.
     pub const fn file(
@@ -159,13 +163,21 @@ impl Input {
         }
     }
 
+    fn help(&self) -> String {
+        let parts = match self.unnamed {
+            Unnamed::File(file) if PARTED.contains(&file) => OF_PARTITIONS,
+            _ => "",
+        };
+        format!("{}{parts}", self.about)
+    }
+
     fn arg(&self) -> Arg {
         let (kind, default) = match self.unnamed {
             Unnamed::File(file) | Unnamed::FileIfThere(file) => ("FILE", Some(file)),
             Unnamed::Folder(folder) => ("DIR", Some(folder)),
             Unnamed::FileOfRun(_) | Unnamed::Nothing => ("FILE", None),
         };
-        let arg = Arg::new(self.flag).long(self.flag).value_name(kind).help(self.about);
+        let arg = Arg::new(self.flag).long(self.flag).value_name(kind).help(self.help());
         let arg = arg.value_parser(value_parser!(PathBuf)).default_value(default).display_order(0);
         arg.help_heading(self.heading).conflicts_with_all(self.excludes)
     }
@@ -435,7 +447,7 @@ fn new_command<S: Declare>() -> Command {
 /// A stage as a program that calls it needs to know it: what goes in, the options with types and defaults, what comes out.
 pub fn description<S: Declare>() -> Value {
     let input =
-        |input: &Input| json!({ "role": input.role, "required": input.is_required(), "help": input.about });
+        |input: &Input| json!({ "role": input.role, "required": input.is_required(), "help": input.help() });
     let declared =
         |arg: &&Arg| *arg.get_id() != OUT && S::INPUTS.iter().all(|input| input.flag != *arg.get_id());
     let option = |arg: &Arg| {
