@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::Float32Type;
-use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, StringArray};
+use arrow_array::{Array, ArrayRef, RecordBatch, StringArray};
 use arrow_schema::{DataType, Field, FieldRef};
 use polars::prelude::{Column, DataFrame};
 use serde_json::{Value, json};
@@ -141,15 +140,6 @@ fn readable(array: &ArrayRef) -> ArrayRef {
         return Arc::new(
             lists.iter().map(|list| list.map(|list| length(list.len()))).collect::<StringArray>(),
         );
-    }
-    if let Some(numbers) = array.as_primitive_opt::<Float32Type>() {
-        return Arc::new(numbers.iter().map(|number| number.map(f64::from)).collect::<Float64Array>());
-    }
-    if let Some(text) = array.as_string_opt::<i64>() {
-        return Arc::new(text.iter().collect::<StringArray>());
-    }
-    if let Some(text) = array.as_string_view_opt() {
-        return Arc::new(text.iter().collect::<StringArray>());
     }
     array.clone()
 }

@@ -29,6 +29,7 @@ use crate::pipeline::stage::{Stage, content_of_role, places};
 use crate::pipeline::terminal::Terminal;
 use crate::studies::Forecasts;
 use crate::table::TableError;
+use crate::table::fits::GroupKey;
 use crate::table::row::WriteRow;
 use crate::table::schema::headings::Headings;
 use crate::table::store::contents::recorded;
@@ -44,8 +45,8 @@ pub struct ValidateOptions {
     #[command(flatten)]
     #[serde(flatten)]
     pub fits: FitsOptions,
-    /// CSV file of a hazard of one peak, as of evaluate: counts the annual rates in the motions themselves, weighted to have its
-    /// rates, beside those of the fits
+    /// CSV file of a hazard curve of PGA or PGV, as evaluate reads it: the annual rates are also counted in the motions, weighted to
+    /// follow the curve, for comparison with those of the fits
     #[arg(long, value_name = "FILE", help_heading = "Hazard of a site")]
     pub hazard: Option<PathBuf>,
     /// Which headings of the file of --hazard stand for which columns, as pga_g=PGA,annual_rate_of_exceedance=rate
@@ -80,26 +81,32 @@ pub struct Validate {
 }
 
 /// The fits of each suite and structure that are asked for, or why there are none.
-struct Choice(Vec<anyhow::Result<ChosenFits>>);
+struct Choice(Vec<(GroupKey, anyhow::Result<ChosenFits>)>);
 
 impl Choice {
     fn usable(&self) -> impl Iterator<Item = &ChosenFits> {
-        self.0.iter().filter_map(|fits| fits.as_ref().ok())
+        self.0.iter().filter_map(|(_, fits)| fits.as_ref().ok())
     }
 
     fn warn(&self, groups: &[Group], console: &Console) {
-        for why in self.0.iter().filter_map(|fits| fits.as_ref().err()) {
-            console.warn(&format!("left out: {why}"));
-        }
-        for group in groups {
-            let mut of_structure = self.usable().filter(|fits| fits.structure == group.structure).peekable();
+        let named = |suite: &Option<String>, structure: &str| {
+            suite.as_ref().map_or(structure.to_string(), |suite| format!("{suite}, {structure}"))
+        };
+        let unusable = self.0.iter().filter_map(|((suite, structure), fits)| {
+            Some((format!("fits left out, {}", fits.as_ref().err()?), named(suite, structure)))
+        });
+        let of_group = |group: &Group| {
+            let Group { suite, structure, eta, .. } = group;
+            let mut of_structure = self.usable().filter(|fits| fits.structure == *structure).peekable();
+            let name = named(suite, structure);
             if of_structure.peek().is_none() {
-                console.warn(&format!("no fits of structure '{}': left out", group.structure));
-            } else if of_structure.any(|fits| fits.is_other_eta(group.eta)) {
-                let Group { structure, eta, .. } = group;
-                console.warn(&format!("{structure} has eta {eta:.4}, and fits that depend on another one"));
+                return Some(("responses left out, since no fits are of their structure".to_string(), name));
             }
-        }
+            let is_other = of_structure.any(|fits| fits.is_other_eta(*eta));
+            is_other
+                .then(|| ("these have another eta than their fits".to_string(), format!("{name} ({eta:.4})")))
+        };
+        console.warn_of_many(unusable.chain(groups.iter().filter_map(of_group)));
     }
 }
 
@@ -114,7 +121,7 @@ impl Validate {
                 recorded(&path)?.and_then(|recorded| recorded.provenance.inputs.get(RESPONSES_ROLE).cloned());
             if fitted_to.as_ref() == responses {
                 console.warn(&format!(
-                    "{} was fitted to these responses, {}: that they agree proves nothing",
+                    "{} was fitted to these responses, {}: agreement proves nothing",
                     path.display(),
                     self.input.name().display()
                 ));
@@ -184,34 +191,24 @@ impl Validate {
 
     /// Warns where the curves have a rate that a count excludes.
     fn warn_of_rates(rows: &[ValidationRow], console: &Console) {
-        for row in rows.iter().filter(|row| row.rates_agree() == Some(false)) {
+        let off = rows.iter().filter(|row| row.rates_agree() == Some(false)).map(|row| {
             let [counted, low, high, expected] =
                 [row.counted_rate, row.counted_rate_low, row.counted_rate_high, row.expected_rate]
                     .map(|rate| rate.unwrap_or(f64::NAN));
-            console.warn(&format!(
-                "{}: the curves of {} have an annual rate of {} of {expected:.1e} at these motions, a count of them {counted:.1e} \
-                 ({low:.1e} to {high:.1e})",
-                row.structure,
-                row.fits_suite.as_deref().unwrap_or("no suite"),
-                row.event.as_str(),
-            ));
-        }
+            let rates = format!("{expected:.1e}, counted {counted:.1e} ({low:.1e} to {high:.1e})");
+            let reason = "the curves have other annual rates at these motions than a count of them";
+            (reason.to_string(), format!("{} {rates}", subject(row)))
+        });
+        console.warn_of_many(off);
     }
 
-    /// Warns if something happened which the curves hold impossible.
-    fn warn_of_impossible(&self, rows: &[ValidationRow], console: &Console) {
-        for ValidationRow { structure, fits_suite, event, n, impossible, .. } in rows {
-            if *impossible > 0 {
-                console.warn(&format!(
-                    "{structure}: what happened in {} of {} cases has a probability of 0 by the curves of {} \
-                     for {}: the log score is minus infinity (null)",
-                    impossible,
-                    n,
-                    fits_suite.as_deref().unwrap_or("no suite"),
-                    event.as_str()
-                ));
-            }
-        }
+    /// Warns if something happened to which the curves give no chance.
+    fn warn_of_impossible(rows: &[ValidationRow], console: &Console) {
+        let impossible = rows.iter().filter(|row| row.impossible > 0).map(|row| {
+            let reason = "what happened has a probability of 0 by the curves, and the log score is minus infinity (null)";
+            (reason.to_string(), format!("{} in {} of {} cases", subject(row), row.impossible, row.n))
+        });
+        console.warn_of_many(impossible);
     }
 }
 
@@ -247,6 +244,15 @@ impl Declare for Validate {
         let (input, out) = (files.input(RESPONSES_ROLE)?, files.out(Self::OUTPUT.file)?);
         Ok(Validate { fits: FitFiles::if_asked(&options.fits, files)?, options: options.clone(), input, out })
     }
+}
+
+/// What a row is about.
+fn subject(ValidationRow { structure, fits_suite, event, .. }: &ValidationRow) -> String {
+    format!(
+        "{structure}, {} by the curves of {}",
+        event.as_str(),
+        fits_suite.as_deref().unwrap_or("no suite")
+    )
 }
 
 const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
@@ -366,7 +372,7 @@ impl Stage for Validate {
                 self.input.name().display()
             );
         }
-        self.warn_of_impossible(&rows, console);
+        Self::warn_of_impossible(&rows, console);
         Self::warn_of_rates(&rows, console);
         ValidationRow::write(&rows, self.out.clone(), provenance)?;
         let rates: Vec<bool> = rows.iter().filter_map(ValidationRow::rates_agree).collect();

@@ -143,3 +143,46 @@ fn rates_from_few_overturnings_say_that_their_limits_are_too_narrow() {
     let told = ask(&format!("{fits} --p 2.5 --alpha 0.2"));
     assert!(!told.contains("annual rates of so few"), "{told}");
 }
+
+/// Blocks of a CSV file, from those that fall often to those that never do.
+fn many_structures(folder: &std::path::Path) {
+    let row = |n: usize| format!("b{n},{:.3},1.5,0.9\n", 0.15 + 0.04 * n as f64);
+    let rows = (0..30).map(row).collect::<String>();
+    std::fs::write(folder.join("s.csv"), format!("name,width,height,eta\n{rows}")).unwrap();
+}
+
+#[test]
+fn fits_that_are_left_out_are_summed_up_and_all_named_in_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    many_structures(folder.path());
+    succeed(folder.path(), "sample-scenarios --mw 7 --re 5,10 --samples 12 --seed 5");
+    succeed(folder.path(), "synthesize-motions --suite csgm --dt 0.01");
+    succeed(folder.path(), "simulate --structures s.csv");
+    succeed(folder.path(), "fit-pex");
+    succeed(folder.path(), "fit-pro --estimator firth");
+    succeed(folder.path(), "sample-scenarios --mw 7.5 --re 5 --samples 8 --seed 6 --out other.parquet");
+    succeed(
+        folder.path(),
+        "synthesize-motions --suite csgm --dt 0.01 --in other.parquet --out others.parquet",
+    );
+    succeed(folder.path(), "simulate --structures s.csv --in others.parquet --out r.parquet");
+    let told = succeed(folder.path(), "validate --in r.parquet --model univariate");
+    let lines: Vec<&str> = told.lines().filter(|line| line.contains("left out")).collect();
+    assert!((1..=6).contains(&lines.len()), "{told}");
+    let summed = lines.iter().find(|line| line.contains("responses left out")).unwrap();
+    assert!(summed.contains(" more (rockfrag inspect FILE names all)"), "{summed}");
+    // A file that is up to date tells it again, and for programs in full.
+    let output = rockfrag(folder.path())
+        .args("validate --in r.parquet --model univariate --format json".split_whitespace())
+        .output()
+        .unwrap();
+    assert!(String::from_utf8_lossy(&output.stderr).contains("warning: responses left out"));
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let all = json["warnings"].as_array().unwrap().iter().map(|warning| warning.as_str().unwrap());
+    let all = all.filter(|warning| warning.contains("left out")).collect::<String>();
+    let rows = json["rows"].as_array().unwrap();
+    let is_there = |name: &str| rows.iter().any(|row| row["structure"] == name);
+    for name in (0..30).map(|n| format!("b{n}")).filter(|name| !is_there(name)) {
+        assert!(all.contains(&format!("csgm, {name}")), "{name}: {all}");
+    }
+}

@@ -95,7 +95,7 @@ pub fn note_fits_of_run(options: &FitsOptions, structure: Option<&Structure>, co
     if let (None, Some(flags)) = (options.model, flags_of_run())
         && structure.is_none_or(are_of)
     {
-        console.note(&format!("there are fits in out; {flags} takes them in place of the universal surface"));
+        console.note(&format!("there are fits in out; {flags} uses them instead of the universal surface"));
     }
 }
 
@@ -190,17 +190,21 @@ impl FitFiles {
         self.join(&files, group)
     }
 
-    /// The fits of each suite and structure that the options leave, in the order of the file; each one, or why there is none.
+    /// The suites and structures that the options leave, in the order of the file, with the fits of each, or why there are none.
     ///
     /// # Errors
     /// If a file cannot be read, or nothing is left.
-    pub fn choose_each(&self) -> anyhow::Result<Vec<anyhow::Result<ChosenFits>>> {
+    pub fn choose_each(&self) -> anyhow::Result<Vec<(GroupKey, anyhow::Result<ChosenFits>)>> {
         let files = self.read()?;
         let asked = self.asked(&files);
         if asked.is_empty() {
             return Err(self.open_choice(&files, asked));
         }
-        Ok(asked.iter().map(|group| self.join(&files, group)).collect())
+        let joined = |group: GroupKey| {
+            let fits = self.join(&files, &group);
+            (group, fits)
+        };
+        Ok(asked.into_iter().map(joined).collect())
     }
 
     /// Takes the fits of the structure of this name, where none is named and there are some.
