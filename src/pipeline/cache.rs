@@ -52,13 +52,27 @@ pub fn freshness(stage: &dyn Stage, planned: &Provenance) -> Freshness {
     Freshness::UpToDate
 }
 
-/// Runs a stage by itself unless it is up to date, and says which. It waits for a run of a whole pipeline in its folder.
+/// Runs a stage by itself unless it is up to date, and says which; of files that are, it tells the warnings again. It waits for a
+/// run of a whole pipeline in its folder.
 ///
 /// # Errors
 /// Those of the stage.
 pub fn run_alone(stage: &dyn Stage, may: May, console: &Console) -> anyhow::Result<()> {
     let _lock = lock_folder(stage, Access::Shared, console)?;
-    run(stage, may, console)
+    for warning in warnings_if_fresh(stage, may, console)? {
+        console.tell(&shortened(&warning));
+    }
+    Ok(())
+}
+
+/// The most letters of a warning that is told again.
+const MOST_LETTERS: usize = 600;
+
+fn shortened(warning: &str) -> String {
+    match warning.char_indices().nth(MOST_LETTERS) {
+        Some((end, _)) => format!("{}... (rockfrag inspect has all of it)", &warning[..end]),
+        None => warning.to_string(),
+    }
 }
 
 /// What else may happen in a folder while a run writes into it.
@@ -95,11 +109,26 @@ pub fn lock_folder(stage: &dyn Stage, access: Access, console: &Console) -> anyh
     Ok(Some(file))
 }
 
-/// Runs a stage unless it is up to date, and says which.
+/// Runs a stage unless it is up to date, and says which, and how many warnings its files have.
 ///
 /// # Errors
 /// Those of the stage.
 pub fn run(stage: &dyn Stage, may: May, console: &Console) -> anyhow::Result<()> {
+    let warnings = warnings_if_fresh(stage, may, console)?;
+    if let (Some(first), Some(file)) = (warnings.first(), stage.outputs().pop()) {
+        let count = warnings.len();
+        match &console.expected {
+            // Nobody needs to see them.
+            Some(_) => warnings.iter().for_each(|warning| console.tell(warning)),
+            None if count == 1 => console.tell(&shortened(first)),
+            None => console.note(&format!("{count} warnings as before: rockfrag inspect {}", file.display())),
+        }
+    }
+    Ok(())
+}
+
+/// Runs a stage unless it is up to date; then, the warnings of its files.
+fn warnings_if_fresh(stage: &dyn Stage, may: May, console: &Console) -> anyhow::Result<Vec<String>> {
     let planned = stage.provenance()?;
     let partition = Partition::among(&planned.parameters);
     let name =
@@ -107,7 +136,8 @@ pub fn run(stage: &dyn Stage, may: May, console: &Console) -> anyhow::Result<()>
     replace::check(stage, &planned, may.overwrite)?;
     if !may.force && freshness(stage, &planned) == Freshness::UpToDate {
         console.stage(name, "up to date", Weight::Faint);
-        return Ok(());
+        let recorded = stage.outputs().last().map(|path| stage.recorded(path)).transpose()?.flatten();
+        return Ok(recorded.map_or(Vec::new(), |recorded| recorded.provenance.warnings.all()));
     }
     for path in stage.outputs() {
         let folder = folder_of(&path);
@@ -125,7 +155,7 @@ pub fn run(stage: &dyn Stage, may: May, console: &Console) -> anyhow::Result<()>
     if !summary.is_empty() {
         console.stage(name, &format!("{summary} in {took_s:.2} s"), Weight::Plain);
     }
-    Ok(())
+    Ok(Vec::new())
 }
 
 /// Says so where a stage that puts together all that it reads is given a partition.

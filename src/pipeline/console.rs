@@ -78,6 +78,15 @@ impl Progress {
     }
 }
 
+/// What each reason holds for.
+fn by_reason(warnings: impl Iterator<Item = (String, String)>) -> BTreeMap<String, Vec<String>> {
+    let mut by_reason: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (reason, what) in warnings {
+        by_reason.entry(reason).or_default().push(what);
+    }
+    by_reason
+}
+
 /// Writes a line to stderr in one call, so that lines of several processes do not mix.
 pub fn say(line: &str) {
     // Where nobody listens, nothing is lost.
@@ -97,6 +106,11 @@ impl Console {
     /// A warning: a result to be looked at twice.
     pub fn warn(&self, warning: &str) {
         self.warnings.push(warning);
+        self.tell(warning);
+    }
+
+    /// Tells a warning that the file has already, or has in more words.
+    pub fn tell(&self, warning: &str) {
         match (&self.expected, &self.listener) {
             (Some(expected), _) => expected.push(warning),
             (None, Some(listener)) => listener.warn(warning),
@@ -113,12 +127,24 @@ impl Console {
 
     /// A line for each reason, with all that it holds for.
     pub fn warn_each(&self, warnings: impl Iterator<Item = (String, String)>) {
-        let mut by_reason: BTreeMap<String, Vec<String>> = BTreeMap::new();
-        for (reason, what) in warnings {
-            by_reason.entry(reason).or_default().push(what);
-        }
-        for (reason, what) in by_reason {
+        for (reason, what) in by_reason(warnings) {
             self.warn(&format!("{reason}: {}", what.join(", ")));
+        }
+    }
+
+    /// The same where they may be many: the file keeps all names, and the first ones are told.
+    pub fn warn_of_many(&self, warnings: impl Iterator<Item = (String, String)>) {
+        for (reason, what) in by_reason(warnings) {
+            let all = what.join("; ");
+            self.warnings.push(&format!("{reason}: {all}"));
+            match what.len() {
+                ..=MOST_GROUPS => self.tell(&format!("{reason}: {all}")),
+                count => self.tell(&format!(
+                    "{reason}: {}; and {} more (rockfrag inspect FILE names all)",
+                    what[..NAMED].join("; "),
+                    count - NAMED
+                )),
+            }
         }
     }
 

@@ -177,3 +177,23 @@ fn warnings_of_many_structures_are_told_together() {
         assert!(told.contains("; and "), "{told}");
     }
 }
+
+#[test]
+fn warnings_of_files_that_are_up_to_date_are_told_again() {
+    let (folder, file) = small_pipeline();
+    // Another limit state is not the paper's, of which warnings are expected.
+    std::fs::write(&file, SMALL_PIPELINE.replace("fit-pex: {}", "fit-pex: { limit-state: 0.2 }")).unwrap();
+    let first = succeed(folder.path(), "run");
+    let of_pro = |told: &str| -> Vec<String> {
+        told.lines().filter(|line| line.starts_with("warning: ")).map(str::to_string).collect()
+    };
+    let all = of_pro(&first);
+    assert!(all.len() > 4, "{first}");
+    let again = succeed(folder.path(), "run");
+    assert!(again.contains(" warnings as before: rockfrag inspect out/pro.parquet"), "{again}");
+    assert!(again.lines().count() <= first.lines().count(), "{again}");
+    let alone = succeed(folder.path(), "fit-pro --in out/responses.parquet --config pipeline.yaml");
+    assert!(alone.contains("up to date"), "{alone}");
+    let told = of_pro(&alone);
+    assert!(!told.is_empty() && told.iter().all(|warning| all.contains(warning)), "{alone}");
+}
