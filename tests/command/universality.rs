@@ -55,3 +55,28 @@ fn a_run_ends_with_it_if_the_file_says_so() {
     assert!(text.contains("the curve of electrical-equipment on 1 other structures"), "{text}");
     assert!(folder.path().join("out/universality.pooled.parquet").exists());
 }
+
+#[test]
+fn structures_without_levels_are_told_of_in_ranges() {
+    let folder = tempfile::tempdir().unwrap();
+    let row = |n: usize| format!("b{n},{:.3},{:.3},housner\n", 0.2 + 0.02 * n as f64, 0.9 + 0.05 * n as f64);
+    let rows = (0..10).map(row).collect::<String>();
+    std::fs::write(folder.path().join("s.csv"), format!("name,width,height,eta\n{rows}")).unwrap();
+    succeed(folder.path(), "sample-scenarios --mw 6.5,7 --re 5,10 --samples 30 --seed 5");
+    succeed(folder.path(), "synthesize-motions --suite csgm --dt 0.01");
+    succeed(folder.path(), "simulate --structures s.csv");
+    let output = rockfrag(folder.path()).args(["universality", "--reference", "b4"]).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for parameter in ["p", "alpha", "eta"] {
+        let ranges = text.lines().filter(|line| line.starts_with(&format!("  {parameter} ")));
+        let ranges = ranges.filter(|line| line.contains(" to ")).count();
+        assert!(ranges >= 6, "{parameter}: {text}");
+    }
+    // Too few motions for the curves of the reference: the way out names those that have them, if any.
+    succeed(folder.path(), "sample-scenarios --mw 6 --re 15 --samples 3 --out few.parquet");
+    succeed(folder.path(), "synthesize-motions --suite csgm --dt 0.01 --in few.parquet --out f.parquet");
+    succeed(folder.path(), "simulate --structures s.csv --in f.parquet --out r.parquet");
+    let call = "universality --in r.parquet --out u.parquet --reference b4";
+    fail(folder.path(), call, 1, &["too_few_events", "no structure has all curves"]);
+}

@@ -147,7 +147,7 @@ impl Universality {
                 return Err(UsageError::because(format!(
                     "{file}: no structure '{}'; expected --reference with one of {}",
                     self.options.reference,
-                    known.join(", ")
+                    first_of(&known)
                 )));
             };
             let own = &groups[reference].cases;
@@ -173,8 +173,30 @@ impl Universality {
         Ok(suites)
     }
 
-    /// Holds all structures against the reference.
-    fn judge(&self, suite: &SuiteOfGroups, event: Event) -> anyhow::Result<Judgement> {
+    /// Which structures have all curves, in place of a reference that has not.
+    fn other_references(&self, suites: &[SuiteOfGroups]) -> String {
+        let has_curves = |structure: &str| {
+            let is_there = |suite: &SuiteOfGroups, event| {
+                let place = suite.groups.iter().position(|group| group.structure == structure);
+                place.is_some_and(|place| self.subject(event).fit(&suite.cases[place]).is_ok())
+            };
+            suites.iter().all(|suite| Event::BRANCHES.iter().all(|event| is_there(suite, *event)))
+        };
+        let names = suites[0].groups.iter().map(|group| group.structure.as_str());
+        match names.filter(|name| has_curves(name)).collect::<Vec<_>>()[..] {
+            [] => "no structure has all curves: expected responses to more motions, or to stronger ones"
+                .to_string(),
+            ref known => format!("expected --reference with one of {}", first_of(known)),
+        }
+    }
+
+    /// Compares all structures with the reference.
+    fn judge(
+        &self,
+        suites: &[SuiteOfGroups],
+        suite: &SuiteOfGroups,
+        event: Event,
+    ) -> anyhow::Result<Judgement> {
         let (subject, reference) = (self.subject(event), suite.groups[suite.reference]);
         let pooled = pooled(&subject, suite);
         let row = |(k, group): (usize, &&Group)| {
@@ -182,11 +204,12 @@ impl Universality {
                 Transfer::new(&subject, &suite.cases[suite.reference], &suite.cases[k], &suite.cells)
                     .map_err(|status| {
                         anyhow::anyhow!(
-                            "{}: the curve of {} of '{}' is {}; choose another --reference",
+                            "{}: the curve of {} of '{}' is {}; {}",
                             self.input.name().display(),
                             event.as_str(),
                             reference.structure,
-                            status.as_str()
+                            status.as_str(),
+                            self.other_references(suites)
                         )
                     })?;
             let log_score = |fit: &Result<PooledFit, FitStatus>| fit.as_ref().ok()?.log_scores[k];
@@ -224,6 +247,13 @@ impl Universality {
         }
         Ok(Judgement { rows: rows.into_iter().flatten().collect(), coefficients, missing })
     }
+}
+
+/// The first of these names, and how many more there are.
+fn first_of(names: &[&str]) -> String {
+    const MOST: usize = 20;
+    let first = names[..names.len().min(MOST)].join(", ");
+    if names.len() > MOST { format!("{first} and {} more", names.len() - MOST) } else { first }
 }
 
 fn cells(placed: &[Placed]) -> Vec<usize> {
@@ -305,7 +335,7 @@ impl Stage for Universality {
         for suite in &suites {
             structures = structures.max(suite.groups.len());
             for event in Event::BRANCHES {
-                let Judgement { rows, coefficients, missing } = self.judge(suite, event)?;
+                let Judgement { rows, coefficients, missing } = self.judge(&suites, suite, event)?;
                 console.warn_each(missing.into_iter());
                 writer.append(&UniversalityRow::batch(&rows)?)?;
                 pooled_writer.append(&PooledRow::batch(&coefficients)?)?;

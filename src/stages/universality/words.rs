@@ -11,8 +11,9 @@ use crate::table::row::ReadRow;
 use crate::table::store::source::with_part;
 use crate::table::universality::{PooledRow, UniversalityRow};
 
-/// More levels of a parameter than this are no grid.
+/// More levels of a parameter than this are gathered in so many ranges.
 const MOST_LEVELS: usize = 8;
+const RANGES: usize = 4;
 /// More names than this are no help.
 const MOST_NAMES: usize = 20;
 /// A number of each row, under its name.
@@ -94,18 +95,20 @@ impl Judged<'_> {
     fn write_levels(&self, text: &mut String) -> anyhow::Result<()> {
         writeln!(
             text,
-            "  {:12} {:>6} {:>6} {:>6} {:>8}  {:>10} {:>10} {:>10}",
+            "  {:20} {:>6} {:>6} {:>6} {:>8}  {:>10} {:>10} {:>10}",
             "at", "holds", "bends", "fails", "too few", "mean error", "worst over", "under"
         )?;
         for (name, parameter) in PARAMETERS {
             let mut levels: Vec<f64> = self.rows.iter().map(|row| parameter(row)).collect();
             levels.sort_by(f64::total_cmp);
             levels.dedup();
-            if levels.len() < 2 || levels.len() > MOST_LEVELS {
+            if levels.len() < 2 {
                 continue;
             }
-            for level in levels {
-                let at = |row: &&&UniversalityRow| parameter(row) == level;
+            let in_range = if levels.len() > MOST_LEVELS { levels.len().div_ceil(RANGES) } else { 1 };
+            for range in levels.chunks(in_range) {
+                let (low, high) = (range[0], range[range.len() - 1]);
+                let at = |row: &&&UniversalityRow| (low..=high).contains(&parameter(row));
                 let here = Judged { event: self.event, rows: self.rows.iter().filter(at).copied().collect() };
                 let [holds, bends, fails, few] = here.counts();
                 let largest = |number: fn(&UniversalityRow) -> Option<f64>| {
@@ -116,10 +119,12 @@ impl Judged<'_> {
                 let cells = [mean, largest(|row| row.worst_over), largest(|row| row.worst_under)];
                 let [mean, over, under] =
                     cells.map(|cell| if cell.is_nan() { "-".to_string() } else { format!("{cell:.3}") });
-                let at = format!("{name} {level}");
+                let [from, to] = [low, high].map(|level| (level * 1000.0).round() / 1000.0);
+                let at =
+                    if low == high { format!("{name} {from}") } else { format!("{name} {from} to {to}") };
                 writeln!(
                     text,
-                    "  {at:12} {holds:>6} {bends:>6} {fails:>6} {few:>8}  {mean:>10} {over:>10} {under:>10}"
+                    "  {at:20} {holds:>6} {bends:>6} {fails:>6} {few:>8}  {mean:>10} {over:>10} {under:>10}"
                 )?;
             }
         }
