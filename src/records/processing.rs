@@ -194,7 +194,7 @@ impl Processing {
             return Err(Refusal {
                 file: record.source.path,
                 found: Some(row.map_or(found.clone(), |name| format!("{name}: {found}"))),
-                reason: format!("{reason} (--accept-implausible imports it all the same)"),
+                reason: format!("{reason} (--accept-implausible imports it anyway)"),
             });
         }
         if let Some(dt_s) = self.resample_s {

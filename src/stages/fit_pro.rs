@@ -194,7 +194,7 @@ fn doubt(row: &GroupCurve) -> Option<(OfGroup, String)> {
         FitStatus::Misfit => {
             let bent = match (&curve.bent, curve.bent_answer()) {
                 (None, _) => "",
-                (_, Some(_)) => "; evaluate takes the bent ones",
+                (_, Some(_)) => "; evaluate uses the bent ones",
                 (_, None) => "; the bent ones do no better on cells left out",
             };
             Some((
@@ -263,9 +263,9 @@ fn few_events(row: &GroupCurve) -> OfGroup {
     let GroupCurve { curve, .. } = row;
     let few = curve.events.min(curve.n - curve.events);
     let of_probabilities = match few < LEAST_EVENTS {
-        true => "probabilities say little more than a limit, and theirs may miss the truth",
+        true => "a probability is little more than a bound, and its own limits may miss the truth",
         false => {
-            "limits of one probability by evaluate --limits delta hold what they say among these motions, those of annual rates do not"
+            "evaluate --limits delta gives sound limits of one probability among these motions, but not of annual rates"
         }
     };
     let words = format!(

@@ -69,7 +69,7 @@ fn three_commands_of_a_site_answer() {
     // Fits that lie in the folder of the run are not passed over without a word.
     let flags = "--pex out/pex.parquet --pro out/pro.parquet";
     let said = succeed(folder.path(), "evaluate --structures structures.csv --pga 0.5 --pgv 0.6");
-    assert!(said.contains(&format!("there are fits in out; {flags} takes them")), "{said}");
+    assert!(said.contains(&format!("there are fits in out; {flags} uses them")), "{said}");
     let said =
         succeed(folder.path(), "evaluate --model universal --structures structures.csv --pga 0.5 --pgv 0.6");
     assert!(!said.contains("there are fits in out"), "{said}");

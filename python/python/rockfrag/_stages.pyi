@@ -32,7 +32,7 @@ def compare_paper(
     pro : Arrow table or path
         Overturning curves, from fit_pro.
     responses : Arrow table or path
-        Responses that both were fitted to, from simulate.
+        Responses that both were fitted to, from simulate; a file, or a folder of partitions.
     spread : path, optional
         CSV file of our numbers over seeds, from seed_spread [default: the built-in one, for the paper's
         set-up].
@@ -140,7 +140,7 @@ def evaluate(
         Overturning curves, from fit_pro.
     intensities : Arrow table or path, optional
         Parquet or CSV table with pga_m_s2 (in CSV also pga_g) and pgv_m_s and, where they vary,
-        p_rad_s, alpha_rad, eta, tp_s and tm_s; its other columns go along.
+        p_rad_s, alpha_rad, eta, tp_s and tm_s; other columns are copied to the output.
     structure : str, optional
         Structure of the fits [default: the only one].
     model : {'univariate', 'bivariate', 'paper', 'universal'}, optional
@@ -438,7 +438,7 @@ def fit_pex(
     Parameters
     ----------
     responses : Arrow table or path
-        Responses to read.
+        Responses to read; a file, or a folder of partitions.
     limit_state : float, default 0.1
         Limit state of P_ex: a demand |theta|max / alpha.
     transition : float or {'found'}, default 'found'
@@ -539,7 +539,7 @@ def fit_pro(
     Parameters
     ----------
     responses : Arrow table or path
-        Responses to read.
+        Responses to read; a file, or a folder of partitions.
     event : {'overturning', 'rocking'}, default 'overturning'
         Event of the probability: overturning (given rocking) or rocking (of all motions).
     pairs : str or iterable of str, default 'im4:im3_inv'
@@ -650,7 +650,7 @@ def ida(
     Parameters
     ----------
     motions : Arrow table or path
-        Motions to read, as in simulate.
+        Motions to read, as in simulate; a file, or a folder of partitions.
     measure : {'scale', 'pga', 'pgv', 'im4', 'im5', 'im6'}, default 'scale'
         Intensity to scan: scale (the factor on the motion), pga (g), pgv (m/s), im4, im5 or im6 (Eq.
         13, for each structure).
@@ -933,7 +933,7 @@ def rank_ims(
     Parameters
     ----------
     responses : Arrow table or path
-        Responses to read.
+        Responses to read; a file, or a folder of partitions.
     motions : Arrow table or path, optional
         Motions of these responses, for further measures.
     limit_state : float, default 0.1
@@ -1217,8 +1217,8 @@ def simulate(
     Parameters
     ----------
     motions : Arrow table or path
-        Motions to read, a file or a folder; those of other programs need motion_id, dt_s and
-        acceleration_m_s2.
+        Motions to read; those of other programs need motion_id, dt_s and acceleration_m_s2; a file, or
+        a folder of partitions.
     p : float, optional
         Frequency parameter of the structure, rad/s.
     alpha : float, optional
@@ -1466,7 +1466,7 @@ def universality(
     Parameters
     ----------
     responses : Arrow table or path
-        Responses of all structures to read.
+        Responses of all structures to read; a file, or a folder of partitions.
     reference : str, default 'electrical-equipment'
         Structure whose curves to transfer to all others.
     model : {'univariate', 'bivariate'}, default 'bivariate'
@@ -1562,7 +1562,7 @@ def validate(
     Parameters
     ----------
     responses : Arrow table or path
-        Responses to test the fits on, such as those to records.
+        Responses to test the fits on, such as those to records; a file, or a folder of partitions.
     pex : Arrow table or path, optional
         Demand fits, from fit_pex.
     pro : Arrow table or path, optional

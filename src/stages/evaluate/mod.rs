@@ -115,7 +115,7 @@ impl Declare for Evaluate {
             INTENSITIES,
             "in",
             "",
-            "Parquet or CSV table with pga_m_s2 (in CSV also pga_g) and pgv_m_s and, where they vary, p_rad_s, alpha_rad, eta, tp_s and tm_s; its other columns go along",
+            "Parquet or CSV table with pga_m_s2 (in CSV also pga_g) and pgv_m_s and, where they vary, p_rad_s, alpha_rad, eta, tp_s and tm_s; other columns are copied to the output",
         )
         .if_named()
         .under("Many intensities")
@@ -314,7 +314,7 @@ impl Stage for Evaluate {
         let structure = given.then(|| answers.structure(&self.structure)).transpose()?;
         if let Some(others) = &self.of_others {
             console.note(&format!(
-                "{PEX} and {PRO} here are fits of {others}, not of this structure, so the universal surface answers; --pex {PEX} --pro {PRO} asks them",
+                "{PEX} and {PRO} here are fits of {others}, not of this structure, so the universal surface answers; --pex {PEX} --pro {PRO} takes these fits anyway",
                 PEX = FitPex::OUTPUT.file, PRO = FitPro::OUTPUT.file
             ));
         } else if self.fits.is_none() {

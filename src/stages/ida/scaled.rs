@@ -97,8 +97,9 @@ impl Ida {
                 let Case { path, structure, motion, .. } = &cases[point.case];
                 let refused = |problem: RecordError| {
                     let id = &motion.motion_id;
-                    let problem =
-                        format!("motion '{id}', scaled: {problem}; mend it, or scale less by a lower --to");
+                    let problem = format!(
+                        "motion '{id}', scaled: {problem}; correct it, or scale less by a lower --to"
+                    );
                     value_error(path, motion, problem)
                 };
                 Ok(Problem { structure, record: Record::new(samples, motion.dt_s).map_err(refused)? })

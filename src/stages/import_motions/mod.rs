@@ -204,7 +204,7 @@ impl Stage for ImportMotions {
         writer.made_otherwise(incomplete(provenance, &refused));
         writer.finish()?;
         let others = match self.out.path() {
-            Some(_) => "are imported; with --keep-going the command succeeds all the same",
+            Some(_) => "are imported; with --keep-going the command succeeds anyway",
             None => "come with --keep-going",
         };
         bail!(

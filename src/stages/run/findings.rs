@@ -73,7 +73,7 @@ fn of_paper(rows: &[PaperRow]) -> Option<String> {
 /// How likely each structure is to overturn at one intensity, under the last suite, the one with high frequencies in the paper.
 fn of_fits(pex: PathBuf, pro: PathBuf) -> anyhow::Result<Option<String>> {
     let files = FitFiles { pex: pex.into(), pro: pro.into(), options: FitsOptions::default() };
-    let fits: Vec<ChosenFits> = files.choose_each()?.into_iter().flatten().collect();
+    let fits: Vec<ChosenFits> = files.choose_each()?.into_iter().filter_map(|(_, fits)| fits.ok()).collect();
     let Some(suite) = fits.last().map(|fits| fits.suite.clone()) else { return Ok(None) };
     let of_suite = fits.iter().filter(|fits| fits.suite == suite);
     let words: Vec<String> = of_suite.filter_map(probability).take(MOST_STRUCTURES).collect();
