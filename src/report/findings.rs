@@ -366,8 +366,14 @@ fn own_doubts(data: &ReportData) -> Vec<String> {
         let (all, first) = (data.summaries.len(), off[..off.len().min(MOST_ROWS)].join("; "));
         let more = off.len().saturating_sub(MOST_ROWS);
         let more = if more > 0 { format!("; and {more} more") } else { String::new() };
+        let advice = match data.has_few_events() && data.analyses.is_empty() {
+            true => {
+                " Where few motions overturn a structure, or few do not, rockfrag ida says more: it scales each motion until it does."
+            }
+            false => "",
+        };
         doubts.push(format!(
-            "The curve over p PGV/(g tan α) is missing or doubtful for {} of {all}: {first}{more}.",
+            "The curve over p PGV/(g tan α) is missing or doubtful for {} of {all}: {first}{more}.{advice}",
             off.len()
         ));
     }
