@@ -14,7 +14,10 @@ use pyo3::types::{PyCapsule, PyDict, PyList, PySlice, PyTuple};
 use pyo3_arrow::error::PyArrowResult;
 use pyo3_arrow::ffi::{ArrayIterator, to_schema_pycapsule, to_stream_pycapsule};
 use pyo3_arrow::input::AnyRecordBatch;
+use rockfrag::table::TableError;
 use rockfrag::table::store::source::{MemoryTable, MemoryTables, Source};
+
+use crate::error::to_python;
 
 /// A table that a stage has made.
 ///
@@ -363,6 +366,19 @@ pub fn source(name: &str, given: &Bound<PyAny>) -> PyResult<Source> {
         );
         return Err(PyTypeError::new_err(message));
     }
-    let (batches, schema) = given.extract::<AnyRecordBatch>()?.into_table()?.into_inner();
+    let table = given.extract::<AnyRecordBatch>().map_err(|error| no_table(given.py(), name, error))?;
+    let (batches, schema) = table.into_table()?.into_inner();
     Ok(Source::Memory(Arc::new(MemoryTable { name: name.into(), schema, batches })))
+}
+
+/// What a library says of a table that it cannot give as Arrow: pyarrow of a column of pandas whose values are of several types.
+fn no_table(py: Python, name: &str, error: PyErr) -> PyErr {
+    let words = error.value(py).getattr("args").and_then(|words| words.extract::<Vec<String>>());
+    match words {
+        Ok(words) if error.is_instance_of::<PyValueError>(py) || error.is_instance_of::<PyTypeError>(py) => {
+            let message = format!("{}; expected values of one type in each column", words.join("; "));
+            to_python(py, &TableError::Read { path: name.into(), message }.into())
+        }
+        _ => error,
+    }
 }

@@ -189,3 +189,86 @@ def test_a_hazard_is_a_file_or_its_columns():
     hazard = rockfrag.datasets.load_hazard()
     file = pathlib.Path(rockfrag.datasets.__file__).with_name("hazard.csv")
     assert ask(file) == ask(hazard) == ask(pl.DataFrame(hazard)) == ask(pd.DataFrame(hazard))
+
+
+SHORT = {"motion_id": ["a", "b"], "dt_s": [0.01, 0.01], "acceleration_m_s2": [[0, 3, -4, 0], [0, 5, 0]]}
+ONE = {"p": 2.0, "alpha": 0.3, "eta": 0.9}
+
+
+def as_categories(table, *columns):
+    """A table with categorical columns, by each library."""
+    frame, arrow = table.to_pandas().astype(dict.fromkeys(columns, "category")), table.to_pyarrow()
+    for name in columns:
+        arrow = arrow.set_column(arrow.column_names.index(name), name, arrow[name].dictionary_encode())
+    polar = table.to_polars().with_columns(pl.col(*columns).cast(pl.Categorical))
+    yield from {"polars": polar, "pandas": frame, "pyarrow": arrow}.items()
+
+
+def test_categories_are_text(out, tmp_path):
+    responses = rockfrag.simulate(out / "motions.parquet", structures=STRUCTURES)
+    motions = rockfrag.synthesize_motions(out / "scenarios.parquet", dt=0.01, suite="csgm")
+    expected = rockfrag.simulate(motions, structures=STRUCTURES)
+    for name, table in as_categories(motions, "suite"):
+        assert rockfrag.simulate(table, structures=STRUCTURES) == expected, name
+    fit = lambda table: rockfrag.fit_pro(table)["theta"].tolist()
+    with pytest.warns(rockfrag.RockfragWarning):
+        plain = fit(responses)
+        for name, table in as_categories(responses, "suite", "structure", "outcome"):
+            assert np.array_equal(fit(table), plain, equal_nan=True), name
+            file = tmp_path / f"{name}.parquet"
+            pq.write_table(table.to_arrow() if name == "polars" else pa.table(table) if name == "pyarrow" else pa.Table.from_pandas(table), file)
+            assert np.array_equal(fit(file), plain, equal_nan=True), file
+
+
+@pytest.mark.filterwarnings("ignore:.*samples; a motion that rises:rockfrag.RockfragWarning")
+@pytest.mark.parametrize("kind", [pl.Int8, pl.Int16, pl.Int32, pl.Int64, pl.UInt8, pl.UInt16, pl.UInt32, pl.Float32])
+def test_whole_numbers_of_any_width_are_numbers(kind):
+    motions = pl.DataFrame({**SHORT, "acceleration_m_s2": [[0, 3, 4, 0], [0, 5, 0]], "motion_id": [1, 2]})
+    expected = rockfrag.simulate(motions.cast({"acceleration_m_s2": pl.List(pl.Float64)}), **ONE)
+    samples = motions.cast({"acceleration_m_s2": pl.List(kind)})
+    ids = samples.cast({"motion_id": kind}) if kind.is_integer() else samples
+    for given in [samples, samples.to_arrow(), samples.to_pandas(), ids]:
+        assert rockfrag.simulate(given, **ONE) == expected, type(given)
+    answers = rockfrag.evaluate(intensities=pl.DataFrame({"pga_m_s2": [3, 5], "pgv_m_s": [1, 1], "site": [7, 8]}).cast(kind), width=0.5, height=2.0)
+    assert answers["pga_m_s2"].tolist() == [3.0, 5.0] and answers["site"].tolist() == [7, 8]
+
+
+@pytest.mark.filterwarnings("ignore:.*samples; a motion that rises:rockfrag.RockfragWarning")
+def test_numbers_and_categories_of_duckdb():
+    motions = duckdb.sql("select 'a' as motion_id, 0.01 as dt_s, [0.0, 3.5, -4.0] as acceleration_m_s2, 'csgm'::enum('csgm', 'pulse') as suite")
+    expected = pl.DataFrame({"motion_id": ["a"], "dt_s": [0.01], "acceleration_m_s2": [[0.0, 3.5, -4.0]], "suite": ["csgm"]})
+    assert rockfrag.simulate(motions, **ONE) == rockfrag.simulate(expected, **ONE)
+
+
+def test_categories_go_along_with_answers():
+    intensities = pl.DataFrame({"pga_m_s2": [3.0, 5.0], "pgv_m_s": [0.3, 0.6], "site": ["a", "b"]})
+    ask = lambda table: rockfrag.evaluate(intensities=table, width=0.5, height=2.0)
+    plain = ask(intensities)
+    for table in [intensities.cast({"site": pl.Categorical}), intensities.to_pandas().astype({"site": "category"})]:
+        assert ask(table) == plain and plain["site"].tolist() == ["a", "b"]
+
+
+@pytest.mark.parametrize(
+    "column, found, expected",
+    [
+        ({"dt_s": ["0.01", "0.01"]}, "text", "64-bit floating-point numbers in s"),
+        ({"dt_s": pd.Categorical(["0.01", "0.01"])}, "text", "64-bit floating-point numbers in s"),
+        ({"suite": [1, 2]}, "Int64", "text"),
+        ({"motion_id": np.array([1, 2], dtype=np.uint64)}, "UInt64", "64-bit integers"),
+        ({"acceleration_m_s2": [["0"], ["1"]]}, "lists of text", "lists of floating-point numbers in m/s2"),
+    ],
+)
+def test_what_cannot_be_converted_says_what_it_is_and_what_to_do(column, found, expected):
+    (name,) = column
+    pandas = pd.DataFrame({**SHORT, **column})
+    message = f"motions: column '{name}' is {found}; expected {expected} .*: convert it$"
+    for table in [pandas, pl.DataFrame(pandas), pa.Table.from_pandas(pandas)]:
+        with pytest.raises(rockfrag.TableError, match=message):
+            rockfrag.simulate(table, **ONE)
+
+
+@pytest.mark.parametrize("column", [{"dt_s": [0.01, "x"]}, {"acceleration_m_s2": [[0.0, "x"], [1.0]]}])
+def test_a_column_of_pandas_of_several_types_is_named(column):
+    (name,) = column
+    with pytest.raises(rockfrag.TableError, match=f"motions: .*'x'.*column {name}.*; expected values of one type in each column"):
+        rockfrag.simulate(pd.DataFrame({**SHORT, **column}), **ONE)

@@ -10,6 +10,7 @@ use polars::prelude::{Column, DataFrame};
 use serde_json::{Value, json};
 
 use crate::pipeline::terminal::{Terminal, Weight};
+use crate::table::store::columns::spelt_out;
 use crate::table::store::contents::footer;
 use crate::table::store::contents::recorded;
 use crate::table::store::footer::Footer;
@@ -125,6 +126,7 @@ fn first_rows(path: &Path, rows: usize) -> anyhow::Result<DataFrame> {
 
 /// A column as a frame holds it.
 fn readable(array: &ArrayRef) -> ArrayRef {
+    let array = &spelt_out(array);
     let length = |length: usize| format!("{length} samples");
     if let Some(lists) = array.as_list_opt::<i32>() {
         return Arc::new(

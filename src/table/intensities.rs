@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::Float32Type;
-use arrow_array::{ArrayRef, Float64Array, StringArray, new_null_array};
+use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray, new_null_array};
 use arrow_schema::{DataType, Field};
 
 use super::TableError;
 use super::evaluated::EVALUATED;
 use super::schema::headings::Headings;
 use super::schema::{self, Column};
-use super::store::columns::Columns;
+use super::store::columns::{Columns, spelt_out, whole_numbers};
 use super::store::reader::{Batch, Batches, OpenTable, expect_columns};
 use super::store::source::Source;
 use crate::motion::IntensityMeasures;
@@ -162,9 +162,12 @@ impl Iterator for IntensityBatches {
 /// A column that goes along with an answer, as it stands there; none that the answer has itself, and no lists.
 fn kept(field: &Field) -> Option<Field> {
     let kind = match field.data_type() {
+        DataType::Dictionary(_, of) => return kept(&field.clone().with_data_type(of.as_ref().clone())),
         DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => DataType::Utf8,
         DataType::Float64 | DataType::Float32 => DataType::Float64,
-        kind @ (DataType::Int64 | DataType::Int32) => kind.clone(),
+        DataType::Int32 => DataType::Int32,
+        DataType::UInt64 => return None,
+        kind if kind.is_integer() => DataType::Int64,
         _ => return None,
     };
     let is_of_answer = EVALUATED.columns.iter().any(|column| column.name == field.name());
@@ -174,13 +177,15 @@ fn kept(field: &Field) -> Option<Field> {
 /// An array in one of the types in which columns are kept, if it can be.
 fn plain(array: &ArrayRef) -> ArrayRef {
     match array.data_type() {
+        DataType::Dictionary(..) => plain(&spelt_out(array)),
+        DataType::Int32 => array.clone(),
         DataType::LargeUtf8 => Arc::new(array.as_string::<i64>().iter().collect::<StringArray>()),
         DataType::Utf8View => Arc::new(array.as_string_view().iter().collect::<StringArray>()),
         DataType::Float32 => {
             let numbers = array.as_primitive::<Float32Type>().iter();
             Arc::new(numbers.map(|number| number.map(f64::from)).collect::<Float64Array>())
         }
-        _ => array.clone(),
+        _ => whole_numbers(array).map_or(array.clone(), |numbers| Arc::new(Int64Array::from(numbers))),
     }
 }
 

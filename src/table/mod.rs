@@ -123,7 +123,7 @@ pub enum TableError {
         expected: String,
     },
     /// A column has a type that cannot serve.
-    #[error("{}: column '{column}' is {found}; expected {expected}", path.display())]
+    #[error("{}: column '{column}' is {found}; expected {expected}: convert it", path.display())]
     WrongType {
         path: PathBuf,
         column: String,

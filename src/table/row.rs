@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use arrow_array::{ArrayRef, RecordBatch};
-use arrow_schema::{ArrowError, Schema, SchemaRef};
+use arrow_schema::{ArrowError, DataType, Schema, SchemaRef};
 
 use super::TableError;
 use super::schema::{self, Table};
@@ -88,7 +88,10 @@ pub fn schema_of(table: &Table, by_name: bool) -> SchemaRef {
 /// Whether motions go by name rather than by number.
 pub fn ids_are_names(schema: &Schema) -> bool {
     let field = schema.field_with_name(schema::motion_id.name);
-    field.is_ok_and(|field| !field.data_type().is_numeric())
+    field.is_ok_and(|field| match field.data_type() {
+        DataType::Dictionary(_, of) => !of.is_numeric(),
+        other => !other.is_numeric(),
+    })
 }
 
 /// Declares a table as the struct of its rows: `pub struct Row as TABLE = "name" by "stage" { field: Type, ... }`. A field has

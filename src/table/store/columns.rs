@@ -3,8 +3,14 @@
 use std::path::Path;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float32Type, Float64Type, Int32Type, Int64Type};
-use arrow_array::{Array, ArrayRef, Float32Array, Float64Array, RecordBatch};
+use arrow_array::types::{
+    Decimal128Type, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type,
+    UInt16Type, UInt32Type,
+};
+use arrow_array::{
+    Array, ArrayRef, Float32Array, Float64Array, RecordBatch, StringViewArray, make_array, new_null_array,
+};
+use arrow_data::transform::MutableArrayData;
 use arrow_schema::DataType;
 
 use crate::motion::LONGEST_MOTION;
@@ -84,7 +90,7 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// If the column is missing or of another type, or a value is null, NaN or infinite.
     pub fn numbers(&self, column: &Column) -> Result<Vec<f64>, TableError> {
-        let values = self.numbers_of(self.required(column)?, column)?;
+        let values = self.numbers_of(&self.required(column)?, column)?;
         values
             .into_iter()
             .enumerate()
@@ -103,10 +109,10 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// If the column has another type or a value is infinite.
     pub fn optional_numbers(&self, column: &Column) -> Result<Vec<Option<f64>>, TableError> {
-        let Some(array) = self.batch.column_by_name(column.name) else {
+        let Some(array) = self.column(column) else {
             return Ok(vec![None; self.rows()]);
         };
-        let values = self.numbers_of(array, column)?;
+        let values = self.numbers_of(&array, column)?;
         let check = |(row, value): (usize, Option<f64>)| match value {
             Some(value) if value.is_infinite() => {
                 Err(self.value_error(row, column, &format!("{value}; expected a finite number or null")))
@@ -138,7 +144,7 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// If the column is missing or of another type, or a value is null.
     pub fn integers(&self, column: &Column) -> Result<Vec<i64>, TableError> {
-        let values = self.integers_of(self.required(column)?, column)?;
+        let values = self.integers_of(&self.required(column)?, column)?;
         self.none_missing(values, column, "a whole number")
     }
 
@@ -147,8 +153,8 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// If the column has another type.
     pub fn optional_integers(&self, column: &Column) -> Result<Vec<Option<i64>>, TableError> {
-        match self.batch.column_by_name(column.name) {
-            Some(array) => self.integers_of(array, column),
+        match self.column(column) {
+            Some(array) => self.integers_of(&array, column),
             None => Ok(vec![None; self.rows()]),
         }
     }
@@ -178,7 +184,7 @@ impl<'a> Columns<'a> {
         column: &Column,
         make: impl FnMut(&str) -> Result<T, String>,
     ) -> Result<Vec<T>, TableError> {
-        let values = self.text_of(self.required(column)?, column, make)?;
+        let values = self.text_of(&self.required(column)?, column, make)?;
         self.none_missing(values, column, "text")
     }
 
@@ -191,8 +197,8 @@ impl<'a> Columns<'a> {
         column: &Column,
         make: impl FnMut(&str) -> Result<T, String>,
     ) -> Result<Vec<Option<T>>, TableError> {
-        match self.batch.column_by_name(column.name) {
-            Some(array) => self.text_of(array, column, make),
+        match self.column(column) {
+            Some(array) => self.text_of(&array, column, make),
             None => Ok((0..self.rows()).map(|_| None).collect()),
         }
     }
@@ -211,9 +217,9 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// If the column has another type.
     pub fn optional_labels(&self, column: &Column) -> Result<Vec<Option<String>>, TableError> {
-        match self.batch.column_by_name(column.name) {
-            Some(array) if matches!(array.data_type(), DataType::Int64 | DataType::Int32) => {
-                let numbers = self.integers_of(array, column)?.into_iter();
+        match self.column(column) {
+            Some(array) if array.data_type().is_integer() => {
+                let numbers = self.integers_of(&array, column)?.into_iter();
                 Ok(numbers.map(|number| number.map(|number| number.to_string())).collect())
             }
             _ => self.optional_text(column),
@@ -225,13 +231,13 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// If the column has another type, or a number is null or not finite.
     pub fn optional_lists(&self, column: &Column) -> Result<Vec<Option<Vec<f64>>>, TableError> {
-        let Some(array) = self.batch.column_by_name(column.name) else {
+        let Some(array) = self.column(column) else {
             return Ok(vec![None; self.rows()]);
         };
         let list: Box<dyn Fn(usize) -> ArrayRef> = match array.data_type() {
             DataType::List(_) => Box::new(|row| array.as_list::<i32>().value(row)),
             DataType::LargeList(_) => Box::new(|row| array.as_list::<i64>().value(row)),
-            _ => return Err(self.wrong_type(array, column)),
+            _ => return Err(self.wrong_type(&array, column)),
         };
         let each = |row| {
             if array.is_null(row) {
@@ -251,14 +257,14 @@ impl<'a> Columns<'a> {
     /// The samples of each row.
     ///
     /// # Errors
-    /// If the column is missing or no list of f32 or f64, a list or one of its samples is null, or a list too long.
+    /// If the column is missing or no list of numbers, a list or one of its samples is null, or a list too long.
     pub fn samples(&self, column: &Column) -> Result<Vec<Samples>, TableError> {
         let array = self.required(column)?;
         let list: Box<dyn Fn(usize) -> ArrayRef> = match array.data_type() {
             DataType::List(_) => Box::new(|row| array.as_list::<i32>().value(row)),
             DataType::LargeList(_) => Box::new(|row| array.as_list::<i64>().value(row)),
             DataType::FixedSizeList(..) => Box::new(|row| array.as_fixed_size_list().value(row)),
-            _ => return Err(self.wrong_type(array, column)),
+            _ => return Err(self.wrong_type(&array, column)),
         };
         let each = |row| {
             if array.is_null(row) {
@@ -276,7 +282,12 @@ impl<'a> Columns<'a> {
             match samples.data_type() {
                 DataType::Float32 => Ok(Samples::Float32(samples.as_primitive().clone())),
                 DataType::Float64 => Ok(Samples::Float64(samples.as_primitive().clone())),
-                _ => Err(self.wrong_type(array, column)),
+                kind if kind.is_numeric() => {
+                    let numbers =
+                        self.numbers_of(&samples, column).map_err(|_| self.wrong_type(&array, column))?;
+                    Ok(Samples::Float64(numbers.into_iter().flatten().collect::<Vec<f64>>().into()))
+                }
+                _ => Err(self.wrong_type(&array, column)),
             }
         };
         (0..self.rows()).map(each).collect()
@@ -284,8 +295,7 @@ impl<'a> Columns<'a> {
 
     /// Whether the batch has this column as text.
     pub fn is_text(&self, column: &Column) -> bool {
-        let array = self.batch.column_by_name(column.name);
-        array.is_some_and(|array| is_text(array.data_type()))
+        self.column(column).is_some_and(|array| is_text(array.data_type()))
     }
 
     /// A value of a row of this batch that cannot be used.
@@ -298,8 +308,12 @@ impl<'a> Columns<'a> {
         }
     }
 
-    fn required(&self, column: &Column) -> Result<&'a ArrayRef, TableError> {
-        self.batch.column_by_name(column.name).ok_or_else(|| missing(self.path, column))
+    fn required(&self, column: &Column) -> Result<ArrayRef, TableError> {
+        self.column(column).ok_or_else(|| missing(self.path, column))
+    }
+
+    fn column(&self, column: &Column) -> Option<ArrayRef> {
+        self.batch.column_by_name(column.name).map(spelt_out)
     }
 
     fn numbers_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<f64>>, TableError> {
@@ -308,22 +322,19 @@ impl<'a> Columns<'a> {
             DataType::Float32 => {
                 Ok(array.as_primitive::<Float32Type>().iter().map(|value| value.map(f64::from)).collect())
             }
-            DataType::Int64 | DataType::Int32 => {
-                Ok(self.integers_of(array, column)?.into_iter().map(|value| Some(value? as f64)).collect())
+            // What DuckDB makes of a number that is written out.
+            DataType::Decimal128(_, scale @ 0..) => {
+                let unit: f64 = (0..*scale).map(|_| 10.0).product();
+                let values = array.as_primitive::<Decimal128Type>().iter();
+                Ok(values.map(|value| Some(value? as f64 / unit)).collect())
             }
             DataType::Null => Ok(vec![None; array.len()]),
-            _ => Err(self.wrong_type(array, column)),
+            _ => Ok(self.integers_of(array, column)?.into_iter().map(|value| Some(value? as f64)).collect()),
         }
     }
 
     fn integers_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<i64>>, TableError> {
-        match array.data_type() {
-            DataType::Int64 => Ok(array.as_primitive::<Int64Type>().iter().collect()),
-            DataType::Int32 => {
-                Ok(array.as_primitive::<Int32Type>().iter().map(|value| value.map(i64::from)).collect())
-            }
-            _ => Err(self.wrong_type(array, column)),
-        }
+        whole_numbers(array).ok_or_else(|| self.wrong_type(array, column))
     }
 
     fn text_of<T>(
@@ -365,9 +376,63 @@ impl<'a> Columns<'a> {
         TableError::WrongType {
             path: self.path.to_path_buf(),
             column: column.name.to_string(),
-            found: array.data_type().to_string(),
+            found: words_of(array.data_type()),
             expected: column.words(),
         }
+    }
+}
+
+/// The same array; of a dictionary (a categorical column) the values that it stands for.
+pub fn spelt_out(array: &ArrayRef) -> ArrayRef {
+    let Some(dictionary) = array.as_any_dictionary_opt() else { return array.clone() };
+    let values = dictionary.values();
+    if values.is_empty() {
+        return new_null_array(values.data_type(), array.len());
+    }
+    // Rows share a text, however long it is and however many they are.
+    let values = match values.data_type() {
+        DataType::Utf8 => StringViewArray::from(values.as_string::<i32>()).to_data(),
+        DataType::LargeUtf8 => StringViewArray::from(values.as_string::<i64>()).to_data(),
+        _ => values.to_data(),
+    };
+    let mut rows = MutableArrayData::new(vec![&values], true, array.len());
+    let each = |(row, key): (usize, usize)| match array.is_null(row) {
+        true => rows.try_extend_nulls(1),
+        false => rows.try_extend(0, key, key + 1),
+    };
+    match dictionary.normalized_keys().into_iter().enumerate().try_for_each(each) {
+        Ok(()) => make_array(rows.freeze()),
+        Err(_) => array.clone(),
+    }
+}
+
+/// Whole numbers of any width but of 64 bits without a sign, which may not fit.
+pub fn whole_numbers(array: &ArrayRef) -> Option<Vec<Option<i64>>> {
+    macro_rules! of {
+        ($($kind:ident: $type:ty),*) => {
+            match array.data_type() {
+                $(DataType::$kind => {
+                    let values = array.as_primitive::<$type>().iter();
+                    Some(values.map(|value| value.map(i64::from)).collect())
+                })*
+                _ => None,
+            }
+        };
+    }
+    of!(
+        Int64: Int64Type, Int32: Int32Type, Int16: Int16Type, Int8: Int8Type, UInt32: UInt32Type, UInt16: UInt16Type,
+        UInt8: UInt8Type
+    )
+}
+
+/// A type of Arrow, in words.
+fn words_of(data_type: &DataType) -> String {
+    match data_type {
+        text if is_text(text) => "text".to_string(),
+        DataType::List(item) | DataType::LargeList(item) | DataType::FixedSizeList(item, _) => {
+            format!("lists of {}", words_of(item.data_type()))
+        }
+        other => other.to_string(),
     }
 }
 
