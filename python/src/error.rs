@@ -1,5 +1,7 @@
 //! What went wrong, as the exception of `rockfrag.errors` that says so.
 
+use std::io;
+
 use pyo3::prelude::*;
 use rockfrag::pipeline::UsageError;
 use rockfrag::table::TableError;
@@ -35,11 +37,11 @@ pub fn to_python(py: Python, error: &anyhow::Error) -> PyErr {
 }
 
 fn class_of(error: &anyhow::Error) -> &'static str {
-    if error.chain().any(|cause| cause.is::<UsageError>()) {
-        return "OptionError";
-    }
+    let of_system = error.chain().find_map(|cause| cause.downcast_ref::<io::Error>());
     match error.chain().find_map(|cause| cause.downcast_ref::<TableError>()) {
         Some(TableError::Missing { .. }) => "MissingFileError",
+        _ if of_system.is_some_and(|error| error.kind() == io::ErrorKind::NotFound) => "MissingFileError",
+        _ if error.chain().any(|cause| cause.is::<UsageError>()) => "OptionError",
         Some(
             TableError::Io { .. }
             | TableError::NotParquet { .. }
@@ -48,6 +50,7 @@ fn class_of(error: &anyhow::Error) -> &'static str {
             | TableError::Write { .. },
         ) => "FileError",
         Some(_) => "TableError",
+        None if of_system.is_some() => "FileError",
         None => "RockfragError",
     }
 }

@@ -16,6 +16,35 @@ def test_a_missing_file():
     assert isinstance(caught.value, rockfrag.RockfragError)
 
 
+SCENARIOS = rockfrag.sample_scenarios(mw=6.5, re=5, samples=1)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda missing: rockfrag.evaluate(width=0.5, height=2.0, hazard=missing),
+        lambda missing: rockfrag.evaluate(intensities=missing, width=0.5, height=2.0),
+        lambda missing: rockfrag.simulate(motions(), structures=missing),
+        lambda missing: rockfrag.synthesize_motions(SCENARIOS, site=missing),
+        lambda missing: rockfrag.import_motions([missing, __file__]),
+        lambda missing: rockfrag.validate(motions(), hazard=missing),
+        lambda missing: rockfrag.run(missing),
+        lambda missing: rockfrag.seed_spread(missing),
+        rockfrag.fit_pro,
+        rockfrag.inspect,
+    ],
+)
+def test_a_missing_file_of_any_kind(call, tmp_path):
+    with pytest.raises(FileNotFoundError, match="nowhere.csv") as caught:
+        call(tmp_path / "nowhere.csv")
+    assert isinstance(caught.value, rockfrag.MissingFileError)
+
+
+def test_a_folder_in_place_of_a_file(tmp_path):
+    with pytest.raises(rockfrag.FileError, match="expected a hazard"):
+        rockfrag.evaluate(width=0.5, height=2.0, hazard=tmp_path)
+
+
 def test_a_file_that_is_none(tmp_path):
     (tmp_path / "m.parquet").write_text("no parquet")
     with pytest.raises(OSError, match="m.parquet: not a Parquet file"):

@@ -159,8 +159,8 @@ impl Config {
     /// value of another type.
     pub fn read(path: &Path) -> anyhow::Result<Config> {
         let failed = |why: String| UsageError::because(format!("{}: {why}", path.display()));
-        let text =
-            text_file::text(path, MOST_MIB, "a pipeline file").map_err(|error| failed(error.to_string()))?;
+        let text = text_file::text(path, MOST_MIB, "a pipeline file")
+            .with_context(|| UsageError(path.display().to_string()))?;
         let mut config: Config =
             serde_saphyr::from_str(&text).map_err(|error| failed(explain(&error, &text)))?;
         let folder = path.parent().unwrap_or(Path::new(""));

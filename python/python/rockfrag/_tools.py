@@ -157,6 +157,8 @@ def run(
 
     Raises
     ------
+    MissingFileError
+        If there is no such pipeline file.
     OptionError
         If the pipeline file cannot be read, or an option in it is wrong.
 
@@ -209,6 +211,8 @@ def seed_spread(
 
     Raises
     ------
+    MissingFileError
+        If there is no such pipeline file.
     OptionError
         If the pipeline file cannot be read, or lacks compare-paper and what it needs.
 
@@ -217,7 +221,7 @@ def seed_spread(
     >>> import rockfrag
     >>> rockfrag.seed_spread("nowhere.yaml")
     Traceback (most recent call last):
-    rockfrag.errors.OptionError: nowhere.yaml: ...
+    rockfrag.errors.MissingFileError: nowhere.yaml: ...
     """
     settings = _options.settings(threads, progress, False, overwrite)
     paths = _checks.path("pipeline", pipeline), _checks.path("out", out)

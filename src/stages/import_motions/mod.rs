@@ -13,6 +13,7 @@ mod told;
 mod work;
 
 use std::collections::{BTreeMap, HashSet};
+use std::io;
 use std::path::Path;
 
 use anyhow::bail;
@@ -76,6 +77,14 @@ impl ImportMotions {
 }
 
 impl ImportMotions {
+    /// The error of refused files: of a file that is not there, if one is not.
+    fn failed(&self, why: String) -> anyhow::Error {
+        match self.importer.files.iter().all(|file| file.exists()) {
+            true => anyhow::Error::msg(why),
+            false => io::Error::new(io::ErrorKind::NotFound, why).into(),
+        }
+    }
+
     /// Checks that the files still hold what they held before they were read.
     fn expect_unchanged(&self, planned: &Provenance) -> anyhow::Result<()> {
         let now = self.provenance()?.inputs;
@@ -189,7 +198,8 @@ impl Stage for ImportMotions {
             bail!("no motion is imported of {} files", self.importer.files.len());
         }
         if seen.is_empty() {
-            bail!("no motion is imported; {}", summary(&refused, self.importer.files.len()));
+            let refused = summary(&refused, self.importer.files.len());
+            return Err(self.failed(format!("no motion is imported; {refused}")));
         }
         self.expect_unchanged(provenance)?;
         told.lines().iter().for_each(|line| console.note(line));
@@ -207,11 +217,8 @@ impl Stage for ImportMotions {
             Some(_) => "are imported; with --keep-going the command succeeds anyway",
             None => "come with --keep-going",
         };
-        bail!(
-            "{}\n{} motions of the others {others}",
-            summary(&refused, self.importer.files.len()),
-            seen.len()
-        )
+        let refused = summary(&refused, self.importer.files.len());
+        Err(self.failed(format!("{refused}\n{} motions of the others {others}", seen.len())))
     }
 }
 

@@ -5,6 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use anyhow::Context;
 use polars::prelude::AnyValue;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{self, SeqAccess, Visitor};
@@ -355,7 +356,9 @@ fn paper<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
 fn read(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
     let failed = |what: String| UsageError::because(format!("{}: {what}", path.display()));
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let text = || text_file::text(path, MOST_MIB, "structures").map_err(|error| failed(error.to_string()));
+    let text = || {
+        text_file::text(path, MOST_MIB, "structures").with_context(|| UsageError(path.display().to_string()))
+    };
     match extension.as_str() {
         "yaml" | "yml" => from_yaml(&text()?).map_err(failed),
         "csv" => from_csv(&text()?).map_err(failed),
