@@ -11,6 +11,8 @@
 //! ```
 
 use pyo3::prelude::*;
+use rockfrag::fragility::MANY_CLUSTERS;
+use rockfrag::fragility::overturning::LEAST_EVENTS;
 use rockfrag::table::store::guarded::quiet_damage;
 
 mod curves;
@@ -45,6 +47,8 @@ mod _rockfrag {
     #[pymodule_init]
     fn init(module: &Bound<PyModule>) -> PyResult<()> {
         quiet_damage();
+        module.add("LEAST_EVENTS", LEAST_EVENTS)?;
+        module.add("MANY_CLUSTERS", MANY_CLUSTERS)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

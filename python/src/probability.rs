@@ -16,7 +16,7 @@ use rockfrag::stages::shared::structures::{Restitution, StructureSpec};
 use rockfrag::stages::shared::surface::Surface;
 use rockfrag::units::G_M_S2;
 
-use crate::error::to_python;
+use crate::error::{in_python, to_python};
 
 const NAMES: [&str; 15] = [
     "p_nr",
@@ -42,52 +42,77 @@ struct Row {
     is_outside: bool,
     doubt: Option<PeaksDoubt>,
     doubtful_size: bool,
+    /// Whether it rocks and has no probability.
+    lacks_measure: bool,
 }
 
 /// The probabilities by name, and how many questions have which doubt. `structure` has p and alpha, or width and height, and eta if
-/// it is given; all arrays are as long.
+/// it is given; all arrays are as long, those of `shape` in the order of C.
 #[pyfunction]
 pub fn probability<'py>(
     py: Python<'py>,
     structure: HashMap<String, PyReadonlyArray1<f64>>,
     pga_g: PyReadonlyArray1<f64>,
     pgv_m_s: PyReadonlyArray1<f64>,
+    shape: Vec<usize>,
     suite: Option<&str>,
     limit_state: Option<f64>,
 ) -> PyResult<(Bound<'py, PyDict>, Vec<String>)> {
     let columns = structure.iter().map(|(name, values)| Ok((name.as_str(), values.as_slice()?)));
     let columns = columns.collect::<PyResult<BTreeMap<&str, &[f64]>>>()?;
     let (pga_g, pgv_m_s) = (pga_g.as_slice()?, pgv_m_s.as_slice()?);
-    let solve = || -> anyhow::Result<Vec<Row>> {
-        let surface = Surface::new(suite, limit_state, Scenarios::One)?;
-        (0..pga_g.len())
-            .into_par_iter()
-            .map(|k| row(&surface, &spec(&columns, k)?, pga_g[k], pgv_m_s[k]))
-            .collect()
+    let surface = Surface::new(suite, limit_state, Scenarios::One).map_err(|error| to_python(py, &error))?;
+    let answer = |k: usize| {
+        let row = spec(&columns, k).and_then(|spec| row(&surface, &spec, pga_g[k], pgv_m_s[k]));
+        row.map_err(|error| place(&shape, k).into_iter().fold(error, anyhow::Error::context))
     };
-    let rows = py.detach(solve).map_err(|error| to_python(py, &error))?;
+    // The first that is wrong is told, whichever thread is done first.
+    let rows: Vec<_> = py.detach(|| (0..pga_g.len()).into_par_iter().map(answer).collect());
+    let rows: anyhow::Result<Vec<Row>> = rows.into_iter().collect();
+    let rows = rows.map_err(|error| to_python(py, &error))?;
     let result = PyDict::new(py);
     for (at, name) in NAMES.iter().enumerate() {
         let column: Vec<f64> = rows.iter().map(|row| row.numbers[at]).collect();
         result.set_item(name, column.into_pyarray(py))?;
     }
-    let count = |is: &dyn Fn(&Row) -> bool| rows.iter().filter(|row| is(row)).count();
-    let doubts = PeaksDoubt::ALL.map(|doubt| (count(&|row| row.doubt == Some(doubt)), doubt.words()));
+    let warning = |is: &dyn Fn(&Row) -> bool, words: &str| {
+        let first = rows.iter().position(is)?;
+        let count = rows.iter().filter(|row| is(row)).count();
+        let of = |place| format!("{count} of {}, the first {place}: ", rows.len());
+        Some(place(&shape, first).map_or(String::new(), of) + words)
+    };
+    let missing = in_python(surface.words_of_missing());
+    let doubts = PeaksDoubt::ALL.map(|doubt| warning(&|row| row.doubt == Some(doubt), doubt.words()));
     let others = [
-        (
-            count(&|row| row.is_outside),
+        warning(&|row| row.lacks_measure, &missing),
+        warning(
+            &|row| row.is_outside,
             "a structure or a measure outside of those of the surface: extrapolated",
         ),
-        (count(&|row| row.doubtful_size), "a p of a solid block of 90 m and more: are dimensions in cm?"),
+        warning(&|row| row.doubtful_size, "a p of a solid block of 90 m and more: are dimensions in cm?"),
     ];
-    let warnings = doubts.into_iter().chain(others).filter(|(rows, _)| *rows > 0);
-    let warnings: Vec<String> =
-        warnings.map(|(rows, words)| format!("{rows} of {}: {words}", pga_g.len())).collect();
-    Ok((result, warnings))
+    Ok((result, doubts.into_iter().chain(others).flatten().collect()))
+}
+
+/// Where a question stands in arrays of this shape; a number stands nowhere.
+fn place(shape: &[usize], k: usize) -> Option<String> {
+    let mut left = k;
+    let index = shape.iter().rev().map(|&length| {
+        let at = left % length;
+        left /= length;
+        at.to_string()
+    });
+    let mut index: Vec<String> = index.collect();
+    index.reverse();
+    match &index[..] {
+        [] => None,
+        [at] => Some(format!("element {at}")),
+        several => Some(format!("element ({})", several.join(", "))),
+    }
 }
 
 fn spec(columns: &BTreeMap<&str, &[f64]>, row: usize) -> anyhow::Result<StructureSpec> {
-    let mut spec = StructureSpec { name: Some(format!("row {row}")), ..StructureSpec::default() };
+    let mut spec = StructureSpec::default();
     for (name, values) in columns {
         let value = Some(values[row]);
         match *name {
@@ -138,5 +163,6 @@ fn row(surface: &Surface, spec: &StructureSpec, pga_g: f64, pgv_m_s: f64) -> any
         is_outside: !surface.model().outside(&measures).is_empty() || surface.is_other_structure(&structure),
         doubt: doubt_of_peaks(pga_g * G_M_S2, pgv_m_s),
         doubtful_size: structure.doubt().is_some(),
+        lacks_measure: said.limit_states().is_none(),
     })
 }

@@ -259,6 +259,43 @@ def test_separated_outcomes_have_a_curve_with_firth_only():
     assert low < 0.5 < high
 
 
+def test_what_says_nothing_of_a_curve_has_the_status_of_the_stage(responses, recwarn):
+    """All cases are events, or none; or the measure separates them, or does not vary."""
+    n = len(responses)
+    varied = responses.assign(im5=np.geomspace(0.1, 10.0, n))
+    samples = {
+        "all": (varied, np.full(n, True)),
+        "none": (varied, np.full(n, False)),
+        "separated": (varied, np.arange(n) >= n // 2),
+        "constant": (responses.assign(im5=1.0), np.arange(n) % 2 == 0),
+        "one": (varied, np.arange(n) == n // 3),
+    }
+    tables = [
+        frame.assign(structure=name, outcome=np.where(happened, "overturning", "safe_rocking"), edp=np.where(happened, np.nan, 0.1))
+        for name, (frame, happened) in samples.items()
+    ]
+    for estimator in ["ml", "firth"]:
+        fits = rockfrag.fit_pro(pd.concat([responses, *tables]), estimator=estimator).to_pandas().query("im_x == 'im5'").set_index("structure")
+        for name, (frame, happened) in samples.items():
+            status = fits.status[name]
+            try:
+                curve = fit_fragility(frame.im5, happened, estimator=estimator)
+                assert (curve.status, curve.separated) == (status, name == "separated")
+                assert curve.separated == ("separated=True" in repr(curve))
+            except FitError as refused:
+                assert refused.status == status != "ok" and np.isnan(fits.theta[name])
+
+
+def test_a_curve_of_one_event_says_little_more_than_a_limit():
+    happened = np.arange(40) == 30
+    with pytest.warns(RockfragWarning, match="probabilities say little more than a limit, and theirs may miss the truth"):
+        curve = fit_fragility(np.geomspace(0.1, 10.0, 40), happened, estimator="firth")
+    assert not any("confidence_band" in doubt for doubt in curve.doubts)
+    with pytest.raises(FitError, match="0 events of 40 cases: all cases are events, or none are") as caught:
+        fit_fragility(IM, np.zeros(40), estimator="firth")
+    assert caught.value.status == "too_few_events"
+
+
 def test_doubts_are_warnings():
     with pytest.warns(RockfragWarning, match="falls as the measure grows"):
         curve = fit_fragility(1.0 / IM, OVERTURNED)

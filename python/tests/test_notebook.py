@@ -17,11 +17,6 @@ def text_of(notebook):
     return re.sub(r"ipykernel_\d+/\d+\.py", "ipykernel", "\n".join(texts))
 
 
-def words_and_numbers(text):
-    number = r"-?\d+\.?\d*(?:e-?\d+)?"
-    return re.sub(r"\W+", " ", re.sub(number, "", text)), [float(one) for one in re.findall(number, text)]
-
-
 def images(notebook):
     outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     return sum("image/png" in output.get("data", {}) for output in outputs)
@@ -39,10 +34,7 @@ def notebook(request):
 def test_notebooks(notebook):
     name, saved, run = notebook
     # To save them again: jupyter execute --inplace python/examples/*.ipynb
-    (words, numbers), (words_now, numbers_now) = words_and_numbers(text_of(saved)), words_and_numbers(text_of(run))
-    assert words == words_now
-    # Processors differ in the last bits, and a few chaotic motions feel it.
-    assert numbers == pytest.approx(numbers_now, rel=0.05)
+    assert text_of(saved) == text_of(run)
     assert images(saved) == images(run) == 2
     if name == "paper":
         shows_table_ii(text_of(run))

@@ -88,3 +88,43 @@ def test_what_is_no_number_or_missing_is_named(wrong, message):
 def test_no_mask_is_no_harm():
     plain = rockfrag.probability(width=0.5, height=2.0, pga=[0.3, 0.5], pgv=0.6)
     assert rockfrag.probability(width=0.5, height=2.0, pga=np.ma.array([0.3, 0.5]), pgv=0.6) == plain
+
+
+def test_without_a_velocity_there_is_no_probability_as_for_the_command():
+    assert answered("--width", 0.5, "--height", 2.0, "--pga", 0.5, "--pgv", 0)["p_f"]["value"] is None
+    ask = lambda pga, pgv: rockfrag.probability(width=0.5, height=2.0, pga=pga, pgv=pgv)
+    with pytest.warns(rockfrag.RockfragWarning, match="^the surface needs a velocity: give pgv above 0$"):
+        assert np.isnan(ask(0.5, 0.0).p_f)
+    with pytest.warns(rockfrag.RockfragWarning, match="^2 of 4, the first element 2: the surface needs a velocity"):
+        said = ask(0.5, [0.6, 0.5, 0.0, 0.0])
+    assert np.isnan(said.p_f).tolist() == [False, False, True, True]
+    with pytest.warns(rockfrag.RockfragWarning, match=r"^1 of 4, the first element \(1, 0\): the surface"):
+        ask(np.array([[0.4], [0.5]]), np.array([[0.6, 0.5], [0.0, 0.7]]))
+    # What does not move neither overturns nor fails, and needs no velocity.
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert ask([0.0, 0.1], 0.0).p_f.tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    "wrong, message",
+    [
+        ({"pga": [0.5, 0.4, -1.0, -2.0]}, "^element 2: pga is -1; expected 0 g or more, up to 20"),
+        ({"pga": [[0.5], [None]], "pgv": [0.5, 0.6]}, r"^element \(1, 0\): pga is NaN"),
+        ({"width": [0.5, -1.0]}, "^element 1: structure .*: width is -1"),
+        ({"pgv": -1.0}, "^pgv is -1"),
+    ],
+)
+def test_an_element_that_cannot_be_is_named(wrong, message):
+    with pytest.raises(rockfrag.OptionError, match=message):
+        rockfrag.probability(**{"width": 0.5, "height": 2.0, "pga": 0.5, "pgv": 0.6, **wrong})
+
+
+def test_answers_are_shown_in_words_with_their_limits():
+    one = rockfrag.probability(width=0.5, height=2.0, pga=0.5, pgv=0.6)
+    limits = f"{one.p_ro:.4g} ({one.p_ro_low:.4g} to {one.p_ro_high:.4g})"
+    for text in (repr(one), one._repr_html_()):
+        assert limits in text and "overturning, given rocking" in text and "95 % limits" in text
+    many = repr(rockfrag.probability(width=0.5, height=2.0, pga=np.linspace(0.1, 0.9, 9), pgv=0.6))
+    assert "of shape (9,)" in many and "[3]" in many and "[4]" not in many and many.endswith("and 5 more")
+    assert len(many.splitlines()) < 10 and " - " in many and "nan" not in many

@@ -59,6 +59,6 @@ pub use predictor::{BENT_TERMS, Bend, OutOfRange, Predicted, Predictor};
 pub use probability::{Probability, ProbitIndex};
 pub use probability::{p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning};
 pub use resampled::{ReplicateLimits, ResampledModel};
-pub use sample::Sample;
+pub use sample::{MANY as MANY_CLUSTERS, Sample};
 pub use slice::{Lognormal, Peak, PeaksDoubt, STRONGEST_PGA_M_S2, Slice, doubt_of_peaks, doubt_of_ratio};
 pub use universal::UniversalModel;

@@ -13,16 +13,14 @@ import numpy.typing as npt
 
 from . import _checks, _rockfrag, _show
 from ._curve import Curve, Floats, Link, Regression, measures_of, quantile
+from ._rockfrag import LEAST_EVENTS, MANY_CLUSTERS
 from .errors import FitError, OptionError
 
 Estimator = Literal["ml", "firth"]
 Parameter = Literal["theta", "mu", "beta", "lambda"]
 
-#: Fewer clusters say too little of how they differ: errors by them come out too small (Cameron & Miller 2015, section VI).
-_MANY = 20
-
 _WHY = {
-    "too_few_events": "fewer than 5 events, or fewer than 5 others; take more cases, or estimator='firth', which needs one of each",
+    "too_few_events": f"fewer than {LEAST_EVENTS} events, or fewer than {LEAST_EVENTS} others; take more cases, or estimator='firth', which needs one of each",
     "too_few_cases": "too few cases; expected more than coefficients plus one",
     "separated": "the measure tells the outcomes apart without overlap, so that no curve is the most likely; take more cases, or "
     "estimator='firth'",
@@ -36,7 +34,11 @@ _DOUBTS = {
     "falling": "the probability falls as the measure grows",
 }
 _SEPARATED = "the measure separates the outcomes: how steep the curve is comes from Firth's penalty; see profile_interval, and take more cases"
-_FEW = "few events: standard errors of theta and beta are too small; take profile_interval, and confidence_band for probabilities"
+_FEW = "few events: standard errors of theta and beta are too small; take profile_interval"
+_FOR_PROBABILITIES = ", and confidence_band for probabilities"
+_LIMIT_ONLY = "; probabilities say little more than a limit, and theirs may miss the truth"
+#: Why Firth's estimator has no curve.
+_ALL_OR_NONE = "all cases are events, or none are; take more cases"
 
 
 def _clusters(
@@ -49,11 +51,11 @@ def _clusters(
     count = len(np.unique(numbers))
     if count <= coefficients:
         raise OptionError(
-            f"cluster has {count} labels among {numbers.size} cases; expected {_MANY} or more, at least {coefficients + 1}: errors of "
+            f"cluster has {count} labels among {numbers.size} cases; expected {MANY_CLUSTERS} or more, at least {coefficients + 1}: errors of "
             f"{coefficients} coefficients by fewer mean nothing; leave cluster out"
         )
-    few = f"{count} clusters: standard errors by fewer than {_MANY} are too small"
-    return numbers.tolist(), [few] if count < _MANY else []
+    few = f"{count} clusters: standard errors by fewer than {MANY_CLUSTERS} are too small"
+    return numbers.tolist(), [few] if count < MANY_CLUSTERS else []
 
 
 class FragilityCurve(Regression):
@@ -86,7 +88,8 @@ class FragilityCurve(Regression):
         #: ok, or what to doubt: misfit, far_median, falling.
         self.status: str = fit["status"]
         if "params" not in fit:
-            raise FitError(f"{fit['events']} events of {outcome.size} cases: {_WHY[self.status]}", self.status)
+            why = _ALL_OR_NONE if estimator == "firth" and self.status == "too_few_events" else _WHY[self.status]
+            raise FitError(f"{fit['events']} events of {outcome.size} cases: {why}", self.status)
         self.params = fit["params"]
         self.params.flags.writeable = False
         names = [im_name] if im.shape[1] == 1 else [f"{im_name}{k + 1}" for k in range(im.shape[1])]
@@ -105,12 +108,15 @@ class FragilityCurve(Regression):
         self.brier: float = fit["brier"]
         #: p of Hosmer and Lemeshow's test, and of the likelihood-ratio test against a bent curve; none with few cases.
         self.tests: dict[str, float | None] = {"hosmer_lemeshow": fit["hosmer_lemeshow_p"], "spline": fit["spline_p"]}
+        #: Whether the measure separates the outcomes, so that there is a curve by Firth's penalty only.
+        self.separated: bool = fit["separated"]
         doubts = [_DOUBTS[self.status]] if self.status in _DOUBTS else []
+        says_little = min(fit["events"], outcome.size - fit["events"]) < LEAST_EVENTS
         #: What to doubt about the curve, in words.
         self.doubts: list[str] = [
             *doubts,
-            *([_SEPARATED] if fit["separated"] else []),
-            *([_FEW] if fit["few_events"] else []),
+            *([_SEPARATED] if self.separated else []),
+            *([_FEW + (_LIMIT_ONLY if says_little else _FOR_PROBABILITIES)] if fit["few_events"] else []),
             *few_clusters,
         ]
 
@@ -217,7 +223,7 @@ class FragilityCurve(Regression):
     def __repr__(self) -> str:
         return (
             f"FragilityCurve(median={self.median:.4g}, beta={self.beta:.4g}, link={self.link!r}, "
-            f"events={int(self.outcome.sum())}, nobs={self.nobs}, status={self.status!r})"
+            f"events={int(self.outcome.sum())}, nobs={self.nobs}, status={self.status!r}{', separated=True' if self.separated else ''})"
         )
 
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, fields
+from itertools import islice
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _checks, _rockfrag
+from . import _checks, _rockfrag, _show
 from ._structure import Structure
 from .errors import OptionError, RockfragWarning
 
@@ -18,8 +19,19 @@ if TYPE_CHECKING:
 
 Numbers = npt.NDArray[np.float64]
 
+#: The probabilities that are shown, in words,
+_WORDS = {
+    "p_nr": "no rocking",
+    "p_ex": "above the limit state, in safe rocking",
+    "p_ro": "overturning, given rocking",
+    "p_o": "overturning",
+    "p_f": "failure: the one or the other",
+}
+#: and of how many answers.
+_SHOWN = 4
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Probability:
     """Probabilities with 95 % limits, each of the shape of the arguments; NaN where there is none, such as P_ro without rocking."""
 
@@ -52,6 +64,29 @@ class Probability:
         return all(np.array_equal(getattr(self, at.name), getattr(other, at.name), equal_nan=True) for at in fields(self))
 
     __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return repr(self._summary())
+
+    def _repr_html_(self) -> str:
+        return self._summary()._repr_html_()
+
+    def _summary(self) -> _show.Summary:
+        """The first answers in words, with their limits."""
+        shape = np.shape(self.p_nr)
+        places = list(islice(np.ndindex(shape), _SHOWN))
+        title = "Probability, with 95 % limits" + (f", of shape {shape}" if shape else "")
+        rest = np.size(self.p_nr) - len(places)
+        head = ["", "of", *(str(list(place)) if place else "" for place in places)]
+        rows = [[name, words, *(self._cell(name, place) for place in places)] for name, words in _WORDS.items()]
+        return _show.Summary(title, [f"and {rest} more"] if rest else [], head, rows)
+
+    def _cell(self, name: str, place: tuple[int, ...]) -> str:
+        # What has no limits is exact.
+        limits = (getattr(self, f"{name}_{at}", self.p_nr) for at in ("low", "high"))
+        value, low, high = (np.asarray(of)[place] for of in (getattr(self, name), *limits))
+        told = f" ({_show.number(low)} to {_show.number(high)})" if low < high else ""
+        return "-" if np.isnan(value) else _show.number(value) + told
 
     def to_pandas(self) -> pandas.DataFrame:
         """Makes a table, a row for each answer, of several dimensions in the order of C. Needs pandas.
@@ -106,7 +141,7 @@ def probability(
     Warns
     -----
     RockfragWarning
-        If an answer is extrapolated, or a value is likely in another unit.
+        If an answer is extrapolated, a value is likely in another unit, or what rocks has a PGV of 0, of which there is no answer.
 
     Raises
     ------
@@ -144,7 +179,7 @@ def probability(
         shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(("pga", "pgv", *names), arrays))
         raise OptionError(f"shapes do not go together: {shapes}; expected shapes that broadcast") from error
     flat = [np.ascontiguousarray(array).reshape(-1) for array in shaped]
-    said, doubts = _rockfrag.probability(dict(zip(names, flat[2:], strict=True)), flat[0], flat[1], suite, limit)
+    said, doubts = _rockfrag.probability(dict(zip(names, flat[2:], strict=True)), flat[0], flat[1], shaped[0].shape, suite, limit)
     for words in doubts:
         warnings.warn(words, RockfragWarning, stacklevel=2)
     return Probability(**{name: values.reshape(shaped[0].shape)[()] for name, values in said.items()})

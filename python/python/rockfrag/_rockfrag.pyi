@@ -12,6 +12,8 @@ from ._options import Settings
 from ._types import TableLike
 
 __all__ = [
+    "LEAST_EVENTS",
+    "MANY_CLUSTERS",
     "Table",
     "__version__",
     "call",
@@ -36,6 +38,8 @@ __all__ = [
     "t_quantile",
 ]
 __version__: str
+LEAST_EVENTS: int
+MANY_CLUSTERS: int
 
 _Floats = npt.NDArray[np.float64]
 
@@ -138,6 +142,7 @@ def probability(
     structure: dict[str, _Floats],
     pga_g: _Floats,
     pgv_m_s: _Floats,
+    shape: tuple[int, ...],
     suite: str | None,
     limit_state: float | None,
 ) -> tuple[dict[str, _Floats], list[str]]: ...
