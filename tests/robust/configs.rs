@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use proptest::prelude::*;
-use rockfrag::stages::evaluate::hazard;
 use rockfrag::stages::registry::Config;
+use rockfrag::stages::shared::hazard;
 use rockfrag::stages::shared::structures::Structures;
 use rockfrag::stages::synthesize_motions::{SynthesizeMotions, SynthesizeMotionsOptions};
 use rockfrag::table::paper;
