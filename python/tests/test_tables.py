@@ -272,3 +272,35 @@ def test_a_column_of_pandas_of_several_types_is_named(column):
     (name,) = column
     with pytest.raises(rockfrag.TableError, match=f"motions: .*'x'.*column {name}.*; expected values of one type in each column"):
         rockfrag.simulate(pd.DataFrame({**SHORT, **column}), **ONE)
+
+
+BLOCKS = pl.DataFrame({"name": ["slab", "vase"], "width": [0.9, 0.25], "height": [4.5, 0.75], "eta": [0.8, 0.9], "owner": ["a", "b"]})
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        BLOCKS.cast({"name": pl.Categorical}).with_columns(pl.col("eta").cast(pl.String).cast(pl.Categorical)),
+        BLOCKS.cast({"eta": pl.Decimal(10, 2), "width": pl.Decimal(10, 2), "name": pl.Enum(["slab", "vase"])}),
+        BLOCKS.to_pandas().astype({"name": "category", "eta": "float32"}),
+    ],
+)
+def test_structures_of_parquet_may_be_categories_and_decimals(out, tmp_path, table):
+    rows = BLOCKS.drop("owner").to_dicts()
+    file = tmp_path / "blocks.parquet"
+    (pl.DataFrame(table) if isinstance(table, pl.DataFrame) else pl.from_pandas(table)).write_parquet(file)
+    ask = lambda structures: pl.DataFrame(rockfrag.simulate(out / "motions.parquet", structures=structures))
+    read, given = ask(file), ask(rows)
+    assert read["structure"].equals(given["structure"]) and read["outcome"].equals(given["outcome"])
+    assert read["eta"].to_numpy() == pytest.approx(given["eta"].to_numpy(), rel=1e-7)
+
+
+def test_structures_of_parquet_of_another_type_are_named(out, tmp_path):
+    BLOCKS.with_columns(eta=pl.lit(True)).write_parquet(tmp_path / "blocks.parquet")
+    with pytest.raises(rockfrag.OptionError, match="column 'eta' is Boolean; expected text or numbers: convert it"):
+        rockfrag.simulate(out / "motions.parquet", structures=tmp_path / "blocks.parquet")
+
+
+def test_a_table_of_structures_says_what_to_do(out):
+    with pytest.raises(rockfrag.OptionError, match="structures is a table; .* Parquet file of them: write it to a file"):
+        rockfrag.simulate(out / "motions.parquet", structures=BLOCKS)

@@ -44,8 +44,8 @@ pub use cases::{CaseTable, Cases, Placed};
 pub use clusters::{Clusters, SharedBy};
 pub use demand::{
     Biplanar, Break, DemandInference, DemandRefits, DemandReplicate, PLANE, Plane, ScanPoint, SmoothFit,
-    Transition, TransitionSearch, fit_biplanar, fit_plane, fit_smooth, fit_univariate, rms_difference,
-    transition_limits,
+    Transition, TransitionSearch, USEFUL_R2, fit_biplanar, fit_plane, fit_smooth, fit_univariate,
+    rms_difference, transition_limits,
 };
 pub use group::{Progress, Uncertainty, unwatched};
 pub use held_out::HeldOut;

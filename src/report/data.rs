@@ -229,9 +229,6 @@ pub struct Regression {
     pub rises: bool,
 }
 
-/// The least R2 of a regression that is worth a look.
-pub const USEFUL_R2: f64 = 0.1;
-
 /// The two planes of the demand (Eqs. 17 and 18).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Planes {

@@ -2,12 +2,10 @@
 
 use std::fmt::Write;
 
-use super::data::{
-    Analysis, By, File, Median, Rates, ReportData, Summary, USEFUL_R2, measure_label, scaled_words,
-};
+use super::data::{Analysis, By, File, Median, Rates, ReportData, Summary, measure_label, scaled_words};
 use super::text::{escape, number};
 use crate::fragility::overturning::LEAST_EVENTS;
-use crate::fragility::{Gap, Measure};
+use crate::fragility::{Gap, Measure, USEFUL_R2};
 use crate::keyword::{self, Keyword};
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
@@ -380,7 +378,7 @@ fn own_doubts(data: &ReportData) -> Vec<String> {
     let off = data.validations.iter().filter(|of| of.chance_p < 0.05).count();
     if off > 0 {
         doubts.push(format!(
-            "On motions that the curves were not fitted to, {off} of {} counts are further out than chance allows at 5 %.",
+            "Of the counts that the curves were tested on, {off} of {} are further out than chance allows at 5 %.",
             data.validations.len()
         ));
     }

@@ -30,6 +30,7 @@ use crate::pipeline::terminal::Terminal;
 use crate::studies::Forecasts;
 use crate::table::TableError;
 use crate::table::fits::GroupKey;
+use crate::table::ida::IDA_STRIPES;
 use crate::table::row::WriteRow;
 use crate::table::schema::headings::Headings;
 use crate::table::store::contents::recorded;
@@ -368,8 +369,15 @@ impl Stage for Validate {
         };
         if rows.is_empty() {
             anyhow::bail!(
-                "{}: nothing that the fits predict; expected rocking responses of the same structures",
+                "{}: nothing that the fits predict; expected rocking responses of the same structures, and fits that can be used",
                 self.input.name().display()
+            );
+        }
+        if let Source::Path(path) = &self.input
+            && recorded(path)?.is_some_and(|made| made.provenance.stage == IDA_STRIPES.stage)
+        {
+            console.warn(
+                "these are stripes of ida, in which each motion counts once a level: cases are not independent, and limits of counts too narrow",
             );
         }
         Self::warn_of_impossible(&rows, console);

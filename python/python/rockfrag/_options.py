@@ -110,7 +110,9 @@ def structures(given: object) -> object:
     if isinstance(given, (str, os.PathLike)):
         return os.fsdecode(given)
     several = [given] if isinstance(given, (Structure, Mapping)) else given
-    expected = "a Structure, several, or the path of a YAML or CSV file of them"
+    expected = "a Structure, several, or the path of a YAML, CSV or Parquet file of them"
+    if hasattr(given, "__arrow_c_stream__"):
+        raise OptionError(f"structures is a table; expected {expected}: write it to a file, or give its rows as dicts")
     if not isinstance(several, Iterable):
         raise _checks.wrong("structures", given, expected)
     specs = []

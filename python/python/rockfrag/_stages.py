@@ -59,7 +59,7 @@ _HELP = {
     "seed": "Seed of the random numbers. The same seed makes the same rows, on any machine. None takes a fresh seed, as in NumPy; a "
     "numpy.random.Generator draws one. ``Table.metadata`` and ``inspect`` tell the seed.",
     "synthesize-motions suite": "One suite or several: pulse, csgm (pulse with high frequencies), hfc (high frequencies alone).",
-    "structures": "One Structure or several; the path of a YAML or CSV file of them; or 'paper', for both structures of the paper.",
+    "structures": "One Structure or several; the path of a YAML, CSV or Parquet file of them; or 'paper', for both structures of the paper.",
 }
 _KEPT = "its path is returned. A file that is up to date is left as it is."
 _HELP |= {

@@ -167,7 +167,7 @@ def evaluate(
     beam_mass_ratio : float, optional
         For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
-        One Structure or several; the path of a YAML or CSV file of them; or 'paper', for both
+        One Structure or several; the path of a YAML, CSV or Parquet file of them; or 'paper', for both
         structures of the paper.
     name : str, optional
         Name of the structure in the file of ``structures`` [default: the only one].
@@ -346,7 +346,7 @@ def export(
     beam_mass_ratio : float, optional
         For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
-        One Structure or several; the path of a YAML or CSV file of them; or 'paper', for both
+        One Structure or several; the path of a YAML, CSV or Parquet file of them; or 'paper', for both
         structures of the paper.
     name : str, optional
         Name of the structure in the file of ``structures`` [default: the only one].
@@ -679,7 +679,7 @@ def ida(
     beam_mass_ratio : float, optional
         For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
-        One Structure or several; the path of a YAML or CSV file of them; or 'paper', for both
+        One Structure or several; the path of a YAML, CSV or Parquet file of them; or 'paper', for both
         structures of the paper.
     simd : {'scalar', 'neon', 'avx2', 'avx512'}, optional
         Vector instructions of the solver, as in simulate [default: the fastest of this processor].
@@ -1233,7 +1233,7 @@ def simulate(
     beam_mass_ratio : float, optional
         For a frame: mass of the beam over the mass of all columns.
     structures : Structure, iterable of Structure, or path, optional
-        One Structure or several; the path of a YAML or CSV file of them; or 'paper', for both
+        One Structure or several; the path of a YAML, CSV or Parquet file of them; or 'paper', for both
         structures of the paper.
     simd : {'scalar', 'neon', 'avx2', 'avx512'}, optional
         Vector instructions of the solver: scalar, neon, avx2 or avx512; all give the same bits

@@ -32,7 +32,7 @@ class ArrowArray(Protocol):
 TableLike = Union[PathLike, ArrowStream, ArrowArray]
 #: A structure, or its parameters by the names of the command line.
 StructureLike = Union["Structure", Mapping[str, object]]
-#: Some structures, a YAML or CSV file of them, or the word paper.
+#: Some structures, a YAML, CSV or Parquet file of them, or the word paper.
 Structures = Union[StructureLike, Iterable[StructureLike], PathLike]
 #: A CSV file of annual rates, or its columns.
 Hazard = Union[PathLike, ArrowStream, Mapping[str, object]]

@@ -11,6 +11,9 @@ use crate::statistics::regression::LinearFit;
 /// The measures of a plane.
 pub const PLANE: [Measure; 2] = [Measure::Im4, Measure::Im3];
 
+/// A regression with less R2 explains next to nothing.
+pub const USEFUL_R2: f64 = 0.1;
+
 /// ln EDP = ln a + b1 ln IMx + b2 ln IMy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {

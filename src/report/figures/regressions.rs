@@ -1,8 +1,9 @@
 //! Figure 7: the demand in safe rocking over each measure, in logarithms, with its regression.
 
 use crate::fragility::Measure;
+use crate::fragility::USEFUL_R2;
 use crate::report::axis::Axis;
-use crate::report::data::{Group, ReportData, USEFUL_R2, demand_label, measure_label};
+use crate::report::data::{Group, ReportData, demand_label, measure_label};
 use crate::report::drawing::{Anchor, Ink, TWO_COLUMNS};
 use crate::report::figure::{Figure, Grid};
 use crate::report::panel::{Panel, dot_scale};

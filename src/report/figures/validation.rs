@@ -30,18 +30,15 @@ pub fn figures(data: &ReportData) -> Vec<Figure> {
         title: Label::plain("share of the cases"),
         x: Axis::linear([0.0, 1.0], Label::plain("share")),
         names: rows.iter().map(|of| of.name.clone()).collect(),
-        series: vec![
-            ("seen", Ink::Data(0), of(-APART, true)),
-            ("expected by the curves", Ink::Data(1), of(APART, false)),
-        ],
+        series: vec![("seen", Ink::Data(0), of(-APART, true)), ("predicted", Ink::Data(1), of(APART, false))],
         mark: None,
     };
     let off = rows.iter().filter(|of| of.chance_p < 0.05).count();
     vec![Figure {
         name: "validation".to_string(),
-        title: "Seen and expected on motions that the curves were not fitted to".to_string(),
+        title: "Shares of events, seen and predicted".to_string(),
         caption: format!(
-            "Share of the cases in which the event happened, with 95 % limits (Wilson), and the mean of the predicted probabilities, with those of the fits. In {} of {} rows the count is further out than chance allows at 5 %.",
+            "Share of the cases in which the event happened, with 95 % limits (Wilson), and the mean of the predicted probabilities, with its limits. In {} of {} rows the count is further out than chance allows at 5 %. Agreement proves nothing where the curves were fitted to the same motions.",
             number::count(off),
             number::count(rows.len())
         ),

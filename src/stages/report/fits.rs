@@ -77,7 +77,12 @@ fn gap(row: &ProRow) -> Option<Gap> {
 fn median(row: &ProRow, summary: &Summary) -> Median {
     let Structure { p_rad_s, alpha_rad, .. } = summary.structure;
     let pgv_m_s = |im5: f64| im5 * G_M_S2 * libm::tan(alpha_rad) / p_rad_s;
-    let limits = || Some([row.theta?, row.theta_low.unwrap_or(0.0), row.theta_high.unwrap_or(f64::INFINITY)]);
+    // Of few events, standard errors are too small.
+    let [low, high] = match summary.has_few_events() {
+        true => [row.mu_profile_low, row.mu_profile_high].map(|mu| mu.map(libm::exp)),
+        false => [row.theta_low, row.theta_high],
+    };
+    let limits = || Some([row.theta?, low.unwrap_or(0.0), high.unwrap_or(f64::INFINITY)]);
     let there = limits().filter(|_| row.is_ok() && summary.fewer() >= LEAST_EVENTS);
     Median { status: row.status, pgv_m_s: there.map(|limits| limits.map(pgv_m_s)), gap: gap(row) }
 }

@@ -9,13 +9,14 @@ use crate::fragility::sample::MANY;
 use crate::fragility::universal::Scenarios;
 use crate::fragility::{
     DemandModel, Fragility, FragilityModel, Gap, JointPeaks, LimitState, Measure, OutOfRange, Probabilities,
-    ReplicateLimits, ResampledModel, Slice, UniversalModel,
+    ReplicateLimits, ResampledModel, Slice, USEFUL_R2, UniversalModel,
 };
 use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Suite};
 use crate::pipeline::console::Console;
 use crate::rocking::Block;
 use crate::rocking::Structure;
+use crate::statistics::Estimator;
 
 /// The fits as chosen.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +29,10 @@ pub struct ChosenFits {
     pub model: FragilityModel,
     /// The same fits to resampled cases, where limits come from them.
     pub resampled: Option<ResampledModel>,
+    /// R2 of the regression of the demand.
+    pub demand_r2: Option<f64>,
+    /// How P_ro was fitted.
+    pub estimator: Estimator,
     /// Overturnings that P_ro comes from, and the cases among which they are.
     pub events: [usize; 2],
     /// Whether P_ro comes from so few events that some limits are too narrow.
@@ -185,13 +190,20 @@ impl Answers for ChosenFits {
         let planes = match model.demand {
             DemandModel::Everywhere(_) => String::new(),
             DemandModel::Biplanar { transition, .. } => {
-                format!(" in two planes that meet at im4 {transition}")
+                format!(" in two planes that meet at im4 {}", (transition * 1e4).round() / 1e4)
             }
         };
         let overturning = of(&mut model.overturning.measures());
         let bent = if model.overturning.bend.is_some() { ", bent" } else { "" };
         let suite = self.suite.as_deref().map_or(String::new(), |suite| format!(", {suite}"));
-        format!("fits of {}{suite}: P_ex of {demand}{planes}, P_ro of {overturning}{bent}", self.structure)
+        let firth = match self.estimator {
+            Estimator::Ml => "",
+            Estimator::Firth => " by Firth's estimator",
+        };
+        format!(
+            "fits of {}{suite}: P_ex of {demand}{planes}, P_ro of {overturning}{bent}{firth}",
+            self.structure
+        )
     }
 
     fn words_of_limits(&self) -> String {
@@ -262,8 +274,19 @@ impl Answers for ChosenFits {
             ));
         }
         if self.few_clusters {
+            let but = match self.model.overturning.spread > 0.0 {
+                true => "how much these differ is poorly known, and low and high may be too narrow",
+                false => {
+                    "too few to tell how much these differ, so that low and high leave it out and are too narrow"
+                }
+            };
             console.warn(&format!(
-                "P_ro comes from fewer than {MANY} magnitudes and distances, or earthquakes: by how much these differ is known badly, and low and high may be too narrow"
+                "P_ro comes from fewer than {MANY} magnitudes and distances, or earthquakes: {but}"
+            ));
+        }
+        if let Some(r2) = self.demand_r2.filter(|r2| *r2 < USEFUL_R2) {
+            console.warn(&format!(
+                "P_ex comes from a regression that explains next to nothing (R2 {r2:.2}): compare --measure im4 with --model univariate, or --model universal"
             ));
         }
         if let Some(misfit) = &self.misfit {

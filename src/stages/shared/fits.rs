@@ -250,17 +250,20 @@ impl FitFiles {
         let regressions: Vec<&PexRow> =
             files.regressions.iter().filter(|row| row.group() == *group).collect();
         let model = self.options.model.map_or(ModelForm::Bivariate, |word| word.0);
-        let (demand, pair) = match (model, self.options.measure) {
+        let (demand, demand_r2, pair) = match (model, self.options.measure) {
             (ModelForm::Universal, _) => unreachable!("the surface has no fits to join"),
             (ModelForm::Bivariate, Some(measure)) => {
                 return Err(UsageError::because(format!("measure {measure} needs --model univariate")));
             }
             (ModelForm::Bivariate | ModelForm::Paper, None) => {
-                (self.biplanar(&regressions)?, (Measure::Im4, Some(Measure::Im3Inverse)))
+                let planes = regressions.iter().find(|row| row.model == Form::Biplanar);
+                let r2 = planes.and_then(|row| row.r2_overall);
+                (self.biplanar(&regressions)?, r2, (Measure::Im4, Some(Measure::Im3Inverse)))
             }
             (ModelForm::Univariate | ModelForm::Paper, measure) => {
                 let measure = measure.map_or(Measure::Im5, |word| word.0);
-                (self.univariate(&regressions, measure)?, (measure, None))
+                let (demand, r2) = self.univariate(&regressions, measure)?;
+                (demand, r2, (measure, None))
             }
         };
         let curve = self.curve(files.curves.iter().filter(|row| row.group() == *group), pair)?;
@@ -282,6 +285,8 @@ impl FitFiles {
             structure,
             model,
             resampled: None,
+            demand_r2,
+            estimator: curve.estimator,
             events,
             few_events,
             few_clusters: curve.clustered_covariance.is_none(),
@@ -309,12 +314,13 @@ impl FitFiles {
         fits::biplanar([plane(0, "below")?, plane(1, "above")?]).map_err(|why| in_file(self.pex.name(), &why))
     }
 
-    fn univariate(&self, rows: &[&PexRow], measure: Measure) -> anyhow::Result<DemandModel> {
+    /// The regression on a measure, and its R2.
+    fn univariate(&self, rows: &[&PexRow], measure: Measure) -> anyhow::Result<(DemandModel, Option<f64>)> {
         let wanted = |row: &&&PexRow| row.model == Form::Univariate && row.im_x == measure;
         let row = rows.iter().find(wanted).map(|row| (*row, row.status));
         let row = found(row, self.pex.name(), &format!("univariate regression on {}", measure.as_str()))?;
         let law = row.demand().map_err(|why| in_file(self.pex.name(), &why))?;
-        Ok(DemandModel::Everywhere(law))
+        Ok((DemandModel::Everywhere(law), row.r2))
     }
 
     fn curve<'r>(
@@ -370,7 +376,7 @@ fn found<'r, R>(row: Option<(&'r R, FitStatus)>, path: &Path, what: &str) -> any
     match row {
         Some((row, status)) if status.is_usable() => Ok(row),
         Some((_, status)) => Err(UsageError::because(format!(
-            "{}: the {what} is {}; choose a measure whose fit is ok",
+            "{}: the {what} is {}; take --model univariate, with a --measure whose fit is ok",
             path.display(),
             status.as_str()
         ))),

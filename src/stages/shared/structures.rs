@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::Context;
-use polars::prelude::AnyValue;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -17,8 +16,8 @@ use crate::pipeline::UsageError;
 use crate::pipeline::console::Console;
 use crate::pipeline::options::{self, comma_slip, explain, from_scalar};
 use crate::rocking::{Structure, StructureError, housner_eta, judge};
+use crate::table::store::columns::text_or_numbers;
 use crate::table::store::contents::footer;
-use crate::table::store::frame::frame_of;
 use crate::table::store::reader::read_any;
 use crate::table::store::text_file::{self, CsvText};
 
@@ -431,6 +430,7 @@ fn spec_of<'c>(
 
 fn from_parquet(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
     let failed = |what: String| UsageError::because(format!("{}: {what}", path.display()));
+    std::fs::metadata(path).with_context(|| UsageError(path.display().to_string()))?;
     let schema = footer(path)?.schema;
     let headings: Vec<String> = schema.fields().iter().map(|field| field.name().clone()).collect();
     let names: Vec<String> = headings.iter().map(|heading| text_file::plain(heading)).collect();
@@ -442,23 +442,22 @@ fn from_parquet(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
             "no columns p and alpha, or width and height; expected {FILE_OF_STRUCTURES}"
         )));
     }
-    let columns =
-        headings.iter().zip(&parts).filter_map(|(heading, part)| Some((heading.as_str(), (*part)?)));
-    let columns: Vec<(&str, &'static str)> = columns.collect();
     let mut specs = Vec::new();
     for batch in read_any(path)? {
-        let frame = frame_of(&batch)?;
-        for row in 0..frame.height() {
-            let cells = columns.iter().filter_map(|&(heading, part)| {
-                let text = match frame.column(heading).ok()?.get(row).ok()? {
-                    AnyValue::Null => return None,
-                    // A frame shows fewer digits.
-                    AnyValue::Float64(number) => number.to_string(),
-                    other => other.get_str().map_or_else(|| other.to_string(), str::to_string),
-                };
-                Some((heading, Some(part), text))
-            });
-            specs.push(spec_of(cells).map_err(|wrong| failed(format!("row {}, {wrong}", row + 1)))?);
+        let mut columns: Vec<(&str, &'static str, Vec<Option<String>>)> = Vec::new();
+        for (at, (heading, part)) in headings.iter().zip(&parts).enumerate() {
+            let Some(part) = part else { continue };
+            let cells = text_or_numbers(batch.column(at)).map_err(|found| {
+                failed(format!("column '{heading}' is {found}; expected text or numbers: convert it"))
+            })?;
+            columns.push((heading, part, cells));
+        }
+        for row in 0..batch.num_rows() {
+            let cells = columns
+                .iter()
+                .filter_map(|(heading, part, cells)| Some((*heading, Some(*part), cells[row].clone()?)));
+            let spec = spec_of(cells);
+            specs.push(spec.map_err(|wrong| failed(format!("row {}, {wrong}", row + 1)))?);
         }
     }
     let mut names = HashSet::new();

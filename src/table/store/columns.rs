@@ -317,20 +317,7 @@ impl<'a> Columns<'a> {
     }
 
     fn numbers_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<f64>>, TableError> {
-        match array.data_type() {
-            DataType::Float64 => Ok(array.as_primitive::<Float64Type>().iter().collect()),
-            DataType::Float32 => {
-                Ok(array.as_primitive::<Float32Type>().iter().map(|value| value.map(f64::from)).collect())
-            }
-            // What DuckDB makes of a number that is written out.
-            DataType::Decimal128(_, scale @ 0..) => {
-                let unit: f64 = (0..*scale).map(|_| 10.0).product();
-                let values = array.as_primitive::<Decimal128Type>().iter();
-                Ok(values.map(|value| Some(value? as f64 / unit)).collect())
-            }
-            DataType::Null => Ok(vec![None; array.len()]),
-            _ => Ok(self.integers_of(array, column)?.into_iter().map(|value| Some(value? as f64)).collect()),
-        }
+        numbers(array).ok_or_else(|| self.wrong_type(array, column))
     }
 
     fn integers_of(&self, array: &ArrayRef, column: &Column) -> Result<Vec<Option<i64>>, TableError> {
@@ -403,6 +390,42 @@ pub fn spelt_out(array: &ArrayRef) -> ArrayRef {
     match dictionary.normalized_keys().into_iter().enumerate().try_for_each(each) {
         Ok(()) => make_array(rows.freeze()),
         Err(_) => array.clone(),
+    }
+}
+
+/// Numbers of any type but whole ones of 64 bits without a sign.
+fn numbers(array: &ArrayRef) -> Option<Vec<Option<f64>>> {
+    match array.data_type() {
+        DataType::Float64 => Some(array.as_primitive::<Float64Type>().iter().collect()),
+        DataType::Float32 => {
+            Some(array.as_primitive::<Float32Type>().iter().map(|value| value.map(f64::from)).collect())
+        }
+        // What DuckDB makes of a number that is written out.
+        DataType::Decimal128(_, scale @ 0..) => {
+            let unit: f64 = (0..*scale).map(|_| 10.0).product();
+            let values = array.as_primitive::<Decimal128Type>().iter();
+            Some(values.map(|value| Some(value? as f64 / unit)).collect())
+        }
+        DataType::Null => Some(vec![None; array.len()]),
+        _ => Some(whole_numbers(array)?.into_iter().map(|value| Some(value? as f64)).collect()),
+    }
+}
+
+/// Text, or numbers as text.
+///
+/// # Errors
+/// If the column has another type, with that in words.
+pub fn text_or_numbers(array: &ArrayRef) -> Result<Vec<Option<String>>, String> {
+    let array = &spelt_out(array);
+    let owned = |text: Option<&str>| text.map(str::to_string);
+    match array.data_type() {
+        DataType::Utf8 => Ok(array.as_string::<i32>().iter().map(owned).collect()),
+        DataType::LargeUtf8 => Ok(array.as_string::<i64>().iter().map(owned).collect()),
+        DataType::Utf8View => Ok(array.as_string_view().iter().map(owned).collect()),
+        other => {
+            let numbers = numbers(array).ok_or_else(|| words_of(other))?;
+            Ok(numbers.into_iter().map(|number| number.map(|number| number.to_string())).collect())
+        }
     }
 }
 
