@@ -201,6 +201,8 @@ pub struct Group {
     pub responses: Vec<ReportResponse>,
     /// How many more there are.
     pub not_drawn: usize,
+    /// Of all that rock, those that overturn or those that do not, whichever are fewer.
+    pub fewer: usize,
     /// Regressions of the demand on one measure of Eq. 13 each.
     pub univariate: Vec<Regression>,
     /// The two planes: below the transition and from there on.
@@ -453,9 +455,7 @@ impl Group {
 
     /// Whether enough motions overturn the structure, and enough do not, for a curve to be drawn.
     pub fn has_curve(&self) -> bool {
-        let [overturned, safe] =
-            [Outcome::Overturning, Outcome::SafeRocking].map(|outcome| self.count(outcome));
-        overturned.min(safe) >= LEAST_EVENTS
+        self.fewer >= LEAST_EVENTS
     }
 
     /// Finds the regression on one measure.

@@ -135,6 +135,7 @@ fn lowest_intensities(html: &mut String, data: &ReportData) {
         .map(|level| number::short(level.map_or(f64::NAN, |level| level.intensity)));
     let words = match keyword::parse(measure) {
         Ok(im) => format!("{} ({})", measure_label(im).words(), scaled_words(measure)),
+        Err(_) if measure == "scale" => "factor on the motions".to_string(),
         Err(_) => scaled_words(measure),
     };
     let title = format!("Lowest {words} that overturns");
@@ -165,7 +166,7 @@ fn lowest_intensities(html: &mut String, data: &ReportData) {
         );
     }
     if data.has_few_events() {
-        notes.push_str(" Few of the motions as they are overturn the structures, or few do not. So these medians say more than the curves below.");
+        notes.push_str(" Where few of the motions as they are overturn a structure, or few do not, its median here says more than its curve.");
     }
     if !others.is_empty() {
         let _ =
@@ -231,9 +232,11 @@ fn came_out(html: &mut String, data: &ReportData) {
 fn judgement(summary: &Summary) -> Option<String> {
     let Median { status, gap, .. } = summary.curve?;
     let Summary { overturned, rocked, .. } = summary;
-    let few = || format!("{} of {} overturn", number::count(*overturned), number::count(*rocked));
+    let fewer = summary.fewer();
+    let what = if *overturned == fewer { "overturn" } else { "do not overturn" };
+    let few = || format!("{} of {} {what}", number::count(fewer), number::count(*rocked));
     Some(match (status, gap) {
-        _ if summary.fewer() < LEAST_EVENTS => format!("none: {}, too few", few()),
+        _ if fewer < LEAST_EVENTS => format!("not drawn: {}, too few", few()),
         (FitStatus::Ok, _) if summary.has_few_events() => format!("{}, so tests say little", few()),
         (FitStatus::Ok, _) => return None,
         (FitStatus::Misfit, Some(Gap { straight, bent })) => {

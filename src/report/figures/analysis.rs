@@ -12,17 +12,17 @@ const MOST: usize = 8;
 
 /// Draws the figure where it says more than curves of few events.
 pub fn first(data: &ReportData) -> Vec<Figure> {
-    figures(data, data.has_few_events())
+    if data.has_few_events() { figure(data) } else { Vec::new() }
 }
 
 /// Draws it elsewhere.
 pub fn after(data: &ReportData) -> Vec<Figure> {
-    figures(data, !data.has_few_events())
+    if data.has_few_events() { Vec::new() } else { figure(data) }
 }
 
 /// Draws one figure, one panel a structure and suite.
-fn figures(data: &ReportData, is_here: bool) -> Vec<Figure> {
-    if data.analyses.is_empty() || !is_here {
+fn figure(data: &ReportData) -> Vec<Figure> {
+    if data.analyses.is_empty() {
         return Vec::new();
     }
     let shown = &data.analyses[..data.analyses.len().min(MOST)];

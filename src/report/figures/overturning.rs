@@ -223,9 +223,8 @@ fn draw(
     panel.frame(drawing, Label::plain(group.name()).bold());
     let (all, events) = (cases.len(), cases.iter().filter(|(_, event, _)| *event).count());
     let counts = format!("{} of {} overturn", number::count(events), number::count(all));
-    let few = events.min(all - events) < LEAST_EVENTS;
-    let notes = match (curve, few) {
-        (None, true) => [Some(format!("no curve: {counts}, {LEAST_EVENTS} of each are needed")), None, None],
+    let notes = match (curve, group.has_curve()) {
+        (None, false) => [Some(format!("no curve: {counts}, {LEAST_EVENTS} of each are needed")), None, None],
         _ => [Some(counts), doubt(curve), beyond],
     };
     for (line, words) in notes.into_iter().flatten().enumerate() {

@@ -101,7 +101,11 @@ pub fn models(pex: &Path, pro: &Path, groups: &[Group]) -> Vec<Model> {
         let form = measure.map_or(ModelForm::Bivariate.as_str(), Keyword::as_str).to_string();
         let chosen = files.choose_each().unwrap_or_default().into_iter().filter_map(|(_, fits)| fits.ok());
         chosen.map(move |fits| {
-            let (doubt, aic) = (fits.misfit.as_ref().map(Misfit::words), fits.aic_per_case);
+            let few = fits.doubt_of_events().map(|doubt| format!("P_ro comes {doubt}"));
+            let doubts: Vec<String> =
+                few.into_iter().chain(fits.misfit.as_ref().map(Misfit::words)).collect();
+            let doubt = (!doubts.is_empty()).then(|| doubts.join("; "));
+            let aic = fits.aic_per_case;
             let ChosenFits { suite, structure, model, .. } = fits;
             (Model { suite, structure, form: form.clone(), fits: model, doubt }, aic)
         })

@@ -27,8 +27,9 @@ pub fn read(
         }
     }
     let Sorted { mut groups, drawn, names, summaries, .. } = sorted;
-    for (group, drawn) in groups.iter_mut().zip(drawn) {
+    for ((group, drawn), summary) in groups.iter_mut().zip(drawn).zip(&summaries) {
         group.not_drawn = drawn.passed_over();
+        group.fewer = summary.as_ref().map_or(0, Summary::fewer);
         group.responses = drawn.into_kept();
     }
     if groups.is_empty() {
@@ -107,6 +108,7 @@ impl Sorted {
             structure: row.structure(),
             responses: Vec::new(),
             not_drawn: 0,
+            fewer: 0,
             univariate: Vec::new(),
             planes: None,
             curves: Vec::new(),
