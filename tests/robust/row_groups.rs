@@ -31,7 +31,7 @@ fn written(batches: i64) -> (usize, Vec<i64>) {
         writer.write_row_group(&RecordBatch::try_new(NARROW.schema(), vec![column]).unwrap()).unwrap();
     }
     writer.finish().unwrap();
-    let rows = read_any(&path).unwrap();
+    let rows = read_any(&path, |_| true).unwrap();
     let rows = rows
         .iter()
         .flat_map(|batch| batch.column(0).as_any().downcast_ref::<Int64Array>().unwrap().values().to_vec());

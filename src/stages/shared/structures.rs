@@ -25,7 +25,7 @@ use crate::table::store::text_file::{self, CsvText};
 const MOST_MIB: u64 = 16;
 
 /// The columns of a table of structures, and the part of a structure that each is.
-const COLUMNS: [(&str, &str); 12] = [
+const COLUMNS: [(&str, &str); 15] = [
     ("name", "name"),
     ("structure", "name"),
     ("p", "p"),
@@ -33,6 +33,9 @@ const COLUMNS: [(&str, &str); 12] = [
     ("alpha", "alpha"),
     ("alpha_rad", "alpha"),
     ("eta", "eta"),
+    ("restitution", "eta"),
+    ("coefficient_of_restitution", "eta"),
+    ("restitution_coefficient", "eta"),
     ("width", "width"),
     ("width_m", "width"),
     ("height", "height"),
@@ -379,6 +382,14 @@ fn from_yaml(text: &str) -> Result<Vec<StructureSpec>, String> {
 /// The part of a structure that each column of a table is; none of one that is something else.
 fn parts(names: &[String], headings: &[String]) -> Result<Vec<Option<&'static str>>, String> {
     let part = |name: &String| COLUMNS.iter().find(|(column, _)| column == name).map(|(_, part)| *part);
+    for (_, part) in COLUMNS {
+        let is_its = |(name, _): &(&String, &String)| COLUMNS.contains(&(name.as_str(), part));
+        let twice: Vec<&str> =
+            names.iter().zip(headings).filter(is_its).map(|(_, heading)| heading.as_str()).collect();
+        if let [one, other, ..] = twice[..] {
+            return Err(format!("columns '{one}' and '{other}' are both the {part}; expected one of them"));
+        }
+    }
     let parts: Vec<Option<&'static str>> = names.iter().map(part).collect();
     let has = |part| parts.contains(&Some(part));
     // Where a structure is given in one way, the parts of the other are not missed.
@@ -387,15 +398,15 @@ fn parts(names: &[String], headings: &[String]) -> Result<Vec<Option<&'static st
         (false, true) => &["p", "alpha"],
         (false, false) => &[],
     };
-    let missing =
-        COLUMNS.iter().map(|(_, part)| *part).filter(|part| !has(part) && !of_other_way.contains(part));
-    let missing: Vec<&str> = missing.collect();
+    let missing = COLUMNS.iter().filter(|(_, part)| !has(part) && !of_other_way.contains(part));
+    let missing: Vec<&str> = missing.map(|(column, _)| *column).collect();
     let is_unknown = |(_, part): &(_, &Option<&str>)| part.is_none();
     for ((name, heading), _) in names.iter().zip(headings).zip(&parts).filter(is_unknown) {
         let near = nearest(name, &missing).filter(|near| strsim::jaro_winkler(name, near) > MISSPELT);
         if let Some(near) = near {
             return Err(format!(
-                "column '{heading}': did you mean '{near}'? expected name, with {WAYS}; take the column out if it is something else"
+                "column '{heading}': did you mean '{near}'? expected name, with {WAYS}, in rad/s, rad and m; take the column out if it is \
+                 something else"
             ));
         }
     }
@@ -442,12 +453,14 @@ fn from_parquet(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
             "no columns p and alpha, or width and height; expected {FILE_OF_STRUCTURES}"
         )));
     }
-    let mut specs = Vec::new();
-    for batch in read_any(path)? {
+    let (mut specs, mut names) = (Vec::new(), HashSet::new());
+    let is_part =
+        |name: &str| headings.iter().zip(&parts).any(|(heading, part)| heading == name && part.is_some());
+    for batch in read_any(path, is_part)? {
         let mut columns: Vec<(&str, &'static str, Vec<Option<String>>)> = Vec::new();
-        for (at, (heading, part)) in headings.iter().zip(&parts).enumerate() {
-            let Some(part) = part else { continue };
-            let cells = text_or_numbers(batch.column(at)).map_err(|found| {
+        for (heading, part) in headings.iter().zip(&parts) {
+            let (Some(part), Some(array)) = (part, batch.column_by_name(heading)) else { continue };
+            let cells = text_or_numbers(array).map_err(|found| {
                 failed(format!("column '{heading}' is {found}; expected text or numbers: convert it"))
             })?;
             columns.push((heading, part, cells));
@@ -456,17 +469,15 @@ fn from_parquet(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
             let cells = columns
                 .iter()
                 .filter_map(|(heading, part, cells)| Some((*heading, Some(*part), cells[row].clone()?)));
-            let spec = spec_of(cells);
-            specs.push(spec.map_err(|wrong| failed(format!("row {}, {wrong}", row + 1)))?);
-        }
-    }
-    let mut names = HashSet::new();
-    for name in specs.iter().filter_map(|spec: &StructureSpec| spec.name.as_ref()) {
-        if !names.insert(name) {
-            // Responses, for example, or fits.
-            return Err(failed(format!(
-                "several rows of '{name}'; expected {FILE_OF_STRUCTURES}, each in one row"
-            )));
+            let spec = spec_of(cells).map_err(|wrong| failed(format!("row {}, {wrong}", specs.len() + 1)))?;
+            if let Some(name) = spec.name.clone().filter(|name| names.contains(name)) {
+                // Responses, for example, or fits.
+                return Err(failed(format!(
+                    "several rows of '{name}'; expected {FILE_OF_STRUCTURES}, each in one row"
+                )));
+            }
+            names.extend(spec.name.clone());
+            specs.push(spec);
         }
     }
     Ok(specs)

@@ -242,12 +242,15 @@ impl Iterator for Batches {
     }
 }
 
-/// The batches of any narrow table with all its columns, whoever wrote it.
+/// The batches of any narrow table with the columns that are wanted, whoever wrote it.
 ///
 /// # Errors
 /// If it is missing or unreadable.
-pub fn read_any(source: impl Into<Source>) -> Result<Vec<RecordBatch>, TableError> {
-    let table = OpenTable::of(&source.into(), None, |_| true)?;
+pub fn read_any(
+    source: impl Into<Source>,
+    is_wanted: impl Fn(&str) -> bool,
+) -> Result<Vec<RecordBatch>, TableError> {
+    let table = OpenTable::of(&source.into(), None, is_wanted)?;
     table.whole()?.map(|batch| Ok(batch?.rows)).collect()
 }
 
