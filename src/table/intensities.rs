@@ -11,7 +11,7 @@ use super::TableError;
 use super::evaluated::EVALUATED;
 use super::schema::headings::Headings;
 use super::schema::{self, Column};
-use super::store::columns::{Columns, spelt_out, whole_numbers};
+use super::store::columns::{Columns, numbers, spelt_out, whole_numbers, words_of};
 use super::store::reader::{Batch, Batches, OpenTable, expect_columns};
 use super::store::source::Source;
 use crate::motion::IntensityMeasures;
@@ -54,6 +54,7 @@ pub struct IntensityBatches {
     batches: Batches,
     headings: Headings,
     kept: Vec<Field>,
+    not_kept: Vec<String>,
     structure: Option<Structure>,
     eta: Option<f64>,
 }
@@ -78,8 +79,21 @@ impl IntensityBatches {
         let renamed = whole.iter().map(|(path, schema)| headings.schema(path, schema));
         let renamed = renamed.collect::<Result<Vec<_>, TableError>>()?;
         let fields = whole[0].1.fields().iter().zip(renamed[0].fields());
-        let own_names = fields.filter(|(field, renamed)| field.name() == renamed.name());
-        let kept: Vec<Field> = own_names.filter_map(|(field, _)| kept(field)).collect();
+        let own_names =
+            fields.filter(|(field, renamed)| field.name() == renamed.name()).map(|(field, _)| field);
+        let (kept, others): (Vec<_>, Vec<_>) =
+            own_names.map(|field| (field, kept(field))).partition(|(_, kept)| kept.is_some());
+        let is_lost = |field: &Field| {
+            let is_list = matches!(
+                field.data_type(),
+                DataType::List(_) | DataType::LargeList(_) | DataType::FixedSizeList(..)
+            );
+            !is_list && !is_of_answer(field) && !columns.iter().any(|column| column.name == field.name())
+        };
+        let others = others.into_iter().map(|(field, _)| field).filter(|field| is_lost(field));
+        let not_kept =
+            others.map(|field| format!("{} ({})", field.name(), words_of(field.data_type()))).collect();
+        let kept: Vec<Field> = kept.into_iter().filter_map(|(_, kept)| kept).collect();
         let is_kept = |name: &str| kept.iter().any(|field| field.name() == name);
         let table =
             OpenTable::open_at(source, &STAGES, |name| is_kept(name) || headings.may_be(name, &columns))?;
@@ -88,12 +102,17 @@ impl IntensityBatches {
             expect_columns(&path, &headings.schema(&path, &schema)?, &columns)?;
         }
         let (batches, headings) = (table.batches(batch_size)?, headings.clone());
-        Ok(IntensityBatches { batches, headings, kept, structure, eta })
+        Ok(IntensityBatches { batches, headings, kept, not_kept, structure, eta })
     }
 
     /// The columns of the table that go along with an answer: numbers and text that are none of its own.
     pub fn kept(&self) -> &[Field] {
         &self.kept
+    }
+
+    /// Those of other types, in words: they are lost.
+    pub fn not_kept(&self) -> &[String] {
+        &self.not_kept
     }
 
     /// How many rows the table has.
@@ -167,11 +186,15 @@ fn kept(field: &Field) -> Option<Field> {
         DataType::Float64 | DataType::Float32 => DataType::Float64,
         DataType::Int32 => DataType::Int32,
         DataType::UInt64 => return None,
+        DataType::Decimal128(..) => DataType::Float64,
         kind if kind.is_integer() => DataType::Int64,
         _ => return None,
     };
-    let is_of_answer = EVALUATED.columns.iter().any(|column| column.name == field.name());
-    (!is_of_answer).then(|| field.clone().with_data_type(kind).with_nullable(true))
+    (!is_of_answer(field)).then(|| field.clone().with_data_type(kind).with_nullable(true))
+}
+
+fn is_of_answer(field: &Field) -> bool {
+    EVALUATED.columns.iter().any(|column| column.name == field.name())
 }
 
 /// An array in one of the types in which columns are kept, if it can be.
@@ -184,6 +207,9 @@ fn plain(array: &ArrayRef) -> ArrayRef {
         DataType::Float32 => {
             let numbers = array.as_primitive::<Float32Type>().iter();
             Arc::new(numbers.map(|number| number.map(f64::from)).collect::<Float64Array>())
+        }
+        DataType::Decimal128(..) => {
+            numbers(array).map_or(array.clone(), |numbers| Arc::new(Float64Array::from(numbers)))
         }
         _ => whole_numbers(array).map_or(array.clone(), |numbers| Arc::new(Int64Array::from(numbers))),
     }

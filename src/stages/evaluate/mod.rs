@@ -115,7 +115,7 @@ impl Declare for Evaluate {
             INTENSITIES,
             "in",
             "",
-            "Parquet or CSV table with pga_m_s2 (in CSV also pga_g) and pgv_m_s and, where they vary, p_rad_s, alpha_rad, eta, tp_s and tm_s; other columns are copied to the output",
+            "Parquet or CSV table with pga_m_s2 (in CSV also pga_g) and pgv_m_s and, where they vary, p_rad_s, alpha_rad, eta, tp_s and tm_s; other columns of text and numbers are copied to the output",
         )
         .if_named()
         .under("Many intensities")

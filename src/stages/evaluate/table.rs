@@ -88,6 +88,10 @@ impl EvaluatedTable {
         let intensities = IntensityBatches::open(input, &self.headings, nameless, self.answers.eta(), BATCH)?;
         let total = intensities.rows();
         self.answers.warn(console);
+        if let lost @ [_, ..] = intensities.not_kept() {
+            console
+                .note(&format!("columns not copied: {}; convert them to text or numbers", lost.join(", ")));
+        }
         let own = EVALUATED.schema();
         let kept = intensities.kept().iter().cloned().map(Arc::new);
         let schema = Arc::new(Schema::new(own.fields().iter().cloned().chain(kept).collect::<Vec<_>>()));

@@ -1,15 +1,15 @@
 //! The columns of a batch, by name: right in type, free of nulls where none may be.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use arrow_array::builder::StringViewBuilder;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{
     Decimal128Type, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type,
     UInt16Type, UInt32Type,
 };
-use arrow_array::{
-    Array, ArrayRef, Float32Array, Float64Array, RecordBatch, StringViewArray, make_array, new_null_array,
-};
+use arrow_array::{Array, ArrayRef, Float32Array, Float64Array, RecordBatch, make_array, new_null_array};
 use arrow_data::transform::MutableArrayData;
 use arrow_schema::DataType;
 
@@ -295,7 +295,11 @@ impl<'a> Columns<'a> {
 
     /// Whether the batch has this column as text.
     pub fn is_text(&self, column: &Column) -> bool {
-        self.column(column).is_some_and(|array| is_text(array.data_type()))
+        let field = self.batch.schema_ref().field_with_name(column.name);
+        field.is_ok_and(|field| match field.data_type() {
+            DataType::Dictionary(_, of) => is_text(of),
+            other => is_text(other),
+        })
     }
 
     /// A value of a row of this batch that cannot be used.
@@ -376,25 +380,40 @@ pub fn spelt_out(array: &ArrayRef) -> ArrayRef {
     if values.is_empty() {
         return new_null_array(values.data_type(), array.len());
     }
-    // Rows share a text, however long it is and however many they are.
-    let values = match values.data_type() {
-        DataType::Utf8 => StringViewArray::from(values.as_string::<i32>()).to_data(),
-        DataType::LargeUtf8 => StringViewArray::from(values.as_string::<i64>()).to_data(),
-        _ => values.to_data(),
-    };
-    let mut rows = MutableArrayData::new(vec![&values], true, array.len());
-    let each = |(row, key): (usize, usize)| match array.is_null(row) {
-        true => rows.try_extend_nulls(1),
-        false => rows.try_extend(0, key, key + 1),
-    };
-    match dictionary.normalized_keys().into_iter().enumerate().try_for_each(each) {
-        Ok(()) => make_array(rows.freeze()),
-        Err(_) => array.clone(),
+    let keys = dictionary.normalized_keys();
+    // Only of what the rows have, since a dictionary may be that of many batches.
+    match values.data_type() {
+        DataType::Utf8 => shared(array, &keys, |key| values.as_string::<i32>().value(key)),
+        DataType::LargeUtf8 => shared(array, &keys, |key| values.as_string::<i64>().value(key)),
+        DataType::Utf8View => shared(array, &keys, |key| values.as_string_view().value(key)),
+        _ => {
+            let values = values.to_data();
+            let mut rows = MutableArrayData::new(vec![&values], true, array.len());
+            let each = |(row, key): (usize, usize)| match array.is_null(row) {
+                true => rows.try_extend_nulls(1),
+                false => rows.try_extend(0, key, key + 1),
+            };
+            match keys.into_iter().enumerate().try_for_each(each) {
+                Ok(()) => make_array(rows.freeze()),
+                Err(_) => array.clone(),
+            }
+        }
     }
 }
 
+/// The texts of rows, which share one that is long, however many they are.
+fn shared<'t>(rows: &ArrayRef, keys: &[usize], text: impl Fn(usize) -> &'t str) -> ArrayRef {
+    let nulls = rows.logical_nulls();
+    let mut shared = StringViewBuilder::new().with_deduplicate_strings();
+    for (row, key) in keys.iter().enumerate() {
+        let is_null = nulls.as_ref().is_some_and(|nulls| nulls.is_null(row));
+        shared.append_option((!is_null).then(|| text(*key)));
+    }
+    Arc::new(shared.finish())
+}
+
 /// Numbers of any type but whole ones of 64 bits without a sign.
-fn numbers(array: &ArrayRef) -> Option<Vec<Option<f64>>> {
+pub fn numbers(array: &ArrayRef) -> Option<Vec<Option<f64>>> {
     match array.data_type() {
         DataType::Float64 => Some(array.as_primitive::<Float64Type>().iter().collect()),
         DataType::Float32 => {
@@ -423,6 +442,9 @@ pub fn text_or_numbers(array: &ArrayRef) -> Result<Vec<Option<String>>, String> 
         DataType::LargeUtf8 => Ok(array.as_string::<i64>().iter().map(owned).collect()),
         DataType::Utf8View => Ok(array.as_string_view().iter().map(owned).collect()),
         other => {
+            if let Some(whole) = whole_numbers(array) {
+                return Ok(whole.into_iter().map(|number| number.map(|number| number.to_string())).collect());
+            }
             let numbers = numbers(array).ok_or_else(|| words_of(other))?;
             Ok(numbers.into_iter().map(|number| number.map(|number| number.to_string())).collect())
         }
@@ -449,7 +471,7 @@ pub fn whole_numbers(array: &ArrayRef) -> Option<Vec<Option<i64>>> {
 }
 
 /// A type of Arrow, in words.
-fn words_of(data_type: &DataType) -> String {
+pub fn words_of(data_type: &DataType) -> String {
     match data_type {
         text if is_text(text) => "text".to_string(),
         DataType::List(item) | DataType::LargeList(item) | DataType::FixedSizeList(item, _) => {
