@@ -71,7 +71,7 @@ fn structures_without_levels_are_told_of_in_ranges() {
     for parameter in ["p", "alpha", "eta"] {
         let ranges = text.lines().filter(|line| line.starts_with(&format!("  {parameter} ")));
         let ranges = ranges.filter(|line| line.contains(" to ")).count();
-        assert!(ranges >= 6, "{parameter}: {text}");
+        assert_eq!(ranges, 8, "{parameter}: {text}");
     }
     // Too few motions for the curves of the reference: the way out names those that have them, if any.
     succeed(folder.path(), "sample-scenarios --mw 6 --re 15 --samples 3 --out few.parquet");

@@ -105,9 +105,9 @@ impl Judged<'_> {
             if levels.len() < 2 {
                 continue;
             }
-            let in_range = if levels.len() > MOST_LEVELS { levels.len().div_ceil(RANGES) } else { 1 };
-            for range in levels.chunks(in_range) {
-                let (low, high) = (range[0], range[range.len() - 1]);
+            let ranges = if levels.len() > MOST_LEVELS { RANGES } else { levels.len() };
+            let end = |k: usize| k * levels.len() / ranges;
+            for (low, high) in (0..ranges).map(|k| (levels[end(k)], levels[end(k + 1) - 1])) {
                 let at = |row: &&&UniversalityRow| (low..=high).contains(&parameter(row));
                 let here = Judged { event: self.event, rows: self.rows.iter().filter(at).copied().collect() };
                 let [holds, bends, fails, few] = here.counts();
@@ -119,7 +119,7 @@ impl Judged<'_> {
                 let cells = [mean, largest(|row| row.worst_over), largest(|row| row.worst_under)];
                 let [mean, over, under] =
                     cells.map(|cell| if cell.is_nan() { "-".to_string() } else { format!("{cell:.3}") });
-                let [from, to] = [low, high].map(|level| (level * 1000.0).round() / 1000.0);
+                let [from, to] = [low, high].map(|level| (level * 1e5).round() / 1e5);
                 let at =
                     if low == high { format!("{name} {from}") } else { format!("{name} {from} to {to}") };
                 writeln!(
