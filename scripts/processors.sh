@@ -10,6 +10,10 @@
 #        scripts/processors.sh aarch64 | avx2 | nehalem   the files of this processor alone
 set -euo pipefail
 cd "$(dirname "$0")/.."
+case ${1:-} in
+    "" | count | aarch64 | avx2 | nehalem) ;;
+    *) echo "$1: expected count, aarch64, avx2 or nehalem" >&2 && exit 2 ;;
+esac
 
 arm=aarch64-unknown-linux-gnu
 target=${CARGO_TARGET_DIR:-target}
@@ -74,6 +78,5 @@ for processor in ${1:-aarch64 avx2 nehalem}; do
         aarch64) same aarch64 qemu-aarch64-static "$program/$arm/release/rockfrag" ;;
         avx2) same $haswell qemu-x86_64-static -cpu $haswell "$program/release/rockfrag" ;;
         nehalem) same Nehalem qemu-x86_64-static -cpu Nehalem "$program/release/rockfrag" ;;
-        *) echo "$processor: expected aarch64, avx2 or nehalem" >&2 && exit 2 ;;
     esac
 done

@@ -140,7 +140,7 @@ impl Console {
             match what.len() {
                 ..=MOST_GROUPS => self.tell(&format!("{reason}: {all}")),
                 count => self.tell(&format!(
-                    "{reason}: {}; and {} more (rockfrag inspect FILE names all)",
+                    "{reason}: {}; and {} more, which the file written names",
                     what[..NAMED].join("; "),
                     count - NAMED
                 )),

@@ -101,7 +101,9 @@ impl Choice {
             let mut of_structure = self.usable().filter(|fits| fits.structure == *structure).peekable();
             let name = named(suite, structure);
             if of_structure.peek().is_none() {
-                return Some(("responses left out, since no fits are of their structure".to_string(), name));
+                let are_told = self.0.iter().any(|((_, structure), _)| structure == &group.structure);
+                let reason = "responses left out, since no fits are of their structure".to_string();
+                return (!are_told).then_some((reason, name));
             }
             let is_other = of_structure.any(|fits| fits.is_other_eta(*eta));
             is_other

@@ -36,7 +36,7 @@ _DOUBTS = {
 _SEPARATED = "the measure separates the outcomes: how steep the curve is comes from Firth's penalty; see profile_interval, and take more cases"
 _FEW = "few events: standard errors of theta and beta are too small; take profile_interval"
 _FOR_PROBABILITIES = ", and confidence_band for probabilities"
-_LIMIT_ONLY = "; probabilities say little more than a limit, and theirs may miss the truth"
+_LIMIT_ONLY = "; a probability is little more than a bound, and its own limits may miss the truth"
 #: Why Firth's estimator has no curve.
 _ALL_OR_NONE = "all cases are events, or none are; take more cases"
 

@@ -140,7 +140,8 @@ def evaluate(
         Overturning curves, from fit_pro.
     intensities : Arrow table or path, optional
         Parquet or CSV table with pga_m_s2 (in CSV also pga_g) and pgv_m_s and, where they vary,
-        p_rad_s, alpha_rad, eta, tp_s and tm_s; other columns are copied to the output.
+        p_rad_s, alpha_rad, eta, tp_s and tm_s; other columns of text and numbers are copied to the
+        output.
     structure : str, optional
         Structure of the fits [default: the only one].
     model : {'univariate', 'bivariate', 'paper', 'universal'}, optional

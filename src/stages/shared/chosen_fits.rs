@@ -167,7 +167,7 @@ impl Answers for ChosenFits {
         };
         self.few_events.then(|| {
             format!(
-                "annual rates of so few: low and high assume the form of the curve where strong motions are few, and are too narrow{chosen}"
+                "annual rates from so few overturnings: low and high assume the form of the curve where strong motions are few, and are too narrow{chosen}"
             )
         })
     }

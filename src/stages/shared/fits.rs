@@ -376,7 +376,7 @@ fn found<'r, R>(row: Option<(&'r R, FitStatus)>, path: &Path, what: &str) -> any
     match row {
         Some((row, status)) if status.is_usable() => Ok(row),
         Some((_, status)) => Err(UsageError::because(format!(
-            "{}: the {what} is {}; take --model univariate, with a --measure whose fit is ok",
+            "{}: the {what} is {}; choose a measure whose fit is ok, with --model univariate --measure IM",
             path.display(),
             status.as_str()
         ))),
