@@ -288,7 +288,7 @@ def test_what_says_nothing_of_a_curve_has_the_status_of_the_stage(responses, rec
 
 def test_a_curve_of_one_event_says_little_more_than_a_limit():
     happened = np.arange(40) == 30
-    with pytest.warns(RockfragWarning, match="probabilities say little more than a limit, and theirs may miss the truth"):
+    with pytest.warns(RockfragWarning, match="a probability is little more than a bound, and its own limits may miss the truth"):
         curve = fit_fragility(np.geomspace(0.1, 10.0, 40), happened, estimator="firth")
     assert not any("confidence_band" in doubt for doubt in curve.doubts)
     with pytest.raises(FitError, match="0 events of 40 cases: all cases are events, or none are") as caught:
