@@ -142,7 +142,9 @@ fn made_in_folder(stage: &dyn Stage, target: &Path, is_partition: bool) -> Vec<(
     let mut files = vec![target.to_path_buf()];
     if is_partition {
         let there = parquet_files(folder_of(target)).unwrap_or_default();
-        files.extend(there.first().into_iter().chain(there.last()).cloned());
+        let ends = there.first().into_iter().chain(there.last());
+        files.extend(ends.filter(|file| file.file_name() != target.file_name()).cloned());
+        files.dedup();
     }
     let made = |file: PathBuf| Some((stage.recorded(&file).ok()??.provenance, file));
     let made = files.into_iter().filter_map(made).filter(|(made, _)| made.stage == stage.name());

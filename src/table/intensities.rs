@@ -79,21 +79,12 @@ impl IntensityBatches {
         let renamed = whole.iter().map(|(path, schema)| headings.schema(path, schema));
         let renamed = renamed.collect::<Result<Vec<_>, TableError>>()?;
         let fields = whole[0].1.fields().iter().zip(renamed[0].fields());
-        let own_names =
-            fields.filter(|(field, renamed)| field.name() == renamed.name()).map(|(field, _)| field);
-        let (kept, others): (Vec<_>, Vec<_>) =
-            own_names.map(|field| (field, kept(field))).partition(|(_, kept)| kept.is_some());
-        let is_lost = |field: &Field| {
-            let is_list = matches!(
-                field.data_type(),
-                DataType::List(_) | DataType::LargeList(_) | DataType::FixedSizeList(..)
-            );
-            !is_list && !is_of_answer(field) && !columns.iter().any(|column| column.name == field.name())
-        };
-        let others = others.into_iter().map(|(field, _)| field).filter(|field| is_lost(field));
+        let own_names = fields.filter(|(field, renamed)| field.name() == renamed.name());
+        let own: Vec<_> = own_names.map(|(field, _)| field.as_ref()).collect();
+        let kept: Vec<Field> = own.iter().filter_map(|field| kept(field)).collect();
+        let lost = own.iter().filter(|field| is_lost(field, &columns));
         let not_kept =
-            others.map(|field| format!("{} ({})", field.name(), words_of(field.data_type()))).collect();
-        let kept: Vec<Field> = kept.into_iter().filter_map(|(_, kept)| kept).collect();
+            lost.map(|field| format!("{} ({})", field.name(), words_of(field.data_type()))).collect();
         let is_kept = |name: &str| kept.iter().any(|field| field.name() == name);
         let table =
             OpenTable::open_at(source, &STAGES, |name| is_kept(name) || headings.may_be(name, &columns))?;
@@ -191,6 +182,14 @@ fn kept(field: &Field) -> Option<Field> {
         _ => return None,
     };
     (!is_of_answer(field)).then(|| field.clone().with_data_type(kind).with_nullable(true))
+}
+
+/// Whether a column is neither read nor kept nor of the answer, and is no list, as accelerations are.
+fn is_lost(field: &Field, read: &[Column]) -> bool {
+    let is_list =
+        matches!(field.data_type(), DataType::List(_) | DataType::LargeList(_) | DataType::FixedSizeList(..));
+    let is_read = read.iter().any(|column| column.name == field.name());
+    kept(field).is_none() && !is_list && !is_read && !is_of_answer(field)
 }
 
 fn is_of_answer(field: &Field) -> bool {

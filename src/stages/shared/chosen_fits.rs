@@ -167,7 +167,7 @@ impl Answers for ChosenFits {
         };
         self.few_events.then(|| {
             format!(
-                "annual rates from so few overturnings: low and high assume the form of the curve where strong motions are few, and are too narrow{chosen}"
+                "annual rates from so few events: low and high assume the form of the curve where strong motions are few, and are too narrow{chosen}"
             )
         })
     }
@@ -286,7 +286,7 @@ impl Answers for ChosenFits {
         }
         if let Some(r2) = self.demand_r2.filter(|r2| *r2 < USEFUL_R2) {
             console.warn(&format!(
-                "P_ex comes from a regression that explains next to nothing (R2 {r2:.2}): compare --measure im4 with --model univariate, or --model universal"
+                "P_ex comes from a regression that explains next to nothing (R2 {r2:.2}): compare --model univariate with another --measure, or --model universal"
             ));
         }
         if let Some(misfit) = &self.misfit {

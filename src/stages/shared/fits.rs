@@ -256,9 +256,8 @@ impl FitFiles {
                 return Err(UsageError::because(format!("measure {measure} needs --model univariate")));
             }
             (ModelForm::Bivariate | ModelForm::Paper, None) => {
-                let planes = regressions.iter().find(|row| row.model == Form::Biplanar);
-                let r2 = planes.and_then(|row| row.r2_overall);
-                (self.biplanar(&regressions)?, r2, (Measure::Im4, Some(Measure::Im3Inverse)))
+                let (demand, r2) = self.biplanar(&regressions)?;
+                (demand, r2, (Measure::Im4, Some(Measure::Im3Inverse)))
             }
             (ModelForm::Univariate | ModelForm::Paper, measure) => {
                 let measure = measure.map_or(Measure::Im5, |word| word.0);
@@ -297,21 +296,24 @@ impl FitFiles {
         })
     }
 
-    fn biplanar(&self, rows: &[&PexRow]) -> anyhow::Result<DemandModel> {
+    /// The two planes, and their R2.
+    fn biplanar(&self, rows: &[&PexRow]) -> anyhow::Result<(DemandModel, Option<f64>)> {
         let planes = fits::planes(rows.iter().copied());
+        let any = rows.iter().find(|row| row.model == Form::Biplanar);
+        if let (None, Some(PexRow { status, .. })) = (planes, any) {
+            return Err(UsageError::because(format!(
+                "{}: fit-pex found no two planes ({}); take --model univariate, or fit-pex --transition 1.3",
+                self.pex.name().display(),
+                status.as_str()
+            )));
+        }
         let plane = |index: usize, side: &str| {
             let row = planes.map(|planes| (planes[index], planes[index].status));
-            let status = rows.iter().find(|row| row.model == Form::Biplanar).map(|row| row.status);
-            if let (None, Some(status)) = (row, status) {
-                return Err(UsageError::because(format!(
-                    "{}: fit-pex found no two planes ({}); take --model univariate, or fit-pex --transition 1.3",
-                    self.pex.name().display(),
-                    status.as_str()
-                )));
-            }
             found(row, self.pex.name(), &format!("plane {side} the transition"))
         };
-        fits::biplanar([plane(0, "below")?, plane(1, "above")?]).map_err(|why| in_file(self.pex.name(), &why))
+        let model = fits::biplanar([plane(0, "below")?, plane(1, "above")?])
+            .map_err(|why| in_file(self.pex.name(), &why))?;
+        Ok((model, any.and_then(|row| row.r2_overall)))
     }
 
     /// The regression on a measure, and its R2.

@@ -30,6 +30,7 @@ enum Ratio {
 /// smooth function under a normal density is exact to 1e-8 with these.
 const STEP: f64 = 0.5;
 const LAST_NODE: i32 = 12;
+
 impl Line {
     /// Of one ratio, or of those that motions of an intensity have.
     ///

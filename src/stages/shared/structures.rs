@@ -382,15 +382,13 @@ fn from_yaml(text: &str) -> Result<Vec<StructureSpec>, String> {
 /// The part of a structure that each column of a table is; none of one that is something else.
 fn parts(names: &[String], headings: &[String]) -> Result<Vec<Option<&'static str>>, String> {
     let part = |name: &String| COLUMNS.iter().find(|(column, _)| column == name).map(|(_, part)| *part);
-    for (_, part) in COLUMNS {
-        let is_its = |(name, _): &(&String, &String)| COLUMNS.contains(&(name.as_str(), part));
-        let twice: Vec<&str> =
-            names.iter().zip(headings).filter(is_its).map(|(_, heading)| heading.as_str()).collect();
-        if let [one, other, ..] = twice[..] {
+    let parts: Vec<Option<&'static str>> = names.iter().map(part).collect();
+    for (other, part) in parts.iter().enumerate().filter_map(|(other, part)| Some((other, (*part)?))) {
+        if let Some(one) = parts[..other].iter().position(|earlier| *earlier == Some(part)) {
+            let (one, other) = (&headings[one], &headings[other]);
             return Err(format!("columns '{one}' and '{other}' are both the {part}; expected one of them"));
         }
     }
-    let parts: Vec<Option<&'static str>> = names.iter().map(part).collect();
     let has = |part| parts.contains(&Some(part));
     // Where a structure is given in one way, the parts of the other are not missed.
     let of_other_way: &[&str] = match (has("p") && has("alpha"), has("width") && has("height")) {
@@ -420,21 +418,20 @@ fn from_csv(text: &str) -> Result<Vec<StructureSpec>, String> {
     let parts = parts(&table.names, &headings)?;
     let spec = |row: Result<(u64, csv::StringRecord), String>| {
         let (line, record) = row?;
-        let cells = headings.iter().zip(&parts).zip(record.iter().map(str::to_string));
-        spec_of(cells.map(|((heading, part), cell)| (heading.as_str(), *part, cell)))
+        let cells = headings.iter().zip(&parts).zip(&record);
+        spec_of(cells.filter_map(|((heading, part), cell)| Some((heading.as_str(), (*part)?, cell))))
             .map_err(|wrong| format!("line {line}, {wrong}"))
     };
     table.rows().map(spec).collect()
 }
 
-/// The structure of a row, of which each cell has a heading and is a part, or something else.
+/// The structure of a row: the heading of each cell, the part that it is, and its text.
 fn spec_of<'c>(
-    cells: impl Iterator<Item = (&'c str, Option<&'static str>, String)>,
+    cells: impl Iterator<Item = (&'c str, &'static str, &'c str)>,
 ) -> Result<StructureSpec, String> {
     let mut spec = StructureSpec::default();
     for (heading, part, cell) in cells.filter(|(.., cell)| !cell.is_empty()) {
-        let Some(part) = part else { continue };
-        spec.set(part, &cell).map_err(|wrong| format!("column '{heading}': {wrong}"))?;
+        spec.set(part, cell).map_err(|wrong| format!("column '{heading}': {wrong}"))?;
     }
     Ok(spec)
 }
@@ -468,7 +465,7 @@ fn from_parquet(path: &Path) -> anyhow::Result<Vec<StructureSpec>> {
         for row in 0..batch.num_rows() {
             let cells = columns
                 .iter()
-                .filter_map(|(heading, part, cells)| Some((*heading, Some(*part), cells[row].clone()?)));
+                .filter_map(|(heading, part, cells)| Some((*heading, *part, cells[row].as_deref()?)));
             let spec = spec_of(cells).map_err(|wrong| failed(format!("row {}, {wrong}", specs.len() + 1)))?;
             if let Some(name) = spec.name.clone().filter(|name| names.contains(name)) {
                 // Responses, for example, or fits.
