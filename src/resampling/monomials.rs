@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use nalgebra::{DMatrix, DVector};
 use pulp::NullaryFnOnce;
 
 use crate::statistics::derivatives::NEAR;
@@ -72,6 +73,11 @@ impl Monomials {
         }
     }
 
+    /// Up to which degree.
+    pub fn order(&self) -> usize {
+        self.degrees.last().copied().unwrap_or(0)
+    }
+
     /// Of how many variables.
     pub fn variables(&self) -> usize {
         self.first.len()
@@ -104,6 +110,17 @@ impl Monomials {
     pub fn powers_of_sum(&self, x: &[f64], a: &[f64]) -> Vec<f64> {
         let values = self.degrees.iter().zip(&self.ways).zip(self.values::<1>(x.as_chunks().0));
         values.map(|((&degree, ways), [value])| a[degree] * ways * value).collect()
+    }
+
+    /// The factors of each in the quadratic function with this gradient and these second derivatives where all variables are 0.
+    pub fn quadratic(&self, constant: f64, gradient: &DVector<f64>, curvature: &DMatrix<f64>) -> Vec<f64> {
+        let linear = self.of_degree(1).map(|place| gradient[self.factors[place].0]);
+        let square = self.of_degree(2).map(|place| {
+            let (i, earlier) = self.factors[place];
+            let j = self.factors[earlier].0;
+            if i == j { 0.5 * curvature[(i, i)] } else { curvature[(i, j)] }
+        });
+        std::iter::once(constant).chain(linear).chain(square).collect()
     }
 
     /// The sums over cases of [`Monomials::powers_of_sum`]; `x` are the columns of each variable, `a` those of each case.

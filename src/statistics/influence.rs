@@ -63,13 +63,18 @@ impl Influence {
     /// The change of the coefficients in one Newton step where each case counts `weights` times: exact for least
     /// squares. None if the weighted cases do not determine them.
     pub fn step(&self, design: &Design, weights: &[f64]) -> Option<DVector<f64>> {
-        let weighted = |rows: &Rows, cases: Range<usize>, mut scores: Scores| {
-            self.score(&rows.y[cases.clone()], scores.reborrow());
-            for ((slope, curvature), weight) in scores.iter_mut().zip(&weights[rows.first..][cases]) {
-                (*slope, *curvature) = (weight * *slope, weight * *curvature);
-            }
-        };
-        newton_step(&derivatives(design, self.coefficients.as_slice(), weighted), Along::All)
+        let objective = derivatives(
+            design,
+            self.coefficients.as_slice(),
+            #[inline(always)]
+            |rows, cases, mut scores| {
+                self.score(&rows.y[cases.clone()], scores.reborrow());
+                for ((slope, curvature), weight) in scores.iter_mut().zip(&weights[rows.first..][cases]) {
+                    (*slope, *curvature) = (weight * *slope, weight * *curvature);
+                }
+            },
+        );
+        newton_step(&objective, Along::All)
     }
 
     /// The covariance of the coefficients where cases of one cluster may depend on each other and none need have the

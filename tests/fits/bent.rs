@@ -6,8 +6,9 @@ use rockfrag::fragility::{
     unwatched,
 };
 use rockfrag::motion::IntensityMeasures;
+use rockfrag::resampling::{Strata, bootstrap};
 use rockfrag::rocking::Outcome;
-use rockfrag::statistics::{FitStatus, Link};
+use rockfrag::statistics::{Estimator, FitStatus, Link, binary_regression};
 
 use crate::paper_model::equipment;
 
@@ -107,6 +108,47 @@ fn resamples_of_the_bent_curve_spread_as_its_errors_within_cells() {
         let ratio = sd / error;
         assert!((0.55..1.2).contains(&ratio), "{sd} for {error}");
     }
+}
+
+#[test]
+fn refits_of_the_bent_curve_are_those_of_repeated_cases() {
+    let data = rows("bent_cases.csv");
+    let cases: Vec<Case> = data.iter().map(|row| case(row)).collect();
+    let cells: Vec<usize> = data.iter().map(|row| row[2] as usize).collect();
+    let curve = fitted(&cases, &cells, 200);
+    let bent = curve.bent_answer().unwrap();
+    let terms = |row: &Vec<f64>| {
+        let (x, y) = (row[0].ln(), -row[1].ln());
+        let [spline_x, spline_y, product] = Bend::terms(&bent.knots, x, Some(y));
+        [1.0, x, y, spline_x, spline_y, product]
+    };
+    let designs: Vec<[f64; 6]> = data.iter().map(terms).collect();
+    let index = |b: &[f64; 6], x: &[f64; 6]| b.iter().zip(x).map(|(b, x)| b * x).sum::<f64>();
+    let error = |x: &[f64; 6]| index(&bent.covariance.map(|row| index(&row, x)), x).sqrt();
+    let exact = bootstrap(&Strata::new(&cells), 200, 1, |resamples| {
+        std::array::from_fn(|resample| {
+            let counts = resamples.counts.iter().map(|counts| counts[resample] as usize);
+            let repeated: Vec<usize> =
+                counts.enumerate().flat_map(|(row, count)| std::iter::repeat_n(row, count)).collect();
+            let column = |k: usize| repeated.iter().map(|&row| designs[row][k]).collect::<Vec<f64>>();
+            let columns: Vec<Vec<f64>> = (1..6).map(column).collect();
+            let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+            let events: Vec<bool> = repeated.iter().map(|&row| data[row][3] == 1.0).collect();
+            let fit = binary_regression(&columns, &events, Link::Probit, Estimator::Ml).unwrap();
+            std::array::from_fn::<f64, 6, _>(|k| fit.coefficients[k])
+        })
+    });
+    let mut apart = Vec::new();
+    for (refit, exact) in curve.bent_replicates.iter().zip(&exact) {
+        let refit = refit.unwrap();
+        let of_case = |x: &[f64; 6]| ((index(&refit, x) - index(exact, x)) / error(x)).abs();
+        let mut of_cases: Vec<f64> = designs.iter().map(of_case).collect();
+        of_cases.sort_by(f64::total_cmp);
+        apart.push(of_cases[of_cases.len() * 19 / 20]);
+    }
+    apart.sort_by(f64::total_cmp);
+    eprintln!("{} {} {}", apart[100], apart[190], apart[199]);
+    assert!(apart[199] < 0.03, "{} standard errors apart", apart[199]);
 }
 
 #[test]

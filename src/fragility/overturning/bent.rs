@@ -3,10 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::curves::CurveModel;
+use super::expansion::{Precision, Series};
 use crate::fragility::held_out::HeldOut;
 use crate::fragility::predictor::{BENT_TERMS, Bend};
 use crate::fragility::sample::{CLUSTER, Sample};
-use crate::resampling::{Resamples, TOGETHER};
 use crate::statistics::binary::{BinaryFit, BinaryLikelihood, Estimator};
 use crate::statistics::design::{Moments, Rows, dot, quantile_knots};
 use crate::statistics::influence::Influence;
@@ -17,8 +17,9 @@ const KNOTS: [f64; 3] = [0.1, 0.5, 0.9];
 /// How firmly the bend is held to none, in cases for each standard deviation of its terms: hardly at all, but so that it exists wherever
 /// the straight line does.
 const PENALTY: f64 = 0.1;
-/// What the last step to a resample's maximum may gain in log-likelihood: it moves the index by some hundredths of its standard error.
-const TOLERANCE: f64 = 1e-4;
+/// Of resamples: the index is off by 0.02 of its standard error at most (`tests/fits/bent.rs`). Six coefficients have 210 monomials up
+/// to this degree, 924 up to that of a straight curve.
+pub const PRECISION: Precision = Precision { order: 4, gain: 1e-4, left_out: 0.03 };
 /// The size of a misfit is the difference in probability that one case of so many passes: not the largest of all, which one case at the
 /// rim may have.
 const SELDOM: usize = 20;
@@ -56,8 +57,6 @@ pub struct BentSample {
     /// The terms in place of the measures.
     sample: Sample,
     knots: [[f64; 3]; 2],
-    /// Which of the terms of [`Bend`] there are.
-    terms: &'static [usize],
     penalty: DVector<f64>,
     model: CurveModel,
 }
@@ -66,22 +65,13 @@ impl BentSample {
     /// Of the cases of a curve by maximum likelihood; none of another estimator, or where a measure has too few values for knots.
     pub fn new(sample: &Sample, model: &CurveModel) -> Option<BentSample> {
         let (design, measures) = (sample.design(), sample.measures);
-        let terms: &[usize] = match measures {
-            _ if model.estimator != Estimator::Ml => return None,
-            0 => return None,
-            1 => &[0, 1, 3],
-            _ => &[0, 1, 2, 3, 4, 5],
-        };
+        if model.estimator != Estimator::Ml {
+            return None;
+        }
         let knots: Vec<[f64; 3]> =
             (0..measures).map(|measure| quantile_knots(&design, measure, KNOTS)).collect::<Option<_>>()?;
-        let knots = [knots[0], knots.get(1).copied().unwrap_or([0.0; 3])];
-        let bends = |x: &[&[f64]]| -> Vec<Vec<f64>> {
-            let of_case = |case: usize| Bend::terms(&knots, x[0][case], x.get(1).map(|y| y[case]));
-            let of_cases: Vec<[f64; 3]> = (0..x[0].len()).map(of_case).collect();
-            let column = |term: &usize| of_cases.iter().map(|bends| bends[term - 3]).collect();
-            terms[1 + measures..].iter().map(column).collect()
-        };
-        let sample = sample.with(bends);
+        let knots = [*knots.first()?, knots.get(1).copied().unwrap_or([0.0; 3])];
+        let sample = with_bends(sample, &knots);
         let n = sample.cases() as f64;
         let moments = Moments::of(&sample.design());
         // Of the product what is left of it beside the line.
@@ -91,13 +81,13 @@ impl BentSample {
             let place = sample.measures;
             Moments::of(&sample.design().with(1, &further)).product(place, place)
         };
-        let penalty = terms.iter().enumerate().map(|(place, &term)| match term {
+        let penalty = terms_of(1 + sample.measures).iter().enumerate().map(|(place, &term)| match term {
             3 | 4 => PENALTY * moments.product(place - 1, place - 1) / n,
             5 => PENALTY * product() / n,
             _ => 0.0,
         });
         let penalty = DVector::from_vec(penalty.collect());
-        Some(BentSample { sample, knots, terms, penalty, model: *model })
+        Some(BentSample { sample, knots, penalty, model: *model })
     }
 
     /// The fit to all cases, beside the straight line; none where the iterations do not end.
@@ -105,71 +95,80 @@ impl BentSample {
         let mut start = DVector::zeros(self.penalty.len());
         start.rows_mut(0, straight.coefficients.len()).copy_from(&straight.coefficients);
         let Maximum { at, objective, .. } = self.maximum(None, &start, 0.0)?;
-        let bread = objective.information.cholesky()?.inverse();
-        let (design, link) = (self.sample.design(), self.model.link);
-        let fit = BinaryFit {
-            link,
-            estimator: Estimator::Ml,
-            coefficients: at.clone(),
-            covariance: bread.clone(),
-            log_likelihood: f64::NAN,
-            objective: objective.value,
-        };
+        let fit = self.fit_at(at.clone(), &objective)?;
+        let (design, link, bread) = (self.sample.design(), self.model.link, &fit.covariance);
         let cluster = |rows: &Rows, case: usize| rows.labels[CLUSTER][case] as usize;
-        let clustered = || Influence::of_regression(&fit).clustered_covariance(&design, &bread, cluster);
+        let clustered = || Influence::of_regression(&fit).clustered_covariance(&design, bread, cluster);
         let covariance = if self.sample.has_many_clusters() { clustered() } else { bread.clone() };
         let of_some = |sample| BentSample { sample, penalty: self.penalty.clone(), ..*self };
         let thinned = self.sample.thinned().map(of_some);
         let some = thinned.as_ref().unwrap_or(self);
-        let refit = |weights: &[f64]| Some(some.maximum(Some(weights), &at, TOLERANCE)?.at);
+        let refit = |weights: &[f64]| some.refit(weights, &at);
         let index = |b: &DVector<f64>, rows: &Rows| rows.indices(b.as_slice());
         let held_out = HeldOut::new(&some.sample.design(), link, refit, index, |y| y != 0.0);
-        let (coefficients, covariance) = (self.placed(&at), self.placed_covariance(&covariance));
+        let (coefficients, covariance) = (placed(&at), placed_covariance(&covariance));
         Some(BentFit { knots: self.knots, coefficients, covariance, held_out, gap: some.gap(straight, &fit) })
     }
 
-    /// The coefficients in each resample, as [`BentFit`] has them. How often each case is drawn is held in memory here, however many
-    /// there are: bent curves are few.
-    pub fn refits(&self, fit: &BentFit, resamples: &Resamples) -> [Option<[f64; BENT_TERMS]>; TOGETHER] {
-        let start = DVector::from_iterator(self.terms.len(), self.terms.iter().map(|&k| fit.coefficients[k]));
-        let rows = self.sample.rows();
-        std::array::from_fn(|resample| {
-            let weights = resamples.of(resample, &rows);
-            Some(self.placed(&self.maximum(Some(&weights), &start, TOLERANCE)?.at))
+    /// The cases, with all terms.
+    pub fn cases(&self) -> &Sample {
+        &self.sample
+    }
+
+    /// Some of the cases of the curve, with all terms.
+    pub fn bent(&self, some: &Sample) -> Sample {
+        with_bends(some, &self.knots)
+    }
+
+    /// The log-likelihood about a fit.
+    pub fn series(&self, fit: &BentFit) -> Option<Series> {
+        let coefficients = self.coefficients_of(fit);
+        let objective = self.penalised(None, &coefficients);
+        let fit = self.fit_at(coefficients, &objective)?;
+        Some(Series::about(&fit, PRECISION.order)?.penalised(&self.penalty))
+    }
+
+    /// The coefficients of a fit that there are.
+    pub fn coefficients_of(&self, fit: &BentFit) -> DVector<f64> {
+        let terms = terms_of(self.penalty.len());
+        DVector::from_iterator(terms.len(), terms.iter().map(|&term| fit.coefficients[term]))
+    }
+
+    /// The coefficients where each case counts so often, from those of a fit nearby.
+    pub fn refit(&self, weights: &[f64], nearby: &DVector<f64>) -> Option<DVector<f64>> {
+        Some(self.maximum(Some(weights), nearby, PRECISION.gain)?.at)
+    }
+
+    fn fit_at(&self, coefficients: DVector<f64>, objective: &Objective) -> Option<BinaryFit> {
+        Some(BinaryFit {
+            link: self.model.link,
+            estimator: Estimator::Ml,
+            coefficients,
+            covariance: objective.information.clone().cholesky()?.inverse(),
+            log_likelihood: f64::NAN,
+            objective: objective.value,
         })
     }
 
     fn maximum(&self, weights: Option<&[f64]>, start: &DVector<f64>, tolerance: f64) -> Option<Maximum> {
+        maximise(|b| self.penalised(weights, b), start, Along::All, tolerance)
+    }
+
+    /// The log-likelihood less what holds the bend to none.
+    fn penalised(&self, weights: Option<&[f64]>, b: &DVector<f64>) -> Objective {
         let likelihood = BinaryLikelihood {
             design: self.sample.design(),
             weights,
             link: self.model.link,
             estimator: Estimator::Ml,
         };
-        let penalised = |b: &DVector<f64>| {
-            let Objective { value, gradient, information } = likelihood.at(b);
-            let slope = self.penalty.component_mul(b);
-            Objective {
-                value: value - 0.5 * dot(slope.as_slice(), b.as_slice()),
-                gradient: gradient - slope,
-                information: information + DMatrix::from_diagonal(&self.penalty),
-            }
-        };
-        maximise(penalised, start, Along::All, tolerance)
-    }
-
-    fn placed(&self, coefficients: &DVector<f64>) -> [f64; BENT_TERMS] {
-        let mut placed = [0.0; BENT_TERMS];
-        self.terms.iter().zip(coefficients.iter()).for_each(|(&term, &b)| placed[term] = b);
-        placed
-    }
-
-    fn placed_covariance(&self, covariance: &DMatrix<f64>) -> [[f64; BENT_TERMS]; BENT_TERMS] {
-        let mut placed = [[0.0; BENT_TERMS]; BENT_TERMS];
-        for (i, &row) in self.terms.iter().enumerate() {
-            self.terms.iter().enumerate().for_each(|(j, &column)| placed[row][column] = covariance[(i, j)]);
+        let Objective { value, gradient, information } = likelihood.at(b);
+        let slope = self.penalty.component_mul(b);
+        Objective {
+            value: value - 0.5 * dot(slope.as_slice(), b.as_slice()),
+            gradient: gradient - slope,
+            information: information + DMatrix::from_diagonal(&self.penalty),
         }
-        placed
     }
 
     fn gap(&self, straight: &BinaryFit, bent: &BinaryFit) -> Gap {
@@ -183,4 +182,35 @@ impl BentSample {
         gaps.sort_by(|a, b| b.size().total_cmp(&a.size()));
         gaps[gaps.len() / SELDOM]
     }
+}
+
+/// Which of the terms of [`Bend`] an index of so many has: of one measure the line and its spline, or all.
+fn terms_of(count: usize) -> &'static [usize] {
+    if count == 3 { &[0, 1, 3] } else { &[0, 1, 2, 3, 4, 5] }
+}
+
+/// The cases with the terms that bend.
+fn with_bends(sample: &Sample, knots: &[[f64; 3]; 2]) -> Sample {
+    sample.with(|x: &[&[f64]]| -> Vec<Vec<f64>> {
+        let of_case = |case: usize| Bend::terms(knots, x[0][case], x.get(1).map(|y| y[case]));
+        let of_cases: Vec<[f64; 3]> = (0..x[0].len()).map(of_case).collect();
+        let terms = if x.len() == 1 { 0..1 } else { 0..3 };
+        terms.map(|term| of_cases.iter().map(|bends| bends[term]).collect()).collect()
+    })
+}
+
+/// Coefficients as [`BentFit`] has them.
+pub fn placed(coefficients: &DVector<f64>) -> [f64; BENT_TERMS] {
+    let mut placed = [0.0; BENT_TERMS];
+    terms_of(coefficients.len()).iter().zip(coefficients).for_each(|(&term, &b)| placed[term] = b);
+    placed
+}
+
+/// Their covariance.
+fn placed_covariance(covariance: &DMatrix<f64>) -> [[f64; BENT_TERMS]; BENT_TERMS] {
+    let (mut placed, terms) = ([[0.0; BENT_TERMS]; BENT_TERMS], terms_of(covariance.nrows()));
+    for (i, &row) in terms.iter().enumerate() {
+        terms.iter().enumerate().for_each(|(j, &column)| placed[row][column] = covariance[(i, j)]);
+    }
+    placed
 }

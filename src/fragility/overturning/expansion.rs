@@ -4,7 +4,7 @@
 //! Each l_i is expanded once, at the fit to all cases, into a Taylor polynomial of the coefficients b: with u = b - fit, the index of a
 //! case moves by x_i'u, and (x_i'u)^k is a sum of monomials of u. A resample is then the sum over cases of n_i times their factors
 //! ([`CaseTerms`]): 28 numbers, or 84 of two measures, that hold all that is needed of it, and cost no exponential. Newton's method maximises that
-//! polynomial, for [`TOGETHER`] resamples at once in the lanes of a register.
+//! polynomial, for [`TOGETHER`] resamples at once in the lanes of a register. What holds a bent curve to its line is a polynomial already.
 //!
 //! u is measured along the Cholesky factor of the covariance, in standard errors, so that the monomials are of one size and the last
 //! two degrees tell how large those are that are left out. Where these might matter, or the steps do not settle, the result is only
@@ -26,11 +26,8 @@ use crate::statistics::link::{Link, ln_probability_series};
 use crate::statistics::newton::Objective;
 use crate::wide::{widest, widest_on};
 
-/// The degree of the polynomial.
+/// The highest degree of the polynomial.
 const ORDER: usize = 6;
-/// By how many standard errors the terms that are left out may move the maximum. That is taken to be less than what the last two
-/// degrees do by as much as those do less than the two degrees before (`tests/uncertainty/bootstrap.rs`).
-const LEFT_OUT: f64 = 2e-6;
 /// Where the polynomial is precise it takes fewer steps.
 const MOST_STEPS: usize = 10;
 
@@ -41,6 +38,18 @@ pub struct NearMaximum {
     pub precise: bool,
 }
 
+/// How near to the maximum is near enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Precision {
+    /// The degree of the polynomial.
+    pub order: usize,
+    /// What the last step may gain in log-likelihood.
+    pub gain: f64,
+    /// By how many standard errors the terms that are left out may move the maximum. That is taken to be less than what the last two
+    /// degrees do by as much as those do less than the two degrees before (`tests/uncertainty/bootstrap.rs`).
+    pub left_out: f64,
+}
+
 /// How a log-likelihood is expanded about a fit.
 pub struct Series {
     link: Link,
@@ -48,17 +57,26 @@ pub struct Series {
     /// From standard errors, in which the coefficients do not depend on each other, to coefficients.
     scale: DMatrix<f64>,
     monomials: Monomials,
+    /// What multiplies each monomial up to the second degree in the penalty, if there is one.
+    penalty: Vec<f64>,
 }
 
 impl Series {
-    /// None if the covariance of the fit is not definite.
-    pub fn about(fit: &BinaryFit) -> Option<Series> {
-        Some(Series {
-            link: fit.link,
-            fitted: fit.coefficients.clone(),
-            scale: fit.covariance.clone().cholesky()?.l(),
-            monomials: Monomials::new(fit.coefficients.len(), ORDER),
-        })
+    /// To a degree of at most [`ORDER`]; none if the covariance of the fit is not definite.
+    pub fn about(fit: &BinaryFit, order: usize) -> Option<Series> {
+        let (fitted, scale) = (fit.coefficients.clone(), fit.covariance.clone().cholesky()?.l());
+        let monomials = Monomials::new(fitted.len(), order);
+        Some(Series { link: fit.link, fitted, scale, monomials, penalty: Vec::new() })
+    }
+
+    /// Of the log-likelihood less half the square of each coefficient times so much.
+    pub fn penalised(self, penalty: &DVector<f64>) -> Series {
+        let Series { fitted, scale, monomials, .. } = &self;
+        let pull = scale.tr_mul(&penalty.component_mul(fitted));
+        let curvature = scale.tr_mul(&(DMatrix::from_diagonal(penalty) * scale));
+        let constant = -0.5 * penalty.dot(&fitted.component_mul(fitted));
+        let penalty = monomials.quadratic(constant, &-pull, &-curvature);
+        Series { penalty, ..self }
     }
 
     /// What multiplies each monomial in the log-likelihood of each case.
@@ -118,17 +136,24 @@ impl Series {
         self.monomials.count()
     }
 
-    /// The maximum in each resample to within `tolerance` of the log-likelihood, or where one Newton step leads; none
-    /// where that leads nowhere.
-    pub fn maxima(&self, factors: &[[f64; TOGETHER]], tolerance: f64) -> [Option<NearMaximum>; TOGETHER] {
+    /// The maximum in each resample, or where one Newton step leads; none where that leads nowhere.
+    pub fn maxima(
+        &self,
+        mut factors: Vec<[f64; TOGETHER]>,
+        precision: Precision,
+    ) -> [Option<NearMaximum>; TOGETHER] {
+        for (factors, penalty) in factors.iter_mut().zip(&self.penalty) {
+            factors.iter_mut().for_each(|factor| *factor += penalty);
+        }
+        let Precision { gain, left_out: most, .. } = precision;
         let Maxima { at, first, settled, left_out } =
-            widest(NewtonSteps { monomials: &self.monomials, factors, tolerance });
+            widest(NewtonSteps { monomials: &self.monomials, factors: &factors, tolerance: gain });
         std::array::from_fn(|resample| {
             let of_resample = |of: &[[f64; TOGETHER]]| {
                 let moved = DVector::from_iterator(of.len(), of.iter().map(|moved| moved[resample]));
                 self.coefficients(&moved)
             };
-            let precise = settled[resample] && left_out[resample] < LEFT_OUT;
+            let precise = settled[resample] && left_out[resample] < most;
             let at = of_resample(if settled[resample] { &at } else { &first });
             at.iter().all(|b| b.is_finite()).then_some(NearMaximum { at, precise })
         })
@@ -154,7 +179,7 @@ const LEAST_TERM: f64 = 1e-9;
 impl Polynomial {
     /// None if the covariance of the fit is not definite.
     pub fn about(fit: &BinaryFit, design: &Design) -> Option<Polynomial> {
-        let series = Series::about(fit)?;
+        let series = Series::about(fit, ORDER)?;
         let inverse = series.scale.clone().try_inverse()?;
         let mut factors: Vec<[f64; 1]> = series.sums(design).into_iter().map(|factor| [factor]).collect();
         factors[0] = [fit.log_likelihood];
@@ -170,7 +195,8 @@ impl Polynomial {
             let factors = &self.factors[monomials.of_degree(degree)];
             away.powi(degree as i32) * factors.iter().map(|[factor]| factor.abs()).sum::<f64>()
         };
-        let (last, before) = (most(ORDER) + most(ORDER - 1), most(ORDER - 2) + most(ORDER - 3));
+        let order = monomials.order();
+        let (last, before) = (most(order) + most(order - 1), most(order - 2) + most(order - 3));
         last * last <= LEAST_TERM * before
     }
 
@@ -257,7 +283,8 @@ impl NullaryFnOnce for NewtonSteps<'_> {
             }
             moved
         };
-        let (before, last) = (moved_by([ORDER - 3, ORDER - 2]), moved_by([ORDER - 1, ORDER]));
+        let order = monomials.order();
+        let (before, last) = (moved_by([order - 3, order - 2]), moved_by([order - 1, order]));
         let left_out = std::array::from_fn(|resample| last[resample] * last[resample] / before[resample]);
         Maxima { at, first, settled, left_out }
     }

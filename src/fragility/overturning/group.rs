@@ -6,12 +6,12 @@ use std::str::FromStr;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::bent::{BentFit, BentSample};
+use super::bent::{BentFit, BentSample, placed};
 use super::curves::{CurveModel, OverturningFit, fit_overturning, has_few_events};
 use super::curves::{fit_with_interaction, fit_with_spline};
 use super::inference::CurveInference;
-use super::inference::CurveRefits;
 use super::parameter::CurveParameter;
+use super::refits::CurveRefits;
 use crate::fragility::case::{Case, Event, Measure};
 use crate::fragility::cases::{CaseTable, Cases};
 use crate::fragility::group::{Progress, Refits, Uncertainty, fit_jointly};
@@ -216,33 +216,25 @@ fn event_sample<C: Cases + ?Sized>(event: Event, im_x: Measure, im_y: Option<Mea
 type SampledCurve = (Curve, Sample);
 
 /// The coefficients of a curve in a resample, straight and bent.
-type Replicate = (Option<DVector<f64>>, Option<[f64; BENT_TERMS]>);
-
-type Straight = Option<[Option<DVector<f64>>; TOGETHER]>;
-type Bent = Option<[Option<[f64; BENT_TERMS]>; TOGETHER]>;
+type Replicate = [Option<DVector<f64>>; 2];
 
 /// The curves of a group, to be made anew in resamples of its cases.
 struct GroupRefits<'a> {
     curves: &'a [SampledCurve],
+    /// All straight ones, then of each the bent one, if that answers.
     refits: Vec<Option<CurveRefits<'a>>>,
-    /// Of those of which the bent curve answers.
-    bent: Vec<Option<(BentSample, &'a BentFit)>>,
 }
 
 impl<'a> GroupRefits<'a> {
     fn new(curves: &'a Vec<SampledCurve>) -> GroupRefits<'a> {
-        let refits = |(curve, sample): &'a SampledCurve| {
+        let straight = |(curve, sample): &'a SampledCurve| {
             Some(CurveRefits::new(sample, &curve.fit.as_ref().ok()?.regression))
         };
         let bent = |(curve, sample): &'a SampledCurve| {
             let fit = curve.bent_answer()?;
-            Some((BentSample::new(sample, &curve.model)?, fit))
+            Some(CurveRefits::of_bent(BentSample::new(sample, &curve.model)?, fit))
         };
-        GroupRefits {
-            curves,
-            refits: curves.iter().map(refits).collect(),
-            bent: curves.iter().map(bent).collect(),
-        }
+        GroupRefits { curves, refits: curves.iter().map(straight).chain(curves.iter().map(bent)).collect() }
     }
 }
 
@@ -252,10 +244,9 @@ impl Refits for GroupRefits<'_> {
     type Refit = Vec<Replicate>;
 
     fn terms(&self, cases: &[Case]) -> Self::Terms {
-        let of_curve = |((curve, _), refits): (&SampledCurve, &Option<CurveRefits>)| {
-            refits.as_ref()?.terms(&curve.sample(cases))
-        };
-        self.curves.iter().zip(&self.refits).map(of_curve).collect()
+        let samples: Vec<Sample> = self.curves.iter().map(|(curve, _)| curve.sample(cases)).collect();
+        let of_curve = |(refits, sample): (&Option<CurveRefits>, &Sample)| refits.as_ref()?.terms(sample);
+        self.refits.iter().zip(samples.iter().cycle()).map(of_curve).collect()
     }
 
     fn none(&self) -> Self::Sums {
@@ -278,22 +269,15 @@ impl Refits for GroupRefits<'_> {
         sums: Self::Sums,
         whole: &(dyn Fn() -> &'w Resamples + 'w),
     ) -> [Self::Refit; TOGETHER] {
-        let of_all = |(refits, sums): (&Option<CurveRefits>, &Vec<[f64; TOGETHER]>)| {
-            Some(refits.as_ref()?.of_sums(sums, whole))
+        let of_all = |(refits, sums): (&Option<CurveRefits>, Vec<[f64; TOGETHER]>)| match refits {
+            Some(refits) => refits.of_sums(sums, whole),
+            None => [const { None }; TOGETHER],
         };
-        let mut straight: Vec<_> = self.refits.iter().zip(&sums).map(of_all).collect();
-        let bent = |bent: &Option<(BentSample, &BentFit)>| {
-            bent.as_ref().map(|(sample, fit)| sample.refits(fit, whole()))
-        };
-        let bent: Vec<_> = self.bent.iter().map(bent).collect();
+        let mut straight: Vec<_> = self.refits.iter().zip(sums).map(of_all).collect();
+        let mut bent = straight.split_off(self.curves.len());
         std::array::from_fn(|resample| {
-            let of_curve = |(straight, bent): (&mut Straight, &Bent)| {
-                (
-                    straight.as_mut().and_then(|fits| fits[resample].take()),
-                    bent.and_then(|bent| bent[resample]),
-                )
-            };
-            straight.iter_mut().zip(&bent).map(of_curve).collect()
+            let both = straight.iter_mut().zip(&mut bent);
+            both.map(|(straight, bent)| [straight[resample].take(), bent[resample].take()]).collect()
         })
     }
 }
@@ -365,9 +349,9 @@ impl CurveOptions {
         let resampled = self.uncertainty.bootstrap(groups, sizes, &refits, progress)?;
         for (curves, replicates) in fitted.iter_mut().zip(resampled) {
             for fits in replicates {
-                for ((curve, _), (straight, bent)) in curves.iter_mut().zip(fits) {
+                for ((curve, _), [straight, bent]) in curves.iter_mut().zip(fits) {
                     curve.replicates.push(straight);
-                    curve.bent_replicates.push(bent);
+                    curve.bent_replicates.push(bent.as_ref().map(placed));
                 }
             }
         }

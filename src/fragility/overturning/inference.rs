@@ -1,16 +1,15 @@
-//! How sure the parameters of a curve are: clustered errors, profile-likelihood limits and refits of resampled cases.
+//! How sure the parameters of a curve are: clustered errors, profile-likelihood limits and acceleration.
 
 use std::sync::OnceLock;
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::fragility::held_out::HeldOut;
-use crate::fragility::overturning::expansion::{NearMaximum, Polynomial, Series};
+use crate::fragility::overturning::expansion::{Polynomial, Precision};
 use crate::fragility::overturning::parameter::CurveParameter;
 use crate::fragility::overturning::profile::profile_limits;
 use crate::fragility::sample::Sample;
-use crate::resampling::bootstrap::{Resamples, Sizes, Strata, TOGETHER};
-use crate::resampling::case_terms::CaseTerms;
+use crate::resampling::bootstrap::{Sizes, Strata};
 use crate::resampling::limits::{Moves, acceleration_of, add_move, join_moves};
 use crate::statistics::binary::{BinaryFit, BinaryLikelihood, Estimator};
 use crate::statistics::design::Rows;
@@ -19,9 +18,8 @@ use crate::statistics::influence::Influence;
 use crate::statistics::newton::{Along, Maximum, maximise};
 use crate::statistics::separation::is_separable;
 
-/// What the last step may gain in log-likelihood. It then moves the coefficients by some 1e-3 of their standard errors, and
-/// Newton's convergence squares that.
-pub(crate) const TOLERANCE: f64 = 1e-6;
+/// Of resamples. The last step moves the coefficients by some 1e-3 of their standard errors, and Newton's convergence squares that.
+pub(crate) const PRECISION: Precision = Precision { order: 6, gain: 1e-6, left_out: 2e-6 };
 /// Plain Newton steps from nearby are fewer than this; more raise the suspicion that there is no maximum.
 const SUSPICIOUS_STEPS: usize = 6;
 
@@ -97,7 +95,7 @@ impl<'a> CurveInference<'a> {
     pub(crate) fn maximum(&self, weights: &[f64], nearby: Option<DVector<f64>>) -> Option<DVector<f64>> {
         let likelihood = self.likelihood(Some(weights));
         if let Some(start) = nearby {
-            let plain = maximise(|b| likelihood.derivatives_at(b), &start, Along::All, TOLERANCE);
+            let plain = maximise(|b| likelihood.derivatives_at(b), &start, Along::All, PRECISION.gain);
             if let Some(Maximum { at, .. }) = plain.filter(|maximum| maximum.steps < SUSPICIOUS_STEPS) {
                 return Some(at);
             }
@@ -105,8 +103,8 @@ impl<'a> CurveInference<'a> {
         if self.fit.estimator == Estimator::Ml && self.separated(weights) {
             return None;
         }
-        let nearby = likelihood.maximise(&self.fit.coefficients, Along::All, TOLERANCE);
-        nearby.or_else(|| likelihood.highest(TOLERANCE)).map(|maximum| maximum.at)
+        let nearby = likelihood.maximise(&self.fit.coefficients, Along::All, PRECISION.gain);
+        nearby.or_else(|| likelihood.highest(PRECISION.gain)).map(|maximum| maximum.at)
     }
 
     /// The parameters of the curve.
@@ -166,60 +164,5 @@ impl<'a> CurveInference<'a> {
         };
         let columns = self.sample.predictors().iter().map(|values| drawn(values)).collect();
         is_separable(&Sample::of_columns(columns, drawn(&self.sample.observed())).design())
-    }
-}
-
-/// A curve, to be fitted in resamples of its cases.
-pub struct CurveRefits<'a> {
-    sample: &'a Sample,
-    inference: CurveInference<'a>,
-    series: Option<Series>,
-    /// Those of the sample.
-    terms: OnceLock<Option<CaseTerms>>,
-}
-
-impl<'a> CurveRefits<'a> {
-    /// Of a curve and the sample it was fitted to.
-    pub fn new(sample: &'a Sample, fit: &'a BinaryFit) -> CurveRefits<'a> {
-        let series = (fit.estimator == Estimator::Ml).then(|| Series::about(fit)).flatten();
-        CurveRefits { sample, inference: CurveInference::new(sample, fit), series, terms: OnceLock::new() }
-    }
-
-    /// The terms of the likelihood of some of the cases, if it is expanded.
-    pub(super) fn terms(&self, some: &Sample) -> Option<CaseTerms> {
-        Some(self.series.as_ref()?.case_terms(some))
-    }
-
-    /// How many terms of a case are summed.
-    pub(super) fn count(&self) -> usize {
-        self.series.as_ref().map_or(0, Series::count)
-    }
-
-    /// The coefficients in each resample; none without a maximum of the likelihood. They are those of the expansion where it
-    /// is precise; otherwise it is where Newton's steps start.
-    pub fn coefficients(&self, resamples: &Resamples) -> [Option<DVector<f64>>; TOGETHER] {
-        let terms = self.terms.get_or_init(|| self.terms(self.sample));
-        let sums = terms.as_ref().map_or(Vec::new(), |terms| terms.sums(resamples));
-        self.of_sums(&sums, &|| resamples)
-    }
-
-    /// The same from the sums of the terms; `whole` tells how often each of all cases is drawn.
-    pub(super) fn of_sums<'w>(
-        &self,
-        sums: &[[f64; TOGETHER]],
-        whole: &(dyn Fn() -> &'w Resamples + 'w),
-    ) -> [Option<DVector<f64>>; TOGETHER] {
-        let mut nearby = match &self.series {
-            Some(series) => series.maxima(sums, TOLERANCE),
-            None => [const { None }; TOGETHER],
-        };
-        let rows = OnceLock::new();
-        std::array::from_fn(|resample| match nearby[resample].take() {
-            Some(NearMaximum { at, precise: true }) => Some(at),
-            start => {
-                let weights = whole().of(resample, rows.get_or_init(|| self.sample.rows()));
-                self.inference.maximum(&weights, start.map(|start| start.at))
-            }
-        })
     }
 }
