@@ -11,13 +11,12 @@ use assert_cmd::Command;
 use crate::snapshot::{check_each, redact};
 use crate::tables::{fingerprints, schema};
 
-/// The solver is the scalar one everywhere: the vector one differs from it by rounding, and not every processor has it.
 const PIPELINE: &str = "\
 seed: 42
 out: out
 sample-scenarios: { mw: \"6,7\", re: \"5,12\", samples: 60 }
 synthesize-motions: { suite: [pulse, csgm], dt: 0.01, housner: true, sa: \"0.2,1\" }
-simulate: { simd: scalar, structures: structures.csv }
+simulate: { structures: structures.csv }
 fit-pex: { transition: 1.3, bootstrap: 40 }
 fit-pro: { pairs: [\"im4:im3_inv\", \"im5:im1\"], bootstrap: 40 }
 universality: { reference: electrical-equipment }
@@ -42,7 +41,7 @@ const BLOCKS: &str = "\
 const SPREAD: &str = "\
 sample-scenarios: { mw: 7, re: 5, samples: 40 }
 synthesize-motions: { suite: csgm, dt: 0.02 }
-simulate: { simd: scalar, structures: structures.csv }
+simulate: { structures: structures.csv }
 fit-pex: { transition: 1.3 }
 fit-pro: {}
 compare-paper: {}
@@ -67,15 +66,15 @@ const CALLS: [(&str, &str); 38] = [
     ),
     (
         "simulate_one",
-        "simulate --in more/soil.parquet --out more/soil.responses.parquet --simd scalar --p 2.5 --alpha 0.2 --eta 0.92",
+        "simulate --in more/soil.parquet --out more/soil.responses.parquet --p 2.5 --alpha 0.2 --eta 0.92",
     ),
     (
         "simulate_trace",
-        "simulate --in out/motions.parquet --out traced.parquet --simd scalar --p 1 --alpha 0.15 --eta 0.92 --trace 0,1",
+        "simulate --in out/motions.parquet --out traced.parquet --p 1 --alpha 0.15 --eta 0.92 --trace 0,1",
     ),
     (
         "simulate_blocks",
-        "simulate --in out/motions.parquet --out more/blocks.parquet --simd scalar --structures blocks.yaml",
+        "simulate --in out/motions.parquet --out more/blocks.parquet --structures blocks.yaml",
     ),
     ("fit_pex_found", "fit-pex --in out/responses.parquet --out more/found.parquet --limit-state 0.2"),
     (
@@ -106,12 +105,9 @@ const CALLS: [(&str, &str); 38] = [
     ),
     (
         "simulate_records",
-        "simulate --in imported.parquet --out more/imported.responses.parquet --simd scalar --structures structures.csv",
+        "simulate --in imported.parquet --out more/imported.responses.parquet --structures structures.csv",
     ),
-    (
-        "ida",
-        "ida --in imported.parquet --measure im5 --steps 15 --halvings 2 --simd scalar --structures structures.csv",
-    ),
+    ("ida", "ida --in imported.parquet --measure im5 --steps 15 --halvings 2 --structures structures.csv"),
     ("fit_pro_stripes", "fit-pro --in ida.stripes.parquet --out more/stripes.parquet"),
     (
         "validate",
@@ -271,22 +267,4 @@ fn words() {
 fn text_files() {
     let text = |name: &str| redact(&std::fs::read_to_string(made().folder.join(name)).unwrap());
     check_each("text", TEXTS.map(|name| (name.to_string(), text(name))));
-}
-
-/// The vector solver gives the same bits with AVX2 as with AVX-512.
-#[cfg(target_arch = "x86_64")]
-#[test]
-fn numbers_of_the_vector_solver() {
-    if !std::arch::is_x86_feature_detected!("avx2") {
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("structures.csv"), STRUCTURES).unwrap();
-    let made = made().folder.display();
-    let motions = format!("--in {made}/out/motions.parquet --simd avx2 --structures structures.csv");
-    say(folder.path(), &format!("simulate {motions} --out responses.parquet"));
-    let records = format!("--in {made}/imported.parquet --simd avx2 --structures structures.csv");
-    say(folder.path(), &format!("ida {records} --measure im5 --steps 15 --halvings 2 --out ida.parquet"));
-    let texts = files(folder.path(), "parquet").into_iter();
-    check_each("fingerprints", texts.map(|(name, path)| (format!("vector.{name}"), fingerprints(&path))));
 }
