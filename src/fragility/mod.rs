@@ -45,7 +45,7 @@ pub use clusters::{Clusters, SharedBy};
 pub use demand::{
     Biplanar, Break, DemandInference, DemandRefits, DemandReplicate, PLANE, Plane, ScanPoint, SmoothFit,
     Transition, TransitionSearch, USEFUL_R2, fit_biplanar, fit_plane, fit_smooth, fit_univariate,
-    rms_difference, transition_limits,
+    plane_sample, rms_difference, transition_limits,
 };
 pub use group::{Progress, Uncertainty, unwatched};
 pub use held_out::HeldOut;

@@ -12,7 +12,7 @@ use super::fit_pex::FitPex;
 use super::fit_pro::FitPro;
 use super::shared::groups::{self, Group};
 use super::simulate::Simulate;
-use crate::fragility::{Measure, Plane, p_overturning, rms_difference};
+use crate::fragility::{Measure, Plane, p_overturning, plane_sample, rms_difference};
 use crate::motion::IntensityMeasures;
 use crate::pipeline::console::Console;
 use crate::pipeline::declare::{Declare, Files, Input, Output, StageOptions};
@@ -209,7 +209,7 @@ impl Ours {
         let row = self.plane(of, side)?;
         let theirs = Plane { ln_a: published("ln_a")?, b1: published("b1")?, b2: published("b2")? };
         let ours = Plane { ln_a: row.ln_a?, b1: row.b1?, b2: row.b2? };
-        rms_difference(&theirs, &ours, &self.group(of)?.cases, side.range())
+        rms_difference(&theirs, &ours, &plane_sample(&self.group(of)?.cases, side.range()))
     }
 
     /// What a root mean square of a side is between planes of two seeds.
@@ -217,7 +217,7 @@ impl Ours {
         let (side, rest) = Side::of(&of.quantity).filter(|(_, rest)| rest.starts_with("rms"))?;
         let plane = |set: &Vec<f64>| Plane { ln_a: set[0], b1: set[1], b2: set[2] };
         let planes: Vec<Plane> = sets(spread, of, side)?.iter().map(plane).collect();
-        let rms = rms_between(&planes, &self.group(of)?.cases, side.range())?;
+        let rms = rms_between(&planes, &plane_sample(&self.group(of)?.cases, side.range()))?;
         Some(rms / if rest == "rms_over_beta" { self.plane(of, side)?.beta? } else { 1.0 })
     }
 

@@ -4,7 +4,7 @@ use std::f64::consts::SQRT_2;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::fragility::{Cases, Plane, rms_difference};
+use crate::fragility::{Plane, Sample, rms_difference};
 use crate::motion::IntensityMeasures;
 use crate::normal;
 use crate::rocking::Structure;
@@ -36,16 +36,11 @@ pub fn joint_test(ours: &[Vec<f64>], printed: &[f64], rounding: &[f64]) -> Optio
     Some(Test { statistic: t2, p: f_upper_tail(f, numbers, sets - numbers) })
 }
 
-/// How far apart in ln EDP two of these planes are, over the safe-rocking cases whose IM4 lies in `range`: root of the mean square over
-/// all pairs. None with fewer than two planes, or without such cases.
-pub fn rms_between<C: Cases + ?Sized>(
-    planes: &[Plane],
-    cases: &C,
-    range: std::ops::Range<f64>,
-) -> Option<f64> {
+/// How far apart in ln EDP two of these planes are, over the cases of a sample for planes: root of the mean square over all pairs. None
+/// with fewer than two planes, or without cases.
+pub fn rms_between(planes: &[Plane], sample: &Sample) -> Option<f64> {
     let pairs = planes.iter().enumerate().flat_map(|(k, a)| planes[..k].iter().map(move |b| (a, b)));
-    let squares: Option<Vec<f64>> =
-        pairs.map(|(a, b)| Some(rms_difference(a, b, cases, range.clone())?.powi(2))).collect();
+    let squares: Option<Vec<f64>> = pairs.map(|(a, b)| Some(rms_difference(a, b, sample)?.powi(2))).collect();
     let squares = squares.filter(|squares| !squares.is_empty())?;
     Some((squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
 }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use proptest::prelude::*;
 use rockfrag::fragility::{
     Case, CurveModel, Measure, OverturningFit, Plane, Sample, fit_overturning, has_few_events, p_failure,
-    p_failure_given_rocking, p_no_rocking, rms_difference,
+    p_failure_given_rocking, p_no_rocking, plane_sample, rms_difference,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -137,10 +137,10 @@ fn planes_differ_by_the_root_of_their_mean_square() {
     ];
     let a = Plane { ln_a: 1.0, b1: 2.0, b2: 3.0 };
     let b = Plane { ln_a: 0.0, b1: 1.0, b2: 2.0 };
-    let rms = rms_difference(&a, &b, &cases, 1.0..3.0).unwrap();
+    let rms = rms_difference(&a, &b, &plane_sample(&cases, 1.0..3.0)).unwrap();
     assert!((rms - 6.5_f64.sqrt()).abs() < 1e-14, "{rms}");
-    assert_eq!(rms_difference(&a, &a, &cases, 1.0..3.0), Some(0.0));
-    assert_eq!(rms_difference(&a, &b, &cases, 0.0..1.0), None);
+    assert_eq!(rms_difference(&a, &a, &plane_sample(&cases, 1.0..3.0)), Some(0.0));
+    assert_eq!(rms_difference(&a, &b, &plane_sample(&cases, 0.0..1.0)), None);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! How ours stands to what the paper prints.
 
-use rockfrag::fragility::{Case, Plane, rms_difference};
+use rockfrag::fragility::{Case, Plane, plane_sample, rms_difference};
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::{Outcome, Structure};
 use rockfrag::studies::paper::{EXAMPLE_LAMBDA, example, half_erf, hybrid, joint_test, rms_between};
@@ -68,11 +68,12 @@ fn planes_of_seeds_are_apart_by_the_mean_over_pairs() {
     let cases = [case(1.5, 2.0), case(2.0, 0.5), case(4.0, 1.0)];
     let [a, b, c] =
         [[1.0, 2.0, 3.0], [0.5, 1.0, 2.0], [-1.0, 0.0, 1.0]].map(|[ln_a, b1, b2]| Plane { ln_a, b1, b2 });
-    let square = |a, b| rms_difference(a, b, &cases, 1.0..3.0).unwrap().powi(2);
+    let sample = plane_sample(&cases, 1.0..3.0);
+    let square = |a, b| rms_difference(a, b, &sample).unwrap().powi(2);
     let mean = (square(&a, &b) + square(&a, &c) + square(&b, &c)) / 3.0;
-    near(rms_between(&[a, b, c], &cases, 1.0..3.0).unwrap(), mean.sqrt());
-    assert_eq!(rms_between(&[a], &cases, 1.0..3.0), None);
-    assert_eq!(rms_between(&[a, b], &cases, 5.0..6.0), None);
+    near(rms_between(&[a, b, c], &sample).unwrap(), mean.sqrt());
+    assert_eq!(rms_between(&[a], &sample), None);
+    assert_eq!(rms_between(&[a, b], &plane_sample(&cases, 5.0..6.0)), None);
 }
 
 #[test]

@@ -16,7 +16,7 @@ pub use group::{Form, Regression, RegressionOptions, Regressions, Replicate};
 pub use inference::DemandRefits;
 pub use inference::{DemandInference, DemandReplicate};
 pub use regressions::{
-    Biplanar, PLANE, Plane, USEFUL_R2, fit_biplanar, fit_plane, fit_univariate, rms_difference,
+    Biplanar, PLANE, Plane, USEFUL_R2, fit_biplanar, fit_plane, fit_univariate, plane_sample, rms_difference,
 };
 pub use smooth::{SmoothFit, fit_smooth};
 pub use transition::{Break, ScanPoint, Transition, TransitionSearch, transition_limits};

@@ -46,7 +46,7 @@ pub fn fit_univariate<C: Cases + ?Sized>(cases: &C, measure: Measure) -> Result<
 /// # Errors
 /// With the status that says why there is no fit.
 pub fn fit_plane<C: Cases + ?Sized>(cases: &C, range: std::ops::Range<f64>) -> Result<LinearFit, FitStatus> {
-    Sample::of_demands(cases, &PLANE, range).fit()
+    plane_sample(cases, range).fit()
 }
 
 /// Two planes that meet at an IM4.
@@ -74,7 +74,7 @@ pub struct Biplanar {
 /// # Errors
 /// If no transition can be found, for want of cases or as one plane would say.
 pub fn fit_biplanar<C: Cases + ?Sized>(cases: &C, transition: Option<f64>) -> Result<Biplanar, FitStatus> {
-    let sample = Sample::of_demands(cases, &PLANE, 0.0..f64::INFINITY);
+    let sample = plane_sample(cases, 0.0..f64::INFINITY);
     let (found, scan) = match find_transition(&sample) {
         Some(Transition { im4, scan }) => (Some(im4), scan),
         None => (None, Vec::new()),
@@ -93,15 +93,13 @@ pub fn fit_biplanar<C: Cases + ?Sized>(cases: &C, transition: Option<f64>) -> Re
     Ok(Biplanar { transition, found, low, high, r2_pooled, r2_overall, scan })
 }
 
-/// Root of the mean squared difference of two planes in ln EDP, over the safe-rocking cases whose IM4 lies in `range`; none without
-/// such cases.
-pub fn rms_difference<C: Cases + ?Sized>(
-    a: &Plane,
-    b: &Plane,
-    cases: &C,
-    range: std::ops::Range<f64>,
-) -> Option<f64> {
-    let sample = Sample::of_demands(cases, &PLANE, range);
+/// The safe-rocking cases whose IM4 lies in `range`, for planes.
+pub fn plane_sample<C: Cases + ?Sized>(cases: &C, range: std::ops::Range<f64>) -> Sample {
+    Sample::of_demands(cases, &PLANE, range)
+}
+
+/// Root of the mean squared difference of two planes in ln EDP, over the cases of such a sample; none without any.
+pub fn rms_difference(a: &Plane, b: &Plane, sample: &Sample) -> Option<f64> {
     let squares = |rows: &Rows| {
         let square = |(x, y): (&f64, &f64)| {
             let difference = (a.ln_a - b.ln_a) + (a.b1 - b.b1) * x + (a.b2 - b.b2) * y;
