@@ -69,6 +69,9 @@ pub fn with_common(command: Command) -> Command {
 pub fn expect_no_idle(command: &str, matches: &ArgMatches) -> anyhow::Result<()> {
     let is_given = |option: &&&str| matches.value_source(option) == Some(ValueSource::CommandLine);
     match idle(command).iter().find(is_given) {
+        Some(&"config") if command == "run" => {
+            Err(UsageError::because("run takes no --config; expected the file itself: rockfrag run FILE"))
+        }
         Some(option) => Err(UsageError::because(format!("{command} takes no --{option}; leave it out"))),
         None => Ok(()),
     }

@@ -56,7 +56,7 @@ pub fn answer(
     let probabilities = answers.probabilities(structure, &measures);
     let failure = probabilities.limit_states().map(|[_, failure, _]| failure);
     if failure.is_none() {
-        console.warn(answers.words_of_missing());
+        console.warn(&answers.words_of_missing(&measures));
     }
     answers.warn_of_range(&measures, "", console);
     let row = |column: Column, value: Option<f64>, p: Option<Probability>| AnswerRow {

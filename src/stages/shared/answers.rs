@@ -67,8 +67,8 @@ pub trait Answers: Send + Sync {
     /// What a limit state is, in words.
     fn meaning(&self, state: LimitState) -> String;
 
-    /// What to give where a measure is missing.
-    fn words_of_missing(&self) -> &'static str;
+    /// Which measures are missing, and what to give for them.
+    fn words_of_missing(&self, measures: &IntensityMeasures) -> String;
 
     /// The surface, to be asked besides; none where it answers itself.
     fn surface(&self, _: Scenarios) -> Option<UniversalModel> {

@@ -1,5 +1,7 @@
 //! The fits as chosen: in words, and where they do not hold.
 
+use std::collections::BTreeSet;
+
 use super::answers::Answers;
 use super::surface::Surface;
 use super::transfers;
@@ -131,6 +133,16 @@ impl ChosenFits {
     }
 }
 
+/// The option without which a measure is missing.
+fn given_as(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Im1 => "--tp",
+        Measure::Im2 | Measure::Im6 => "--tm",
+        Measure::Im4 => "--pga above 0",
+        Measure::Im3 | Measure::Im3Inverse | Measure::Im5 => "--pgv above 0",
+    }
+}
+
 impl Answers for ChosenFits {
     fn model(&self) -> &dyn Fragility {
         &self.model
@@ -240,8 +252,14 @@ impl Answers for ChosenFits {
         }
     }
 
-    fn words_of_missing(&self) -> &'static str {
-        "the fits need a measure that is missing: give --pgv above 0, --tp or --tm"
+    fn words_of_missing(&self, measures: &IntensityMeasures) -> String {
+        let demand = &self.model.demand.at_strong_motion().ln_median;
+        let needed = demand.measures().chain(self.model.overturning.measures());
+        let missing = needed.filter(|measure| measure.among(measures).is_none());
+        let (missing, given): (BTreeSet<&str>, BTreeSet<&str>) =
+            missing.map(|measure| (measure.as_str(), given_as(measure))).unzip();
+        let all = |of: BTreeSet<&str>| of.into_iter().collect::<Vec<_>>().join(" and ");
+        format!("the fits need {}: give {}", all(missing), all(given))
     }
 
     fn surface(&self, scenarios: Scenarios) -> Option<UniversalModel> {

@@ -115,8 +115,8 @@ impl Answers for Surface {
         }
     }
 
-    fn words_of_missing(&self) -> &'static str {
-        "the surface needs a velocity: give --pgv above 0"
+    fn words_of_missing(&self, _: &IntensityMeasures) -> String {
+        "the surface needs a velocity: give --pgv above 0".to_string()
     }
 
     fn peaks(&self) -> Option<JointPeaks> {
