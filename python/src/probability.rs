@@ -13,7 +13,7 @@ use rockfrag::pipeline::UsageError;
 use rockfrag::pipeline::options::check_bound;
 use rockfrag::stages::shared::answers::Answers;
 use rockfrag::stages::shared::structures::{Restitution, StructureSpec};
-use rockfrag::stages::shared::surface::Surface;
+use rockfrag::stages::shared::surface::{NEEDS_VELOCITY, Surface};
 use rockfrag::units::G_M_S2;
 
 use crate::error::{in_python, to_python};
@@ -81,7 +81,7 @@ pub fn probability<'py>(
         let of = |place| format!("{count} of {}, the first {place}: ", rows.len());
         Some(place(&shape, first).map_or(String::new(), of) + words)
     };
-    let missing = in_python(surface.words_of_missing());
+    let missing = in_python(NEEDS_VELOCITY);
     let doubts = PeaksDoubt::ALL.map(|doubt| warning(&|row| row.doubt == Some(doubt), doubt.words()));
     let others = [
         warning(&|row| row.lacks_measure, &missing),

@@ -2,7 +2,6 @@
 
 use std::str::FromStr;
 
-use anyhow::ensure;
 use clap::Args;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Value, json};
@@ -220,12 +219,13 @@ impl Stage for FitPex {
         let missing = rows.iter().filter(|row| row.regression.status() != FitStatus::Ok);
         console.warn_each_group(missing.map(|row| (reason(row), measures(&row.regression))));
         let fitted = rows.iter().filter(|row| row.regression.status() == FitStatus::Ok).count();
-        ensure!(
-            fitted > 0,
-            "none of {} regressions can be fitted, and no file is written; expected more cases that rock and do not overturn: more \
-             motions, or a structure that rocks in them",
-            rows.len()
-        );
+        if fitted == 0 {
+            console.warn(&format!(
+                "none of {} regressions can be fitted; expected more cases that rock and do not overturn: more motions, or a structure \
+                 that rocks in them",
+                rows.len()
+            ));
+        }
         ScanRow::write(&scans, self.scan_target(), provenance)?;
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PEX_BOOTSTRAP, provenance.clone())?;

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use anyhow::ensure;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -160,7 +159,9 @@ impl Stage for FitPro {
         console.warn_each_group(rows.iter().filter_map(doubt));
         let few = rows.iter().filter(|row| row.curve.has_few_events());
         console.warn_each_group(few.map(|row| (few_events(row), measures(&row.curve))));
-        ensure!(rows.iter().any(|row| row.curve.status().is_usable()), nothing_fits(&rows));
+        if !rows.iter().any(|row| row.curve.status().is_usable()) {
+            console.warn(&nothing_fits(&rows));
+        }
         if let Some(target) = self.bootstrap_target() {
             let mut writer = TableWriter::create(target, &PRO_BOOTSTRAP, provenance.clone())?;
             for row in &rows {
@@ -233,7 +234,7 @@ fn factor(factor: f64) -> String {
     if factor < 1000.0 { format!("{factor:.0}") } else { format!("{factor:.0e}") }
 }
 
-/// What to do where no curve can be fitted: no file is written, since nothing could be read from it.
+/// What to do where no curve can be fitted.
 fn nothing_fits(rows: &[GroupCurve]) -> String {
     let event = rows.first().map_or("events", |row| row.curve.event.as_str());
     let counts: BTreeSet<String> =
@@ -248,7 +249,7 @@ fn nothing_fits(rows: &[GroupCurve]) -> String {
         false => "more motions, or stronger ones (import-motions --scale),",
     };
     format!(
-        "none of {} curves can be fitted, and no file is written: {event} in {counts} cases; expected {LEAST_EVENTS} or more with it, \
+        "none of {} curves can be fitted: {event} in {counts} cases; expected {LEAST_EVENTS} or more with it, \
          and {LEAST_EVENTS} or more without\n\
          {more} answer the same question with more events; rockfrag evaluate without fits answers by the universal surface, with none\n\
          --estimator firth answers it from one event on, and in spite of separation; from so few it says little more than an upper limit\n\

@@ -221,12 +221,14 @@ fn mistakes_in_the_pipeline_file_are_shown_with_their_place() {
 }
 
 #[test]
-fn a_fit_of_nothing_fails_and_says_what_would_help() {
+fn a_fit_of_nothing_says_why_and_what_would_help() {
     let folder = tempfile::tempdir().unwrap();
     write_motions(&folder.path().join("m.parquet"), 0.01, &[samples(&[0.0, 3.0, -4.0, 0.0])]);
     succeed(folder.path(), "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92");
-    let regressions = ["too_few_cases", "none of 9 regressions", "no file is written", "more motions"];
-    fail(folder.path(), "fit-pex --in responses.parquet", 1, &regressions);
+    let told = succeed(folder.path(), "fit-pex --in responses.parquet");
+    for part in ["too_few_cases", "none of 9 regressions", "more motions", "0 of 9 fits ok"] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
     let ways = [
         "too_few_events",
         "none of 7 curves",
@@ -236,8 +238,12 @@ fn a_fit_of_nothing_fails_and_says_what_would_help() {
         "--estimator firth",
         "ida",
     ];
-    fail(folder.path(), "fit-pro --in responses.parquet", 1, &ways);
-    assert!(!folder.path().join("pex.parquet").exists() && !folder.path().join("pro.parquet").exists());
+    let told = succeed(folder.path(), "fit-pro --in responses.parquet");
+    for part in ways {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    let evaluate = "evaluate --pex pex.parquet --pro pro.parquet --p 2.5 --alpha 0.2 --pga 0.5 --pgv 0.5";
+    fail(folder.path(), evaluate, 2, &["too_few_cases", "--model universal"]);
 }
 
 #[test]

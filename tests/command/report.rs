@@ -453,3 +453,19 @@ fn of_few_records_the_medians_of_scaled_motions_come_first() {
     // The motion that is drawn is that under which most happens.
     place("the nearest to overturning that does not");
 }
+
+#[test]
+fn of_records_that_overturn_nothing_there_is_a_report_too() {
+    let folder = tempfile::tempdir().unwrap();
+    succeed(folder.path(), "init records");
+    let pipeline = folder.path().join("pipeline.yaml");
+    let text = std::fs::read_to_string(&pipeline).unwrap();
+    let text = text.replace("[records] }", "[records], scale: \"0.2\" }");
+    std::fs::write(&pipeline, text.replace("measure: im5 }", "measure: im5, steps: 12 }")).unwrap();
+    let told = succeed(folder.path(), "run");
+    assert!(told.contains("none of 10 regressions") && told.contains("none of 7 curves"), "{told}");
+    let page = std::fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    for words in ["(IM5) that overturns", "not drawn: 0 of", "none of 7 curves can be fitted"] {
+        assert!(page.contains(words), "no '{words}'");
+    }
+}

@@ -302,7 +302,7 @@ impl FitFiles {
         let any = rows.iter().find(|row| row.model == Form::Biplanar);
         if let (None, Some(PexRow { status, .. })) = (planes, any) {
             return Err(UsageError::because(format!(
-                "{}: fit-pex found no two planes ({}); take --model univariate, or fit-pex --transition 1.3",
+                "{}: fit-pex found no two planes ({}); take --model univariate, --model universal, or fit-pex --transition 1.3",
                 self.pex.name().display(),
                 status.as_str()
             )));
@@ -378,7 +378,7 @@ fn found<'r, R>(row: Option<(&'r R, FitStatus)>, path: &Path, what: &str) -> any
     match row {
         Some((row, status)) if status.is_usable() => Ok(row),
         Some((_, status)) => Err(UsageError::because(format!(
-            "{}: the {what} is {}; choose a measure whose fit is ok, with --model univariate --measure IM",
+            "{}: the {what} is {}; choose a measure whose fit is ok, with --model univariate --measure IM, or --model universal",
             path.display(),
             status.as_str()
         ))),

@@ -15,6 +15,8 @@ pub const PAPER_LIMIT: f64 = 0.1;
 /// How it did on motions that it was not made of (`docs/universal.md`).
 const OF_OTHER_MOTIONS: &str = "on average over 320 blocks, recorded motions overturned 7 to 18 % more often than it says, and synthetic ones on rock \
      overturned blocks that seldom fall a fifth less often, some of them half as often";
+/// What to say where PGV is 0.
+pub const NEEDS_VELOCITY: &str = "the surface needs a velocity: give --pgv above 0";
 /// How an answer of the surface begins.
 pub const UNIVERSAL: &str = "universal fragility surface";
 
@@ -116,7 +118,7 @@ impl Answers for Surface {
     }
 
     fn words_of_missing(&self, _: &IntensityMeasures) -> String {
-        "the surface needs a velocity: give --pgv above 0".to_string()
+        NEEDS_VELOCITY.to_string()
     }
 
     fn peaks(&self) -> Option<JointPeaks> {
