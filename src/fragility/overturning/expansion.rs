@@ -73,7 +73,8 @@ impl Series {
     pub fn penalised(self, penalty: &DVector<f64>) -> Series {
         let Series { fitted, scale, monomials, .. } = &self;
         let pull = scale.tr_mul(&penalty.component_mul(fitted));
-        let curvature = scale.tr_mul(&(DMatrix::from_diagonal(penalty) * scale));
+        let weighted = DMatrix::from_fn(scale.nrows(), scale.ncols(), |i, j| penalty[i] * scale[(i, j)]);
+        let curvature = scale.tr_mul(&weighted);
         let constant = -0.5 * penalty.dot(&fitted.component_mul(fitted));
         let penalty = monomials.quadratic(constant, &-pull, &-curvature);
         Series { penalty, ..self }
