@@ -167,7 +167,12 @@ fn beside_own(
         transferred: mean(&transferred_scores),
         loss: gain(&own_scores, &transferred_scores, &counted_cells),
         mean_error: differences.iter().map(|d| d.abs()).sum::<f64>() / differences.len() as f64,
-        worst_over: differences.iter().copied().fold(0.0, f64::max),
-        worst_under: differences.iter().map(|d| -d).fold(0.0, f64::max),
+        worst_over: most(differences.iter().copied()),
+        worst_under: most(differences.iter().map(|d| -d)),
     })
+}
+
+/// The largest that is above 0; 0 without one. Which of 0 and -0 `f64::max` takes depends on the compiler.
+fn most(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most, value| if value > most { value } else { most })
 }
