@@ -66,7 +66,7 @@ impl Uncertainty {
                 });
             }
             let refitted = |((_, sums), &first): ((Draws, Vec<R::Sums>), &usize)| {
-                // Few refits ask for these.
+                // Only refits whose sums are not precise enough ask for these.
                 let whole = OnceLock::new();
                 let whole = || -> &Resamples {
                     whole.get_or_init(|| {

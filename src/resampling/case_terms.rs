@@ -7,8 +7,8 @@ use pulp::{Simd, WithSimd};
 use super::bootstrap::{Resamples, TOGETHER};
 use crate::wide::widest_registers;
 
-/// How many terms are summed together: at most as many as sums stay in registers. A line or plane has 6 or 10; polynomials up
-/// to the sixth degree have multiples of the last.
+/// How many terms are summed together: at most as many as sums stay in registers. A line or plane has 6 or 10; most
+/// polynomials have multiples of the last.
 const WIDTHS: [usize; 3] = [6, 10, 14];
 /// Cases whose counts stay in the nearest cache.
 const NEAR: usize = 256;

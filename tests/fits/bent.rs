@@ -147,8 +147,22 @@ fn refits_of_the_bent_curve_are_those_of_repeated_cases() {
         apart.push(of_cases[of_cases.len() * 19 / 20]);
     }
     apart.sort_by(f64::total_cmp);
-    eprintln!("{} {} {}", apart[100], apart[190], apart[199]);
     assert!(apart[199] < 0.03, "{} standard errors apart", apart[199]);
+}
+
+#[test]
+fn a_resample_of_every_case_is_the_bent_curve_itself() {
+    let data = rows("bent_cases.csv");
+    let cases: Vec<Case> = data.iter().map(|row| case(row)).collect();
+    // Of a cell of its own each case is drawn once. With its penalty the likelihood is then greatest where it was.
+    let cells: Vec<usize> = (0..cases.len()).collect();
+    let curve = fitted(&cases, &cells, 8);
+    let bent = curve.bent_answer().unwrap();
+    for refit in &curve.bent_replicates {
+        for (refit, fitted) in refit.unwrap().iter().zip(&bent.coefficients) {
+            assert!((refit / fitted - 1.0).abs() < 1e-6, "{refit} for {fitted}");
+        }
+    }
 }
 
 #[test]

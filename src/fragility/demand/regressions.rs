@@ -93,12 +93,12 @@ pub fn fit_biplanar<C: Cases + ?Sized>(cases: &C, transition: Option<f64>) -> Re
     Ok(Biplanar { transition, found, low, high, r2_pooled, r2_overall, scan })
 }
 
-/// The safe-rocking cases whose IM4 lies in `range`, for planes.
+/// The safe-rocking cases whose IM4 lies in `range`, with the measures of a plane.
 pub fn plane_sample<C: Cases + ?Sized>(cases: &C, range: std::ops::Range<f64>) -> Sample {
     Sample::of_demands(cases, &PLANE, range)
 }
 
-/// Root of the mean squared difference of two planes in ln EDP, over the cases of such a sample; none without any.
+/// Root of the mean squared difference of two planes in ln EDP, over the cases of a [`plane_sample`]; none if it is empty.
 pub fn rms_difference(a: &Plane, b: &Plane, sample: &Sample) -> Option<f64> {
     let squares = |rows: &Rows| {
         let square = |(x, y): (&f64, &f64)| {

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::curves::CurveModel;
-use super::expansion::{Precision, Series};
+use super::expansion::{BENT, Series};
 use crate::fragility::held_out::HeldOut;
 use crate::fragility::predictor::{BENT_TERMS, Bend};
 use crate::fragility::sample::{CLUSTER, Sample};
@@ -17,9 +17,6 @@ const KNOTS: [f64; 3] = [0.1, 0.5, 0.9];
 /// How firmly the bend is held to none, in cases for each standard deviation of its terms: hardly at all, but so that it exists wherever
 /// the straight line does.
 const PENALTY: f64 = 0.1;
-/// Of resamples: the index is off by 0.02 of its standard error at most (`tests/fits/bent.rs`). Six coefficients have 210 monomials up
-/// to this degree, 924 up to that of a straight curve.
-pub const PRECISION: Precision = Precision { order: 4, gain: 1e-4, left_out: 0.03 };
 /// The size of a misfit is the difference in probability that one case of so many passes: not the largest of all, which one case at the
 /// rim may have.
 const SELDOM: usize = 20;
@@ -111,12 +108,12 @@ impl BentSample {
     }
 
     /// The cases, with all terms.
-    pub fn cases(&self) -> &Sample {
+    pub fn sample(&self) -> &Sample {
         &self.sample
     }
 
     /// Some of the cases of the curve, with all terms.
-    pub fn bent(&self, some: &Sample) -> Sample {
+    pub fn with_terms(&self, some: &Sample) -> Sample {
         with_bends(some, &self.knots)
     }
 
@@ -125,10 +122,10 @@ impl BentSample {
         let coefficients = self.coefficients_of(fit);
         let objective = self.penalised(None, &coefficients);
         let fit = self.fit_at(coefficients, &objective)?;
-        Some(Series::about(&fit, PRECISION.order)?.penalised(&self.penalty))
+        Some(Series::about(&fit, BENT)?.penalised(&self.penalty))
     }
 
-    /// The coefficients of a fit that there are.
+    /// The coefficients of a fit, without those that its curve lacks.
     pub fn coefficients_of(&self, fit: &BentFit) -> DVector<f64> {
         let terms = terms_of(self.penalty.len());
         DVector::from_iterator(terms.len(), terms.iter().map(|&term| fit.coefficients[term]))
@@ -136,7 +133,7 @@ impl BentSample {
 
     /// The coefficients where each case counts so often, from those of a fit nearby.
     pub fn refit(&self, weights: &[f64], nearby: &DVector<f64>) -> Option<DVector<f64>> {
-        Some(self.maximum(Some(weights), nearby, PRECISION.gain)?.at)
+        Some(self.maximum(Some(weights), nearby, BENT.gain)?.at)
     }
 
     fn fit_at(&self, coefficients: DVector<f64>, objective: &Objective) -> Option<BinaryFit> {
@@ -184,7 +181,7 @@ impl BentSample {
     }
 }
 
-/// Which of the terms of [`Bend`] an index of so many has: of one measure the line and its spline, or all.
+/// Which of the terms of [`Bend`] an index of so many coefficients has: of one measure the line and its spline, of two all.
 fn terms_of(count: usize) -> &'static [usize] {
     if count == 3 { &[0, 1, 3] } else { &[0, 1, 2, 3, 4, 5] }
 }
@@ -206,7 +203,7 @@ pub fn placed(coefficients: &DVector<f64>) -> [f64; BENT_TERMS] {
     placed
 }
 
-/// Their covariance.
+/// Their covariance, placed likewise.
 fn placed_covariance(covariance: &DMatrix<f64>) -> [[f64; BENT_TERMS]; BENT_TERMS] {
     let (mut placed, terms) = ([[0.0; BENT_TERMS]; BENT_TERMS], terms_of(covariance.nrows()));
     for (i, &row) in terms.iter().enumerate() {

@@ -221,43 +221,43 @@ type Replicate = [Option<DVector<f64>>; 2];
 /// The curves of a group, to be made anew in resamples of its cases.
 struct GroupRefits<'a> {
     curves: &'a [SampledCurve],
-    /// All straight ones, then of each the bent one, if that answers.
-    refits: Vec<Option<CurveRefits<'a>>>,
+    /// Of each the straight one, and the bent one if that answers.
+    refits: Vec<[Option<CurveRefits<'a>>; 2]>,
 }
 
 impl<'a> GroupRefits<'a> {
     fn new(curves: &'a Vec<SampledCurve>) -> GroupRefits<'a> {
-        let straight = |(curve, sample): &'a SampledCurve| {
-            Some(CurveRefits::new(sample, &curve.fit.as_ref().ok()?.regression))
+        let refits = |(curve, sample): &'a SampledCurve| {
+            let straight = curve.fit.as_ref().ok().map(|fit| CurveRefits::new(sample, &fit.regression));
+            let bent = |fit| Some(CurveRefits::of_bent(BentSample::new(sample, &curve.model)?, fit));
+            [straight, curve.bent_answer().and_then(bent)]
         };
-        let bent = |(curve, sample): &'a SampledCurve| {
-            let fit = curve.bent_answer()?;
-            Some(CurveRefits::of_bent(BentSample::new(sample, &curve.model)?, fit))
-        };
-        GroupRefits { curves, refits: curves.iter().map(straight).chain(curves.iter().map(bent)).collect() }
+        GroupRefits { curves, refits: curves.iter().map(refits).collect() }
     }
 }
 
 impl Refits for GroupRefits<'_> {
-    type Terms = Vec<Option<CaseTerms>>;
-    type Sums = Vec<Vec<[f64; TOGETHER]>>;
+    type Terms = Vec<[Option<CaseTerms>; 2]>;
+    type Sums = Vec<[Vec<[f64; TOGETHER]>; 2]>;
     type Refit = Vec<Replicate>;
 
     fn terms(&self, cases: &[Case]) -> Self::Terms {
-        let samples: Vec<Sample> = self.curves.iter().map(|(curve, _)| curve.sample(cases)).collect();
-        let of_curve = |(refits, sample): (&Option<CurveRefits>, &Sample)| refits.as_ref()?.terms(sample);
-        self.refits.iter().zip(samples.iter().cycle()).map(of_curve).collect()
+        let of_curve = |((curve, _), both): (&SampledCurve, &[Option<CurveRefits>; 2])| {
+            let sample = both[0].is_some().then(|| curve.sample(cases));
+            both.each_ref().map(|refits| refits.as_ref()?.terms(sample.as_ref()?))
+        };
+        self.curves.iter().zip(&self.refits).map(of_curve).collect()
     }
 
     fn none(&self) -> Self::Sums {
         let none = |refits: &Option<CurveRefits>| {
             vec![[0.0; TOGETHER]; refits.as_ref().map_or(0, CurveRefits::count)]
         };
-        self.refits.iter().map(none).collect()
+        self.refits.iter().map(|both| both.each_ref().map(none)).collect()
     }
 
     fn add(&self, terms: &Self::Terms, resamples: &Resamples, sums: &mut Self::Sums) {
-        for (sums, terms) in sums.iter_mut().zip(terms) {
+        for (sums, terms) in sums.iter_mut().flatten().zip(terms.iter().flatten()) {
             let more = terms.as_ref().map_or(Vec::new(), |terms| terms.sums(resamples));
             let all = sums.iter_mut().flatten().zip(more.iter().flatten());
             all.for_each(|(sum, more)| *sum += more);
@@ -269,15 +269,19 @@ impl Refits for GroupRefits<'_> {
         sums: Self::Sums,
         whole: &(dyn Fn() -> &'w Resamples + 'w),
     ) -> [Self::Refit; TOGETHER] {
-        let of_all = |(refits, sums): (&Option<CurveRefits>, Vec<[f64; TOGETHER]>)| match refits {
+        let of_all = |refits: &Option<CurveRefits>, sums| match refits {
             Some(refits) => refits.of_sums(sums, whole),
             None => [const { None }; TOGETHER],
         };
-        let mut straight: Vec<_> = self.refits.iter().zip(sums).map(of_all).collect();
-        let mut bent = straight.split_off(self.curves.len());
+        let of_both = |([straight, bent], [of_straight, of_bent]): (&[_; 2], [_; 2])| {
+            [of_all(straight, of_straight), of_all(bent, of_bent)]
+        };
+        let mut refits: Vec<_> = self.refits.iter().zip(sums).map(of_both).collect();
         std::array::from_fn(|resample| {
-            let both = straight.iter_mut().zip(&mut bent);
-            both.map(|(straight, bent)| [straight[resample].take(), bent[resample].take()]).collect()
+            let of_resample = |both: &mut [[Option<DVector<f64>>; TOGETHER]; 2]| {
+                both.each_mut().map(|refits| refits[resample].take())
+            };
+            refits.iter_mut().map(of_resample).collect()
         })
     }
 }

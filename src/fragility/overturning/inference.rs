@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use nalgebra::{DMatrix, DVector};
 
 use crate::fragility::held_out::HeldOut;
-use crate::fragility::overturning::expansion::{Polynomial, Precision};
+use crate::fragility::overturning::expansion::{Polynomial, STRAIGHT};
 use crate::fragility::overturning::parameter::CurveParameter;
 use crate::fragility::overturning::profile::profile_limits;
 use crate::fragility::sample::Sample;
@@ -18,8 +18,6 @@ use crate::statistics::influence::Influence;
 use crate::statistics::newton::{Along, Maximum, maximise};
 use crate::statistics::separation::is_separable;
 
-/// Of resamples. The last step moves the coefficients by some 1e-3 of their standard errors, and Newton's convergence squares that.
-pub(crate) const PRECISION: Precision = Precision { order: 6, gain: 1e-6, left_out: 2e-6 };
 /// Plain Newton steps from nearby are fewer than this; more raise the suspicion that there is no maximum.
 const SUSPICIOUS_STEPS: usize = 6;
 
@@ -36,6 +34,10 @@ impl<'a> CurveInference<'a> {
     /// Of a curve and the sample it was fitted to.
     pub fn new(sample: &'a Sample, fit: &'a BinaryFit) -> CurveInference<'a> {
         CurveInference { sample, fit, influence: Influence::of_regression(fit), polynomial: OnceLock::new() }
+    }
+
+    pub(super) fn sample(&self) -> &Sample {
+        self.sample
     }
 
     /// The covariance of the coefficients where cases of one cluster may depend on each other; `clusters` are those of all
@@ -95,7 +97,7 @@ impl<'a> CurveInference<'a> {
     pub(crate) fn maximum(&self, weights: &[f64], nearby: Option<DVector<f64>>) -> Option<DVector<f64>> {
         let likelihood = self.likelihood(Some(weights));
         if let Some(start) = nearby {
-            let plain = maximise(|b| likelihood.derivatives_at(b), &start, Along::All, PRECISION.gain);
+            let plain = maximise(|b| likelihood.derivatives_at(b), &start, Along::All, STRAIGHT.gain);
             if let Some(Maximum { at, .. }) = plain.filter(|maximum| maximum.steps < SUSPICIOUS_STEPS) {
                 return Some(at);
             }
@@ -103,8 +105,8 @@ impl<'a> CurveInference<'a> {
         if self.fit.estimator == Estimator::Ml && self.separated(weights) {
             return None;
         }
-        let nearby = likelihood.maximise(&self.fit.coefficients, Along::All, PRECISION.gain);
-        nearby.or_else(|| likelihood.highest(PRECISION.gain)).map(|maximum| maximum.at)
+        let nearby = likelihood.maximise(&self.fit.coefficients, Along::All, STRAIGHT.gain);
+        nearby.or_else(|| likelihood.highest(STRAIGHT.gain)).map(|maximum| maximum.at)
     }
 
     /// The parameters of the curve.

@@ -4,9 +4,9 @@ use std::sync::OnceLock;
 
 use nalgebra::DVector;
 
-use super::bent::{self, BentFit, BentSample};
-use super::expansion::{NearMaximum, Precision, Series};
-use super::inference::{self, CurveInference};
+use super::bent::{BentFit, BentSample};
+use super::expansion::{NearMaximum, STRAIGHT, Series};
+use super::inference::CurveInference;
 use crate::fragility::sample::Sample;
 use crate::resampling::bootstrap::{Resamples, TOGETHER};
 use crate::resampling::case_terms::CaseTerms;
@@ -22,31 +22,24 @@ pub struct CurveRefits<'a> {
 
 /// What is fitted anew.
 enum Refitted<'a> {
-    Straight(&'a Sample, CurveInference<'a>),
+    Straight(CurveInference<'a>),
     /// With the coefficients of the fit to all cases.
     Bent(BentSample, DVector<f64>),
 }
 
 impl Refitted<'_> {
     /// The cases of the curve, with all terms of its index.
-    fn cases(&self) -> &Sample {
+    fn sample(&self) -> &Sample {
         match self {
-            Refitted::Straight(sample, _) => sample,
-            Refitted::Bent(bent, _) => bent.cases(),
-        }
-    }
-
-    fn precision(&self) -> Precision {
-        match self {
-            Refitted::Straight(..) => inference::PRECISION,
-            Refitted::Bent(..) => bent::PRECISION,
+            Refitted::Straight(inference) => inference.sample(),
+            Refitted::Bent(bent, _) => bent.sample(),
         }
     }
 
     /// The coefficients where each case counts so often; none without a maximum of the likelihood.
     fn coefficients(&self, weights: &[f64], nearby: Option<DVector<f64>>) -> Option<DVector<f64>> {
         match self {
-            Refitted::Straight(_, inference) => inference.maximum(weights, nearby),
+            Refitted::Straight(inference) => inference.maximum(weights, nearby),
             Refitted::Bent(bent, fitted) => {
                 let from = |start: &DVector<f64>| bent.refit(weights, start);
                 nearby.as_ref().and_then(from).or_else(|| from(fitted))
@@ -58,10 +51,8 @@ impl Refitted<'_> {
 impl<'a> CurveRefits<'a> {
     /// Of a curve and the sample it was fitted to.
     pub fn new(sample: &'a Sample, fit: &'a BinaryFit) -> CurveRefits<'a> {
-        let series = (fit.estimator == Estimator::Ml)
-            .then(|| Series::about(fit, inference::PRECISION.order))
-            .flatten();
-        let curve = Refitted::Straight(sample, CurveInference::new(sample, fit));
+        let series = (fit.estimator == Estimator::Ml).then(|| Series::about(fit, STRAIGHT)).flatten();
+        let curve = Refitted::Straight(CurveInference::new(sample, fit));
         CurveRefits { curve, series, terms: OnceLock::new() }
     }
 
@@ -76,7 +67,7 @@ impl<'a> CurveRefits<'a> {
         let series = self.series.as_ref()?;
         Some(match &self.curve {
             Refitted::Straight(..) => series.case_terms(some),
-            Refitted::Bent(bent, _) => series.case_terms(&bent.bent(some)),
+            Refitted::Bent(bent, _) => series.case_terms(&bent.with_terms(some)),
         })
     }
 
@@ -88,7 +79,7 @@ impl<'a> CurveRefits<'a> {
     /// The coefficients in each resample; none without a maximum of the likelihood. They are those of the expansion where it
     /// is precise; otherwise it is where Newton's steps start.
     pub fn coefficients(&self, resamples: &Resamples) -> [Option<DVector<f64>>; TOGETHER] {
-        let of_all = || Some(self.series.as_ref()?.case_terms(self.curve.cases()));
+        let of_all = || Some(self.series.as_ref()?.case_terms(self.curve.sample()));
         let terms = self.terms.get_or_init(of_all);
         let sums = terms.as_ref().map_or(Vec::new(), |terms| terms.sums(resamples));
         self.of_sums(sums, &|| resamples)
@@ -101,14 +92,14 @@ impl<'a> CurveRefits<'a> {
         whole: &(dyn Fn() -> &'w Resamples + 'w),
     ) -> [Option<DVector<f64>>; TOGETHER] {
         let mut nearby = match &self.series {
-            Some(series) => series.maxima(sums, self.curve.precision()),
+            Some(series) => series.maxima(sums),
             None => [const { None }; TOGETHER],
         };
         let rows = OnceLock::new();
         std::array::from_fn(|resample| match nearby[resample].take() {
             Some(NearMaximum { at, precise: true }) => Some(at),
             start => {
-                let weights = whole().of(resample, rows.get_or_init(|| self.curve.cases().rows()));
+                let weights = whole().of(resample, rows.get_or_init(|| self.curve.sample().rows()));
                 self.curve.coefficients(&weights, start.map(|start| start.at))
             }
         })
