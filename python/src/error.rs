@@ -26,7 +26,7 @@ pub fn in_python(message: &str) -> String {
         }
         _ => word.to_string(),
     };
-    message.split(' ').map(word).collect::<Vec<_>>().join(" ")
+    message.split_inclusive(char::is_whitespace).map(word).collect()
 }
 
 /// The exception for an error of the library.

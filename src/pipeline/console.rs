@@ -82,7 +82,11 @@ impl Progress {
 fn by_reason(warnings: impl Iterator<Item = (String, String)>) -> BTreeMap<String, Vec<String>> {
     let mut by_reason: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (reason, what) in warnings {
-        by_reason.entry(reason).or_default().push(what);
+        let known = by_reason.entry(reason).or_default();
+        // Two planes, for example, are one fit.
+        if known.last() != Some(&what) {
+            known.push(what);
+        }
     }
     by_reason
 }

@@ -180,7 +180,12 @@ fn came_out(html: &mut String, data: &ReportData) {
     let above = data.limit.map(|limit| format!("reach {} α or overturn", number::plain(limit)));
     let mut heads = vec!["structure", "motions", "number", "rock"];
     heads.extend(above.as_deref());
-    heads.extend(["overturn", "its 95 % limits", "half overturn at PGV (m/s)", "its curve"]);
+    heads.extend([
+        "overturn",
+        "its 95 % limits",
+        "half of those that rock overturn at PGV (m/s)",
+        "its curve",
+    ]);
     let row = |summary: &Summary| {
         let Summary { suite, structure, n, rocked, overturned, exceeded, curve } = summary;
         let mut cells = vec![
@@ -189,16 +194,13 @@ fn came_out(html: &mut String, data: &ReportData) {
             number::count(*n),
             number::share(*rocked, *n),
         ];
-        cells.extend(above.iter().map(|_| number::share(exceeded.unwrap_or(0) + overturned, *rocked)));
-        let limits = wilson_limits(*overturned, *rocked);
+        cells.extend(above.iter().map(|_| number::share(exceeded.unwrap_or(0) + overturned, *n)));
+        let limits = wilson_limits(*overturned, *n);
         // Of none the lower limit is 0, but for rounding.
         let low = if *overturned == 0 { 0.0 } else { limits.low.max(0.0) };
         let percent = |share: f64| number::readable(100.0 * share, 2);
-        cells.push(number::share(*overturned, *rocked));
-        cells.push(match rocked {
-            0 => "–".to_string(),
-            _ => format!("{} to {} %", percent(low), percent(limits.high)),
-        });
+        cells.push(number::share(*overturned, *n));
+        cells.push(format!("{} to {} %", percent(low), percent(limits.high)));
         let (median, status) = match curve {
             Some(Median { pgv_m_s, .. }) => (
                 pgv_m_s.map_or("–".to_string(), |pgv| number::with_limits(pgv, 2)),
@@ -225,7 +227,7 @@ fn came_out(html: &mut String, data: &ReportData) {
         answers(html, "What came out, further", &heads, others.iter().map(|summary| row(summary)));
         html.push_str("</details>\n");
     }
-    html.push_str("<p>Shares are of those that rock. The velocity is where the curve over p PGV/(g tan α) gives one half; how likely it is at another intensity is in <a href=\"#curves\">the curves</a> and the <a href=\"#calculator\">calculator</a>.</p>\n");
+    html.push_str("<p>Shares are of all these motions, curves of those that rock. The velocity is where the curve over p PGV/(g tan α) gives one half; how likely it is at another intensity is in <a href=\"#curves\">the curves</a> and the <a href=\"#calculator\">calculator</a>.</p>\n");
 }
 
 /// What speaks against a curve, in few words.

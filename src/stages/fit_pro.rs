@@ -251,7 +251,7 @@ fn nothing_fits(rows: &[GroupCurve]) -> String {
     format!(
         "none of {} curves can be fitted: {event} in {counts} cases; expected {LEAST_EVENTS} or more with it, \
          and {LEAST_EVENTS} or more without\n\
-         {more} answer the same question with more events; rockfrag evaluate without fits answers by the universal surface, with none\n\
+         {more} answer the same question with more events; rockfrag evaluate --model universal answers by a surface for all structures, with none\n\
          --estimator firth answers it from one event on, and in spite of separation; from so few it says little more than an upper limit\n\
          ida scales each motion until it overturns a structure; fit-pro reads its stripes (ida.stripes.parquet), which tell what \
          these motions would do if they were stronger",

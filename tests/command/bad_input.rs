@@ -179,7 +179,12 @@ fn impossible_parameters_are_named() {
     simulate("--p nan", &["p is not a finite number"]);
     simulate("--structures none.csv", &["none.csv"]);
     std::fs::write(folder.path().join("s.yaml"), "- { name: a, p: 1 }\n").unwrap();
-    simulate("--structures s.yaml", &["structure 'a'", "p, alpha and eta"]);
+    simulate("--structures s.yaml", &["s.yaml: structure 'a': found p; expected", "p, alpha and eta"]);
+    std::fs::write(folder.path().join("s.csv"), "name,Width (cm),height\na,50,2\n").unwrap();
+    simulate("--structures s.csv", &["s.csv", "'Width (cm)'", "expected width_m, a length in m"]);
+    std::fs::write(folder.path().join("s.csv"), "name,width,height\na,0.5,2\nb,0.6,2\n").unwrap();
+    let evaluate = "evaluate --structures s.csv --name c --pga 0.5 --pgv 0.5";
+    fail(folder.path(), evaluate, 2, &["s.csv: no structure 'c'; expected --name with one of a, b"]);
     fail(
         folder.path(),
         "simulate --in out/motions.parquet --out r.parquet --trace 99999 --p 2.5 --alpha 0.2 --eta 0.92",
@@ -242,8 +247,15 @@ fn a_fit_of_nothing_says_why_and_what_would_help() {
     for part in ways {
         assert!(told.contains(part), "{part}: {told}");
     }
-    let evaluate = "evaluate --pex pex.parquet --pro pro.parquet --p 2.5 --alpha 0.2 --pga 0.5 --pgv 0.5";
-    fail(folder.path(), evaluate, 2, &["too_few_cases", "--model universal"]);
+    // Fits that are only found leave the answer to the surface, those that are named do not.
+    let evaluate = "evaluate --p 2.5 --alpha 0.2 --eta 0.92 --pga 0.5 --pgv 0.5";
+    let told = succeed(folder.path(), evaluate);
+    assert!(
+        told.contains("have no usable fit of this structure, so the universal surface answers"),
+        "{told}"
+    );
+    let named = format!("{evaluate} --pex pex.parquet --pro pro.parquet");
+    fail(folder.path(), &named, 2, &["too_few_cases", "--model universal"]);
 }
 
 #[test]

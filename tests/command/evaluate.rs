@@ -485,13 +485,12 @@ fn a_hazard_from_rare_to_frequent_is_the_same() {
 #[test]
 fn a_measure_that_is_missing_is_named_with_its_option() {
     let (folder, fits) = fitted();
-    let ask = |more: &str| {
-        let asked = "--p 2.5 --alpha 0.2 --eta 0.92 --pga 0.5 --pgv 0.6 --model univariate";
-        succeed(folder.path(), &format!("evaluate {fits} {asked} {more}"))
-    };
-    let told = ask("--measure im6");
-    assert!(told.contains("warning: the fits need im6: give --tm\n"), "{told}");
-    assert!(!ask("--measure im6 --tm 0.6").contains("the fits need"));
+    let asked =
+        format!("evaluate {fits} --p 2.5 --alpha 0.2 --eta 0.92 --pga 0.5 --model univariate --measure im6");
+    fail(folder.path(), &format!("{asked} --pgv 0.6"), 2, &["the fits need im6: give --tm\n"]);
+    assert!(!succeed(folder.path(), &format!("{asked} --pgv 0.6 --tm 0.6")).contains("the fits need"));
+    let told = succeed(folder.path(), &format!("{asked} --pgv 0 --tm 0.6"));
+    assert!(told.contains("warning: the fits need im6: give --pgv above 0\n"), "{told}");
 }
 
 #[test]
@@ -530,7 +529,7 @@ fn a_curve_from_one_overturning_says_so() {
     // Of synthesized motions there can be more; they are not scaled.
     std::fs::write(folder.path().join("pipeline.yaml"), pipeline.replace("firth", "ml")).unwrap();
     let told = succeed(folder.path(), "run");
-    for part in ["1 of 212", "more samples", "pipeline.yaml", "without fits"] {
+    for part in ["1 of 212", "more samples", "pipeline.yaml", "--model universal"] {
         assert!(told.contains(part), "{part}: {told}");
     }
 }

@@ -78,8 +78,8 @@ pub struct Evaluate {
     /// The fits that answer; without them the surface that is shipped does.
     fits: Option<FitFiles>,
     fit_files: Vec<(&'static str, Source)>,
-    /// Structures of fits that are there and of which none is the one that is asked for.
-    of_others: Option<String>,
+    /// Why fits that are there do not answer.
+    why_not: Option<String>,
     structure: StructureSpec,
     /// A table of intensities, if it is asked at each of them.
     intensities: Option<Source>,
@@ -129,7 +129,7 @@ impl Declare for Evaluate {
 
     fn create(options: &EvaluateOptions, files: &Files) -> anyhow::Result<Evaluate> {
         let structure = options.structure.spec(options.fits.structure.as_deref())?;
-        let (fits, of_others) = asked_fits(options, files, &structure)?;
+        let (fits, why_not) = asked_fits(options, files, &structure)?;
         let fits = fits.map(|fits| fits.prefer(options.structure.name.as_deref()));
         let intensities = files.optional(INTENSITIES);
         let beside_table = || Some(beside(intensities.as_ref()?.name(), Self::OUTPUT.file).into());
@@ -161,7 +161,7 @@ impl Declare for Evaluate {
             structure,
             options: options.clone(),
             fits,
-            of_others,
+            why_not,
             intensities,
             headings,
             format,
@@ -171,7 +171,7 @@ impl Declare for Evaluate {
     }
 }
 
-/// The fits that answer; where they are only found, and of other structures than the one that is asked for, the names of these.
+/// The fits that answer; where they are only found, and cannot answer for this structure, why.
 fn asked_fits(
     options: &EvaluateOptions,
     files: &Files,
@@ -182,8 +182,8 @@ fn asked_fits(
         && options.limits.0 == LimitsBy::Delta
         && files.optional(INTENSITIES).is_none();
     let structure = structure.structure().ok().filter(|_| is_open);
-    let others = fits.as_ref().zip(structure).and_then(|(fits, asked)| fits.of_others(files, &asked));
-    Ok((fits.filter(|_| others.is_none()), others))
+    let why_not = fits.as_ref().zip(structure).and_then(|(fits, asked)| fits.why_not(files, &asked));
+    Ok((fits.filter(|_| why_not.is_none()), why_not))
 }
 
 impl Evaluate {
@@ -312,9 +312,9 @@ impl Stage for Evaluate {
         let answers = self.answers()?;
         let given = self.options.structure.structures.is_given();
         let structure = given.then(|| answers.structure(&self.structure)).transpose()?;
-        if let Some(others) = &self.of_others {
+        if let Some(why_not) = &self.why_not {
             console.note(&format!(
-                "{PEX} and {PRO} here are fits of {others}, not of this structure, so the universal surface answers; --pex {PEX} --pro {PRO} takes these fits anyway",
+                "{PEX} and {PRO} here {why_not}, so the universal surface answers; --pex {PEX} --pro {PRO} takes these fits anyway",
                 PEX = FitPex::OUTPUT.file, PRO = FitPro::OUTPUT.file
             ));
         } else if self.fits.is_none() {

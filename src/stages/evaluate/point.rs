@@ -56,7 +56,11 @@ pub fn answer(
     let probabilities = answers.probabilities(structure, &measures);
     let failure = probabilities.limit_states().map(|[_, failure, _]| failure);
     if failure.is_none() {
-        console.warn(&answers.words_of_missing(&measures));
+        let missing = answers.words_of_missing(&measures);
+        if pgv_m_s > 0.0 {
+            return Err(UsageError::because(missing));
+        }
+        console.warn(&missing);
     }
     answers.warn_of_range(&measures, "", console);
     let row = |column: Column, value: Option<f64>, p: Option<Probability>| AnswerRow {

@@ -34,7 +34,7 @@ use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::pipeline::terminal::Terminal;
 use crate::rocking::{Scan, Simd, Structure};
-use crate::table::ida::{self, IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
+use crate::table::ida::{self, FragilityRow, IDA, IDA_FRAGILITY, IDA_SHARES, IDA_STRIPES, IDA_WINDOWS};
 use crate::table::motion_table::{MotionTable, Part};
 use crate::table::motions::{self, Motion, MotionId};
 use crate::table::schema::Table;
@@ -211,6 +211,7 @@ impl Stage for Ida {
         [stripes, windows, shares, fragility, capacities].into_iter().try_for_each(TableWriter::finish)?;
         bar.finish();
         doubts.lines("motions").for_each(|line| console.warn(&line));
+        console.warn_of_many(rows.iter().filter_map(no_median));
         Ok(format!(
             "{total} motions and {} structure(s) at {} levels in ratios of {:.4}, of {:.4} where they rock",
             self.structures.len(),
@@ -219,4 +220,16 @@ impl Stage for Ida {
             self.scan.finest_ratio()
         ))
     }
+}
+
+/// What to do where too few motions overturn a structure for a median, for a message.
+fn no_median(row: &FragilityRow) -> Option<(String, String)> {
+    let FragilityRow { suite, structure, n, n_safe, fit, .. } = row;
+    let is_strong = fit.is_err() && 2 * n_safe >= *n;
+    let suite = suite.as_deref().unwrap_or("the motions");
+    is_strong.then(|| {
+        let why =
+            "too few motions overturn a structure for a median: take a larger --to, or another --measure";
+        (why.to_string(), format!("{structure}, {suite} ({n_safe} of {n} do not)"))
+    })
 }

@@ -45,7 +45,7 @@ pub trait Answers: Send + Sync {
         None
     }
 
-    /// What speaks against annual rates, where few overturnings decide them: their limits hold less than they seem to.
+    /// What speaks against annual rates, where few events decide them: their limits hold less than they seem to.
     fn doubt_of_rates(&self) -> Option<String> {
         None
     }

@@ -133,13 +133,13 @@ impl ChosenFits {
     }
 }
 
-/// The option without which a measure is missing.
-fn given_as(measure: Measure) -> &'static str {
+/// The option without which a measure is missing among those of a motion that rocks the structure.
+fn given_as(measure: Measure, measures: &IntensityMeasures) -> &'static str {
     match measure {
         Measure::Im1 => "--tp",
-        Measure::Im2 | Measure::Im6 => "--tm",
-        Measure::Im4 => "--pga above 0",
-        Measure::Im3 | Measure::Im3Inverse | Measure::Im5 => "--pgv above 0",
+        Measure::Im2 => "--tm",
+        Measure::Im6 if measures.im2.is_none() => "--tm",
+        _ => "--pgv above 0",
     }
 }
 
@@ -257,7 +257,7 @@ impl Answers for ChosenFits {
         let needed = demand.measures().chain(self.model.overturning.measures());
         let missing = needed.filter(|measure| measure.among(measures).is_none());
         let (missing, given): (BTreeSet<&str>, BTreeSet<&str>) =
-            missing.map(|measure| (measure.as_str(), given_as(measure))).unzip();
+            missing.map(|measure| (measure.as_str(), given_as(measure, measures))).unzip();
         let all = |of: BTreeSet<&str>| of.into_iter().collect::<Vec<_>>().join(" and ");
         format!("the fits need {}: give {}", all(missing), all(given))
     }
@@ -304,7 +304,7 @@ impl Answers for ChosenFits {
         }
         if let Some(r2) = self.demand_r2.filter(|r2| *r2 < USEFUL_R2) {
             console.warn(&format!(
-                "P_ex comes from a regression that explains next to nothing (R2 {r2:.2}): compare --model univariate with another --measure, or --model universal"
+                "P_ex comes from a regression that explains next to nothing (R2 {r2:.2}): try another measure (--model univariate --measure IM), or --model universal"
             ));
         }
         if let Some(misfit) = &self.misfit {

@@ -85,15 +85,15 @@ impl StageOptions for FitsOptions {}
 /// Tells of fits that could have answered in place of the universal surface, if nobody asked for that.
 /// With a structure, only of fits of this one.
 pub fn note_fits_of_run(options: &FitsOptions, structure: Option<&Structure>, console: &Console) {
-    let are_of = |structure: &Structure| {
-        let rows = ProRow::read(Path::new(PRO_OF_RUN)).unwrap_or_default();
-        rows.iter().any(|row| {
+    let can_answer = |row: &ProRow| {
+        let is_of = |structure: &Structure| {
             row.block().is_some_and(|block| !is_other_block(block, structure))
                 && row.eta.is_some_and(|eta| !is_other_eta(eta, structure.eta))
-        })
+        };
+        row.status.is_usable() && structure.is_none_or(is_of)
     };
     if let (None, Some(flags)) = (options.model, flags_of_run())
-        && structure.is_none_or(are_of)
+        && ProRow::read(Path::new(PRO_OF_RUN)).unwrap_or_default().iter().any(can_answer)
     {
         console.note(&format!("there are fits in out; {flags} uses them instead of the universal surface"));
     }
@@ -145,8 +145,8 @@ impl FitFiles {
         FitFiles::new(options, &files).map(Some)
     }
 
-    /// Of which structures these fits are, if nobody asked for them, and they are of others than this one.
-    pub fn of_others(&self, files: &Files, structure: &Structure) -> Option<String> {
+    /// Why these fits do not answer, if nobody asked for them: they are of other structures than this one, or none could be fitted.
+    pub fn why_not(&self, files: &Files, structure: &Structure) -> Option<String> {
         let FitsOptions { suite, structure: name, measure, .. } = &self.options;
         let is_asked = suite.is_some() || name.is_some() || measure.is_some() || files.found.len() < 2;
         let rows = ProRow::read(self.pro.clone()).ok().filter(|_| !is_asked)?;
@@ -154,9 +154,18 @@ impl FitFiles {
             row.block().is_none_or(|block| !is_other_block(block, structure))
                 && row.eta.is_none_or(|eta| !is_other_eta(eta, structure.eta))
         };
-        let mut names: Vec<&str> = rows.iter().map(|row| row.structure.as_str()).collect();
-        names.dedup();
-        (!names.is_empty() && !rows.iter().any(is_of)).then(|| names.join(", "))
+        let of_structure: Vec<&ProRow> = rows.iter().filter(|row| is_of(row)).collect();
+        if of_structure.is_empty() {
+            let mut names: Vec<&str> = rows.iter().map(|row| row.structure.as_str()).collect();
+            names.dedup();
+            return (!names.is_empty())
+                .then(|| format!("are fits of {}, not of this structure", names.join(", ")));
+        }
+        let regressions = PexRow::read(self.pex.clone()).ok()?;
+        let is_named = |name: &str| of_structure.iter().any(|row| row.structure == name);
+        let can_answer = of_structure.iter().any(|row| row.status.is_usable())
+            && regressions.iter().any(|row| row.status.is_usable() && is_named(&row.structure));
+        (!can_answer).then(|| "have no usable fit of this structure".to_string())
     }
 
     /// Joins the options and the files of a stage.
@@ -233,6 +242,13 @@ impl FitFiles {
     }
 
     fn open_choice(&self, files: &FitRows, asked: Vec<GroupKey>) -> anyhow::Error {
+        let named = [("--suite", &self.options.suite), ("--structure", &self.options.structure)];
+        let named = named.into_iter().filter_map(|(flag, name)| Some(format!(" {flag} {}", name.as_ref()?)));
+        let none = if asked.is_empty() {
+            format!("no fits of{}; ", named.collect::<String>())
+        } else {
+            String::new()
+        };
         let list = if asked.is_empty() { files.groups() } else { asked };
         let words = list.iter().map(|(suite, structure)| match suite {
             Some(suite) => format!("--suite {suite} --structure {structure}"),
@@ -240,7 +256,7 @@ impl FitFiles {
         });
         let words = words.collect::<Vec<_>>().join(", or ");
         UsageError::because(format!(
-            "{}: expected the choice of one fit: {words}; or --model universal, the surface for all structures",
+            "{}: {none}expected the choice of one fit: {words}; or --model universal, the surface for all structures",
             self.pex.name().display()
         ))
     }
@@ -302,7 +318,7 @@ impl FitFiles {
         let any = rows.iter().find(|row| row.model == Form::Biplanar);
         if let (None, Some(PexRow { status, .. })) = (planes, any) {
             return Err(UsageError::because(format!(
-                "{}: fit-pex found no two planes ({}); take --model univariate, --model universal, or fit-pex --transition 1.3",
+                "{}: fit-pex did not find two planes ({}); take --model univariate, --model universal, or fit-pex --transition 1.3",
                 self.pex.name().display(),
                 status.as_str()
             )));

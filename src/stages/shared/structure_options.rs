@@ -118,7 +118,8 @@ impl StructureOptions {
             None => names.iter().position(|known| of_fits == Some(known)),
         };
         let Some(place) = place else {
-            let expected = format!("expected --name with one of {}", names.join(", "));
+            let none = self.name.as_ref().map_or(String::new(), |name| format!("no structure '{name}'; "));
+            let expected = format!("{none}expected --name with one of {}", names.join(", "));
             return Err(UsageError::because(format!("{structures}: {expected}")));
         };
         Ok(StructureSpec::from(all.swap_remove(place)))

@@ -43,6 +43,9 @@ const COLUMNS: [(&str, &str); 15] = [
     ("beam_mass_ratio", "beam_mass_ratio"),
 ];
 
+/// Units in which lengths may be given elsewhere.
+const IN_OTHER_UNITS: [&str; 6] = ["cm", "mm", "ft", "feet", "in", "inches"];
+
 /// What a file must be.
 const FILE_OF_STRUCTURES: &str = "a .yaml, .yml, .parquet or .csv file of structures";
 
@@ -150,7 +153,13 @@ impl StructureSpec {
             _ if self.given().is_empty() && self.name.is_none() => {
                 return Err(UsageError::because(format!("no structure; expected {WAYS}")));
             }
-            _ => return Err(UsageError::because(format!("structure '{name}': expected {WAYS}"))),
+            _ => {
+                let given = self.given().into_iter().map(|(part, _)| part).collect::<Vec<_>>().join(", ");
+                let given = if given.is_empty() { "nothing else".to_string() } else { given };
+                return Err(UsageError::because(format!(
+                    "structure '{name}': found {given}; expected {WAYS}"
+                )));
+            }
         };
         let structure = structure.map_err(wrong)?;
         let Structure { p_rad_s, alpha_rad, eta, .. } = structure;
@@ -324,7 +333,11 @@ impl Structures {
         if specs.is_empty() {
             return Err(UsageError::because("structures: none given; expected at least one"));
         }
-        let structures = specs.iter().map(StructureSpec::structure).collect::<anyhow::Result<Vec<_>>>()?;
+        let structures = specs.iter().map(StructureSpec::structure).collect::<anyhow::Result<Vec<_>>>();
+        let structures = match self {
+            Structures::File(path) => structures.with_context(|| UsageError(path.display().to_string()))?,
+            _ => structures?,
+        };
         let mut names: Vec<&str> = structures.iter().map(|structure| structure.name.as_str()).collect();
         names.sort_unstable();
         match names.windows(2).find(|pair| pair[0] == pair[1]) {
@@ -400,6 +413,11 @@ fn parts(names: &[String], headings: &[String]) -> Result<Vec<Option<&'static st
     let missing: Vec<&str> = missing.map(|(column, _)| *column).collect();
     let is_unknown = |(_, part): &(_, &Option<&str>)| part.is_none();
     for ((name, heading), _) in names.iter().zip(headings).zip(&parts).filter(is_unknown) {
+        let in_other_units =
+            |length: &&str| IN_OTHER_UNITS.iter().any(|unit| *name == format!("{length}_{unit}"));
+        if let Some(length) = ["width", "height"].into_iter().find(in_other_units) {
+            return Err(format!("column '{heading}': expected {length}_m, a length in m: convert it"));
+        }
         let near = nearest(name, &missing).filter(|near| strsim::jaro_winkler(name, near) > MISSPELT);
         if let Some(near) = near {
             return Err(format!(
