@@ -119,7 +119,7 @@ pub(super) trait Refits: Sync {
 }
 
 /// Groups that are resampled jointly, at most: what is known of all their cases is held at once.
-const JOINTLY: usize = 8;
+const JOINTLY: usize = 4;
 
 /// Fits all groups. `fit` is given groups that follow each other, and how many cases each cell has; if they are to be resampled, all have
 /// the same cells and so the same resamples, which need be drawn only once. Groups of many cases come one after the other, so that only

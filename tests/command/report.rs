@@ -442,7 +442,10 @@ fn of_few_records_the_medians_of_scaled_motions_come_first() {
     succeed(folder.path(), "run");
     let page = std::fs::read_to_string(folder.path().join("out/report.html")).unwrap();
     let place = |words: &str| page.find(words).unwrap_or_else(|| panic!("no '{words}'"));
-    assert!(place("<h4>Lowest p PGV / (g tan α) (IM5) that overturns") < place("half of those that rock overturn at PGV"));
+    assert!(
+        place("<h4>Lowest p PGV / (g tan α) (IM5) that overturns")
+            < place("half of those that rock overturn at PGV")
+    );
     assert!(place("id=\"figure-ida\"") < place("id=\"figure-overturning\""));
     assert!(!page.contains("no test speaks against it"), "tests of so few say nothing");
     place("overturn, too few");

@@ -314,8 +314,9 @@ impl Stage for Evaluate {
         let structure = given.then(|| answers.structure(&self.structure)).transpose()?;
         if let Some(why_not) = &self.why_not {
             console.note(&format!(
-                "{PEX} and {PRO} here {why_not}, so the universal surface answers; --pex {PEX} --pro {PRO} takes these fits anyway",
-                PEX = FitPex::OUTPUT.file, PRO = FitPro::OUTPUT.file
+                "{PEX} and {PRO} here {why_not}, so the universal surface answers",
+                PEX = FitPex::OUTPUT.file,
+                PRO = FitPro::OUTPUT.file
             ));
         } else if self.fits.is_none() {
             note_fits_of_run(&self.options.fits, structure.as_ref(), console);

@@ -158,8 +158,14 @@ impl FitFiles {
         if of_structure.is_empty() {
             let mut names: Vec<&str> = rows.iter().map(|row| row.structure.as_str()).collect();
             names.dedup();
-            return (!names.is_empty())
-                .then(|| format!("are fits of {}, not of this structure", names.join(", ")));
+            let [pex, pro] = [FitPex::OUTPUT.file, FitPro::OUTPUT.file];
+            let words = || {
+                let names = names.join(", ");
+                format!(
+                    "are fits of {names}, not of this structure (--pex {pex} --pro {pro} takes them anyway)"
+                )
+            };
+            return (!names.is_empty()).then(words);
         }
         let regressions = PexRow::read(self.pex.clone()).ok()?;
         let is_named = |name: &str| of_structure.iter().any(|row| row.structure == name);
