@@ -17,8 +17,6 @@ use self::answer::Answer;
 use self::options::Format;
 pub use self::options::{EvaluateOptions, HazardOptions, LimitsBy, PointOptions};
 use self::table::EvaluatedTable;
-use super::fit_pex::FitPex;
-use super::fit_pro::FitPro;
 use super::shared::answers::Answers;
 use super::shared::chosen_fits::ChosenFits;
 use super::shared::fits::{FIT_INPUTS, FitFiles, ModelForm, note_fits_of_run};
@@ -313,11 +311,7 @@ impl Stage for Evaluate {
         let given = self.options.structure.structures.is_given();
         let structure = given.then(|| answers.structure(&self.structure)).transpose()?;
         if let Some(why_not) = &self.why_not {
-            console.note(&format!(
-                "{PEX} and {PRO} here {why_not}, so the universal surface answers",
-                PEX = FitPex::OUTPUT.file,
-                PRO = FitPro::OUTPUT.file
-            ));
+            console.note(why_not);
         } else if self.fits.is_none() {
             note_fits_of_run(&self.options.fits, structure.as_ref(), console);
         }

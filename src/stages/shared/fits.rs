@@ -1,5 +1,6 @@
 //! The fits that evaluate and export start from: which suite, which structure, which model.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use clap::Args;
@@ -154,15 +155,14 @@ impl FitFiles {
             row.block().is_none_or(|block| !is_other_block(block, structure))
                 && row.eta.is_none_or(|eta| !is_other_eta(eta, structure.eta))
         };
+        let [pex, pro] = [FitPex::OUTPUT.file, FitPro::OUTPUT.file];
         let of_structure: Vec<&ProRow> = rows.iter().filter(|row| is_of(row)).collect();
         if of_structure.is_empty() {
-            let mut names: Vec<&str> = rows.iter().map(|row| row.structure.as_str()).collect();
-            names.dedup();
-            let [pex, pro] = [FitPex::OUTPUT.file, FitPro::OUTPUT.file];
+            let names: BTreeSet<&str> = rows.iter().map(|row| row.structure.as_str()).collect();
             let words = || {
-                let names = names.join(", ");
+                let names = names.iter().copied().collect::<Vec<_>>().join(", ");
                 format!(
-                    "are fits of {names}, not of this structure (--pex {pex} --pro {pro} takes them anyway)"
+                    "{pex} and {pro} here are fits of {names}, not of this structure, so the universal surface answers; --pex {pex} --pro {pro} takes these fits anyway"
                 )
             };
             return (!names.is_empty()).then(words);
@@ -171,7 +171,11 @@ impl FitFiles {
         let is_named = |name: &str| of_structure.iter().any(|row| row.structure == name);
         let can_answer = of_structure.iter().any(|row| row.status.is_usable())
             && regressions.iter().any(|row| row.status.is_usable() && is_named(&row.structure));
-        (!can_answer).then(|| "have no usable fit of this structure".to_string())
+        (!can_answer).then(|| {
+            format!(
+                "{pex} and {pro} here have no usable fit of this structure, so the universal surface answers"
+            )
+        })
     }
 
     /// Joins the options and the files of a stage.
