@@ -3,9 +3,9 @@
 //! The log-likelihood of a resample (Eq. 19) is a sum over cases of n_i l_i(b), in which only the counts n_i differ between resamples.
 //! Each l_i is expanded once, at the fit to all cases, into a Taylor polynomial of the coefficients b: with u = b - fit, the index of a
 //! case moves by x_i'u, and (x_i'u)^k is a sum of monomials of u. A resample is then the sum over cases of n_i times their factors
-//! ([`CaseTerms`]): 28 numbers, or 84 of two measures (35 or 210 of bent curves), that hold all that is needed of it, and cost no exponential. Newton's method maximises that
-//! polynomial, for [`TOGETHER`] resamples at once in the lanes of a register. The penalty of a bent curve
-//! is quadratic, and is added.
+//! ([`CaseTerms`]): 28 numbers, or 84 of two measures (35 or 210 of bent curves), that hold all that is needed of it, and cost no
+//! exponential. The penalty of a bent curve is quadratic, and is added. Newton's method maximises that polynomial, for [`TOGETHER`]
+//! resamples at once in the lanes of a register.
 //!
 //! u is measured along the Cholesky factor of the covariance, in standard errors, so that the monomials are of one size and the last
 //! two degrees tell how large those are that are left out. Where these might matter, or the steps do not settle, the result is only
@@ -32,7 +32,7 @@ const ORDER: usize = 6;
 /// Of refits of straight curves: the last step moves the coefficients by some 1e-3 of their standard errors, and Newton's convergence
 /// squares that.
 pub const STRAIGHT: Precision = Precision { order: ORDER, gain: 1e-6, left_out: 2e-6 };
-/// Of refits of bent ones: of 19 in 20 cases the index is off by less than 0.03 of its standard error (`tests/fits/bent.rs`). Six
+/// Of refits of bent ones: in 19 of 20 cases the index is off by less than 0.03 of its standard error (`tests/fits/bent.rs`). Six
 /// coefficients have 210 monomials up to this degree, 924 up to the other.
 pub const BENT: Precision = Precision { order: 4, gain: 1e-4, left_out: 0.03 };
 /// Where the polynomial is precise it takes fewer steps.

@@ -155,7 +155,7 @@ impl StructureSpec {
             }
             _ => {
                 let given = self.given().into_iter().map(|(part, _)| part).collect::<Vec<_>>().join(", ");
-                let given = if given.is_empty() { "nothing else".to_string() } else { given };
+                let given = if given.is_empty() { "no number".to_string() } else { given };
                 return Err(UsageError::because(format!(
                     "structure '{name}': found {given}; expected {WAYS}"
                 )));
