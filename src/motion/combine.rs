@@ -3,7 +3,6 @@
 use super::fourier::Complex64;
 
 use crate::keyword::keywords;
-use crate::wide::widest_on;
 
 /// What becomes of the difference D = |H| - |P| of the Fourier amplitudes of high frequencies and pulse. The literature
 /// leaves it open where the pulse is the larger one.
@@ -34,46 +33,29 @@ keywords!(Difference { Absolute = "absolute", Signed = "signed", Clamp = "clamp"
 keywords!(Epoch { EnvelopePeak = "envelope-peak", Pga = "pga", Pgv = "pgv" });
 
 impl Difference {
-    /// Computes what the high frequencies keep of their amplitude, D' / |H|, where the pulse is `ratio` = |P| / |H| times as large.
-    #[inline(always)]
-    pub fn kept(self, ratio: f64) -> f64 {
+    /// Computes D', what the high frequencies keep of their amplitude |H|, from |H| and |P|.
+    pub fn kept(self, h: f64, p: f64) -> f64 {
         match self {
-            Difference::Absolute => (1.0 - ratio).abs(),
-            Difference::Signed => 1.0 - ratio,
-            Difference::Clamp => (1.0 - ratio).max(0.0),
-            Difference::None => 1.0,
+            Difference::Absolute => (h - p).abs(),
+            Difference::Signed => h - p,
+            Difference::Clamp => (h - p).max(0.0),
+            Difference::None => h,
         }
     }
 }
 
-/// Makes the spectrum of the combined motion, D' exp(i arg H) + P, of that of the high frequencies, H: steps 4 to 6 of section
-/// 2.1.3 on Fourier coefficients. The mean stays 0, so that the ground comes to rest.
+/// Makes the spectrum of the combined motion, D' exp(i arg H) + P, of that of the high frequencies, H, and that of the pulse, P.
+/// The mean stays 0, so that the ground comes to rest.
 pub fn combine(high_frequency: &mut [Complex64], pulse: &[Complex64], difference: Difference) {
-    // Steps 4 and 5: D' of D = |H| - |P| takes the phase of H; step 6 adds P.
-    // One loop for each: a choice within it would keep it out of wide registers.
-    match difference {
-        Difference::Absolute => add(high_frequency, pulse, |ratio| Difference::Absolute.kept(ratio)),
-        Difference::Signed => add(high_frequency, pulse, |ratio| Difference::Signed.kept(ratio)),
-        Difference::Clamp => add(high_frequency, pulse, |ratio| Difference::Clamp.kept(ratio)),
-        Difference::None => add(high_frequency, pulse, |ratio| Difference::None.kept(ratio)),
+    for (h, p) in high_frequency.iter_mut().zip(pulse) {
+        let (amplitude, pulse_amplitude) = (h.norm_sqr().sqrt(), p.norm_sqr().sqrt());
+        // Where there is no high frequency there is no phase either.
+        if amplitude > 0.0 {
+            *h *= difference.kept(amplitude, pulse_amplitude) / amplitude;
+        }
+        *h += p;
     }
     if let Some(mean) = high_frequency.first_mut() {
         *mean = Complex64::ZERO;
     }
-}
-
-/// Adds the pulse to what is kept of the high frequencies.
-fn add(high_frequency: &mut [Complex64], pulse: &[Complex64], kept: impl Fn(f64) -> f64) {
-    widest_on(
-        high_frequency,
-        #[inline(always)]
-        |high_frequency| {
-            for (h, p) in high_frequency.iter_mut().zip(pulse) {
-                let power = h.norm_sqr();
-                let kept = kept((p.norm_sqr() / power).sqrt());
-                // Where there is no high frequency there is no phase either.
-                *h = *h * if power > 0.0 { kept } else { 1.0 } + p;
-            }
-        },
-    );
 }

@@ -2,27 +2,20 @@
 
 use std::f64::consts::PI;
 
-use pulp::NullaryFnOnce;
-
 use super::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
 use crate::units::G_M_S2;
-use crate::wide::widest;
 
 /// The widest frequency step of the mean period, Hz.
 const FREQUENCY_STEP_HZ: f64 = 0.05;
 /// The band of the mean period, Hz.
 const BAND_HZ: (f64, f64) = (0.25, 20.0);
-/// Damping ratio of the spectral accelerations that become columns.
-const SPECTRAL_DAMPING: f64 = 0.05;
+/// Damping ratio of the spectral accelerations that become columns and of the Housner intensity.
+const DAMPING: f64 = 0.05;
 /// First and last period (s) at which the Housner intensity is integrated, and how many there are.
 const HOUSNER_PERIODS: (f64, f64, usize) = (0.1, 2.5, 49);
-/// Damping ratio of the Housner intensity.
-const HOUSNER_DAMPING: f64 = 0.05;
-/// Samples whose steps and peaks are worked out at once, in wide registers.
-const BLOCK: usize = 256;
 
 /// The measures that every motion has.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Measures {
     /// Peak ground acceleration, m/s2.
     pub pga_m_s2: f64,
@@ -61,20 +54,18 @@ pub struct Measured {
     pub sa_m_s2: Vec<f64>,
 }
 
-/// Plans and buffers that one motion after the other uses.
+/// Plans of transforms and buffers that one motion after the other uses.
 #[derive(Default)]
 pub struct IntensityScratch {
     transforms: ByLength<Transform>,
-    samples: Vec<f64>,
     spectrum: Vec<Complex64>,
     scratch: Vec<Complex64>,
-    energy: Vec<f64>,
 }
 
 impl MeasurePlan {
     /// Measures a motion of these samples (m/s2), `dt_s` apart.
     pub fn measure(&self, acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Measured {
-        let sa = |period_s: &f64| spectral_acceleration(acceleration, dt_s, *period_s, SPECTRAL_DAMPING);
+        let sa = |period_s: &f64| spectral_acceleration(acceleration, dt_s, *period_s, DAMPING);
         Measured {
             measures: measures(acceleration, dt_s, scratch),
             housner_m: self.housner.then(|| housner_intensity(acceleration, dt_s)),
@@ -83,21 +74,31 @@ impl MeasurePlan {
     }
 }
 
-/// Takes the measures that every motion has.
+/// Takes the measures that every motion has. The square of the acceleration is integrated along lines between the samples, the rest
+/// by trapezoids.
 pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Measures {
-    let energy = &mut scratch.energy;
-    energy.clear();
-    energy.resize(acceleration.len(), 0.0);
-    let Integrals { pga_m_s2, pgv_m_s, pgd_m, cav_m_s, .. } =
-        widest(Integration { acceleration, dt_s, energy });
-    let arias_m_s = 0.5 * PI / G_M_S2 * energy.last().copied().unwrap_or_default();
-    let [d5, d75, d95] = [0.05, 0.75, 0.95].map(|share| time_of_share(acceleration, energy, dt_s, share));
+    let (mut velocity, mut displacement, mut squares, mut cav_m_s) = (0.0_f64, 0.0_f64, 0.0, 0.0);
+    let (mut pgv_m_s, mut pgd_m) = (0.0, 0.0);
+    // The running integral of the squared acceleration, m2/s3.
+    let mut energy = vec![0.0; acceleration.len()];
+    for k in 1..acceleration.len() {
+        let (left, right) = (acceleration[k - 1], acceleration[k]);
+        squares += squared(dt_s, left, right);
+        energy[k] = squares;
+        let next = velocity + trapezoid(dt_s, left, right);
+        displacement += trapezoid(dt_s, velocity, next);
+        velocity = next;
+        cav_m_s += trapezoid(dt_s, left.abs(), right.abs());
+        pgv_m_s = larger(pgv_m_s, velocity.abs());
+        pgd_m = larger(pgd_m, displacement.abs());
+    }
+    let [d5, d75, d95] = [0.05, 0.75, 0.95].map(|share| time_of_share(acceleration, &energy, dt_s, share));
     Measures {
-        pga_m_s2,
+        pga_m_s2: peak(acceleration),
         pgv_m_s,
         pgd_m,
         tm_s: mean_period(acceleration, dt_s, scratch),
-        arias_m_s,
+        arias_m_s: 0.5 * PI / G_M_S2 * squares,
         cav_m_s,
         d5_75_s: d75 - d5,
         d5_95_s: d95 - d5,
@@ -123,100 +124,33 @@ fn time_of_share(acceleration: &[f64], energy: &[f64], dt_s: f64, share: f64) ->
     dt_s * ((after - 1) as f64 + part[1])
 }
 
-/// Integrals of a motion up to a sample, and the peaks so far: that of a^2 of a line between the samples, the others by trapezoids.
-#[derive(Default)]
-struct Integrals {
-    velocity_m_s: f64,
-    displacement_m: f64,
-    /// Integral of a^2, m2/s3.
-    energy: f64,
-    pga_m_s2: f64,
-    pgv_m_s: f64,
-    pgd_m: f64,
-    /// Integral of |a|, m/s.
-    cav_m_s: f64,
-}
-
-/// All integrals of a motion in one pass, with the integral of a^2 to each sample written to `energy`.
-struct Integration<'a> {
-    acceleration: &'a [f64],
-    dt_s: f64,
-    energy: &'a mut [f64],
-}
-
-impl NullaryFnOnce for Integration<'_> {
-    type Output = Integrals;
-
-    #[inline(always)]
-    fn call(self) -> Integrals {
-        let Integration { acceleration, dt_s, energy } = self;
-        let mut sum = Integrals { pga_m_s2: peak(acceleration), ..Integrals::default() };
-        let [mut velocity, mut displacement, mut cav] = [[0.0; BLOCK]; 3];
-        for (block, energy) in energy.get_mut(1..).unwrap_or_default().chunks_mut(BLOCK).enumerate() {
-            let samples = energy.len();
-            let left = &acceleration[block * BLOCK..][..samples];
-            let right = &acceleration[block * BLOCK + 1..][..samples];
-            for k in 0..samples {
-                velocity[k] = trapezoid(dt_s, left[k], right[k]);
-                energy[k] = squared(dt_s, left[k], right[k]);
-                cav[k] = trapezoid(dt_s, left[k].abs(), right[k].abs());
-            }
-            // Sums wait for their own last value: they stand in a loop of their own, which keeps the one above wide.
-            for k in 0..samples {
-                let velocity_m_s = sum.velocity_m_s + velocity[k];
-                sum.displacement_m += trapezoid(dt_s, sum.velocity_m_s, velocity_m_s);
-                sum.velocity_m_s = velocity_m_s;
-                sum.energy += energy[k];
-                sum.cav_m_s += cav[k];
-                (velocity[k], displacement[k], energy[k]) = (velocity_m_s, sum.displacement_m, sum.energy);
-            }
-            sum.pgv_m_s = larger(sum.pgv_m_s, peak(&velocity[..samples]));
-            sum.pgd_m = larger(sum.pgd_m, peak(&displacement[..samples]));
-        }
-        sum
-    }
-}
-
 /// Integrates between two samples.
-#[inline(always)]
 fn trapezoid(dt_s: f64, left: f64, right: f64) -> f64 {
     0.5 * dt_s * (left + right)
 }
 
 /// Integrates the square of a line between two samples.
-#[inline(always)]
 fn squared(dt_s: f64, left: f64, right: f64) -> f64 {
     dt_s / 3.0 * (left * left + left * right + right * right)
 }
 
-/// Returns the larger of two numbers, in one instruction: the maximum of the standard library asks for NaN too.
-#[inline(always)]
+/// Returns the larger of two numbers in one instruction: the maximum of the standard library asks for NaN too.
 fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
 /// Finds the largest absolute value of a series.
-#[inline(always)]
 pub fn peak(series: &[f64]) -> f64 {
-    const LANES: usize = 8;
-    let (eights, rest) = series.as_chunks::<LANES>();
-    let mut largest = [0.0; LANES];
-    for eight in eights {
-        for lane in 0..LANES {
-            largest[lane] = larger(largest[lane], eight[lane].abs());
-        }
-    }
-    largest.iter().chain(rest).fold(0.0, |largest, value| larger(largest, value.abs()))
+    series.iter().fold(0.0, |largest, value| larger(largest, value.abs()))
 }
 
 /// Integrates an acceleration to the ground velocity (m/s) by trapezoids, 0 at the first sample.
 pub fn velocity(acceleration: &[f64], dt_s: f64) -> Vec<f64> {
-    let steps = acceleration.windows(2).map(|pair| trapezoid(dt_s, pair[0], pair[1]));
-    let rest = steps.scan(0.0, |sum, step| {
-        *sum += step;
-        Some(*sum)
-    });
-    acceleration.first().map(|_| 0.0).into_iter().chain(rest).collect()
+    let mut velocity = vec![0.0; acceleration.len()];
+    for k in 1..acceleration.len() {
+        velocity[k] = velocity[k - 1] + trapezoid(dt_s, acceleration[k - 1], acceleration[k]);
+    }
+    velocity
 }
 
 /// Computes the mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of the
@@ -226,10 +160,9 @@ pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScrat
     let least = (1.0 / (FREQUENCY_STEP_HZ * dt_s)).ceil() as usize;
     let length = even_smooth_at_least(acceleration.len().max(least));
     let transform = scratch.transforms.get(length, || Transform::new(length));
-    scratch.samples.clear();
-    scratch.samples.extend_from_slice(acceleration);
-    scratch.samples.resize(length, 0.0);
-    transform.forward(&mut scratch.samples, &mut scratch.spectrum, &mut scratch.scratch);
+    let mut samples = acceleration.to_vec();
+    samples.resize(length, 0.0);
+    transform.forward(&mut samples, &mut scratch.spectrum, &mut scratch.scratch);
 
     let step_hz = 1.0 / (length as f64 * dt_s);
     let first = (BAND_HZ.0 / step_hz).ceil() as usize;
@@ -249,8 +182,8 @@ pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScrat
 pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, damping: f64) -> f64 {
     let w = 2.0 * PI / period_s;
     let wd = w * (1.0 - damping * damping).sqrt();
-    let decay = libm::exp(-damping * w * dt_s);
-    let (sin, cos) = (libm::sin(wd * dt_s), libm::cos(wd * dt_s));
+    let decay = (-damping * w * dt_s).exp();
+    let (sin, cos) = (wd * dt_s).sin_cos();
     let (mut displacement, mut velocity, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
     for pair in acceleration.windows(2) {
         let slope = (pair[1] - pair[0]) / dt_s;
@@ -275,7 +208,7 @@ pub fn housner_intensity(acceleration: &[f64], dt_s: f64) -> f64 {
     let step = (last - first) / (points - 1) as f64;
     let pseudo_velocity = |k: usize| {
         let period = first + k as f64 * step;
-        spectral_acceleration(acceleration, dt_s, period, HOUSNER_DAMPING) * period / (2.0 * PI)
+        spectral_acceleration(acceleration, dt_s, period, DAMPING) * period / (2.0 * PI)
     };
     let weight = |k: usize| if k == 0 || k == points - 1 { 0.5 } else { 1.0 };
     (0..points).map(|k| weight(k) * step * pseudo_velocity(k)).sum()

@@ -10,10 +10,9 @@
 //! synthesis      all of it for one scenario, on one time axis
 //! intensity      measures of any motion
 //! dimensionless  the six measures of Eq. 13, and how all others become dimensionless
-//! fourier        transforms of real series, planned once for each length; butterfly: their passes over registers
+//! fourier        transforms of real series, planned once for each length
 //! ```
 
-mod butterfly;
 mod combine;
 mod design;
 mod dimensionless;
@@ -32,7 +31,7 @@ pub use intensity::{IntensityScratch, MeasurePlan, Measured, Measures, measures}
 pub use pulse::Pulse;
 pub use scenario::{Scenario, Suite};
 pub use site::Site;
-pub use stochastic::StochasticModel;
+pub use stochastic::{LowCut, StochasticModel};
 pub use synthesis::{MotionModel, Synthesizer, Synthetic};
 
 /// The most samples of a motion: what is made of them (spectra, velocities) takes many times their room.

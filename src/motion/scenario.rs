@@ -1,11 +1,11 @@
 //! An earthquake scenario, the distributions of its random parameters (section 2.1.1), and the suites of motions made of it.
 
 use crate::keyword::keywords;
-use crate::normal;
+use crate::statistics::normal;
 use crate::units::CM_PER_M;
 
 /// An earthquake as seen from a site: where, how large, and the velocity pulse that it sends.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Scenario {
     /// Cell times samples in a cell, plus sample.
     pub scenario_id: i64,
@@ -38,47 +38,46 @@ const GAMMA: (f64, f64) = (1.93, 0.47);
 /// Mean and standard deviation of nu, rad.
 const NU_RAD: (f64, f64) = (1.83, 0.98);
 
-/// The random parameters of a pulse.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PulseParameters {
-    /// Amplitude, m/s.
-    pub vp_m_s: f64,
-    /// Period, s.
-    pub tp_s: f64,
-    /// Number of half cycles.
-    pub gamma: f64,
-    /// Phase, rad.
-    pub nu_rad: f64,
-}
-
-impl PulseParameters {
-    /// Returns the parameters at the quantiles `u` (four numbers in (0, 1), for Vp, Tp, gamma and nu) of their distributions
-    /// for a magnitude and a distance (km): Vp and Tp lognormal, gamma normal truncated below at 1, nu normal.
-    pub fn at_quantiles(mw: f64, re_km: f64, u: [f64; 4]) -> PulseParameters {
+impl Scenario {
+    /// Makes the scenario of a cell (magnitude, distance in km) whose Vp, Tp, gamma and nu are the quantiles `u`, four numbers in
+    /// (0, 1), of their distributions: Vp and Tp lognormal, gamma normal truncated below at 1, nu normal.
+    pub fn at_quantiles(
+        scenario_id: i64,
+        cell: i32,
+        sample: i32,
+        mw: f64,
+        re_km: f64,
+        u: [f64; 4],
+    ) -> Scenario {
         // Lognormal: both sigmas are of the logarithm to base 10.
-        let log10_vp = median_log10_vp_cm_s(mw, re_km) + SIGMA_LOG10_VP * normal::quantile(u[0]);
-        let log10_tp = median_log10_tp_s(mw) + SIGMA_LOG10_TP * normal::quantile(u[1]);
+        let log10_vp = mean_log10_vp_cm_s(mw, re_km) + SIGMA_LOG10_VP * normal::quantile(u[0]);
+        let log10_tp = mean_log10_tp_s(mw) + SIGMA_LOG10_TP * normal::quantile(u[1]);
         let (mean, sd) = GAMMA;
         // The probability below 1 is cut off, and the rest stretched over (0, 1).
         let below = normal::cdf((1.0 - mean) / sd);
         let gamma = mean + sd * normal::quantile(below + u[2] * (1.0 - below));
-        PulseParameters {
-            vp_m_s: libm::exp10(log10_vp) / CM_PER_M,
-            tp_s: libm::exp10(log10_tp),
+        Scenario {
+            scenario_id,
+            cell,
+            sample,
+            mw,
+            re_km,
+            vp_m_s: 10_f64.powf(log10_vp) / CM_PER_M,
+            tp_s: 10_f64.powf(log10_tp),
             gamma: gamma.max(1.0),
             nu_rad: NU_RAD.0 + NU_RAD.1 * normal::quantile(u[3]),
         }
     }
 }
 
-/// Computes the median log10 of the pulse amplitude Vp, cm/s (section 2.1.1); the magnitude counts up to 7.
-pub fn median_log10_vp_cm_s(mw: f64, re_km: f64) -> f64 {
+/// Computes the mean of log10 Vp, of the pulse amplitude in cm/s (Eq. 2), from Mw and Re; the magnitude counts up to 7.
+pub fn mean_log10_vp_cm_s(mw: f64, re_km: f64) -> f64 {
     let m = mw.min(SATURATION_MW);
-    -5.17 + 1.98 * m - 0.14 * m * m - 0.10 * libm::log10(re_km * re_km + 0.562)
+    -5.17 + 1.98 * m - 0.14 * m * m - 0.10 * (re_km * re_km + 0.562).log10()
 }
 
-/// Computes the median log10 of the pulse period Tp, s (section 2.1.1).
-pub fn median_log10_tp_s(mw: f64) -> f64 {
+/// Computes the mean of log10 Tp, of the pulse period in s (Eq. 3), from Mw.
+pub fn mean_log10_tp_s(mw: f64) -> f64 {
     -2.87 + 0.47 * mw
 }
 

@@ -81,5 +81,5 @@ fn interpolate(rows: &[(f64, f64)], frequency_hz: f64) -> f64 {
     let (f0, v0) = rows[above - 1];
     let Some(&(f1, v1)) = rows.get(above) else { return v0 };
     let share = (frequency_hz - f0) / (f1 - f0);
-    v0 * libm::pow(v1 / v0, share)
+    v0 * (v1 / v0).powf(share)
 }

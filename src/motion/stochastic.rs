@@ -53,27 +53,32 @@ impl Default for StochasticModel {
 }
 
 impl StochasticModel {
-    /// Computes what every scenario shares at a frequency (Hz): (2 pi f)^2, which makes accelerations of displacements, the site
-    /// V(f) exp(-pi kappa f) and the filters. Times [`Source::amplitude`] it is the Fourier amplitude of the acceleration, cm/s.
-    pub fn common_factor(&self, f: f64) -> f64 {
-        let fmax = self.fmax_hz.map_or(1.0, |fmax| 1.0 / (1.0 + libm::pow(f / fmax, 8.0)).sqrt());
-        let low_cut = self.low_cut.map_or(1.0, |LowCut { corner_hz, order }| {
-            1.0 / (1.0 + libm::pow(corner_hz / f, 2.0 * f64::from(order)))
-        });
-        (2.0 * PI * f).powi(2)
+    /// Computes the Fourier amplitude of the ground acceleration, cm/s, at a frequency f (Hz):
+    /// A(f) = C M0 (2 pi f)^2 S(f) G(R) exp(-pi f R / (Q beta)) V(f) exp(-pi kappa f), times the filters.
+    pub fn fourier_amplitude_cm_s(&self, source: &Source, f: f64) -> f64 {
+        let r = source.distance_km;
+        // f / Q with Q = 180 f^0.45.
+        let f_per_q = f.powf(1.0 - QUALITY_EXPONENT) / QUALITY;
+        CONSTANT
+            * source.moment_dyne_cm
+            * (2.0 * PI * f).powi(2)
+            * source.shape(f)
+            * spreading(r)
+            * (-PI * (f_per_q * r / SHEAR_VELOCITY_KM_S + self.kappa_s * f)).exp()
             * self.site.amplification(f)
-            * libm::exp(-PI * self.kappa_s * f)
-            * fmax
-            * low_cut
+            * self.filters(f)
+    }
+
+    fn filters(&self, f: f64) -> f64 {
+        let fmax = self.fmax_hz.map_or(1.0, |fmax| 1.0 / (1.0 + (f / fmax).powi(8)).sqrt());
+        let low_cut = self.low_cut.map_or(1.0, |LowCut { corner_hz, order }| {
+            1.0 / (1.0 + (corner_hz / f).powf(2.0 * f64::from(order)))
+        });
+        fmax * low_cut
     }
 }
 
-/// Computes f / f^0.45, on which the anelastic attenuation exp(-pi f R / (Q beta)) with Q = 180 f^0.45 depends; f in Hz.
-pub fn quality_exponent(f: f64) -> f64 {
-    libm::pow(f, 1.0 - QUALITY_EXPONENT)
-}
-
-/// The source of Atkinson & Silva (2000) with its two corner frequencies, and the path: spreading and anelastic attenuation.
+/// The source of Atkinson & Silva (2000) with its two corner frequencies, at its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Source {
     /// Lower corner frequency fa, Hz.
@@ -84,10 +89,8 @@ pub struct Source {
     pub epsilon: f64,
     /// Effective distance R, km.
     pub distance_km: f64,
-    /// C M0 G(R).
-    scale: f64,
-    /// pi R / (180 beta), s^0.55.
-    attenuation: f64,
+    /// Seismic moment M0, dyne cm.
+    pub moment_dyne_cm: f64,
 }
 
 impl Source {
@@ -95,17 +98,14 @@ impl Source {
     /// magnitude `mw` at the distance `re_km`.
     pub fn new(mw: f64, re_km: f64) -> Source {
         // The depth h of an equivalent point source makes the effective distance R = sqrt(re^2 + h^2).
-        let depth_km = libm::exp10(-0.05 + 0.15 * mw);
-        let distance_km = libm::hypot(re_km, depth_km);
-        // M0 of the moment magnitude (Hanks & Kanamori 1979).
-        let moment_dyne_cm = libm::exp10(1.5 * mw + 16.05);
+        let depth_km = 10_f64.powf(-0.05 + 0.15 * mw);
         Source {
-            fa_hz: libm::exp10(2.181 - 0.496 * mw),
-            fb_hz: libm::exp10(2.410 - 0.408 * mw),
-            epsilon: libm::exp10(0.605 - 0.255 * mw),
-            distance_km,
-            scale: CONSTANT * moment_dyne_cm * spreading(distance_km),
-            attenuation: PI * distance_km / (QUALITY * SHEAR_VELOCITY_KM_S),
+            fa_hz: 10_f64.powf(2.181 - 0.496 * mw),
+            fb_hz: 10_f64.powf(2.410 - 0.408 * mw),
+            epsilon: 10_f64.powf(0.605 - 0.255 * mw),
+            distance_km: re_km.hypot(depth_km),
+            // Hanks & Kanamori (1979).
+            moment_dyne_cm: 10_f64.powf(1.5 * mw + 16.05),
         }
     }
 
@@ -114,12 +114,10 @@ impl Source {
         0.5 / self.fa_hz + 0.05 * self.distance_km
     }
 
-    /// Computes C M0 S(f) G(R) exp(-pi f R / (Q beta)) of a frequency (Hz) and its [`quality_exponent`].
-    pub fn amplitude(&self, f: f64, quality: f64) -> f64 {
-        let corner = |corner_hz: f64| 1.0 / (1.0 + (f / corner_hz) * (f / corner_hz));
-        // S(f) = (1 - epsilon) / (1 + (f/fa)^2) + epsilon / (1 + (f/fb)^2).
-        let shape = (1.0 - self.epsilon) * corner(self.fa_hz) + self.epsilon * corner(self.fb_hz);
-        self.scale * shape * libm::exp(-self.attenuation * quality)
+    /// Computes S(f) = (1 - epsilon) / (1 + (f/fa)^2) + epsilon / (1 + (f/fb)^2).
+    fn shape(&self, f: f64) -> f64 {
+        let corner = |corner_hz: f64| 1.0 / (1.0 + (f / corner_hz).powi(2));
+        (1.0 - self.epsilon) * corner(self.fa_hz) + self.epsilon * corner(self.fb_hz)
     }
 }
 
@@ -149,9 +147,9 @@ impl Window {
     /// Shapes the window of a motion whose source and path last `source_duration_s`.
     pub fn new(source_duration_s: f64) -> Window {
         // Boore (2003): b = -epsilon ln eta / (1 + epsilon (ln epsilon - 1)), c = b / epsilon, a = (e / epsilon)^b.
-        let b = -PEAK_SHARE * libm::log(END_VALUE) / (1.0 + PEAK_SHARE * (libm::log(PEAK_SHARE) - 1.0));
+        let b = -PEAK_SHARE * END_VALUE.ln() / (1.0 + PEAK_SHARE * (PEAK_SHARE.ln() - 1.0));
         let c = b / PEAK_SHARE;
-        let a = libm::pow(E / PEAK_SHARE, b);
+        let a = (E / PEAK_SHARE).powf(b);
         Window { a, b, c, duration_s: 2.0 * source_duration_s }
     }
 
@@ -161,6 +159,6 @@ impl Window {
         if x <= 0.0 || x > 1.0 {
             return 0.0;
         }
-        self.a * libm::exp(self.b * libm::log(x) - self.c * x)
+        self.a * (self.b * x.ln() - self.c * x).exp()
     }
 }

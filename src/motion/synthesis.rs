@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
+use rand_distr::{Distribution, StandardNormal};
+
 use super::combine::{Difference, Epoch, combine};
 use super::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
 use super::intensity::velocity;
 use super::pulse::Pulse;
 use super::scenario::{Scenario, Suite};
-use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window, quality_exponent};
-use crate::random::{Purpose, normals, stream};
+use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window};
+use crate::random::{Purpose, stream};
 use crate::units::CM_PER_M;
-use crate::wide::widest_on;
 
 /// Quiet time before and after all that moves, s: the zero-phase filters reach this far.
 const MARGIN_S: f64 = 2.0;
@@ -66,26 +67,16 @@ impl Synthetic {
     }
 }
 
-/// Makes motions one after the other, each the same whatever came before. One for each thread: it keeps plans, buffers
-/// and what scenarios of one magnitude and distance share.
+/// Makes motions one after the other, each the same whatever came before. One for each thread: it keeps the plans of transforms and
+/// what scenarios of one magnitude and distance share.
 pub struct Synthesizer {
     model: MotionModel,
     /// Whether the suites need them.
     high_frequency: bool,
     combined: bool,
-    axes: ByLength<FrequencyAxis>,
+    transforms: ByLength<Transform>,
     earthquake: Option<Earthquake>,
-    noise: Vec<Complex64>,
-    pulse: Vec<Complex64>,
     scratch: Vec<Complex64>,
-    synthetic: Synthetic,
-}
-
-/// The frequencies of all motions of one length.
-struct FrequencyAxis {
-    transform: Transform,
-    /// Frequency (Hz), its quality exponent and the common factor of the spectrum.
-    bins: Vec<(f64, f64, f64)>,
 }
 
 /// What the scenarios of one magnitude and distance share.
@@ -109,13 +100,11 @@ impl Earthquake {
         Earthquake { mw, re_km, source, window, weights, amplitudes: ByLength::default() }
     }
 
-    fn amplitudes(&mut self, samples: usize, axis: &FrequencyAxis) -> Arc<Vec<f64>> {
-        let source = &self.source;
-        self.amplitudes.get(samples, || {
-            let amplitude =
-                |&(f, quality, common): &(f64, f64, f64)| source.amplitude(f, quality) * common / CM_PER_M;
-            axis.bins.iter().map(amplitude).collect()
-        })
+    fn amplitudes(&mut self, model: &MotionModel, samples: usize) -> Arc<Vec<f64>> {
+        let step_hz = 1.0 / (samples as f64 * model.dt_s);
+        let amplitude =
+            |k: usize| model.stochastic.fourier_amplitude_cm_s(&self.source, k as f64 * step_hz) / CM_PER_M;
+        self.amplitudes.get(samples, || (0..=samples / 2).map(amplitude).collect())
     }
 }
 
@@ -133,18 +122,15 @@ impl Synthesizer {
         Synthesizer {
             high_frequency: suites.contains(&Suite::Hfc) || model.epoch != Epoch::EnvelopePeak,
             combined: suites.contains(&Suite::Csgm),
-            synthetic: Synthetic { dt_s: model.dt_s, ..Synthetic::default() },
             model,
-            axes: ByLength::default(),
+            transforms: ByLength::default(),
             earthquake: None,
-            noise: Vec::new(),
-            pulse: Vec::new(),
             scratch: Vec::new(),
         }
     }
 
     /// Makes the motions of a scenario.
-    pub fn synthesize(&mut self, scenario: &Scenario) -> &Synthetic {
+    pub fn synthesize(&mut self, scenario: &Scenario) -> Synthetic {
         let Scenario { mw, re_km, .. } = *scenario;
         let mut earthquake = match self.earthquake.take() {
             Some(known) if (known.mw, known.re_km) == (mw, re_km) => known,
@@ -152,28 +138,29 @@ impl Synthesizer {
         };
         let pulse = Pulse::of(scenario);
         let timeline = self.timeline(&earthquake.window, &pulse);
-        let axis = self.axis(timeline.samples);
+        let transform = self.transforms.get(timeline.samples, || Transform::new(timeline.samples));
+        let mut made = Synthetic { dt_s: self.model.dt_s, ..Synthetic::default() };
+        let mut spectrum = Vec::new();
         if self.high_frequency || self.combined {
-            let amplitudes = earthquake.amplitudes(timeline.samples, &axis);
-            // Step 1 of section 2.1.3: the high frequencies of section 2.1.2.
-            self.windowed_noise(scenario, &earthquake.weights, &timeline);
-            self.shape_noise(&amplitudes, &axis);
+            let mut noise = self.windowed_noise(scenario, &earthquake.weights, &timeline);
+            transform.forward(&mut noise, &mut spectrum, &mut self.scratch);
+            shape_noise(&mut spectrum, &earthquake.amplitudes(&self.model, timeline.samples), made.dt_s);
+            if self.high_frequency {
+                transform.inverse(&mut spectrum.clone(), &mut noise, &mut self.scratch);
+                made.high_frequency = noise;
+            }
         }
-        let epoch_s = self.epoch_s(&earthquake.window, &timeline);
-        self.earthquake = Some(earthquake);
-
-        let Synthetic { pulse: samples, combined, .. } = &mut self.synthetic;
-        // Step 2: the pulse of Eq. 1, with its middle at the epoch.
-        pulse.sample(self.model.dt_s, epoch_s, timeline.samples, samples);
+        made.epoch_s = self.epoch_s(&earthquake.window, &timeline, &made.high_frequency);
+        made.pulse = pulse.sample(made.dt_s, made.epoch_s, timeline.samples);
         if self.combined {
-            // Steps 3 to 6: both as Fourier coefficients, combined and transformed back.
-            combined.clone_from(samples);
-            axis.transform.forward(combined, &mut self.pulse, &mut self.scratch);
-            combine(&mut self.noise, &self.pulse, self.model.difference);
-            axis.transform.inverse(&mut self.noise, combined, &mut self.scratch);
+            let mut of_pulse = Vec::new();
+            made.combined = made.pulse.clone();
+            transform.forward(&mut made.combined, &mut of_pulse, &mut self.scratch);
+            combine(&mut spectrum, &of_pulse, self.model.difference);
+            transform.inverse(&mut spectrum, &mut made.combined, &mut self.scratch);
         }
-        self.synthetic.epoch_s = epoch_s;
-        &self.synthetic
+        self.earthquake = Some(earthquake);
+        made
     }
 
     /// Lays out the time axis: padded at the start so that the pulse is never cut, and at the end; as long as a fast Fourier
@@ -192,46 +179,20 @@ impl Synthesizer {
         Timeline { onset, samples: even_smooth_at_least(onset + after) }
     }
 
-    /// Draws the noise under the window, into `synthetic.high_frequency`.
-    fn windowed_noise(&mut self, scenario: &Scenario, weights: &[f64], timeline: &Timeline) {
-        let samples = &mut self.synthetic.high_frequency;
-        samples.clear();
-        samples.resize(timeline.samples, 0.0);
-        let windowed = &mut samples[timeline.onset + 1..][..weights.len()];
+    /// Draws normal noise under the window.
+    fn windowed_noise(&self, scenario: &Scenario, weights: &[f64], timeline: &Timeline) -> Vec<f64> {
+        let mut samples = vec![0.0; timeline.samples];
         let noise = stream(self.model.seed, Purpose::Noise, scenario.scenario_id as u64);
-        for ((sample, normal), weight) in windowed.iter_mut().zip(normals(noise)).zip(weights) {
+        let normals = Distribution::<f64>::sample_iter(StandardNormal, noise);
+        for ((sample, normal), weight) in samples[timeline.onset + 1..].iter_mut().zip(normals).zip(weights) {
             *sample = normal * weight;
         }
+        samples
     }
 
-    /// Gives the noise the Fourier amplitude of the source, in `synthetic.high_frequency` if that is wanted and, transformed, in
-    /// `self.noise`.
-    fn shape_noise(&mut self, amplitudes: &[f64], axis: &FrequencyAxis) {
-        let samples = &mut self.synthetic.high_frequency;
-        axis.transform.forward(samples, &mut self.noise, &mut self.scratch);
-        // The noise has a mean square of 1 over all frequencies but the first and the last.
-        let inner = &self.noise[1..self.noise.len() - 1];
-        let mean_square = inner.iter().map(|x| x.norm_sqr()).sum::<f64>() / inner.len() as f64;
-        // From the continuous spectrum to the discrete one.
-        let scale = 1.0 / (mean_square.sqrt() * self.model.dt_s);
-        widest_on(
-            &mut self.noise,
-            #[inline(always)]
-            |noise| noise.iter_mut().zip(amplitudes).for_each(|(x, amplitude)| *x *= scale * amplitude),
-        );
-        // Without a mean the ground comes to rest.
-        self.noise[0] = Complex64::ZERO;
-        if self.high_frequency {
-            self.pulse.clone_from(&self.noise);
-            axis.transform.inverse(&mut self.pulse, samples, &mut self.scratch);
-        } else {
-            samples.clear();
-        }
-    }
-
-    fn epoch_s(&self, window: &Window, timeline: &Timeline) -> f64 {
+    fn epoch_s(&self, window: &Window, timeline: &Timeline, high_frequency: &[f64]) -> f64 {
         let dt_s = self.model.dt_s;
-        let (onset_s, high_frequency) = (timeline.onset as f64 * dt_s, &self.synthetic.high_frequency);
+        let onset_s = timeline.onset as f64 * dt_s;
         let from_onset = match self.model.epoch {
             Epoch::EnvelopePeak => PEAK_SHARE * window.duration_s,
             Epoch::Pga => index_of_peak(high_frequency) as f64 * dt_s - onset_s,
@@ -239,16 +200,18 @@ impl Synthesizer {
         };
         onset_s + from_onset.clamp(0.0, window.duration_s)
     }
+}
 
-    fn axis(&mut self, samples: usize) -> Arc<FrequencyAxis> {
-        let frequency_step_hz = 1.0 / (samples as f64 * self.model.dt_s);
-        let model = &self.model.stochastic;
-        self.axes.get(samples, || {
-            let frequencies = (0..=samples / 2).map(|k| k as f64 * frequency_step_hz);
-            let bins = frequencies.map(|f| (f, quality_exponent(f), model.common_factor(f))).collect();
-            FrequencyAxis { transform: Transform::new(samples), bins }
-        })
-    }
+/// Gives the spectrum of the noise the Fourier amplitudes of the model.
+fn shape_noise(noise: &mut [Complex64], amplitudes: &[f64], dt_s: f64) {
+    // The noise has a mean square of 1 over all frequencies but the first and the last.
+    let inner = &noise[1..noise.len() - 1];
+    let mean_square = inner.iter().map(|x| x.norm_sqr()).sum::<f64>() / inner.len() as f64;
+    // From the continuous spectrum to the discrete one.
+    let scale = 1.0 / (mean_square.sqrt() * dt_s);
+    noise.iter_mut().zip(amplitudes).for_each(|(x, amplitude)| *x *= scale * amplitude);
+    // Without a mean the ground comes to rest.
+    noise[0] = Complex64::ZERO;
 }
 
 fn index_of_peak(series: &[f64]) -> usize {

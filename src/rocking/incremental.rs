@@ -9,15 +9,19 @@
 use super::response::{Outcome, Response};
 use crate::keyword::keywords;
 
+/// How often a step between levels is halved where the structure rocks: the resolution.
+const HALVINGS: i32 = 4;
+/// How many times more where the demand may so reach the tipping point.
+const CLOSER_HALVINGS: i32 = 4;
+/// At least so many steps, of equal ratios or smaller, make a safe window.
+const WINDOW_PARTS: f64 = 16.0;
+/// Relative error of the intensities at which the outcome changes.
+const TOLERANCE: f64 = 1e-3;
 /// The demand |theta|max / alpha at which a structure tips, but for what the ground does meanwhile.
 const TIPPING: f64 = 1.0;
 /// Between impacts the demand is a continuous function of the intensity. It is taken to grow within a step by up to so many times its
 /// change over the step, or over one of those beside: more, and fewer grazing peaks are missed.
 const GROWTH: f64 = 8.0;
-/// How often a step of the finest ratio is halved where the demand may so reach the tipping point.
-const CLOSER_HALVINGS: i32 = 4;
-/// At least so many steps, of equal ratios or smaller, make a safe window.
-const WINDOW_PARTS: u32 = 16;
 /// Rounding must not ask for one halving more.
 const ROUNDING: f64 = 1.0 + 1e-12;
 
@@ -27,9 +31,6 @@ const ROUNDING: f64 = 1.0 + 1e-12;
 pub struct Scan {
     levels: Vec<f64>,
     ratio: f64,
-    finest_ratio: f64,
-    closest_ratio: f64,
-    tolerance: f64,
 }
 
 /// A response at an intensity.
@@ -48,17 +49,12 @@ pub struct ScanPoint {
 }
 
 impl Scan {
-    /// Divides the intensities between two in `steps` equal ratios, which are halved `halvings` times where the structure rocks, and
-    /// further where it is close to overturning. Where the outcome changes, the intensity is found to the relative `tolerance`.
-    pub fn new(from: f64, to: f64, steps: usize, halvings: u32, tolerance: f64) -> Scan {
-        let halved = |times: i32| libm::pow(to / from, libm::ldexp(1.0, -times) / steps as f64);
-        let level = |k: usize| from * libm::pow(to / from, k as f64 / steps as f64);
+    /// Divides the intensities between two in `steps` equal ratios.
+    pub fn new(from: f64, to: f64, steps: usize) -> Scan {
+        let level = |k: usize| from * (to / from).powf(k as f64 / steps as f64);
         Scan {
             levels: (0..steps).map(level).chain([to]).collect(),
-            ratio: halved(0),
-            finest_ratio: halved(halvings as i32),
-            closest_ratio: halved(halvings as i32 + CLOSER_HALVINGS),
-            tolerance,
+            ratio: (to / from).powf(1.0 / steps as f64),
         }
     }
 
@@ -78,7 +74,11 @@ impl Scan {
     /// Ratio of the intensities at which every case is simulated as soon as it rocks: the resolution. Narrower overturning ranges may be
     /// missed where no peak near the tipping point shows them, and narrower safe windows count as none.
     pub fn finest_ratio(&self) -> f64 {
-        self.finest_ratio
+        self.ratio_after(HALVINGS)
+    }
+
+    fn ratio_after(&self, halvings: i32) -> f64 {
+        self.ratio.powf(0.5_f64.powi(halvings))
     }
 
     /// Intensities at which every case is simulated, rising.
@@ -87,10 +87,7 @@ impl Scan {
     }
 
     /// Simulates all cases at as many intensities as the scan needs, in rounds: `respond` gives the responses to all points of a
-    /// round, in order. Returns the responses of each case at rising intensity.
-    ///
-    /// # Errors
-    /// Those of `respond`.
+    /// round, in order. Returns the responses of each case at rising intensity, or the error of `respond`.
     pub fn run<E>(
         &self,
         cases: usize,
@@ -112,24 +109,22 @@ impl Scan {
         Ok(found)
     }
 
-    /// Returns the intensities that have yet to be simulated between those of a case.
+    /// Returns the intensities that have yet to be simulated between those of a case: the middles of steps that are too wide.
     fn missing<'a>(&'a self, found: &'a [ScanResponse]) -> impl Iterator<Item = f64> + 'a {
         let first = found.iter().position(ScanResponse::overturns).unwrap_or(found.len());
         let runs = found.chunk_by(|a, b| a.overturns() == b.overturns());
-        let part = |run: &[ScanResponse]| {
-            self.is_window(run).then(|| libm::pow(width(run), 1.0 / f64::from(WINDOW_PARTS)))
-        };
+        let part = |run: &[ScanResponse]| self.is_window(run).then(|| width(run).powf(1.0 / WINDOW_PARTS));
         let window_parts = runs.flat_map(move |run| std::iter::repeat_n(part(run), run.len()));
         found.windows(2).zip(window_parts).enumerate().filter_map(move |(step, (pair, window_part))| {
             let [below, above] = [&pair[0], &pair[1]];
             let widest = if below.overturns() != above.overturns() {
-                1.0 + self.tolerance
+                1.0 + TOLERANCE
             } else if above.response.outcome == Outcome::NoRocking {
                 return None;
             } else if (step < first || window_part.is_some()) && may_tip(found, step) {
-                self.closest_ratio
+                self.ratio_after(HALVINGS + CLOSER_HALVINGS)
             } else {
-                self.finest_ratio.min(window_part.filter(|_| step > first).unwrap_or(f64::INFINITY))
+                self.finest_ratio().min(window_part.filter(|_| step > first).unwrap_or(f64::INFINITY))
             };
             let is_wide = above.intensity / below.intensity > widest * ROUNDING;
             is_wide.then(|| (below.intensity * above.intensity).sqrt())
@@ -138,7 +133,7 @@ impl Scan {
 
     /// Tells whether a run of responses is one of safe ones, as wide as the resolution.
     fn is_window(&self, run: &[ScanResponse]) -> bool {
-        !run[0].overturns() && width(run) * ROUNDING >= self.finest_ratio
+        !run[0].overturns() && width(run) * ROUNDING >= self.finest_ratio()
     }
 
     /// Finds the capacity in responses at rising intensity.
@@ -166,16 +161,14 @@ impl Scan {
     /// Finds in responses at rising intensity which share of the intensities from each level to the next overturns, in logarithms:
     /// a step whose ends differ counts by half.
     pub fn overturning_shares(&self, responses: &[ScanResponse]) -> Vec<f64> {
-        let mut rest = responses;
+        let overturning = |pair: &[ScanResponse]| {
+            let ends = pair.iter().filter(|end| end.overturns()).count();
+            0.5 * ends as f64 * (pair[1].intensity / pair[0].intensity).ln()
+        };
         let share = |level: &[f64]| {
-            let inside = rest.partition_point(|at| at.intensity < level[1]);
-            let overturning = rest[..=inside].windows(2).map(|pair| {
-                let ends = pair.iter().filter(|end| end.overturns()).count();
-                0.5 * ends as f64 * libm::log(pair[1].intensity / pair[0].intensity)
-            });
-            let share = overturning.sum::<f64>() / libm::log(level[1] / level[0]);
-            rest = &rest[inside..];
-            share.min(1.0)
+            let [from, to] = [0, 1].map(|end| responses.partition_point(|at| at.intensity < level[end]));
+            let sum: f64 = responses[from..=to].windows(2).map(overturning).sum();
+            (sum / (level[1] / level[0]).ln()).min(1.0)
         };
         self.levels.windows(2).map(share).collect()
     }
@@ -190,12 +183,11 @@ fn width(run: &[ScanResponse]) -> f64 {
 fn may_tip(found: &[ScanResponse], step: usize) -> bool {
     let beside = &found[step.saturating_sub(1)..found.len().min(step + 3)];
     let rate = |pair: &[ScanResponse]| {
-        let [a, b] = [&pair[0], &pair[1]];
-        (b.response.edp - a.response.edp).abs() / libm::log(b.intensity / a.intensity)
+        (pair[1].response.edp - pair[0].response.edp).abs() / (pair[1].intensity / pair[0].intensity).ln()
     };
     let safe = beside.windows(2).filter(|pair| !pair.iter().any(ScanResponse::overturns));
     let [below, above] = [&found[step], &found[step + 1]];
-    let growth = GROWTH * safe.map(rate).fold(0.0, f64::max) * libm::log(above.intensity / below.intensity);
+    let growth = GROWTH * safe.map(rate).fold(0.0, f64::max) * (above.intensity / below.intensity).ln();
     below.response.edp.max(above.response.edp) + growth > TIPPING
 }
 

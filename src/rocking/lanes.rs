@@ -1,30 +1,56 @@
 //! The states of many structures, one in each lane of a vector, each at its own moment of its own record: rest, uplift, rocking. No
-//! lane's arithmetic depends on what is in the others, nor on how many there are.
+//! lane's arithmetic depends on what is in the others. A lane whose structure is done takes the next problem.
 
 use pulp::Simd;
 
 use super::record::Record;
+use super::response::{Response, Tail, free_rocking};
 use super::structure::Structure;
-use super::taylor::{Slenderness, State};
+use super::taylor::{MOST_IMPACTS, Slenderness, State};
 use super::uplift::Uplift;
 use super::vector::{MOST_LANES, Vector};
 use crate::units::PER_G;
-
-/// After this many impacts between two samples the structure rests until the next one: a bound of the work. It takes a coefficient
-/// of restitution near 1 to come to this, and a velocity of some 1e-6 p.
-const MOST_IMPACTS: u32 = 10_000;
 
 /// The longest Taylor step, as p dt sqrt(1 + PGA/g). What order 8 leaves out of steps this long moves the peak of a
 /// structure in white noise of 0.6 g by some 1e-12 of itself.
 const LONGEST_STEP: f64 = 0.03;
 
+/// A structure, at rest at first, and the ground motion that shakes it.
+#[derive(Debug, Clone, Copy)]
+pub struct Problem<'a> {
+    pub structure: &'a Structure,
+    pub record: Record<'a>,
+}
+
+/// The lanes to which something happened during a step, a bit for each.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Events {
+    /// The record is over while the structure rocks.
+    pub ended: u32,
+    /// The structure came to rest after an impact.
+    pub rested: u32,
+    /// The structure overturned.
+    pub overturned: u32,
+}
+
+impl Events {
+    pub fn any(&self) -> bool {
+        self.ended | self.rested | self.overturned != 0
+    }
+}
+
 /// A structure in each lane, somewhere between two samples of its record.
 pub struct Lanes<'a, S: Simd> {
     pub(super) simd: S,
+    problems: &'a [Problem<'a>],
+    /// Index of the first problem that waits for a lane.
+    waiting: usize,
+    /// The responses so far.
+    pub(super) responses: Vec<Response>,
     /// The lanes in use, a bit for each.
     pub(super) busy: u32,
     /// Index of the problem.
-    pub(super) problem: [usize; MOST_LANES],
+    problem: [usize; MOST_LANES],
     pub(super) samples: [&'a [f64]; MOST_LANES],
     /// Index of the last sample that has passed.
     pub(super) index: [usize; MOST_LANES],
@@ -47,15 +73,19 @@ pub struct Lanes<'a, S: Simd> {
     /// Largest |theta| so far, rad.
     pub(super) peak: Vector<S>,
     pub(super) impacts: Vector<S>,
-    /// Index of the sample before the last impact, and the number of impacts since.
-    impacts_after: [(usize, u32); MOST_LANES],
+    /// Impacts since the last sample.
+    pub(super) bounces: Vector<S>,
 }
 
 impl<'a, S: Simd> Lanes<'a, S> {
-    pub fn new(simd: S) -> Lanes<'a, S> {
+    /// Puts the first problems into the lanes.
+    pub fn new(simd: S, problems: &'a [Problem<'a>]) -> Lanes<'a, S> {
         let zero = Vector::splat(simd, 0.0);
         let mut lanes = Lanes {
             simd,
+            problems,
+            waiting: 0,
+            responses: vec![Response::NO_ROCKING; problems.len()],
             busy: 0,
             problem: [0; MOST_LANES],
             samples: [&[]; MOST_LANES],
@@ -72,56 +102,64 @@ impl<'a, S: Simd> Lanes<'a, S> {
             per_left: zero,
             peak: zero,
             impacts: zero,
-            impacts_after: [(0, 0); MOST_LANES],
+            bounces: zero,
         };
-        (0..Vector::<S>::LANES).for_each(|lane| lanes.vacate(lane));
+        (0..Vector::<S>::LANES).for_each(|lane| lanes.refill(lane));
         lanes
     }
 
-    pub fn are_idle(&self) -> bool {
-        self.busy == 0
+    pub fn are_busy(&self) -> bool {
+        self.busy != 0
     }
 
-    pub fn problem(&self, lane: usize) -> usize {
-        self.problem[lane]
-    }
-
-    pub fn peak(&self, lane: usize) -> f64 {
-        self.peak.lane(lane)
-    }
-
-    /// The sign of theta.
-    pub fn side(&self, lane: usize) -> f64 {
-        self.side.lane(lane)
-    }
-
-    /// Index of the last sample that has passed.
-    pub fn index(&self, lane: usize) -> usize {
-        self.index[lane]
-    }
-
-    /// Time since the first sample, in time steps of the record.
-    pub fn steps(&self, lane: usize) -> f64 {
-        self.index[lane] as f64 + (1.0 - self.left.lane(lane) / self.p_dt.lane(lane))
-    }
-
-    pub fn impacts(&self, lane: usize) -> u32 {
-        self.impacts.lane(lane) as u32
-    }
-
-    pub fn state(&self, lane: usize) -> State {
-        State { rotation: self.state.rotation.lane(lane), velocity: self.state.velocity.lane(lane) }
-    }
-
-    /// Puts a problem into a lane, at the first uplift of its structure. Returns false if it never uplifts.
+    /// Finishes or restarts the lanes that cannot go on by themselves.
     #[inline(never)]
-    pub fn occupy(
-        &mut self,
-        lane: usize,
-        problem: usize,
-        structure: &Structure,
-        record: &Record<'a>,
-    ) -> bool {
+    pub fn handle(&mut self, events: Events) {
+        for lane in each(events.overturned) {
+            self.finish(lane, Tail::Overturns);
+        }
+        for lane in each(events.ended) {
+            let structure = self.problems[self.problem[lane]].structure;
+            let (rotation, velocity) = (self.state.rotation.lane(lane), self.state.velocity.lane(lane));
+            self.finish(lane, free_rocking(State { rotation, velocity }, structure.alpha_rad, structure.eta));
+        }
+        for lane in each(events.rested) {
+            if !self.leave_rest(lane) {
+                self.finish(lane, Tail::Settles { peak: 0.0 });
+            }
+        }
+    }
+
+    fn finish(&mut self, lane: usize, tail: Tail) {
+        let problem = self.problem[lane];
+        let alpha = self.problems[problem].structure.alpha_rad;
+        let (peak, impacts) = (self.peak.lane(lane), self.impacts.lane(lane) as u32);
+        self.responses[problem] = Response::of_rocking(tail, peak, alpha, impacts);
+        self.refill(lane);
+    }
+
+    /// Gives a lane the next problem in which the structure uplifts, at its first uplift. If there is none the lane stands still and
+    /// meets no event.
+    fn refill(&mut self, lane: usize) {
+        while let Some(problem) = self.problems.get(self.waiting) {
+            (self.problem[lane], self.waiting) = (self.waiting, self.waiting + 1);
+            if self.occupy(lane, problem) {
+                self.busy |= 1 << lane;
+                return;
+            }
+        }
+        self.busy &= !(1 << lane);
+        self.samples[lane] = &[];
+        self.index[lane] = 0;
+        for still in [&mut self.p_dt, &mut self.left, &mut self.per_left, &mut self.state.velocity] {
+            still.set(lane, 0.0);
+        }
+        self.state.rotation.set(lane, 0.5);
+        self.peak.set(lane, 1.0);
+    }
+
+    /// Puts a problem into a lane. Returns false if its structure never uplifts.
+    fn occupy(&mut self, lane: usize, Problem { structure, record }: &Problem<'a>) -> bool {
         let slenderness = Slenderness::new(structure.alpha_rad);
         self.slenderness.tan.set(lane, slenderness.tan);
         self.slenderness.sin.set(lane, slenderness.sin);
@@ -132,46 +170,29 @@ impl<'a, S: Simd> Lanes<'a, S> {
         self.longest.set(lane, LONGEST_STEP / (1.0 + record.peak_m_s2() * PER_G).sqrt());
         self.peak.set(lane, 0.0);
         self.impacts.set(lane, 0.0);
-        self.problem[lane] = problem;
-        self.impacts_after[lane] = (0, 0);
+        self.bounces.set(lane, 0.0);
         self.samples[lane] = record.acceleration_m_s2();
-        self.busy |= 1 << lane;
         self.start_at(lane, Uplift::next(record.acceleration_m_s2(), 0, slenderness.tan))
     }
 
     /// Advances a lane from rest to the next uplift. Returns false if there is none.
-    #[inline(never)]
-    pub fn leave_rest(&mut self, lane: usize) -> bool {
+    fn leave_rest(&mut self, lane: usize) -> bool {
         let (samples, index, tan) = (self.samples[lane], self.index[lane], self.slenderness.tan.lane(lane));
         // A lane that has just arrived at its last sample.
         if index + 1 >= samples.len() {
             return false;
         }
-        if self.impacts_after[lane].1 >= MOST_IMPACTS {
-            self.impacts_after[lane] = (index, 0);
-            return self.start_at(lane, Uplift::next(samples, index + 1, tan));
-        }
         let (now, next) = (self.now.lane(lane), self.next.lane(lane) * PER_G);
-        match Uplift::between(now, next, tan) {
-            Some(uplift) => {
-                let left = self.left.lane(lane) * (1.0 - uplift.fraction);
-                self.start_at(lane, Some(Uplift { index, ..uplift }));
-                self.set_left(lane, left);
-                true
-            }
-            None => self.start_at(lane, Uplift::next(samples, index + 1, tan)),
-        }
-    }
-
-    /// Counts an impact in some lanes. Returns those that have had [`MOST_IMPACTS`] since the last sample.
-    #[inline(always)]
-    pub(super) fn count_impacts(&mut self, struck: u32) -> u32 {
-        each(struck).fold(0, |exhausted, lane| {
-            let (after, count) = self.impacts_after[lane];
-            let count = if after == self.index[lane] { count + 1 } else { 1 };
-            self.impacts_after[lane] = (self.index[lane], count);
-            exhausted | u32::from(count >= MOST_IMPACTS) << lane
-        })
+        let soon =
+            Uplift::between(now, next, tan).filter(|_| self.bounces.lane(lane) < f64::from(MOST_IMPACTS));
+        let Some(uplift) = soon else {
+            self.bounces.set(lane, 0.0);
+            return self.start_at(lane, Uplift::next(samples, index + 1, tan));
+        };
+        let left = self.left.lane(lane) * (1.0 - uplift.fraction);
+        self.start_at(lane, Some(Uplift { index, ..uplift }));
+        self.set_left(lane, left);
+        true
     }
 
     /// Puts a lane at the moment of an uplift, if there is one.
@@ -179,7 +200,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
         let Some(Uplift { index, fraction, ground }) = uplift else { return false };
         self.index[lane] = index;
         // It leans to the side opposite to the acceleration.
-        self.side.set(lane, if ground > 0.0 { -1.0 } else { 1.0 });
+        self.side.set(lane, -ground.signum());
         self.now.set(lane, ground);
         self.next.set(lane, self.samples[lane][index + 1]);
         self.set_left(lane, self.p_dt.lane(lane) * (1.0 - fraction));
@@ -195,28 +216,10 @@ impl<'a, S: Simd> Lanes<'a, S> {
         self.left.set(lane, left);
         self.per_left.set(lane, 1.0 / left);
     }
-
-    /// Leaves a lane idle: it stands still and meets no event.
-    pub fn vacate(&mut self, lane: usize) {
-        self.busy &= !(1 << lane);
-        self.samples[lane] = &[];
-        self.index[lane] = 0;
-        for still in [&mut self.p_dt, &mut self.left, &mut self.per_left, &mut self.state.velocity] {
-            still.set(lane, 0.0);
-        }
-        self.state.rotation.set(lane, 0.5);
-        self.peak.set(lane, 1.0);
-    }
 }
 
 /// Iterates over the lanes whose bits are set.
 pub fn each(bits: u32) -> impl Iterator<Item = usize> {
-    let mut left = bits;
-    std::iter::from_fn(move || {
-        (left != 0).then(|| {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            lane
-        })
-    })
+    let later = |left: &u32| Some(left & (left - 1)).filter(|left| *left != 0);
+    std::iter::successors((bits != 0).then_some(bits), later).map(|left| left.trailing_zeros() as usize)
 }

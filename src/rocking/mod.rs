@@ -3,10 +3,10 @@
 //! ```text
 //! structure    p, alpha, eta and where they come from
 //! record       the ground acceleration as a piecewise-linear function of time
-//! taylor       the equation of motion (Eqs. 8 to 11): the rotation over one step as a Taylor polynomial
-//! uplift       where a structure at rest leaves its base
+//! reference    Eqs. 4 to 6 as the paper writes them, one structure and one small step at a time: read this first
+//! taylor       the equation of motion (Eq. 4): the rotation over one step as a Taylor polynomial
+//! uplift       where a structure at rest leaves its base (Eq. 5)
 //! vector       the numbers in which all of this is written: one or several to a register, a lane each
-//! fused        multiplication and addition in one for processors that have no such instruction
 //! lanes        the states of the structures in the lanes: rest, uplift, rocking
 //! step         a step of all lanes: impact, peak, overturning
 //! roots        where these are: roots of the step's polynomials; polynomial: of one lane, by Bernstein coefficients
@@ -16,11 +16,11 @@
 //! ```
 
 mod batch;
-pub mod fused;
 mod incremental;
 mod lanes;
 mod polynomial;
 mod record;
+pub mod reference;
 mod response;
 mod roots;
 mod step;
@@ -30,13 +30,13 @@ mod trace;
 mod uplift;
 mod vector;
 
-pub use batch::{Problem, simulate, simulate_all};
+pub use batch::{simulate, simulate_all};
 pub use incremental::{Capacity, CapacityStatus, SafeWindow, Scan, ScanPoint, ScanResponse};
+pub use lanes::Problem;
 pub use record::{Record, RecordError};
+pub use reference::trace;
 pub use response::{Outcome, Response};
 pub use structure::{
     BOUNDS, Block, Bound, Structure, StructureError, frame_eta, frame_p, housner_eta, judge, rectangular_p,
 };
-pub use trace::{SolverEvent, TracePoint, trace, with_tail};
-
-pub use crate::wide::Simd;
+pub use trace::{SolverEvent, TracePoint, with_tail};

@@ -1,7 +1,5 @@
 //! Real roots of one polynomial on the unit interval, by the signs of its Bernstein coefficients.
 
-use std::ops::ControlFlow;
-
 /// The order of the Taylor series of a step.
 pub const ORDER: usize = 8;
 
@@ -25,46 +23,31 @@ pub fn derivative(c: &Polynomial) -> Polynomial {
     std::array::from_fn(|k| if k < ORDER { (k + 1) as f64 * c[k + 1] } else { 0.0 })
 }
 
-/// Finds the first root in (0, 1). Roots at 0 do not count.
-pub fn first_root(c: &Polynomial) -> Option<f64> {
-    let mut first = None;
-    let _ = visit_roots(c, |root| {
-        first = Some(root);
-        ControlFlow::Break(())
-    });
-    first
+/// Finds the roots in (0, 1), in ascending order. Roots at 0 do not count.
+pub fn roots(c: &Polynomial) -> Vec<f64> {
+    let mut roots = Vec::new();
+    if let Some(zeros) = c.iter().position(|&coefficient| coefficient != 0.0) {
+        let deflated = std::array::from_fn(|k| c.get(k + zeros).copied().unwrap_or(0.0));
+        add_roots(&deflated, &bernstein(&deflated), 0.0, 1.0, &mut roots);
+    }
+    roots
 }
 
-/// Calls `visit` with each root in (0, 1) in ascending order, until it breaks. Roots at 0 do not count.
-pub fn visit_roots(c: &Polynomial, mut visit: impl FnMut(f64) -> ControlFlow<()>) -> ControlFlow<()> {
-    let Some(zeros) = c.iter().position(|&coefficient| coefficient != 0.0) else {
-        return ControlFlow::Continue(());
-    };
-    let deflated = std::array::from_fn(|k| c.get(k + zeros).copied().unwrap_or(0.0));
-    visit_between(&deflated, &bernstein(&deflated), 0.0, 1.0, &mut visit)
-}
-
-/// Visits the roots between `low` and `high`, the left half first, so that they come in order. By Descartes' rule they are at
+/// Adds the roots between `low` and `high`, the left half first, so that they come in order. By Descartes' rule they are at
 /// most as many as the sign changes of the Bernstein coefficients `b`, and of the same parity.
-fn visit_between(
-    c: &Polynomial,
-    b: &Polynomial,
-    low: f64,
-    high: f64,
-    visit: &mut impl FnMut(f64) -> ControlFlow<()>,
-) -> ControlFlow<()> {
+fn add_roots(c: &Polynomial, b: &Polynomial, low: f64, high: f64, roots: &mut Vec<f64>) {
     match sign_changes(b) {
-        0 => ControlFlow::Continue(()),
-        1 => visit(root_in_bracket(c, low, high, starts_positive(b))),
-        _ if high - low < NARROWEST_BRACKET => visit(0.5 * (low + high)),
+        0 => {}
+        1 => roots.push(root_in_bracket(c, low, high, starts_positive(b))),
+        _ if high - low < NARROWEST_BRACKET => roots.push(0.5 * (low + high)),
         _ => {
             let middle = 0.5 * (low + high);
             let (left, right) = halves(b);
-            visit_between(c, &left, low, middle, visit)?;
+            add_roots(c, &left, low, middle, roots);
             if left[ORDER] == 0.0 {
-                visit(middle)?;
+                roots.push(middle);
             }
-            visit_between(c, &right, middle, high, visit)
+            add_roots(c, &right, middle, high, roots);
         }
     }
 }

@@ -2,8 +2,6 @@
 
 use std::ops::RangeInclusive;
 
-use crate::wide::widest_on;
-
 /// Accepted time steps, s.
 const TIME_STEPS_S: RangeInclusive<f64> = 1e-6..=10.0;
 /// Upper bound of the acceleration, m/s2, a thousand times that of gravity: it catches wrong units.
@@ -45,7 +43,9 @@ impl<'a> Record<'a> {
         if acceleration_m_s2.len() < 2 {
             return Err(RecordError::TooShort(acceleration_m_s2.len()));
         }
-        let peak_m_s2 = largest(acceleration_m_s2);
+        // Not finite if a sample is not: the bits of infinity and NaN are above all others.
+        let peak_m_s2 =
+            acceleration_m_s2.iter().map(|value| value.abs().to_bits()).max().map_or(0.0, f64::from_bits);
         if !peak_m_s2.is_finite() {
             let sample = acceleration_m_s2.iter().position(|value| !value.is_finite()).unwrap_or_default();
             return Err(RecordError::NotFinite { sample, value: acceleration_m_s2[sample] });
@@ -81,19 +81,4 @@ impl<'a> Record<'a> {
             _ => 0.0,
         }
     }
-}
-
-/// Finds the largest absolute value; not finite if one of them is not, since the bits of infinity and NaN are above all others.
-fn largest(values: &[f64]) -> f64 {
-    widest_on(
-        values,
-        #[inline(always)]
-        |values| {
-            let mut largest = 0;
-            for value in values {
-                largest = largest.max(value.abs().to_bits());
-            }
-            f64::from_bits(largest)
-        },
-    )
 }

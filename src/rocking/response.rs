@@ -64,7 +64,7 @@ pub fn free_rocking(state: State, alpha: f64, eta: f64) -> Tail {
     let State { rotation, velocity } = state;
     let kinetic = 0.5 * velocity * velocity;
     // The energy above that at rest: cos(alpha - r) - cos(alpha), without cancellation.
-    let potential = 2.0 * libm::sin(alpha - 0.5 * rotation) * libm::sin(0.5 * rotation);
+    let potential = 2.0 * (alpha - 0.5 * rotation).sin() * (0.5 * rotation).sin();
     let energy = kinetic + potential;
     let escapes = energy > barrier(alpha);
     // Beyond the tipping point gravity overturns it, unless it swings back with enough energy to pass that point again.
@@ -84,14 +84,14 @@ pub fn free_rocking(state: State, alpha: f64, eta: f64) -> Tail {
 
 /// Returns the energy that carries the structure over its tipping point: 1 - cos(alpha).
 fn barrier(alpha: f64) -> f64 {
-    2.0 * libm::sin(0.5 * alpha).powi(2)
+    2.0 * (0.5 * alpha).sin().powi(2)
 }
 
 /// Finds the rotation at which `energy`, not above the barrier, is all potential: cos(alpha - r) - cos(alpha) = energy,
 /// solved as a difference of two inverse sines so that a small rotation keeps its precision.
 fn peak(energy: f64, alpha: f64) -> f64 {
-    let a = libm::sin(0.5 * alpha);
+    let a = (0.5 * alpha).sin();
     let b = (a * a - 0.5 * energy).max(0.0).sqrt();
     let difference = 0.5 * energy / (a * (1.0 - b * b).sqrt() + b * (1.0 - a * a).sqrt());
-    2.0 * libm::asin(difference.min(1.0))
+    2.0 * difference.min(1.0).asin()
 }

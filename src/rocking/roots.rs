@@ -2,7 +2,6 @@
 //! and else of one lane alone.
 
 use std::f64::consts::FRAC_PI_2;
-use std::ops::ControlFlow;
 
 use pulp::Simd;
 
@@ -11,10 +10,6 @@ use super::vector::{Mask, Vector};
 
 /// When Halley's step is this small, relative to the root, the next one is below rounding.
 const CONVERGED: f64 = 4e-6;
-
-/// When Newton's step is this small, relative to the place of a maximum, the next one changes the value there by less than
-/// rounding.
-const MAXIMUM_CONVERGED: f64 = 1e-5;
 
 /// More iterations than any root takes: bisection alone would have narrowed the bracket to rounding.
 const MOST_ITERATIONS: usize = 64;
@@ -44,14 +39,28 @@ pub fn slopes<S: Simd>(c: &Polynomial<Vector<S>>, x: Vector<S>) -> Vector<S> {
 #[inline(always)]
 pub fn falling_root<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Vector<S> {
     let (zero, one) = (c[0].like(0.0), c[0].like(1.0));
-    let mut bracket = Bracket { low: zero, high: one, x: first_guess(c) };
-    let mut active = bracket.refine(c, wanted);
-    let mut iterations = 1;
-    while active.any() && iterations < MOST_ITERATIONS {
-        active = bracket.refine(c, active);
-        iterations += 1;
+    let (mut low, mut high, mut x, mut active) = (zero, one, first_guess(c), wanted);
+    for _ in 0..MOST_ITERATIONS {
+        // Value, slope and half the curvature.
+        let (mut value, mut slope, mut bend) = (c[ORDER], zero, zero);
+        for k in (0..ORDER).rev() {
+            bend = bend.mul_add(x, slope);
+            slope = slope.mul_add(x, value);
+            value = value.mul_add(x, c[k]);
+        }
+        let above = zero.lt(value);
+        (low, high) = (above.select(x, low), above.select(high, x));
+        let closer = halley(x, value, slope, bend);
+        let inside = low.le(closer) & closer.le(high);
+        let next = inside.select(closer, (low + high) * 0.5);
+        let close = inside & (next - x).abs().le(next * CONVERGED);
+        x = active.select(next, x);
+        active = active & !close;
+        if !active.any() {
+            break;
+        }
     }
-    bracket.x
+    x
 }
 
 /// Guesses by the falling root of the parabola that begins as the polynomial does, and one iteration from there on the cubic.
@@ -75,91 +84,22 @@ fn halley<S: Simd>(x: Vector<S>, value: Vector<S>, slope: Vector<S>, bend: Vecto
     x - value * slope / slope.mul_add(slope, -(value * bend))
 }
 
-/// The bounds of a root, and the best guess at it.
-struct Bracket<S: Simd> {
-    low: Vector<S>,
-    high: Vector<S>,
-    x: Vector<S>,
-}
-
-impl<S: Simd> Bracket<S> {
-    /// Iterates once in the lanes of `active`; returns those that need another iteration.
-    #[inline(always)]
-    fn refine(&mut self, c: &Polynomial<Vector<S>>, active: Mask<S>) -> Mask<S> {
-        let x = self.x;
-        let zero = x.like(0.0);
-        // Value, slope and half the curvature.
-        let (mut value, mut slope, mut bend) = (c[ORDER], zero, zero);
-        for k in (0..ORDER).rev() {
-            bend = bend.mul_add(x, slope);
-            slope = slope.mul_add(x, value);
-            value = value.mul_add(x, c[k]);
-        }
-        let above = zero.lt(value);
-        self.low = above.select(x, self.low);
-        self.high = above.select(self.high, x);
-        let closer = halley(x, value, slope, bend);
-        let inside = self.low.le(closer) & closer.le(self.high);
-        let next = inside.select(closer, (self.low + self.high) * 0.5);
-        let close = inside & (next - x).abs().le(next * CONVERGED);
-        self.x = active.select(next, x);
-        active & !(close | next.equals(self.low) | next.equals(self.high))
-    }
-}
-
-/// Where polynomials are largest.
-pub struct Maxima<S: Simd> {
-    pub x: Vector<S>,
-    /// The lanes that converged.
-    pub found: Mask<S>,
-}
-
-/// Finds the maxima, in [0, 1], of the lanes of `wanted`, which rise, are concave and fall in the end: Newton's iterations from
-/// the maximum of the parabola that begins as they do. A lane's iterations do not depend on the other lanes.
-#[inline(always)]
-pub fn maxima<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Maxima<S> {
-    let (zero, one) = (c[0].like(0.0), c[0].like(1.0));
-    let mut x = (c[1] / (c[2] * -2.0)).min(one);
-    let mut active = wanted;
-    for _ in 0..MOST_ITERATIONS {
-        let (mut slope, mut curvature) = (c[ORDER] * ORDER as f64, zero);
-        for k in (1..ORDER).rev() {
-            curvature = curvature.mul_add(x, slope);
-            slope = slope.mul_add(x, c[k] * k as f64);
-        }
-        let next = (x - slope / curvature).max(zero).min(one);
-        let close = (next - x).abs().le(next * MAXIMUM_CONVERGED);
-        x = active.select(next, x);
-        active = active & !close;
-        if !active.any() {
-            break;
-        }
-    }
-    Maxima { x, found: wanted & !active }
-}
-
 /// Finds the first return to the base. A rotation that starts downwards from 0 strikes at once.
 pub fn first_impact(rotation: &Polynomial) -> Option<f64> {
     let leading = rotation.iter().find(|&&coefficient| coefficient != 0.0)?;
-    if *leading < 0.0 { Some(0.0) } else { polynomial::first_root(rotation) }
+    if *leading < 0.0 { Some(0.0) } else { polynomial::roots(rotation).first().copied() }
 }
 
 /// Finds where the rotation first reaches pi/2.
 pub fn first_overturning(rotation: &Polynomial) -> Option<f64> {
     let mut margin = rotation.map(|coefficient| -coefficient);
     margin[0] += FRAC_PI_2;
-    polynomial::first_root(&margin)
+    polynomial::roots(&margin).first().copied()
 }
 
 /// Finds the largest rotation from the start of the step to `until`.
 pub fn largest(rotation: &Polynomial, until: f64) -> f64 {
-    let mut largest = rotation[0].max(polynomial::value(rotation, until));
-    let _ = polynomial::visit_roots(&polynomial::derivative(rotation), |x| {
-        if x > until {
-            return ControlFlow::Break(());
-        }
-        largest = largest.max(polynomial::value(rotation, x));
-        ControlFlow::Continue(())
-    });
-    largest
+    let turns = polynomial::roots(&polynomial::derivative(rotation)).into_iter().filter(|x| *x < until);
+    let rotations = turns.chain([0.0, until]).map(|x| polynomial::value(rotation, x));
+    rotations.fold(0.0, f64::max)
 }

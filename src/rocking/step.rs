@@ -1,40 +1,17 @@
 //! A step of all lanes at once: the Taylor polynomial to the next sample, its first root if the structure strikes before, the impact,
 //! the peak, overturning. Where the curvature or the slope keeps its sign over the step, which is nearly always, the ends tell all;
-//! what is rare is worked out for the lane that needs it alone.
-//!
-//! `tests/solver/truth.rs` holds this against quadruple precision, in registers of every width.
+//! what is rare is worked out for the lane that needs it alone. `tests/solver/truth.rs` holds this against quadruple precision.
 
 use std::f64::consts::FRAC_PI_2;
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, each};
-use super::polynomial::{self, Polynomial};
-use super::roots::{falling_root, first_impact, first_overturning, largest, maxima, slopes, values};
-use super::taylor::{Excess, State, series};
+use super::lanes::{Events, Lanes, each};
+use super::polynomial::{ORDER, Polynomial};
+use super::roots::{falling_root, first_impact, first_overturning, largest, slopes, values};
+use super::taylor::{Excess, MOST_IMPACTS, REST_VELOCITY, State, series};
 use super::vector::{Mask, Vector};
 use crate::units::PER_G;
-
-/// After an impact, a velocity eta |theta'| below this fraction of p counts as none: the structure rests, or uplifts at once if the
-/// ground demands it.
-pub const REST_VELOCITY: f64 = 1e-6;
-
-/// The lanes to which something happened during a step, a bit for each.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Events {
-    /// The record is over while the structure rocks.
-    pub ended: u32,
-    /// The structure came to rest after an impact.
-    pub rested: u32,
-    /// The structure overturned.
-    pub overturned: u32,
-}
-
-impl Events {
-    pub fn any(&self) -> bool {
-        self.ended | self.rested | self.overturned != 0
-    }
-}
 
 /// The Taylor steps from where the lanes stand.
 pub struct Step<S: Simd> {
@@ -56,18 +33,6 @@ pub struct Step<S: Simd> {
 }
 
 impl<S: Simd> Step<S> {
-    /// Finds the fraction of the step at which the rotation of a lane reaches pi/2.
-    pub fn overturning(&self, lane: usize) -> Option<f64> {
-        first_overturning(&of_lane(&self.rotation, lane))
-    }
-
-    /// Returns p t and the velocity at a fraction of the step, in a lane.
-    pub fn at(&self, lane: usize, fraction: f64) -> (f64, f64) {
-        let slope = polynomial::value(&polynomial::derivative(&of_lane(&self.rotation, lane)), fraction);
-        let per_h = self.per_h.lane(lane);
-        (fraction / per_h, slope * per_h)
-    }
-
     /// Finds the lanes of `asked` whose curvature or slope keeps its sign over the whole step. Asks for the slope only where the
     /// curvature does not.
     #[inline(always)]
@@ -87,8 +52,7 @@ impl<S: Simd> Step<S> {
 }
 
 impl<S: Simd> Lanes<'_, S> {
-    /// Expands the rotation from where the lanes stand to their next samples, or as far as the series converges (section 2.2, Eqs. 8
-    /// to 11).
+    /// Expands the rotation from where the lanes stand to their next samples, or as far as the series converges.
     #[inline(always)]
     pub fn step(&self) -> Step<S> {
         let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
@@ -129,15 +93,13 @@ impl<S: Simd> Lanes<'_, S> {
         }
     }
 
-    /// Advances the lanes by a step, or as far as the first impact in it (section 2.2).
+    /// Advances the lanes by a step, or as far as the first impact in it.
     #[inline(always)]
     pub fn advance(&mut self, step: &Step<S>) -> Events {
-        let one = Vector::splat(self.simd, 1.0);
+        let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
         let mut events = Events::default();
-        let zero = Vector::splat(self.simd, 0.0);
         let candidates = step.low.le(zero);
-        let impacts = if candidates.any() { self.find_impacts(step, candidates) } else { None };
-        let until = impacts.as_ref().map_or(one, |impacts| impacts.until);
+        let until = if candidates.any() { self.first_impacts(step, candidates) } else { one };
         self.state = step.end;
         if Vector::splat(self.simd, FRAC_PI_2).le(step.high).any() {
             events.overturned = self.overturned(step, until);
@@ -152,51 +114,49 @@ impl<S: Simd> Lanes<'_, S> {
         self.now = within.select(passed.mul_add(next - self.now, self.now), next);
         self.left = within.select((one - passed) * self.left, self.p_dt);
         self.per_left = one / self.left;
-        // The impact, theta'+ = eta theta'-, on to the other side.
-        if let Some(Impacts { lanes, velocity, .. }) = impacts {
-            let after = -(velocity * self.eta);
-            self.state.rotation = lanes.select(zero, self.state.rotation);
-            self.state.velocity = lanes.select(after, self.state.velocity);
-            self.side = lanes.select(-self.side, self.side);
-            self.impacts = self.impacts + lanes.select(one, zero);
-            events.rested = (lanes & after.lt(Vector::splat(self.simd, REST_VELOCITY))).bits();
-            events.rested |= self.count_impacts(lanes.bits());
+        self.bounces = within.select(self.bounces, zero);
+        // The impact, theta'+ = eta theta'- (Eq. 6), on to the other side.
+        let struck = until.lt(one);
+        if struck.any() {
+            let after = -(slopes(&step.rotation, until) * step.per_h * self.eta);
+            self.state.rotation = struck.select(zero, self.state.rotation);
+            self.state.velocity = struck.select(after, self.state.velocity);
+            self.side = struck.select(-self.side, self.side);
+            self.impacts = self.impacts + struck.select(one, zero);
+            self.bounces = self.bounces + struck.select(one, zero);
+            let feeble = after.lt(Vector::splat(self.simd, REST_VELOCITY));
+            let exhausted = Vector::splat(self.simd, f64::from(MOST_IMPACTS)).le(self.bounces);
+            events.rested = (struck & (feeble | exhausted)).bits();
         }
         events.ended = self.pass_samples(arrived) & self.busy & !(events.overturned | events.rested);
         events
     }
 
-    /// Finds the first impacts of `candidates` during a step.
+    /// Finds which fraction of a step passes before the first impact of `candidates`; 1 in lanes that do not strike.
     #[inline(always)]
-    fn find_impacts(&self, step: &Step<S>, candidates: Mask<S>) -> Option<Impacts<S>> {
+    fn first_impacts(&self, step: &Step<S>, candidates: Mask<S>) -> Vector<S> {
         let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
         let c = &step.rotation;
         let below = step.last.lt(zero);
         let starts_above = zero.lt(c[0]) | zero.lt(c[1]);
         let monotone = step.end.velocity.le(zero) | zero.le(c[1]);
         let plain = step.keeps_a_sign(candidates);
-        let strikes = below & starts_above & plain;
+        let strikes = candidates & below & starts_above & plain;
         let passes = !below & (step.concave | (plain & monotone));
-        let mut lanes = strikes & candidates;
-        let mut until = one;
-        if lanes.any() {
-            until = lanes.select(falling_root(c, lanes), one);
-        }
+        let mut until = if strikes.any() { strikes.select(falling_root(c, strikes), one) } else { one };
         for lane in each((candidates & !strikes & !passes).bits()) {
-            if let Some(x) = first_impact(&of_lane(c, lane)) {
-                until.set(lane, x);
-                lanes = lanes | Mask::of_lane(self.simd, lane);
-            }
+            until.set(lane, first_impact(&of_lane(c, lane)).unwrap_or(1.0));
         }
-        let velocity = slopes(c, until) * step.per_h;
-        lanes.any().then_some(Impacts { lanes, until, velocity })
+        until
     }
 
     /// Finds the lanes that reach pi/2 up to `until`.
     #[inline(never)]
     fn overturned(&self, step: &Step<S>, until: Vector<S>) -> u32 {
         let high = Vector::splat(self.simd, FRAC_PI_2).le(step.high).bits() & self.busy;
-        let overturns = |lane: &usize| step.overturning(*lane).is_some_and(|x| x <= until.lane(*lane));
+        let overturns = |lane: &usize| {
+            first_overturning(&of_lane(&step.rotation, *lane)).is_some_and(|x| x <= until.lane(*lane))
+        };
         each(high).filter(overturns).fold(0, |bits, lane| bits | 1 << lane)
     }
 
@@ -209,18 +169,18 @@ impl<S: Simd> Lanes<'_, S> {
         let turns = step.concave & zero.lt(r[1]) & step.end.velocity.lt(zero);
         let ends = higher & step.keeps_a_sign(higher) & !turns;
         self.peak = ends.select(self.peak.max(step.end.rotation), self.peak);
-        let mut left = higher & !ends;
-        if (left & turns).any() {
-            let maxima = maxima(r, left & turns);
-            let highest = values(r, maxima.x.min(until));
-            self.peak = maxima.found.select(self.peak.max(highest), self.peak);
-            left = left & !maxima.found;
-        }
-        for lane in each(left.bits()) {
-            let highest = largest(&of_lane(r, lane), until.lane(lane));
-            if highest > self.peak.lane(lane) {
-                self.peak.set(lane, highest);
+        let turning = higher & !ends & turns;
+        if turning.any() {
+            let mut slope = [zero; ORDER + 1];
+            for k in 1..=ORDER {
+                slope[k - 1] = r[k] * k as f64;
             }
+            let highest = values(r, falling_root(&slope, turning));
+            self.peak = turning.select(self.peak.max(highest), self.peak);
+        }
+        for lane in each((higher & !ends & !turns).bits()) {
+            let highest = largest(&of_lane(r, lane), until.lane(lane));
+            self.peak.set(lane, highest.max(self.peak.lane(lane)));
         }
     }
 
@@ -237,16 +197,6 @@ impl<S: Simd> Lanes<'_, S> {
         }
         ended
     }
-}
-
-/// The first impacts of lanes during a step.
-struct Impacts<S: Simd> {
-    /// The lanes that strike.
-    lanes: Mask<S>,
-    /// Fraction of the step that passes before the impact; 1 in the other lanes.
-    until: Vector<S>,
-    /// Velocity at that moment.
-    velocity: Vector<S>,
 }
 
 fn of_lane<S: Simd>(c: &Polynomial<Vector<S>>, lane: usize) -> Polynomial {

@@ -30,81 +30,76 @@ pub struct Structure {
 /// Accepted frequency parameters, rad/s: of blocks from 0.7 mm to 7000 km. With the bounds of a record they bound the Taylor steps
 /// between two of its samples to some million.
 const FREQUENCIES_RAD_S: RangeInclusive<f64> = 1e-3..=100.0;
-/// Lower bound of the slenderness, rad.
-const LEAST_SLENDERNESS_RAD: f64 = 1e-6;
+/// Accepted slendernesses, rad, and coefficients of restitution.
+const SLENDERNESSES_RAD: RangeInclusive<f64> = 1e-6..=FRAC_PI_2.next_down();
+const RESTITUTIONS: RangeInclusive<f64> = f64::MIN_POSITIVE..=1.0;
 
 /// A parameter outside the range in which a rocking structure exists.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("structure '{structure}': {parameter} is {value}; expected {expected}")]
 pub struct StructureError {
-    structure: String,
-    parameter: &'static str,
-    value: f64,
-    expected: String,
+    pub structure: String,
+    pub parameter: &'static str,
+    pub value: f64,
+    pub expected: String,
 }
 
 /// The range of a parameter in which there are structures, and what a number outside of it is likely to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bound {
-    /// What the parameter is called in options.
+    /// The name of the parameter in options.
     pub parameter: &'static str,
     /// The least and the largest.
     pub range: (f64, f64),
-    /// In words.
+    /// The range in words.
     pub expected: &'static str,
     /// The likely slip.
     pub slip: &'static str,
+}
+
+const fn bound(
+    parameter: &'static str,
+    range: (f64, f64),
+    expected: &'static str,
+    slip: &'static str,
+) -> Bound {
+    Bound { parameter, range, expected, slip }
 }
 
 /// What a user may give. The solver takes more ([`Structure::new`]), but outside of these bounds a number is a slip, most often of the
 /// unit: no structure that rocks is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or
 /// is wider than tall, for then it slides; nor is a beam 50 times as heavy as its columns.
 pub const BOUNDS: [Bound; 6] = [
-    Bound {
-        parameter: "width",
-        range: (1e-4, 200.0),
-        expected: "a length above 0 m, up to 200 m",
-        slip: "is it in cm or mm?",
-    },
-    Bound {
-        parameter: "height",
-        range: (1e-3, 200.0),
-        expected: "a length above 0 m, up to 200 m",
-        slip: "is it in cm or mm?",
-    },
-    Bound {
-        parameter: "beam-mass-ratio",
-        range: (0.0, 50.0),
-        expected: "a mass ratio of 0 or more, up to 50",
-        slip: "is it in percent?",
-    },
-    Bound {
-        parameter: "p",
-        range: (0.2, 50.0),
-        expected: "a frequency parameter above 0 rad/s, from 0.2 to 50",
-        slip: "is it in Hz, or of dimensions in cm or mm?",
-    },
-    Bound {
-        parameter: "alpha",
-        range: (0.01, FRAC_PI_4),
-        expected: "a slenderness between 0 and pi/2 rad, from 0.01 to 0.7854 (45 degrees)",
-        slip: "is it in degrees, or height over width?",
-    },
-    Bound {
-        parameter: "eta",
-        range: (f64::MIN_POSITIVE, 1.0),
-        expected: "a coefficient of restitution above 0 and up to 1",
-        slip: "is it in percent?",
-    },
+    bound("width", (1e-4, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
+    bound("height", (1e-3, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
+    bound("beam-mass-ratio", (0.0, 50.0), "a mass ratio of 0 or more, up to 50", "is it in percent?"),
+    bound(
+        "p",
+        (0.2, 50.0),
+        "a frequency parameter above 0 rad/s, from 0.2 to 50",
+        "is it in Hz, or of dimensions in cm or mm?",
+    ),
+    bound(
+        "alpha",
+        (0.01, FRAC_PI_4),
+        "a slenderness between 0 and pi/2 rad, from 0.01 to 0.7854 (45 degrees)",
+        "is it in degrees, or height over width?",
+    ),
+    bound(
+        "eta",
+        (f64::MIN_POSITIVE, 1.0),
+        "a coefficient of restitution above 0 and up to 1",
+        "is it in percent?",
+    ),
 ];
 
 impl Bound {
-    /// That of a parameter.
+    /// Finds the bound of a parameter.
     pub fn of(parameter: &str) -> Option<&'static Bound> {
         BOUNDS.iter().find(|bound| bound.parameter == parameter)
     }
 
-    /// What is expected in place of a number that cannot be right, and what slip it may be.
+    /// Says what is expected in place of a number that cannot be right, and what slip it may be.
     pub fn refusal(&self, value: f64) -> Option<String> {
         let Bound { range: (least, most), expected, slip, .. } = *self;
         match value {
@@ -120,22 +115,25 @@ impl Bound {
 /// # Errors
 /// If one of them cannot be right, with the likely slip.
 pub fn judge(structure: &str, given: &[(&'static str, f64)]) -> Result<(), StructureError> {
-    let failed = |parameter, value, expected| {
-        Err(StructureError { structure: structure.to_string(), parameter, value, expected })
-    };
     for &(parameter, value) in given {
         if let Some(expected) = Bound::of(parameter).and_then(|bound| bound.refusal(value)) {
-            return failed(parameter, value, expected);
+            return refuse(structure, parameter, value, &expected);
         }
     }
     let value =
         |wanted: &str| given.iter().find(|(parameter, _)| *parameter == wanted).map(|&(_, value)| value);
     match (value("width"), value("height")) {
         (Some(width), Some(height)) if width > height => {
-            failed("width", width, format!("no more than the height, {height} m; were they exchanged?"))
+            let expected = format!("no more than the height, {height} m; were they exchanged?");
+            refuse(structure, "width", width, &expected)
         }
         _ => Ok(()),
     }
+}
+
+fn refuse(name: &str, parameter: &'static str, value: f64, expected: &str) -> Result<(), StructureError> {
+    let (structure, expected) = (name.to_string(), expected.to_string());
+    Err(StructureError { structure, parameter, value, expected })
 }
 
 /// Below this p, rad/s, a solid block is higher than some 90 m.
@@ -144,7 +142,7 @@ const DOUBTFUL_P: f64 = 0.4;
 impl Structure {
     /// What may be wrong with its size, which no solid block that stands has; none where nothing is.
     pub fn doubt(&self) -> Option<String> {
-        let height = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s) * libm::cos(self.alpha_rad);
+        let height = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s) * self.alpha_rad.cos();
         (self.p_rad_s < DOUBTFUL_P).then(|| {
             format!(
                 "p {:.3} rad/s is that of a solid block {height:.0} m high: are its dimensions in cm?",
@@ -155,7 +153,7 @@ impl Structure {
 
     /// Says when it slides in place of rocking, which nothing here computes.
     pub fn words_of_friction(&self) -> String {
-        format!("slides instead unless its friction is above {:.2}", libm::tan(self.alpha_rad))
+        format!("slides instead unless its friction is above {:.2}", self.alpha_rad.tan())
     }
 
     /// Returns its size and slenderness.
@@ -168,23 +166,16 @@ impl Structure {
     /// # Errors
     /// If `p` is not in [0.001, 100] rad/s, `alpha` not in [1e-6, pi/2) rad or `eta` not in (0, 1].
     pub fn new(name: &str, p_rad_s: f64, alpha_rad: f64, eta: f64) -> Result<Structure, StructureError> {
-        let check = |ok: bool, parameter, value, expected: &str| {
-            if ok {
-                return Ok(());
+        let accepted = [
+            ("p", p_rad_s, FREQUENCIES_RAD_S, "a frequency parameter above 0 rad/s, from 0.001 to 100"),
+            ("alpha", alpha_rad, SLENDERNESSES_RAD, "a slenderness between 0 and pi/2 rad, of 1e-6 or more"),
+            ("eta", eta, RESTITUTIONS, "a coefficient of restitution above 0 and up to 1"),
+        ];
+        for (parameter, value, range, expected) in accepted {
+            if !range.contains(&value) {
+                refuse(name, parameter, value, expected)?;
             }
-            Err(StructureError {
-                structure: name.to_string(),
-                parameter,
-                value,
-                expected: expected.to_string(),
-            })
-        };
-        let possible_p = FREQUENCIES_RAD_S.contains(&p_rad_s);
-        check(possible_p, "p", p_rad_s, "a frequency parameter above 0 rad/s, from 0.001 to 100")?;
-        let leaning = (LEAST_SLENDERNESS_RAD..FRAC_PI_2).contains(&alpha_rad);
-        check(leaning, "alpha", alpha_rad, "a slenderness between 0 and pi/2 rad, of 1e-6 or more")?;
-        let dissipative = eta > 0.0 && eta <= 1.0;
-        check(dissipative, "eta", eta, "a coefficient of restitution above 0 and up to 1")?;
+        }
         Ok(Structure { name: name.to_string(), p_rad_s, alpha_rad, eta })
     }
 
@@ -201,14 +192,12 @@ impl Structure {
     ) -> Result<Structure, StructureError> {
         for (parameter, value) in [("width", width_m), ("height", height_m)] {
             if !(value > 0.0 && value.is_finite()) {
-                let expected = "a length above 0 m".to_string();
-                return Err(StructureError { structure: name.to_string(), parameter, value, expected });
+                refuse(name, parameter, value, "a length above 0 m")?;
             }
         }
-        let semi_diagonal_m = 0.5 * libm::hypot(width_m, height_m);
-        let alpha_rad = libm::atan(width_m / height_m);
+        let alpha_rad = (width_m / height_m).atan();
         let eta = eta.unwrap_or_else(|| housner_eta(alpha_rad));
-        Structure::new(name, rectangular_p(semi_diagonal_m), alpha_rad, eta)
+        Structure::new(name, rectangular_p(0.5 * width_m.hypot(height_m)), alpha_rad, eta)
     }
 
     /// Makes a frame of rocking columns (each a solid rectangle of width 2b and height 2h, m) that carry a rigid beam;
@@ -224,12 +213,7 @@ impl Structure {
         eta: Option<f64>,
     ) -> Result<Structure, StructureError> {
         if !(beam_mass_ratio >= 0.0 && beam_mass_ratio.is_finite()) {
-            return Err(StructureError {
-                structure: name.to_string(),
-                parameter: "beam-mass-ratio",
-                value: beam_mass_ratio,
-                expected: "a mass ratio of 0 or more".to_string(),
-            });
+            refuse(name, "beam-mass-ratio", beam_mass_ratio, "a mass ratio of 0 or more")?;
         }
         let column = Structure::rectangular_block(name, width_m, height_m, Some(1.0))?;
         let eta = eta.unwrap_or_else(|| frame_eta(column.alpha_rad, beam_mass_ratio));
@@ -238,13 +222,8 @@ impl Structure {
 
     /// Ground acceleration g tan(alpha) from which the structure uplifts, m/s2: the unit of IM4 to IM6.
     pub fn uplift_acceleration_m_s2(&self) -> f64 {
-        G_M_S2 * tan(self.alpha_rad)
+        G_M_S2 * self.alpha_rad.tan()
     }
-}
-
-/// Tangent of the slenderness. The solver's uplift and IM4 to IM6 both take it from here: they cannot disagree, on any platform.
-pub(super) fn tan(alpha_rad: f64) -> f64 {
-    libm::tan(alpha_rad)
 }
 
 /// Frequency parameter of a solid rectangular block: p = sqrt(3 g / (4 R)), rad/s, of its semi-diagonal R, m.
@@ -260,12 +239,11 @@ pub fn frame_p(column_p_rad_s: f64, beam_mass_ratio: f64) -> f64 {
 
 /// Housner's (1963) coefficient of restitution of a rectangular block: eta = 1 - 1.5 sin^2(alpha).
 pub fn housner_eta(alpha_rad: f64) -> f64 {
-    1.0 - 1.5 * libm::sin(alpha_rad).powi(2)
+    1.0 - 1.5 * alpha_rad.sin().powi(2)
 }
 
 /// Coefficient of restitution of a rocking frame: eta = (1 - 1.5 sin^2(alpha) + 3 y cos(2 alpha)) / (1 + 3 y), of the
 /// ratio y of beam to columns mass (Makris & Vassiliou 2013).
 pub fn frame_eta(alpha_rad: f64, beam_mass_ratio: f64) -> f64 {
-    (housner_eta(alpha_rad) + 3.0 * beam_mass_ratio * libm::cos(2.0 * alpha_rad))
-        / (1.0 + 3.0 * beam_mass_ratio)
+    (housner_eta(alpha_rad) + 3.0 * beam_mass_ratio * (2.0 * alpha_rad).cos()) / (1.0 + 3.0 * beam_mass_ratio)
 }

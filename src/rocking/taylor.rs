@@ -1,4 +1,4 @@
-//! One Taylor step of the equation of motion (section 2.2, Eqs. 8 to 11),
+//! One Taylor step of the equation of motion (Eq. 4),
 //!
 //! ```text
 //! theta'' = -p^2 [ sin(alpha sgn(theta) - theta) + a/g cos(alpha sgn(theta) - theta) ]
@@ -18,8 +18,15 @@
 use pulp::Simd;
 
 use super::polynomial::{ORDER, Polynomial};
-use super::structure::tan;
 use super::vector::{Vector, unrolled};
+
+/// After an impact, a velocity eta |theta'| below this fraction of p counts as none: the structure rests, or uplifts at once if the
+/// ground demands it.
+pub const REST_VELOCITY: f64 = 1e-6;
+
+/// After this many impacts between two samples the structure rests until the next one: a bound of the work. It takes a coefficient
+/// of restitution near 1 to come to this, and a velocity of some 1e-6 p.
+pub const MOST_IMPACTS: u32 = 10_000;
 
 /// Functions of the slenderness alpha.
 #[derive(Debug, Clone, Copy)]
@@ -32,8 +39,8 @@ pub struct Slenderness<T = f64> {
 
 impl Slenderness {
     pub fn new(alpha_rad: f64) -> Slenderness {
-        let (sin, cos) = libm::sincos(alpha_rad);
-        Slenderness { tan: tan(alpha_rad), sin, cos, secant: 1.0 / cos }
+        let (sin, cos) = alpha_rad.sin_cos();
+        Slenderness { tan: alpha_rad.tan(), sin, cos, secant: 1.0 / cos }
     }
 }
 

@@ -1,12 +1,8 @@
-//! The numbers in which the equation of motion is written: [`Vector`]s of several, a lane each. Registers of any width, one number
-//! among them, give a lane the same bits: each operation is exact, or rounded once.
+//! The numbers in which the equation of motion is written: [`Vector`]s of several, a lane each.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use pulp::{Simd, bytemuck};
-
-use super::fused;
-use crate::wide::has_no_fusing;
 
 /// Repeats a block for each value of a constant. Otherwise nested loops over arrays of vectors stay loops, with every vector in
 /// memory.
@@ -21,9 +17,6 @@ macro_rules! unrolled {
 pub(super) use unrolled;
 
 const REGISTERS: usize = 2;
-
-/// Whether the processor's own minimum and maximum of vectors take the other number where neither is smaller or larger.
-const TAKES_THE_OTHER: bool = cfg!(target_arch = "x86_64");
 
 /// Upper bound of [`Vector::LANES`], of registers of 512 bits.
 pub const MOST_LANES: usize = REGISTERS * 8;
@@ -92,44 +85,16 @@ impl<S: Simd> Vector<S> {
         Vector { registers: in_each!(k: self.simd.abs_f64s(self.registers[k])), ..self }
     }
 
-    /// Takes the smaller number, and the other one where neither is: zeros of different sign, or none at all.
-    #[inline(always)]
-    pub fn min(self, other: Vector<S>) -> Vector<S> {
-        if TAKES_THE_OTHER && !S::IS_SCALAR {
-            return Vector {
-                registers: in_each!(k: self.simd.min_f64s(self.registers[k], other.registers[k])),
-                ..self
-            };
-        }
-        self.lt(other).select(self, other)
-    }
-
-    /// Takes the larger number, and the other one where neither is.
     #[inline(always)]
     pub fn max(self, other: Vector<S>) -> Vector<S> {
-        if TAKES_THE_OTHER && !S::IS_SCALAR {
-            return Vector {
-                registers: in_each!(k: self.simd.max_f64s(self.registers[k], other.registers[k])),
-                ..self
-            };
-        }
-        other.lt(self).select(self, other)
+        Vector { registers: in_each!(k: self.simd.max_f64s(self.registers[k], other.registers[k])), ..self }
     }
 
-    /// Computes `self * factor + addend`, rounded once.
+    /// Computes `self * factor + addend`, rounded once where the processor can.
     #[inline(always)]
     pub fn mul_add(self, factor: Vector<S>, addend: Vector<S>) -> Vector<S> {
-        if has_no_fusing::<S>() {
-            let mut sum = addend;
-            for lane in 0..Vector::<S>::LANES {
-                sum.set(lane, fused::mul_add(self.lane(lane), factor.lane(lane), addend.lane(lane)));
-            }
-            return sum;
-        }
-        Vector {
-            registers: in_each!(k: self.simd.mul_add_f64s(self.registers[k], factor.registers[k], addend.registers[k])),
-            ..self
-        }
+        let (a, b, c) = (self.registers, factor.registers, addend.registers);
+        Vector { registers: in_each!(k: self.simd.mul_add_e_f64s(a[k], b[k], c[k])), ..self }
     }
 
     #[inline(always)]
@@ -145,14 +110,6 @@ impl<S: Simd> Vector<S> {
         Mask {
             simd: self.simd,
             registers: in_each!(k: self.simd.less_than_or_equal_f64s(self.registers[k], other.registers[k])),
-        }
-    }
-
-    #[inline(always)]
-    pub fn equals(self, other: Vector<S>) -> Mask<S> {
-        Mask {
-            simd: self.simd,
-            registers: in_each!(k: self.simd.equal_f64s(self.registers[k], other.registers[k])),
         }
     }
 }
@@ -172,13 +129,6 @@ impl<S: Simd> Mask<S> {
     pub fn bits(self) -> u32 {
         let [first, second] = in_each!(k: bits_of::<S>(&self.registers[k]));
         first | second << S::F64_LANES
-    }
-
-    /// Makes a mask that is true in one lane only.
-    pub fn of_lane(simd: S, lane: usize) -> Mask<S> {
-        let mut flag = Vector::splat(simd, 0.0);
-        flag.set(lane, 1.0);
-        Vector::splat(simd, 0.0).lt(flag)
     }
 
     #[inline(always)]

@@ -1,5 +1,4 @@
 //! Synthetic ground motions against published values, and the measures of any motion against closed forms.
 
-mod fourier;
 mod intensity;
 mod model;

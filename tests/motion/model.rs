@@ -3,13 +3,12 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
 use proptest::prelude::*;
+use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 use rockfrag::motion::pulse::largest_velocity;
 use rockfrag::motion::site::SiteTableError;
-use rockfrag::motion::stochastic::{
-    CONSTANT, LowCut, PEAK_SHARE, Source, StochasticModel, Window, quality_exponent,
-};
+use rockfrag::motion::stochastic::{CONSTANT, LowCut, PEAK_SHARE, Source, StochasticModel, Window};
 use rockfrag::motion::{
     Design, Difference, Epoch, Grid, IntensityScratch, MotionModel, Pulse, Scenario, Site, Suite,
     Synthesizer, Synthetic, intensity, measures,
@@ -22,37 +21,14 @@ fn cell(mw: f64, re_km: f64, samples: usize, seed: u64) -> Vec<Scenario> {
     Grid { mw: vec![mw], re_km: vec![re_km], samples, design: Design::Lhs, seed }.scenarios_of_cell(0)
 }
 
-/// The points of a cell of a sampling design.
-fn points(design: Design, samples: usize, seed: u64, cell: usize) -> Vec<[f64; 4]> {
-    Grid { mw: vec![6.0, 7.0], re_km: vec![5.0], samples, design, seed }.quantiles_of_cell(cell)
-}
-
 #[test]
-fn a_sobol_design_is_sobols_sequence_under_a_shift_of_digits() {
-    // Against scipy (scripts/reference/sobol.py). The first point of the sequence is 0, so that it becomes the shift itself.
-    let digits = |points: &[[f64; 4]]| -> Vec<[u32; 4]> {
-        points.iter().map(|point| point.map(|u| (u * 2f64.powi(32)).floor() as u32)).collect()
-    };
-    let drawn = digits(&points(Design::Sobol, 4096, 7, 0));
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/sobol.csv");
-    let rows = csv::Reader::from_path(path).unwrap().into_deserialize();
-    let answers: Vec<(usize, [u32; 4])> = rows.map(Result::unwrap).collect();
-    assert_eq!(answers.len(), 60);
-    for (index, expected) in answers {
-        let unshifted: [u32; 4] = std::array::from_fn(|d| drawn[index][d] ^ drawn[0][d]);
-        assert_eq!(unshifted, expected, "point {index}");
-    }
-    let other = |seed, cell| digits(&points(Design::Sobol, 1, seed, cell))[0];
-    assert!(other(8, 0) != drawn[0] && other(7, 1) != drawn[0] && other(7, 0) == drawn[0]);
-}
-
-#[test]
-fn stratified_designs_have_a_sample_in_each_stratum() {
-    for (design, is_stratified) in [(Design::Lhs, true), (Design::Sobol, true), (Design::Random, false)] {
-        let points = points(design, 1024, 42, 1);
+fn a_latin_hypercube_has_a_sample_in_each_stratum() {
+    for (design, is_stratified) in [(Design::Lhs, true), (Design::Random, false)] {
+        let grid = Grid { mw: vec![6.0, 7.0], re_km: vec![5.0], samples: 1024, design, seed: 42 };
+        let points = grid.quantiles_of_cell(1);
         assert!(points.iter().flatten().all(|u| *u > 0.0 && *u < 1.0));
         for dimension in 0..4 {
-            let mut hit = vec![false; 1024];
+            let mut hit = [false; 1024];
             points.iter().for_each(|point| hit[(point[dimension] * 1024.0) as usize] = true);
             let share = hit.iter().filter(|hit| **hit).count() as f64 / 1024.0;
             // Independent samples miss a stratum with probability 1/e; the share that is hit has a deviation of 0.0097.
@@ -74,7 +50,7 @@ fn varied_scenarios() -> Vec<Scenario> {
 
 fn synthesize(model: &MotionModel, scenarios: &[Scenario]) -> Vec<Synthetic> {
     let mut synthesizer = Synthesizer::new(model.clone(), &Suite::SYNTHETIC);
-    scenarios.iter().map(|scenario| synthesizer.synthesize(scenario).clone()).collect()
+    scenarios.iter().map(|scenario| synthesizer.synthesize(scenario)).collect()
 }
 
 fn with_difference(difference: Difference) -> MotionModel {
@@ -100,7 +76,7 @@ fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) 
         let mut synthesizer = Synthesizer::new(model, &Suite::SYNTHETIC);
         let of = |scenario: &Scenario| {
             let motion = synthesizer.synthesize(scenario);
-            measures(samples(motion), motion.dt_s, &mut scratch)
+            measures(samples(&motion), motion.dt_s, &mut scratch)
         };
         let all: Vec<_> = cell(mw, re_km, 100, seed).iter().map(of).collect();
         let of_seed = [
@@ -121,18 +97,13 @@ fn spectrum(samples: &[f64]) -> Vec<Complex64> {
     spectrum
 }
 
-/// Fourier amplitude of the acceleration that a model asks for at a frequency (Hz), cm/s.
-fn fourier_amplitude_cm_s(model: &StochasticModel, source: &Source, f: f64) -> f64 {
-    source.amplitude(f, quality_exponent(f)) * model.common_factor(f)
-}
-
 /// Fourier amplitude of the high frequencies over that of the model, at each frequency (Hz) but the first and last.
 fn relative_amplitudes(motion: &Synthetic, model: &StochasticModel, source: &Source) -> Vec<(f64, f64)> {
     let step_hz = 1.0 / (motion.high_frequency.len() as f64 * motion.dt_s);
     let coefficients = spectrum(&motion.high_frequency);
     let relative = |(k, coefficient): (usize, &Complex64)| {
         let f = k as f64 * step_hz;
-        (f, coefficient.norm() * motion.dt_s * 100.0 / fourier_amplitude_cm_s(model, source, f))
+        (f, coefficient.norm() * motion.dt_s * 100.0 / model.fourier_amplitude_cm_s(source, f))
     };
     let last = coefficients.len() - 1;
     coefficients.iter().enumerate().take(last).skip(1).map(relative).collect()
@@ -163,7 +134,7 @@ fn fourier_amplitudes_have_their_published_values() {
         (7.5, [32.2084, 113.6216, 70.0324]),
     ] {
         for (f, expected) in [0.1, 1.0, 10.0].into_iter().zip(expected) {
-            let amplitude = fourier_amplitude_cm_s(&model, &Source::new(mw, 10.0), f);
+            let amplitude = model.fourier_amplitude_cm_s(&Source::new(mw, 10.0), f);
             // Half a unit of the last published digit: the fourth decimal, but the third of 12.363.
             let half_unit = if expected == 12.363 { 5e-4 } else { 5e-5 };
             assert!((amplitude - expected).abs() < 1.01 * half_unit, "M {mw}, {f} Hz: {amplitude}");
@@ -178,7 +149,7 @@ fn amplitudes_fall_with_distance_and_filters_as_their_equations_say() {
     let spread = |re_km: f64| {
         let source = Source::new(6.0, re_km);
         let attenuation = PI * source.distance_km * 0.01_f64.powf(0.55) / (180.0 * 3.5);
-        let amplitude = fourier_amplitude_cm_s(&near, &source, 0.01) * attenuation.exp();
+        let amplitude = near.fourier_amplitude_cm_s(&source, 0.01) * attenuation.exp();
         (source.distance_km, amplitude)
     };
     let ((r1, a1), (r2, a2), (r3, a3)) = (spread(10.0), spread(30.0), spread(160.0));
@@ -186,7 +157,7 @@ fn amplitudes_fall_with_distance_and_filters_as_their_equations_say() {
     assert!((a1 * r1 / (a3 * (40.0 * r3).sqrt()) - 1.0).abs() < 1e-12);
     let source = Source::new(6.0, 10.0);
     let ratio = |model: &StochasticModel, f: f64| {
-        fourier_amplitude_cm_s(model, &source, f) / fourier_amplitude_cm_s(&near, &source, f)
+        model.fourier_amplitude_cm_s(&source, f) / near.fourier_amplitude_cm_s(&source, f)
     };
     let fmax = StochasticModel { fmax_hz: Some(15.0), ..near.clone() };
     assert!((ratio(&fmax, 15.0) - FRAC_1_SQRT_2).abs() < 1e-14);
@@ -221,19 +192,6 @@ fn the_source_lasts_as_long_as_its_equation_says() {
     let (fa, r) = (10f64.powf(2.181 - 0.496 * 6.5), 10f64.hypot(10f64.powf(-0.05 + 0.15 * 6.5)));
     assert!((source.duration_s() - (0.5 / fa + 0.05 * r)).abs() < 1e-12);
     assert!((source.duration_s() - 6.2).abs() < 0.05, "{}", source.duration_s());
-}
-
-#[test]
-fn each_motion_has_the_mean_power_of_the_model() {
-    // The noise is scaled to a mean square of 1 over all frequencies.
-    let model = MotionModel::default();
-    for scenario in varied_scenarios().iter().step_by(7) {
-        let motion = synthesize(&model, std::slice::from_ref(scenario)).remove(0);
-        let source = Source::new(scenario.mw, scenario.re_km);
-        let relative = relative_amplitudes(&motion, &model.stochastic, &source);
-        let power = relative.iter().map(|(_, r)| r * r).sum::<f64>() / relative.len() as f64;
-        assert!((power - 1.0).abs() < 1e-6, "{scenario:?}: {power}");
-    }
 }
 
 #[test]
@@ -361,28 +319,6 @@ fn each_difference_leaves_its_own_amplitude_and_the_phase_of_the_high_frequencie
 }
 
 #[test]
-fn without_a_difference_both_motions_are_added() {
-    for motion in synthesize(&with_difference(Difference::None), &varied_scenarios()) {
-        let largest = intensity::peak(&motion.combined);
-        for ((sum, h), p) in motion.combined.iter().zip(&motion.high_frequency).zip(&motion.pulse) {
-            assert!((sum - h - p).abs() < 1e-5 * largest, "{}", (sum - h - p).abs() / largest);
-        }
-    }
-}
-
-#[test]
-fn differences_and_epochs_change_neither_pulse_nor_high_frequencies_of_their_own() {
-    let scenarios = varied_scenarios();
-    let absolute = synthesize(&with_difference(Difference::Absolute), &scenarios);
-    for difference in [Difference::Signed, Difference::Clamp, Difference::None] {
-        for (ours, other) in absolute.iter().zip(synthesize(&with_difference(difference), &scenarios)) {
-            assert_eq!((&ours.pulse, &ours.high_frequency), (&other.pulse, &other.high_frequency));
-            assert_ne!(ours.combined, other.combined, "{difference:?}");
-        }
-    }
-}
-
-#[test]
 fn the_pulse_is_whole_at_its_epoch_and_ends_at_rest() {
     for epoch in EPOCHS {
         let model = MotionModel { epoch, ..MotionModel::default() };
@@ -444,36 +380,30 @@ fn the_epoch_is_where_the_option_says() {
 }
 
 #[test]
-fn a_motion_is_the_same_whatever_was_synthesized_before() {
-    let bits = |motion: &Synthetic| {
-        let series = [&motion.pulse, &motion.high_frequency, &motion.combined];
-        series.map(|series| series.iter().map(|a| a.to_bits()).collect::<Vec<_>>())
-    };
+fn a_motion_is_the_same_whatever_else_is_made_and_on_any_number_of_threads() {
+    let bits =
+        |motion: &Synthetic, suite| motion.samples(suite).iter().map(|a| a.to_bits()).collect::<Vec<_>>();
     for epoch in EPOCHS {
         let model = MotionModel { epoch, ..MotionModel::default() };
         let scenarios = varied_scenarios();
         let together = synthesize(&model, &scenarios);
-        let mut backwards = Synthesizer::new(model.clone(), &Suite::SYNTHETIC);
-        for (scenario, motion) in scenarios.iter().zip(&together).rev() {
-            assert_eq!(bits(backwards.synthesize(scenario)), bits(motion), "{epoch:?} {scenario:?}");
+        for threads in [1, 2, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let apart: Vec<Synthetic> = pool
+                .install(|| scenarios.par_chunks(5).flat_map_iter(|some| synthesize(&model, some)).collect());
+            for suite in Suite::SYNTHETIC {
+                let is_same = |(a, b)| bits(a, suite) == bits(b, suite);
+                assert!(together.iter().zip(&apart).all(is_same), "{epoch:?} {suite:?} {threads} threads");
+            }
         }
-        let mut alone = Synthesizer::new(model, &Suite::SYNTHETIC);
-        let alone = alone.synthesize(&scenarios[40]);
-        assert_eq!(bits(alone), bits(&together[40]));
-    }
-}
-
-#[test]
-fn a_motion_is_the_same_whichever_others_are_wanted() {
-    for epoch in EPOCHS {
-        let model = MotionModel { epoch, ..MotionModel::default() };
-        let mut all = Synthesizer::new(model.clone(), &Suite::SYNTHETIC);
         for suite in Suite::SYNTHETIC {
             let mut one = Synthesizer::new(model.clone(), &[suite]);
-            for scenario in varied_scenarios().iter().step_by(11) {
-                let expected = all.synthesize(scenario).samples(suite);
-                assert!(!expected.is_empty());
-                assert_eq!(one.synthesize(scenario).samples(suite), expected, "{epoch:?} {suite:?}");
+            for (scenario, motion) in scenarios.iter().zip(&together).rev().step_by(11) {
+                assert_eq!(
+                    bits(&one.synthesize(scenario), suite),
+                    bits(motion, suite),
+                    "{epoch:?} {suite:?}"
+                );
             }
         }
     }
@@ -491,22 +421,6 @@ fn the_noise_depends_on_seed_and_scenario() {
     assert_ne!(first.high_frequency, other_seed.high_frequency);
     assert_ne!(first.high_frequency, other_scenario.high_frequency);
     assert_eq!((&first.pulse, &first.pulse), (&other_seed.pulse, &other_scenario.pulse));
-}
-
-#[test]
-fn the_time_step_is_that_of_the_model() {
-    let scenario = cell(6.5, 5.0, 1, 1);
-    for dt_s in [0.0025, 0.01, 0.02] {
-        let motion = synthesize(&MotionModel { dt_s, ..MotionModel::default() }, &scenario).remove(0);
-        let default = synthesize(&MotionModel::default(), &scenario).remove(0);
-        assert_eq!(motion.dt_s, dt_s);
-        let seconds = |motion: &Synthetic| motion.combined.len() as f64 * motion.dt_s;
-        // The number of samples is rounded up to one without large prime factors.
-        assert!((seconds(&motion) / seconds(&default) - 1.0).abs() < 0.05, "{dt_s}");
-        assert!((motion.epoch_s - default.epoch_s).abs() < 1e-9);
-        let pgv = intensity::peak(&intensity::velocity(&motion.pulse, dt_s));
-        assert!((pgv / scenario[0].vp_m_s - 1.0).abs() < 5e-3, "{dt_s}: {pgv}");
-    }
 }
 
 #[test]
@@ -529,29 +443,22 @@ fn a_site_table_interpolates_between_its_rows_and_is_constant_beyond() {
     }
     let model = StochasticModel { site, ..StochasticModel::default() };
     let bare = StochasticModel { site: Site::None, ..StochasticModel::default() };
-    assert!((model.common_factor(2.0) / bare.common_factor(2.0) - 4.0).abs() < 1e-13);
+    let amplitude = |model: &StochasticModel| model.fourier_amplitude_cm_s(&Source::new(6.0, 10.0), 2.0);
+    assert!((amplitude(&model) / amplitude(&bare) - 4.0).abs() < 1e-13);
 }
 
 #[test]
-fn a_site_table_that_cannot_be_used_says_which_row_and_why() {
-    for rows in [vec![], vec![(1.0, 2.0)]] {
-        assert_eq!(Site::table(rows.clone()), Err(SiteTableError::TooShort(rows.len())));
-    }
+fn a_site_table_that_cannot_be_used_says_which_row() {
+    assert_eq!(Site::table(vec![(1.0, 2.0)]), Err(SiteTableError::TooShort(1)));
     for (rows, bad) in [
         (vec![(1.0, 2.0), (1.0, 3.0)], 1),
-        (vec![(1.0, 2.0), (0.5, 3.0)], 1),
         (vec![(0.0, 2.0), (1.0, 3.0)], 0),
-        (vec![(-1.0, 2.0), (1.0, 3.0)], 0),
-        (vec![(1.0, 0.0), (2.0, 1.0)], 0),
         (vec![(1.0, 1.0), (2.0, 1.0), (3.0, -1.0)], 2),
         (vec![(f64::NAN, 1.0), (2.0, 1.0)], 0),
-        (vec![(1.0, 1.0), (2.0, f64::NAN)], 1),
-        (vec![(1.0, 1.0), (f64::INFINITY, 1.0)], 1),
         (vec![(1.0, f64::INFINITY), (2.0, 1.0)], 0),
     ] {
         let error = Site::table(rows.clone()).unwrap_err();
         assert!(matches!(error, SiteTableError::Row { row, .. } if row == bad), "{rows:?}: {error}");
-        assert!(error.to_string().starts_with(&format!("site table, row {bad}: frequency ")), "{error}");
     }
 }
 
@@ -592,14 +499,5 @@ proptest! {
         let seen = (0..=points).map(|k| pulse.velocity_m_s(time(k)).abs()).fold(0.0, f64::max);
         let f = largest_velocity(gamma, nu);
         prop_assert!(seen <= f + 1e-15 && seen > f - 1e-4, "{seen}, {f}");
-    }
-
-    #[test]
-    fn the_largest_velocity_has_the_symmetries_of_the_pulse(gamma in 1.0..4.0f64, nu in -3.0..6.0f64) {
-        let f = largest_velocity(gamma, nu);
-        prop_assert!(f > 0.6 && f <= 1.0 + 1e-14, "{f}");
-        for other in [-nu, nu + PI, nu + 2.0 * PI] {
-            prop_assert!((largest_velocity(gamma, other) - f).abs() < 1e-12);
-        }
     }
 }

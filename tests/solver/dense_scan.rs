@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rockfrag::motion::{IntensityScratch, measures};
 use rockfrag::rocking::{
-    Outcome, Problem, Record, Response, SafeWindow, Scan, ScanPoint, Simd, Structure, simulate_all,
+    Outcome, Problem, Record, Response, SafeWindow, Scan, ScanPoint, Structure, simulate_all,
 };
 use rockfrag::table::motions::{Motion, MotionBatches};
 
@@ -24,7 +24,7 @@ fn respond(structure: &Structure, motion: &Motion, intensities: &[f64]) -> Vec<R
     let scaled: Vec<Vec<f64>> = intensities.iter().map(scaled).collect();
     let records = scaled.iter().map(|samples| Record::new(samples, motion.dt_s).unwrap());
     let problems: Vec<Problem> = records.map(|record| Problem { structure, record }).collect();
-    simulate_all(&problems, Simd::fastest())
+    simulate_all(&problems)
 }
 
 fn geometric(from: f64, to: f64, steps: usize) -> Vec<f64> {
@@ -37,7 +37,7 @@ fn little_that_a_dense_scan_finds_is_missed() {
     let folder = std::env::var_os("ROCKFRAG_RECORDS").expect("ROCKFRAG_RECORDS names a folder");
     let path = Path::new(&folder).join("fema_p695_near_fault_pulse.parquet");
     let motions = || MotionBatches::open(&path, 64).unwrap().flat_map(Result::unwrap);
-    let scan = Scan::new(FROM, TO, 60, 4, 1e-3);
+    let scan = Scan::new(FROM, TO, 60);
     let dense = geometric(FROM, TO, DENSE);
     let (mut cases, mut analyses, mut above, mut below) = (0, 0, Vec::new(), 0);
     let (mut windows, mut holed, mut mostly) = (0, 0, 0);

@@ -1,15 +1,11 @@
-//! Incremental dynamic analysis: scans against closed forms and known ranges, and the distribution of capacities.
+//! Incremental dynamic analysis: scans against closed forms and known ranges.
 
 use std::f64::consts::PI;
 
-use rand_distr::{Distribution, StandardNormal};
-use rockfrag::fragility::{KnownCapacity, fit_capacities};
-use rockfrag::random::{Purpose, stream};
 use rockfrag::rocking::{
     Capacity, CapacityStatus, Outcome, Problem, Record, Response, SafeWindow, Scan, ScanPoint, ScanResponse,
-    Simd, Structure, simulate_all,
+    Structure, simulate_all,
 };
-use rockfrag::statistics::FitStatus;
 use rockfrag::units::G_M_S2;
 
 /// So slender that the equation of motion is linear.
@@ -23,7 +19,7 @@ fn capacity(scan: &Scan, structure: &Structure, samples: &[f64], dt: f64) -> Cap
             |point: &ScanPoint| samples.iter().map(|a| point.intensity * unit * a).collect::<Vec<f64>>();
         let scaled: Vec<Vec<f64>> = points.iter().map(scaled).collect();
         let problem = |samples| Problem { structure, record: Record::new(samples, dt).unwrap() };
-        Ok(simulate_all(&scaled.iter().map(|samples| problem(samples)).collect::<Vec<_>>(), Simd::fastest()))
+        Ok(simulate_all(&scaled.iter().map(|samples| problem(samples)).collect::<Vec<_>>()))
     };
     scan.capacity(&scan.run(1, respond).unwrap()[0])
 }
@@ -38,7 +34,7 @@ fn a_rectangular_pulse_overturns_from_the_amplitude_of_the_linear_equation_on() 
     // In time over 1/p the unstable mode u = (theta + theta'/p)/alpha - 1 of a block that moves to one side obeys u' = u + A(t)
     // from u = -1: it overturns where the integral of A(t) exp(-t) is above 1. The end of the pulse is a ramp of one step.
     let block = Structure::new("block", 2.0, ALPHA, 0.9).unwrap();
-    let scan = Scan::new(0.5, 20.0, 20, 3, 1e-6);
+    let scan = Scan::new(0.5, 20.0, 20);
     for duration in [0.3, 0.8, 2.0] {
         let steps = 400;
         let step: f64 = duration / steps as f64;
@@ -48,9 +44,12 @@ fn a_rectangular_pulse_overturns_from_the_amplitude_of_the_linear_equation_on() 
         let least = 1.0 / (1.0 - (-duration).exp() + (-duration).exp() * ramp);
         let found = capacity(&scan, &block, &samples, step / block.p_rad_s);
         assert_eq!((found.status, found.windows), (CapacityStatus::Overturns, vec![]));
-        close(found.overturning.unwrap(), least, 3e-5);
-        assert!(found.safe_below.unwrap() < found.overturning.unwrap());
-        close(found.safe_below.unwrap(), found.overturning.unwrap(), 1e-6);
+        let (safe, overturning) = (found.safe_below.unwrap(), found.overturning.unwrap());
+        assert!(
+            safe < least * (1.0 + 3e-5) && least * (1.0 - 3e-5) < overturning,
+            "{safe} {least} {overturning}"
+        );
+        close(safe, overturning, 1e-3);
     }
 }
 
@@ -95,7 +94,7 @@ fn overturns_under_sine(amplitude: f64, w: f64, eta: f64) -> Option<u32> {
 #[test]
 fn a_sine_pulse_overturns_after_an_impact_then_not_and_then_without_one() {
     // The two modes of Zhang & Makris (2001) and the safe window between them, w = wp/p.
-    let (scan, steps) = (Scan::new(1.1, 15.0, 60, 2, 1e-6), 4000);
+    let (scan, steps) = (Scan::new(1.1, 15.0, 60), 4000);
     for (w, eta) in [(3.0, 0.9), (4.0, 0.9), (5.0, 0.9), (6.0, 0.92)] {
         let block = Structure::new("block", 1.5, ALPHA, eta).unwrap();
         let samples: Vec<f64> =
@@ -107,14 +106,14 @@ fn a_sine_pulse_overturns_after_an_impact_then_not_and_then_without_one() {
             [(found.overturning.unwrap(), None, Some(1)), (low, Some(1), None), (high, None, Some(0))]
         {
             let near = |share: f64| overturns_under_sine(edge * share, w, eta);
-            assert_eq!((near(1.0 - 1e-4), near(1.0 + 1e-4)), (below, above), "{w} {eta} {edge}");
+            assert_eq!((near(1.0 - 1.1e-3), near(1.0 + 1.1e-3)), (below, above), "{w} {eta} {edge}");
         }
     }
 }
 
 #[test]
 fn similar_blocks_have_the_same_capacity() {
-    let scan = Scan::new(1.0, 30.0, 30, 3, 1e-4);
+    let scan = Scan::new(1.0, 30.0, 30);
     let pulse = |t: f64| (2.0 * PI * t).sin() * (-(t - 1.5).powi(2)).exp();
     let samples: Vec<f64> = (0..=1500).map(|k| pulse(f64::from(k) / 500.0)).collect();
     let largest = samples.iter().fold(0.0_f64, |largest, a| a.abs().max(largest));
@@ -148,31 +147,31 @@ fn scan_of(scan: &Scan, ranges: &[(f64, f64, u32)]) -> Capacity {
 
 #[test]
 fn all_windows_that_are_wide_enough_are_found() {
-    let scan = Scan::new(1.0, 100.0, 8, 4, 1e-4);
+    let scan = Scan::new(1.0, 100.0, 8);
     close(scan.ratio(), 100.0_f64.powf(1.0 / 8.0), 1e-12);
     close(scan.finest_ratio(), 100.0_f64.powf(1.0 / 128.0), 1e-12);
     assert_eq!((scan.levels().len(), scan.lowest(), scan.highest()), (9, 1.0, 100.0));
     // A narrow overturning range, a window between two modes, and one that the scan ends in.
     let found = scan_of(&scan, &[(2.0, 2.1, 1), (3.0, 5.0, 1), (5.2, 50.0, 0)]);
-    close(found.overturning.unwrap(), 2.0, 1e-4);
-    close(found.safe_below.unwrap(), 2.0, 1e-4);
+    close(found.overturning.unwrap(), 2.0, 1e-3);
+    close(found.safe_below.unwrap(), 2.0, 1e-3);
     let edges = [(2.1, Some(3.0)), (5.0, Some(5.2)), (50.0, None)];
     assert_eq!(found.windows.len(), edges.len(), "{found:?}");
     for (window, (low, high)) in found.windows.iter().zip(edges) {
-        close(window.low, low, 1e-4);
+        close(window.low, low, 1e-3);
         assert_eq!(window.high.is_some(), high.is_some());
-        close(window.high.unwrap_or(1.0), high.unwrap_or(1.0), 1e-4);
+        close(window.high.unwrap_or(1.0), high.unwrap_or(1.0), 1e-3);
     }
 }
 
 #[test]
 fn a_scan_looks_closer_only_where_it_must() {
-    let scan = Scan::new(1.0, 16.0, 4, 2, 1e-3);
+    let scan = Scan::new(1.0, 16.0, 4);
     assert_eq!(scan.levels(), [1.0, 2.0, 4.0, 8.0, 16.0]);
-    let simulated = |respond: fn(f64) -> (Outcome, f64, u32)| {
+    let simulated = |respond: fn(f64) -> (Outcome, f64)| {
         let response = |point: &ScanPoint| {
-            let (outcome, edp, impacts) = respond(point.intensity);
-            Response { outcome, edp, impacts }
+            let (outcome, edp) = respond(point.intensity);
+            Response { outcome, edp, impacts: 2 }
         };
         let respond =
             |points: &[ScanPoint]| Ok::<_, std::convert::Infallible>(points.iter().map(response).collect());
@@ -181,25 +180,17 @@ fn a_scan_looks_closer_only_where_it_must() {
         assert_eq!(found[0], found[1]);
         found[0].len()
     };
-    // Without rocking the levels alone; wherever it rocks each step is halved twice.
-    assert_eq!(simulated(|_| (Outcome::NoRocking, 0.0, 0)), 5);
-    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.1, 0)), 4 * 4 + 1);
-    assert_eq!(simulated(|_| (Outcome::Overturning, 7.0, 3)), 4 * 4 + 1);
-    assert_eq!(simulated(|at| (Outcome::Overturning, 7.0, u32::from(at < 3.0))), 4 * 4 + 1);
-    // Uplift between level 2 and 4: the steps below have none.
-    assert_eq!(
-        simulated(|at| (if at > 3.0 { Outcome::SafeRocking } else { Outcome::NoRocking }, 0.0, 0)),
-        5 + 3 * 3 - 1
-    );
+    // Without rocking the levels alone; wherever it rocks each step is halved four times.
+    assert_eq!(simulated(|_| (Outcome::NoRocking, 0.0)), 5);
+    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.1)), 4 * 16 + 1);
+    assert_eq!(simulated(|_| (Outcome::Overturning, 7.0)), 4 * 16 + 1);
     // Beyond the tipping point each step is halved four times more; at its foot only where the demand grows so fast.
-    assert_eq!(simulated(|_| (Outcome::SafeRocking, 1.1, 0)), 4 * 4 * 16 + 1);
-    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.99, 0)), 4 * 4 + 1);
-    let growing = simulated(|at| (Outcome::SafeRocking, if at > 3.9 { 0.3 } else { 0.1 }, 0));
-    assert!((4 * 4 + 10..4 * 4 + 60).contains(&growing), "{growing}");
-    // Where overturning begins, halvings of ln 2 / 4 until it is known to a thousandth: ln 2 / 1e-3 < 2^10.
+    assert_eq!(simulated(|_| (Outcome::SafeRocking, 1.1)), 4 * 16 * 16 + 1);
+    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.99)), 4 * 16 + 1);
+    // Where overturning begins, halvings of ln 2 / 16 until it is known to a thousandth: ln 2 / 1e-3 < 2^10.
     assert_eq!(
-        simulated(|at| (if at > 3.0 { Outcome::Overturning } else { Outcome::SafeRocking }, 0.1, 0)),
-        4 * 4 + 1 + 8
+        simulated(|at| (if at > 3.0 { Outcome::Overturning } else { Outcome::SafeRocking }, 0.1)),
+        4 * 16 + 1 + 6
     );
 }
 
@@ -217,33 +208,8 @@ fn scan_of_demand(scan: &Scan, demand: impl Fn(f64) -> f64) -> Vec<ScanResponse>
 }
 
 #[test]
-fn a_grazing_peak_narrower_than_the_resolution_is_followed() {
-    // Peaks of the demand that reach tipping over a third, and not quite, of the finest step: below all else, and in a window.
-    let scan = Scan::new(1.0, 16.0, 40, 1, 1e-4);
-    let finest = scan.finest_ratio().ln();
-    for shift in 0..7 {
-        let (first, hole, almost) = (2.0 * (1.0 + 0.003 * f64::from(shift)), 9.0, 5.0);
-        let peak = |at: f64, place: f64, top: f64| {
-            let away = ((at / place).ln() / finest).abs();
-            (top - (top - 1.0).abs() * 36.0 * away * away).max(0.7 - 0.2 * away)
-        };
-        let demand = |at: f64| match at {
-            4.0..4.5 | 12.0..13.0 => 3.0,
-            _ => peak(at, first, 1.05).max(peak(at, hole, 1.05)).max(peak(at, almost, 0.97)).max(0.1),
-        };
-        let capacity = scan.capacity(&scan_of_demand(&scan, demand));
-        close(capacity.overturning.unwrap(), first * (-finest / 6.0).exp(), 2e-4);
-        let bounds = |window: &SafeWindow| (window.low, window.high.unwrap_or(16.0));
-        let windows: Vec<(f64, f64)> = capacity.windows.iter().map(bounds).collect();
-        assert!(windows.iter().all(|(low, high)| !(*low < hole && hole < *high)), "{windows:?}");
-        assert!(windows.iter().any(|(low, high)| *low < almost && almost < *high), "{windows:?}");
-        close(capacity.safe_up_to.unwrap(), 16.0, 1e-12);
-    }
-}
-
-#[test]
 fn shares_are_those_of_the_logarithm_of_the_intensity() {
-    let scan = Scan::new(1.0, 16.0, 4, 3, 1e-6);
+    let scan = Scan::new(1.0, 16.0, 4);
     let bands = [(1.1, 1.3), (1.5, 1.6), (2.5, 7.0)];
     let overturns = |at: f64| bands.iter().any(|(low, high)| (*low..*high).contains(&at));
     let responses = scan_of_demand(&scan, |at| if overturns(at) { 3.0 } else { 0.3 });
@@ -251,14 +217,14 @@ fn shares_are_those_of_the_logarithm_of_the_intensity() {
     let part = |low: f64, high: f64| (high / low).ln() / 2.0_f64.ln();
     let expected = [part(1.1, 1.3) + part(1.5, 1.6), part(2.5, 4.0), part(4.0, 7.0), 0.0];
     for (share, expected) in shares.iter().zip(expected) {
-        assert!((share - expected).abs() < 1e-5, "{shares:?}");
+        assert!((share - expected).abs() < 4e-3, "{shares:?}");
     }
     assert_eq!(shares.len(), 4);
 }
 
 #[test]
 fn the_ends_of_a_scan_are_told_apart() {
-    let scan = Scan::new(0.5, 2.0, 6, 2, 1e-3);
+    let scan = Scan::new(0.5, 2.0, 6);
     assert_eq!((scan.lowest(), scan.highest()), (0.5, 2.0));
     let safe = scan_of(&scan, &[]);
     assert_eq!((safe.status, safe.overturning, safe.safe_below), (CapacityStatus::Safe, None, Some(2.0)));
@@ -268,58 +234,4 @@ fn the_ends_of_a_scan_are_told_apart() {
     let ends_safe = scan_of(&scan, &[(0.0, 1.0, 0)]);
     assert_eq!(ends_safe.windows, [SafeWindow { low: ends_safe.windows[0].low, high: None }]);
     assert_eq!(scan_of(&scan, &[(2.0, 9.0, 0)]).status, CapacityStatus::Overturns);
-}
-
-#[test]
-fn limits_of_known_capacities_are_scipys() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/fits/capacities.csv");
-    let rows = csv::Reader::from_path(path).unwrap().into_deserialize();
-    for row in rows.map(Result::<(String, [f64; 6], String), _>::unwrap) {
-        let (_, [theta, theta_low, theta_high, beta, beta_low, beta_high], capacities) = row;
-        let known = capacities.split(' ').map(|text| KnownCapacity::At(text.parse().unwrap()));
-        let fit = fit_capacities(&known.collect::<Vec<_>>()).unwrap();
-        let (theta_limits, beta_limits) = (fit.theta_limits, fit.beta_limits);
-        close(fit.lognormal.theta, theta, 1e-12);
-        close(fit.lognormal.beta, beta, 1e-12);
-        [(theta_limits.low, theta_low), (theta_limits.high, theta_high)]
-            .into_iter()
-            .chain([(beta_limits.low, beta_low), (beta_limits.high, beta_high)])
-            .for_each(|(limit, expected)| close(limit, expected, 1e-10));
-        let above = fit.lognormal.p_up_to(theta * beta.exp());
-        close(above, 0.841_344_746_068_542_9, 1e-12);
-    }
-}
-
-#[test]
-fn limits_of_thirteen_capacities_hold_the_truth_in_19_of_20_samples() {
-    const SAMPLES: u64 = 4000;
-    let (mut of_theta, mut of_beta) = (0, 0);
-    for seed in 0..SAMPLES {
-        let mut random = stream(seed, Purpose::Sample, 0);
-        let mut draw = || {
-            let normal: f64 = StandardNormal.sample(&mut random);
-            KnownCapacity::At((0.4 * normal).exp())
-        };
-        let sample: Vec<KnownCapacity> = (0..13).map(|_| draw()).collect();
-        let fit = fit_capacities(&sample).unwrap();
-        of_theta += u32::from((fit.theta_limits.low..=fit.theta_limits.high).contains(&1.0));
-        of_beta += u32::from((fit.beta_limits.low..=fit.beta_limits.high).contains(&0.4));
-    }
-    for held in [of_theta, of_beta] {
-        let share = f64::from(held) / SAMPLES as f64;
-        assert!((share - 0.95).abs() < 0.012, "{share}");
-    }
-}
-
-#[test]
-fn capacities_beyond_the_scan_count_as_scipy_has_it() {
-    // scipy.stats.norm.fit(CensoredData(uncensored, left=..., right=...)) of the logarithms, refined by scipy.optimize.
-    let known = [0.4, 0.55, 0.62, 0.8, 0.81, 1.2, 1.7, 2.4].map(KnownCapacity::At);
-    let censored = [KnownCapacity::Above(3.0); 3].into_iter().chain([KnownCapacity::Below(0.3); 2]);
-    let fit = fit_capacities(&known.into_iter().chain(censored).collect::<Vec<_>>()).unwrap();
-    close(fit.lognormal.theta, 1.069_841_029_011_907_4, 1e-8);
-    close(fit.lognormal.beta, 1.281_314_815_684_608_6, 1e-8);
-    assert_eq!(fit_capacities(&[KnownCapacity::At(1.0)]), Err(FitStatus::TooFewEvents));
-    assert_eq!(fit_capacities(&[KnownCapacity::Above(1.0); 9]), Err(FitStatus::TooFewEvents));
-    assert_eq!(fit_capacities(&[KnownCapacity::At(1.0); 3]), Err(FitStatus::Constant));
 }

@@ -6,8 +6,7 @@ use crate::noise::synthetic_motion;
 use proptest::prelude::*;
 use rockfrag::motion::Pulse;
 use rockfrag::rocking::{
-    Outcome, Record, RecordError, SolverEvent, Structure, StructureError, frame_eta, frame_p, housner_eta,
-    rectangular_p, simulate, trace, with_tail,
+    Outcome, Record, RecordError, SolverEvent, Structure, StructureError, judge, simulate, trace, with_tail,
 };
 use rockfrag::units::G_M_S2;
 
@@ -60,51 +59,6 @@ fn free_rocking_has_housners_period_and_decay() {
         checked += 1;
     }
     assert!(checked >= 5, "{checked} bounces");
-}
-
-#[test]
-fn a_rectangular_pulse_overturns_a_slender_block_as_the_linearised_equation_says() {
-    // theta'' = p^2 (theta + alpha (A - 1)) from rest under A = a/(g alpha): overturning without impact just when the
-    // unstable mode of the state at the end of the pulse, theta - alpha + theta'/p, is positive: exp(p T) > A / (A - 1).
-    let alpha: f64 = 0.001;
-    let s = structure(1.0, alpha, 0.9);
-    for amplitude in [1.5, 2.0, 3.0] {
-        let critical = (amplitude / (amplitude - 1.0_f64)).ln();
-        let outcome = |duration: f64| {
-            let dt = duration / 4000.0;
-            let samples = rectangular_pulse(amplitude * G_M_S2 * alpha.tan(), duration, 10.0 * dt, dt);
-            simulate(&s, &Record::new(&samples, dt).unwrap()).outcome
-        };
-        assert_eq!(outcome(critical * 0.995), Outcome::SafeRocking, "A = {amplitude}");
-        assert_eq!(outcome(critical * 1.005), Outcome::Overturning, "A = {amplitude}");
-    }
-}
-
-#[test]
-fn energy_is_conserved_between_impacts() {
-    let s = structure(2.0, 0.3, 0.85);
-    let dt = 0.005;
-    let samples = rectangular_pulse(1.3 * G_M_S2 * 0.3_f64.tan(), 0.4, 6.0, dt);
-    let (_, points) = trace(&s, &Record::new(&samples, dt).unwrap());
-    let free = points.iter().filter(|q| q.time_s > 0.41);
-    let energy = |theta: f64, velocity: f64| {
-        0.5 * (velocity / 2.0).powi(2) + (0.3 - theta.abs()).cos() - 0.3_f64.cos()
-    };
-    let mut level: Option<f64> = None;
-    let mut compared = 0;
-    for point in free {
-        match point.solver_event {
-            Some(_) => level = None,
-            None if point.theta_rad == 0.0 => {}
-            None => {
-                let here = energy(point.theta_rad, point.theta_dot_rad_s);
-                let before = *level.get_or_insert(here);
-                assert!((here / before - 1.0).abs() < 1e-10, "{here:e} for {before:e} at {}", point.time_s);
-                compared += 1;
-            }
-        }
-    }
-    assert!(compared > 200);
 }
 
 #[test]
@@ -175,41 +129,51 @@ fn perfectly_elastic_impacts_come_to_an_end() {
 
 #[test]
 fn structures_are_made_of_their_dimensions() {
-    let block = Structure::rectangular_block("b", 1.0, 4.0, None).unwrap();
-    assert!((block.alpha_rad - 0.25_f64.atan()).abs() < 1e-15);
-    assert!((block.p_rad_s - rectangular_p(17.0_f64.sqrt() / 2.0)).abs() < 1e-12);
-    assert_eq!(block.eta, housner_eta(block.alpha_rad));
-    let frame = Structure::frame("f", 1.0, 4.0, 2.0, None).unwrap();
-    assert!((frame.p_rad_s - frame_p(block.p_rad_s, 2.0)).abs() < 1e-12);
-    assert!((frame.p_rad_s / block.p_rad_s - (5.0_f64 / 7.0).sqrt()).abs() < 1e-12);
-    assert_eq!(frame.eta, frame_eta(block.alpha_rad, 2.0));
-    assert!((frame_eta(0.3, 0.0) - housner_eta(0.3)).abs() < 1e-15);
     // By hand, with tan(alpha) = 1/4: 2 R = sqrt(17) m, sin2(alpha) = 1/17, cos(2 alpha) = 15/17; p2 = 3 g / (4 R) and eta of
     // Housner (1963), and those of Makris & Vassiliou (2014) for a beam of twice the mass of a column.
     let close =
         |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-14, "{value} {expected}");
+    let block = Structure::rectangular_block("b", 1.0, 4.0, None).unwrap();
+    close(block.alpha_rad, 0.25_f64.atan());
     close(block.p_rad_s.powi(2), 3.0 * G_M_S2 / (2.0 * 17.0_f64.sqrt()));
     close(block.eta, 1.0 - 1.5 / 17.0);
-    close(frame.eta, (1.0 - 1.5 / 17.0 + 6.0 * 15.0 / 17.0) / 7.0);
     close(block.uplift_acceleration_m_s2(), G_M_S2 / 4.0);
+    let frame = Structure::frame("f", 1.0, 4.0, 2.0, None).unwrap();
+    close(frame.p_rad_s / block.p_rad_s, (5.0_f64 / 7.0).sqrt());
+    close(frame.eta, (1.0 - 1.5 / 17.0 + 6.0 * 15.0 / 17.0) / 7.0);
     assert_eq!(Structure::rectangular_block("b", 1.0, 4.0, Some(0.5)).unwrap().eta, 0.5);
     assert_eq!(Structure::frame("f", 1.0, 4.0, 2.0, Some(0.5)).unwrap().eta, 0.5);
+    assert_eq!(Structure::frame("b", 1.0, 4.0, 0.0, None).unwrap(), block);
 }
 
 #[test]
-fn impossible_dimensions_are_refused() {
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let words =
-            |made: Result<Structure, _>| made.map_err(|error: StructureError| error.to_string()).unwrap_err();
-        assert!(words(Structure::rectangular_block("b", bad, 4.0, None)).contains("width is"));
-        assert!(words(Structure::rectangular_block("b", 1.0, bad, None)).contains("height is"));
-        assert!(words(Structure::frame("f", bad, 4.0, 1.0, None)).contains("width is"));
-        if bad != 0.0 {
-            assert!(words(Structure::frame("f", 1.0, 4.0, bad, None)).contains("beam-mass-ratio is"));
-        }
+fn impossible_structures_are_refused() {
+    let wrong = |made: Result<Structure, StructureError>| made.unwrap_err().parameter;
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(wrong(Structure::rectangular_block("b", bad, 4.0, None)), "width");
+        assert_eq!(wrong(Structure::rectangular_block("b", 1.0, bad, None)), "height");
+        assert_eq!(wrong(Structure::frame("f", bad, 4.0, 1.0, None)), "width");
+        assert_eq!(wrong(Structure::frame("f", 1.0, 4.0, bad, None)), "beam-mass-ratio");
     }
-    let column = Structure::rectangular_block("b", 1.0, 4.0, None).unwrap();
-    assert_eq!(Structure::frame("b", 1.0, 4.0, 0.0, None).unwrap(), column);
+    for (p, alpha, eta, named) in [
+        (0.0, 0.2, 0.9, "p"),
+        (f64::NAN, 0.2, 0.9, "p"),
+        (1.0, FRAC_PI_2, 0.9, "alpha"),
+        (1.0, -0.1, 0.9, "alpha"),
+        (1.0, 0.2, 1.01, "eta"),
+        (1.0, 0.2, 0.0, "eta"),
+    ] {
+        assert_eq!(wrong(Structure::new("s", p, alpha, eta)), named);
+    }
+    for (given, named) in [
+        ([("width", 30.0), ("height", 250.0)], "height"),
+        ([("width", 2.0), ("height", 1.0)], "width"),
+        ([("p", 2.0), ("alpha", 11.5)], "alpha"),
+        ([("eta", 92.0), ("p", 2.0)], "eta"),
+    ] {
+        assert_eq!(judge("s", &given).unwrap_err().parameter, named);
+    }
+    assert!(judge("s", &[("p", 1.0), ("alpha", 0.15), ("eta", 0.92)]).is_ok());
 }
 
 #[test]
@@ -231,53 +195,35 @@ fn impossible_records_are_refused_where_they_are_wrong() {
 #[test]
 fn the_ground_acceleration_is_linear_between_samples_and_nothing_after_them() {
     let record = Record::new(&[1.0, 3.0, 2.0], 0.5).unwrap();
-    for (time_s, expected) in [
-        (0.0, 1.0),
-        (0.125, 1.5),
-        (0.25, 2.0),
-        (0.5, 3.0),
-        (0.875, 2.25),
-        (1.0, 2.0),
-        (1.25, 0.0),
-        (9.0, 0.0),
-    ] {
+    for (time_s, expected) in
+        [(0.0, 1.0), (0.125, 1.5), (0.5, 3.0), (0.875, 2.25), (1.0, 2.0), (1.25, 0.0), (9.0, 0.0)]
+    {
         assert_eq!(record.acceleration_at(time_s), expected, "{time_s} s");
     }
+    assert_eq!(with_tail(&record, 0.6), [1.0, 3.0, 2.0, 0.0, 0.0]);
 }
 
 #[test]
 fn a_trace_tells_what_happens_when() {
-    // Eq. 1: under a push to the positive side the structure leaves its base towards the negative one, at the root of
+    // Eq. 5: under a push to the positive side the structure leaves its base towards the negative one, at the root of
     // |a| = g tan(alpha), here half way to the first sample.
-    let (p, alpha, eta, dt) = (2.5, 0.2, 0.6, 0.01);
-    let s = structure(p, alpha, eta);
-    let uplift = s.uplift_acceleration_m_s2();
+    let (alpha, eta, dt) = (0.2, 0.6, 0.01);
+    let s = structure(2.5, alpha, eta);
     let mut samples = vec![0.0];
-    samples.resize(12, 2.0 * uplift);
+    samples.resize(12, 2.0 * s.uplift_acceleration_m_s2());
     samples.resize(1200, 0.0);
     let (response, points) = trace(&s, &Record::new(&samples, dt).unwrap());
     assert_eq!(response.outcome, Outcome::SafeRocking);
     let of = |event| points.iter().filter(move |point| point.solver_event == Some(event));
-    let [first, ..] = of(SolverEvent::Uplift).collect::<Vec<_>>()[..] else { panic!("no uplift") };
-    assert!(
-        (first.time_s - 0.5 * dt).abs() < 1e-12 && first.theta_rad == 0.0 && first.theta_dot_rad_s == 0.0
-    );
+    let first = of(SolverEvent::Uplift).next().unwrap();
+    assert!((first.time_s - 0.5 * dt).abs() < 1e-12);
+    assert_eq!((first.theta_rad, first.theta_dot_rad_s), (0.0, 0.0));
     let sampled: Vec<_> = points.iter().filter(|point| point.solver_event.is_none()).collect();
     assert_eq!(sampled.len(), samples.len());
     assert!((0..).zip(&sampled).all(|(k, point)| (point.time_s - f64::from(k) * dt).abs() < 1e-9));
     assert!(sampled[5].theta_rad < 0.0 && sampled[5].theta_dot_rad_s < 0.0);
     let largest = points.iter().map(|point| point.theta_rad.abs()).fold(0.0, f64::max);
     assert!(largest <= response.edp * alpha && largest > 0.999 * response.edp * alpha);
-
-    // The velocity is the slope of the rotation, in rad/s, wherever nothing happens in between.
-    let fastest = points.iter().map(|point| point.theta_dot_rad_s.abs()).fold(0.0, f64::max);
-    let mut compared = 0;
-    for around in points.windows(3).filter(|around| around.iter().all(|point| point.solver_event.is_none())) {
-        let slope = (around[2].theta_rad - around[0].theta_rad) / (2.0 * dt);
-        assert!((slope - around[1].theta_dot_rad_s).abs() < 2e-2 * fastest, "{around:?}");
-        compared += 1;
-    }
-    assert!(compared > 100);
 
     // An impact takes the share 1 - eta of the velocity and goes on to the other side; the last one is followed by rest.
     assert_eq!(of(SolverEvent::Impact).count(), response.impacts as usize);
@@ -286,26 +232,15 @@ fn a_trace_tells_what_happens_when() {
         if before.solver_event.is_none() && after.solver_event.is_none() && before.theta_rad.abs() > 1e-3 {
             assert!(before.theta_rad * after.theta_rad < 0.0, "{around:?}");
             assert!(impact.theta_dot_rad_s * after.theta_rad > 0.0, "{around:?}");
-            assert_eq!(impact.theta_rad, 0.0);
         }
     }
-    let rest = of(SolverEvent::Rest).next_back().unwrap();
-    let last_impact = of(SolverEvent::Impact).next_back().unwrap();
-    assert!(rest.time_s == last_impact.time_s && rest.time_s < samples.len() as f64 * dt);
-    assert!((rest.theta_rad, rest.theta_dot_rad_s) == (0.0, 0.0));
-    let after = sampled.iter().filter(|point| point.time_s > rest.time_s);
+    let (rest, impact) =
+        (of(SolverEvent::Rest).next_back().unwrap(), of(SolverEvent::Impact).next_back().unwrap());
+    assert_eq!((rest.time_s, rest.theta_rad, rest.theta_dot_rad_s), (impact.time_s, 0.0, 0.0));
+    let mut after = sampled.iter().skip_while(|point| point.time_s <= rest.time_s).peekable();
     assert!(
-        after.clone().count() > 10
-            && after.clone().all(|point| point.theta_rad == 0.0 && point.theta_dot_rad_s == 0.0)
+        after.peek().is_some() && after.all(|point| point.theta_rad == 0.0 && point.theta_dot_rad_s == 0.0)
     );
-}
-
-#[test]
-fn quiet_after_a_record_lasts_as_long_as_asked_for() {
-    let record = Record::new(&[1.0, 2.0], 0.25).unwrap();
-    assert_eq!(with_tail(&record, 0.5), [1.0, 2.0, 0.0, 0.0]);
-    assert_eq!(with_tail(&record, 0.6), [1.0, 2.0, 0.0, 0.0, 0.0]);
-    assert_eq!(with_tail(&record, 0.0), [1.0, 2.0]);
 }
 
 #[test]
@@ -326,21 +261,6 @@ fn a_trace_ends_where_the_structure_lies_flat() {
     assert!(last.theta_dot_rad_s > 0.0 && (here / there - 1.0).abs() < 1e-10, "{here} {there}");
 }
 
-#[test]
-fn impossible_structures_are_refused() {
-    for (p, alpha, eta, named) in [
-        (0.0, 0.2, 0.9, "p is 0"),
-        (f64::NAN, 0.2, 0.9, "p is NaN"),
-        (1.0, FRAC_PI_2, 0.9, "alpha is"),
-        (1.0, -0.1, 0.9, "alpha is"),
-        (1.0, 0.2, 1.01, "eta is 1.01"),
-        (1.0, 0.2, 0.0, "eta is 0"),
-    ] {
-        let message = Structure::new("s", p, alpha, eta).unwrap_err().to_string();
-        assert!(message.contains(named), "{message}");
-    }
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(150))]
 
@@ -354,25 +274,5 @@ proptest! {
         let (_, here) = trace(&s, &record(&samples));
         let (_, there) = trace(&s, &record(&mirrored));
         prop_assert!(here.iter().zip(&there).all(|(a, b)| a.theta_rad == -b.theta_rad));
-    }
-
-    #[test]
-    fn time_scales_with_p(seed in 1u64..10_000, p in 0.5..4.0f64, alpha in 0.05..0.35f64) {
-        let samples = synthetic_motion(seed, 200);
-        let at = |p: f64| simulate(&structure(p, alpha, 0.9), &Record::new(&samples, 0.04 / p).unwrap());
-        let (here, there) = (at(p), at(2.0 * p));
-        prop_assert_eq!(here.outcome, there.outcome);
-        prop_assert!((here.edp - there.edp).abs() <= 1e-9 * here.edp);
-    }
-
-    #[test]
-    fn every_record_has_a_finite_answer(
-        samples in prop::collection::vec(prop_oneof![Just(0.0), -100.0..100.0f64, Just(1e-310), Just(1.5)], 2..80),
-        dt in prop_oneof![Just(1e-5), Just(0.1), 0.001..0.05f64],
-        p in 0.1..10.0f64, alpha in 0.01..1.5f64, eta in 0.05..=1.0f64,
-    ) {
-        let response = simulate(&structure(p, alpha, eta), &Record::new(&samples, dt).unwrap());
-        prop_assert!(response.edp >= 0.0 && response.edp <= FRAC_PI_2 / alpha);
-        prop_assert_eq!(response.outcome == Outcome::NoRocking, response.edp == 0.0);
     }
 }

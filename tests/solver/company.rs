@@ -1,0 +1,53 @@
+//! An answer is the same to the last bit in any company, order and number of threads.
+
+use crate::noise::synthetic_motion;
+use rayon::prelude::*;
+use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, simulate, simulate_all};
+
+/// Structures from hardly rocking to overturning.
+fn structures() -> Vec<Structure> {
+    let grid = [0.5, 1.0, 2.5, 4.0].into_iter().flat_map(|p| {
+        [0.02, 0.1, 0.2, 0.35].into_iter().flat_map(move |alpha| [0.6, 0.92, 1.0].map(|eta| (p, alpha, eta)))
+    });
+    grid.map(|(p, alpha, eta)| Structure::new("s", p, alpha, eta).unwrap()).collect()
+}
+
+fn bits(responses: &[Response]) -> Vec<(Outcome, u64, u32)> {
+    responses.iter().map(|response| (response.outcome, response.edp.to_bits(), response.impacts)).collect()
+}
+
+#[test]
+fn an_answer_does_not_depend_on_company_order_or_threads() {
+    // Of different lengths, so that lanes come free at different times.
+    let motions: Vec<Vec<f64>> =
+        (1..=12).map(|seed| synthetic_motion(seed, 100 + (seed as usize * 37) % 300)).collect();
+    let structures = structures();
+    let records = motions.iter().map(|samples| Record::new(samples, 0.02).unwrap());
+    let problems: Vec<Problem> = records
+        .flat_map(|record| structures.iter().map(move |structure| Problem { structure, record }))
+        .collect();
+    let together = bits(&simulate_all(&problems));
+    let alone: Vec<Response> = problems.iter().map(|p| simulate(p.structure, &p.record)).collect();
+    assert_eq!(bits(&alone), together);
+    let mut backwards = simulate_all(&problems.iter().rev().copied().collect::<Vec<_>>());
+    backwards.reverse();
+    assert_eq!(bits(&backwards), together);
+    for (threads, size) in [(1, 17), (2, 3), (2, 64), (3, 5), (3, 17)] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let apart: Vec<Response> =
+            pool.install(|| problems.par_chunks(size).flat_map_iter(simulate_all).collect());
+        assert_eq!(bits(&apart), together, "{threads} threads, {size} at a time");
+    }
+    assert_eq!(simulate_all(&[]), []);
+}
+
+#[test]
+fn an_uplift_between_the_last_two_samples_is_answered() {
+    let s = Structure::new("s", 2.0, 0.2, 0.9).unwrap();
+    let uplift = s.uplift_acceleration_m_s2();
+    for samples in [vec![0.0, 1.5 * uplift], vec![2.0 * uplift, 0.0], vec![uplift * (1.0 + 1e-12); 3]] {
+        let answer = simulate(&s, &Record::new(&samples, 0.01).unwrap());
+        assert_eq!(answer.outcome, Outcome::SafeRocking, "{samples:?}");
+        assert!(answer.impacts == 0 && answer.edp > 0.0 && answer.edp < 0.1, "{samples:?} {answer:?}");
+    }
+}

@@ -1,0 +1,42 @@
+//! The vector solver against the one that reads like Eqs. 4 to 6.
+
+use rockfrag::motion::{Design, Grid, MotionModel, Suite, Synthesizer};
+use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, reference, simulate_all};
+
+#[test]
+fn vectors_solve_the_equations_of_the_paper() {
+    let (mw, re_km) = (vec![5.5, 6.5, 7.5], vec![5.0, 10.0, 20.0]);
+    let grid = Grid { mw, re_km, samples: 8, design: Design::Lhs, seed: 42 };
+    let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
+    let scenarios = (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell));
+    let motions: Vec<Vec<f64>> =
+        scenarios.map(|scenario| synthesizer.synthesize(&scenario).combined).collect();
+    let structures = [(1.0, 0.15, 0.92), (2.5, 0.20, 0.92), (4.0, 0.10, 0.97)]
+        .map(|(p, alpha, eta)| Structure::new("s", p, alpha, eta).unwrap());
+    let records = motions.iter().map(|samples| Record::new(samples, 0.005).unwrap());
+    let problems: Vec<Problem> = records
+        .flat_map(|record| structures.iter().map(move |structure| Problem { structure, record }))
+        .collect();
+    let plain = problems.iter().map(|problem| reference::solve(problem.structure, &problem.record, |_| {}));
+    let compared: Vec<(Response, Response)> = simulate_all(&problems).into_iter().zip(plain).collect();
+    let of = |outcome| compared.iter().filter(|(vector, _)| vector.outcome == outcome).count();
+    let (safe, overturning) = (of(Outcome::SafeRocking), of(Outcome::Overturning));
+    assert!(safe > 80 && overturning > 40, "{safe} {overturning} of {}", compared.len());
+    // Rocking near its separatrices is chaotic: a few cases of a hundred amplify any difference between two methods.
+    let outcomes = compared.iter().filter(|(vector, plain)| vector.outcome != plain.outcome).count();
+    let impacts =
+        compared.iter().filter(|(vector, plain)| vector.impacts.abs_diff(plain.impacts) > 1).count();
+    let rocking =
+        compared.iter().filter(|(vector, plain)| vector.outcome == plain.outcome && vector.edp > 0.0);
+    let mut errors: Vec<f64> = rocking.map(|(vector, plain)| (vector.edp / plain.edp - 1.0).abs()).collect();
+    errors.sort_by(f64::total_cmp);
+    let at = |share: f64| errors[((errors.len() - 1) as f64 * share) as usize];
+    println!(
+        "{outcomes} outcomes, {impacts} impacts differ; errors {:.1e} {:.1e} {:.1e}",
+        at(0.5),
+        at(0.9),
+        at(1.0)
+    );
+    assert!(outcomes <= 1 && impacts <= compared.len() / 20, "{outcomes} {impacts}");
+    assert!(at(0.5) < 1e-11 && at(0.9) < 1e-8, "{:e} {:e}", at(0.5), at(0.9));
+}
