@@ -1,4 +1,6 @@
-//! Constants that tie units together.
+//! Units as people write them, and the constants that tie them together.
+
+use std::fmt;
 
 /// Acceleration of gravity, m/s2.
 pub const G_M_S2: f64 = 9.81;
@@ -8,3 +10,95 @@ pub const PER_G: f64 = 1.0 / G_M_S2;
 
 /// Centimetres in a metre: the published ground-motion relations are in cm/s and cm/s2.
 pub const CM_PER_M: f64 = 100.0;
+
+/// What a unit measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    Acceleration,
+    Velocity,
+    Length,
+    Time,
+    Angle,
+    AngularFrequency,
+    /// Counts or volts of an instrument that is not calibrated.
+    Counts,
+}
+
+/// A unit of a heading, a header or an option.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    pub name: &'static str,
+    pub quantity: Quantity,
+    /// Its size in m/s2, m/s, m, s, rad or rad/s.
+    pub si: f64,
+}
+
+/// The unit in which accelerations are kept.
+pub const M_S2: Unit = Unit { name: "m/s2", quantity: Acceleration, si: 1.0 };
+
+use Quantity::{Acceleration, Angle, AngularFrequency, Counts, Length, Time, Velocity};
+
+/// Name, quantity, size, and further spellings as [`Unit::parse`] joins them.
+#[rustfmt::skip]
+const UNITS: [(&str, Quantity, f64, &[&str]); 30] = [
+    ("g", Acceleration, G_M_S2, &["gs"]),
+    ("%g", Acceleration, 0.01 * G_M_S2, &["%/g"]),
+    ("mg", Acceleration, 0.001 * G_M_S2, &["millig"]),
+    ("m/s2", Acceleration, 1.0, &["m/s/s", "ms2"]),
+    ("cm/s2", Acceleration, 0.01, &["cm/s/s", "cms2", "gal", "gals"]),
+    ("mm/s2", Acceleration, 0.001, &["mm/s/s", "mms2"]),
+    ("ft/s2", Acceleration, 0.3048, &["ft/s/s"]),
+    ("in/s2", Acceleration, 0.0254, &["in/s/s"]),
+    ("m/s", Velocity, 1.0, &["m/s1", "ms1"]),
+    ("cm/s", Velocity, 0.01, &["cm/s1", "cms1", "kine"]),
+    ("mm/s", Velocity, 0.001, &["mm/s1"]),
+    ("in/s", Velocity, 0.0254, &[]),
+    ("ft/s", Velocity, 0.3048, &[]),
+    ("m", Length, 1.0, &["metre", "metres", "meter", "meters"]),
+    ("cm", Length, 0.01, &[]),
+    ("mm", Length, 0.001, &[]),
+    ("km", Length, 1000.0, &[]),
+    ("in", Length, 0.0254, &["inch", "inches"]),
+    ("ft", Length, 0.3048, &["foot", "feet"]),
+    ("s", Time, 1.0, &[]),
+    ("ms", Time, 1e-3, &["millis"]),
+    ("us", Time, 1e-6, &["\u{b5}s", "\u{3bc}s"]),
+    ("min", Time, 60.0, &["mins", "minutes"]),
+    ("years", Time, 365.25 * 86400.0, &["year", "yr", "yrs"]),
+    ("rad", Angle, 1.0, &[]),
+    ("deg", Angle, std::f64::consts::PI / 180.0, &["degrees", "\u{b0}"]),
+    ("rad/s", AngularFrequency, 1.0, &[]),
+    ("Hz", AngularFrequency, std::f64::consts::TAU, &["hz"]),
+    ("counts", Counts, 1.0, &["count"]),
+    ("volt", Counts, 1.0, &["volts", "mv"]),
+];
+
+impl Unit {
+    /// Finds the unit that a text names and nothing else, however its parts are joined: `cm/s^2`,
+    /// `cm/sec/sec`, `cm_s2`, `cm s-2`.
+    pub fn parse(text: &str) -> Option<Unit> {
+        let per = |c: char| if c.is_whitespace() || matches!(c, '_' | '.') { '/' } else { c };
+        let text = text.trim().trim_end_matches('.').to_lowercase().replace('\u{b2}', "2");
+        let text = text.replace("seconds", "s").replace("second", "s").replace("sec", "s");
+        let plain: String = text.chars().filter(|c| !matches!(c, '-' | '^' | '*' | '\'')).map(per).collect();
+        let (name, quantity, si, _) =
+            UNITS.iter().find(|(name, .., others)| *name == plain || others.contains(&plain.as_str()))?;
+        Some(Unit { name, quantity: *quantity, si: *si })
+    }
+
+    /// Reads a unit of acceleration, as `--unit` takes it.
+    pub fn of_acceleration(text: &str) -> Result<Unit, String> {
+        Unit::parse(text).filter(|unit| unit.quantity == Acceleration).ok_or_else(|| {
+            let known =
+                UNITS.iter().filter(|(_, quantity, ..)| *quantity == Acceleration).map(|(name, ..)| *name);
+            let known = known.collect::<Vec<_>>().join(", ");
+            format!("'{text}' is not a unit of acceleration; expected {known}")
+        })
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}

@@ -1,9 +1,9 @@
-//! Recorded ground motions: from files of the strong-motion networks to motions that are simulated. Pure functions: nothing
-//! here knows files.
+//! Recorded ground motions: from files of the strong-motion networks to motions that are simulated. Pure
+//! functions: nothing here knows files.
 //!
 //! ```text
-//! recorded_motion  a record as its file gives it
-//! formats          from the text of a file to records, one file a format
+//! recorded_motion  a record as its file gives it, and what the user says of files
+//! formats          from the bytes of a file to records, one file a format
 //! pairs            which horizontal components belong together
 //! rotation         two horizontal components in another direction, and RotD
 //! plausibility     whether a motion can be that of an earthquake
@@ -21,5 +21,5 @@ mod recorded_motion;
 pub mod rotation;
 pub mod signal;
 
-pub use formats::{AccelerationUnit, Format, RecordFileError, read};
-pub use recorded_motion::{ColumnChoice, Given, HeaderPga, RecordedMotion, SaidUnit, Teller};
+pub use formats::{Format, RecordFileError, read_records};
+pub use recorded_motion::{HeaderPga, ReadOptions, RecordedMotion, UnitSource};

@@ -1,12 +1,10 @@
-//! From records to the motions that are imported of them: baseline, filter, time step, rotation, scale, measures, pulses.
+//! From records to imported motions: baseline, filter, time step, rotation, scale, measures, pulses.
 
-use std::path::Path;
-
+use super::RecordedMotion;
 use super::plausibility::{self, Doubt};
-use super::pulses::{FittedPulse, PulseIndicator, Verdict, WaveletScratch, strongest_direction};
+use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, RotD};
-use super::signal::{Baseline, HighPass, HighPassScratch, Scaling, resample, resampled_length};
-use super::{RecordedMotion, SaidUnit};
+use super::signal::{Baseline, HighPass, Scaling, resample, resampled_length};
 use crate::keyword::keywords;
 use crate::motion::{IntensityScratch, LONGEST_MOTION, MeasurePlan, Measured, Suite, intensity};
 
@@ -28,28 +26,15 @@ pub struct NamedRecord {
     pub motion: RecordedMotion,
 }
 
-/// A file that cannot be imported, and why.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Refusal {
-    /// Path as given.
-    pub file: String,
-    /// What was found in it, where the reason is one that others have too.
-    pub found: Option<String>,
-    /// What is wrong with it, and what to do.
-    pub reason: String,
-}
-
-impl Refusal {
-    /// Refuses a file for a reason.
-    pub fn of(file: &Path, reason: &impl ToString) -> Refusal {
-        Refusal::because(file.display().to_string(), reason.to_string())
-    }
-
-    /// Refuses the file of this name for a reason, which may begin with the name.
-    pub fn because(file: String, reason: String) -> Refusal {
-        let reason = reason.strip_prefix(&format!("{file}: ")).map_or(reason.clone(), str::to_string);
-        Refusal { file, found: None, reason }
-    }
+/// Why a record cannot be processed as asked.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ProcessingError {
+    #[error("{0} (--accept-implausible imports it anyway)")]
+    Implausible(Doubt),
+    #[error("{samples} samples at a time step of {dt_s} s; choose another for --resample")]
+    Resampled { samples: f64, dt_s: f64 },
+    #[error("the motion is zero throughout; it cannot be scaled to a peak")]
+    Zero,
 }
 
 /// A motion that is imported of a record, ready to be written.
@@ -58,25 +43,13 @@ pub struct ImportedMotion {
     /// Unique in the file.
     pub motion_id: String,
     pub suite: Suite,
-    /// The earthquake in the words of the file.
-    pub event: Option<String>,
-    /// The station in the words of the file.
-    pub station: Option<String>,
-    /// The component in the words of the file.
-    pub component: Option<String>,
-    /// Direction of positive acceleration, degrees clockwise from north.
-    pub azimuth_deg: Option<f64>,
     pub source: SourceFile,
-    /// The format of the file, in a word.
-    pub format: &'static str,
-    /// The unit that the samples had.
-    pub unit: Option<SaidUnit>,
+    /// What is known of the record; its samples are not kept.
+    pub record: RecordedMotion,
     /// Why it can hardly be a record, if it was accepted all the same.
     pub doubt: Option<Doubt>,
     /// The factor by which it is scaled.
     pub scale: f64,
-    /// Time between samples, s.
-    pub dt_s: f64,
     /// Samples, m/s2, as they are written.
     pub acceleration_m_s2: Vec<f32>,
     /// Intensity measures of these samples.
@@ -92,8 +65,9 @@ pub struct ImportedMotion {
 impl ImportedMotion {
     /// Joins earthquake, station and component; none if the file names none of them.
     pub fn name(&self) -> Option<String> {
+        let RecordedMotion { event, station, component, .. } = &self.record;
         let parts: Vec<&str> =
-            [&self.event, &self.station, &self.component].into_iter().flatten().map(String::as_str).collect();
+            [event, station, component].into_iter().flatten().map(String::as_str).collect();
         (!parts.is_empty()).then(|| parts.join(", "))
     }
 }
@@ -106,9 +80,6 @@ pub enum PulseSearch {
 }
 
 keywords!(PulseSearch { Find = "find", Skip = "skip" });
-
-/// The format of motions in a Parquet file.
-pub const TABLE: &str = "parquet";
 
 /// What becomes of motions that can hardly be those of an earthquake.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,104 +105,58 @@ pub struct Processing {
     pub plan: MeasurePlan,
 }
 
-/// A record after baseline, filter and time step, and what is doubtful about it.
-struct Processed {
-    record: NamedRecord,
-    doubt: Option<Doubt>,
-}
-
-/// What a thread keeps from one motion to the next.
-#[derive(Default)]
-pub struct Scratch {
-    intensity: IntensityScratch,
-    high_pass: HighPassScratch,
-    wavelet: WaveletScratch,
-}
-
-/// What is known of the pulse of a motion before it is scaled.
-#[derive(Debug, Clone, Copy, Default)]
-struct Pulses {
-    indicator: Option<PulseIndicator>,
-    fitted: Option<FittedPulse>,
-}
-
 impl Processing {
     /// Processes a record.
-    ///
-    /// # Errors
-    /// If it cannot be processed as asked.
-    pub fn import(&self, record: NamedRecord, scratch: &mut Scratch) -> Result<Vec<ImportedMotion>, Refusal> {
-        let processed = self.processed(record, scratch)?;
-        self.scaled(&processed, None, scratch)
+    pub fn import(&self, record: NamedRecord) -> Result<Vec<ImportedMotion>, ProcessingError> {
+        let (record, doubt) = self.corrected(record)?;
+        self.scaled(record, doubt, None)
     }
 
-    /// Processes two components at right angles, with their azimuths (degrees), into one motion.
-    ///
-    /// # Errors
-    /// If one of them cannot be processed as asked.
+    /// Processes two components at right angles into one motion.
     pub fn import_pair(
         &self,
-        pair: [(NamedRecord, f64); 2],
-        scratch: &mut Scratch,
-    ) -> Result<Vec<ImportedMotion>, Refusal> {
-        let (processed, rotd) = self.rotated(pair, scratch)?;
-        self.scaled(&processed, Some(rotd), scratch)
+        [first, second]: [NamedRecord; 2],
+    ) -> Result<Vec<ImportedMotion>, ProcessingError> {
+        let ((first, first_doubt), (second, second_doubt)) =
+            (self.corrected(first)?, self.corrected(second)?);
+        let (record, rotd) = self.rotated(first, second);
+        self.scaled(record, first_doubt.or(second_doubt), Some(rotd))
     }
 
     /// Corrects the baseline, filters, judges and resamples.
-    fn processed(&self, mut record: NamedRecord, scratch: &mut Scratch) -> Result<Processed, Refusal> {
+    fn corrected(&self, mut record: NamedRecord) -> Result<(NamedRecord, Option<Doubt>), ProcessingError> {
         let motion = &mut record.motion;
         self.baseline.remove_from(&mut motion.acceleration_m_s2);
         if let Some(high_pass) = self.high_pass {
-            high_pass.apply(&mut motion.acceleration_m_s2, motion.dt_s, &mut scratch.high_pass);
+            high_pass.apply(&mut motion.acceleration_m_s2, motion.dt_s);
         }
         let doubt = plausibility::doubt(&motion.acceleration_m_s2, motion.dt_s);
-        if let Some(Doubt { found, reason, is_impossible: true }) = &doubt
+        if let Some(doubt) = doubt.filter(Doubt::is_impossible)
             && self.implausible == Implausible::Refuse
         {
-            // One of many in a table goes by its name there.
-            let row = motion.component.as_ref().filter(|_| motion.format == TABLE);
-            return Err(Refusal {
-                file: record.source.path,
-                found: Some(row.map_or(found.clone(), |name| format!("{name}: {found}"))),
-                reason: format!("{reason} (--accept-implausible imports it anyway)"),
-            });
+            return Err(ProcessingError::Implausible(doubt));
         }
         if let Some(dt_s) = self.resample_s {
             let samples = resampled_length(motion.acceleration_m_s2.len(), motion.dt_s, dt_s);
             if !(2.0..=LONGEST_MOTION as f64).contains(&samples) {
-                let reason =
-                    format!("{samples} samples at a time step of {dt_s} s; choose another for --resample");
-                return Err(Refusal::because(record.source.path, reason));
+                return Err(ProcessingError::Resampled { samples, dt_s });
             }
             motion.acceleration_m_s2 = resample(&motion.acceleration_m_s2, motion.dt_s, dt_s);
             motion.dt_s = dt_s;
         }
-        Ok(Processed { record, doubt })
+        Ok((record, doubt))
     }
 
-    /// Processes two components and rotates them to the direction asked for.
-    fn rotated(
-        &self,
-        pair: [(NamedRecord, f64); 2],
-        scratch: &mut Scratch,
-    ) -> Result<(Processed, RotD), Refusal> {
-        let [(first, first_deg), (second, second_deg)] = pair;
-        let (first, second) = (self.processed(first, scratch)?, self.processed(second, scratch)?);
-        let doubt = first.doubt.or(second.doubt);
-        let (first, second) = (first.record, second.record);
+    /// Rotates two components to the direction asked for.
+    fn rotated(&self, first: NamedRecord, second: NamedRecord) -> (NamedRecord, RotD) {
+        let azimuths_deg = [&first, &second].map(|record| record.motion.azimuth_deg.unwrap_or_default());
         let accelerations = [first.motion.acceleration_m_s2, second.motion.acceleration_m_s2];
-        let pair = HorizontalPair::new(first.motion.dt_s, [first_deg, second_deg], accelerations);
+        let pair = HorizontalPair::new(first.motion.dt_s, azimuths_deg, accelerations);
         let azimuth_deg = match self.direction {
             Some(Direction::Azimuth(azimuth_deg)) => azimuth_deg,
             Some(Direction::StrongestPulse) | None => {
-                let velocities = pair.accelerations().each_ref().map(|a| intensity::velocity(a, pair.dt_s()));
-                let parts = strongest_direction(
-                    velocities.each_ref().map(Vec::as_slice),
-                    pair.dt_s(),
-                    &mut scratch.wavelet,
-                );
-                pair.azimuth_of(parts.unwrap_or([1.0, 0.0]))
+                let [x, y] = pair.accelerations.each_ref().map(|a| intensity::velocity(a, pair.dt_s));
+                pair.azimuth_of(strongest_direction([&x, &y], pair.dt_s).unwrap_or([1.0, 0.0]))
             }
         };
         let both = |a: String, b: String| if a == b { a } else { format!("{a}; {b}") };
@@ -242,7 +167,6 @@ impl Processing {
                 blake3: both(first.source.blake3, second.source.blake3),
             },
             motion: RecordedMotion {
-                dt_s: pair.dt_s(),
                 acceleration_m_s2: pair.towards(azimuth_deg),
                 component: Some(format!("{azimuth_deg:.1} deg of a pair")),
                 azimuth_deg: Some(azimuth_deg),
@@ -250,107 +174,86 @@ impl Processing {
                 ..first.motion
             },
         };
-        Ok((Processed { record, doubt }, pair.rotd()))
+        (record, pair.rotd())
     }
 
-    /// Scales and measures a processed record: one motion for each factor, each followed by its residual if that is asked for.
-    ///
-    /// # Errors
-    /// If it cannot be scaled as asked.
+    /// Scales and measures a record: one motion for each factor, followed by its residual if that is wanted.
     fn scaled(
         &self,
-        processed: &Processed,
+        record: NamedRecord,
+        doubt: Option<Doubt>,
         rotd: Option<RotD>,
-        scratch: &mut Scratch,
-    ) -> Result<Vec<ImportedMotion>, Refusal> {
-        let Processed { record, doubt } = processed;
-        let RecordedMotion { dt_s, ref acceleration_m_s2, .. } = record.motion;
-        let factors = self.scaling.factors(acceleration_m_s2, dt_s);
+    ) -> Result<Vec<ImportedMotion>, ProcessingError> {
+        let NamedRecord { motion_id, source, motion } = record;
+        let dt_s = motion.dt_s;
+        let factors = self.scaling.factors(&motion.acceleration_m_s2, dt_s);
         if factors.is_empty() {
-            let reason = "the motion is zero throughout; it cannot be scaled to a peak".to_string();
-            return Err(Refusal::because(record.source.path.clone(), reason));
+            return Err(ProcessingError::Zero);
         }
-        let pulses = self.pulses(&record.motion, scratch);
+        let (indicator, fitted) = self.pulse_of(&motion);
+        let samples = motion.acceleration_m_s2;
+        let motion = RecordedMotion { acceleration_m_s2: Vec::new(), ..motion };
         let several = factors.len() > 1;
-        let motions = factors.into_iter().flat_map(|factor| {
-            let id = record.motion_id.clone();
-            let motion_id = if several { format!("{id} x{factor}") } else { id };
-            let scaled = self.scaled_by(factor, record, motion_id, rotd, pulses, scratch);
-            let motion = ImportedMotion { doubt: doubt.clone(), ..scaled };
-            let residual = self.residual(&motion, scratch);
-            [Some(motion), residual].into_iter().flatten()
+        let motions = factors.into_iter().flat_map(|scale| {
+            let acceleration_m_s2: Vec<f32> = samples.iter().map(|&a| (scale * a) as f32).collect();
+            let scaled = ImportedMotion {
+                motion_id: if several { format!("{motion_id} x{scale}") } else { motion_id.clone() },
+                suite: Suite::Record,
+                source: source.clone(),
+                record: motion.clone(),
+                doubt,
+                scale,
+                measured: self.measured(&acceleration_m_s2, dt_s),
+                acceleration_m_s2,
+                rotd: rotd.map(|rotd| rotd.scaled(scale)),
+                indicator,
+                pulse: fitted.map(|fitted| fitted.scaled(scale)),
+            };
+            let residual = scaled.pulse.filter(|_| self.residual).map(|pulse| self.residual(&scaled, pulse));
+            [Some(scaled), residual].into_iter().flatten()
         });
         Ok(motions.collect())
     }
 
-    fn pulses(&self, motion: &RecordedMotion, scratch: &mut Scratch) -> Pulses {
+    /// Looks for the pulse of a record, and fits it where there is one.
+    fn pulse_of(&self, motion: &RecordedMotion) -> (Option<PulseIndicator>, Option<FittedPulse>) {
         if self.pulses == PulseSearch::Skip {
-            return Pulses::default();
+            return (None, None);
         }
         let velocity = intensity::velocity(&motion.acceleration_m_s2, motion.dt_s);
-        let indicator = PulseIndicator::of(&velocity, motion.dt_s, &mut scratch.wavelet);
-        let fitted = indicator
-            .filter(|found| found.verdict == Verdict::Pulse)
-            .and_then(|found| FittedPulse::fit(&velocity, motion.dt_s, found.period_s, found.centre_s));
-        Pulses { indicator, fitted }
+        let indicator = PulseIndicator::of(&velocity, motion.dt_s);
+        let found = indicator.filter(|found| found.verdict == Verdict::Pulse);
+        let fit =
+            |found: PulseIndicator| FittedPulse::fit(&velocity, motion.dt_s, found.period_s, found.centre_s);
+        (indicator, found.and_then(fit))
     }
 
-    fn scaled_by(
+    /// Makes the same motion without its pulse.
+    fn residual(
         &self,
-        factor: f64,
-        record: &NamedRecord,
-        motion_id: String,
-        rotd: Option<RotD>,
-        pulses: Pulses,
-        scratch: &mut Scratch,
+        motion: &ImportedMotion,
+        FittedPulse { pulse, t0_s, .. }: FittedPulse,
     ) -> ImportedMotion {
-        let motion = &record.motion;
-        let acceleration_m_s2: Vec<f32> =
-            motion.acceleration_m_s2.iter().map(|&a| (factor * a) as f32).collect();
-        ImportedMotion {
-            motion_id,
-            suite: Suite::Record,
-            event: motion.event.clone(),
-            station: motion.station.clone(),
-            component: motion.component.clone(),
-            azimuth_deg: motion.azimuth_deg,
-            source: record.source.clone(),
-            format: motion.format,
-            unit: motion.unit,
-            doubt: None,
-            scale: factor,
-            dt_s: motion.dt_s,
-            measured: self.measured(&acceleration_m_s2, motion.dt_s, scratch),
-            acceleration_m_s2,
-            rotd: rotd.map(|rotd| rotd.scaled(factor)),
-            indicator: pulses.indicator,
-            pulse: pulses.fitted.map(|fitted| fitted.scaled(factor)),
-        }
-    }
-
-    /// Makes the same motion without its pulse, if it has one and that is asked for.
-    fn residual(&self, motion: &ImportedMotion, scratch: &mut Scratch) -> Option<ImportedMotion> {
-        let FittedPulse { pulse, t0_s, .. } = motion.pulse.filter(|_| self.residual)?;
-        let without = |(k, &a): (usize, &f32)| {
-            (f64::from(a) - pulse.acceleration_m_s2(k as f64 * motion.dt_s - t0_s)) as f32
-        };
+        let dt_s = motion.record.dt_s;
+        let without =
+            |(k, &a): (usize, &f32)| (f64::from(a) - pulse.acceleration_m_s2(k as f64 * dt_s - t0_s)) as f32;
         let acceleration_m_s2: Vec<f32> = motion.acceleration_m_s2.iter().enumerate().map(without).collect();
-        Some(ImportedMotion {
+        ImportedMotion {
             motion_id: format!("{} residual", motion.motion_id),
             suite: Suite::Residual,
-            measured: self.measured(&acceleration_m_s2, motion.dt_s, scratch),
+            measured: self.measured(&acceleration_m_s2, dt_s),
             acceleration_m_s2,
             rotd: None,
             indicator: None,
             pulse: None,
             doubt: None,
             ..motion.clone()
-        })
+        }
     }
 
     /// Measures samples as they will be read: in single precision.
-    fn measured(&self, samples: &[f32], dt_s: f64, scratch: &mut Scratch) -> Measured {
+    fn measured(&self, samples: &[f32], dt_s: f64) -> Measured {
         let written: Vec<f64> = samples.iter().map(|&a| f64::from(a)).collect();
-        self.plan.measure(&written, dt_s, &mut scratch.intensity)
+        self.plan.measure(&written, dt_s, &mut IntensityScratch::default())
     }
 }

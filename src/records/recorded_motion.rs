@@ -1,14 +1,10 @@
-//! A record as its file gives it, and what the user says about files that leave it open.
+//! A record as its file gives it, and what the user says of files that leave something open.
 
-use std::convert::Infallible;
-use std::fmt;
-use std::str::FromStr;
-
-use super::formats::{AccelerationUnit, RecordFileError};
-use crate::motion::intensity::peak;
+use super::formats::Format;
+use crate::units::Unit;
 
 /// One component of a record, as its file gives it.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RecordedMotion {
     /// Time between samples, s.
     pub dt_s: f64,
@@ -27,33 +23,32 @@ pub struct RecordedMotion {
     /// The format of the file, in a word.
     pub format: &'static str,
     /// The unit that the samples had.
-    pub unit: Option<SaidUnit>,
+    pub unit: Unit,
+    pub unit_source: UnitSource,
 }
 
-/// A unit, and who says it.
+/// Where the unit of the samples is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct SaidUnit {
-    pub unit: AccelerationUnit,
-    pub by: Teller,
-}
-
-/// Who says of samples what they are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Teller {
-    /// The file or its format.
+pub enum UnitSource {
     File,
     User,
 }
 
-impl SaidUnit {
-    /// The unit that the file says.
-    pub fn by_file(unit: AccelerationUnit) -> SaidUnit {
-        SaidUnit { unit, by: Teller::File }
-    }
-
-    /// The unit that the user says.
-    pub fn by_user(unit: AccelerationUnit) -> SaidUnit {
-        SaidUnit { unit, by: Teller::User }
+impl RecordedMotion {
+    /// Creates a record of samples in a unit of acceleration, `dt_s` apart, of which nothing else is known.
+    pub fn new(dt_s: f64, samples: Vec<f64>, (unit, unit_source): (Unit, UnitSource)) -> RecordedMotion {
+        RecordedMotion {
+            dt_s,
+            acceleration_m_s2: samples.into_iter().map(|value| value * unit.si).collect(),
+            event: None,
+            station: None,
+            component: None,
+            azimuth_deg: None,
+            header_pga: None,
+            format: "",
+            unit,
+            unit_source,
+        }
     }
 }
 
@@ -66,60 +61,24 @@ pub struct HeaderPga {
     pub rounding_m_s2: f64,
 }
 
-impl HeaderPga {
-    /// Checks that the samples peak where the header says, within a share of it and the rounding.
-    ///
-    /// # Errors
-    /// If they do not: then the unit or the number of samples is not what the header says.
-    pub fn check(&self, acceleration_m_s2: &[f64], tolerance: f64) -> Result<(), RecordFileError> {
-        let found = peak(acceleration_m_s2);
-        if (found - self.m_s2).abs() <= tolerance * self.m_s2 + self.rounding_m_s2 {
-            return Ok(());
-        }
-        Err(RecordFileError::Peak { header_m_s2: self.m_s2, found_m_s2: found })
-    }
-}
-
-/// What the user says about files that do not say it themselves.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Given {
+/// How files are read, and what the user says of those that leave it open.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadOptions {
+    /// None: the format that the content shows.
+    pub format: Option<Format>,
     /// Time between samples, s.
     pub dt_s: Option<f64>,
     /// Unit of the samples.
-    pub unit: Option<AccelerationUnit>,
-    /// Which column of a plain file holds the acceleration.
-    pub column: Option<ColumnChoice>,
+    pub unit: Option<Unit>,
+    /// Which column of a CSV file holds the acceleration: its number from 1, its heading, or `all` where one
+    /// series wraps over lines.
+    pub column: Option<String>,
+    /// Share by which samples may miss the peak that the header gives.
+    pub pga_tolerance: f64,
 }
 
-/// Which column holds the acceleration.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum ColumnChoice {
-    /// By its number, from 1.
-    Number(usize),
-    /// By its name in the header.
-    Name(String),
-    /// All of them: one series that wraps.
-    All,
-}
-
-impl FromStr for ColumnChoice {
-    type Err = Infallible;
-
-    fn from_str(text: &str) -> Result<ColumnChoice, Infallible> {
-        Ok(match (text, text.parse()) {
-            ("all", _) => ColumnChoice::All,
-            (_, Ok(number)) => ColumnChoice::Number(number),
-            _ => ColumnChoice::Name(text.to_string()),
-        })
-    }
-}
-
-impl fmt::Display for ColumnChoice {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            ColumnChoice::Number(number) => write!(f, "{number}"),
-            ColumnChoice::Name(name) => f.write_str(name),
-            ColumnChoice::All => f.write_str("all"),
-        }
+impl Default for ReadOptions {
+    fn default() -> ReadOptions {
+        ReadOptions { format: None, dt_s: None, unit: None, column: None, pga_tolerance: 0.05 }
     }
 }

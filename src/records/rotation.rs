@@ -1,6 +1,5 @@
 //! Two horizontal components in another direction, and their peaks over all directions.
 
-use std::fmt;
 use std::str::FromStr;
 
 use crate::motion::intensity::{peak, velocity};
@@ -11,9 +10,12 @@ const DIRECTIONS: usize = 180;
 /// Two horizontal components of one station at right angles, of one length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HorizontalPair {
-    dt_s: f64,
-    azimuths_deg: [f64; 2],
-    accelerations: [Vec<f64>; 2],
+    /// Time between samples, s.
+    pub dt_s: f64,
+    /// Directions of positive acceleration, degrees clockwise from north.
+    pub azimuths_deg: [f64; 2],
+    /// Samples of each component, m/s2.
+    pub accelerations: [Vec<f64>; 2],
 }
 
 /// Peaks over all directions (Boore 2010).
@@ -48,35 +50,26 @@ impl HorizontalPair {
         ((first_deg - second_deg).rem_euclid(180.0) - 90.0).abs() <= 1.0
     }
 
-    /// Pairs accelerations (m/s2) of one time step (s) that start together, with their azimuths (degrees clockwise from
-    /// north); the longer one is cut.
+    /// Pairs accelerations that start together; the longer one is cut.
     pub fn new(dt_s: f64, azimuths_deg: [f64; 2], mut accelerations: [Vec<f64>; 2]) -> HorizontalPair {
         let length = accelerations.iter().map(Vec::len).min().unwrap_or(0);
         accelerations.iter_mut().for_each(|samples| samples.truncate(length));
         HorizontalPair { dt_s, azimuths_deg, accelerations }
     }
 
-    pub fn dt_s(&self) -> f64 {
-        self.dt_s
-    }
-
-    pub fn accelerations(&self) -> &[Vec<f64>; 2] {
-        &self.accelerations
-    }
-
     /// Computes the acceleration in the direction of an azimuth (degrees), m/s2.
     pub fn towards(&self, azimuth_deg: f64) -> Vec<f64> {
-        let weights = self.azimuths_deg.map(|own| libm::cos((azimuth_deg - own).to_radians()));
+        let weights = self.azimuths_deg.map(|own| (azimuth_deg - own).to_radians().cos());
         let [first, second] = &self.accelerations;
         first.iter().zip(second).map(|(a, b)| weights[0] * a + weights[1] * b).collect()
     }
 
-    /// Computes the azimuth (degrees, 0 to below 360) of the direction with these parts along the two components.
+    /// Computes the azimuth (degrees, 0 to below 360) of a direction with these parts along both components.
     pub fn azimuth_of(&self, parts: [f64; 2]) -> f64 {
         let [first, second] = self.azimuths_deg.map(f64::to_radians);
-        let north = parts[0] * libm::cos(first) + parts[1] * libm::cos(second);
-        let east = parts[0] * libm::sin(first) + parts[1] * libm::sin(second);
-        libm::atan2(east, north).to_degrees().rem_euclid(360.0)
+        let north = parts[0] * first.cos() + parts[1] * second.cos();
+        let east = parts[0] * first.sin() + parts[1] * second.sin();
+        east.atan2(north).to_degrees().rem_euclid(360.0)
     }
 
     /// Computes RotD50 and RotD100 of peak acceleration and velocity (Boore 2010).
@@ -96,7 +89,7 @@ impl HorizontalPair {
 /// Computes the peak in each direction, in ascending order.
 fn peaks_over_directions(first: &[f64], second: &[f64]) -> Vec<f64> {
     let in_direction = |degrees: usize| {
-        let (sin, cos) = libm::sincos((degrees as f64).to_radians());
+        let (sin, cos) = (degrees as f64).to_radians().sin_cos();
         first.iter().zip(second).fold(0.0_f64, |peak, (a, b)| (cos * a + sin * b).abs().max(peak))
     };
     let mut peaks: Vec<f64> = (0..DIRECTIONS).map(in_direction).collect();
@@ -127,15 +120,6 @@ impl FromStr for Direction {
             _ => azimuth().map(Direction::Azimuth).ok_or_else(|| {
                 format!("'{text}'; expected an azimuth from 0 to 360 degrees, or strongest-pulse")
             }),
-        }
-    }
-}
-
-impl fmt::Display for Direction {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Direction::Azimuth(degrees) => write!(f, "{degrees}"),
-            Direction::StrongestPulse => f.write_str("strongest-pulse"),
         }
     }
 }

@@ -3,19 +3,18 @@
 use std::f64::consts::PI;
 
 use crate::keyword::keywords;
-use crate::motion::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
+use crate::motion::fourier::{Transform, even_smooth_at_least};
 use crate::motion::intensity::{peak, velocity};
 
 /// Order n of the high-pass, each way.
 const HIGH_PASS_ORDER: i32 = 4;
-/// The most padding of the high-pass, in lengths of the record: a corner far below one over its duration asks for more than
-/// it is worth.
+/// The most padding of the high-pass, in lengths of the record: corners far below 1 / duration ask for more.
 const MOST_PADDING: f64 = 8.0;
 /// Zero crossings of the interpolating sinc on each side.
 const LOBES: f64 = 24.0;
 /// Shape of the Kaiser window: side lobes of about -80 dB.
 const KAISER_BETA: f64 = 8.0;
-/// Corner of the resampling as a share of the lower of the two Nyquist frequencies: the transition band lies below it.
+/// Corner of the resampling as a share of the lower Nyquist frequency: the transition band lies below it.
 const CORNER: f64 = 0.9;
 
 /// What is removed from an acceleration that should be zero on average.
@@ -32,20 +31,18 @@ keywords!(Baseline { None = "none", Mean = "mean", Linear = "linear" });
 impl Baseline {
     /// Removes it from samples.
     pub fn remove_from(self, samples: &mut [f64]) {
-        if samples.is_empty() {
-            return;
-        }
         let n = samples.len() as f64;
         let mean = samples.iter().sum::<f64>() / n;
         let middle = 0.5 * (n - 1.0);
+        // The sum of the squares of k - middle.
+        let squares = n * (n * n - 1.0) / 12.0;
         let slope = match self {
             Baseline::None => return,
-            Baseline::Mean => 0.0,
-            Baseline::Linear => {
-                let moments = samples.iter().enumerate().map(|(k, a)| (k as f64 - middle, a));
-                let (xy, xx) = moments.fold((0.0, 0.0), |(xy, xx), (x, a)| (xy + x * (a - mean), xx + x * x));
-                if xx > 0.0 { xy / xx } else { 0.0 }
+            Baseline::Linear if squares > 0.0 => {
+                let products = samples.iter().enumerate().map(|(k, a)| (k as f64 - middle) * (a - mean));
+                products.sum::<f64>() / squares
             }
+            Baseline::Mean | Baseline::Linear => 0.0,
         };
         for (k, sample) in samples.iter_mut().enumerate() {
             *sample -= mean + slope * (k as f64 - middle);
@@ -53,44 +50,33 @@ impl Baseline {
     }
 }
 
-/// A zero-phase Butterworth high-pass of order 4, forward and backward: the gain is 1 / (1 + (fc/f)^8), applied to the
-/// Fourier coefficients. The record is padded with zeros on both sides by 1.5 n / fc (Boore 2005, "On pads and
-/// filters"), and keeps its length.
+/// A zero-phase Butterworth high-pass of order 4, forward and backward: the gain is 1 / (1 + (fc/f)^8),
+/// applied to the Fourier coefficients. The record is padded with zeros on both sides by 1.5 n / fc (Boore
+/// 2005, "On pads and filters"), and keeps its length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HighPass {
     /// Corner frequency fc, Hz, at which the gain is one half.
     pub corner_hz: f64,
 }
 
-/// Plans and buffers that one record after the other uses.
-#[derive(Default)]
-pub struct HighPassScratch {
-    transforms: ByLength<Transform>,
-    samples: Vec<f64>,
-    spectrum: Vec<Complex64>,
-    scratch: Vec<Complex64>,
-}
-
 impl HighPass {
     /// Filters an acceleration of this time step (s) in place.
-    pub fn apply(&self, samples: &mut [f64], dt_s: f64, scratch: &mut HighPassScratch) {
+    pub fn apply(&self, samples: &mut [f64], dt_s: f64) {
         let record = samples.len();
         // Boore (2005): the filter rings for about this long.
         let wanted = 1.5 * f64::from(HIGH_PASS_ORDER) / (self.corner_hz * dt_s);
         let pad = wanted.min(MOST_PADDING * record as f64).ceil() as usize;
         let length = even_smooth_at_least(record + 2 * pad);
-        let transform = scratch.transforms.get(length, || Transform::new(length));
-        scratch.samples.clear();
-        scratch.samples.resize(pad, 0.0);
-        scratch.samples.extend_from_slice(samples);
-        scratch.samples.resize(length, 0.0);
-        transform.forward(&mut scratch.samples, &mut scratch.spectrum, &mut scratch.scratch);
-        let step_hz = 1.0 / (length as f64 * dt_s);
-        for (k, coefficient) in scratch.spectrum.iter_mut().enumerate() {
-            *coefficient *= self.gain(k as f64 * step_hz);
+        let transform = Transform::new(length);
+        let mut padded = vec![0.0; length];
+        padded[pad..pad + record].copy_from_slice(samples);
+        let (mut spectrum, mut scratch) = (Vec::new(), Vec::new());
+        transform.forward(&mut padded, &mut spectrum, &mut scratch);
+        for (k, coefficient) in spectrum.iter_mut().enumerate() {
+            *coefficient *= self.gain(k as f64 / (length as f64 * dt_s));
         }
-        transform.inverse(&mut scratch.spectrum, &mut scratch.samples, &mut scratch.scratch);
-        samples.copy_from_slice(&scratch.samples[pad..pad + record]);
+        transform.inverse(&mut spectrum, &mut padded, &mut scratch);
+        samples.copy_from_slice(&padded[pad..pad + record]);
     }
 
     fn gain(&self, f: f64) -> f64 {
@@ -104,8 +90,8 @@ pub fn resampled_length(samples: usize, dt_s: f64, new_dt_s: f64) -> f64 {
     ((samples.max(1) - 1) as f64 * dt_s / new_dt_s + 1e-9).floor() + 1.0
 }
 
-/// Resamples a record at the time step `new_dt_s` (s): band-limited interpolation by a sinc under a Kaiser window, which passes
-/// nothing above the Nyquist frequency of the longer of the two steps. The record counts as zero outside.
+/// Resamples a record at the time step `new_dt_s` (s) by a sinc under a Kaiser window, which passes nothing
+/// above the Nyquist frequency of the longer of the two steps. The record counts as zero outside.
 pub fn resample(samples: &[f64], dt_s: f64, new_dt_s: f64) -> Vec<f64> {
     let corner = if new_dt_s > dt_s { CORNER * dt_s / new_dt_s } else { 1.0 };
     let reach = LOBES / corner;
@@ -125,7 +111,7 @@ pub fn resample(samples: &[f64], dt_s: f64, new_dt_s: f64) -> Vec<f64> {
 }
 
 fn sinc(x: f64) -> f64 {
-    if x == 0.0 { 1.0 } else { libm::sin(PI * x) / (PI * x) }
+    if x == 0.0 { 1.0 } else { (PI * x).sin() / (PI * x) }
 }
 
 /// Computes the Kaiser window at a place from -1 to 1.
@@ -133,15 +119,9 @@ fn kaiser(x: f64) -> f64 {
     bessel_i0(KAISER_BETA * (1.0 - x * x).max(0.0).sqrt()) / bessel_i0(KAISER_BETA)
 }
 
-/// Computes the modified Bessel function of order 0 by its power series.
+/// Computes the modified Bessel function of order 0 by its power series, from its end.
 fn bessel_i0(x: f64) -> f64 {
-    let quarter = 0.25 * x * x;
-    let (mut term, mut sum) = (1.0, 1.0);
-    for k in 1..40 {
-        term *= quarter / f64::from(k * k);
-        sum += term;
-    }
-    sum
+    (1..40).rev().fold(1.0, |sum, k| 1.0 + 0.25 * x * x / f64::from(k * k) * sum)
 }
 
 /// By how much records are scaled.
@@ -156,15 +136,7 @@ pub enum Scaling {
 }
 
 impl Scaling {
-    /// Counts the motions that it makes of one record.
-    pub fn count(&self) -> usize {
-        match self {
-            Scaling::Factors(factors) => factors.len(),
-            Scaling::Pga(_) | Scaling::Pgv(_) => 1,
-        }
-    }
-
-    /// Computes the factors for an acceleration (m/s2) of this time step (s); none if it has no peak that could be scaled.
+    /// Computes the factors for an acceleration (m/s2) at steps of `dt_s`; none if it has no peak to scale.
     pub fn factors(&self, acceleration: &[f64], dt_s: f64) -> Vec<f64> {
         let to = |target: f64, peak: f64| Some(target / peak).filter(|factor| factor.is_finite());
         match self {

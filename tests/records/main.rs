@@ -1,12 +1,11 @@
 //! Recorded motions: from files of every format to accelerations, and what becomes of them.
 
-#![cfg(feature = "pipeline")]
-
+mod formats;
 mod known_records;
 mod plausibility;
 mod processing;
 mod pulses;
-mod quirks;
 mod references;
-mod round_trips;
+mod sheet;
+mod slips;
 mod writers;

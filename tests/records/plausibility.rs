@@ -1,23 +1,20 @@
 //! What can be a record, and what was never recorded.
 
-use rockfrag::records::plausibility::doubt;
-use rockfrag::table::motions::MotionBatches;
+use rockfrag::records::plausibility::{Doubt, doubt};
 
+use crate::references::reference_motions;
 use crate::writers::{DT, G, motion};
 
 #[test]
 fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/rocking/motions.parquet");
     let mut half_pulses = 0;
-    for motion in MotionBatches::open(path, 64).unwrap().flat_map(Result::unwrap) {
-        // Half-sine and rectangular pulses leave the ground moving.
-        let found = doubt(&motion.acceleration_m_s2.to_vec(), motion.dt_s);
-        if let Some(rare) = found.as_ref().filter(|found| !found.is_impossible) {
+    for motion in reference_motions().into_values() {
+        match doubt(&motion.acceleration_m_s2, motion.dt_s) {
             // The strongest synthetic ones are of a strength that few records have.
-            assert!(rare.reason.starts_with("few records"), "{}: {rare:?}", motion.motion_id);
-        } else if let Some(found) = found {
-            assert!(found.found.starts_with("velocity of"), "{}: {found:?}", motion.motion_id);
-            half_pulses += 1;
+            None | Some(Doubt::RarePga { .. } | Doubt::RarePgv { .. }) => {}
+            // Half-sine and rectangular pulses leave the ground moving.
+            Some(Doubt::Drift { .. }) => half_pulses += 1,
+            Some(other) => panic!("{}: {other}", motion.motion_id),
         }
     }
     assert_eq!(half_pulses, 11);
@@ -25,20 +22,27 @@ fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
 
 #[test]
 fn every_limit_is_kept() {
-    let of = |change: &dyn Fn(usize, f64) -> f64, dt_s: f64| {
+    let slow = |k: usize| (2.0 * std::f64::consts::PI * k as f64 / 1000.0).sin();
+    let kind = |dt_s: f64, change: &dyn Fn(usize, f64) -> f64| {
         let samples: Vec<f64> = motion(1000).into_iter().enumerate().map(|(k, a)| change(k, a)).collect();
-        doubt(&samples, dt_s).map_or(String::new(), |doubt| doubt.found)
+        format!("{:?}", doubt(&samples, dt_s))
     };
-    assert_eq!(of(&|_, a| a, DT), "");
-    assert!(of(&|_, a| 100.0 * a, DT).starts_with("PGA 29"));
-    assert!(of(&|_, a| 9.81 * a, DT).starts_with("PGA 2.8"));
-    assert!(of(&|_, a| 1e-3 * a, DT).starts_with("PGA 0.000294"));
-    assert!(of(&|k, a| if k == 500 { 30.0 * G } else { a }, DT).starts_with("sample 501 of 30 g"));
-    assert!(of(&|_, a| a + 0.5, DT).starts_with("velocity of 5"));
-    assert!(of(&|_, a| a, 1.0).starts_with("dt 1 s"));
-    assert!(of(&|_, a| a, DT / 50.0).starts_with("mean frequency 8"));
-    assert_eq!(of(&|_, _| 0.0, DT), "0 throughout");
-    let slow = |k: usize, _| (2.0 * std::f64::consts::PI * k as f64 / 1000.0).sin();
-    assert!(of(&slow, DT).starts_with("PGV/PGA 3.18 s"));
-    assert!(of(&|k, a| 4.0 * slow(k, a), DT).starts_with("PGV 12.7 m/s"));
+    for (found, expected) in [
+        (kind(DT, &|_, a| a), "None"),
+        (kind(DT, &|_, a| 100.0 * a), "Some(Pga { pga_g: 30."),
+        (kind(DT, &|_, a| 9.81 * a), "Some(RarePga { pga_g: 2.9"),
+        (kind(DT, &|_, a| 1e-3 * a), "Some(WeakPga"),
+        (kind(DT, &|k, a| if k == 700 { 30.0 * G } else { a }), "Some(Spike { sample: 701, pga_g: 30.0"),
+        (kind(DT, &|_, a| a + 0.5), "Some(Drift { velocity_m_s: 4.99"),
+        (kind(1.0, &|_, a| a), "Some(TimeStep"),
+        (kind(DT / 50.0, &|_, a| a), "Some(Fast { frequency_hz: 8"),
+        (kind(DT, &|_, _| 0.0), "Some(Still"),
+        (kind(DT, &|k, _| slow(k)), "Some(Slow { ratio_s: 3.18"),
+        (kind(DT, &|k, _| 4.0 * slow(k)), "Some(Pgv { pgv_m_s: 12.7"),
+        (format!("{:?}", doubt(&motion(1000)[..20], DT)), "Some(FewSamples { samples: 20"),
+    ] {
+        assert!(found.starts_with(expected), "{expected}: {found}");
+    }
+    let impossible = [Doubt::Still, Doubt::Pga { pga_g: 30.0 }, Doubt::TimeStep { dt_s: 1.0 }];
+    assert!(impossible.iter().all(Doubt::is_impossible) && !Doubt::RarePga { pga_g: 3.0 }.is_impossible());
 }

@@ -1,86 +1,63 @@
-//! The Engineering Strong Motion database's ASCII (DYNA 1.2): lines of `KEY: value`, then one acceleration a line.
+//! ASCII of the Engineering Strong Motion database (DYNA 1.2): lines of `KEY: value`, then one sample a line.
 
 use super::error::RecordFileError;
-use super::header::{azimuth_of, header_pga, time_step};
-use super::numbers::{leading_number, samples};
-use super::text::{Line, after, lines, quoted, words};
-use super::unit::AccelerationUnit;
-use crate::records::{Given, RecordedMotion, SaidUnit};
+use super::header::{
+    after, azimuth_of, given_unit, header_pga, leading_number, samples, time_step, unit_of, words,
+};
+use crate::records::{ReadOptions, RecordedMotion};
+use crate::units::Unit;
 
 /// Lines in which the header must come to its end.
 const HEADER: usize = 200;
 
 /// Tells whether the header has the key of the sampling interval.
-pub fn recognises(text: &str) -> bool {
-    header(text).iter().any(|line| value(line, "SAMPLING_INTERVAL_S").is_some())
+pub fn recognises(lines: &[&str]) -> bool {
+    value(header(lines), "SAMPLING_INTERVAL_S").is_some()
 }
 
 /// Reads the motion of an ESM file.
-///
-/// # Errors
-/// If it holds no acceleration, a key is missing, or the samples are not as announced.
-pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileError> {
-    let header = header(text);
-    let find = |key| header.iter().find_map(|line| value(line, key).map(|value| (line.number, value)));
-    let end = header.last().map_or(0, |line| line.number);
-    let missing = |what, expected| RecordFileError::Missing { line: end, what, expected };
-    if let Some((line, kind)) = find("DATA_TYPE") {
-        let other = |(word, _): &&(&str, &'static str)| after(kind, word).is_some();
-        if let Some((_, quantity)) =
-            [("VELOCITY", "velocity"), ("DISPLACEMENT", "displacement")].iter().find(other)
-        {
-            return Err(RecordFileError::NotAcceleration { line, quantity });
-        }
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, RecordFileError> {
+    let header = header(lines);
+    let end = header.len();
+    let find = |key| value(header, key);
+    if let Some((line, kind)) = find("DATA_TYPE").filter(|(_, kind)| after(kind, "ACCELERATION").is_none()) {
+        return Err(RecordFileError::NotAcceleration { line, found: kind.to_string() });
     }
-    let unit = match find("UNITS") {
-        Some((line, unit)) => AccelerationUnit::leading(unit)
-            .map(SaidUnit::by_file)
-            .ok_or_else(|| RecordFileError::Unit { line, unit: quoted(unit) })?,
-        None => given
-            .unit
-            .map(SaidUnit::by_user)
-            .ok_or_else(|| missing("UNITS", "'UNITS: cm/s^2': give it with --unit"))?,
+    let unit = find("UNITS").map_or_else(|| given_unit(options, end), |(line, text)| unit_of(text, line))?;
+    let number = |key| find(key).and_then(|(line, value)| Some((line, leading_number(value)?)));
+    let missing = |field, expected| RecordFileError::missing(end, field, expected);
+    let step = number("SAMPLING_INTERVAL_S").or(options.dt_s.map(|dt_s| (end, dt_s)));
+    let (line, dt_s) = step.ok_or(missing("SAMPLING_INTERVAL_S", "the time step, or --dt"))?;
+    let (_, announced) =
+        number("NDATA").ok_or(missing("NDATA", "the number of samples, such as 'NDATA: 18904'"))?;
+    let values = samples(lines, end, announced, str::split_ascii_whitespace)?;
+    let joined = |keys: [&'static str; 3]| {
+        let parts: Vec<&str> = keys.into_iter().filter_map(|key| Some(find(key)?.1)).collect();
+        words(&parts.join(" "))
     };
-    let number = |key| find(key).and_then(|(line, value)| leading_number(value).map(|number| (line, number)));
-    let (line, dt_s) = number("SAMPLING_INTERVAL_S")
-        .or(given.dt_s.map(|dt_s| (end, dt_s)))
-        .ok_or_else(|| missing("SAMPLING_INTERVAL_S", "the time step: give it with --dt"))?;
-    let (_, announced) = number("NDATA")
-        .filter(|(_, count)| *count >= 0.0)
-        .ok_or_else(|| missing("NDATA", "the number of samples, such as 'NDATA: 18904'"))?;
-    let values = samples(lines(text).skip(end), announced as u64, None)?;
-    let scale = unit.unit.in_m_s2();
     let stream = find("STREAM").map_or("", |(_, stream)| stream);
+    // The last letter of a channel code names its direction; a digit names none.
+    let letter = stream.get(stream.len().saturating_sub(1)..).unwrap_or("");
     Ok(RecordedMotion {
-        dt_s: time_step(dt_s, line)?,
-        acceleration_m_s2: values.into_iter().map(|value| value * scale).collect(),
-        event: joined(&[find("EVENT_NAME"), find("EVENT_DATE_YYYYMMDD"), find("EVENT_TIME_HHMMSS")]),
-        station: joined(&[find("NETWORK"), find("STATION_CODE"), find("STATION_NAME")]),
+        event: joined(["EVENT_NAME", "EVENT_DATE_YYYYMMDD", "EVENT_TIME_HHMMSS"]),
+        station: joined(["NETWORK", "STATION_CODE", "STATION_NAME"]),
         component: words(stream),
-        azimuth_deg: direction(stream),
-        header_pga: find("PGA_CM/S^2")
-            .and_then(|(_, peak)| header_pga(peak, AccelerationUnit::CentimetrePerSecond2)),
-        unit: Some(unit),
-        ..RecordedMotion::default()
+        azimuth_deg: azimuth_of(letter).filter(|_| !letter.starts_with(|c: char| c.is_ascii_digit())),
+        header_pga: find("PGA_CM/S^2").and_then(|(_, peak)| header_pga(peak, Unit::parse("cm/s2")?)),
+        ..RecordedMotion::new(time_step(dt_s, line)?, values, unit)
     })
 }
 
-/// The azimuth that the last letter of a channel code names; a digit names none.
-fn direction(stream: &str) -> Option<f64> {
-    let (at, _) = stream.char_indices().next_back().filter(|(_, letter)| letter.is_alphabetic())?;
-    azimuth_of(stream.get(at..)?)
-}
-
 /// The lines of `KEY: value` at the beginning.
-fn header(text: &str) -> Vec<Line<'_>> {
-    lines(text).take(HEADER).take_while(|line| line.text.contains(':')).collect()
+fn header<'a, 'b>(lines: &'a [&'b str]) -> &'a [&'b str] {
+    let end = lines.iter().take(HEADER).take_while(|line| line.contains(':')).count();
+    &lines[..end]
 }
 
-fn value<'a>(line: &Line<'a>, key: &str) -> Option<&'a str> {
-    let (name, value) = line.text.split_once(':')?;
-    (name.trim() == key && !value.trim().is_empty()).then_some(value.trim())
-}
-
-fn joined(parts: &[Option<(usize, &str)>]) -> Option<String> {
-    words(&parts.iter().flatten().map(|(_, value)| *value).collect::<Vec<_>>().join(" "))
+fn value<'a>(header: &[&'a str], key: &str) -> Option<(usize, &'a str)> {
+    let value = |(line, text): (usize, &&'a str)| {
+        let (name, value) = text.split_once(':')?;
+        (name.trim() == key && !value.trim().is_empty()).then_some((line + 1, value.trim()))
+    };
+    header.iter().enumerate().find_map(value)
 }

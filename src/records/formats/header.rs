@@ -1,53 +1,104 @@
-//! What the headers of all formats share: time steps, peaks and azimuths.
+//! What the headers of the agencies share, and blocks of numbers.
 
 use super::error::RecordFileError;
-use super::numbers::leading_number;
-use super::unit::AccelerationUnit;
-use crate::records::HeaderPga;
+use crate::records::{HeaderPga, ReadOptions, UnitSource};
+use crate::units::{Quantity, Unit};
 
 /// The longest time step of a record, s.
 const LONGEST_STEP_S: f64 = 10.0;
 
 /// Checks a time step (s) that stands on a line.
-///
-/// # Errors
-/// If it is no step of a record of shaking.
 pub fn time_step(dt_s: f64, line: usize) -> Result<f64, RecordFileError> {
-    if dt_s > 0.0 && dt_s <= LONGEST_STEP_S {
-        Ok(dt_s)
-    } else {
-        Err(RecordFileError::TimeStep { line, dt_s })
-    }
+    let refusal =
+        || RecordFileError::value(line, "time step", &format!("{dt_s} s"), "one above 0 s and up to 10 s");
+    Some(dt_s).filter(|dt_s| *dt_s > 0.0 && *dt_s <= LONGEST_STEP_S).ok_or_else(refusal)
+}
+
+/// Reads the unit of acceleration with which a text on a line begins; words or a code may follow it.
+pub fn unit_of(text: &str, line: usize) -> Result<(Unit, UnitSource), RecordFileError> {
+    let word = text.trim_start().split(|c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';')).next();
+    let unit = word.and_then(Unit::parse).filter(|unit| unit.quantity == Quantity::Acceleration);
+    let refusal = || RecordFileError::value(line, "unit", text, "one of acceleration, such as g or cm/s2");
+    unit.map(|unit| (unit, UnitSource::File)).ok_or_else(refusal)
+}
+
+/// Returns the unit that the user gives of a file without one.
+pub fn given_unit(options: &ReadOptions, line: usize) -> Result<(Unit, UnitSource), RecordFileError> {
+    let missing = RecordFileError::missing(line, "unit", "one in the file, or --unit, such as --unit g");
+    options.unit.map(|unit| (unit, UnitSource::User)).ok_or(missing)
 }
 
 /// Reads the peak acceleration at the beginning of a text.
-pub fn header_pga(text: &str, unit: AccelerationUnit) -> Option<HeaderPga> {
+pub fn header_pga(text: &str, unit: Unit) -> Option<HeaderPga> {
     let text = text.trim_start();
     let value = leading_number(text)?.abs();
     let digits = text.split(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '+' | '-'))).next()?;
     let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len().min(300));
-    let rounding = 0.5 * libm::exp10(-(decimals as f64));
-    let scale = unit.in_m_s2();
-    (value > 0.0).then_some(HeaderPga { m_s2: value * scale, rounding_m_s2: rounding * scale })
+    let rounding = 0.5 * 10f64.powi(-(decimals as i32));
+    (value > 0.0).then_some(HeaderPga { m_s2: value * unit.si, rounding_m_s2: rounding * unit.si })
 }
 
-/// Reads the azimuth of a component (degrees clockwise from north) from its name: a number, or a direction of the compass.
-/// None for a vertical or unnamed one.
+/// Reads the azimuth of a component (degrees clockwise from north) from its name: a number, or a direction of
+/// the compass. None for a vertical or unnamed one.
 pub fn azimuth_of(component: &str) -> Option<f64> {
-    const COMPASS: [(&str, f64); 10] = [
-        ("N", 0.0),
-        ("NS", 0.0),
-        ("N-S", 0.0),
-        ("NORTH", 0.0),
-        ("E", 90.0),
-        ("EW", 90.0),
-        ("E-W", 90.0),
-        ("EAST", 90.0),
-        ("S", 180.0),
-        ("W", 270.0),
-    ];
-    let component = component.trim();
-    let compass = COMPASS.iter().find(|(name, _)| name.eq_ignore_ascii_case(component));
-    let number = || component.parse().ok().filter(|degrees| (0.0..=360.0).contains(degrees));
-    compass.map(|(_, degrees)| *degrees).or_else(number)
+    match component.trim().to_ascii_uppercase().as_str() {
+        "N" | "NS" | "N-S" | "NORTH" => Some(0.0),
+        "E" | "EW" | "E-W" | "EAST" => Some(90.0),
+        "S" => Some(180.0),
+        "W" => Some(270.0),
+        number => number.parse().ok().filter(|degrees| (0.0..=360.0).contains(degrees)),
+    }
+}
+
+/// Returns what follows `key` in a text, whatever the case; the key is ASCII.
+pub fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
+    let at =
+        text.as_bytes().windows(key.len()).position(|bytes| bytes.eq_ignore_ascii_case(key.as_bytes()))?;
+    text.get(at + key.len()..)
+}
+
+/// Joins the words of a text by single blanks; none if there are no words.
+pub fn words(text: &str) -> Option<String> {
+    let words = text.replace('\0', " ").split_whitespace().collect::<Vec<_>>().join(" ");
+    (!words.is_empty()).then_some(words)
+}
+
+/// Reads the number with which a text begins, though letters may follow it at once (`100Hz`).
+pub fn leading_number(text: &str) -> Option<f64> {
+    let text = text.trim_start();
+    let end = text.find(|c: char| !c.is_ascii_digit() && !"+-.eE".contains(c)).unwrap_or(text.len()).min(40);
+    (1..=end).rev().find_map(|end| text[..end].parse().ok()).filter(|value: &f64| value.is_finite())
+}
+
+/// Reads the first number in a text, whatever stands before it.
+pub fn first_number(text: &str) -> Option<f64> {
+    let starts = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.');
+    text.match_indices(starts).find_map(|(at, _)| leading_number(&text[at..]))
+}
+
+/// Reads the announced number of samples from the lines after the first `header` ones, each in `cells`.
+/// Surplus numbers that only fill the last line are padding.
+pub fn samples<'a, I: Iterator<Item = &'a str>>(
+    lines: &[&'a str],
+    header: usize,
+    announced: f64,
+    cells: impl Fn(&'a str) -> I,
+) -> Result<Vec<f64>, RecordFileError> {
+    let (mut values, mut on_last_line) = (Vec::new(), 1);
+    for (at, line) in lines.iter().enumerate().skip(header) {
+        let before = values.len();
+        for cell in cells(line) {
+            let value = cell.parse().ok().filter(|value: &f64| value.is_finite());
+            values.push(value.ok_or_else(|| RecordFileError::value(at + 1, "sample", cell, "a number"))?);
+        }
+        if values.len() > before {
+            on_last_line = values.len() - before;
+        }
+    }
+    let (announced, found) = (announced as u64, values.len());
+    if announced < 2 || (found as u64) < announced || found as u64 - announced >= on_last_line as u64 {
+        return Err(RecordFileError::Count { announced, found });
+    }
+    values.truncate(announced as usize);
+    Ok(values)
 }

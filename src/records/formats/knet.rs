@@ -1,88 +1,58 @@
-//! K-NET and KiK-net ASCII: lines of a key and a value, then integers which the scale factor makes gal. Their zero means
-//! nothing, so the mean is removed; the header's peak is about the mean as well.
+//! K-NET and KiK-net ASCII: lines of a key and a value, then integers which the scale factor makes gal. Their
+//! zero means nothing, so the mean is removed; the header's peak is about the mean as well.
 
 use super::error::RecordFileError;
-use super::header::{header_pga, time_step};
-use super::numbers::{first_number, leading_number, samples};
-use super::text::{Line, after, lines, quoted, words};
-use super::unit::AccelerationUnit;
-use crate::records::{Given, RecordedMotion, SaidUnit};
+use super::header::{
+    after, azimuth_of, first_number, header_pga, leading_number, samples, time_step, unit_of, words,
+};
+use crate::records::{ReadOptions, RecordedMotion};
 
 /// Lines in which the header must come to its end.
 const HEADER: usize = 40;
-/// The directions of K-NET by name and of KiK-net by number, in the borehole and at the surface: component, azimuth, and
-/// where at the station.
-const DIRECTIONS: [(&str, &str, Option<f64>, &str); 9] = [
-    ("N-S", "N-S", Some(0.0), ""),
-    ("E-W", "E-W", Some(90.0), ""),
-    ("U-D", "U-D", None, ""),
-    ("1", "N-S", Some(0.0), "borehole"),
-    ("2", "E-W", Some(90.0), "borehole"),
-    ("3", "U-D", None, "borehole"),
-    ("4", "N-S", Some(0.0), "surface"),
-    ("5", "E-W", Some(90.0), "surface"),
-    ("6", "U-D", None, "surface"),
-];
-
 /// Tells whether it begins as all of them do.
-pub fn recognises(text: &str) -> bool {
-    lines(text).next().is_some_and(|line| value(line, "Origin Time").is_some())
+pub fn recognises(lines: &[&str]) -> bool {
+    value(lines.first().unwrap_or(&""), "Origin Time").is_some()
 }
 
 /// Reads the motion of a K-NET or KiK-net file.
-///
-/// # Errors
-/// If a key is missing or the samples are not as announced.
-pub fn parse(text: &str, given: &Given) -> Result<RecordedMotion, RecordFileError> {
-    let memo = lines(text).take(HEADER).find(|line| value(*line, "Memo").is_some());
-    let end = memo.ok_or(RecordFileError::Missing {
-        line: HEADER,
-        what: "line 'Memo.'",
-        expected: "it at the end of the header: get the file again",
-    })?;
-    let find = |key| lines(text).take(end.number).find_map(|line| Some((line.number, value(line, key)?)));
-    let missing = |what, expected| RecordFileError::Missing { line: end.number, what, expected };
-    let (line, dt_s) = match (find("Sampling Freq(Hz)"), given.dt_s) {
-        (Some((line, frequency)), _) => (line, 1.0 / leading_number(frequency).unwrap_or(0.0)),
-        (None, Some(dt_s)) => (end.number, dt_s),
-        (None, None) => {
-            return Err(missing("Sampling Freq(Hz)", "such a line: give the time step with --dt"));
-        }
-    };
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, RecordFileError> {
+    let memo = lines.iter().take(HEADER).position(|line| value(line, "Memo").is_some());
+    let missing = RecordFileError::missing;
+    let end = memo.ok_or(missing(HEADER, "Memo.", "it at the end of the header"))?;
+    let find =
+        |key| lines[..end].iter().zip(1..).find_map(|(line, number)| Some((number, value(line, key)?)));
+    let hertz =
+        find("Sampling Freq(Hz)").map(|(line, text)| (line, 1.0 / leading_number(text).unwrap_or(0.0)));
+    let step = hertz.or(options.dt_s.map(|dt_s| (end, dt_s)));
+    let (line, dt_s) = step.ok_or(missing(end, "Sampling Freq(Hz)", "such a line, or --dt"))?;
     let dt_s = time_step(dt_s, line)?;
-    let gal = scale(find("Scale Factor").ok_or_else(|| missing("Scale Factor", "'2000(gal)/8388608'"))?)?;
+    let (line, text) = find("Scale Factor").ok_or(missing(end, "Scale Factor", "'2000(gal)/8388608'"))?;
+    let counts = after(text, "/").and_then(first_number).filter(|counts| *counts != 0.0);
+    let scale = leading_number(text).and_then(|gal| Some(gal / counts?));
+    let refusal =
+        || RecordFileError::value(line, "Scale Factor", text, "gal over counts, '2000(gal)/8388608'");
+    let scale = scale.ok_or_else(refusal)?;
     let duration_s = find("Duration Time(s)").and_then(|(_, duration)| leading_number(duration));
-    let announced = duration_s.ok_or_else(|| missing("Duration Time(s)", "a duration in seconds"))? / dt_s;
-    let counts = samples(lines(text).skip(end.number), announced.round() as u64, None)?;
+    let duration_s = duration_s.ok_or(missing(end, "Duration Time(s)", "a duration in seconds"))?;
+    let counts = samples(lines, end + 1, (duration_s / dt_s).round(), str::split_ascii_whitespace)?;
     let mean = counts.iter().sum::<f64>() / counts.len() as f64;
-    let scale = gal * AccelerationUnit::CentimetrePerSecond2.in_m_s2();
+    let gal = counts.into_iter().map(|count| (count - mean) * scale).collect();
+    let unit = unit_of("gal", line)?;
     let direction = find("Dir.").map_or("", |(_, direction)| direction);
-    let known = DIRECTIONS.iter().find(|(code, ..)| *code == direction);
-    let place = known.map_or("", |(.., place)| place);
+    // KiK-net counts three directions in the borehole, then those at the surface.
+    let number = direction.parse().ok().filter(|number: &usize| (1..=6).contains(number));
+    let component = number.map_or(direction, |number| ["N-S", "E-W", "U-D"][(number - 1) % 3]);
+    let place = number.map_or("", |number| if number <= 3 { "borehole" } else { "surface" });
     Ok(RecordedMotion {
-        dt_s,
-        acceleration_m_s2: counts.into_iter().map(|count| (count - mean) * scale).collect(),
         event: find("Origin Time").and_then(|(_, time)| words(time)),
         station: find("Station Code").and_then(|(_, code)| words(&format!("{code} {place}"))),
-        component: known.map_or(words(direction), |(_, name, ..)| words(name)),
-        azimuth_deg: known.and_then(|(_, _, azimuth, _)| *azimuth),
-        header_pga: find("Max. Acc. (gal)")
-            .and_then(|(_, peak)| header_pga(peak, AccelerationUnit::CentimetrePerSecond2)),
-        unit: Some(SaidUnit::by_file(AccelerationUnit::CentimetrePerSecond2)),
-        ..RecordedMotion::default()
+        component: words(component),
+        azimuth_deg: azimuth_of(component),
+        header_pga: find("Max. Acc. (gal)").and_then(|(_, peak)| header_pga(peak, unit.0)),
+        ..RecordedMotion::new(dt_s, gal, unit)
     })
 }
 
-fn value<'a>(line: Line<'a>, key: &str) -> Option<&'a str> {
-    line.text.trim_start().strip_prefix(key).map(str::trim)
-}
-
-/// Gal in a count, from `7845(gal)/6182761`.
-fn scale((line, text): (usize, &str)) -> Result<f64, RecordFileError> {
-    let gal = leading_number(text);
-    let counts = after(text, "/").and_then(first_number);
-    match (gal, counts) {
-        (Some(gal), Some(counts)) if counts != 0.0 => Ok(gal / counts),
-        _ => Err(RecordFileError::NoNumber { line, text: quoted(text) }),
-    }
+fn value<'a>(line: &'a str, key: &str) -> Option<&'a str> {
+    line.trim_start().strip_prefix(key).map(str::trim)
 }

@@ -1,26 +1,32 @@
-//! The pulse of Mavroeidis & Papageorgiou (Eq. 1) that is nearest to a recorded velocity, by separable least squares: Eq. 1
-//! is linear in A cos nu and A sin nu, so that only period, gamma and time are searched.
+//! The pulse of Mavroeidis & Papageorgiou (Eq. 1) that is nearest to a recorded velocity. Eq. 1 is linear in
+//! A cos nu and A sin nu, which are solved for (variable projection), so that only period, gamma and time are
+//! searched, by the simplex of Nelder and Mead.
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Vector3};
+use argmin::core::{CostFunction, Error, Executor};
+use argmin::solver::neldermead::NelderMead;
+use argmin_math::{ArgminAdd, ArgminMul, ArgminSub};
+use nalgebra::Vector3;
 
 use super::indicator::PERIODS_S;
 use crate::motion::Pulse;
 
-/// Where the search starts: gammas, periods as shares of the wavelet's, times from the wavelet's centre in periods.
-const START_GAMMAS: [f64; 5] = [1.1, 1.5, 2.0, 2.7, 3.6];
-const START_PERIODS: [f64; 9] = [0.55, 0.65, 0.76, 0.87, 1.0, 1.15, 1.32, 1.52, 1.8];
-const START_TIMES: [f64; 9] = [-0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8];
+/// Where searches may start: gammas; periods, and times from the centre, in periods of the wavelet.
+const START_GAMMAS: [f64; 3] = [1.2, 2.0, 3.2];
+const START_PERIODS: [f64; 5] = [0.6, 0.78, 1.0, 1.28, 1.65];
+const START_TIMES: [f64; 7] = [-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75];
+/// Searches from the best of these.
+const SEARCHES: usize = 3;
+/// Sides of the first simplex, in periods, gamma, and times in periods.
+const SIDES: [f64; 3] = [0.1, 0.3, 0.1];
 /// The numbers of half cycles between which gamma lies. Eq. 1 needs more than 1.
 const GAMMA: (f64, f64) = (1.0, 5.0);
 /// Parts of a period over which the velocity is averaged: the pulse changes little within them.
 const PARTS_OF_PERIOD: f64 = 100.0;
-/// Steps of the search, and the relative gain below which it ends.
-const MOST_STEPS: usize = 60;
-const LEAST_GAIN: f64 = 1e-12;
-/// Step of the derivatives by differences, in units of the search.
-const DIFFERENCE: f64 = 1e-5;
+/// A search ends after so many steps, or at this spread over its simplex, as a share of what is explained.
+const MOST_STEPS: u64 = 300;
+const TOLERANCE: f64 = 1e-10;
 
 /// A pulse fitted to a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,34 +40,28 @@ pub struct FittedPulse {
 }
 
 impl FittedPulse {
-    /// Finds the pulse nearest to a velocity (m/s) at steps of `dt_s`, searched from a period and a time (s) about which a
-    /// wavelet found it. None if the velocity is zero.
+    /// Finds the pulse nearest to a velocity (m/s) at steps of `dt_s`, searched from a period and a time (s)
+    /// about which a wavelet found it. None if the velocity is zero.
     pub fn fit(velocity: &[f64], dt_s: f64, period_s: f64, time_s: f64) -> Option<FittedPulse> {
         let series = Series::of(velocity, dt_s, period_s);
-        let starts = START_GAMMAS.iter().flat_map(|&gamma| {
-            START_PERIODS.iter().flat_map(move |&share| {
-                START_TIMES.iter().map(move |&shift| Shape {
-                    tp_s: (share * period_s).clamp(PERIODS_S.0, PERIODS_S.1),
-                    gamma,
-                    t0_s: time_s + shift * period_s,
-                })
-            })
-        });
-        let best = starts
-            .map(|shape| (series.solve(&shape).explained, shape))
-            .max_by(|(a, _), (b, _)| a.total_cmp(b))
-            .map(|(_, shape)| series.levenberg_marquardt(shape))?;
-        let Linear { cosine, sine, .. } = series.solve(&best);
-        let pulse = Pulse {
-            amplitude_m_s: libm::hypot(cosine, sine),
-            tp_s: best.tp_s,
-            gamma: best.gamma,
-            nu_rad: libm::atan2(sine, cosine),
-        };
-        let left = |(k, v): (usize, &f64)| (v - pulse.velocity_m_s(k as f64 * dt_s - best.t0_s)).powi(2);
+        let mut starts = Vec::new();
+        for gamma in START_GAMMAS {
+            for share in START_PERIODS {
+                for shift in START_TIMES {
+                    let place = Place(Vector3::new(share * period_s, gamma, time_s + shift * period_s));
+                    starts.push((series.nearest(&place).1, place));
+                }
+            }
+        }
+        starts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let search = |(explained, place): &(f64, Place)| series.search(place, *explained);
+        let found = starts.iter().take(SEARCHES).filter_map(search);
+        let best = found.max_by(|a, b| series.nearest(a).1.total_cmp(&series.nearest(b).1))?;
+        let ((pulse, _), t0_s) = (series.nearest(&best), best.0.z);
+        let left = |(k, v): (usize, &f64)| (v - pulse.velocity_m_s(k as f64 * dt_s - t0_s)).powi(2);
         let residual: f64 = velocity.iter().enumerate().map(left).sum();
         let r2 = 1.0 - residual / velocity.iter().map(|v| v * v).sum::<f64>();
-        r2.is_finite().then_some(FittedPulse { pulse, t0_s: best.t0_s, r2 })
+        r2.is_finite().then_some(FittedPulse { pulse, t0_s, r2 })
     }
 
     /// Returns the pulse of the same record scaled by a factor.
@@ -71,56 +71,13 @@ impl FittedPulse {
     }
 }
 
-/// The parameters in which Eq. 1 is not linear.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Shape {
-    tp_s: f64,
-    gamma: f64,
-    /// Time of the middle, s.
-    t0_s: f64,
-}
-
-impl Shape {
-    /// Moves the shape by steps in ln Tp, gamma and t0 / Tp, within the bounds.
-    fn moved(&self, steps: &Vector3<f64>) -> Shape {
-        Shape {
-            tp_s: (self.tp_s * libm::exp(steps.x)).clamp(PERIODS_S.0, PERIODS_S.1),
-            gamma: (self.gamma + steps.y).clamp(GAMMA.0, GAMMA.1),
-            t0_s: self.t0_s + steps.z * self.tp_s,
-        }
-    }
-
-    /// Computes the two functions of time that A cos nu and A sin nu multiply (Eq. 1, cos(x + nu) expanded).
-    fn functions(&self, time_s: f64) -> (f64, f64) {
-        let x = 2.0 * PI * (time_s - self.t0_s) / self.tp_s;
-        if x.abs() > PI * self.gamma {
-            return (0.0, 0.0);
-        }
-        let envelope = 0.5 * (1.0 + libm::cos(x / self.gamma));
-        (envelope * libm::cos(x), -envelope * libm::sin(x))
-    }
-}
-
-/// The parameters in which Eq. 1 is linear, and how much of the squared velocity the pulse explains.
-struct Linear {
-    /// A cos nu, m/s.
-    cosine: f64,
-    /// A sin nu, m/s.
-    sine: f64,
-    /// Part of the sum of the squared velocities.
-    explained: f64,
-}
-
-/// A velocity as means over equal parts of time, which are as good as its samples for a pulse that hardly changes within
-/// them.
+/// A velocity as means over equal parts of time, within which a pulse hardly changes.
 struct Series {
     means: Vec<f64>,
     /// Middle of the first part, s.
     first_s: f64,
     /// Length of a part, s.
     step_s: f64,
-    /// Sum of the squares of the means.
-    energy: f64,
 }
 
 impl Series {
@@ -128,95 +85,76 @@ impl Series {
     fn of(velocity: &[f64], dt_s: f64, period_s: f64) -> Series {
         let samples = ((period_s / PARTS_OF_PERIOD / dt_s) as usize).max(1);
         let mean = |part: &[f64]| part.iter().sum::<f64>() / samples as f64;
-        let means: Vec<f64> = velocity.chunks_exact(samples).map(mean).collect();
-        let energy = means.iter().map(|v| v * v).sum();
-        Series { means, first_s: 0.5 * (samples - 1) as f64 * dt_s, step_s: samples as f64 * dt_s, energy }
+        let means = velocity.chunks_exact(samples).map(mean).collect();
+        Series { means, first_s: 0.5 * (samples - 1) as f64 * dt_s, step_s: samples as f64 * dt_s }
     }
 
-    fn time_s(&self, part: usize) -> f64 {
-        self.first_s + part as f64 * self.step_s
-    }
-
-    /// Iterates over times and velocities where the pulse is not zero.
-    fn inside(&self, shape: &Shape) -> impl Iterator<Item = (f64, f64)> {
-        let half = 0.5 * shape.gamma * shape.tp_s;
+    /// Finds the nearest pulse of a period, gamma and time of its middle (s, 1, s; within the bounds) by the
+    /// normal equations of A cos nu and A sin nu, and the part of the sum of squared velocities that it
+    /// explains.
+    fn nearest(&self, Place(place): &Place) -> (Pulse, f64) {
+        let (tp_s, gamma) = (place.x.clamp(PERIODS_S.0, PERIODS_S.1), place.y.clamp(GAMMA.0, GAMMA.1));
+        let (t0_s, half) = (place.z, 0.5 * gamma * tp_s);
         let part = |time_s: f64| ((time_s - self.first_s) / self.step_s).max(0.0) as usize;
-        let (first, last) = (part(shape.t0_s - half), part(shape.t0_s + half));
-        let inside = self.means.iter().enumerate().take(last.saturating_add(2)).skip(first);
-        inside.map(|(k, v)| (self.time_s(k), *v))
-    }
-
-    /// Sums the normal equations of A cos nu and A sin nu: the matrix (three numbers, being symmetric) and the right side.
-    fn normal(&self, shape: &Shape) -> ([f64; 3], [f64; 2]) {
-        let (mut matrix, mut right) = ([0.0; 3], [0.0; 2]);
-        for (time_s, v) in self.inside(shape) {
-            let (c, s) = shape.functions(time_s);
-            matrix[0] += c * c;
-            matrix[1] += c * s;
-            matrix[2] += s * s;
-            right[0] += c * v;
-            right[1] += s * v;
+        let [mut cc, mut cs, mut ss, mut cv, mut sv] = [0.0; 5];
+        let last = part(t0_s + half).saturating_add(2);
+        for (k, v) in self.means.iter().enumerate().take(last).skip(part(t0_s - half)) {
+            let x = 2.0 * PI * (self.first_s + k as f64 * self.step_s - t0_s) / tp_s;
+            if x.abs() <= PI * gamma {
+                // Eq. 1 with cos(x + nu) expanded.
+                let envelope = 0.5 * (1.0 + (x / gamma).cos());
+                let (c, s) = (envelope * x.cos(), -envelope * x.sin());
+                (cc, cs, ss) = (cc + c * c, cs + c * s, ss + s * s);
+                (cv, sv) = (cv + c * v, sv + s * v);
+            }
         }
-        (matrix, right)
-    }
-
-    /// Finds the best pulse of a shape.
-    fn solve(&self, shape: &Shape) -> Linear {
-        let ([cc, cs, ss], [cv, sv]) = self.normal(shape);
         let determinant = cc * ss - cs * cs;
         // Both functions are alike where only a few samples lie within the pulse.
-        if determinant <= 1e-12 * cc * ss {
-            return Linear { cosine: 0.0, sine: 0.0, explained: 0.0 };
-        }
-        let (cosine, sine) = ((ss * cv - cs * sv) / determinant, (cc * sv - cs * cv) / determinant);
-        Linear { cosine, sine, explained: cosine * cv + sine * sv }
+        let is_sound = determinant > 1e-12 * cc * ss;
+        let solved = ((ss * cv - cs * sv) / determinant, (cc * sv - cs * cv) / determinant);
+        let (cosine, sine) = if is_sound { solved } else { (0.0, 0.0) };
+        let pulse = Pulse { amplitude_m_s: cosine.hypot(sine), tp_s, gamma, nu_rad: sine.atan2(cosine) };
+        (pulse, cosine * cv + sine * sv)
     }
 
-    /// Computes what the best pulse of a shape leaves of the velocity.
-    fn residual(&self, shape: &Shape) -> Vec<f64> {
-        let Linear { cosine, sine, .. } = self.solve(shape);
-        let left = |(k, v): (usize, &f64)| {
-            let (c, s) = shape.functions(self.time_s(k));
-            v - cosine * c - sine * s
-        };
-        self.means.iter().enumerate().map(left).collect()
+    /// Searches for the place whose pulse explains most, from one whose pulse explains so much.
+    fn search(&self, Place(start): &Place, explained: f64) -> Option<Place> {
+        let sides = Vector3::new(SIDES[0] * start.x, SIDES[1], SIDES[2] * start.x);
+        let corners = (0..3).map(|axis| Place(start + sides.component_mul(&Vector3::ith(axis, 1.0))));
+        let simplex = corners.chain([Place(*start)]).collect();
+        let solver = NelderMead::new(simplex).with_sd_tolerance(TOLERANCE * explained).ok()?;
+        let search = Executor::new(self, solver).timer(false).configure(|state| state.max_iters(MOST_STEPS));
+        search.run().ok()?.state.take_best_param()
     }
+}
 
-    /// Improves a shape by the steps of Levenberg and Marquardt until nothing is gained.
-    fn levenberg_marquardt(&self, mut shape: Shape) -> Shape {
-        let mut damping = 1e-3;
-        let mut explained = self.solve(&shape).explained;
-        for _ in 0..MOST_STEPS {
-            let (matrix, gradient) = self.derivatives(&shape);
-            let damped = matrix + Matrix3::from_diagonal(&matrix.diagonal()) * damping;
-            let Some(step) = damped.lu().solve(&gradient) else { break };
-            let next = shape.moved(&step);
-            let gain = self.solve(&next).explained - explained;
-            // Gauss and Newton's step where it gains, the steeper one of the gradient where it does not.
-            if gain > 0.0 {
-                (shape, explained) = (next, explained + gain);
-                damping *= 0.2;
-            } else {
-                damping *= 5.0;
-            }
-            if (0.0..LEAST_GAIN * self.energy).contains(&gain) || damping > 1e9 {
-                break;
-            }
-        }
-        shape
+impl CostFunction for &Series {
+    type Param = Place;
+    type Output = f64;
+
+    fn cost(&self, place: &Place) -> Result<f64, Error> {
+        Ok(-self.nearest(place).1)
     }
+}
 
-    /// Computes J'J and -J'r of the residual with respect to the steps, J by central differences.
-    fn derivatives(&self, shape: &Shape) -> (Matrix3<f64>, Vector3<f64>) {
-        let residual = self.residual(shape);
-        let columns: [Vec<f64>; 3] = std::array::from_fn(|axis| {
-            let mut step = Vector3::zeros();
-            step[axis] = DIFFERENCE;
-            let (ahead, behind) = (self.residual(&shape.moved(&step)), self.residual(&shape.moved(&-step)));
-            ahead.iter().zip(behind).map(|(a, b)| (a - b) / (2.0 * DIFFERENCE)).collect()
-        });
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-        let matrix = Matrix3::from_fn(|row, column| dot(&columns[row], &columns[column]));
-        (matrix, Vector3::from_fn(|row, _| -dot(&columns[row], &residual)))
+/// Period (s), gamma, and time of the middle (s) of a pulse, as argmin adds and stretches them.
+#[derive(Clone)]
+struct Place(Vector3<f64>);
+
+impl ArgminAdd<Place, Place> for Place {
+    fn add(&self, other: &Place) -> Place {
+        Place(self.0 + other.0)
+    }
+}
+
+impl ArgminSub<Place, Place> for Place {
+    fn sub(&self, other: &Place) -> Place {
+        Place(self.0 - other.0)
+    }
+}
+
+impl ArgminMul<f64, Place> for Place {
+    fn mul(&self, factor: &f64) -> Place {
+        Place(self.0 * *factor)
     }
 }

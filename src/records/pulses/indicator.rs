@@ -1,17 +1,18 @@
-//! Whether one component of a record holds a velocity pulse, after Baker (2007), "Quantitative classification of
-//! near-fault ground motions using wavelet analysis", BSSA 97(5).
+//! Whether one component of a record holds a velocity pulse, after Baker (2007), "Quantitative classification
+//! of near-fault ground motions using wavelet analysis", BSSA 97(5).
 
-use super::wavelet::{SampledWavelet, Wavelet, WaveletScratch, WaveletTransform};
+use super::wavelet::{Wavelet, WaveletTransform};
 use crate::keyword::keywords;
 use crate::motion::intensity::peak;
 
 /// Periods of pulses that are looked for, s.
 pub const PERIODS_S: (f64, f64) = (0.25, 15.0);
-/// Periods at which all of the record is looked at, in equal ratios, and how many between two of them about a local maximum.
+/// Periods at which all of the record is looked at, in equal ratios, and how many between two of them about a
+/// local maximum.
 const PERIODS: usize = 60;
 const REFINED: usize = 20;
-/// Local maxima whose square is at least this share of the largest are refined: the steps between the periods are so small that no
-/// other becomes the largest.
+/// Local maxima whose square is at least this share of the largest are refined: the steps between the periods
+/// are so small that no other becomes the largest.
 const LEAST_PEAK: f64 = 0.9;
 /// Wavelets that make up the extracted pulse.
 const WAVELETS: usize = 10;
@@ -29,8 +30,8 @@ const EARLY: (f64, f64) = (0.10, 0.20);
 /// The pulse indicator of one component, and what it rests on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PulseIndicator {
-    /// From 0 (no pulse) to 1 (a pulse): 1 / (1 + exp(-23.3 + 14.6 r + 20.5 e)) of the ratios r of peak velocities and e of
-    /// energies, of the record without the pulse to the record.
+    /// From 0 (no pulse) to 1 (a pulse): 1 / (1 + exp(-23.3 + 14.6 r + 20.5 e)) of the ratios r of peak
+    /// velocities and e of energies, of the record without the pulse to the record.
     pub indicator: f64,
     /// Period of the extracted pulse, s.
     pub period_s: f64,
@@ -56,54 +57,55 @@ keywords!(Verdict { Pulse = "pulse", NoPulse = "no_pulse", Late = "late", Weak =
 
 impl PulseIndicator {
     /// Judges a velocity (m/s) at steps of `dt_s`; none if it does not move.
-    pub fn of(velocity: &[f64], dt_s: f64, scratch: &mut WaveletScratch) -> Option<PulseIndicator> {
-        let wavelet = strongest_wavelet(&[velocity], dt_s, scratch)?;
+    pub fn of(velocity: &[f64], dt_s: f64) -> Option<PulseIndicator> {
+        let (period_s, centre) = strongest_wavelet(&[velocity], dt_s)?;
         // Baker's predictors: what of peak velocity and energy remains without the pulse.
-        let pulse = extract(velocity, dt_s, wavelet);
+        let pulse = extract(velocity, dt_s, period_s, centre);
         let residual: Vec<f64> = velocity.iter().zip(&pulse).map(|(v, p)| v - p).collect();
         let pgv = peak(velocity);
         let indicator = indicator(peak(&residual) / pgv, energy(&residual) / energy(velocity));
         let early = sample_of_share(&pulse, EARLY.0) < sample_of_share(velocity, EARLY.1);
-        let verdict = if indicator <= THRESHOLD {
-            Verdict::NoPulse
-        } else if pgv < LEAST_PGV_M_S {
-            Verdict::Weak
-        } else if !early {
-            Verdict::Late
-        } else {
-            Verdict::Pulse
+        let verdict = match (indicator > THRESHOLD, pgv >= LEAST_PGV_M_S, early) {
+            (false, _, _) => Verdict::NoPulse,
+            (true, false, _) => Verdict::Weak,
+            (true, true, false) => Verdict::Late,
+            (true, true, true) => Verdict::Pulse,
         };
-        Some(PulseIndicator { indicator, period_s: wavelet.period_s, centre_s: wavelet.centre_s, verdict })
+        Some(PulseIndicator { indicator, period_s, centre_s: centre as f64 * dt_s, verdict })
     }
 }
 
 /// Computes Baker's logistic regression.
 pub fn indicator(pgv_ratio: f64, energy_ratio: f64) -> f64 {
-    1.0 / (1.0 + libm::exp(-23.3 + 14.6 * pgv_ratio + 20.5 * energy_ratio))
+    1.0 / (1.0 + (-23.3 + 14.6 * pgv_ratio + 20.5 * energy_ratio).exp())
 }
 
-/// Finds the direction in which two components (velocities, m/s) at right angles have the largest wavelet coefficient: its parts
-/// along both, after Shahi & Baker (2014). None if they do not move.
-pub fn strongest_direction(
-    velocities: [&[f64]; 2],
-    dt_s: f64,
-    scratch: &mut WaveletScratch,
-) -> Option<[f64; 2]> {
-    let strongest = strongest_wavelet(&velocities, dt_s, scratch)?;
-    Some(velocities.map(|velocity| strongest.coefficient(velocity, dt_s)))
+/// Finds the direction in which two components (velocities, m/s) at right angles have the largest wavelet
+/// coefficient: its parts along both, after Shahi & Baker (2014). None if they do not move.
+pub fn strongest_direction(velocities: [&[f64]; 2], dt_s: f64) -> Option<[f64; 2]> {
+    let (period_s, centre) = strongest_wavelet(&velocities, dt_s)?;
+    let wavelet = Wavelet::new(period_s, dt_s);
+    Some(velocities.map(|velocity| wavelet.coefficient(velocity, centre)))
 }
 
-/// Finds the wavelet whose coefficients in all velocities have the largest sum of squares, refined from each local maximum among the
-/// periods: two of nearly the same height may lie far apart. None if the velocities are zero.
-fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64, scratch: &mut WaveletScratch) -> Option<Wavelet> {
+/// Finds the period (s) and the central sample of the wavelet whose coefficients in all velocities have the
+/// largest sum of squares, refined from each local maximum among the periods: two of nearly the same height
+/// may lie far apart. None if the velocities are zero.
+fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64) -> Option<(f64, i64)> {
     let (shortest, longest) = PERIODS_S;
-    let ratio = libm::pow(longest / shortest, 1.0 / (PERIODS - 1) as f64);
-    let period_s = |place: f64| (shortest * libm::pow(ratio, place)).clamp(shortest, longest);
-    let Decimated { velocities, dt_s } = Decimated::of(velocities, dt_s);
-    let transforms: Vec<WaveletTransform> =
-        velocities.iter().map(|velocity| WaveletTransform::new(velocity, dt_s, longest, scratch)).collect();
-    let of_period = |k: usize| strongest_sample(&transforms, period_s(k as f64), scratch);
-    let scan: Vec<(f64, usize)> = (0..PERIODS).map(of_period).collect();
+    let ratio = (longest / shortest).powf(1.0 / (PERIODS - 1) as f64);
+    let period_s = |place: f64| (shortest * ratio.powf(place)).clamp(shortest, longest);
+    let every = samples_in_step(dt_s);
+    let dt_s = dt_s * every as f64;
+    let decimated = |velocity: &&[f64]| velocity.iter().step_by(every).copied().collect();
+    let velocities: Vec<Vec<f64>> = velocities.iter().map(decimated).collect();
+    let transform = WaveletTransform::new(&velocities, dt_s, longest);
+    // The largest sum of squares of each period, and its sample.
+    let strongest = |k: usize| {
+        let squares = transform.squares(period_s(k as f64)).into_iter().zip(0..);
+        squares.fold((0.0, 0), |best, (square, at)| if square > best.0 { (square, at) } else { best })
+    };
+    let scan: Vec<(f64, i64)> = (0..PERIODS).map(strongest).collect();
     let largest = scan.iter().map(|(square, _)| *square).fold(0.0, f64::max);
     let square = |k: usize| scan.get(k).map_or(0.0, |(square, _)| *square);
     let is_peak = |k: &usize| {
@@ -114,76 +116,36 @@ fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64, scratch: &mut WaveletScra
         let places = (0..=2 * REFINED).map(move |step| k as f64 + step as f64 / REFINED as f64 - 1.0);
         places.map(move |place| (period_s(place), k))
     });
-    let at_period = |(period_s, k): (f64, usize)| {
-        let wavelet = Wavelet { period_s, centre_s: scan[k].1 as f64 * dt_s };
-        let squares = velocities.iter().map(|velocity| wavelet.coefficient(velocity, dt_s).powi(2));
-        (squares.sum::<f64>(), wavelet)
-    };
-    refined.map(at_period).max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, wavelet)| wavelet)
+    let squares = refined.map(|(period_s, k)| {
+        let (wavelet, centre) = (Wavelet::new(period_s, dt_s), scan[k].1);
+        let coefficients = velocities.iter().map(|velocity| wavelet.coefficient(velocity, centre).powi(2));
+        (coefficients.sum::<f64>(), (period_s, centre * every as i64))
+    });
+    squares.max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, strongest)| strongest)
 }
 
-/// Finds the sample at which wavelets of a period have the largest sum of squared coefficients, and that sum.
-fn strongest_sample(
-    transforms: &[WaveletTransform],
-    period_s: f64,
-    scratch: &mut WaveletScratch,
-) -> (f64, usize) {
-    let mut coefficients = transforms.iter().map(|transform| transform.coefficients(period_s, scratch));
-    let mut squares = coefficients.next().unwrap_or_default();
-    squares.iter_mut().for_each(|value| *value *= *value);
-    for component in coefficients {
-        squares.iter_mut().zip(component).for_each(|(sum, value)| *sum += value * value);
-    }
-    (0..).zip(squares).fold(
-        (0.0, 0),
-        |best, (sample, square)| {
-            if square > best.0 { (square, sample) } else { best }
-        },
-    )
+/// Counts the samples in a step at which the velocity is looked at.
+fn samples_in_step(dt_s: f64) -> usize {
+    ((STEP_S / dt_s) as usize).max(1)
 }
 
-/// Velocities of which only every so many samples are kept.
-struct Decimated {
-    velocities: Vec<Vec<f64>>,
-    dt_s: f64,
-}
-
-impl Decimated {
-    fn of(velocities: &[&[f64]], dt_s: f64) -> Decimated {
-        let every = ((STEP_S / dt_s) as usize).max(1);
-        let decimate = |velocity: &&[f64]| velocity.iter().step_by(every).copied().collect();
-        Decimated { velocities: velocities.iter().map(decimate).collect(), dt_s: dt_s * every as f64 }
-    }
-}
-
-/// Extracts the pulse: the strongest wavelet, and those of the same period near it that are the strongest in what remains, one
-/// after the other.
-fn extract(velocity: &[f64], dt_s: f64, first: Wavelet) -> Vec<f64> {
-    let Decimated { velocities, dt_s: step_s } = Decimated::of(&[velocity], dt_s);
-    let mut rest = velocities.into_iter().next().unwrap_or_default();
+/// Extracts the pulse: the strongest wavelet, and those of the same period near it that are the strongest in
+/// what remains, one after the other.
+fn extract(velocity: &[f64], dt_s: f64, period_s: f64, centre: i64) -> Vec<f64> {
+    let every = samples_in_step(dt_s);
+    let step_s = dt_s * every as f64;
+    let (coarse, fine) = (Wavelet::new(period_s, step_s), Wavelet::new(period_s, dt_s));
+    let mut rest: Vec<f64> = velocity.iter().step_by(every).copied().collect();
     let mut pulse = vec![0.0; velocity.len()];
-    let reach = (REACH * first.period_s / step_s).ceil() as i64;
-    let sampled = SampledWavelet::new(first.period_s, step_s);
-    let centre = (first.centre_s / step_s).round() as i64;
+    let (reach, centre) = ((REACH * period_s / step_s).ceil() as i64, centre / every as i64);
     for _ in 0..WAVELETS {
-        let at = |k: i64| (sampled.coefficient(&rest, centre + k), k);
-        let candidates = (-reach..=reach).map(at);
-        let Some((coefficient, k)) = candidates.max_by(|(a, _), (b, _)| a.abs().total_cmp(&b.abs())) else {
-            break;
-        };
-        let wavelet = Wavelet { centre_s: first.centre_s + k as f64 * step_s, ..first };
-        subtract(&mut rest, step_s, coefficient, &wavelet);
-        subtract(&mut pulse, dt_s, -coefficient, &wavelet);
+        let candidates = (centre - reach..=centre + reach).map(|k| (coarse.coefficient(&rest, k), k));
+        let strongest = candidates.max_by(|(a, _), (b, _)| a.abs().total_cmp(&b.abs()));
+        let (coefficient, k) = strongest.unwrap_or((0.0, centre));
+        coarse.add_to(&mut rest, k, -coefficient);
+        fine.add_to(&mut pulse, k * every as i64, coefficient);
     }
     pulse
-}
-
-fn subtract(series: &mut [f64], dt_s: f64, coefficient: f64, wavelet: &Wavelet) {
-    let (from, to) = wavelet.support_s();
-    let (first, last) = ((from / dt_s).max(0.0) as usize, (to / dt_s).max(0.0) as usize);
-    for (k, value) in series.iter_mut().enumerate().take(last + 1).skip(first) {
-        *value -= coefficient * wavelet.value(k as f64 * dt_s);
-    }
 }
 
 fn energy(velocity: &[f64]) -> f64 {
@@ -194,9 +156,9 @@ fn energy(velocity: &[f64]) -> f64 {
 fn sample_of_share(velocity: &[f64], share: f64) -> usize {
     let target = share * energy(velocity);
     let mut sum = 0.0;
-    let reached = velocity.iter().position(|v| {
+    let has_passed = |v: &f64| {
         sum += v * v;
         sum >= target
-    });
-    reached.unwrap_or(0)
+    };
+    velocity.iter().position(has_passed).unwrap_or(0)
 }

@@ -1,0 +1,173 @@
+//! The one reader of tables as people and agencies write them: CSV of any country, or numbers between blanks.
+
+use std::borrow::Cow;
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use crate::units::Unit;
+
+/// Why a table cannot be read as it stands.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum SheetError {
+    #[error("binary data; expected text: save a workbook as CSV")]
+    Binary,
+    #[error("line {line}: {found} cells; expected {expected}: between decimal commas, write semicolons")]
+    Cells { line: usize, found: usize, expected: usize },
+    #[error("line {line}, column '{heading}': '{found}'; expected {expected}")]
+    Cell { line: usize, heading: String, found: String, expected: String },
+}
+
+/// The heading of a column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heading {
+    /// As it stands in the file.
+    pub text: String,
+    /// Letters and digits in lower case, joined by underscores: `pga` of `PGA [g]` and of `pga_g`.
+    pub name: String,
+    /// The unit with which it ends.
+    pub unit: Option<Unit>,
+}
+
+impl Heading {
+    /// Parts a heading into name and unit.
+    pub fn of(text: &str) -> Heading {
+        let unit = |end: &str| Unit::parse(end[1..].trim_matches(['(', ')', '[', ']', ' ']));
+        let mut ends = text.match_indices(['(', '[', ' ', '_', ',']).map(|(at, _)| text.split_at(at));
+        let found = ends.find_map(|(name, end)| Some((name, unit(end).filter(|_| !name.is_empty())?)));
+        let (name, unit) = found.map_or((text, None), |(name, unit)| (name, Some(unit)));
+        let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+        let name = words.collect::<Vec<_>>().join("_").to_lowercase();
+        Heading { text: text.to_string(), name, unit }
+    }
+}
+
+/// A table: rows of cells under headings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// Comments, and lines above the heading, as they stand in the file.
+    pub notes: Vec<String>,
+    /// One for each column; empty if the file has none.
+    pub headings: Vec<Heading>,
+    pub columns: usize,
+    /// The line of each row in the file, from 1.
+    pub lines: Vec<usize>,
+    rows: Vec<StringRecord>,
+    separator: char,
+}
+
+impl Sheet {
+    /// Reads a table. Comments begin with `#`, `%` or `//`. The heading is the line of most cells, or a note
+    /// of as many as the row of most numbers, above the first row with numbers where that one has some.
+    pub fn parse(bytes: &[u8]) -> Result<Sheet, SheetError> {
+        let text = decode(bytes)?;
+        let lines: Vec<&str> = text.lines().map(|line| line.trim_matches([' ', '\x0c', '\x1a'])).collect();
+        let is_comment = |line: &str| ["#", "%", "//"].iter().any(|sign| line.starts_with(sign));
+        // The last lines show what parts the cells, and where numbers stand.
+        let body = lines.iter().rev().filter(|line| !line.is_empty() && !is_comment(line));
+        let body: Vec<&&str> = body.take(400).collect();
+        let in_most = |c: &char| 2 * body.iter().filter(|line| is_parted(line, *c)).count() >= body.len();
+        let separator = [';', '\t', ','].into_iter().find(in_most).unwrap_or(' ');
+        let mut rows = rows(&lines, separator);
+        let is_number = |cell: &str| number(cell, separator).is_some();
+        let numbers = |(_, row): &&Row| row.iter().filter(|cell| is_number(cell)).count();
+        let model = rows.iter().rev().take(400).max_by_key(numbers);
+        let model = model.map_or(StringRecord::new(), |(_, row)| row.clone());
+        let is_data = |(_, row): &Row| {
+            let mut pairs = model.iter().zip(row).filter(|(like, cell)| is_number(like) && !cell.is_empty());
+            pairs.clone().next().is_some() && pairs.all(|(_, cell)| is_number(cell))
+        };
+        let is_heading = |(at, row): &&Row| match is_comment(lines[at - 1]) || separator == ' ' {
+            true => row.len() == model.len(),
+            false => row.len() >= model.len().min(2),
+        };
+        let above = &rows[..rows.iter().position(is_data).unwrap_or(rows.len())];
+        let filled = |(_, row): &&Row| row.iter().filter(|cell| !cell.is_empty()).count();
+        let heading = above.iter().filter(is_heading).max_by_key(filled);
+        let headings = heading.map_or(Vec::new(), |(_, row)| row.iter().map(Heading::of).collect());
+        let columns = if headings.is_empty() { model.len() } else { headings.len() };
+        let end = heading.or(above.last()).map_or(0, |(at, _)| *at);
+        let is_note =
+            |(at, line): &(usize, &&str)| at + usize::from(heading.is_some()) < end || is_comment(line);
+        let notes = lines.iter().enumerate().filter(is_note).map(|(_, line)| line.to_string()).collect();
+        rows.retain(|(at, _)| *at > end && !is_comment(lines[at - 1]));
+        let is_long = |(_, row): &&Row| row.iter().skip(columns).any(|cell| !cell.is_empty());
+        if let Some((line, row)) = rows.iter().find(is_long) {
+            return Err(SheetError::Cells { line: *line, found: row.len(), expected: columns });
+        }
+        let (lines, rows) = rows.into_iter().unzip();
+        Ok(Sheet { notes, headings, columns, lines, rows, separator })
+    }
+
+    /// Finds the column of one of these names; see [`Heading::name`].
+    pub fn column(&self, names: &[&str]) -> Option<usize> {
+        self.headings.iter().position(|heading| names.contains(&heading.name.as_str()))
+    }
+
+    /// Returns the words of a cell; a row may be short.
+    pub fn cell(&self, row: usize, column: usize) -> &str {
+        self.rows[row].get(column).unwrap_or_default()
+    }
+
+    /// Reads the number in a cell; 10 % are 0.1.
+    pub fn number(&self, row: usize, column: usize) -> Result<f64, SheetError> {
+        number(self.cell(row, column), self.separator).ok_or_else(|| self.refusal(row, column, "a number"))
+    }
+
+    /// Makes the error of a cell in which something else was expected.
+    pub fn refusal(&self, row: usize, column: usize, expected: impl Into<String>) -> SheetError {
+        let heading = self.headings.get(column).map_or((column + 1).to_string(), |known| known.text.clone());
+        let found = self.cell(row, column).chars().take(60).collect();
+        SheetError::Cell { line: self.lines[row], heading, found, expected: expected.into() }
+    }
+}
+
+/// Whether a character parts the cells of a line; among numbers between blanks a comma is a decimal one.
+fn is_parted(line: &str, c: char) -> bool {
+    let is_number = |word: &str| !word.ends_with(',') && number(word, ' ').is_some();
+    let are_numbers = || line.contains(' ') && line.split_whitespace().all(is_number);
+    line.split('"').step_by(2).any(|unquoted| unquoted.contains(c)) && !(c == ',' && are_numbers())
+}
+
+/// The line of a row in the file, from 1, and its cells.
+type Row = (usize, StringRecord);
+
+/// Reads the rows of successive lines that are not empty, without the signs of comments.
+fn rows(lines: &[&str], separator: char) -> Vec<Row> {
+    let mut text = String::new();
+    for line in lines.iter().map(|line| line.trim_start_matches(['#', '%', '/', ' '])) {
+        // Among blanks, a unit in brackets stays with its heading.
+        let units = || line.replace(" (", "(").replace(" [", "[");
+        let words = |line: String| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        text += &if separator == ' ' { Cow::Owned(words(units())) } else { Cow::Borrowed(line) };
+        // A row of one empty cell keeps the numbers of lines.
+        text += if line.is_empty() { "\"\"\n" } else { "\n" };
+    }
+    let mut reader = ReaderBuilder::new();
+    reader.has_headers(false).flexible(true).trim(Trim::All).delimiter(separator as u8);
+    let rows = reader.from_reader(text.as_bytes()).into_records().map_while(Result::ok);
+    let rows = rows.filter(|row| row.iter().any(|cell| !cell.is_empty()));
+    rows.map(|row| (row.position().map_or(0, |at| at.line() as usize), row)).collect()
+}
+
+/// Reads a number, with a decimal comma where no comma parts the cells.
+fn number(cell: &str, separator: char) -> Option<f64> {
+    let (text, size) = cell.strip_suffix('%').map_or((cell, 1.0), |share| (share.trim_end(), 0.01));
+    let has_comma = separator != ',' && text.contains(',');
+    let value = if has_comma { text.replacen(',', ".", 1).parse() } else { text.parse() };
+    value.ok().filter(|value: &f64| value.is_finite()).map(|value| size * value)
+}
+
+/// Decodes a text in UTF-8 or Latin-1; typographic blanks and minus signs become plain ones.
+pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, SheetError> {
+    // Single null bytes pad the text of some real headers.
+    if bytes.iter().take(4096).filter(|byte| **byte < b'\t').count() > bytes.len().min(4096) / 50 {
+        return Err(SheetError::Binary);
+    }
+    let latin_1 = |_| Cow::Owned(bytes.iter().map(|&byte| char::from(byte)).collect());
+    let text = std::str::from_utf8(bytes).map_or_else(latin_1, Cow::Borrowed);
+    if text.is_ascii() {
+        return Ok(text);
+    }
+    let text = text.trim_start_matches('\u{feff}').replace('\u{2212}', "-");
+    Ok(Cow::Owned(text.replace(['\u{a0}', '\u{2009}', '\u{202f}'], " ")))
+}

@@ -1,0 +1,118 @@
+//! Files of records as people have them, with what is easily wrong: each is read as it is meant, or refused for
+//! the right reason.
+
+use rockfrag::records::{ReadOptions, RecordFileError, read_records};
+use rockfrag::units::Unit;
+
+use crate::writers::*;
+
+/// Lines of the fields that `row` makes of sample number and acceleration, in units of so many m/s2.
+fn lines(heading: &str, unit: f64, row: impl Fn(usize, f64) -> String) -> String {
+    let rows = motion(1600).into_iter().enumerate().map(|(k, a)| row(k, a / unit) + "\n");
+    heading.to_string() + "\n" + &rows.collect::<String>()
+}
+
+fn time(k: usize) -> f64 {
+    k as f64 * DT
+}
+
+/// A CSV file of times and samples under this heading.
+fn csv(heading: &str, unit: f64) -> String {
+    lines(heading, unit, |k, a| format!("{:.2},{a:.6}", time(k)))
+}
+
+/// Reads with options such as `unit=g dt=0.01 column=acc`.
+fn read(text: &str, options: &str) -> Result<(f64, Vec<f64>), RecordFileError> {
+    let of = |key: &str| options.split(' ').find_map(|option| option.strip_prefix(key)?.strip_prefix('='));
+    let options = ReadOptions {
+        dt_s: of("dt").map(|dt| dt.parse().unwrap()),
+        unit: of("unit").map(|unit| Unit::of_acceleration(unit).unwrap()),
+        column: of("column").map(str::to_string),
+        ..ReadOptions::default()
+    };
+    let motion = read_records(text.as_bytes(), &options)?.remove(0);
+    Ok((motion.dt_s, motion.acceleration_m_s2))
+}
+
+#[test]
+fn what_is_meant_is_read() {
+    let row = |row: &[f64]| row.iter().map(|a| format!("{a:10.6}")).collect::<String>() + "\n";
+    let wrapped: String = motion(1600).chunks(8).map(row).collect();
+    for (text, options) in [
+        (csv("t (s),a [cm/s^2]", 0.01), ""),
+        (csv("time,acc (%g)", 0.01 * G), ""),
+        (csv("time,acc m/s/s", 1.0), ""),
+        (csv("Zeit,\"acc 90\u{b0}, cm/sec\u{b2}\"", 0.01), ""),
+        (csv("# acceleration in cm/s2", 0.01), ""),
+        (csv("Station,ABC\n\ntime,acc_g", G), ""),
+        (lines("time_ms,acc_g", G, |k, a| format!("{},{a:.6}", 10 * k)), ""),
+        (lines("acc_g,time,vel", G, |k, a| format!("{a:.6},{:.2},1", time(k))), ""),
+        (lines("n,time,x", G, |k, a| format!("{k},{:.2},{a:.6}", time(k))), "unit=g column=x"),
+        (lines("# time acc_g", G, |k, a| format!("{:.2} {a:.6}", time(k))), ""),
+        (lines("# dt = 0.01 s", G, |_, a| format!("{a:.6}")), "unit=g"),
+        (wrapped, "unit=m/s2 dt=0.01 column=all"),
+        (csv("time,acc_g", G).replace(',', ";").replace('.', ",").replace('-', "\u{2212}"), ""),
+        (csv("time (s),acc (g)", G).replace(',', " ").replace('.', ",").replace('\n', "\r\n"), ""),
+        (lines("time,acc_g", G, |k, a| format!("{:.1},{a:.6}", time(k))), "dt=0.01"),
+    ] {
+        let beginning = text.get(..60).unwrap_or_default();
+        let (dt_s, samples) = read(&text, options).unwrap_or_else(|why| panic!("{why}: {beginning}"));
+        assert!((dt_s - DT).abs() < 1e-15 && samples.len() == 1600, "{beginning}");
+        let off = samples.iter().zip(motion(1600)).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()));
+        assert!(off < 1e-5, "{off}: {beginning}");
+    }
+}
+
+#[test]
+fn what_is_wrong_is_refused_for_its_reason() {
+    let at2 = |unit: &str, counts: &str| at2(&motion(103), unit, counts);
+    let gap = lines("time,acc_g", G, |k, a| format!("{:.2},{a:.6}", time(k + usize::from(k > 200))));
+    for (text, options, kind) in [
+        // Units that contradict, are unknown, or are of something else.
+        (csv("time,acc_cm_s2", 0.01), "unit=g", "Contradiction { line: 2, field: \"unit\""),
+        (csv("time,acc (counts)", 1e-4), "unit=g", "Value { line: 2, field: \"unit\""),
+        (csv("time,acc", G), "", "Missing { line: 2, field: \"unit\""),
+        (at2("IN UNITS OF FURLONGS", "NPTS= 103, DT= .01"), "", "Value { line: 3, field: \"unit\""),
+        (cosmos(&motion(103), 90).replace("cm/sec2(04)", "counts (50)"), "", "Value"),
+        (esm(&motion(103)).replace("PGA_CM/S^2: ", "PGA_CM/S^2: 9"), "", "Peak"),
+        // Velocity, displacement, times.
+        (csv("time,vel", G), "unit=g", "NotAcceleration"),
+        (lines("# velocity in cm/s", G, |_, a| format!("{a:.6}")), "dt=0.01 unit=g", "Value"),
+        (at2("VELOCITY TIME SERIES IN UNITS OF CM/S", "NPTS= 103, DT= .01"), "", "NotAcceleration { line: 3"),
+        (cosmos(&motion(103), 90).replace("acceleration pts", "velocity pts"), "", "NotAcceleration"),
+        (esm(&motion(103)).replace(": ACCELERATION", ": VELOCITY"), "", "NotAcceleration"),
+        (lines("acc_g,time", G, |k, a| format!("{:.2},{a:.6}", time(k))), "", "Exchanged"),
+        // Time steps.
+        (csv("time,acc_g", G), "dt=0.005", "Contradiction"),
+        (lines("time,acc_g", G, |k, a| format!("00:00:{:05.2},{a:.6}", time(k))), "", "Sheet(Cell"),
+        (
+            lines("time,acc_g", G, |k, a| format!("{:.2},{a:.6}", -time(k))),
+            "",
+            "Value { line: 2, field: \"time step\"",
+        ),
+        (gap.clone(), "", "UnevenTime { line: 203"),
+        (gap, "dt=0.01", "UnevenTime { line: 203"),
+        (lines("time,acc_g", G, |k, a| format!("{:.1},{a:.6}", time(k))), "", "UnevenTime"),
+        (lines("", G, |_, a| format!("{a:.6}")), "unit=g", "Missing { line: 2, field: \"time step\""),
+        (at2(IN_G, "NPTS= 103"), "", "Missing { line: 4, field: \"DT\""),
+        // Columns, cells and counts.
+        (lines("time,N,E,Z", G, |k, a| format!("{:.2},{a:.6},1,1", time(k))), "unit=g", "Column"),
+        (csv("time,acc_g", G).replacen("0.30", "NaN", 1), "", "Sheet(Cell { line: 32"),
+        (csv("time,acc_g", G).replace('.', ","), "", "Sheet(Cells"),
+        (at2(IN_G, "NPTS= 104, DT= .01"), "", "Count { announced: 104, found: 103 }"),
+        (nga_at2(&motion(103)).replace("E-", "X-"), "", "Value { line: "),
+        (knet(&motion(100)).replace("/8388608", "/0"), "", "Value { line: 8"),
+        // What is no record.
+        ("Dear colleague,\nplease find attached\n".to_string(), "", "Unrecognised"),
+        ("PK\u{3}\u{4}\u{14}\0\u{6}\0".to_string(), "", "Sheet(Binary"),
+    ] {
+        let found = match read(&text, options) {
+            Ok((dt_s, samples)) => format!("{} samples of {dt_s} s", samples.len()),
+            Err(refusal) => format!("{refusal:?}"),
+        };
+        assert!(found.starts_with(kind), "{kind}: {found}: {}", text.get(..60).unwrap_or(&text));
+    }
+    // The last line may be filled up.
+    assert_eq!(read(&at2(IN_G, "NPTS= 101, DT= .01"), "").unwrap().1.len(), 101);
+    assert!(Unit::of_acceleration("furlong").is_err() && Unit::of_acceleration("cm").is_err());
+}
