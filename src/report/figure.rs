@@ -1,108 +1,196 @@
-//! A figure, the places of its panels, and long series cut to what can be seen.
+//! A figure as data: panels of layers. Its axes, its legend and the table of its numbers follow from them.
 
-use super::drawing::{Drawing, ONE_COLUMN, TWO_COLUMNS};
-use super::panel::{Mark, legend, legend_places};
-use super::text::Label;
+use super::text::words;
 
-/// A drawing with its name, title and caption.
-#[derive(Debug, Clone, PartialEq)]
+/// One picture: panels in rows.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Figure {
     /// Name of its files.
     pub name: String,
     pub title: String,
+    /// Marked text, see [`super::text`].
     pub caption: String,
-    /// What made it, in a sentence: for its files, which may be alone.
-    pub made: String,
-    pub drawing: Drawing,
+    /// Number of panels in a row.
+    pub columns: usize,
+    /// Height of the area of the data of a panel, points; a panel of names has its own.
+    pub height: f64,
+    pub panels: Vec<Panel>,
+}
+
+/// A pair of axes and what lies between them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Panel {
+    /// Marked text.
+    pub title: String,
+    pub x: Axis,
+    pub y: Axis,
+    /// Each over those before.
+    pub layers: Vec<Layer>,
+    /// Lines of text in the upper left corner.
+    pub notes: Vec<String>,
+}
+
+/// An axis; its range is that of the layers unless it is given.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Axis {
+    /// Marked text; a horizontal axis without a label has ticks without numbers.
+    pub label: String,
+    pub scale: Scale,
+    pub range: Option<[f64; 2]>,
+}
+
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Scale {
+    #[default]
+    Linear,
+    Log,
+    /// Rows, from top to bottom, at 0, 1, 2 ...
+    Names(Vec<String>),
+}
+
+/// Marks that belong together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    /// Name in the legend, which has each name once; none if empty.
+    pub label: String,
+    pub ink: Ink,
+    pub marks: Marks,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Marks {
+    Points(Vec<[f64; 2]>),
+    /// A line, and limits of y at each of its points if `band` is not empty.
+    Line {
+        points: Vec<[f64; 2]>,
+        band: Vec<[f64; 2]>,
+        dash: Dash,
+    },
+    /// Values with limits of y, or of x where y is an axis of names.
+    Estimates(Vec<Estimate>),
+    /// Bars from 0: first x, last x, height.
+    Bars(Vec<[f64; 3]>),
+}
+
+/// A value with its limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    pub x: f64,
+    pub y: f64,
+    /// NaN where it has no limits.
+    pub low: f64,
+    pub high: f64,
+    /// Number of cases behind it, which its dot shows; NaN if unknown.
+    pub n: f64,
+}
+
+/// A colour by its role; the page has others in the dark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ink {
+    Text,
+    Muted,
+    /// Guides, behind data.
+    Rule,
+    /// Data, by number.
+    Data(usize),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Dash {
+    #[default]
+    Solid,
+    Long,
+    Short,
+    Mixed,
+}
+
+/// Upper bound of the points of a layer: a picture shows no more.
+const MOST_POINTS: usize = 5000;
+
+impl Layer {
+    /// Draws points; of too many, some that are spread over all.
+    pub fn points(label: &str, ink: Ink, points: impl IntoIterator<Item = [f64; 2]>) -> Layer {
+        let points: Vec<[f64; 2]> =
+            points.into_iter().filter(|point| point.iter().all(|v| v.is_finite())).collect();
+        let step = points.len().div_ceil(MOST_POINTS).max(1);
+        Layer {
+            label: label.to_string(),
+            ink,
+            marks: Marks::Points(points.into_iter().step_by(step).collect()),
+        }
+    }
+
+    pub fn line(label: &str, ink: Ink, points: Vec<[f64; 2]>) -> Layer {
+        Layer::curve(label, ink, Dash::Solid, points, Vec::new())
+    }
+
+    pub fn curve(label: &str, ink: Ink, dash: Dash, points: Vec<[f64; 2]>, band: Vec<[f64; 2]>) -> Layer {
+        Layer { label: label.to_string(), ink, marks: Marks::Line { points, band, dash } }
+    }
+
+    pub fn estimates(label: &str, ink: Ink, estimates: Vec<Estimate>) -> Layer {
+        Layer { label: label.to_string(), ink, marks: Marks::Estimates(estimates) }
+    }
 }
 
 impl Figure {
-    /// Joins the caption and what made the figure.
-    pub fn description(&self) -> String {
-        format!("{} {}", self.caption, self.made).trim_end().to_string()
+    /// Writes what is drawn as comma-separated values: a row a mark, numbers that it does not have left empty.
+    pub fn csv(&self) -> Result<String, csv::Error> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(["panel", "layer", "x_is", "x", "y_is", "y", "low", "high", "n"])?;
+        for panel in &self.panels {
+            let [title, x_is, y_is] =
+                [&panel.title, &panel.x.label, &panel.y.label].map(|label| words(label));
+            for layer in &panel.layers {
+                let name = words(&layer.label);
+                for numbers in layer.marks.numbers() {
+                    let written =
+                        |value: f64| if value.is_finite() { value.to_string() } else { String::new() };
+                    let [x, y, low, high, n] = numbers.map(written);
+                    writer.write_record([&title, &name, &x_is, &x, &y_is, &y, &low, &high, &n])?;
+                }
+            }
+        }
+        let bytes = writer.into_inner().map_err(|error| error.into_error())?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 }
 
-/// The places of panels side by side: one in a column, or two across the page.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
-    /// Number of panels.
-    pub count: usize,
-    /// Number of panels in a row.
-    pub columns: usize,
-    /// Width of the figure, points.
-    pub width: f64,
-    /// Height of the area of the data of a panel, points.
-    pub panel_height: f64,
-    /// Room above the first row, points.
-    pub above: f64,
-}
-
-/// Room to the left of a panel, for ticks and the label of the axis, points.
-const LEFT: f64 = 40.0;
-/// Room to its right.
-const RIGHT: f64 = 9.0;
-/// Room above it, for its title.
-const TITLE: f64 = 17.0;
-/// Room below it, for ticks and the label of the axis.
-const BELOW: f64 = 28.0;
-/// Where a legend begins.
-const LEGEND: [f64; 2] = [LEFT, 10.0];
-
-impl Grid {
-    /// Puts one panel into the width of a column, more in pairs across the page.
-    pub fn of(count: usize, panel_height: f64) -> Grid {
-        let columns = count.clamp(1, 2);
-        let width = if columns == 1 { ONE_COLUMN } else { TWO_COLUMNS };
-        Grid { count, columns, width, panel_height, above: 0.0 }
-    }
-
-    /// Adds room for a legend of these entries, and makes a drawing of the size of all panels that has it.
-    pub fn with_legend(self, entries: &[(Mark, Label)]) -> (Grid, Drawing) {
-        let [_, last] = legend_places(entries, LEGEND, self.width).last().unwrap_or(LEGEND);
-        let grid = Grid { above: last + 5.0, ..self };
-        let mut drawing = grid.drawing();
-        legend(&mut drawing, LEGEND, entries);
-        (grid, drawing)
-    }
-
-    /// Makes an empty drawing of the size of all panels.
-    pub fn drawing(&self) -> Drawing {
-        let rows = self.count.div_ceil(self.columns) as f64;
-        Drawing::new(self.width, self.above + rows * (TITLE + self.panel_height + BELOW))
-    }
-
-    /// Places a panel: corner and width of the area of its data.
-    pub fn place(&self, index: usize) -> ([f64; 2], f64) {
-        let across = self.width / self.columns as f64;
-        let (column, row) = ((index % self.columns) as f64, (index / self.columns) as f64);
-        let left = column * across + LEFT;
-        let top = self.above + row * (TITLE + self.panel_height + BELOW) + TITLE;
-        ([left, top], across - LEFT - RIGHT)
+impl Marks {
+    /// Rows of x, y, low, high and n; NaN where a kind of marks has no such number. `low` and `high` of a bar are its ends.
+    pub fn numbers(&self) -> Vec<[f64; 5]> {
+        const NONE: f64 = f64::NAN;
+        match self {
+            Marks::Points(points) => points.iter().map(|&[x, y]| [x, y, NONE, NONE, NONE]).collect(),
+            Marks::Line { points, band, .. } => {
+                let limits = band.iter().copied().chain(std::iter::repeat([NONE; 2]));
+                points.iter().zip(limits).map(|(&[x, y], [low, high])| [x, y, low, high, NONE]).collect()
+            }
+            Marks::Estimates(estimates) => estimates.iter().map(|e| [e.x, e.y, e.low, e.high, e.n]).collect(),
+            Marks::Bars(bars) => bars.iter().map(|&[x0, x1, y]| [0.5 * (x0 + x1), y, x0, x1, NONE]).collect(),
+        }
     }
 }
 
-/// A series cut down to equal steps.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Envelope {
-    /// Number of samples of the whole series in a step.
-    pub each: usize,
-    pub values: Vec<f64>,
-}
-
-/// Cuts a series down to `most` values: to the least and the largest value of each of `most` / 2 buckets, in the order in which
-/// they come. A series that is not longer stays as it is.
-pub fn envelope(values: &[f64], most: usize) -> Envelope {
-    let each = values.len().div_ceil(most).max(1);
-    if each == 1 {
-        return Envelope { each, values: values.to_vec() };
+impl Axis {
+    pub fn linear(label: &str) -> Axis {
+        Axis { label: label.to_string(), ..Axis::default() }
     }
-    let ends = values.chunks(2 * each).flat_map(|bucket| {
-        let best = |better: fn(f64, f64) -> bool| {
-            (1..bucket.len()).fold(0, |best, at| if better(bucket[at], bucket[best]) { at } else { best })
-        };
-        let (least, largest) = (best(|a, b| a < b), best(|a, b| a > b));
-        [bucket[least.min(largest)], bucket[least.max(largest)]]
-    });
-    Envelope { each, values: ends.collect() }
+
+    pub fn log(label: &str) -> Axis {
+        Axis { scale: Scale::Log, ..Axis::linear(label) }
+    }
+
+    pub fn names(names: impl IntoIterator<Item = String>) -> Axis {
+        Axis { scale: Scale::Names(names.into_iter().collect()), ..Axis::default() }
+    }
+
+    pub fn over(self, low: f64, high: f64) -> Axis {
+        Axis { range: Some([low, high]), ..self }
+    }
+
+    /// From 0 to 1, with room for dots at both ends.
+    pub fn probability(label: &str) -> Axis {
+        Axis::linear(label).over(-0.04, 1.04)
+    }
 }

@@ -1,232 +1,107 @@
-//! Text of figures and pages: labels with italics and subscripts, escapes, and numbers.
-
-use super::font::Face;
-
-/// A text in several styles.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Label {
-    pub runs: Vec<Run>,
-}
+//! Text of figures and pages. Marked text has italics and small letters below or above the line: `*P*_{ro}`, `10^{-3}`.
 
 /// Words in one style.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     pub words: String,
-    pub face: Face,
+    pub italic: bool,
     pub level: Level,
 }
 
-/// The height of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Level {
     Line,
-    /// Small, below the line.
     Sub,
-    /// Small, above the line.
     Super,
 }
 
-impl Level {
-    /// Returns the size over that of the line.
-    pub fn scale(self) -> f64 {
-        if self == Level::Line { 1.0 } else { 0.72 }
-    }
-
-    /// Returns how far the baseline lies below that of the line, over the size of the line.
-    pub fn drop(self) -> f64 {
-        match self {
-            Level::Line => 0.0,
-            Level::Sub => 0.22,
-            Level::Super => -0.36,
-        }
-    }
-}
-
-impl Label {
-    /// Takes words as they are, such as names out of a file.
-    pub fn plain(words: impl Into<String>) -> Label {
-        Label { runs: vec![Run { words: words.into(), face: Face::Regular, level: Level::Line }] }
-    }
-
-    /// Parses marked text: `*p* PGV`, `*P*_{ex}`, `10^{-3}`. For what stands in the source, not for names out of files.
-    pub fn marked(text: &str) -> Label {
-        let (mut runs, mut face, mut level) = (Vec::new(), Face::Regular, Level::Line);
-        let mut words = String::new();
-        let mut letters = text.chars().peekable();
-        while let Some(letter) = letters.next() {
-            let (next_face, next_level) = match letter {
-                '*' => (if face == Face::Italic { Face::Regular } else { Face::Italic }, level),
-                '_' | '^' if letters.next_if_eq(&'{').is_some() => {
-                    (face, if letter == '_' { Level::Sub } else { Level::Super })
-                }
-                '}' if level != Level::Line => (face, Level::Line),
-                other => {
-                    words.push(other);
-                    continue;
-                }
-            };
-            if !words.is_empty() {
-                runs.push(Run { words: std::mem::take(&mut words), face, level });
+/// Splits marked text into its styles.
+pub fn runs(marked: &str) -> Vec<Run> {
+    let mut runs = Vec::new();
+    let mut run = Run { words: String::new(), italic: false, level: Level::Line };
+    let mut letters = marked.chars().peekable();
+    while let Some(letter) = letters.next() {
+        let (italic, level) = match letter {
+            '*' => (!run.italic, run.level),
+            '_' if letters.next_if_eq(&'{').is_some() => (run.italic, Level::Sub),
+            '^' if letters.next_if_eq(&'{').is_some() => (run.italic, Level::Super),
+            '}' if run.level != Level::Line => (run.italic, Level::Line),
+            other => {
+                run.words.push(other);
+                continue;
             }
-            (face, level) = (next_face, next_level);
-        }
-        if !words.is_empty() {
-            runs.push(Run { words, face, level });
-        }
-        Label { runs }
+        };
+        runs.push(std::mem::replace(&mut run, Run { words: String::new(), italic, level }));
     }
-
-    /// Appends another label.
-    pub fn then(mut self, other: Label) -> Label {
-        self.runs.extend(other.runs);
-        self
-    }
-
-    /// Sets all but italics in bold type.
-    pub fn bold(mut self) -> Label {
-        for run in self.runs.iter_mut().filter(|run| run.face == Face::Regular) {
-            run.face = Face::SemiBold;
-        }
-        self
-    }
-
-    /// Returns the words without styles.
-    pub fn words(&self) -> String {
-        self.runs.iter().map(|run| run.words.as_str()).collect()
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.runs.iter().all(|run| run.words.is_empty())
-    }
-
-    /// Measures the width, points.
-    pub fn width(&self, size: f64) -> f64 {
-        self.runs.iter().map(|run| run.face.width(&run.words, size * run.level.scale())).sum()
-    }
+    runs.push(run);
+    runs.retain(|run| !run.words.is_empty());
+    runs
 }
 
-/// Escapes text for HTML, SVG and their attributes.
-pub fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            other => escaped.push(other),
+/// Writes marked text as HTML.
+pub fn html(marked: &str) -> String {
+    let tagged = |run: Run| {
+        let words = escape(&run.words);
+        let words = if run.italic { format!("<i>{words}</i>") } else { words };
+        match run.level {
+            Level::Line => words,
+            Level::Sub => format!("<sub>{words}</sub>"),
+            Level::Super => format!("<sup>{words}</sup>"),
         }
-    }
-    escaped
+    };
+    runs(marked).into_iter().map(tagged).collect()
+}
+
+/// Drops the marks.
+pub fn words(marked: &str) -> String {
+    runs(marked).into_iter().map(|run| run.words).collect()
+}
+
+/// Escapes text for HTML, SVG and their attributes; drops what XML cannot hold.
+pub fn escape(text: &str) -> String {
+    let clean = text.replace(|letter: char| letter.is_control() && letter != '\n', "");
+    clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Writes numbers as short as a reader needs them.
 pub mod number {
-    /// Puts a true minus sign in place of the hyphen.
-    fn minus(text: String) -> String {
-        text.replace('-', "\u{2212}")
-    }
-
-    /// Writes a number with so many decimals.
+    /// Writes a number with so many decimals and a true minus sign.
     pub fn fixed(value: f64, decimals: usize) -> String {
         // Adding 0 turns -0 into 0.
-        minus(format!("{:.decimals$}", value + 0.0))
+        format!("{:.decimals$}", value + 0.0).replace('-', "\u{2212}")
     }
 
     /// Writes a number without trailing zeros.
     pub fn plain(value: f64) -> String {
-        let text = format!("{value:.6}");
-        minus(text.trim_end_matches('0').trim_end_matches('.').to_string())
+        fixed(value, 6).trim_end_matches('0').trim_end_matches('.').to_string()
     }
 
-    /// Writes a power of ten, marked for a label.
-    pub fn power(value: f64) -> String {
-        format!("10^{{{}}}", fixed(libm::log10(value).round(), 0))
-    }
-
-    /// Writes a number with three significant digits.
-    pub fn short(value: f64) -> String {
-        significant(value, 3)
-    }
-
-    /// Writes a number with so many significant digits.
-    pub fn significant(value: f64, digits: i32) -> String {
-        if value == 0.0 {
-            return "0".to_string();
-        }
-        if !value.is_finite() {
-            return "\u{2013}".to_string();
-        }
-        match libm::log10(value.abs()).floor() as i32 {
-            magnitude @ -4..6 => fixed(value, (digits - 1 - magnitude).max(0) as usize),
-            _ => minus(format!("{value:.*e}", (digits - 1).max(0) as usize)),
-        }
-    }
-
-    /// Writes a number for programs, nothing where there is none.
-    pub fn machine(value: f64) -> String {
-        if value.is_finite() { value.to_string() } else { String::new() }
-    }
-
-    /// Writes a number for tables, with so many significant digits; what is too large or too small to be read says so.
-    pub fn readable(value: f64, digits: i32) -> String {
-        let size = value.abs();
-        match () {
-            () if !value.is_finite() => "\u{2013}".to_string(),
-            () if size >= LARGEST && value < 0.0 => "< \u{2212}10\u{2076}".to_string(),
-            () if size >= LARGEST => "> 10\u{2076}".to_string(),
-            () if value != 0.0 && size < SMALLEST => scientific(value, digits),
-            () => significant(value, digits),
-        }
-    }
-
-    /// The largest number that is written in full.
-    const LARGEST: f64 = 1e6;
-    /// The smallest.
-    const SMALLEST: f64 = 1e-3;
-
-    /// Writes a number with a power of ten: 6.5 × 10⁻⁴.
-    fn scientific(value: f64, digits: i32) -> String {
-        let text = format!("{value:.*e}", (digits - 1).max(0) as usize);
-        let (factor, power) = text.split_once('e').unwrap_or((&text, "0"));
-        let raised = power.chars().map(|letter| match letter {
-            '-' => '\u{207b}',
-            digit => {
-                ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit.to_digit(10).unwrap_or(0) as usize]
+    /// Writes a number with so many significant digits, very small and very large ones with a power of ten; a dash if it is none.
+    pub fn significant(value: f64, digits: usize) -> String {
+        match value.abs().log10().floor() {
+            _ if value == 0.0 => "0".to_string(),
+            _ if !value.is_finite() => "\u{2013}".to_string(),
+            power if (-2.0..6.0).contains(&power) => {
+                fixed(value, (digits as f64 - 1.0 - power).max(0.0) as usize)
             }
-        });
-        format!("{} × 10{}", minus(factor.to_string()), raised.collect::<String>())
+            power => format!("{}e{power}", fixed(value / 10_f64.powf(power), digits - 1)),
+        }
     }
 
     /// Writes a value with its limits.
-    pub fn with_limits([value, low, high]: [f64; 3], digits: i32) -> String {
-        let value = readable(value, digits);
-        match low.is_nan() && high.is_nan() {
-            true => value,
-            false => format!("{value} ({} to {})", readable(low, digits), readable(high, digits)),
-        }
-    }
-
-    /// Writes a share of a count: `12 (34 %)`, in which no line breaks before the sign.
-    pub fn share(of: usize, all: usize) -> String {
-        if all == 0 {
-            return count(of);
-        }
-        let percent = 100.0 * of as f64 / all as f64;
-        let decimals = if percent > 0.0 && percent < 9.95 { 1 } else { 0 };
-        format!("{} ({}\u{a0}%)", count(of), fixed(percent, decimals))
+    pub fn with_limits([value, low, high]: [f64; 3], digits: usize) -> String {
+        let [value, low, high] = [value, low, high].map(|value| significant(value, digits));
+        format!("{value} ({low} to {high})")
     }
 
     /// Writes a count, its thousands apart.
     pub fn count(value: usize) -> String {
         let digits = value.to_string();
-        let mut text = String::new();
-        for (place, digit) in digits.chars().enumerate() {
-            if place > 0 && digits.len() > 4 && (digits.len() - place).is_multiple_of(3) {
-                text.push('\u{a0}');
-            }
-            text.push(digit);
-        }
-        text
+        let apart = |(place, digit): (usize, char)| {
+            let left = digits.len() - place;
+            let space = place > 0 && digits.len() > 4 && left.is_multiple_of(3);
+            [space.then_some('\u{a0}'), Some(digit)].into_iter().flatten()
+        };
+        digits.chars().enumerate().flat_map(apart).collect()
     }
 }

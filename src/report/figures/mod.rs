@@ -1,174 +1,119 @@
-//! One file a figure; each makes of the data the figures that they suffice for.
+//! One function a figure, numbered as in the paper where it is one of the paper's; what they draw comes in plain numbers.
 
-mod analysis;
 mod demand;
-mod dots;
-mod exceedance;
-mod histories;
-mod medians;
 mod motion;
-mod outcomes;
-mod overturning;
 mod planes;
-mod quality;
-mod ranking;
+mod probability;
 mod rates;
-mod regressions;
-mod reliability;
 mod similarity;
-mod tree;
-mod validation;
+mod studies;
 
-use super::data::{Group, ReportData, ReportResponse};
-use super::drawing::{Drawing, Stroke};
-use super::figure::Figure;
-use super::panel::Panel;
-use super::text::number;
-use crate::fragility::{Measure, Probability};
-use crate::keyword::Keyword;
-use crate::motion::IntensityMeasures;
-use crate::rocking::{Outcome, Structure};
+use super::figure::{Axis, Estimate};
 
-/// Draws the figures of one kind that the data suffice for.
-pub type Draw = fn(&ReportData) -> Vec<Figure>;
+pub use demand::{MeasureFit, demand, quality, regressions};
+pub use motion::{Motion, motion};
+pub use planes::{GroupPlanes, planes};
+pub use probability::{
+    Curve, ProbabilityPanel, StructureCurves, calibrated, exceedance, hybrids, overturning,
+};
+pub use rates::{ObjectRate, SiteRates, list, rates};
+pub use similarity::{History, similarity};
+pub use studies::{Ida, NamedEstimates, ida, ranking, validation};
 
-/// The parts of the page that hold figures, in its order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
-    /// What most readers come for.
-    Curves,
-    /// Annual rates, where there are some.
-    Site,
-    /// How far the curves can be trusted.
-    Checks,
-    /// Motions and what the structures did, for the screen.
-    Responses,
-    /// What stands behind the rest, folded.
-    Background,
+/// A rocking response with the measures of its motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RockingCase {
+    pub pgv_m_s: f64,
+    /// Period of the pulse, s, if known.
+    pub tp_s: Option<f64>,
+    /// IM1 to IM6 of Eq. 13.
+    pub im: [Option<f64>; 6],
+    /// |theta|max / alpha (Eq. 7); none if it overturned.
+    pub edp: Option<f64>,
 }
 
-/// All kinds of figures, in the order of the page.
-pub const ALL: [(Part, Draw); 20] = [
-    (Part::Curves, analysis::first),
-    (Part::Curves, overturning::figures),
-    (Part::Curves, exceedance::figures),
-    (Part::Curves, medians::figures),
-    (Part::Curves, analysis::after),
-    (Part::Site, rates::figures),
-    (Part::Checks, reliability::figures),
-    (Part::Checks, validation::figures),
-    (Part::Checks, ranking::figures),
-    (Part::Responses, tree::figures),
-    (Part::Responses, outcomes::figures),
-    (Part::Responses, demand::figures),
-    (Part::Responses, motion::figures),
-    (Part::Responses, histories::figures),
-    (Part::Responses, similarity::figures),
-    (Part::Background, overturning::further),
-    (Part::Background, planes::over_measures),
-    (Part::Background, planes::over_pulse),
-    (Part::Background, quality::figures),
-    (Part::Background, regressions::figures),
+/// The rocking responses of one structure to one suite.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// Names of both.
+    pub name: String,
+    pub cases: Vec<RockingCase>,
+}
+
+impl RockingCase {
+    /// Returns the demand in safe rocking, if it has a logarithm.
+    fn demand(&self) -> Option<f64> {
+        self.edp.filter(|edp| *edp > 0.0)
+    }
+}
+
+/// Labels of IM1 to IM6 (Eq. 13).
+pub const MEASURES: [&str; 6] = [
+    "*ω*_{p} / *p*",
+    "*ω*_{m} / *p*",
+    "PGA / (*p* PGV)",
+    "PGA / (*g* tan *α*)",
+    "*p* PGV / (*g* tan *α*)",
+    "*ω*_{m} PGV / (*g* tan *α*)",
 ];
 
+/// Axis of the demand (Eq. 7).
+fn demand_axis() -> Axis {
+    Axis::log("|*θ*|_{max} / *α*")
+}
+
 /// Names the figure of the paper that shows the same.
-fn of_paper(figure: &str) -> String {
+fn compare(figure: &str) -> String {
     format!("Compare {figure} of Dimitrakopoulos & Paraskeva (2015).")
 }
 
-/// Says how many of these have no pulse period and how they ended, in a sentence; nothing where all have one.
-fn without_period<'r>(responses: impl Iterator<Item = &'r ReportResponse>) -> String {
-    let mut counts = [0; Outcome::ALL.len()];
-    for response in responses.filter(|response| response.tp_s.is_none()) {
-        counts[Outcome::ALL.iter().position(|other| *other == response.case.outcome).unwrap_or(0)] += 1;
-    }
-    let all: usize = counts.iter().sum();
-    if all == 0 {
-        return String::new();
-    }
-    let counts = Outcome::ALL.iter().zip(counts).filter(|(_, count)| *count > 0);
-    let words: Vec<String> = counts
-        .map(|(outcome, count)| format!("{} {}", number::count(count), outcome.as_str().replace('_', " ")))
-        .collect();
-    format!(" {} without a pulse period Tp are left out ({}).", number::count(all), words.join(", "))
-}
-
-/// Measures of which none is known.
-const NOTHING: IntensityMeasures =
-    IntensityMeasures { im1: None, im2: None, im3: None, im4: f64::NAN, im5: f64::NAN, im6: None };
-
-/// Sets one more measure.
-fn with(measures: IntensityMeasures, measure: Measure, value: f64) -> IntensityMeasures {
-    match measure {
-        Measure::Im1 => IntensityMeasures { im1: Some(value), ..measures },
-        Measure::Im2 => IntensityMeasures { im2: Some(value), ..measures },
-        Measure::Im3 => IntensityMeasures { im3: Some(value), ..measures },
-        Measure::Im4 => IntensityMeasures { im4: value, ..measures },
-        Measure::Im5 => IntensityMeasures { im5: value, ..measures },
-        Measure::Im6 => IntensityMeasures { im6: Some(value), ..measures },
-        Measure::Im3Inverse => IntensityMeasures { im3: Some(1.0 / value), ..measures },
-    }
-}
-
-/// Draws probabilities over a measure, with their limits as a band.
-fn draw_curve(
-    drawing: &mut Drawing,
-    panel: &Panel,
-    name: &str,
-    curve: &[(f64, Probability)],
-    stroke: Stroke,
-) {
-    let row = |(x, p): &(f64, Probability)| [*x, p.value, p.low, p.high];
-    drawing.record(name, &["low", "high"], curve.iter().flat_map(row).collect());
-    let band: Vec<[f64; 3]> = curve.iter().map(|(x, p)| [*x, p.low, p.high]).collect();
-    panel.band(drawing, &band, stroke.paint.ink.thin(0.2));
-    let line: Vec<[f64; 2]> = curve.iter().map(|(x, p)| [*x, p.value]).collect();
-    panel.line(drawing, &line, stroke);
-}
-
-/// Names p, alpha and eta.
-fn structure_words(structure: &Structure) -> String {
-    format!(
-        "p = {} rad/s, α = {} rad, η = {}",
-        number::plain(structure.p_rad_s),
-        number::plain(structure.alpha_rad),
-        number::plain(structure.eta)
-    )
-}
-
-/// Makes a name safe for a file.
+/// Makes a name fit for a file.
 fn file_words(name: &str) -> String {
-    let letter =
-        |letter: char| if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '-' };
-    name.chars().map(letter).collect()
+    let words = name.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join("-").to_lowercase()
 }
 
-fn group_file_words(group: &Group) -> String {
-    match &group.suite {
-        Some(suite) => format!("{}-{}", file_words(&group.structure.name), file_words(suite)),
-        None => file_words(&group.structure.name),
+/// Gathers cases (value, whether the event happened) into bins: mean value, observed share with limits by `limits` of events and
+/// cases (Wilson's), number of cases. Empty bins are left out.
+pub fn observed_shares(
+    cases: &[(f64, bool)],
+    bin: impl Fn(f64) -> usize,
+    limits: impl Fn(usize, usize) -> [f64; 2],
+) -> Vec<Estimate> {
+    let mut bins: Vec<(f64, usize, usize)> = Vec::new();
+    for &(value, event) in cases {
+        let place = bin(value);
+        bins.resize(bins.len().max(place + 1), (0.0, 0, 0));
+        let (sum, n, events) = &mut bins[place];
+        (*sum, *n, *events) = (*sum + value, *n + 1, *events + usize::from(event));
     }
+    let share = |&(sum, n, events): &(f64, usize, usize)| {
+        let [low, high] = limits(events, n);
+        Estimate { x: sum / n as f64, y: events as f64 / n as f64, low, high, n: n as f64 }
+    };
+    bins.iter().filter(|(_, n, _)| *n > 0).map(share).collect()
 }
 
-/// Sorts the finite values.
-fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-    values.sort_unstable_by(f64::total_cmp);
-    values
+/// Bins of equal ratio between two values, for [`observed_shares`].
+pub fn equal_ratios([low, high]: [f64; 2], count: usize) -> impl Fn(f64) -> usize {
+    let ratio = (high / low).ln().max(f64::MIN_POSITIVE);
+    move |value| (((value / low).ln() / ratio * count as f64) as usize).min(count - 1)
 }
 
-/// Puts values of x and y into bins of equal ratio of x: for each its middle, and the y in it.
-fn by_ratio(values: &[[f64; 2]], [low, high]: [f64; 2], count: usize) -> Vec<(f64, Vec<f64>)> {
-    let ratio = libm::pow(high / low, 1.0 / count as f64);
-    let middle = |bin: usize| low * libm::pow(ratio, bin as f64 + 0.5);
-    let mut bins: Vec<(f64, Vec<f64>)> = (0..count).map(|bin| (middle(bin), Vec::new())).collect();
-    for &[x, y] in values {
-        let bin = (libm::log(x / low) / libm::log(ratio)).floor();
-        if bin >= 0.0
-            && let Some((_, inside)) = bins.get_mut(bin as usize)
-        {
-            inside.push(y);
-        }
+/// Cuts a series down to `most` values or fewer: to the least and the largest value of each of `most` / 2 steps, in their order.
+fn envelope(values: &[f64], step: f64, most: usize) -> Vec<[f64; 2]> {
+    let each = values.len().div_ceil(most).max(1);
+    let ends = values.chunks(2 * each).enumerate().flat_map(|(k, bucket)| {
+        let index = |is_better: fn(&f64, &f64) -> bool| {
+            (1..bucket.len())
+                .fold(0, |best, at| if is_better(&bucket[at], &bucket[best]) { at } else { best })
+        };
+        let (least, largest) = (index(f64::lt), index(f64::gt));
+        let value = move |at: usize| [(2 * k * each + at) as f64 * step, bucket[at]];
+        [value(least.min(largest)), value(least.max(largest))]
+    });
+    match each {
+        1 => values.iter().enumerate().map(|(k, value)| [k as f64 * step, *value]).collect(),
+        _ => ends.collect(),
     }
-    bins
 }

@@ -1,114 +1,79 @@
-//! Figures of our own: annual rates of the limit states at a site, and the hazard that they are over.
+//! Annual rates: at a site, and of a list of objects.
 
-use super::dots::{self, Dots};
-use crate::report::axis::{Axis, range};
-use crate::report::data::{By, Hazard, PeakCurve, Rates, ReportData, peak_label};
-use crate::report::drawing::{Drawing, Ink};
-use crate::report::figure::{Figure, Grid};
-use crate::report::findings::without_surface;
-use crate::report::panel::Panel;
-use crate::report::text::{Label, number};
+use crate::report::figure::{Axis, Estimate, Figure, Ink, Layer, Marks, Panel};
 
-/// The most panels of hazard curves.
-const MOST: usize = 8;
-
-/// Draws the rates, one panel a structure, and the hazard, one panel a curve.
-pub fn figures(data: &ReportData) -> Vec<Figure> {
-    if data.rates.is_empty() {
-        return Vec::new();
-    }
-    let mut hazards: Vec<&Hazard> = Vec::new();
-    for hazard in data.rates.iter().filter_map(|rates| rates.hazard.as_ref()) {
-        if !hazards.contains(&hazard) {
-            hazards.push(hazard);
-        }
-    }
-    [rates(data)].into_iter().chain(hazard(&hazards)).collect()
+/// The hazard of a site, and what each strength of motion adds to the rates of a structure.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SiteRates {
+    pub structure: String,
+    /// Marked label of the measure of the hazard, with its unit.
+    pub measure: String,
+    /// Values of the measure and annual rates of exceedance.
+    pub hazard: Vec<[f64; 2]>,
+    /// Name of a limit state; first and last value of the measure, and the share of the annual rate that comes from between them.
+    pub contributions: Vec<(String, Vec<[f64; 3]>)>,
 }
 
-/// An axis from power of ten to power of ten.
-fn decades(values: impl Iterator<Item = f64>, label: Label) -> Axis {
-    let [least, largest] = range(values.filter(|value| *value > 0.0));
-    let decade = |power: f64| libm::pow(10.0, power);
-    Axis::log([decade(libm::log10(least).floor()), decade(libm::log10(largest).ceil())], label)
+/// The annual rate of an object, with limits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObjectRate {
+    pub name: String,
+    pub rate: f64,
+    /// NaN where there are none.
+    pub low: f64,
+    pub high: f64,
 }
 
-fn rates(data: &ReportData) -> Figure {
-    let rates = data.rates.iter().flat_map(|rates| &rates.states).flat_map(|state| state.annual_rate);
-    let x = decades(rates, Label::plain("annual rate"));
-    let panel = |rates: &Rates| Dots {
-        title: Label::plain(rates.name.as_str()),
-        x: x.clone(),
-        // The title says it.
-        names: rates.states.iter().map(|state| without_surface(&state.words).to_string()).collect(),
-        series: vec![(
-            "rate",
-            Ink::Data(1),
-            (0..)
-                .zip(&rates.states)
-                .map(|(row, state)| dots::estimate(f64::from(row), state.annual_rate, f64::NAN))
-                .collect(),
-        )],
-        mark: None,
+/// Annual rates at a site: the hazard, and from which motions the rates of the limit states come.
+pub fn rates(site: &SiteRates) -> Figure {
+    let hazard = Panel {
+        title: "Hazard".to_string(),
+        x: Axis::log(&site.measure),
+        y: Axis::log("annual rate of exceedance"),
+        layers: vec![
+            Layer::line("", Ink::Data(0), site.hazard.clone()),
+            Layer::points("", Ink::Data(0), site.hazard.clone()),
+        ],
+        notes: Vec::new(),
     };
-    let panels: Vec<Dots> = data.rates.iter().map(panel).collect();
-    let of_surface = "of the universal surface, for a structure that it has not seen";
-    let limits = match [By::Fits, By::Surface].map(|by| data.has_rates_by(by)) {
-        [_, false] => "of the fits".to_string(),
-        [false, true] => of_surface.to_string(),
-        [true, true] => format!("of the fits or {of_surface}"),
-    };
+    let contributions = site.contributions.iter().map(|(state, bars)| Panel {
+        title: format!("{}: {state}", site.structure),
+        x: Axis::log(&site.measure),
+        y: Axis::linear("share of the rate")
+            .over(0.0, 1.05 * bars.iter().map(|bar| bar[2]).fold(1e-9, f64::max)),
+        layers: vec![Layer { label: String::new(), ink: Ink::Data(1), marks: Marks::Bars(bars.clone()) }],
+        notes: Vec::new(),
+    });
+    let panels: Vec<Panel> = [hazard].into_iter().chain(contributions).collect();
     Figure {
         name: "rates".to_string(),
-        title: "Annual rates at the site".to_string(),
-        caption: format!(
-            "Mean annual rate at which each limit state is reached, with 95 % limits {limits}; they cover neither the error of the hazard nor that of the shape of the curve. The probability in {} years stands in the findings.",
-            number::plain(data.rates[0].years)
-        ),
-        made: String::new(),
-        drawing: dots::draw(&panels, 1),
+        title: "Where the annual rate comes from".to_string(),
+        caption:
+            "The hazard of the site, and the share of the annual rate that motions of each strength add."
+                .to_string(),
+        columns: panels.len().min(3),
+        height: 105.0,
+        panels,
     }
 }
 
-fn hazard<'h>(hazards: &[&'h Hazard]) -> Option<Figure> {
-    let of = |hazard: &&'h Hazard| hazard.curves.iter().map(|curve| (hazard.file.as_str(), curve));
-    let curves: Vec<(&str, &PeakCurve)> = hazards.iter().flat_map(of).take(MOST).collect();
-    if curves.is_empty() {
-        return None;
+/// Annual rates of a list of objects, one row an object in their order.
+pub fn list(objects: &[ObjectRate]) -> Figure {
+    let rate = |(row, object): (usize, &ObjectRate)| {
+        let ObjectRate { rate, low, high, .. } = *object;
+        Estimate { x: rate, y: row as f64, low, high, n: f64::NAN }
+    };
+    Figure {
+        name: "list".to_string(),
+        title: "How often each object overturns".to_string(),
+        caption: "Annual rate of overturning with 95 % limits.".to_string(),
+        columns: 1,
+        panels: vec![Panel {
+            x: Axis::log("annual rate of overturning"),
+            y: Axis::names(objects.iter().map(|object| object.name.clone())),
+            layers: vec![Layer::estimates("", Ink::Data(1), objects.iter().enumerate().map(rate).collect())],
+            ..Panel::default()
+        }],
+        ..Figure::default()
     }
-    let grid = Grid::of(curves.len(), 118.0);
-    let mut drawing = grid.drawing();
-    for (index, (file, curve)) in curves.into_iter().enumerate() {
-        let (corner, width) = grid.place(index);
-        draw(&mut drawing, file, curve, corner, width, grid.panel_height);
-    }
-    let words: Vec<String> = hazards.iter().map(|hazard| hazard.words()).collect();
-    Some(Figure {
-        name: "hazard".to_string(),
-        title: "The hazard at the site".to_string(),
-        caption: format!(
-            "The hazard behind the rates: how often motions of each strength come to the site. {}. Between the points of a curve, ln rate is linear in ln PGA or ln PGV.",
-            words.join("; ")
-        ),
-        made: String::new(),
-        drawing,
-    })
-}
-
-fn draw(
-    drawing: &mut Drawing,
-    file: &str,
-    PeakCurve { peak, points }: &PeakCurve,
-    corner: [f64; 2],
-    width: f64,
-    height: f64,
-) {
-    let size = peak.usual_unit().1;
-    let curve: Vec<[f64; 2]> = points.iter().map(|(value, rate)| [value / size, *rate]).collect();
-    let x = Axis::log_over(curve.iter().map(|point| point[0]), peak_label(*peak));
-    let y = decades(curve.iter().map(|point| point[1]), Label::plain("annual rate of exceedance"));
-    let panel = Panel { corner, width, height, x, y };
-    panel.line(drawing, &curve, Ink::Data(1).line(1.3));
-    panel.scatter(drawing, "hazard", &curve, 1.3, Ink::Data(1).full());
-    panel.frame(drawing, Label::plain(file).bold());
 }
