@@ -11,7 +11,7 @@ pub trait Keyword: Copy + PartialEq + 'static {
     fn as_str(self) -> &'static str;
 }
 
-/// Gives each variant of an enum its word.
+/// Gives each variant of an enum its word, in options, messages and files.
 macro_rules! keywords {
     ($type:ident { $($variant:ident = $word:literal),* $(,)? } $(but $advice:expr)?) => {
         impl $crate::keyword::Keyword for $type {
@@ -21,6 +21,37 @@ macro_rules! keywords {
             fn as_str(self) -> &'static str {
                 match self {
                     $(Self::$variant => $word),*
+                }
+            }
+        }
+
+        impl std::str::FromStr for $type {
+            type Err = $crate::keyword::UnknownKeyword;
+
+            fn from_str(word: &str) -> Result<Self, Self::Err> {
+                $crate::keyword::parse(word)
+            }
+        }
+
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.pad($crate::keyword::Keyword::as_str(*self))
+            }
+        }
+
+        impl serde::Serialize for $type {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str($crate::keyword::Keyword::as_str(*self))
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $type {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let word = <std::borrow::Cow<str>>::deserialize(deserializer)?;
+                // A schema is traced from the type, with no word at hand.
+                match word.as_ref() {
+                    "" => Ok(<Self as $crate::keyword::Keyword>::ALL[0]),
+                    word => word.parse().map_err(serde::de::Error::custom),
                 }
             }
         }

@@ -1,272 +1,211 @@
-//! The command line: what all commands have in common, and the commands that are no stage.
+//! The command line: which command, with which options, and what is printed.
 
-mod shared;
+pub mod config;
 
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
-use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, Command, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
-use serde_json::json;
 
-use self::shared::{Common, Format, Printed, Progress, expect_no_idle, with_common};
-use crate::allocator::keep_freed_buffers;
-use crate::pipeline::cache::May;
-use crate::pipeline::console::{Console, say};
-use crate::pipeline::options::with_number_messages;
-use crate::pipeline::stage::Stage;
-use crate::pipeline::terminal::Terminal;
+use self::config::Config;
+use crate::pipeline::call::Call;
+use crate::pipeline::context::{Common, Context};
 use crate::pipeline::{UsageError, cache};
-use crate::stages::init::{Start, init};
-use crate::stages::inspect::inspect;
-use crate::stages::registry::{Config, commands, shows_table};
-use crate::stages::run::{dry_run, findings, run};
-use crate::stages::seed_spread::{SeedSpreadOptions, seed_spread};
-use crate::table::store::guarded::quiet_damage;
-use crate::table::store::provenance::{CODE, Warnings};
-use crate::table::store::text;
+use crate::stages::{Stages, init, inspect, run};
+use crate::table::file::quiet_damage;
 
 /// The pipeline file that is read where none is named.
 const PIPELINE: &str = "pipeline.yaml";
 
-/// The commands that are no stage.
-#[derive(Debug, Subcommand)]
+/// Dimensionless fragility curves for rocking structures in near-fault earthquakes
+#[derive(Debug, Parser)]
+#[command(name = "rockfrag", version, arg_required_else_help = true, args_override_self = true)]
+#[command(after_help = "First: rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6")]
 enum Tool {
     /// Run all stages of a pipeline file, skipping what is up to date
-    #[command(after_help = "Examples:\n  rockfrag run\n  rockfrag run pipeline.yaml --out tried --seed 7")]
     Run {
-        /// The pipeline file
+        /// Pipeline file
         #[arg(default_value = PIPELINE)]
         pipeline: PathBuf,
-        /// Folder of all files [default: as the pipeline file says, or out beside it]
+        /// Folder of all files [default: as the pipeline file has it, or out beside it]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
         /// Seed of all stages
         #[arg(long)]
         seed: Option<u64>,
-        /// Only print what each stage would do, with which options, and why
+        /// Print what each stage would do, and why
         #[arg(long)]
         dry_run: bool,
         #[command(flatten)]
-        printed: Printed,
+        common: Common,
     },
-    /// Write a folder to start from: a pipeline file, structures, and a README of three commands
-    #[command(after_help = "Examples:\n  rockfrag init\n  rockfrag init records --out mine")]
+    /// Write a folder to start from: paper (the paper's set-up), records (your records) or site (a hazard curve)
     Init {
-        /// Where from: paper (the paper's set-up), records (a folder of records; made-up ones are included), or site (a hazard
-        /// curve)
-        #[arg(value_enum, default_value = "paper", hide_possible_values = true)]
-        start: Start,
+        #[arg(value_enum, default_value = "paper")]
+        start: init::Start,
         /// Folder to write into; nothing there is replaced
         #[arg(long, value_name = "DIR", default_value = ".")]
         out: PathBuf,
     },
-    /// Repeat the pipeline with one seed after the other, to see how far its numbers vary by chance
-    #[command(after_help = "Examples:\n  rockfrag seed-spread --seeds 3 --out spread.csv")]
-    SeedSpread {
-        /// The pipeline file
-        #[arg(default_value = PIPELINE)]
-        pipeline: PathBuf,
-        #[command(flatten)]
-        options: SeedSpreadOptions,
-    },
     /// Show what a file holds and where it came from
-    #[command(
-        after_help = "Examples:\n  rockfrag inspect responses.parquet\n  rockfrag inspect responses.parquet --head 3"
-    )]
-    Inspect {
-        /// A Parquet file, or a folder of partitions
-        #[arg(value_name = "FILE|DIR")]
-        file: PathBuf,
-        /// Print the first N rows in place of the columns
-        #[arg(long, value_name = "N")]
-        head: Option<usize>,
-        #[command(flatten)]
-        printed: Printed,
-    },
-    /// Print the completions of a shell: bash, zsh, fish, powershell or elvish
-    #[command(
-        after_help = "Examples:\n  rockfrag completions bash > rockfrag.bash\n  rockfrag completions fish > rockfrag.fish"
-    )]
-    Completions {
-        /// The shell
-        #[arg(value_enum, hide_possible_values = true)]
-        shell: Shell,
-    },
-    /// Write manual pages, one for each command
-    #[command(after_help = "Examples:\n  rockfrag man share/man/man1")]
-    Man {
-        /// The folder to write them to
-        folder: PathBuf,
-    },
+    Inspect(inspect::Inspect),
+    /// Print the completions of a shell
+    Completions { shell: Shell },
 }
 
-const FIRST: &str = "Examples:
-  rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6
-  rockfrag init";
-
-fn command() -> Command {
-    let command = Command::new("rockfrag")
-        .version(CODE)
-        .max_term_width(100)
-        .subcommand_required(true)
-        .arg_required_else_help(true);
-    let printed: Vec<Arg> = Printed::augment_args(Command::new("")).get_arguments().cloned().collect();
-    let stages = commands().into_iter().map(|stage| match shows_table(stage.get_name()) {
-        true => stage.args(printed.clone()),
-        false => stage,
-    });
-    let command = command.subcommands(stages.collect::<Vec<_>>());
-    with_number_messages(with_common(Tool::augment_subcommands(command)))
-        .about("Dimensionless fragility curves for rocking structures in near-fault earthquakes")
-        .after_help(FIRST)
+/// The whole command line.
+pub fn command() -> Command {
+    let stages = Stages::augment_subcommands(Command::new("stages"));
+    let with_common = |stage: &Command| Common::augment_args(stage.clone().args_override_self(true));
+    let stages: Vec<Command> = stages.get_subcommands().map(with_common).collect();
+    <Tool as clap::CommandFactory>::command().subcommands(stages)
 }
 
-/// Does what a command line says, whose first word is the program, and gives the code to exit with: 0 done, 1 a failure, 2 a mistake in
-/// the call. The command and Python's entry point are this function; it is called once, before there are threads.
+/// The commands that are stages, in the order of a run.
+pub fn stage_commands() -> Vec<Command> {
+    let stages = Stages::augment_subcommands(Command::new("stages"));
+    let is_stage = |command: &Command| stages.find_subcommand(command.get_name()).is_some();
+    let mut command = command();
+    command.build();
+    command.get_subcommands().filter(|command| is_stage(command)).cloned().collect()
+}
+
+/// Does what a command line asks for, whose first word is the program, and gives the code to exit with: 0 done, 1 a failure, 2 a
+/// mistake in the call.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    keep_freed_buffers();
     quiet_damage();
-    let code = match command().try_get_matches_from(arguments) {
-        Ok(matches) => match obey(&matches) {
-            Ok(()) => 0,
-            Err(error) => {
-                say(&format!("error: {error:#}"));
-                if error.is::<UsageError>() { 2 } else { 1 }
-            }
-        },
-        // Help and version too.
-        Err(told) => {
-            let _ = told.print();
-            if told.use_stderr() { 2 } else { 0 }
-        }
-    };
-    // A program that is no Rust one would leave the rest of the last line unsaid.
-    let _ = std::io::stdout().flush();
-    code
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let Err(error) = obey(&arguments) else { return 0 };
+    if let Some(refused) = error.downcast_ref::<clap::Error>() {
+        let _ = refused.print();
+        return u8::from(refused.use_stderr()) * 2;
+    }
+    eprintln!("error: {error:#}");
+    if error.is::<UsageError>() { 2 } else { 1 }
 }
 
-fn obey(matches: &ArgMatches) -> anyhow::Result<()> {
-    let common = Common::from_arg_matches(matches)?;
-    let (subcommand, flags) = matches.subcommand().ok_or_else(|| UsageError::because("no subcommand"))?;
-    expect_no_idle(subcommand, flags)?;
-    let console =
-        Console { quiet: common.quiet, progress: common.progress == Progress::Auto, ..Console::default() };
-    if let Some(threads) = common.threads {
-        if threads == 0 {
-            return Err(UsageError::because("threads is 0; expected 1 or more"));
-        }
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
+fn obey(arguments: &[OsString]) -> anyhow::Result<()> {
+    if let [_, name, user @ ..] = arguments
+        && let Some(command) = stage_commands().into_iter().find(|command| command.get_name() == *name)
+    {
+        return run_stage(&command, user);
     }
-    let may = May { force: common.force, overwrite: common.overwrite };
-    let config = common.config.as_deref().map(Config::read).transpose()?.unwrap_or_default();
-    if let Some(stages) = config.called(subcommand, flags)? {
-        let format = match shows_table(subcommand) {
-            true => Printed::from_arg_matches(flags)?.format,
-            false => Format::Table,
-        };
-        return stages.iter().try_for_each(|stage| {
-            cache::run_alone(stage.as_ref(), may, &console)?;
-            match format {
-                Format::Table => print(&stage.show(&Terminal::stdout())?),
-                Format::Json => print(&json(stage.as_ref())?),
+    match Tool::from_arg_matches(&command().try_get_matches_from(arguments)?)? {
+        Tool::Run { pipeline, out, seed, dry_run, common } => {
+            set_threads(&common)?;
+            let config = read_pipeline(&pipeline)?.with_seed(seed);
+            let calls = calls_of(&config, out, &pipeline)?;
+            match dry_run {
+                true => print(&run::dry_run(&calls)?),
+                false => print(&run::run(&calls, &Context::new(&common))?),
             }
-        });
-    }
-    match Tool::from_arg_matches(matches)? {
-        Tool::Run { pipeline, out, seed, dry_run: dry, printed } => {
-            let config = read_pipeline(&pipeline)?;
-            let config = if let Some(seed) = seed { config.with_seed(seed) } else { config };
-            let stages = stages_of(&config, &pipeline, out)?;
-            if dry { print(&dry_run(&stages, may)?) } else { run_all(&stages, printed.format, may, &console) }
         }
-        Tool::Init { start, out } => print(&init(start, &out)?),
-        Tool::SeedSpread { pipeline, options } => {
-            seed_spread(&pipeline, &options, may, &Console { progress: false, ..console })
-        }
-        Tool::Inspect { file, head, printed: Printed { format } } => match format {
-            Format::Table => print(&inspect(&file, head)?.text(&Terminal::stdout())),
-            Format::Json => print(&inspect(&file, head)?.json()),
-        },
+        Tool::Init { start, out } => print(&init::init(start, &out)?),
+        Tool::Inspect(inspect) => print(&inspect.run()?),
         Tool::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut command(), "rockfrag", &mut script);
             print(&String::from_utf8(script)?)
         }
-        Tool::Man { folder } => {
-            std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
-            clap_mangen::generate_to(command(), &folder).with_context(|| folder.display().to_string())?;
-            let first = folder.join("rockfrag.1");
-            print(&format!(
-                "wrote {} and a page of each command; read them with: man -l FILE\n",
-                first.display()
-            ))
-        }
     }
 }
 
-/// Reads a pipeline file; where there is none, says how to get one.
+fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
+    let words = |user: &[OsString]| [&[OsString::from(command.get_name())], user].concat();
+    let known = command.clone().ignore_errors(true).try_get_matches_from(words(user));
+    let config = known.ok().and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());
+    let section = match &config {
+        Some(path) => Config::read(path)?.section(command, user)?,
+        None => Vec::new(),
+    };
+    let (call, matches) = parsed(command, [section, user.to_vec()].concat())?;
+    let common = Common::from_arg_matches(&matches)?;
+    set_threads(&common)?;
+    let context = Context::new(&common);
+    let done = cache::run(&call, &context)?;
+    if !done.ran && !context.quiet {
+        eprintln!("{}: up to date", call.name);
+    }
+    print(&done.summary)?;
+    if !context.quiet {
+        done.doubts.iter().for_each(|doubt| eprintln!("warning: {doubt}"));
+    }
+    Ok(())
+}
+
+/// A call of a stage with these arguments. What it writes lies beside its input, unless named.
+pub fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<(Call, ArgMatches)> {
+    let words = [vec![OsString::from("rockfrag"), command.get_name().into()], arguments].concat();
+    // Usage lines name the whole command.
+    let parse = |words: &[OsString]| -> Result<ArgMatches, clap::Error> {
+        let whole = self::command().try_get_matches_from(words)?;
+        Ok(whole.subcommand().map(|(_, matches)| matches.clone()).unwrap_or_default())
+    };
+    let mut matches = parse(&words)?;
+    let source = |matches: &ArgMatches, id: &str| {
+        matches.try_contains_id(id).ok().and_then(|_| matches.value_source(id))
+    };
+    if source(&matches, "in") == Some(ValueSource::CommandLine)
+        && source(&matches, "out") == Some(ValueSource::DefaultValue)
+    {
+        let [folder, file] =
+            ["in", "out"].map(|id| matches.get_one::<PathBuf>(id).cloned().unwrap_or_default());
+        let mut out = OsString::from("--out=");
+        out.push(folder.with_file_name(file));
+        matches = parse(&[words, vec![out]].concat())?;
+    }
+    let whole = ArgMatches::clone(&matches);
+    let stage = Stages::of(command.get_name(), &whole)?;
+    Ok((Call::new(command, &matches, stage), matches))
+}
+
+/// The calls of a pipeline file, in the order in which they run.
+fn calls_of(config: &Config, out: Option<PathBuf>, pipeline: &Path) -> anyhow::Result<Vec<Call>> {
+    let commands = stage_commands();
+    config.check(&commands, pipeline)?;
+    let folder = config.run_folder(out);
+    let call = |command: &Command| Ok(parsed(command, config.section_of_run(command, &folder)?)?.0);
+    let named = |error: anyhow::Error| match error.downcast::<clap::Error>() {
+        Ok(refused) => UsageError::because(format!("{}: {}", pipeline.display(), first_line(&refused))),
+        Err(error) => error,
+    };
+    let calls = commands.iter().filter(|command| config.has(command.get_name())).map(call);
+    let calls = calls.collect::<anyhow::Result<Vec<Call>>>().map_err(named)?;
+    match calls.is_empty() {
+        true => Err(UsageError::because(format!("{}: no stage; expected at least one", pipeline.display()))),
+        false => Ok(calls),
+    }
+}
+
+/// What clap refuses, in one line.
+fn first_line(refused: &clap::Error) -> String {
+    refused.to_string().lines().next().unwrap_or_default().trim_start_matches("error: ").to_string()
+}
+
+/// Reads a pipeline file; where there is none, tells how to get one.
 fn read_pipeline(path: &Path) -> anyhow::Result<Config> {
     if path == Path::new(PIPELINE) && !path.exists() {
         return Err(UsageError::because(format!(
-            "no {PIPELINE} here; `rockfrag init` writes one to start from, or name the pipeline file"
+            "no {PIPELINE} here; `rockfrag init` writes one to start from"
         )));
     }
     Config::read(path)
 }
 
-fn stages_of(config: &Config, pipeline: &Path, out: Option<PathBuf>) -> anyhow::Result<Vec<Box<dyn Stage>>> {
-    let stages = config.stages(&out.or(config.out.clone()).unwrap_or_default())?;
-    if stages.is_empty() {
-        return Err(UsageError::because(format!("{}: no stage; expected at least one", pipeline.display())));
+fn set_threads(common: &Common) -> anyhow::Result<()> {
+    if let Some(threads) = common.threads {
+        rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build_global()?;
     }
-    Ok(stages)
-}
-
-/// Runs stages, then prints what they found: their tables, and then in words, which stay in sight.
-fn run_all(stages: &[Box<dyn Stage>], format: Format, may: May, console: &Console) -> anyhow::Result<()> {
-    let is_of_paper = Config::is_of_paper(stages)?;
-    let expected = is_of_paper.then(Warnings::default);
-    run(stages, may, &Console { expected: expected.clone(), ..console.clone() })?;
-    let expected = expected.map_or(0, |expected| expected.all().len());
-    if expected > 0 {
-        console.note(&format!(
-            "{expected} warnings, all expected of the paper's set-up: measures that say little, and curves that their tests reject; \
-             `rockfrag inspect FILE` shows those of a file"
-        ));
-    }
-    let findings = findings::of(stages, is_of_paper)?;
-    match format {
-        Format::Table => {
-            let terminal = Terminal::stdout();
-            let shown =
-                stages.iter().map(|stage| stage.show(&terminal)).collect::<anyhow::Result<String>>()?;
-            let gap = if findings.is_empty() || shown.is_empty() { "" } else { "\n" };
-            print(&format!(
-                "{shown}{gap}{}",
-                findings.iter().map(|line| format!("{line}\n")).collect::<String>()
-            ))
-        }
-        Format::Json => {
-            let each = |stage: &dyn Stage| Ok(format!("\"{}\": {}", stage.name(), json(stage)?));
-            let each = stages.iter().map(|stage| each(stage.as_ref())).collect::<anyhow::Result<Vec<_>>>()?;
-            print(&format!("{{\n\"findings\": {},\n{}}}\n", json!(findings), each.join(",\n")))
-        }
-    }
-}
-
-/// The table that a stage shows, with the warnings of its file.
-fn json(stage: &dyn Stage) -> anyhow::Result<String> {
-    let recorded = stage.outputs().last().map(|path| stage.recorded(path)).transpose()?.flatten();
-    let warnings = recorded.map_or(Vec::new(), |recorded| recorded.provenance.warnings.all());
-    Ok(text::json_with_warnings(&warnings, &stage.rows()?.unwrap_or_default()))
+    Ok(())
 }
 
 /// To stdout; a reader that has seen enough (`| head`) is no error.
 fn print(text: &str) -> anyhow::Result<()> {
-    match std::io::stdout().lock().write_all(text.as_bytes()) {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         done => Ok(done?),
     }

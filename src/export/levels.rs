@@ -14,7 +14,7 @@ pub fn levels<const N: usize>(edges: &[f64], tolerance: f64, f: impl Fn(f64) -> 
     for (index, interval) in edges.windows(2).enumerate() {
         let is_last = index + 2 == edges.len();
         let (from, to) = (interval[0], if is_last { interval[1] } else { interval[1] * (1.0 - GAP) });
-        let step = |k: i32| from * libm::pow(to / from, f64::from(k) / f64::from(FIRST_STEPS));
+        let step = |k: i32| from * (to / from).powf(f64::from(k) / f64::from(FIRST_STEPS));
         for k in 0..FIRST_STEPS {
             let start = if k == 0 { from } else { step(k) };
             levels.push(start);

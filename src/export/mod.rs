@@ -11,18 +11,17 @@ mod openquake;
 mod pelicun;
 
 pub use levels::{levels, whole_curve_end};
-pub use openquake::{continuous, discrete};
+pub use openquake::discrete;
 pub use pelicun::{LEAST_TOLERANCE as PELICUN_TOLERANCE, metadata, parameters};
 
-use crate::fragility::{Lognormal, Peak};
+use crate::fragility::Peak;
 
 /// Distance below a jump of the last level before it, relative to the intensity of the jump: far enough for pelicun, which keeps
 /// six digits where it converts units.
 pub const GAP: f64 = 2e-5;
 
-/// How the name of a model begins, and what the name of a function has before its ratio.
+/// How the name of a model begins.
 pub const OWN_ID: &str = "rockfrag_";
-pub const OF_RATIO: &str = "_ratio";
 
 /// What the functions of a file have in common.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,8 +44,6 @@ pub struct Function {
     pub levels: Vec<f64>,
     /// Probability of each limit state at the levels.
     pub probabilities: Vec<[f64; 3]>,
-    /// Overturning as a lognormal curve over the intensity, above uplift; none of a curve that bends, or of the surface.
-    pub overturning: Option<Lognormal>,
     /// Intensity at uplift, and the largest one for which there are data and that was ever recorded.
     pub range_of_data: [f64; 2],
 }
@@ -55,9 +52,4 @@ pub struct Function {
 pub fn plain_id(name: &str) -> String {
     let plain = |sign: char| if sign.is_ascii_alphanumeric() { sign } else { '_' };
     name.chars().map(plain).collect()
-}
-
-/// Whether a text that begins like this is one of these files.
-pub fn is_own(head: &str) -> bool {
-    openquake::is_own(head) || pelicun::is_own(head)
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Function, Model, OWN_ID};
+use super::{Function, Model};
 use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
 use crate::units::{CM_PER_M, G_M_S2};
@@ -19,7 +19,7 @@ fn measure(peak: Peak) -> (&'static str, f64) {
 /// no-damage limit makes each probability 0; above the last OpenQuake keeps it.
 pub fn discrete(model: &Model, functions: &[Function]) -> String {
     let states = LimitState::ALL;
-    document(model, states, functions, |function| {
+    document(model, functions, |function| {
         let (imt, unit) = measure(function.peak);
         let levels: Vec<f64> = function.levels.iter().map(|level| level / unit).collect();
         let mut text =
@@ -38,39 +38,14 @@ pub fn discrete(model: &Model, functions: &[Function]) -> String {
     })
 }
 
-/// Writes overturning alone, the one limit state that can be lognormal (functions that are not are left out), by the arithmetic mean and standard deviation of the
-/// capacity, as NRML has it. At and below uplift the no-damage limit makes the probability 0; above `maxIML`, the largest
-/// intensity of the table, OpenQuake keeps it.
-pub fn continuous(model: &Model, functions: &[Function]) -> String {
-    let state = LimitState::Overturning;
-    document(model, &[state], functions, |function| {
-        let Some(overturning) = function.overturning else { return String::new() };
-        let (imt, unit) = measure(function.peak);
-        let uplift = function.range_of_data[0] / unit;
-        let largest = function.levels.last().map_or(uplift, |level| level / unit);
-        let id = escaped(&function.id);
-        format!(
-            "    <fragilityFunction id=\"{id}\" format=\"continuous\" shape=\"logncdf\">\n      <imls imt=\"{imt}\" noDamageLimit=\"{uplift}\" minIML=\"{uplift}\" maxIML=\"{largest}\"/>\n      <params ls=\"{}\" mean=\"{}\" stddev=\"{}\"/>\n",
-            state.as_str(),
-            overturning.mean() / unit,
-            overturning.standard_deviation() / unit,
-        )
-    })
-}
-
-fn document(
-    model: &Model,
-    states: &[LimitState],
-    functions: &[Function],
-    function: impl Fn(&Function) -> String,
-) -> String {
+fn document(model: &Model, functions: &[Function], function: impl Fn(&Function) -> String) -> String {
+    let states = LimitState::ALL;
     let ranges = functions.iter().map(|function| {
         let (imt, unit) = measure(function.peak);
         let [low, high] = function.range_of_data.map(|intensity| intensity / unit);
         format!("{}: holds from {imt} {low:.4} (uplift) to {high:.4}", function.id)
     });
-    let meanings = LimitState::ALL.iter().zip(&model.limit_states);
-    let meanings = meanings.filter(|(state, _)| states.contains(state));
+    let meanings = states.iter().zip(&model.limit_states);
     let meanings = meanings.map(|(state, meaning)| format!("{}: {meaning}", state.as_str()));
     let parts: Vec<String> =
         std::iter::once(model.description.clone()).chain(meanings).chain(ranges).collect();
@@ -86,11 +61,6 @@ fn document(
         text += "    </fragilityFunction>\n";
     }
     text + "  </fragilityModel>\n</nrml>\n"
-}
-
-/// Whether a text that begins like this is such a file: its model has a name of ours.
-pub fn is_own(head: &str) -> bool {
-    head.contains(&format!("<fragilityModel id=\"{OWN_ID}"))
 }
 
 /// Writes numbers in full, separated by spaces.

@@ -3,7 +3,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Function, GAP, Model, OF_RATIO, OWN_ID};
+use super::{Function, GAP, Model};
 use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
 use crate::units::G_M_S2;
@@ -27,9 +27,6 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
 
 /// Writes the rows: rocking has a capacity that is known, uplift; the others have tables of their cumulative distribution, which
 /// must rise from 0 (just below uplift) to 1 (just above the last level).
-///
-/// # Errors
-/// If memory runs out.
 pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let of_state = ["Family", "Theta_0", "Theta_1", "DamageStateWeights"];
@@ -50,12 +47,6 @@ pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
         writer.write_record(row)?;
     }
     Ok(String::from_utf8(writer.into_inner()?)?)
-}
-
-/// Whether a text that begins like this is either file: its model has a name of ours, or its first function does.
-pub fn is_own(head: &str) -> bool {
-    let first = head.strip_prefix(COMMON[0]).and_then(|rest| rest.lines().nth(1)).unwrap_or_default();
-    head.contains(&format!("\"ShortName\": \"{OWN_ID}")) || first.contains(OF_RATIO)
 }
 
 /// Writes the levels, a bar, and the probabilities at them.

@@ -1,14 +1,15 @@
-//! The lognormal distribution of capacities, some of which are only known to lie above or below an intensity.
+//! The lognormal distribution of the capacities of an incremental dynamic analysis, some of which are only
+//! known to lie above or below an intensity.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 
-use super::probability::Z_95;
-use super::slice::Lognormal;
-use crate::normal::{inverse_mills, ln_cdf};
+use super::overturning::p_overturning;
+use super::tree::Z_95;
 use crate::statistics::FitStatus;
-use crate::statistics::distribution::{chi_squared_quantile, t_quantile};
-use crate::statistics::estimate::Limits;
-use crate::statistics::newton::{Along, Objective, maximise};
+use crate::statistics::distributions::{chi_squared_quantile, t_quantile};
+use crate::statistics::newton::{Objective, maximise};
+use crate::statistics::normal::ln_cdf_and_slope;
 
 /// What is known of a capacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,119 +22,110 @@ pub enum KnownCapacity {
     Above(f64),
 }
 
-/// A lognormal distribution of capacities.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A lognormal distribution of capacities: median theta and dispersion beta, with 95 % limits.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CapacityFit {
-    /// Median and dispersion.
-    pub lognormal: Lognormal,
-    /// 95 % limits of the median.
-    pub theta_limits: Limits,
-    /// 95 % limits of the dispersion.
-    pub beta_limits: Limits,
+    pub theta: f64,
+    pub theta_low: f64,
+    pub theta_high: f64,
+    pub beta: f64,
+    pub beta_low: f64,
+    pub beta_high: f64,
 }
 
-/// The upper level of 95 % limits.
-const UPPER_95: f64 = 0.975;
-/// The gain at which the search ends.
-const TOLERANCE: f64 = 1e-14;
+impl CapacityFit {
+    /// Computes the probability that the capacity is up to an intensity.
+    pub fn p_up_to(&self, intensity: f64) -> f64 {
+        p_overturning(intensity, self.theta.ln(), self.beta)
+    }
+}
 
-/// The lognormal distribution of capacities. Where each is known, that of mean and standard deviation of their logarithms (divisor n - 1),
-/// with the exact limits of a normal sample, by Student's t and chi squared. Else that of maximum likelihood; capacities above or below an intensity count with the probability of that
-/// (Baker 2015, Efficient analytical fragility function fitting using dynamic structural analysis, Earthquake Spectra 31,
-/// 579-599, Eqs. 1-7), and limits are those of the information in the logarithms of both parameters, which are too narrow for few.
+/// Fits the distribution. Where each capacity is known, of mean and standard deviation of their logarithms
+/// (divisor n - 1), with the exact limits of a normal sample. Else by maximum likelihood, capacities above or
+/// below an intensity counting with the probability of that (Baker 2015, Efficient analytical fragility
+/// function fitting using dynamic structural analysis, Earthquake Spectra 31, 579-599); limits from the
+/// information in ln theta and ln beta, too narrow for few.
 ///
 /// # Errors
 /// The status, if fewer than two capacities are known, or all are the same.
 pub fn fit_capacities(capacities: &[KnownCapacity]) -> Result<CapacityFit, FitStatus> {
-    let known: Vec<f64> = capacities.iter().filter_map(KnownCapacity::exact).map(libm::log).collect();
+    let exact = |capacity: &KnownCapacity| match capacity {
+        KnownCapacity::At(x) => Some(x.ln()),
+        KnownCapacity::Below(_) | KnownCapacity::Above(_) => None,
+    };
+    let known: Vec<f64> = capacities.iter().filter_map(exact).collect();
     if known.len() < 2 {
         return Err(FitStatus::TooFewEvents);
     }
-    let middle = known.iter().sum::<f64>() / known.len() as f64;
-    let squares: f64 = known.iter().map(|x| (x - middle).powi(2)).sum();
-    let variance = squares / known.len() as f64;
-    if variance <= 1e-24 {
-        return Err(FitStatus::Constant);
+    let n = known.len() as f64;
+    let mean = known.iter().sum::<f64>() / n;
+    let squares: f64 = known.iter().map(|x| (x - mean).powi(2)).sum();
+    if squares / n <= 1e-24 {
+        return Err(FitStatus::Degenerate);
     }
-    if known.len() == capacities.len() {
-        return Ok(of_sample(known.len(), middle, squares));
+    if known.len() < capacities.len() {
+        return censored(capacities, mean, (squares / n).sqrt());
     }
-    let start = DVector::from_vec(vec![1.0 / variance.sqrt(), 0.0]);
-    let likelihood = |at: &DVector<f64>| log_likelihood(capacities, middle, at);
-    let maximum = maximise(likelihood, &start, Along::All, TOLERANCE).ok_or(FitStatus::NotConverged)?;
-    let (per_beta, shift) = (maximum.at[0], maximum.at[1]);
-    let covariance = likelihood(&maximum.at).information.try_inverse().ok_or(FitStatus::NotConverged)?;
-    let of_mu = DVector::from_vec(vec![-shift / (per_beta * per_beta), 1.0 / per_beta]);
-    let se_ln_theta = (&covariance * &of_mu).dot(&of_mu).sqrt();
-    let se_ln_beta = covariance[(0, 0)].sqrt() / per_beta;
-    let lognormal = Lognormal { theta: libm::exp(middle + shift / per_beta), beta: 1.0 / per_beta };
-    let limits = |value: f64, se_ln: f64| Limits {
-        low: value * libm::exp(-Z_95 * se_ln),
-        high: value * libm::exp(Z_95 * se_ln),
-    };
+    let beta = (squares / (n - 1.0)).sqrt();
+    let half_width = t_quantile(0.975, n - 1.0) * beta / n.sqrt();
+    let beta_at = |share| (squares / chi_squared_quantile(share, n - 1.0)).sqrt();
     Ok(CapacityFit {
-        lognormal,
-        theta_limits: limits(lognormal.theta, se_ln_theta),
-        beta_limits: limits(lognormal.beta, se_ln_beta),
+        theta: mean.exp(),
+        theta_low: (mean - half_width).exp(),
+        theta_high: (mean + half_width).exp(),
+        beta,
+        beta_low: beta_at(0.975),
+        beta_high: beta_at(0.025),
     })
 }
 
-/// The distribution of a sample of n capacities whose logarithms have this mean and sum of squared deviations.
-fn of_sample(n: usize, mean: f64, squares: f64) -> CapacityFit {
-    let degrees = n - 1;
-    let beta = (squares / degrees as f64).sqrt();
-    let half_width = t_quantile(UPPER_95, degrees as f64) * beta / (n as f64).sqrt();
-    let beta_at = |level| (squares / chi_squared_quantile(level, degrees)).sqrt();
-    CapacityFit {
-        lognormal: Lognormal { theta: libm::exp(mean), beta },
-        theta_limits: Limits { low: libm::exp(mean - half_width), high: libm::exp(mean + half_width) },
-        beta_limits: Limits { low: beta_at(UPPER_95), high: beta_at(1.0 - UPPER_95) },
-    }
-}
-
-/// In 1/beta and (mu - middle)/beta, in which it is concave (Olsen 1978, Note on the uniqueness of the maximum likelihood
-/// estimator for the Tobit model, Econometrica 46, 1211-1215).
-fn log_likelihood(capacities: &[KnownCapacity], middle: f64, at: &DVector<f64>) -> Objective {
-    let (per_beta, shift) = (at[0], at[1]);
-    let mut value = 0.0;
-    let mut gradient = DVector::zeros(2);
-    let mut information = DMatrix::zeros(2, 2);
-    for capacity in capacities {
-        let (x, censored) = match capacity {
-            KnownCapacity::At(x) => (x, None),
-            KnownCapacity::Below(x) => (x, Some(1.0)),
-            KnownCapacity::Above(x) => (x, Some(-1.0)),
-        };
-        let x = libm::log(*x) - middle;
-        let index = per_beta * x - shift;
-        let slope = DVector::from_vec(vec![x, -1.0]);
-        let weight = match censored {
-            None => {
-                value += libm::log(per_beta) - 0.5 * index * index;
-                gradient[0] += 1.0 / per_beta;
-                information[(0, 0)] += 1.0 / (per_beta * per_beta);
-                gradient -= &slope * index;
+/// Maximises the likelihood in 1/beta and (mu - mean)/beta, in which its logarithm is concave (Olsen 1978,
+/// Note on the uniqueness of the maximum likelihood estimator for the Tobit model, Econometrica 46,
+/// 1211-1215).
+fn censored(capacities: &[KnownCapacity], mean: f64, sd: f64) -> Result<CapacityFit, FitStatus> {
+    let likelihood = |at: &DVector<f64>| {
+        let per_beta = at[0];
+        let mut likelihood = Objective::sum(capacities.len(), 2, |case, sum| {
+            let (x, sign) = match capacities[case] {
+                KnownCapacity::At(x) => (x, 0.0),
+                KnownCapacity::Below(x) => (x, 1.0),
+                KnownCapacity::Above(x) => (x, -1.0),
+            };
+            let slope = DVector::from_column_slice(&[x.ln() - mean, -1.0]);
+            let z = slope.dot(at);
+            let curvature = if sign == 0.0 {
+                sum.value += per_beta.ln() - 0.5 * z * z;
+                sum.gradient += DVector::from_column_slice(&[1.0 / per_beta, 0.0]) - &slope * z;
+                sum.information[(0, 0)] += 1.0 / (per_beta * per_beta);
                 1.0
-            }
-            Some(sign) => {
-                let mills = inverse_mills(sign * index);
-                value += ln_cdf(sign * index);
-                gradient += &slope * (sign * mills);
-                mills * (mills + sign * index)
-            }
-        };
-        information += &slope * slope.transpose() * weight;
-    }
-    // Below zero there is no dispersion.
-    let value = if per_beta > 0.0 { value } else { f64::NEG_INFINITY };
-    Objective { value, gradient, information }
-}
-
-impl KnownCapacity {
-    fn exact(&self) -> Option<f64> {
-        match self {
-            KnownCapacity::At(x) => Some(*x),
-            KnownCapacity::Below(_) | KnownCapacity::Above(_) => None,
+            } else {
+                let (ln_p, mills) = ln_cdf_and_slope(sign * z);
+                sum.value += ln_p;
+                sum.gradient += &slope * (sign * mills);
+                mills * (mills + sign * z)
+            };
+            sum.information += &slope * slope.transpose() * curvature;
+        });
+        // Below zero there is no dispersion.
+        if per_beta <= 0.0 {
+            likelihood.value = f64::NEG_INFINITY;
         }
-    }
+        likelihood
+    };
+    let maximum = maximise(likelihood, DVector::from_column_slice(&[1.0 / sd, 0.0]));
+    let covariance = maximum.objective.information.try_inverse().filter(|_| maximum.converged);
+    let covariance = covariance.ok_or(FitStatus::NotConverged)?;
+    let (per_beta, shift) = (maximum.at[0], maximum.at[1]);
+    let of_mu = DVector::from_column_slice(&[-shift / (per_beta * per_beta), 1.0 / per_beta]);
+    let theta_factor = (Z_95 * (&covariance * &of_mu).dot(&of_mu).sqrt()).exp();
+    let beta_factor = (Z_95 * covariance[(0, 0)].sqrt() / per_beta).exp();
+    let (theta, beta) = ((mean + shift / per_beta).exp(), 1.0 / per_beta);
+    Ok(CapacityFit {
+        theta,
+        theta_low: theta / theta_factor,
+        theta_high: theta * theta_factor,
+        beta,
+        beta_low: beta / beta_factor,
+        beta_high: beta * beta_factor,
+    })
 }

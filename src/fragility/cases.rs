@@ -1,181 +1,283 @@
-//! Cases by the million: in memory as far as they are few.
+//! The responses of one structure to one suite of motions, as columns in memory.
 
-use std::sync::Arc;
+use std::collections::BTreeMap;
 
-use super::case::Case;
+use super::measure::Measure;
+use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
-use crate::resampling::Sizes;
-use crate::rocking::Outcome;
-use crate::statistics::columns::{BLOCK, Columns, Scratch};
-use crate::statistics::spread::Spread;
+use crate::rocking::{Outcome, Structure};
 
-/// A case among others.
+/// More cases of one structure and suite than this answer no further question.
+pub const MOST_CASES: usize = 20_000_000;
+
+/// The event whose probability is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Event {
+    /// Overturning given rocking: P_ro.
+    Overturning,
+    /// Rocking: 1 - P_nr.
+    Rocking,
+    /// A demand above the limit state in safe rocking: P_ex.
+    Exceeding,
+    /// Failure given rocking: overturning, or a demand above the limit state (Eq. 12).
+    Failure,
+}
+
+keywords!(Event {
+    Overturning = "overturning",
+    Rocking = "rocking",
+    Exceeding = "exceeding",
+    Failure = "failure",
+});
+
+impl Event {
+    /// Returns whether it happened in a response with this outcome and demand; none where the response does
+    /// not count.
+    pub fn happened(self, outcome: Outcome, edp: f64, limit_state: f64) -> Option<bool> {
+        let overturned = outcome == Outcome::Overturning;
+        match (self, outcome) {
+            (Event::Rocking, outcome) => Some(outcome != Outcome::NoRocking),
+            (_, Outcome::NoRocking) | (Event::Exceeding, Outcome::Overturning) => None,
+            (Event::Overturning, _) => Some(overturned),
+            (Event::Exceeding | Event::Failure, _) => Some(overturned || edp > limit_state),
+        }
+    }
+}
+
+/// What the responses of a cluster share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SharedBy {
+    Earthquake,
+    /// Magnitude and distance.
+    Cell,
+    /// Nothing: each motion is a cluster of its own.
+    Nothing,
+}
+
+keywords!(SharedBy { Earthquake = "earthquake", Cell = "cell", Nothing = "nothing" });
+
+/// One response, as [`CasesBuilder`] takes it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placed {
-    /// Its number.
-    pub row: usize,
-    pub case: Case,
-    /// The cell of magnitude and distance, within which the bootstrap resamples.
-    pub cell: usize,
-    /// Its cluster: cases of one cluster may depend on each other.
-    pub cluster: usize,
+pub struct CaseRow<'a> {
+    pub p_rad_s: f64,
+    pub alpha_rad: f64,
+    pub eta: f64,
+    pub outcome: Outcome,
+    /// Demand |theta|max / alpha (Eq. 7); none where it overturned.
+    pub edp: Option<f64>,
+    pub measures: IntensityMeasures,
+    pub pga_m_s2: f64,
+    pub pgv_m_s: f64,
+    pub mw: Option<f64>,
+    pub re_km: Option<f64>,
+    pub earthquake: Option<&'a str>,
+    /// Values of the candidate measures, in the order of their names; NaN where unknown.
+    pub candidates: &'a [f64],
 }
 
-/// Cases in some order, however they are held.
-pub trait Cases: Sync {
-    /// Calls `take` with what `work` makes of some neighbouring cases, in order.
-    fn each<S: Send>(&self, work: impl Fn(&[Placed]) -> S + Sync, take: impl FnMut(S));
+/// Why a response cannot be added.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CasesError {
+    #[error(
+        "structure '{structure}': {parameter} is {value} in one row and {first} in another; give each structure its own name"
+    )]
+    OtherStructure { structure: String, parameter: &'static str, value: f64, first: f64 },
+    #[error("structure '{structure}': more than {MOST_CASES} responses; take a sample of the rows")]
+    TooMany { structure: String },
 }
 
-/// All are in one cell, and each is a cluster of its own.
-impl<T: AsRef<[Case]> + Sync + ?Sized> Cases for T {
-    fn each<S: Send>(&self, work: impl Fn(&[Placed]) -> S + Sync, mut take: impl FnMut(S)) {
-        for (block, cases) in self.as_ref().chunks(BLOCK).enumerate() {
-            let placed = |(row, &case): (usize, &Case)| {
-                let row = block * BLOCK + row;
-                Placed { row, case, cell: 0, cluster: row }
-            };
-            take(work(&cases.iter().enumerate().map(placed).collect::<Vec<_>>()));
-        }
-    }
+/// The responses of one structure to one suite; all columns are as long.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cases {
+    pub suite: Option<String>,
+    pub structure: Structure,
+    pub outcome: Vec<Outcome>,
+    /// Demand |theta|max / alpha (Eq. 7); NaN where it overturned.
+    pub edp: Vec<f64>,
+    /// IM1 to IM6 (Eq. 13); NaN where unknown.
+    pub im: [Vec<f64>; 6],
+    pub pga_m_s2: Vec<f64>,
+    pub pgv_m_s: Vec<f64>,
+    /// Magnitude; NaN where unknown.
+    pub mw: Vec<f64>,
+    /// Distance, km; NaN where unknown.
+    pub re_km: Vec<f64>,
+    /// Number of the cluster: cases of one cluster may depend on each other.
+    pub cluster: Vec<u32>,
+    pub shared_by: SharedBy,
+    /// Further measures by name; NaN where unknown.
+    pub candidates: Vec<(String, Vec<f64>)>,
 }
 
-/// The cases of one structure under one suite of motions, as columns.
+/// What makes cases one cluster, in the order of the numbers of clusters.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum ClusterKey {
+    Earthquake(String),
+    /// Bits of magnitude and distance: these are positive, so that the bits are in the order of the values.
+    Cell(u64, u64),
+}
+
+/// Number of a case that shares nothing, until all have come.
+const ALONE: u32 = u32::MAX;
+
+/// Makes [`Cases`], response by response.
 #[derive(Debug)]
-pub struct CaseTable {
-    columns: Columns,
-    /// The numbers of clusters by what the column has, if these are others.
-    clusters: Vec<usize>,
+pub struct CasesBuilder {
+    cases: Cases,
+    /// The number under which each cluster first came.
+    clusters: BTreeMap<ClusterKey, u32>,
 }
 
-/// Demand and outcome, six measures, cell and cluster.
-const WIDTH: usize = 10;
-
-impl CaseTable {
-    /// Of no cases yet.
-    pub fn new(scratch: &Arc<Scratch>) -> CaseTable {
-        CaseTable { columns: Columns::new(WIDTH, scratch), clusters: Vec::new() }
-    }
-
-    /// Of these, with the number of the cell of magnitude and distance of each, within which the bootstrap resamples, and that of its
-    /// cluster.
-    pub fn of(cases: &[Case], cells: &[usize], clusters: &[usize]) -> CaseTable {
-        let mut table = CaseTable::new(&Arc::default());
-        for ((case, &cell), &cluster) in cases.iter().zip(cells).zip(clusters) {
-            table.push(case, cell, cluster);
-        }
-        table
-    }
-
-    /// Adds a case.
-    pub fn push(&mut self, case: &Case, cell: usize, cluster: usize) {
-        let Case { outcome, edp, measures: IntensityMeasures { im1, im2, im3, im4, im5, im6 } } = *case;
-        let outcome = match outcome {
-            Outcome::NoRocking => 0.0,
-            Outcome::SafeRocking => 1.0,
-            Outcome::Overturning => 2.0,
+impl CasesBuilder {
+    /// Starts without a case, with these names of candidate measures.
+    pub fn new(suite: Option<&str>, structure: Structure, candidates: &[String]) -> CasesBuilder {
+        let cases = Cases {
+            suite: suite.map(str::to_string),
+            structure,
+            outcome: Vec::new(),
+            edp: Vec::new(),
+            im: Default::default(),
+            pga_m_s2: Vec::new(),
+            pgv_m_s: Vec::new(),
+            mw: Vec::new(),
+            re_km: Vec::new(),
+            cluster: Vec::new(),
+            shared_by: SharedBy::Nothing,
+            candidates: candidates.iter().map(|name| (name.clone(), Vec::new())).collect(),
         };
-        let or_nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        let [im1, im2, im3, im6] = [im1, im2, im3, im6].map(or_nan);
-        self.columns.push(&[edp, outcome, im1, im2, im3, im4, im5, im6, cell as f64, cluster as f64]);
+        CasesBuilder { cases, clusters: BTreeMap::new() }
     }
 
-    /// Gives clusters other numbers: of those that were pushed as 0, 1, 2 ...; larger ones stay.
-    pub fn renumber(&mut self, clusters: Vec<usize>) {
-        self.clusters = clusters;
+    /// Adds a response.
+    ///
+    /// # Errors
+    /// If its structure is another one, or there are [`MOST_CASES`] already.
+    pub fn push(&mut self, row: &CaseRow) -> Result<(), CasesError> {
+        let cases = &mut self.cases;
+        let Structure { name, p_rad_s, alpha_rad, eta } = &cases.structure;
+        let parameters =
+            [("p", row.p_rad_s, *p_rad_s), ("alpha", row.alpha_rad, *alpha_rad), ("eta", row.eta, *eta)];
+        if let Some(&(parameter, value, first)) = parameters.iter().find(|(_, value, first)| value != first) {
+            return Err(CasesError::OtherStructure { structure: name.clone(), parameter, value, first });
+        }
+        if cases.len() == MOST_CASES {
+            return Err(CasesError::TooMany { structure: name.clone() });
+        }
+        let key = match (row.earthquake, row.mw, row.re_km) {
+            (Some(earthquake), ..) => Some(ClusterKey::Earthquake(earthquake.to_string())),
+            (None, Some(mw), Some(re_km)) => Some(ClusterKey::Cell(mw.to_bits(), re_km.to_bits())),
+            _ => None,
+        };
+        let next = self.clusters.len() as u32;
+        cases.cluster.push(key.map_or(ALONE, |key| *self.clusters.entry(key).or_insert(next)));
+        let IntensityMeasures { im1, im2, im3, im4, im5, im6 } = row.measures;
+        let values = [im1, im2, im3, Some(im4), Some(im5), im6];
+        cases.im.iter_mut().zip(values).for_each(|(column, im)| column.push(im.unwrap_or(f64::NAN)));
+        cases.outcome.push(row.outcome);
+        cases.edp.push(row.edp.unwrap_or(f64::NAN));
+        cases.pga_m_s2.push(row.pga_m_s2);
+        cases.pgv_m_s.push(row.pgv_m_s);
+        cases.mw.push(row.mw.unwrap_or(f64::NAN));
+        cases.re_km.push(row.re_km.unwrap_or(f64::NAN));
+        cases.candidates.iter_mut().zip(row.candidates).for_each(|((_, column), value)| column.push(*value));
+        Ok(())
     }
 
-    /// How many there are.
+    /// Numbers the clusters, in an order that does not depend on that of the rows, and those of one motion
+    /// after them.
+    pub fn finish(self) -> Cases {
+        let CasesBuilder { mut cases, clusters } = self;
+        let mut numbers = vec![0; clusters.len()];
+        clusters.values().zip(0..).for_each(|(&came, number)| numbers[came as usize] = number);
+        let mut alone = clusters.len() as u32..;
+        for cluster in &mut cases.cluster {
+            *cluster =
+                if *cluster == ALONE { alone.next().unwrap_or(ALONE) } else { numbers[*cluster as usize] };
+        }
+        cases.shared_by = match clusters.keys().next() {
+            Some(ClusterKey::Earthquake(_)) => SharedBy::Earthquake,
+            Some(ClusterKey::Cell(..)) => SharedBy::Cell,
+            None => SharedBy::Nothing,
+        };
+        cases
+    }
+}
+
+/// Logarithms of measures, and what was observed, of the cases of a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample<Y> {
+    /// ln IM, a column for each measure.
+    pub ln_im: Vec<Vec<f64>>,
+    pub y: Vec<Y>,
+    pub clusters: Vec<u32>,
+    /// Least and largest value of each measure.
+    pub ranges: Vec<[f64; 2]>,
+}
+
+impl<Y> Sample<Y> {
+    /// Returns the columns of ln IM.
+    pub fn x(&self) -> Vec<&[f64]> {
+        self.ln_im.iter().map(Vec::as_slice).collect()
+    }
+}
+
+impl Cases {
+    /// Returns the number of cases.
     pub fn len(&self) -> usize {
-        self.columns.rows()
+        self.outcome.len()
     }
 
-    /// Whether there is none.
+    /// Returns whether there is no case.
     pub fn is_empty(&self) -> bool {
-        self.len() == 0
+        self.outcome.is_empty()
     }
 
-    /// Whether one block has them all.
-    pub fn is_small(&self) -> bool {
-        self.columns.is_small()
+    /// Returns the measures of a case.
+    pub fn measures(&self, case: usize) -> IntensityMeasures {
+        let [im1, im2, im3, im4, im5, im6] = self.im.each_ref().map(|column| column[case]);
+        let known = |im: f64| Some(im).filter(|im| !im.is_nan());
+        IntensityMeasures { im1: known(im1), im2: known(im2), im3: known(im3), im4, im5, im6: known(im6) }
     }
 
-    /// How many blocks hold them.
-    pub fn blocks(&self) -> usize {
-        self.columns.blocks()
+    /// Returns whether an event happened in a case; none where the case does not count.
+    pub fn happened(&self, case: usize, event: Event, limit_state: f64) -> Option<bool> {
+        event.happened(self.outcome[case], self.edp[case], limit_state)
     }
 
-    /// Those of a block.
-    pub fn block(&self, block: usize) -> Vec<Case> {
-        let some = |first: usize, columns: &[&[f64]]| self.placed(first, columns);
-        self.columns.with_block(block, WIDTH, some).into_iter().map(|placed| placed.case).collect()
+    /// Returns ln EDP where the structure rocked safely, with a demand that has a logarithm.
+    pub fn ln_demand(&self, case: usize) -> Option<f64> {
+        let counts = self.outcome[case] == Outcome::SafeRocking && self.edp[case] > 0.0;
+        counts.then(|| self.edp[case].ln())
     }
 
-    /// The cells of those of a block.
-    pub fn cells_of(&self, block: usize) -> Vec<usize> {
-        self.columns.with_block(block, WIDTH - 1, |_, columns| {
-            columns[WIDTH - 2].iter().map(|cell| *cell as usize).collect()
-        })
+    /// Raises smaller demands in safe rocking to `floor`, as a solver of finite tolerance does.
+    pub fn raise_demands(&mut self, floor: f64) {
+        let safe =
+            self.outcome.iter().zip(&mut self.edp).filter(|(outcome, _)| **outcome == Outcome::SafeRocking);
+        safe.for_each(|(_, edp)| *edp = edp.max(floor));
     }
 
-    /// Whether its cases are in the same cells as those of another table.
-    pub fn has_cells_of(&self, other: &CaseTable) -> bool {
-        let same = |block: usize| self.cells_of(block) == other.cells_of(block);
-        self.len() == other.len() && (0..self.blocks()).all(same)
-    }
-
-    /// How many cases each cell has.
-    pub fn cell_sizes(&self) -> Sizes {
-        let mut sizes = Sizes::new();
-        for block in 0..self.blocks() {
-            for cell in self.cells_of(block) {
-                *sizes.entry(cell).or_default() += 1;
-            }
-        }
-        sizes
-    }
-
-    /// All of them, or of more than `most` some that are spread over all: of tables of one length the same rows.
-    pub fn spread(&self, most: usize) -> Vec<Placed> {
-        let mut spread = Spread::new(most);
-        self.each(
-            |some| some.to_vec(),
-            |some: Vec<Placed>| some.into_iter().for_each(|case| spread.push(case)),
-        );
-        spread.into_kept()
-    }
-
-    fn placed(&self, first: usize, columns: &[&[f64]]) -> Vec<Placed> {
-        let case = |at: usize| {
-            let value = |place: usize| columns[place][at];
-            let known = |place: usize| Some(value(place)).filter(|value| !value.is_nan());
-            let outcome = match value(1) {
-                0.0 => Outcome::NoRocking,
-                1.0 => Outcome::SafeRocking,
-                _ => Outcome::Overturning,
-            };
-            let measures = IntensityMeasures {
-                im1: known(2),
-                im2: known(3),
-                im3: known(4),
-                im4: value(5),
-                im5: value(6),
-                im6: known(7),
-            };
-            let case = Case { outcome, edp: value(0), measures };
-            Placed { row: first + at, case, cell: value(8) as usize, cluster: self.cluster(value(9)) }
+    /// Returns the cases that have all measures and a `y`.
+    pub fn sample<Y>(&self, measures: &[Measure], y: impl Fn(usize) -> Option<Y>) -> Sample<Y> {
+        let mut sample = Sample {
+            ln_im: vec![Vec::new(); measures.len()],
+            y: Vec::new(),
+            clusters: Vec::new(),
+            ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; measures.len()],
         };
-        (0..columns[0].len()).map(case).collect()
-    }
-
-    fn cluster(&self, pushed: f64) -> usize {
-        self.clusters.get(pushed as usize).copied().unwrap_or(pushed as usize)
-    }
-}
-
-impl Cases for CaseTable {
-    fn each<S: Send>(&self, work: impl Fn(&[Placed]) -> S + Sync, take: impl FnMut(S)) {
-        let of_block = |first: usize, columns: &[&[f64]]| work(&self.placed(first, columns));
-        self.columns.each(WIDTH, of_block, take);
+        for case in 0..self.len() {
+            let Some(observed) = y(case) else { continue };
+            let values = self.measures(case);
+            let values: Option<Vec<f64>> = measures.iter().map(|measure| measure.among(&values)).collect();
+            let Some(values) = values else { continue };
+            for (k, value) in values.into_iter().enumerate() {
+                sample.ln_im[k].push(value.ln());
+                let [least, largest] = &mut sample.ranges[k];
+                (*least, *largest) = (least.min(value), largest.max(value));
+            }
+            sample.y.push(observed);
+            sample.clusters.push(self.cluster[case]);
+        }
+        sample
     }
 }

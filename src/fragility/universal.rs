@@ -3,15 +3,12 @@
 
 use std::sync::LazyLock;
 
-use super::case::Measure;
-use super::model::{GivenRocking, Probabilities};
-use super::peaks::{JointPeaks, RatioGiven};
-use super::predictor::OutOfRange;
-use super::probability::{Probability, Z_95, p_failure_given_rocking, p_no_rocking};
+use super::measure::Measure;
+use super::peaks::{JointPeaks, RatioGiven, restricted_splines};
+use super::tree::{GivenRocking, Probabilities, Probability, Z_95, p_failure_given_rocking, p_no_rocking};
 use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Suite};
 use crate::rocking::Structure;
-use crate::statistics::design::restricted_splines;
 
 /// The surface as it is shipped: knots, domain and coefficients.
 pub const SURFACE: &str = include_str!("../../data/universal.csv");
@@ -41,6 +38,15 @@ pub enum Scenarios {
     One,
     /// Many, among which their differences average out, as over a hazard.
     Many,
+}
+
+/// A measure outside of the range of the data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutOfRange {
+    pub measure: Measure,
+    pub value: f64,
+    /// Least and largest value in the data.
+    pub range: [f64; 2],
 }
 
 /// A parameter of a structure that no structure of the surface had.

@@ -2,18 +2,21 @@
 
 use std::collections::BTreeMap;
 
+use rand::{Rng, RngExt};
+use rayon::prelude::*;
+
 use super::curve::HazardCurve;
-use crate::normal;
-use crate::resampling::{Strata, TOGETHER, bootstrap};
-use crate::statistics::estimate::{Limits, quantile};
+use crate::random::{Purpose, stream};
+use crate::statistics::Limits;
+use crate::statistics::distributions::chi_squared_quantile;
 
 /// Bins of equal numbers of motions, as many as leave each so many motions.
 const MOST_BINS: usize = 320;
 const LEAST_IN_BIN: usize = 20;
 /// How often the clusters are drawn anew.
-const RESAMPLES: usize = 500;
-/// The probability with which limits hold the rate.
-const CONFIDENCE: f64 = 0.95;
+const RESAMPLES: u64 = 500;
+/// The probability that the rate lies below the limits, and that it lies above.
+const TAIL: f64 = 0.025;
 
 /// A motion that is counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +26,7 @@ pub struct CountedMotion<const N: usize> {
     /// Whether each event happened, as 1 or 0; or its probability.
     pub events: [f64; N],
     /// Its cluster: motions of one cluster may depend on each other.
-    pub cluster: usize,
+    pub cluster: u32,
 }
 
 /// A counted annual rate, with 95 % limits.
@@ -53,13 +56,14 @@ struct Bin<const N: usize> {
     events: [f64; N],
 }
 
-/// Counts the annual rates of events at motions that are weighted so that their intensities have the rates of the hazard: in bins
-/// of equal numbers of motions, the rate of a bin times the share in which the event happened. Motions weaker than `least` cause
-/// none; those stronger than the strongest bin count as this. None without motions.
+/// Counts the annual rates of events at motions that are weighted so that their intensities have the rates of
+/// the hazard: in bins of equal numbers of motions, the rate of a bin times the share in which the event
+/// happened. Motions weaker than `least` cause none; those stronger than the strongest bin count as this.
+/// None without motions.
 ///
-/// The limits are the wider ones of two: percentiles of resamples of clusters, and those of a weighted sum of Poisson counts, which
-/// also hold where no resample has an event more (Fay & Feuer 1997, Confidence intervals for directly standardized rates, Statistics
-/// in Medicine 16, 791-801; with the quantiles of chi squared by Wilson & Hilferty 1931).
+/// The limits are the wider ones of two: percentiles of resamples of clusters, and those of a weighted sum of
+/// Poisson counts, which also hold where no resample has an event more (Fay & Feuer 1997, Confidence
+/// intervals for directly standardized rates, Statistics in Medicine 16, 791-801).
 pub fn counted_rates<const N: usize>(
     curve: &HazardCurve,
     least: f64,
@@ -69,27 +73,22 @@ pub fn counted_rates<const N: usize>(
     motions.retain(|motion| motion.intensity >= least);
     motions.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
     let strongest = motions.last()?.intensity;
-    let mut numbers: BTreeMap<usize, usize> = motions.iter().map(|motion| (motion.cluster, 0)).collect();
-    numbers.values_mut().enumerate().for_each(|(number, place)| *place = number);
+    let mut numbers: BTreeMap<u32, u32> = motions.iter().map(|motion| (motion.cluster, 0)).collect();
+    numbers.values_mut().zip(0..).for_each(|(number, place)| *number = place);
     motions.iter_mut().for_each(|motion| motion.cluster = numbers[&motion.cluster]);
     let in_all = bins(curve, least, &motions, |_| 1.0);
-    // All clusters are of one stratum.
-    let strata = Strata::new(&vec![0; numbers.len()]);
-    let resampled = bootstrap(&strata, RESAMPLES, seed, |resamples| -> [[f64; N]; TOGETHER] {
-        std::array::from_fn(|resample| {
-            rates(&bins(curve, least, &motions, |cluster| resamples.counts[cluster][resample]))
-        })
-    });
+    let draw = |resample: u64| {
+        let times = draw_clusters(numbers.len(), &mut stream(seed, Purpose::Bootstrap, resample));
+        rates(&bins(curve, least, &motions, |cluster| times[cluster as usize]))
+    };
+    let resampled: Vec<[f64; N]> = (0..RESAMPLES).into_par_iter().map(draw).collect();
     let values = rates(&in_all);
     let rate = |event: usize| {
         let mut drawn: Vec<f64> = resampled.iter().map(|rates| rates[event]).collect();
         drawn.sort_by(f64::total_cmp);
-        let tail = 0.5 * (1.0 - CONFIDENCE);
+        let at = |share: f64| drawn[(share * (drawn.len() - 1) as f64).round() as usize];
         let poisson = poisson_limits(&in_all, event);
-        let limits = Limits {
-            low: poisson.low.min(quantile(&drawn, tail)),
-            high: poisson.high.max(quantile(&drawn, 1.0 - tail)),
-        };
+        let limits = Limits { low: poisson.low.min(at(TAIL)), high: poisson.high.max(at(1.0 - TAIL)) };
         CountedRate { value: values[event], limits }
     };
     Some(Count {
@@ -100,12 +99,22 @@ pub fn counted_rates<const N: usize>(
     })
 }
 
-/// The bins of motions in order, where each counts so many times. A motion is in the bin of the middle of its share.
+/// Draws as many clusters as there are, with replacement, and returns how often each came.
+fn draw_clusters(clusters: usize, random: &mut impl Rng) -> Vec<f64> {
+    let mut times = vec![0.0; clusters];
+    for _ in 0..clusters {
+        times[random.random_range(0..clusters)] += 1.0;
+    }
+    times
+}
+
+/// The bins of motions in order, where each counts so many times. A motion is in the bin of the middle of its
+/// share.
 fn bins<const N: usize>(
     curve: &HazardCurve,
     least: f64,
     motions: &[CountedMotion<N>],
-    times: impl Fn(usize) -> f64,
+    times: impl Fn(u32) -> f64,
 ) -> Vec<Bin<N>> {
     let number = (motions.len() / LEAST_IN_BIN).clamp(1, MOST_BINS);
     let all: f64 = motions.iter().map(|motion| times(motion.cluster)).sum();
@@ -148,18 +157,11 @@ fn poisson_limits<const N: usize>(bins: &[Bin<N>], event: usize) -> Limits {
         if variance == 0.0 {
             0.0
         } else {
-            0.5 * variance / rate * chi_squared(p, 2.0 * rate * rate / variance)
+            0.5 * variance / rate * chi_squared_quantile(p, 2.0 * rate * rate / variance)
         }
     };
-    let tail = 0.5 * (1.0 - CONFIDENCE);
     Limits {
-        low: scaled(rate, variance, tail),
-        high: scaled(rate + largest, variance + largest * largest, 1.0 - tail),
+        low: scaled(rate, variance, TAIL),
+        high: scaled(rate + largest, variance + largest * largest, 1.0 - TAIL),
     }
-}
-
-/// The quantile of chi squared with so many degrees of freedom.
-fn chi_squared(p: f64, degrees: f64) -> f64 {
-    let part = 2.0 / (9.0 * degrees);
-    degrees * (1.0 - part + normal::quantile(p) * part.sqrt()).max(0.0).powi(3)
 }

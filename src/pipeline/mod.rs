@@ -1,34 +1,28 @@
-//! What must run, and running it.
+//! What all stages share, and what decides whether one must run.
 //!
 //! ```text
-//! options  words, lists and ranges as they stand in options, and what is wrong with a YAML file
-//! stage    what every stage has: inputs, parameters, outputs, work
-//! declare  what a stage says of itself, from which its command and its section of pipeline.yaml follow
-//! cache    whether a stage is up to date, and if not, why; two runs in one folder
-//! replace  what a stage may write over
-//! files    files and folders that a user names
-//! stream   read, work and write at the same time, in order
-//! console  progress, notes and warnings on stderr
-//! terminal where results are read: its width, its colours
+//! stage     a stage: options that clap parses, and one function that runs it
+//! call      one call of a stage: its options, inputs and key
+//! cache     runs a call unless its files are up to date
+//! context   what a stage is handed: where to write, progress, doubts
+//! stream    read, work and write at the same time
+//! options   types of options that several stages have
 //! ```
 
 pub mod cache;
-pub mod console;
-pub mod declare;
-pub mod files;
+pub mod call;
+pub mod context;
 pub mod options;
-pub mod replace;
 pub mod stage;
 pub mod stream;
-pub mod terminal;
 
-/// A mistake in how rockfrag was called or configured: exit code 2.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+/// A mistake in what was asked, rather than in a file: the command exits with 2.
+#[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-pub struct UsageError(pub String);
+pub struct UsageError(String);
 
 impl UsageError {
-    /// With what was expected.
+    /// An error that says this.
     pub fn because(message: impl Into<String>) -> anyhow::Error {
         UsageError(message.into()).into()
     }

@@ -1,211 +1,109 @@
 //! inspect: what a file holds and where it came from.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::fmt::Write;
+use std::path::PathBuf;
 
-use arrow_array::cast::AsArray;
-use arrow_array::{Array, ArrayRef, RecordBatch, StringArray};
-use arrow_schema::{DataType, Field, FieldRef};
-use polars::prelude::{Column, DataFrame};
-use serde_json::{Value, json};
+use arrow_schema::Field;
+use clap::{Args, ValueHint};
+use parquet::arrow::arrow_reader::ArrowReaderMetadata;
+use parquet::file::metadata::ParquetMetaData;
+use parquet::file::statistics::Statistics;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
 
-use crate::pipeline::terminal::{Terminal, Weight};
-use crate::table::store::columns::spelt_out;
-use crate::table::store::contents::footer;
-use crate::table::store::contents::recorded;
-use crate::table::store::footer::Footer;
-use crate::table::store::frame::{frame_of, stacked};
-use crate::table::store::provenance::Recorded;
-use crate::table::store::reader::read_first;
-use crate::table::store::text;
+use crate::table::file::{self, Table};
+use crate::table::frame::{self, Format};
+use crate::table::provenance::Provenance;
+use crate::table::{dictionary, rows};
 
-/// What is shown of a file.
-pub struct Inspected {
-    path: PathBuf,
-    recorded: Option<Recorded>,
-    shown: Shown,
+/// Show what a file holds and where it came from
+#[derive(Debug, Args)]
+pub struct Inspect {
+    /// A Parquet file, or a folder of them
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    file: PathBuf,
+    /// Print the first N rows in place of the columns
+    #[arg(long, value_name = "N")]
+    head: Option<usize>,
+    /// text, csv or json
+    #[arg(long, default_value = "text")]
+    format: Format,
 }
 
-enum Shown {
-    Columns(Footer),
-    Rows { rows: DataFrame, units: Vec<String> },
+/// What is known of a column.
+#[derive(Serialize, Deserialize)]
+struct ColumnRow {
+    column: String,
+    unit: String,
+    minimum: Option<f64>,
+    maximum: Option<f64>,
+    nulls: Option<i64>,
+    meaning: String,
 }
 
-/// Reads what a Parquet file, ours or another's, says of its columns, or its first rows.
-///
-/// # Errors
-/// If it is missing or no Parquet file.
-pub fn inspect(path: &Path, head: Option<usize>) -> anyhow::Result<Inspected> {
-    let recorded = recorded(path)?;
-    let footer = footer(path)?;
-    let shown = match head {
-        None => Shown::Columns(footer),
-        Some(rows) => {
-            let rows = first_rows(path, rows)?;
-            let unit = |column: &Column| {
-                let field = footer.schema.field_with_name(column.name()).ok();
-                field.map_or(String::new(), |field| unit(field).to_string())
-            };
-            Shown::Rows { units: rows.columns().iter().map(unit).collect(), rows }
+impl Inspect {
+    /// The text to print.
+    pub fn run(&self) -> anyhow::Result<String> {
+        let table = Table::open(&self.file)?;
+        if let Some(head) = self.head {
+            return Ok(frame::show(&frame::head(&table, head)?, self.format)?);
         }
-    };
-    Ok(Inspected { path: path.to_path_buf(), recorded, shown })
-}
-
-impl Inspected {
-    /// For a reader, as wide as the terminal.
-    pub fn text(&self, terminal: &Terminal) -> String {
-        match &self.shown {
-            Shown::Columns(footer) => self.columns(footer, terminal),
-            Shown::Rows { rows, units } => terminal.table(&text::aligned_with_units(rows, units)),
+        let first = file::files(&self.file)?.swap_remove(0);
+        let metadata: ArrowReaderMetadata = file::metadata(&first)?;
+        let fields = metadata.schema().fields();
+        let columns: Vec<ColumnRow> = fields.iter().map(|field| column(field, metadata.metadata())).collect();
+        let made = Provenance::of_footer(metadata.metadata());
+        if self.format == Format::Json {
+            let path = self.file.display().to_string();
+            return Ok(format!(
+                "{:#}\n",
+                json!({ "file": path, "rows": table.rows(), "made": made, "columns": columns })
+            ));
         }
-    }
-
-    /// For a program: warnings and rows, and of the columns what made the file.
-    pub fn json(&self) -> String {
-        let provenance = self.recorded.as_ref().map(|recorded| &recorded.provenance);
-        let warnings = provenance.map_or(Vec::new(), |provenance| provenance.warnings.all());
-        let footer = match &self.shown {
-            Shown::Columns(footer) => footer,
-            Shown::Rows { rows, .. } => return text::json_with_warnings(&warnings, rows),
-        };
-        let column = |field: &FieldRef| {
-            let range = footer.ranges.get(field.name()).cloned().unwrap_or_default();
-            json!({
-                "column": field.name(), "type": type_words(field.data_type()), "unit": unit(field),
-                "nulls": range.nulls, "least": range.least, "largest": range.largest,
-                "description": field.metadata().get("description")
-            })
-        };
-        let rows: Vec<Value> = footer.schema.fields().iter().map(column).collect();
-        let file = json!({
-            "path": self.path.display().to_string(), "rows": footer.rows, "row_groups": footer.row_groups,
-            "bytes": footer.bytes, "made_by": provenance.map(|made| &made.stage),
-            "version": provenance.map(|made| &made.version), "inputs": provenance.map(|made| &made.inputs),
-            "parameters": provenance.map(|made| &made.parameters),
-            "content": self.recorded.as_ref().map(|recorded| &recorded.content)
-        });
-        format!("{:#}\n", json!({ "file": file, "warnings": warnings, "rows": rows }))
-    }
-
-    fn columns(&self, footer: &Footer, terminal: &Terminal) -> String {
-        let mut text = terminal.line(&self.path.display().to_string(), Weight::Strong);
-        let megabytes = footer.bytes as f64 / 1e6;
-        let size = format!("  {} rows in {} row groups, {megabytes:.1} MB", footer.rows, footer.row_groups);
-        text += &terminal.line(&size, Weight::Plain);
-        match &self.recorded {
-            Some(recorded) => text += &made(recorded, terminal),
-            None => text += &terminal.line("  not written by rockfrag", Weight::Plain),
+        let shown = frame::show(&frame::of_batch(&rows::batch(&columns)?)?, self.format)?;
+        if self.format == Format::Csv {
+            return Ok(shown);
         }
-        text.push('\n');
-        let rows = std::iter::once(NAMES.map(str::to_string)).chain(rows(footer)).collect::<Vec<_>>();
-        let widths: [usize; NAMES.len()] = std::array::from_fn(|column| {
-            rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)
-        });
-        let [name_width, type_width, nulls_width, least_width, largest_width, _] = widths;
-        for (index, [name, kind, nulls, least, largest, description]) in rows.iter().enumerate() {
-            let line = format!(
-                "  {name:name_width$}  {kind:type_width$}  {nulls:>nulls_width$}  {least:>least_width$}  {largest:>largest_width$}  {description}"
-            );
-            text += &terminal.line(line.trim_end(), if index == 0 { Weight::Strong } else { Weight::Plain });
+        let mut text = format!("{}: {} rows\n", self.file.display(), table.rows());
+        match made {
+            None => text += "not written by rockfrag\n",
+            Some(made) => {
+                writeln!(text, "made by {}, rockfrag {}", made.stage, made.version)?;
+                for (name, values) in &made.arguments {
+                    writeln!(text, "  --{name} {}", values.join(","))?;
+                }
+                made.doubts.iter().try_for_each(|doubt| writeln!(text, "  doubt: {doubt}"))?;
+            }
         }
-        text
+        Ok(format!("{text}\n{shown}"))
     }
 }
 
-/// The first rows of a table, each list as the number of its samples.
-fn first_rows(path: &Path, rows: usize) -> anyhow::Result<DataFrame> {
-    let batches = read_first(path, rows)?;
-    let frames = batches.iter().map(|batch| {
-        let columns = batch.schema_ref().fields().iter().zip(batch.columns());
-        let columns = columns.map(|(field, array)| (field.name(), readable(array)));
-        Ok(frame_of(&RecordBatch::try_from_iter(columns)?)?)
-    });
-    Ok(stacked(frames.collect::<anyhow::Result<Vec<_>>>()?)?)
-}
-
-/// A column as a frame holds it.
-fn readable(array: &ArrayRef) -> ArrayRef {
-    let array = &spelt_out(array);
-    let length = |length: usize| format!("{length} samples");
-    if let Some(lists) = array.as_list_opt::<i32>() {
-        return Arc::new(
-            lists.iter().map(|list| list.map(|list| length(list.len()))).collect::<StringArray>(),
-        );
-    }
-    if let Some(lists) = array.as_list_opt::<i64>() {
-        return Arc::new(
-            lists.iter().map(|list| list.map(|list| length(list.len()))).collect::<StringArray>(),
-        );
-    }
-    if let Some(lists) = array.as_fixed_size_list_opt() {
-        return Arc::new(
-            lists.iter().map(|list| list.map(|list| length(list.len()))).collect::<StringArray>(),
-        );
-    }
-    array.clone()
-}
-
-/// The unit of a column, nothing where it has none.
-fn unit(field: &Field) -> &str {
-    match field.metadata().get("unit").map_or("", String::as_str) {
-        "1" => "",
-        unit => unit,
+fn column(field: &Field, metadata: &ParquetMetaData) -> ColumnRow {
+    let (unit, meaning) = dictionary::entry(field.name()).unwrap_or_default();
+    let descriptor = metadata.file_metadata().schema_descr();
+    let leaf =
+        (0..descriptor.num_columns()).find(|leaf| descriptor.get_column_root(*leaf).name() == field.name());
+    let of_groups: Vec<&Statistics> =
+        metadata.row_groups().iter().filter_map(|group| group.column(leaf?).statistics()).collect();
+    let ranges = of_groups.iter().filter_map(|statistics| range(statistics));
+    let nulls: Option<u64> = of_groups.iter().map(|statistics| statistics.null_count_opt()).sum();
+    ColumnRow {
+        column: field.name().clone(),
+        unit: if unit == "1" { String::new() } else { unit.to_string() },
+        minimum: ranges.clone().map(|(low, _)| low).reduce(f64::min),
+        maximum: ranges.map(|(_, high)| high).reduce(f64::max),
+        nulls: nulls.filter(|_| !of_groups.is_empty()).map(|nulls| nulls as i64),
+        meaning: meaning.to_string(),
     }
 }
 
-/// The cells of a line about a column.
-type Row = [String; 6];
-
-/// Their names.
-const NAMES: [&str; 6] = ["column", "type", "nulls", "least", "largest", "description"];
-
-fn rows(footer: &Footer) -> impl Iterator<Item = Row> {
-    footer.schema.fields().iter().map(|field| {
-        let range = footer.ranges.get(field.name()).cloned().unwrap_or_default();
-        let metadata = |key: &str| field.metadata().get(key).cloned().unwrap_or_default();
-        let unit = match unit(field) {
-            "" => String::new(),
-            unit => format!(" [{unit}]"),
-        };
-        // Adding 0 turns -0 into 0.
-        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{:.5}", value + 0.0));
-        [
-            field.name().clone(),
-            type_words(field.data_type()),
-            range.nulls.to_string(),
-            number(range.least),
-            number(range.largest),
-            format!("{}{unit}", metadata("description")),
-        ]
-    })
-}
-
-/// What made a file.
-fn made(Recorded { provenance, content, .. }: &Recorded, terminal: &Terminal) -> String {
-    let mut pairs = vec![("content".to_string(), content.clone())];
-    pairs.extend(provenance.inputs.iter().map(|(role, content)| (format!("from {role}"), content.clone())));
-    if let Value::Object(parameters) = &provenance.parameters {
-        pairs.extend(parameters.iter().map(|(name, value)| (format!("{name}:"), value.to_string())));
-    }
-    let by = format!("  made by {}, rockfrag {}", provenance.stage, provenance.version);
-    let lines = pairs.iter().map(|(name, value)| terminal.line(&format!("  {name} {value}"), Weight::Faint));
-    let warnings = provenance.warnings.all();
-    let warnings =
-        warnings.iter().map(|warning| terminal.line(&format!("  warning: {warning}"), Weight::Plain));
-    std::iter::once(terminal.line(&by, Weight::Plain)).chain(lines).chain(warnings).collect()
-}
-
-fn type_words(data_type: &DataType) -> String {
-    match data_type {
-        DataType::Int64 => "i64".to_string(),
-        DataType::Int32 => "i32".to_string(),
-        DataType::Float64 => "f64".to_string(),
-        DataType::Float32 => "f32".to_string(),
-        DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => "str".to_string(),
-        DataType::List(item) | DataType::LargeList(item) | DataType::FixedSizeList(item, _) => {
-            format!("list<{}>", type_words(item.data_type()))
-        }
-        other => other.to_string(),
+fn range(statistics: &Statistics) -> Option<(f64, f64)> {
+    match statistics {
+        Statistics::Double(range) => Some((*range.min_opt()?, *range.max_opt()?)),
+        Statistics::Float(range) => Some((f64::from(*range.min_opt()?), f64::from(*range.max_opt()?))),
+        Statistics::Int32(range) => Some((f64::from(*range.min_opt()?), f64::from(*range.max_opt()?))),
+        Statistics::Int64(range) => Some((*range.min_opt()? as f64, *range.max_opt()? as f64)),
+        _ => None,
     }
 }

@@ -1,27 +1,49 @@
-//! One subcommand a file, or a folder with its options beside it: read, call the domain, write. Besides these:
-//!
-//! ```text
-//! registry  all stages in order: the subcommands, pipeline.yaml
-//! shared    what several stages need: options of structures, groups of responses, fits that are read back
-//! ```
+//! The stages: one file or folder a subcommand, which reads tables, calls the science and writes tables.
 
-pub mod compare_paper;
-pub mod evaluate;
-pub mod export;
-pub mod fit_pex;
-pub mod fit_pro;
-pub mod ida;
-pub mod import_motions;
 pub mod init;
 pub mod inspect;
-pub mod rank_ims;
-pub mod registry;
-pub mod report;
 pub mod run;
-pub mod sample_scenarios;
-pub mod seed_spread;
 pub mod shared;
-pub mod simulate;
-pub mod synthesize_motions;
-pub mod universality;
-pub mod validate;
+
+use clap::{ArgMatches, Subcommand};
+
+use crate::pipeline::stage::Stage;
+
+/// Declares the stages, in the order of a run: the file and the struct of each.
+macro_rules! stages {
+    ($($module:ident :: $stage:ident),* $(,)?) => {
+        $(pub mod $module;)*
+
+        /// All stages.
+        #[derive(Debug, Subcommand)]
+        pub enum Stages {
+            $($stage($module::$stage)),*
+        }
+
+        impl Stages {
+            /// The stage of a subcommand with what clap has parsed of it.
+            pub fn of(name: &str, matches: &ArgMatches) -> Result<Box<dyn Stage>, clap::Error> {
+                $(if Self::name_of(stringify!($module)) == name {
+                    return Ok(Box::new(<$module::$stage as clap::FromArgMatches>::from_arg_matches(matches)?));
+                })*
+                unreachable!("clap knows the names of all stages")
+            }
+
+            fn name_of(module: &str) -> String {
+                module.replace('_', "-")
+            }
+        }
+    };
+}
+
+stages! {
+    sample_scenarios::SampleScenarios,
+    synthesize_motions::SynthesizeMotions,
+    import_motions::ImportMotions,
+    simulate::Simulate,
+    ida::Ida,
+    fit_pex::FitPex,
+    fit_pro::FitPro,
+    compare_paper::ComparePaper,
+    rank_ims::RankIms,
+}

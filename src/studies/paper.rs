@@ -1,68 +1,126 @@
-//! How our numbers stand to those that the paper prints: its planes as wholes, and its worked example.
+//! Each number that the paper publishes, beside ours.
 
 use std::f64::consts::SQRT_2;
 
-use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
-use crate::fragility::{Plane, Sample, rms_difference};
-use crate::motion::IntensityMeasures;
-use crate::normal;
+use crate::fragility::{DemandFit, DemandModel, Event, Measure, OverturningFit};
+use crate::fragility::{beta, hybrid_measure, lambda, mu, p_overturning};
+use crate::paper::{EXAMPLE_LAMBDA, Published, SeedValue, example, published, seed_values};
 use crate::rocking::Structure;
-use crate::statistics::{Test, f_upper_tail};
-use crate::units::G_M_S2;
+use crate::statistics::normal;
 
-/// Hotelling's T2 of a printed set of numbers about sets of ours, one a seed: whether it could be one more of them, all numbers
-/// together, which depend on each other. Rounding of the print (the widths of the intervals that round to it) counts as an error
-/// of variance width^2 / 12. None with too few sets, or with numbers that do not vary independently.
-///
-/// T2 (n - k) / (k (n - 1)) of k numbers and n sets is F with k and n - k degrees of freedom (Hotelling 1931, The generalization of
-/// Student's ratio, Annals of Mathematical Statistics 2, 360-378).
-pub fn joint_test(ours: &[Vec<f64>], printed: &[f64], rounding: &[f64]) -> Option<Test> {
-    let (n, k) = (ours.len(), printed.len());
-    if n <= k || k == 0 || ours.iter().any(|set| set.len() != k) {
-        return None;
+/// A published number beside ours: a row of paper.parquet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Comparison {
+    pub quantity: String,
+    pub place: String,
+    pub suite: String,
+    pub structure: String,
+    pub published: Option<f64>,
+    pub ours: Option<f64>,
+    /// Mean, standard deviation and number of ours over seeds, of the paper's set-up.
+    pub mean: Option<f64>,
+    pub sd: Option<f64>,
+    pub seeds: i64,
+    /// (published - mean) / sd; none where the print leaves open more than two of these sds, the mean among
+    /// it.
+    pub z: Option<f64>,
+    pub t2: Option<f64>,
+    pub t2_p: Option<f64>,
+}
+
+/// Compares fits of the paper's structures with all that the paper publishes.
+pub fn compare(demand: &[DemandFit], curves: &[OverturningFit]) -> Vec<Comparison> {
+    let seeds = seed_values();
+    published()
+        .into_iter()
+        .map(|number| Comparison::new(&number, ours(&number, demand, curves), &seeds))
+        .collect()
+}
+
+impl Comparison {
+    fn new(number: &Published, ours: Option<f64>, seeds: &[SeedValue]) -> Comparison {
+        let Published { quantity, suite, structure, .. } = number;
+        let is_its = |seed: &&SeedValue| {
+            (&seed.quantity, &seed.suite, &seed.structure) == (quantity, suite, structure)
+        };
+        let values: Vec<f64> = seeds.iter().filter(is_its).map(|seed| seed.value).collect();
+        let n = values.len() as f64;
+        let mean = Some(values.iter().sum::<f64>() / n).filter(|_| n > 1.0);
+        let sd = mean.map(|mean| (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt());
+        let z = || {
+            let (mean, sd, low, high) = (mean?, sd?, number.print_low?, number.print_high?);
+            let is_open = (low..=high).contains(&mean) && high - low > 2.0 * sd;
+            (sd > 0.0 && !is_open).then_some((number.published? - mean) / sd)
+        };
+        Comparison {
+            quantity: quantity.clone(),
+            place: number.place.clone(),
+            suite: suite.clone(),
+            structure: structure.clone(),
+            published: number.published,
+            ours,
+            mean,
+            sd,
+            seeds: values.len() as i64,
+            z: z(),
+            t2: number.t2,
+            t2_p: number.t2_p,
+        }
     }
-    let (sets, numbers) = (n as f64, k as f64);
-    let mean = |at: usize| ours.iter().map(|set| set[at]).sum::<f64>() / sets;
-    let means = DVector::from_fn(k, |at, _| mean(at));
-    let deviations = DMatrix::from_fn(n, k, |set, at| ours[set][at] - means[at]);
-    let covariance = deviations.tr_mul(&deviations) / (sets - 1.0);
-    let rounded = DVector::from_fn(k, |at, _| rounding[at] * rounding[at] / 12.0);
-    // One more set and the mean of ours: (1 + 1/n) times the covariance of one.
-    let of_difference = covariance * (1.0 + 1.0 / sets) + DMatrix::from_diagonal(&rounded);
-    let difference = DVector::from_column_slice(printed) - means;
-    let t2 = difference.dot(&of_difference.cholesky()?.solve(&difference));
-    let f = t2 * (sets - numbers) / (numbers * (sets - 1.0));
-    Some(Test { statistic: t2, p: f_upper_tail(f, numbers, sets - numbers) })
 }
 
-/// How far apart in ln EDP two of these planes are, over the cases of a sample for planes: root of the mean square over all pairs. None
-/// with fewer than two planes, or without cases.
-pub fn rms_between(planes: &[Plane], sample: &Sample) -> Option<f64> {
-    let pairs = planes.iter().enumerate().flat_map(|(k, a)| planes[..k].iter().map(move |b| (a, b)));
-    let squares: Option<Vec<f64>> = pairs.map(|(a, b)| Some(rms_difference(a, b, sample)?.powi(2))).collect();
-    let squares = squares.filter(|squares| !squares.is_empty())?;
-    Some((squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
-}
-
-/// The measures of the one motion of the worked example (section 3: PGA 0.5 g, PGA/PGV 2 1/s) for one of its two structures.
-pub fn example(structure: &Structure) -> IntensityMeasures {
-    const PGA_M_S2: f64 = 0.5 * G_M_S2;
-    const PGA_OVER_PGV: f64 = 2.0;
-    IntensityMeasures::new(structure, PGA_M_S2, PGA_M_S2 / PGA_OVER_PGV, None, None)
-}
-
-/// The hybrid measure of IM4 and p PGV / PGA (Eq. 23).
-pub fn hybrid(measures: &IntensityMeasures, lambda: f64) -> Option<f64> {
-    let weight = lambda / (1.0 + lambda);
-    Some(libm::pow(measures.im4, weight) * libm::pow(measures.im3?, weight - 1.0))
-}
-
-/// The exponent that the hybrid measures printed in the worked example imply.
-pub const EXAMPLE_LAMBDA: f64 = 1.5;
-
-/// 1/2 (1 + erf(ln IM)): Eq. 24 with mu and beta sqrt 2 left out. Of the hybrid measures of the worked example it gives the
-/// probabilities that the paper prints there, 0.73 and 0.81.
-pub fn half_erf(im: f64) -> f64 {
-    normal::cdf(SQRT_2 * libm::log(im))
+/// Our value of a published quantity; none where the fits do not have it.
+fn ours(number: &Published, demand: &[DemandFit], curves: &[OverturningFit]) -> Option<f64> {
+    let is_its = |suite: &Option<String>, structure: &str| {
+        suite.as_deref() == Some(&number.suite) && structure == number.structure
+    };
+    let plane = |side: &str| {
+        let planes = demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
+        let mut on_side = planes.filter(|fit| fit.range_high.is_some() == (side == "low"));
+        on_side.find(|fit| is_its(&fit.suite, &fit.structure))
+    };
+    let curve = |structure: &str, im_x: Measure, im_y: Option<Measure>| {
+        let is_its = |fit: &&OverturningFit| {
+            (fit.suite.as_deref(), fit.structure.as_str()) == (Some(&number.suite), structure)
+                && (fit.event, fit.im_x, fit.im_y) == (Event::Overturning, im_x, im_y)
+        };
+        curves.iter().filter(|fit| !fit.coefficients.is_empty()).find(is_its)
+    };
+    let im5 = || curve(&number.structure, Measure::Im5, None);
+    let hybrid = |structure: &str| curve(structure, Measure::Im4, Some(Measure::Im3Inverse));
+    // The hybrid measure of the worked example, of the motion as it meets the structure.
+    let of_example = |lambda: f64| {
+        let fit = curves.iter().find(|fit| is_its(&fit.suite, &fit.structure))?;
+        let structure = Structure::new(&fit.structure, fit.p_rad_s, fit.alpha_rad, fit.eta).ok()?;
+        let measures = example(&structure);
+        Some(hybrid_measure(measures.im4, 1.0 / measures.im3?, lambda))
+    };
+    // The example takes the curve of the equipment for both structures.
+    let equipment = || hybrid("electrical-equipment").map(|curve| &curve.coefficients);
+    match number.quantity.as_str() {
+        "transition" => plane("high")?.transition_found,
+        "r2_pooled" => plane("high")?.r2_pooled,
+        "hybrid_lambda" => Some(lambda(&hybrid(&number.structure)?.coefficients).0),
+        "im5_theta" => Some(mu(&im5()?.coefficients).0.exp()),
+        "im5_beta" => Some(beta(&im5()?.coefficients).0),
+        "example_hybrid" => of_example(lambda(equipment()?).0),
+        "example_p_ro" => {
+            let b = equipment()?;
+            Some(p_overturning(of_example(lambda(b).0)?, mu(b).0, beta(b).0))
+        }
+        // 1/2 (1 + erf(ln IM)): Eq. 24 with mu and beta sqrt 2 left out gives what is printed.
+        "example_half_erf" => Some(normal::cdf(SQRT_2 * of_example(EXAMPLE_LAMBDA)?.ln())),
+        of_plane => {
+            let (side, coefficient) = of_plane.split_once('_')?;
+            let fit = plane(side)?;
+            match coefficient {
+                "r2" => fit.r2,
+                name => {
+                    fit.coefficients.get(["ln_a", "b1", "b2"].iter().position(|of| *of == name)?).copied()
+                }
+            }
+        }
+    }
 }

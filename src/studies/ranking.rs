@@ -1,232 +1,277 @@
-//! Which measures predict best: alone, in pairs and in triples, and by forward selection.
+//! Which measures predict best, alone, in pairs and in triples: by Akaike's criterion, and by the log score
+//! of magnitudes and distances (or earthquakes) that were left out. The dispersion beta of a hybrid measure
+//! shrinks with its units, a log score does not (Gneiting & Raftery 2007, J. American Statistical Association
+//! 102, 359-378).
 
-use crate::resampling::folds::{Folds, Gain};
-use crate::statistics::FitStatus;
-use crate::studies::candidate::{Candidate, Form};
-use crate::studies::ranking_sample::{RankingSample, Target};
-use crate::studies::rating::Rating;
-use crate::studies::rating::rate_overturning;
-use crate::studies::rating::{Breaks, rate_demand};
+use std::f64::consts::PI;
 
-/// Log-likelihoods that differ by less than this share are those of one model in other measures.
-const SAME: f64 = 1e-9;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
-/// What a candidate is to the paper.
+use crate::fragility::{Cases, Event, Measure};
+use crate::keyword::{Keyword, keywords};
+use crate::statistics::clusters::clustered_mean;
+use crate::statistics::{FitStatus, Folds, LinearFit, ProbitFit, least_squares, normal, predict, probit};
+
+/// What is predicted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum OfPaper {
-    /// The model that it settles on.
-    Model,
-    /// The best of its six measures alone, as one power law.
-    Scalar,
+pub enum Target {
+    /// ln EDP in safe rocking, from which P_ex follows.
+    Demand,
+    /// Overturning given rocking.
+    Overturning,
 }
 
-/// A candidate and how it does.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Ranked {
-    pub measures: Vec<String>,
-    /// How they enter.
-    pub form: Form,
-    /// How well it predicts, or why there is no fit.
-    pub rating: Result<Rating, FitStatus>,
-    /// Measures of the first candidate that is the same model, if it is not itself.
-    pub same_as: Option<Vec<String>>,
-    /// Its place among the models of as many measures, from 1.
-    pub rank: Option<usize>,
-    /// Over the best model of as many measures: not above 0.
-    pub over_best: Option<Gain>,
-    /// Over the model that the paper settles on.
-    pub over_paper: Option<Gain>,
-    /// What it is to the paper.
-    pub of_paper: Option<OfPaper>,
-    /// The step of forward selection that arrives here, from 0 for no measure at all.
-    pub step: Option<usize>,
-    /// Over the step before.
-    pub over_step: Option<Gain>,
+keywords!(Target { Demand = "p_ex", Overturning = "p_ro" });
+
+/// How the measures of a set enter. Linear in their logarithms is a power law of their product, each to a
+/// power of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// One power law.
+    Single,
+    /// One below the transition in IM4 and one from there on, as the two planes of Eq. 18; of demands only.
+    Biplanar,
 }
 
-/// All candidates with their ratings.
-pub struct RankedCandidates<'a> {
-    sample: &'a RankingSample,
-    candidates: &'a [Candidate],
-    ratings: Vec<Result<Rating, FitStatus>>,
-    /// The first candidate that is the same model.
-    models: Vec<usize>,
-    /// All candidates, the best first.
-    order: Vec<usize>,
-}
+keywords!(Form { Single = "single", Biplanar = "biplanar" });
 
-impl<'a> RankedCandidates<'a> {
-    /// Of candidates that compete in these cases.
-    pub fn new(
-        sample: &'a RankingSample,
-        candidates: &'a [Candidate],
-        ratings: Vec<Result<Rating, FitStatus>>,
-    ) -> RankedCandidates<'a> {
-        let models = models(candidates, &ratings);
-        let key = |k: usize| match &ratings[models[k]] {
-            Ok(Rating { held_out: Some(held_out), .. }) => (0, -held_out.log_score()),
-            Ok(rating) => (1, rating.aic),
-            Err(_) => (2, 0.0),
-        };
-        let mut order: Vec<(usize, (u8, f64))> = (0..candidates.len()).map(|k| (k, key(k))).collect();
-        order.sort_by(|(a, (a_kind, a_score)), (b, (b_kind, b_score))| {
-            let by_terms = candidates[*a].measures.len().cmp(&candidates[*b].measures.len());
-            let by_score = a_kind.cmp(b_kind).then(a_score.total_cmp(b_score));
-            by_terms.then(by_score).then(models[*a].cmp(&models[*b])).then(a.cmp(b))
-        });
-        let order = order.into_iter().map(|(k, _)| k).collect();
-        RankedCandidates { sample, candidates, ratings, models, order }
-    }
-
-    /// All of them, as [`MeasureRanking::rank`](crate::studies::MeasureRanking::rank) orders them.
-    pub fn ranked(&self) -> Vec<Ranked> {
-        let paper = Candidate::of_paper(self.sample);
-        let paper = paper.and_then(|paper| self.candidates.iter().position(|of| *of == paper));
-        let (scalar, steps) = (self.scalar_of_paper(), self.forward());
-        let ranks = self.ranks();
-        let ranked = |&k: &usize| {
-            let Candidate { measures, form } = &self.candidates[k];
-            let best = |&&other: &&usize| self.candidates[other].measures.len() == measures.len();
-            let step = steps.iter().position(|&of| of == k);
-            Ranked {
-                measures: self.names(k),
-                form: *form,
-                rating: self.ratings[k].clone(),
-                same_as: (self.models[k] != k).then(|| self.names(self.models[k])),
-                rank: ranks[k],
-                over_best: self.order.iter().find(best).and_then(|&best| self.gain(k, best)),
-                over_paper: paper.and_then(|paper| self.gain(k, paper)),
-                of_paper: match k {
-                    k if paper == Some(k) => Some(OfPaper::Model),
-                    k if scalar == Some(k) => Some(OfPaper::Scalar),
-                    _ => None,
-                },
-                step,
-                over_step: step.and_then(|step| self.gain(k, steps[step.checked_sub(1)?])),
-            }
-        };
-        self.order.iter().map(ranked).collect()
-    }
-
-    fn names(&self, k: usize) -> Vec<String> {
-        self.candidates[k].measures.iter().map(|&place| self.sample.names[place].clone()).collect()
-    }
-
-    fn gain(&self, k: usize, over: usize) -> Option<Gain> {
-        let scores = |k: usize| Some(&self.ratings[k].as_ref().ok()?.held_out.as_ref()?.scores);
-        // Of the models, so that no rounding tells those apart that are the same.
-        Some(scores(self.models[k])?.gain(scores(self.models[over])?))
-    }
-
-    fn has_score(&self, k: usize) -> bool {
-        self.ratings[k].as_ref().is_ok_and(|rating| rating.held_out.is_some())
-    }
-
-    /// The best of the paper's measures alone.
-    fn scalar_of_paper(&self) -> Option<usize> {
-        let measures = self.sample.target.measures_of_paper();
-        let places: Vec<usize> = measures.iter().filter_map(|&measure| self.sample.place(measure)).collect();
-        self.order.iter().copied().filter(|&k| self.has_score(k)).find(|&k| {
-            let Candidate { measures, form } = &self.candidates[k];
-            *form == Form::Single && matches!(measures[..], [place] if places.contains(&place))
-        })
-    }
-
-    /// The place of each model among those of as many measures.
-    fn ranks(&self) -> Vec<Option<usize>> {
-        let mut ranks = vec![None; self.candidates.len()];
-        let (mut terms, mut rank) = (0, 0);
-        for &k in self.order.iter().filter(|&&k| self.has_score(k)) {
-            if self.candidates[k].measures.len() != terms {
-                (terms, rank) = (self.candidates[k].measures.len(), 0);
-            }
-            if self.models[k] == k {
-                rank += 1;
-            }
-            ranks[k] = Some(rank);
-        }
-        ranks
-    }
-
-    /// Forward selection: no measure, the best one, then the best that holds those before.
-    fn forward(&self) -> Vec<usize> {
-        let mut steps: Vec<usize> = Vec::new();
-        for terms in 0.. {
-            let next = self.order.iter().copied().filter(|&k| self.has_score(k)).find(|&k| {
-                let holds_last = |last: &usize| self.candidates[*last].is_within(&self.candidates[k]);
-                self.candidates[k].measures.len() == terms && steps.last().is_none_or(holds_last)
-            });
-            match next {
-                Some(next) => steps.push(next),
-                None => break,
-            }
-        }
-        steps
-    }
-}
-
-/// For each candidate the first one that is the same model: of as many measures, each a product of powers of those of the other,
-/// so that both fit equally well.
-fn models(candidates: &[Candidate], ratings: &[Result<Rating, FitStatus>]) -> Vec<usize> {
-    let mut models: Vec<usize> = (0..candidates.len()).collect();
-    let likelihood = |k: usize| ratings[k].as_ref().map_or(f64::NAN, |rating| rating.log_likelihood);
-    let kind = |k: usize| (candidates[k].measures.len(), candidates[k].form == Form::Broken);
-    let mut fitted: Vec<usize> = (0..candidates.len()).filter(|&k| likelihood(k).is_finite()).collect();
-    fitted.sort_by(|&a, &b| kind(a).cmp(&kind(b)).then(likelihood(a).total_cmp(&likelihood(b))));
-    let same = |a: usize, b: usize| {
-        let difference = likelihood(b) - likelihood(a);
-        kind(a) == kind(b) && difference <= SAME * (1.0 + likelihood(a).abs())
-    };
-    for equal in fitted.chunk_by(|&a, &b| same(a, b)) {
-        let first = equal.iter().copied().min();
-        equal.iter().for_each(|&k| models[k] = first.unwrap_or(k));
-    }
-    models
-}
-
-/// How measures are ranked.
+/// What competes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RankingRules {
-    /// The most folds of cross-validation.
-    pub folds: usize,
-    /// The most measures of a candidate.
+    /// The most measures in a set.
     pub terms: usize,
-    /// The IM4 at which the demand breaks, if not where the pooled residual of two planes is least.
-    pub transition: Option<f64>,
+    /// The most folds of clusters that are left out in turn.
+    pub folds: usize,
+    /// The IM4 at which biplanar forms part.
+    pub transition: f64,
 }
 
-/// All sets of measures that compete in some cases.
-pub struct MeasureRanking {
-    sample: RankingSample,
-    folds: Option<Folds>,
-    breaks: Breaks,
-    pub candidates: Vec<Candidate>,
+/// A set of measures and how it does: a row of ranking.parquet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RankedSet {
+    pub suite: Option<String>,
+    pub structure: String,
+    pub target: Target,
+    pub form: Form,
+    /// Names of the measures, joined by colons.
+    pub measures: String,
+    pub terms: i64,
+    pub n: i64,
+    /// Place by log score, from 1; by AIC where nothing can be left out.
+    pub rank: i64,
+    /// Log-likelihood of the fit to all cases; of a demand with normal residuals of ln EDP.
+    pub log_likelihood: Option<f64>,
+    /// Akaike's criterion; residual variances and the transition count as parameters.
+    pub aic: Option<f64>,
+    /// Mean log-likelihood of cases whose cluster was left out of the fit.
+    pub log_score: Option<f64>,
+    /// `log_score` less that of the best set, and its standard error between clusters.
+    pub loss: Option<f64>,
+    pub loss_error: Option<f64>,
+    pub status: FitStatus,
 }
 
-impl MeasureRanking {
-    /// In these cases, by these rules.
-    pub fn new(sample: RankingSample, rules: &RankingRules) -> MeasureRanking {
-        let folds = Folds::new(&sample.clusters, rules.folds);
-        let breaks = Breaks::new(&sample, folds.as_ref(), rules.transition);
-        let candidates = Candidate::all(&sample, rules.terms);
-        MeasureRanking { sample, folds, breaks, candidates }
+/// All sets of measures of a structure and suite, the best first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranking {
+    pub sets: Vec<RankedSet>,
+    /// Measures that do not compete, since some cases lack them, and how many.
+    pub incomplete: Vec<(String, usize)>,
+}
+
+/// The cases that count for a target, with all measures that each of them has: only on the same cases are
+/// likelihoods comparable.
+struct Contest {
+    target: Target,
+    names: Vec<String>,
+    ln_im: Vec<Vec<f64>>,
+    /// ln EDP.
+    y: Vec<f64>,
+    /// Whether it overturned.
+    events: Vec<bool>,
+    is_low: Vec<bool>,
+    clusters: Vec<u32>,
+}
+
+/// A fit to some of the cases.
+enum Model {
+    /// Below the transition and from there on; both are the same of a single form.
+    Demand([LinearFit; 2]),
+    Overturning(ProbitFit),
+}
+
+/// Ranks all sets of up to `rules.terms` measures of Eq. 13 and candidates.
+pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ranking {
+    let (contest, incomplete) = Contest::new(cases, target, rules.transition);
+    let folds = Folds::new(&contest.clusters, rules.folds);
+    let forms: &[Form] = match target {
+        Target::Demand => &[Form::Single, Form::Biplanar],
+        Target::Overturning => &[Form::Single],
+    };
+    let sets = subsets(contest.names.len(), rules.terms);
+    let sets: Vec<(Vec<usize>, Form)> =
+        sets.into_iter().flat_map(|set| forms.iter().map(move |&form| (set.clone(), form))).collect();
+    let mut rated: Vec<(RankedSet, Option<Vec<f64>>)> = sets
+        .into_par_iter()
+        .map(|(set, form)| {
+            let scores = folds.as_ref().and_then(|folds| contest.left_out(&set, form, folds));
+            (contest.rate(cases, &set, form, scores.as_deref()), scores)
+        })
+        .collect();
+    // Rounded, so that of sets that are the same power law (IM4 = IM3 IM5) the first stays first.
+    let rounded = |value: Option<f64>, worst: f64| value.map_or(worst, |value| (value * 1e9).round());
+    rated.sort_by(|(a, _), (b, _)| {
+        let score = |set: &RankedSet| rounded(set.log_score, f64::NEG_INFINITY);
+        let aic = |set: &RankedSet| rounded(set.aic, f64::INFINITY);
+        score(b).total_cmp(&score(a)).then(aic(a).total_cmp(&aic(b)))
+    });
+    let best = rated.first().and_then(|(_, scores)| scores.clone());
+    for (rank, (set, scores)) in (1..).zip(&mut rated) {
+        set.rank = rank;
+        if let (Some(best), Some(scores)) = (&best, scores) {
+            let losses: Vec<f64> = scores.iter().zip(best).map(|(score, best)| score - best).collect();
+            let (loss, error) = clustered_mean(&losses, &contest.clusters);
+            (set.loss, set.loss_error) = (Some(loss), Some(error));
+        }
+    }
+    Ranking { sets: rated.into_iter().map(|(set, _)| set).collect(), incomplete }
+}
+
+/// All sets of up to `most` numbers below `count`, in order of their size.
+fn subsets(count: usize, most: usize) -> Vec<Vec<usize>> {
+    let mut all: Vec<Vec<usize>> = Vec::new();
+    let mut last = vec![Vec::new()];
+    for _ in 0..most {
+        let longer = |set: &Vec<usize>| {
+            let next = set.last().map_or(0, |last| last + 1);
+            (next..count).map(|more| [&set[..], &[more]].concat()).collect::<Vec<_>>()
+        };
+        last = last.iter().flat_map(longer).collect();
+        all.extend(last.clone());
+    }
+    all
+}
+
+impl Contest {
+    fn new(cases: &Cases, target: Target, transition: f64) -> (Contest, Vec<(String, usize)>) {
+        let counts = |case: &usize| match target {
+            Target::Demand => cases.ln_demand(*case).is_some(),
+            Target::Overturning => cases.happened(*case, Event::Overturning, f64::INFINITY).is_some(),
+        };
+        let rows: Vec<usize> = (0..cases.len()).filter(counts).collect();
+        let [.., im4, _, _] = &cases.im;
+        let mut contest = Contest {
+            target,
+            names: Vec::new(),
+            ln_im: Vec::new(),
+            y: rows.iter().map(|&row| cases.edp[row].ln()).collect(),
+            events: rows.iter().map(|&row| cases.edp[row].is_nan()).collect(),
+            is_low: rows.iter().map(|&row| im4[row] < transition).collect(),
+            clusters: rows.iter().map(|&row| cases.cluster[row]).collect(),
+        };
+        let of_paper = Measure::SCALAR.iter().map(|measure| measure.as_str()).zip(&cases.im);
+        let candidates = cases.candidates.iter().map(|(name, values)| (name.as_str(), values));
+        let mut incomplete = Vec::new();
+        for (name, values) in of_paper.chain(candidates) {
+            let ln: Vec<f64> = rows.iter().map(|&row| values[row].ln()).filter(|ln| ln.is_finite()).collect();
+            if ln.len() == rows.len() {
+                contest.names.push(name.to_string());
+                contest.ln_im.push(ln);
+            } else {
+                incomplete.push((name.to_string(), rows.len() - ln.len()));
+            }
+        }
+        (contest, incomplete)
     }
 
-    /// How well a candidate predicts.
-    ///
-    /// # Errors
-    /// With the status that says why there is no fit.
-    pub fn rate(&self, candidate: &Candidate) -> Result<Rating, FitStatus> {
-        let (sample, folds) = (&self.sample, self.folds.as_ref());
-        match sample.target {
-            Target::Demand => rate_demand(sample, candidate, folds, &self.breaks),
-            Target::Overturning => rate_overturning(sample, candidate, folds),
+    /// Fits a set of measures to some cases.
+    fn fit(&self, set: &[usize], form: Form, rows: &[usize]) -> Result<Model, FitStatus> {
+        let columns = |rows: &[usize]| -> Vec<Vec<f64>> {
+            set.iter().map(|&k| rows.iter().map(|&row| self.ln_im[k][row]).collect()).collect()
+        };
+        let law = |rows: &[usize]| {
+            let (x, y): (_, Vec<f64>) = (columns(rows), rows.iter().map(|&row| self.y[row]).collect());
+            least_squares(&x.iter().map(Vec::as_slice).collect::<Vec<_>>(), &y)
+        };
+        match (self.target, form) {
+            (Target::Overturning, _) => {
+                let events: Vec<bool> = rows.iter().map(|&row| self.events[row]).collect();
+                let x = columns(rows);
+                Ok(Model::Overturning(probit(&x.iter().map(Vec::as_slice).collect::<Vec<_>>(), &events)?))
+            }
+            (Target::Demand, Form::Single) => law(rows).map(|law| Model::Demand([law.clone(), law])),
+            (Target::Demand, Form::Biplanar) => {
+                let (low, high): (Vec<usize>, Vec<usize>) = rows.iter().partition(|&&row| self.is_low[row]);
+                Ok(Model::Demand([law(&low)?, law(&high)?]))
+            }
         }
     }
 
-    /// The candidates with the rating of each, by the number of their measures, then by cross-validated log score, the best
-    /// first. Those without a score come after them, those without a fit last.
-    pub fn rank(&self, ratings: Vec<Result<Rating, FitStatus>>) -> Vec<Ranked> {
-        RankedCandidates::new(&self.sample, &self.candidates, ratings).ranked()
+    /// Computes the log-likelihood of each of all cases by a fit, with these standard deviations of ln EDP.
+    fn log_likelihoods(&self, set: &[usize], model: &Model, sd: impl Fn(&LinearFit) -> f64) -> Vec<f64> {
+        let x: Vec<&[f64]> = set.iter().map(|&k| self.ln_im[k].as_slice()).collect();
+        match model {
+            Model::Overturning(probit) => {
+                let z = predict(probit.fit.coefficients.as_slice(), &x);
+                z.iter()
+                    .zip(&self.events)
+                    .map(|(z, event)| normal::ln_cdf(if *event { *z } else { -z }))
+                    .collect()
+            }
+            Model::Demand(laws) => {
+                let means = laws.each_ref().map(|law| predict(law.fit.coefficients.as_slice(), &x));
+                let density = |row: usize| {
+                    let side = usize::from(!self.is_low[row]);
+                    let sd = sd(&laws[side]);
+                    -0.5 * (((self.y[row] - means[side][row]) / sd).powi(2) + (2.0 * PI).ln()) - sd.ln()
+                };
+                (0..self.y.len()).map(density).collect()
+            }
+        }
+    }
+
+    /// Scores each case by the fit without its fold; none where a fold leaves no fit.
+    fn left_out(&self, set: &[usize], form: Form, folds: &Folds) -> Option<Vec<f64>> {
+        let mut scores = vec![0.0; self.y.len()];
+        for fold in 0..folds.count {
+            let (kept, left_out) = folds.split(fold);
+            let by_others =
+                self.log_likelihoods(set, &self.fit(set, form, &kept).ok()?, LinearFit::residual_sd);
+            left_out.into_iter().for_each(|row| scores[row] = by_others[row]);
+        }
+        Some(scores)
+    }
+
+    fn rate(&self, cases: &Cases, set: &[usize], form: Form, scores: Option<&[f64]>) -> RankedSet {
+        let n = self.y.len();
+        let model = self.fit(set, form, &(0..n).collect::<Vec<_>>());
+        let most_likely_sd = |law: &LinearFit| (law.rss / law.fit.n as f64).sqrt();
+        let log_likelihood = model
+            .as_ref()
+            .map(|model| self.log_likelihoods(set, model, most_likely_sd).iter().sum::<f64>())
+            .ok();
+        let parameters = match (self.target, form) {
+            (Target::Overturning, _) => set.len() + 1,
+            (Target::Demand, Form::Single) => set.len() + 2,
+            (Target::Demand, Form::Biplanar) => 2 * (set.len() + 2) + 1,
+        };
+        let names: Vec<&str> = set.iter().map(|&k| self.names[k].as_str()).collect();
+        RankedSet {
+            suite: cases.suite.clone(),
+            structure: cases.structure.name.clone(),
+            target: self.target,
+            form,
+            measures: names.join(":"),
+            terms: set.len() as i64,
+            n: n as i64,
+            rank: 0,
+            log_likelihood,
+            aic: log_likelihood.map(|log_likelihood| 2.0 * (parameters as f64 - log_likelihood)),
+            log_score: scores.map(|scores| scores.iter().sum::<f64>() / n as f64),
+            loss: None,
+            loss_error: None,
+            status: model.err().unwrap_or(FitStatus::Ok),
+        }
     }
 }

@@ -1,165 +1,180 @@
-//! The motions file: one row a ground motion, its samples as a list.
+//! The motions file: one row a ground motion, its samples as a list. What `simulate` needs of one that another program wrote is
+//! motion_id, dt_s and acceleration_m_s2.
 
-use std::ops::Deref;
+use std::path::Path;
 use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Int64Array, StringArray};
+use arrow_array::builder::{Float32Builder, ListBuilder};
+use arrow_array::{ArrayRef, Float64Array, RecordBatch};
+use arrow_schema::{DataType, Field, Schema};
 
 use super::TableError;
-use super::cell::{Label, ReadValue, Value, WriteValue};
-use super::records::RECORDS;
-use super::row::{ReadRow, Row, schema_of, table};
-use super::schema::{self, Column, Kind};
-use super::store::columns::{Columns, Samples};
-use super::store::provenance::Provenance;
-use super::store::reader::{Batch, Batches};
-use super::store::source::{Source, Target};
-use super::store::writer::TableWriter;
-use super::synthetic_motions::MOTIONS;
+use super::dictionary;
+use super::file::{Batch, Partition, RowGroup, Table};
 
-/// The stages whose output can stand as a motions file.
-pub(super) const STAGES: [&str; 2] = ["synthesize-motions", "import-motions"];
+/// The column of the samples.
+pub const ACCELERATION: &str = "acceleration_m_s2";
+/// What is read of a motion.
+const COLUMNS: [&str; 11] = [
+    "motion_id",
+    "suite",
+    "mw",
+    "re_km",
+    "earthquake",
+    "dt_s",
+    "pga_m_s2",
+    "pgv_m_s",
+    "tm_s",
+    "tp_s",
+    ACCELERATION,
+];
+/// Row groups of more motions than this are read in parts, one after the other.
+const LARGEST_PART: usize = 128;
 
-/// What a motion is called: by number in our files, by number or name in those of others.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum MotionId {
-    Number(i64),
-    Name(String),
-}
-
-impl std::fmt::Display for MotionId {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        match self {
-            MotionId::Number(number) => write!(f, "{number}"),
-            MotionId::Name(name) => f.write_str(name),
-        }
-    }
-}
-
-impl Value for MotionId {
-    const KIND: Kind = Kind::Int64;
-}
-
-impl Value for &MotionId {
-    const KIND: Kind = Kind::Int64;
-}
-
-/// The column is of whole numbers, or of text where motions go by name.
-impl WriteValue for &MotionId {
-    fn optional_array<'r>(ids: impl Iterator<Item = Option<&'r Self>>, by_name: bool) -> ArrayRef
-    where
-        Self: 'r,
-    {
-        if by_name {
-            return Arc::new(ids.map(|id| id.map(|id| id.to_string())).collect::<StringArray>());
-        }
-        let number = |id: Option<&&MotionId>| match id {
-            Some(MotionId::Number(number)) => Some(*number),
-            _ => None,
-        };
-        Arc::new(ids.map(number).collect::<Int64Array>())
-    }
-}
-
-impl ReadValue for MotionId {
-    fn read(columns: &Columns, column: &Column) -> Result<Vec<MotionId>, TableError> {
-        Ok(if columns.is_text(column) {
-            columns.text(column)?.into_iter().map(MotionId::Name).collect()
-        } else {
-            columns.integers(column)?.into_iter().map(MotionId::Number).collect()
-        })
-    }
-
-    fn read_optional(columns: &Columns, column: &Column) -> Result<Vec<Option<MotionId>>, TableError> {
-        Ok(MotionId::read(columns, column)?.into_iter().map(Some).collect())
-    }
-}
-
-table! {
-    /// A motion as simulate needs it: ours, or anyone's with the three columns that cannot be done without.
-    pub struct MotionRow of RECORDS or MOTIONS {
-        motion_id: MotionId,
-        suite: Option<String>,
-        mw: Option<f64>,
-        re_km: Option<f64>,
-        earthquake: Option<Label>,
-        dt_s: f64,
-        pga_m_s2: Option<f64>,
-        pgv_m_s: Option<f64>,
-        tm_s: Option<f64>,
-        tp_s: Option<f64>,
-        acceleration_m_s2: Samples,
-    }
-}
-
-/// A motion, and where it stands.
+/// A motion as `simulate` needs it; measures that its file lacks are NaN.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    pub columns: MotionRow,
+    pub motion_id: String,
+    pub suite: Option<String>,
+    pub earthquake: Option<String>,
+    pub mw: f64,
+    pub re_km: f64,
+    pub dt_s: f64,
+    pub pga_m_s2: f64,
+    pub pgv_m_s: f64,
+    pub tm_s: f64,
+    pub tp_s: f64,
+    pub acceleration_m_s2: Vec<f64>,
     /// Its row in the file.
     pub row: u64,
 }
 
-impl Deref for Motion {
-    type Target = MotionRow;
+/// A motions table that several threads read.
+pub struct Motions(Table);
 
-    fn deref(&self) -> &MotionRow {
-        &self.columns
-    }
+/// Some motions, in order.
+pub enum Part {
+    /// A row group that any thread may read.
+    Unread(RowGroup),
+    /// Motions of a row group that is too large to be read at once.
+    Read(Batch),
 }
 
-/// The motions of a table, some at a time.
-pub struct MotionBatches {
-    batches: Batches,
-}
-
-impl MotionBatches {
-    /// Opens a table of motions, ours or anyone's with the three columns that count, `batch_size` motions at a time.
-    ///
-    /// # Errors
-    /// If it is missing, unreadable, empty, of another stage, or lacks a column.
-    pub fn open(source: impl Into<Source>, batch_size: usize) -> Result<MotionBatches, TableError> {
-        Ok(MotionBatches {
-            batches: Batches::open(source, &STAGES, MotionRow::TABLE.columns, 0, batch_size)?,
-        })
+impl Motions {
+    /// Opens a table of motions, or a partition of it.
+    pub fn open(path: &Path, partition: Option<Partition>) -> Result<Motions, TableError> {
+        let table = Table::open_partition(path, partition)?;
+        for column in ["motion_id", "dt_s", ACCELERATION] {
+            if table.schema().index_of(column).is_err() {
+                let (path, expected) = (path.to_path_buf(), dictionary::meaning(column));
+                return Err(TableError::MissingColumn { path, column: column.to_string(), expected });
+            }
+        }
+        match table.rows() {
+            0 if partition.is_none() => Err(TableError::table(path, "no motions; expected at least one")),
+            _ => Ok(Motions(table)),
+        }
     }
 
     /// How many motions there are.
     pub fn rows(&self) -> u64 {
-        self.batches.rows()
+        self.0.rows()
+    }
+
+    /// All motions in parts.
+    pub fn parts(&self) -> impl Iterator<Item = Result<Part, TableError>> + Send {
+        self.0.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
+            if group.len() <= LARGEST_PART {
+                return Box::new(std::iter::once(Ok(Part::Unread(group))));
+            }
+            match self.0.read(&group, &is_column, LARGEST_PART) {
+                Ok(batches) => Box::new(batches.map(|batch| batch.map(Part::Read))),
+                Err(error) => Box::new(std::iter::once(Err(error))),
+            }
+        })
+    }
+
+    /// The motions of a part, `at_once` at a time.
+    pub fn read(
+        &self,
+        part: Part,
+        at_once: usize,
+    ) -> Result<impl Iterator<Item = Result<(Arc<Path>, Vec<Motion>), TableError>> + use<>, TableError> {
+        let batches: Box<dyn Iterator<Item = Result<Batch, TableError>>> = match part {
+            Part::Unread(group) => Box::new(self.0.read(&group, &is_column, at_once)?),
+            Part::Read(batch) => {
+                let starts = (0..batch.rows.num_rows()).step_by(at_once);
+                Box::new(starts.map(move |start| {
+                    let end = (start + at_once).min(batch.rows.num_rows());
+                    Ok(batch.slice(start..end))
+                }))
+            }
+        };
+        Ok(batches.map(|batch| batch.and_then(|batch| Ok((batch.path.clone(), motions(&batch)?)))))
     }
 }
 
-impl Iterator for MotionBatches {
-    type Item = Result<Vec<Motion>, TableError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        Some(self.batches.next()?.and_then(|batch| motions_of(&batch)))
-    }
+fn is_column(name: &str) -> bool {
+    COLUMNS.contains(&name)
 }
 
 /// The motions of a batch.
-///
-/// # Errors
-/// If a value cannot be used.
-pub(super) fn motions_of(batch: &Batch) -> Result<Vec<Motion>, TableError> {
-    let rows = batch.first_row..;
-    Ok(MotionRow::of(&batch.columns())?
-        .into_iter()
-        .zip(rows)
-        .map(|(columns, row)| Motion { columns, row })
-        .collect())
+fn motions(batch: &Batch) -> Result<Vec<Motion>, TableError> {
+    let columns = batch.columns();
+    let [mw, re_km, pga, pgv, tm, tp] =
+        ["mw", "re_km", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"].map(|name| columns.numbers(name));
+    let (mw, re_km, pga, pgv, tm, tp) = (mw?, re_km?, pga?, pgv?, tm?, tp?);
+    let (suites, earthquakes) = (columns.texts("suite")?, columns.texts("earthquake")?);
+    let (ids, dt) = (columns.required_texts("motion_id")?, columns.required_numbers("dt_s")?);
+    let samples = columns.lists(ACCELERATION)?;
+    let rows = ids.into_iter().zip(suites).zip(earthquakes).zip(samples).enumerate();
+    let motion = |(at, (((motion_id, suite), earthquake), acceleration_m_s2))| Motion {
+        motion_id,
+        suite,
+        earthquake,
+        mw: mw[at],
+        re_km: re_km[at],
+        dt_s: dt[at],
+        pga_m_s2: pga[at],
+        pgv_m_s: pgv[at],
+        tm_s: tm[at],
+        tp_s: tp[at],
+        acceleration_m_s2,
+        row: batch.first_row + at as u64,
+    };
+    Ok(rows.map(motion).collect())
 }
 
-/// Starts a table in which motions go by number or by name.
-///
-/// # Errors
-/// As [`TableWriter::create`].
-pub fn writer(
-    target: impl Into<Target>,
-    table: &schema::Table,
-    by_name: bool,
-    provenance: &Provenance,
-) -> Result<TableWriter, TableError> {
-    TableWriter::with_schema(target, table, schema_of(table, by_name), provenance.clone())
+/// Puts columns side by side: what is known of the motions, their spectral accelerations at `periods_s`, and their samples.
+pub fn batch<'a>(
+    known: &[RecordBatch],
+    periods_s: &[f64],
+    sa_m_s2: &[&[f64]],
+    samples: impl Iterator<Item = &'a [f32]>,
+) -> anyhow::Result<RecordBatch> {
+    let mut fields: Vec<Arc<Field>> = Vec::new();
+    let mut columns: Vec<ArrayRef> = Vec::new();
+    for batch in known {
+        fields.extend(batch.schema().fields().iter().cloned());
+        columns.extend(batch.columns().iter().cloned());
+    }
+    for (place, period) in periods_s.iter().enumerate() {
+        let field = Field::new(spectral_column(*period), DataType::Float64, true);
+        fields.push(Arc::new(dictionary::with_meaning(field)));
+        columns.push(Arc::new(Float64Array::from_iter(sa_m_s2.iter().map(|sa| sa[place]))));
+    }
+    let item = Arc::new(Field::new("item", DataType::Float32, false));
+    let mut lists = ListBuilder::new(Float32Builder::new()).with_field(item.clone());
+    for motion in samples {
+        lists.values().append_slice(motion);
+        lists.append(true);
+    }
+    fields.push(Arc::new(dictionary::with_meaning(Field::new(ACCELERATION, DataType::List(item), false))));
+    columns.push(Arc::new(lists.finish()));
+    Ok(RecordBatch::try_new(Arc::new(Schema::new(fields)), columns)?)
+}
+
+/// The column of the spectral acceleration at a period, s: `sa_0p50_m_s2`.
+pub fn spectral_column(period_s: f64) -> String {
+    format!("sa_{}_m_s2", format!("{period_s:.2}").replace('.', "p"))
 }

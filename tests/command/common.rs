@@ -1,80 +1,66 @@
 //! What the tests of the command share.
 
-use std::cell::Cell;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::Arc;
 
-use arrow_array::{ArrayRef, RecordBatch};
+use arrow_array::builder::{Float64Builder, ListBuilder};
+use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch};
 use assert_cmd::Command;
 use parquet::arrow::ArrowWriter;
-
-use crate::snapshot::{check_each, redact};
+use rockfrag::table::provenance::Provenance;
 
 /// The command, called in `folder`.
-pub fn rockfrag(folder: &Path) -> Command {
+pub fn rockfrag(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::cargo_bin("rockfrag").unwrap();
-    command.current_dir(folder);
+    command.current_dir(folder).args(arguments.split_whitespace());
     command
 }
 
-/// Runs the command and gives its stderr.
+/// Runs the command, which must succeed, and gives stdout and stderr.
 #[track_caller]
-pub fn succeed(folder: &Path, arguments: &str) -> String {
-    let output = rockfrag(folder).args(arguments.split_whitespace()).output().unwrap();
+pub fn succeed(folder: &Path, arguments: &str) -> (String, String) {
+    let output = rockfrag(folder, arguments).output().unwrap();
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.success(), "{arguments}: {stderr}");
-    stderr
+    (String::from_utf8(output.stdout).unwrap(), stderr)
 }
 
-thread_local! {
-    /// How many messages this test has kept; each test runs in a thread of its own.
-    static KEPT: Cell<usize> = const { Cell::new(0) };
-}
-
-/// Compares a message with the snapshot of its place in the test, in tests/guard/snapshots/message.
-fn keep(folder: &Path, arguments: &str, stderr: &str) {
-    let place = KEPT.replace(KEPT.get() + 1) + 1;
-    let test = std::thread::current().name().unwrap().replace("::", ".");
-    let text = format!("$ rockfrag {arguments}\n{stderr}");
-    let text = text
-        .replace(env!("CARGO_TARGET_TMPDIR"), "[target]")
-        .replace(&folder.display().to_string(), "[folder]");
-    check_each("message", [(format!("{test}.{place:02}"), redact(&text))]);
-}
-
-/// Runs the command, which must fail with this exit code and one line that says all of `expected`.
+/// Runs the command, which must fail with this exit code, name all of `named`, and not panic.
 #[track_caller]
-pub fn fail(folder: &Path, arguments: &str, code: i32, expected: &[&str]) {
-    let output = rockfrag(folder).args(arguments.split_whitespace()).output().unwrap();
+pub fn fail(folder: &Path, arguments: &str, code: i32, named: &[&str]) {
+    let output = rockfrag(folder, arguments).output().unwrap();
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(code), "{arguments}: {stderr}");
-    assert!(!stderr.contains("panicked"), "{stderr}");
-    for part in expected {
-        assert!(stderr.contains(part), "'{part}' is not in: {stderr}");
+    assert!(!stderr.contains("panicked"), "{arguments}: {stderr}");
+    for name in named {
+        assert!(stderr.contains(name), "{arguments}: '{name}' is not in: {stderr}");
     }
-    keep(folder, arguments, &stderr);
 }
 
-/// A folder with a small pipeline file: 12 scenarios, both suites, both structures of the paper.
-pub fn small_pipeline() -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("pipeline.yaml");
-    std::fs::write(&file, SMALL_PIPELINE).unwrap();
-    (folder, file)
-}
-
-pub const SMALL_PIPELINE: &str = "\
+/// A small run: 12 scenarios, both suites, both structures of the paper.
+pub const SMALL: &str = "\
 seed: 7
 out: out
 sample-scenarios: { mw: \"6.5,7.5\", re: \"5,10\", samples: 10 }
 synthesize-motions: { suite: [pulse, csgm], dt: 0.01 }
 simulate:
-  structures:
+  structure:
     - { name: frame, p: 1.0, alpha: 0.15, eta: 0.92 }
     - { name: electrical-equipment, p: 2.5, alpha: 0.20, eta: 0.92 }
 fit-pex: {}
 fit-pro: {}
 compare-paper: {}
 ";
+
+/// The files of the small run.
+pub const FILES: [&str; 6] = ["scenarios", "motions", "responses", "pex", "pro", "paper"];
+
+/// A folder with this pipeline file.
+pub fn folder_with(pipeline: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("pipeline.yaml"), pipeline).unwrap();
+    folder
+}
 
 /// A Parquet file as another program might write it.
 pub fn write(path: &Path, columns: Vec<(&str, ArrayRef)>) {
@@ -85,7 +71,24 @@ pub fn write(path: &Path, columns: Vec<(&str, ArrayRef)>) {
     writer.close().unwrap();
 }
 
-/// The content fingerprint of a file.
-pub fn content(path: &Path) -> String {
-    rockfrag::table::store::contents::recorded(path).unwrap().unwrap().content
+/// A motions file as another program might write it: number, time step and samples.
+pub fn write_motions(path: &Path, dt_s: f64, motions: &[&[f64]]) {
+    let mut list = ListBuilder::new(Float64Builder::new());
+    for motion in motions {
+        list.values().append_slice(motion);
+        list.append(true);
+    }
+    let ids: ArrayRef = Arc::new(Int64Array::from_iter_values(0..motions.len() as i64));
+    let dts: ArrayRef = Arc::new(Float64Array::from(vec![dt_s; motions.len()]));
+    write(path, vec![("motion_id", ids), ("dt_s", dts), ("acceleration_m_s2", Arc::new(list.finish()))]);
+}
+
+/// What made a file.
+pub fn made(path: &Path) -> Provenance {
+    Provenance::of_file(path).unwrap().unwrap()
+}
+
+/// The bytes of a file.
+pub fn bytes(path: &Path) -> Vec<u8> {
+    std::fs::read(path).unwrap()
 }

@@ -1,29 +1,7 @@
-//! The command as a user calls it.
+//! The program as users run it: exit codes, what errors name, files and caching. No test asserts a sentence.
 
-#![cfg(feature = "pipeline")]
-
-mod bad_input;
-mod clusters;
 mod common;
-mod evaluate;
-mod export;
-mod ida;
-mod import;
-mod input_slips;
-mod kill;
-mod overwrite;
-mod partitions;
+mod config;
+mod files;
+mod interruption;
 mod pipeline;
-mod printed;
-mod rank_ims;
-mod report;
-mod shipped;
-mod site_files;
-mod slips;
-#[path = "../guard/snapshot.rs"]
-mod snapshot;
-mod start;
-mod together;
-mod universal;
-mod universality;
-mod validate;

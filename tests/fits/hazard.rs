@@ -2,8 +2,7 @@
 
 use rockfrag::fragility::p_overturning;
 use rockfrag::hazard::{HazardCurve, HazardError, JointHazard, PairOfPeaks, probability_in_years};
-use rockfrag::normal;
-use rockfrag::statistics::Link;
+use rockfrag::statistics::normal;
 
 /// H = k0 IM^-k at `n` intensities from 1e-4 to 1e4.
 fn power_law(k0: f64, k: f64, n: usize) -> HazardCurve {
@@ -16,8 +15,7 @@ fn a_power_law_and_a_lognormal_have_a_rate_in_closed_form() {
     // H(theta) exp(k^2 beta^2 / 2), whatever the points of the curve.
     for (k, theta, beta, n) in [(1.0, 0.3, 0.4, 2), (2.5, 1.0, 0.2, 17), (3.0, 0.7, 0.08, 301)] {
         let curve = power_law(1e-3, k, n);
-        let [rate] =
-            curve.mean_annual_rates(&[], |im| [p_overturning(im, f64::ln(theta), beta, Link::Probit)]);
+        let [rate] = curve.mean_annual_rates(&[], |im| [p_overturning(im, f64::ln(theta), beta)]);
         let expected = 1e-3 * theta.powf(-k) * (0.5 * k * k * beta * beta).exp();
         assert!((rate / expected - 1.0).abs() < 1e-9, "k {k}: {rate} for {expected}");
     }
@@ -58,7 +56,7 @@ fn a_joint_hazard_of_lognormal_velocities_widens_the_curve() {
         annual_rate: 0.02 / n as f64,
     };
     let joint = JointHazard { bins: (0..n).map(bin).collect() };
-    let [rate] = joint.mean_annual_rates(|bin| [p_overturning(bin.pgv_m_s, mu, beta, Link::Probit)]);
+    let [rate] = joint.mean_annual_rates(|bin| [p_overturning(bin.pgv_m_s, mu, beta)]);
     let expected = 0.02 * normal::cdf((m - mu) / beta.hypot(s));
     assert!((rate / expected - 1.0).abs() < 1e-4, "{rate} for {expected}");
 }

@@ -1,19 +1,19 @@
-//! The fits, their limits and what is made of them, against statsmodels, scipy and closed forms.
+//! The fits, their limits and what is made of them, against statsmodels, pyFragility, scipy and closed forms.
 
-mod bent;
+mod capacity;
+mod cases;
+mod common;
 mod counted_rates;
 mod coverage;
-mod evaluate;
+mod demand;
 #[cfg(feature = "pipeline")]
 mod export;
 mod hazard;
-mod limits;
-mod many;
 mod normal;
+mod overturning;
 mod paper;
-mod paper_model;
-mod regressions_and_curves;
-mod search;
+mod ranking;
+mod regression;
+mod tree;
 mod universal;
-mod universality;
 mod validation;

@@ -1,131 +1,88 @@
-//! Forecasts against what happened: closed forms, and numbers of scipy 1.16 where there are none.
+//! Forecasts against what happened: closed forms, and numbers of statsmodels and scipy.
 
-use rockfrag::fragility::Probability;
-use rockfrag::statistics::{Limits, PoissonBinomial, auc, expected_log_score, log_score};
-use rockfrag::studies::{Forecast, Validation, calibration_in_the_large, wilson_limits};
+use rockfrag::fragility::Event;
+use rockfrag::statistics::{Folds, normal, predict, probit};
+use rockfrag::studies::{Forecasts, wilson_limits};
 
-#[track_caller]
-fn close(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected}");
-}
+use crate::common::{answers, close, data};
 
-/// Binomial probabilities of 0 to n.
-fn binomial(n: usize, p: f64) -> Vec<f64> {
-    let first = (1.0 - p).powi(n as i32);
-    let next = |mass: &mut f64, k: usize| {
-        let here = *mass;
-        *mass *= (n - k) as f64 / (k + 1) as f64 * p / (1.0 - p);
-        Some(here)
-    };
-    (0..=n).scan(first, next).collect()
+fn forecasts<'a>(probabilities: &'a [f64], happened: &'a [bool], clusters: &'a [u32]) -> Forecasts<'a> {
+    let event = Event::Overturning;
+    Forecasts { suite: None, structure: "any", event, model: "test", probabilities, happened, clusters }
 }
 
 #[test]
-fn counts_of_equal_probability_are_binomial() {
-    let count = PoissonBinomial::new([0.3; 28]);
-    let masses = binomial(28, 0.3);
-    for k in 0..=28 {
-        close(count.at_most(k), masses[..=k].iter().sum(), 1e-14);
-        close(count.at_least(k), masses[k..].iter().sum(), 1e-14);
+fn forecasts_of_cells_left_out_score_as_statsmodels_has_it() {
+    let (data, expected) = (data(), answers("ranking_answers.csv"));
+    for (name, key) in [("x", "p_ro_im4_single"), ("xy", "p_ro_im4:im3_single")] {
+        let x = data.predictors(name);
+        let folds = Folds::new(&data.cells, 10).unwrap();
+        let mut p = vec![0.0; data.x.len()];
+        for fold in 0..folds.count {
+            let (kept, left_out) = folds.split(fold);
+            let columns: Vec<Vec<f64>> = x.iter().map(|x| kept.iter().map(|&k| x[k]).collect()).collect();
+            let events: Vec<bool> = kept.iter().map(|&k| data.event[k]).collect();
+            let fit = probit(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), &events).unwrap().fit;
+            let z = predict(fit.coefficients.as_slice(), &x);
+            left_out.into_iter().for_each(|k| p[k] = normal::cdf(z[k]));
+        }
+        let forecasts = forecasts(&p, &data.event, &data.cells);
+        let validation = forecasts.validate().unwrap();
+        let of = |figure: &str| expected[&format!("{key}_{figure}")];
+        close(validation.log_score.unwrap(), of("log_score"), 1e-7);
+        close(validation.auc.unwrap(), of("unseen_auc"), 1e-12);
+        close(validation.brier, of("unseen_brier"), 1e-7);
+        close(validation.calibration_slope.unwrap(), of("slope"), 1e-7);
+        assert!((validation.calibration_intercept.unwrap() - of("intercept")).abs() < 1e-7);
+        let bins = forecasts.reliability();
+        assert!(bins.len() == 10 && bins.is_sorted_by(|a, b| a.predicted < b.predicted));
+        assert_eq!(
+            bins.iter().map(|bin| (bin.n, bin.observed)).fold((0, 0), |(n, o), bin| (n + bin.0, o + bin.1)),
+            (400, validation.observed)
+        );
+        assert!(
+            bins.iter().all(|bin| bin.n == 40 && bin.share_low <= bin.share && bin.share <= bin.share_high)
+        );
     }
-    // scipy.stats.binom.interval(0.95, 28, 0.3), .cdf(5, 28, 0.3)
-    assert_eq!([0.025, 0.975].map(|level| count.quantile(level)), [4, 13]);
-    close(count.at_most(5), 0.112_789_043_606_986_56, 1e-15);
-    close(count.two_sided_p(5), 2.0 * 0.112_789_043_606_986_56, 1e-15);
 }
 
 #[test]
-fn counts_of_unequal_probability_equal_those_of_scipy() {
-    // scipy.stats.poisson_binom.cdf([0, 1, 2, 3, 4], p) and .ppf([0.025, 0.975], p)
-    let count = PoissonBinomial::new([0.1, 0.35, 0.5, 0.8, 0.95]);
-    for (k, expected) in [0.002925, 0.075025, 0.410375, 0.824975, 0.9867].into_iter().enumerate() {
-        close(count.at_most(k), expected, 1e-15);
-    }
-    assert_eq!([0.025, 0.975].map(|level| count.quantile(level)), [1, 4]);
+fn counts_have_the_errors_of_their_clusters() {
+    // Four cells of 25 cases, of which all or none happen: what is expected is right, the count depends on
+    // four draws.
+    let clusters: Vec<u32> = (0..100).map(|k| k / 25).collect();
+    let happened: Vec<bool> = (0..100).map(|k| k / 25 == 1).collect();
+    let validation = forecasts(&[0.25; 100], &happened, &clusters).validate().unwrap();
+    assert_eq!((validation.n, validation.observed), (100, 25));
+    close(validation.expected, 25.0, 1e-12);
+    // Sums of cells: -6.25, 18.75, -6.25, -6.25; times the square root of 4/3.
+    close(validation.expected_error, (4.0 / 3.0 * (3.0 * 6.25f64.powi(2) + 18.75f64.powi(2))).sqrt(), 1e-12);
+    let alone: Vec<u32> = (0..100).collect();
+    let independent = forecasts(&[0.25; 100], &happened, &alone).validate().unwrap();
+    close(independent.expected_error, (100.0 / 99.0 * 100.0 * 0.25 * 0.75f64).sqrt(), 1e-12);
+    assert_eq!(validation.calibration_slope, None, "equal probabilities have no slope");
 }
 
 #[test]
-fn certainties_shift_the_count() {
-    let count = PoissonBinomial::new([1.0, 0.0, 1.0, 0.5]);
-    assert_eq!([0.4, 0.6].map(|level| count.quantile(level)), [2, 3]);
-    assert_eq!((count.at_most(1), count.at_least(2), count.at_most(3)), (0.0, 1.0, 1.0));
-    assert_eq!(count.two_sided_p(0), 0.0);
-    assert_eq!(PoissonBinomial::new([]).quantile(0.975), 0);
-}
-
-#[test]
-fn many_events_are_nearly_normal() {
-    let n = 20_000;
-    let probabilities: Vec<f64> = (0..n).map(|k| (k as f64 + 0.5) / n as f64).collect();
-    let count = PoissonBinomial::new(probabilities.iter().copied());
-    let sd = probabilities.iter().map(|p| p * (1.0 - p)).sum::<f64>().sqrt();
-    let [low, high] = [0.025, 0.975].map(|level| count.quantile(level) as f64);
-    close(0.5 * (low + high), 0.5 * n as f64, 0.6);
-    close(high - low, 2.0 * 1.959_964 * sd, 1.1);
-    close(count.at_most(n), 1.0, 1e-12);
+fn what_cannot_be_scored_is_left_out() {
+    assert_eq!(forecasts(&[], &[], &[]).validate(), None);
+    let clusters = [0, 1, 2];
+    let impossible = forecasts(&[0.0, 0.5, 1.0], &[true, false, true], &clusters).validate().unwrap();
+    assert!(impossible.log_score.is_none() && impossible.auc.is_some());
+    let all = forecasts(&[0.9, 0.8, 0.7], &[true; 3], &clusters).validate().unwrap();
+    assert!(all.auc.is_none() && all.calibration_intercept.is_none() && all.log_score.is_some());
+    assert_eq!(forecasts(&[0.9, 0.8, 0.7], &[true; 3], &clusters).reliability().len(), 3);
 }
 
 #[test]
 fn limits_of_a_share_equal_those_of_scipy() {
     // scipy.stats.binomtest(k, 28).proportion_ci(method="wilson")
-    for (seen, low, high) in [
+    for (observed, low, high) in [
         (0, 0.0, 0.120_643_304_765_845_64),
         (3, 0.037_118_366_829_300_004, 0.271_958_515_486_721_56),
         (17, 0.424_090_442_965_971_87, 0.764_343_134_584_204_1),
     ] {
-        let Limits { low: ours, high: ours_high } = wilson_limits(seen, 28);
-        close(ours, low, 1e-12);
-        close(ours_high, high, 1e-12);
-    }
-}
-
-#[test]
-fn calibration_in_the_large_is_the_shift_of_the_log_odds() {
-    // Of equal probabilities it is ln(odds seen / odds foretold).
-    let shift = calibration_in_the_large(&[0.2; 10], 5).unwrap();
-    close(shift, 4f64.ln(), 1e-11);
-    close(calibration_in_the_large(&[0.1, 0.5, 0.4], 1).unwrap(), 0.0, 1e-11);
-    assert_eq!(calibration_in_the_large(&[0.2; 10], 0), None);
-    assert_eq!(calibration_in_the_large(&[0.2; 10], 10), None);
-    assert_eq!(calibration_in_the_large(&[1.0, 0.3], 1), None);
-}
-
-#[test]
-fn scores_of_right_and_of_certain_forecasts() {
-    close(
-        log_score(&[0.25, 0.25, 0.25, 0.25], &[true, false, false, false]),
-        expected_log_score(&[0.25]),
-        1e-15,
-    );
-    assert_eq!(expected_log_score(&[0.0, 1.0]), 0.0);
-    assert_eq!(log_score(&[1.0, 0.0], &[true, false]), 0.0);
-    assert_eq!(log_score(&[1.0], &[false]), f64::NEG_INFINITY);
-}
-
-#[test]
-fn a_validation_holds_all_of_these() {
-    let forecast = |value: f64, happened| Forecast {
-        probability: Probability { value, low: value - 0.05, high: value + 0.1 },
-        happened,
-        is_extrapolated: value > 0.85,
-    };
-    let forecasts = [forecast(0.1, false), forecast(0.35, true), forecast(0.5, false), forecast(0.9, true)];
-    let validation = Validation::of(&forecasts).unwrap();
-    assert_eq!((validation.n, validation.seen, validation.extrapolated), (4, 2, 1));
-    close(validation.expected, 1.85, 1e-15);
-    close(validation.expected_limits.low, 1.65, 1e-15);
-    close(validation.expected_limits.high, 2.25, 1e-15);
-    assert_eq!(validation.chance_limits, [0, 3]);
-    close(validation.brier, (0.01 + 0.4225 + 0.25 + 0.01) / 4.0, 1e-15);
-    assert_eq!(validation.auc, Some(auc(&[0.1, 0.35, 0.5, 0.9], &[false, true, false, true])));
-    assert!(validation.calibration.is_some_and(|shift| shift > 0.0));
-    assert_eq!(Validation::of(&[]), None);
-    assert_eq!((validation.impossible, validation.log_score.is_some()), (0, true));
-    // What cannot happen and does, in either way.
-    for (certain, happened) in [(0.0, true), (1.0, false)] {
-        let with_impossible = [forecasts[0], forecast(certain, happened), forecast(certain, !happened)];
-        let validation = Validation::of(&with_impossible).unwrap();
-        assert_eq!((validation.impossible, validation.log_score), (1, None));
-        assert!(validation.log_score_expected.is_finite());
+        let limits = wilson_limits(observed, 28);
+        assert!((limits.low - low).abs() < 1e-14 && (limits.high - high).abs() < 1e-14, "{limits:?}");
     }
 }

@@ -1,324 +1,233 @@
-//! Hazard in CSV files: a column for each peak that it knows, and one of annual rates, of probabilities in some years or of return periods.
+//! Hazard as people and agencies give it: a column for each peak and one of rates, probabilities or return periods, or the curves
+//! that OpenQuake exports.
 
 use std::path::Path;
+use std::str::FromStr;
 
-use anyhow::{Context, anyhow, bail};
-use csv::StringRecord;
+use anyhow::{Context, bail};
 
 use crate::fragility::Peak;
-use crate::hazard::{HazardCurve, HazardError, JointHazard, PairOfPeaks};
-use crate::table::schema::headings::{Headings, NO_SPECTRAL, is_spectral};
-use crate::table::store::text_file::{self, CsvText};
-use crate::units::G_M_S2;
+use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks};
+use crate::sheet::{Heading, Sheet};
+use crate::units::{CM_PER_M, G_M_S2, Quantity};
 
-/// What the file may call an intensity: the peak, and the size of its unit in m/s2 or m/s.
-const INTENSITIES: [(&str, Peak, f64); 3] =
-    [("pga_g", Peak::Pga, G_M_S2), ("pga_m_s2", Peak::Pga, 1.0), ("pgv_m_s", Peak::Pgv, 1.0)];
-const EXCEEDANCE: &str = "annual_rate_of_exceedance";
-const OCCURRENCE: &str = "annual_rate_of_occurrence";
-/// What else tables of hazard call annual rates of exceedance, after a `mean_`, if any, and before a unit,
-const RATES: [&str; 7] = [
-    EXCEEDANCE,
-    "annual_frequency_of_exceedance",
-    "annual_exceedance_rate",
-    "annual_exceedance_frequency",
-    "rate_of_exceedance",
-    "frequency_of_exceedance",
-    "afe",
-];
-/// one of these.
-const PER_YEAR: [&str; 5] = ["_1_yr", "_1_year", "_1_a", "_per_year", "_per_yr"];
-/// `probability_of_exceedance_in_50_years`, or of any other time, and other words for it.
-const PROBABILITY: (&str, &str) = ("probability_of_exceedance_in_", "_years");
-const PROBABILITIES: [&str; 3] = [PROBABILITY.0, "poe_in_", "poe_"];
-/// Probabilities in one year.
-const IN_ONE_YEAR: [&str; 3] = ["annual_probability_of_exceedance", "annual_exceedance_probability", "aep"];
-
-/// `return_period`, or `return_period_` with one of these units.
-const RETURN_PERIOD: &str = "return_period";
-const YEARS: [&str; 6] = ["years", "year", "yrs", "yr", "y", "a"];
-
-/// The largest file: a joint hazard of two million pairs.
-const MOST_MIB: u64 = 64;
-
-/// The hazard in a file.
+/// The hazard of a site.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hazard {
-    /// Of one peak: annual rates at which it is exceeded.
+    /// Annual rates at which a peak is exceeded; m/s2 or m/s.
     Curve(Peak, HazardCurve),
-    /// Of both peaks: annual rates at which pairs of them occur.
+    /// Annual rates at which pairs of peaks occur.
     Joint(JointHazard),
 }
 
-/// What a cell holds, as its column says.
+/// Another heading for a column: `pga_g=PGA`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Renamed {
+    column: String,
+    heading: String,
+}
+
+impl FromStr for Renamed {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Renamed, String> {
+        let pair = text.split_once('=').ok_or("expected COLUMN=HEADING, such as pga_g=PGA")?;
+        Ok(Renamed { column: pair.0.trim().to_string(), heading: pair.1.trim().to_string() })
+    }
+}
+
+/// Gives columns the names that a user says.
+pub fn rename(sheet: &mut Sheet, renamed: &[Renamed]) -> anyhow::Result<()> {
+    for Renamed { column, heading } in renamed {
+        let Some(found) = sheet.headings.iter_mut().find(|found| found.text == *heading) else {
+            bail!("no heading '{heading}'; expected one of {}", headings(sheet));
+        };
+        *found = Heading::of(column);
+    }
+    Ok(())
+}
+
+/// The headings of a sheet, for messages.
+pub fn headings(sheet: &Sheet) -> String {
+    sheet.headings.iter().map(|heading| heading.text.as_str()).collect::<Vec<_>>().join(", ")
+}
+
+/// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit.
+pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
+    let words: Vec<&str> = heading.name.split('_').collect();
+    let unit = heading.unit?;
+    let names = |known: &[&str]| known.iter().any(|name| heading.name == *name || words.contains(name));
+    match unit.quantity {
+        Quantity::Acceleration if names(&["pga", "ag", "peak_ground_acceleration", "ground_motion"]) => {
+            Some((Peak::Pga, unit.si))
+        }
+        Quantity::Velocity if names(&["pgv", "peak_ground_velocity"]) => Some((Peak::Pgv, unit.si)),
+        _ => None,
+    }
+}
+
+/// What a column says of how often.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Cell {
-    /// A peak in a unit of this size, m/s2 or m/s.
-    Peak(Peak, f64),
-    /// An annual rate at which a peak is exceeded.
-    Exceedance,
-    /// The probability of that in so many years.
-    ExceedanceIn(f64),
-    /// The mean time between exceedances, years: one over their annual rate.
+enum Frequency {
+    /// Annual rate of exceedance.
+    Rate,
+    /// Probability of exceedance in so many years.
+    ProbabilityIn(f64),
+    /// Years between exceedances.
     ReturnPeriod,
-    /// An annual rate at which a pair of peaks occurs.
+    /// Annual rate of occurrence of a pair of peaks.
     Occurrence,
 }
 
-impl Cell {
-    /// What the column of this name holds.
-    pub fn of(name: &str) -> Option<Cell> {
-        let of_peak =
-            |&(known, peak, unit): &(&str, Peak, f64)| (known == name).then_some(Cell::Peak(peak, unit));
+impl Frequency {
+    fn of(heading: &Heading, investigation_years: Option<f64>) -> Option<Frequency> {
+        let name = heading.name.as_str();
+        let has = |words: &[&str]| words.iter().any(|word| name.split('_').any(|other| other == *word));
         let years = || {
-            let time = PROBABILITIES.iter().find_map(|begin| name.strip_prefix(begin))?;
-            let number = YEARS.iter().find_map(|unit| time.strip_suffix(unit))?;
-            let years: f64 = number.trim_end_matches('_').parse().ok()?;
-            (years > 0.0 && years.is_finite()).then_some(Cell::ExceedanceIn(years))
+            heading
+                .text
+                .split(|sign: char| !sign.is_ascii_digit() && sign != '.')
+                .find_map(|number| number.parse().ok())
         };
-        let period = || {
-            let unit = name.strip_prefix(RETURN_PERIOD)?;
-            let is_known =
-                unit.is_empty() || unit.strip_prefix('_').is_some_and(|unit| YEARS.contains(&unit));
-            is_known.then_some(Cell::ReturnPeriod)
-        };
-        let rate = || {
-            let name = name.strip_prefix("mean_").unwrap_or(name);
-            let name = PER_YEAR.iter().find_map(|unit| name.strip_suffix(unit)).unwrap_or(name);
-            let in_one_year = IN_ONE_YEAR.contains(&name).then_some(Cell::ExceedanceIn(1.0));
-            RATES.contains(&name).then_some(Cell::Exceedance).or(in_one_year)
-        };
-        match name {
-            OCCURRENCE => Some(Cell::Occurrence),
-            _ => INTENSITIES.iter().find_map(of_peak).or_else(years).or_else(period).or_else(rate),
+        if has(&["occurrence"]) {
+            Some(Frequency::Occurrence)
+        } else if name.contains("return_period") || has(&["tr", "rp"]) {
+            Some(Frequency::ReturnPeriod)
+        } else if has(&["probability", "poe", "aep"]) {
+            let annual = || has(&["annual", "aep"]).then_some(1.0);
+            years().or_else(annual).or(investigation_years).map(Frequency::ProbabilityIn)
+        } else {
+            has(&["rate", "frequency", "afe", "afoe", "mafe"]).then_some(Frequency::Rate)
         }
     }
 
-    /// The peak (m/s2 or m/s) or the annual rate that a text says; otherwise what was expected.
-    pub fn read(self, text: &str) -> Result<f64, String> {
-        let percent = text.strip_suffix('%');
-        let parsed = percent.unwrap_or(text).trim_end().parse::<f64>().ok().filter(|value| value.is_finite());
-        let Some(written) = parsed else {
-            let comma = if text.contains(',') {
-                "; with decimal commas, separate the cells by semicolons"
-            } else {
-                ""
-            };
-            return Err(format!("a finite number{comma}"));
-        };
-        let value = if percent.is_some() { written / 100.0 } else { written };
+    /// The annual rate that a number says; none of a motion that is certain, whose rate nobody knows.
+    fn annual_rate(self, number: f64) -> Result<Option<f64>, &'static str> {
         match self {
-            Cell::Peak(peak, unit) if percent.is_none() || (peak, unit) == (Peak::Pga, G_M_S2) => {
-                let refusal = peak.bound().refusal(value * unit / peak.usual_unit().1);
-                refusal.map_or(Ok(value * unit), Err)
+            Frequency::Rate | Frequency::Occurrence if number >= 0.0 => Ok(Some(number)),
+            Frequency::Rate | Frequency::Occurrence => Err("a rate of 0 or more"),
+            Frequency::ReturnPeriod if number > 0.0 => Ok(Some(1.0 / number)),
+            Frequency::ReturnPeriod => Err("years above 0"),
+            Frequency::ProbabilityIn(years) if (0.0..1.0).contains(&number) => {
+                Ok(Some(-(-number).ln_1p() / years))
             }
-            Cell::Peak(..) => Err("a number; percent are of g, in a column pga_g".to_string()),
-            Cell::Exceedance | Cell::Occurrence if percent.is_some() => Err(format!(
-                "a rate a year, as 0.002; percent are probabilities: call the column {}50{}",
-                PROBABILITY.0, PROBABILITY.1
-            )),
-            Cell::Exceedance | Cell::Occurrence if value < 0.0 => Err("0 or more".to_string()),
-            Cell::Exceedance | Cell::Occurrence => Ok(value),
-            Cell::ReturnPeriod if percent.is_none() && value > 0.0 => Ok(value.recip()),
-            Cell::ReturnPeriod => Err("years above 0".to_string()),
-            // What is certain has no rate that is known.
-            Cell::ExceedanceIn(_) if value == 1.0 => Ok(f64::INFINITY),
-            Cell::ExceedanceIn(years) if (0.0..1.0).contains(&value) => Ok(-libm::log1p(-value) / years),
-            Cell::ExceedanceIn(_) if value > 1.0 => {
-                Err("a probability from 0 to 1; if it is in percent, write 10%".to_string())
-            }
-            Cell::ExceedanceIn(_) => Err("a probability from 0 to 1".to_string()),
+            Frequency::ProbabilityIn(_) if number == 1.0 => Ok(None),
+            Frequency::ProbabilityIn(_) => Err("a probability from 0 to 1, or with a percent sign"),
         }
     }
 }
 
-/// Reads a hazard: pga_g, pga_m_s2 or pgv_m_s with annual_rate_of_exceedance, probability_of_exceedance_in_50_years or return_period; or a
-/// PGA and a PGV with annual_rate_of_occurrence. The file may have other headings.
-///
-/// # Errors
-/// If the file cannot be read, has other columns, or holds what is no hazard.
-pub fn read(path: &Path, headings: &Headings) -> anyhow::Result<Hazard> {
-    read_and_tell(path, headings, |_| ())
-}
-
-/// The same, and tells which rows were left out.
-///
-/// # Errors
-/// As [`read`].
-pub fn read_and_tell(path: &Path, headings: &Headings, note: impl Fn(&str)) -> anyhow::Result<Hazard> {
-    let note = |left_out: &str| note(&format!("{}: {left_out}", path.display()));
-    let read = || of(&text_file::text(path, MOST_MIB, "a hazard")?, headings, &note);
+/// Reads the hazard in a CSV file.
+pub fn read(path: &Path, renamed: &[Renamed]) -> anyhow::Result<Hazard> {
+    let read = || {
+        let mut sheet = Sheet::parse(&std::fs::read(path)?)?;
+        rename(&mut sheet, renamed)?;
+        of(&sheet)
+    };
     read().with_context(|| path.display().to_string())
 }
 
-/// A row of a curve.
-struct Point {
-    line: u64,
-    /// m/s2 or m/s.
-    intensity: f64,
-    annual_rate: f64,
-    /// As it stands in the file.
-    words: String,
-}
-
-impl Point {
-    fn is_usual(&self) -> bool {
-        self.intensity > 0.0 && self.annual_rate > 0.0 && self.annual_rate.is_finite()
+fn of(sheet: &Sheet) -> anyhow::Result<Hazard> {
+    let investigation_years = note(sheet, "investigation_time=").and_then(|years| years.parse().ok());
+    if sheet.headings.iter().any(|heading| heading.text.starts_with("poe-")) {
+        return openquake(sheet, investigation_years);
     }
-
-    fn refusal(&self, expected: &str) -> anyhow::Error {
-        anyhow!("line {}: {}; expected {expected}", self.line, self.words)
-    }
-}
-
-/// The curve of these rows. Tables often begin with motions that are certain to come and end with some that never do: such rows
-/// are left out, with a note.
-fn curve(mut points: Vec<Point>, note: &impl Fn(&str)) -> anyhow::Result<HazardCurve> {
-    let usual = || points.iter().filter(|point| point.is_usual()).map(|point| point.intensity);
-    let (least, largest) = (usual().fold(f64::INFINITY, f64::min), usual().fold(0.0, f64::max));
-    let lines = |points: &mut dyn Iterator<Item = &Point>| {
-        let lines: Vec<String> = points.map(|point| point.line.to_string()).collect();
-        (!lines.is_empty()).then(|| lines.join(", "))
+    let columns = || sheet.headings.iter().enumerate();
+    let peaks: Vec<_> = columns().filter_map(|(at, heading)| Some((at, peak(heading)?))).collect();
+    let frequency =
+        columns().find_map(|(at, heading)| Some((at, Frequency::of(heading, investigation_years)?)));
+    let pga_and_pgv = || {
+        let of = |peak| peaks.iter().find(|(_, (other, _))| *other == peak);
+        of(Peak::Pga).zip(of(Peak::Pgv))
     };
-    let is_weak = |point: &&Point| !point.is_usual() && point.intensity < least;
-    let is_strong =
-        |point: &&Point| !point.is_usual() && point.intensity > largest && point.annual_rate == 0.0;
-    if let Some(point) = points.iter().find(|point| !point.is_usual() && !is_weak(point) && !is_strong(point))
-    {
-        let expected = match point.annual_rate {
-            0.0 => "a rate above 0, since stronger motions have one: delete the row",
-            _ => "a probability below 1, since weaker motions have one: delete the row",
-        };
-        return Err(point.refusal(expected));
-    }
-    for (lines, what) in [
-        (lines(&mut points.iter().filter(is_weak)), "weak"),
-        (lines(&mut points.iter().filter(is_strong)), "strong"),
-    ] {
-        if let Some(lines) = lines {
-            note(&format!("left out, as too {what} to have a rate: line {lines}"));
-        }
-    }
-    points.retain(Point::is_usual);
-    let values = points.iter().map(|point| (point.intensity, point.annual_rate)).collect();
-    HazardCurve::new(values).map_err(|error| match error {
-        HazardError::NotPositive { point, .. } => points[point].refusal("both above 0"),
-        HazardError::Unordered { point } => points[point].refusal(&format!(
-            "a larger intensity than before, and no larger rate: before it stand {}",
-            points[point - 1].words
-        )),
-        error => error.into(),
-    })
-}
-
-fn of(text: &str, headings: &Headings, note: &impl Fn(&str)) -> anyhow::Result<Hazard> {
-    let is_known = |name: &str| {
-        Cell::of(name).is_some() || headings.headings().any(|other| text_file::plain(other) == name)
-    };
-    let mut table = CsvText::new(text, is_known)?;
-    table.rename(headings).map_err(|error| anyhow!(error))?;
-    let named = table.headings.clone();
-    // Peaks first, PGA before PGV.
-    let mut columns: Vec<(usize, Cell)> =
-        table.names.iter().enumerate().filter_map(|(at, name)| Some((at, Cell::of(name)?))).collect();
-    // Tables of hazard often give both.
-    let has_rate = columns.iter().any(|(_, cell)| matches!(cell, Cell::Exceedance | Cell::ExceedanceIn(_)));
-    columns.retain(|(_, cell)| !(has_rate && *cell == Cell::ReturnPeriod));
-    columns.sort_by_key(|(_, cell)| match cell {
-        Cell::Peak(Peak::Pga, _) => 0,
-        Cell::Peak(Peak::Pgv, _) => 1,
-        _ => 2,
-    });
-    let cell = |(line, record): &(u64, StringRecord), (at, cell): (usize, Cell)| {
-        let text = record.get(at).unwrap_or_default();
-        // A heading may say that what is under it is in percent.
-        let sign = if named[at].contains('%') && !text.ends_with('%') { "%" } else { "" };
-        cell.read(&format!("{text}{sign}"))
-            .map_err(|expected| anyhow!("line {line}, column '{}': '{text}'; expected {expected}", named[at]))
-    };
-    let rows = table.rows().map(|row| row.map_err(|error| anyhow!(error)));
-    match columns[..] {
-        [
-            im @ (_, Cell::Peak(peak, _)),
-            rate @ (_, Cell::Exceedance | Cell::ExceedanceIn(_) | Cell::ReturnPeriod),
-        ] => {
-            let words = |record: &StringRecord, (at, _): (usize, Cell)| {
-                format!("{} {}", named[at], record.get(at).unwrap_or_default())
-            };
-            let point = |row: (u64, StringRecord)| {
-                let (intensity, annual_rate) = (cell(&row, im)?, cell(&row, rate)?);
-                let (line, record) = row;
-                let words = format!("{} with {}", words(&record, im), words(&record, rate));
-                Ok(Point { line, intensity, annual_rate, words })
-            };
-            let points = rows.map(|row| point(row?)).collect::<anyhow::Result<Vec<_>>>()?;
-            Ok(Hazard::Curve(peak, curve(points, note)?))
-        }
-        [
-            pga @ (_, Cell::Peak(Peak::Pga, _)),
-            pgv @ (_, Cell::Peak(Peak::Pgv, _)),
-            rate @ (_, Cell::Occurrence),
-        ] => {
-            let bin = |row| {
-                let (pga_m_s2, pgv_m_s) = (cell(&row, pga)?, cell(&row, pgv)?);
-                Ok(PairOfPeaks { pga_m_s2, pgv_m_s, annual_rate: cell(&row, rate)? })
-            };
-            let bins = rows.map(|row| bin(row?)).collect::<anyhow::Result<Vec<_>>>()?;
-            match bins.is_empty() {
-                true => bail!("no rows; expected bins of PGA and PGV with annual rates"),
-                false => Ok(Hazard::Joint(JointHazard { bins })),
-            }
+    match (frequency, &peaks[..], pga_and_pgv()) {
+        (Some(rate @ (_, Frequency::Occurrence)), _, Some((&pga, &pgv))) => joint(sheet, rate, pga, pgv),
+        (Some(rate), &[intensity], _) if rate.1 != Frequency::Occurrence => {
+            let points = (0..sheet.lines.len()).map(|row| {
+                Ok((sheet.number(row, intensity.0)? * intensity.1.1, annual_rate(sheet, row, rate)?))
+            });
+            Ok(Hazard::Curve(intensity.1.0, curve(points.collect::<anyhow::Result<_>>()?)?))
         }
         _ => bail!(
-            "{}{}; expected pga_g, pga_m_s2 or pgv_m_s with {EXCEEDANCE}, {}50{} or {RETURN_PERIOD}, or a PGA and \
-             pgv_m_s with {OCCURRENCE}; {}",
-            if named.is_empty() { "empty".to_string() } else { format!("columns {}", named.join(", ")) },
-            spectral(&named).unwrap_or_else(|| without_unit(&named)),
-            PROBABILITY.0,
-            PROBABILITY.1,
-            hint(&columns, &named),
+            "headings {}; expected one of PGA (with g or m/s2) or PGV (with m/s) and one of annual_rate_of_exceedance, \
+             probability_of_exceedance_in_50_years or return_period, or PGA and PGV with annual_rate_of_occurrence; --columns \
+             pga_g=HEADING takes another one",
+            headings(sheet)
         ),
     }
 }
 
-/// That a heading is of a spectral acceleration, if one is.
-fn spectral(headings: &[String]) -> Option<String> {
-    let heading = headings.iter().find(|heading| is_spectral(heading))?;
-    Some(format!("; '{heading}' is a spectral acceleration, and {NO_SPECTRAL}"))
+fn annual_rate(
+    sheet: &Sheet,
+    row: usize,
+    (column, frequency): (usize, Frequency),
+) -> anyhow::Result<Option<f64>> {
+    let percent = sheet.headings.get(column).is_some_and(|heading| heading.text.contains('%'));
+    let number = sheet.number(row, column)? * if percent { 0.01 } else { 1.0 };
+    let is_rate = matches!(frequency, Frequency::Rate | Frequency::Occurrence);
+    if is_rate && (percent || sheet.cell(row, column).contains('%')) {
+        return Err(sheet
+            .refusal(row, column, "a rate a year, such as 0.002; percent are probabilities")
+            .into());
+    }
+    frequency.annual_rate(number).map_err(|expected| sheet.refusal(row, column, expected).into())
 }
 
-/// How to name the columns that are missing, by the headings that nothing is known of.
-fn hint(columns: &[(usize, Cell)], headings: &[String]) -> String {
-    let is_peak = |(_, cell): &(usize, Cell)| matches!(cell, Cell::Peak(..));
-    let missing = [("pga_g", columns.iter().any(is_peak)), (EXCEEDANCE, !columns.iter().all(is_peak))];
-    let known = |at: &usize| columns.iter().any(|(other, _)| other == at);
-    let unknown: Vec<&String> = (0..headings.len())
-        .filter(|at| !known(at))
-        .map(|at| &headings[at])
-        .filter(|name| !is_spectral(name))
-        .collect();
-    let missing = missing.iter().filter(|(_, is_there)| !is_there).map(|(name, _)| *name);
-    let pairs: Vec<String> = match unknown[..] {
-        // Of one column that is missing the one heading that is left may be the name.
-        [heading] => missing.map(|name| format!("{name}={heading}")).collect(),
-        _ => missing.map(|name| format!("{name}=HEADING")).collect(),
+/// Tables often begin with motions that are certain to come, and end with some that never do: these tell nothing.
+fn curve(mut points: Vec<(f64, Option<f64>)>) -> anyhow::Result<HazardCurve> {
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let known = points.into_iter().filter_map(|(intensity, rate)| Some((intensity, rate?)));
+    Ok(HazardCurve::new(known.filter(|(intensity, rate)| *intensity > 0.0 && *rate > 0.0).collect())?)
+}
+
+fn joint(
+    sheet: &Sheet,
+    rate: (usize, Frequency),
+    (pga, (_, pga_unit)): (usize, (Peak, f64)),
+    (pgv, (_, pgv_unit)): (usize, (Peak, f64)),
+) -> anyhow::Result<Hazard> {
+    let bin = |row| {
+        Ok(PairOfPeaks {
+            pga_m_s2: sheet.number(row, pga)? * pga_unit,
+            pgv_m_s: sheet.number(row, pgv)? * pgv_unit,
+            annual_rate: annual_rate(sheet, row, rate)?.unwrap_or_default(),
+        })
     };
-    match pairs.join(",") {
-        pairs if pairs.is_empty() => "keep one column of each".to_string(),
-        pairs if pairs.contains(' ') => format!("--columns \"{pairs}\" takes another heading"),
-        pairs => format!("--columns {pairs} takes another heading"),
+    let bins = (0..sheet.lines.len()).map(bin).collect::<anyhow::Result<Vec<_>>>()?;
+    match bins.is_empty() {
+        true => bail!("no rows; expected bins of PGA and PGV with annual rates"),
+        false => Ok(Hazard::Joint(JointHazard { bins })),
     }
 }
 
-/// The first heading of a peak that says no unit, in words; nothing where there is none.
-fn without_unit(headings: &[String]) -> String {
-    let peaks = [("pga", "g, as pga_g, or m/s2, as pga_m_s2"), ("pgv", "m/s, as pgv_m_s")];
-    let lacks = |heading: &String| {
-        let plain = text_file::plain(heading);
-        let (_, units) = peaks.iter().find(|(peak, _)| plain.split('_').any(|word| word == *peak))?;
-        Cell::of(&plain)
-            .is_none()
-            .then(|| format!("; column '{heading}' has no unit that is known: is it in {units}?"))
+/// The curve of one site as OpenQuake exports it: a column for each intensity, in g or cm/s, with the probability of exceedance.
+fn openquake(sheet: &Sheet, investigation_years: Option<f64>) -> anyhow::Result<Hazard> {
+    let (peak, unit) = match note(sheet, "imt=").unwrap_or("PGA").trim_matches('\'') {
+        "PGA" => (Peak::Pga, G_M_S2),
+        "PGV" => (Peak::Pgv, 1.0 / CM_PER_M),
+        other => bail!("a curve of {other}; expected PGA or PGV"),
     };
-    headings.iter().find_map(lacks).unwrap_or_default()
+    let Some(years) = investigation_years else {
+        bail!("no investigation_time in the header of OpenQuake; expected the file as it was exported");
+    };
+    if sheet.lines.len() != 1 {
+        bail!("curves of {} sites; keep the row of one", sheet.lines.len());
+    }
+    let levels = sheet
+        .headings
+        .iter()
+        .enumerate()
+        .filter_map(|(at, heading)| Some((at, heading.text.strip_prefix("poe-")?)));
+    let points = levels.map(|(at, level)| {
+        let intensity: f64 = level.parse().with_context(|| format!("heading poe-{level}"))?;
+        Ok((intensity * unit, annual_rate(sheet, 0, (at, Frequency::ProbabilityIn(years)))?))
+    });
+    Ok(Hazard::Curve(peak, curve(points.collect::<anyhow::Result<_>>()?)?))
+}
+
+/// What stands behind a key in the notes of a file.
+fn note<'a>(sheet: &'a Sheet, key: &str) -> Option<&'a str> {
+    let behind = |text: &'a String| text.split_once(key).map(|(_, rest)| rest);
+    let rest = sheet.notes.iter().find_map(behind)?;
+    rest.split([',', '"', ' ']).next()
 }

@@ -1,0 +1,214 @@
+//! The command line is the only language of options: a section of pipeline.yaml, or a call from Python, becomes arguments.
+
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use clap::parser::ValueSource;
+use clap::{ArgAction, Command, Error as ClapError};
+use serde_json::Value;
+
+use crate::keyword::nearest;
+use crate::pipeline::UsageError;
+use crate::pipeline::call::is_input;
+
+/// What a stage reads in a run besides the files that it reads by default: flag, file, and the stage whose section must be there.
+const READ_IN_RUN: [(&str, &str, &str); 4] = [
+    ("fits", ".", "fit-pro"),
+    ("motions", "motions.parquet", "synthesize-motions"),
+    ("motions", "motions.parquet", "import-motions"),
+    ("responses", "responses.parquet", "simulate"),
+];
+
+/// A pipeline file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Config {
+    /// The folder that paths are relative to.
+    folder: PathBuf,
+    /// The folder of all files, as the file has it.
+    pub out: Option<PathBuf>,
+    seed: Option<String>,
+    sections: BTreeMap<String, BTreeMap<String, Value>>,
+}
+
+impl Config {
+    /// Reads a pipeline file.
+    pub fn read(path: &Path) -> anyhow::Result<Config> {
+        let failed = |problem: String| UsageError::because(format!("{}: {problem}", path.display()));
+        let text = std::fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
+        let parsed: Option<BTreeMap<String, Value>> = serde_saphyr::from_str(&text).map_err(|error| {
+            failed(error.without_snippet().to_string().lines().next().unwrap_or_default().to_string())
+        })?;
+        let mut config =
+            Config { folder: path.parent().unwrap_or(Path::new("")).to_path_buf(), ..Config::default() };
+        for (key, value) in parsed.unwrap_or_default() {
+            match (key.as_str(), value) {
+                ("out", value) => config.out = Some(PathBuf::from(text_of(&value))),
+                ("seed", value) => config.seed = Some(text_of(&value)),
+                (_, Value::Object(section)) => {
+                    drop(config.sections.insert(key, section.into_iter().collect()))
+                }
+                (_, Value::Null) => drop(config.sections.insert(key, BTreeMap::new())),
+                (_, value) => return Err(failed(format!("{key} is {value}; expected a section of options"))),
+            }
+        }
+        Ok(config)
+    }
+
+    /// Refuses sections that are none of these commands.
+    pub fn check(&self, commands: &[Command], path: &Path) -> anyhow::Result<()> {
+        let names: Vec<&str> = commands.iter().map(Command::get_name).chain(["seed", "out"]).collect();
+        match self.sections.keys().find(|section| !names.contains(&section.as_str())) {
+            Some(section) => Err(UsageError::because(format!(
+                "{}: unknown section '{section}'{}",
+                path.display(),
+                similar(section, &names)
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// The same file with another seed.
+    pub fn with_seed(self, seed: Option<u64>) -> Config {
+        Config { seed: seed.map(|seed| seed.to_string()).or(self.seed), ..self }
+    }
+
+    /// Where the files of a run lie.
+    pub fn run_folder(&self, out: Option<PathBuf>) -> PathBuf {
+        out.unwrap_or_else(|| self.folder.join(self.out.clone().unwrap_or_else(|| PathBuf::from("out"))))
+    }
+
+    /// Whether the file has a section for a command.
+    pub fn has(&self, command: &str) -> bool {
+        self.sections.contains_key(command)
+    }
+
+    /// The arguments of a section, but for what the user's own arguments name or exclude.
+    pub fn section(&self, command: &Command, user: &[OsString]) -> anyhow::Result<Vec<OsString>> {
+        let empty = BTreeMap::new();
+        let section = self.sections.get(command.get_name()).unwrap_or(&empty);
+        let named = named_by(command, user);
+        let is_free = |flag: &str| {
+            let Some(arg) = command.get_arguments().find(|arg| arg.get_long() == Some(flag)) else {
+                return true;
+            };
+            let excluded = command.get_arg_conflicts_with(arg);
+            !named.iter().any(|id| arg.get_id() == id || excluded.iter().any(|other| other.get_id() == id))
+        };
+        let free = section
+            .iter()
+            .filter(|(flag, _)| is_free(flag))
+            .map(|(flag, value)| (flag.clone(), value.clone()));
+        let mut arguments = arguments(command, free, &self.folder)?;
+        let takes_seed = command.get_arguments().any(|arg| arg.get_long() == Some("seed"));
+        if let Some(seed) =
+            self.seed.as_ref().filter(|_| takes_seed && is_free("seed") && !section.contains_key("seed"))
+        {
+            arguments.push(format!("--seed={seed}").into());
+        }
+        Ok(arguments)
+    }
+
+    /// The arguments of a section in a run whose files lie in `folder`: defaults that are files lie there too.
+    pub fn section_of_run(&self, command: &Command, folder: &Path) -> anyhow::Result<Vec<OsString>> {
+        let mut arguments = self.section(command, &[])?;
+        let section = &self.sections[command.get_name()];
+        for arg in command.get_arguments() {
+            let Some(flag) = arg.get_long().filter(|flag| !section.contains_key(*flag)) else { continue };
+            let names_file = |default: &&clap::builder::OsStr| default.to_string_lossy().contains('.');
+            let default = arg
+                .get_default_values()
+                .first()
+                .filter(names_file)
+                .filter(|_| is_input(arg) || flag == "out");
+            let in_run = READ_IN_RUN.iter().find(|(other, _, maker)| *other == flag && self.has(maker));
+            let file = default.map(PathBuf::from).or(in_run.map(|(_, file, _)| PathBuf::from(file)));
+            if let Some(file) = file.filter(|_| flag != "config") {
+                arguments.push(assigned(flag, folder.join(file).as_os_str()));
+            }
+        }
+        Ok(arguments)
+    }
+}
+
+/// Options by name as arguments. Paths are relative to `folder`.
+pub fn arguments(
+    command: &Command,
+    options: impl IntoIterator<Item = (String, Value)>,
+    folder: &Path,
+) -> anyhow::Result<Vec<OsString>> {
+    let mut arguments = Vec::new();
+    for (flag, value) in options {
+        let Some(arg) = command
+            .get_arguments()
+            .find(|arg| arg.get_id() == flag.as_str() || arg.get_long() == Some(&flag))
+        else {
+            let known: Vec<&str> = command.get_arguments().filter_map(|arg| arg.get_long()).collect();
+            let name = command.get_name();
+            return Err(UsageError::because(format!(
+                "{name}: unknown option '{flag}'{}",
+                similar(&flag, &known)
+            )));
+        };
+        let text = |value: &Value| -> OsString {
+            let text = text_of(value);
+            let path = folder.join(&text);
+            // A word, such as that of a site, may stand where a file may.
+            if is_input(arg) && (path.exists() || !folder.as_os_str().is_empty() && text.contains(['/', '.']))
+            {
+                path.into()
+            } else {
+                text.into()
+            }
+        };
+        let values: Vec<OsString> = match &value {
+            Value::Null | Value::Bool(false) => continue,
+            Value::Bool(true) => {
+                arguments.push(format!("--{flag}").into());
+                continue;
+            }
+            Value::Array(items) if matches!(arg.get_action(), ArgAction::Append) => {
+                items.iter().map(text).collect()
+            }
+            Value::Array(items) => vec![items.iter().map(text_of).collect::<Vec<_>>().join(",").into()],
+            value => vec![text(value)],
+        };
+        match arg.get_long() {
+            Some(long) => arguments.extend(values.iter().map(|value| assigned(long, value))),
+            None => arguments.extend(values),
+        }
+    }
+    Ok(arguments)
+}
+
+/// `--flag=value`, which may begin with a minus sign.
+fn assigned(flag: &str, value: &std::ffi::OsStr) -> OsString {
+    let mut argument = OsString::from(format!("--{flag}="));
+    argument.push(value);
+    argument
+}
+
+/// A value as it stands on the command line; a mapping as `name=frame,p=1`.
+fn text_of(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Object(pairs) => {
+            let pair = |(key, value): (&String, &Value)| format!("{key}={}", text_of(value));
+            pairs.iter().map(pair).collect::<Vec<_>>().join(",")
+        }
+        other => other.to_string(),
+    }
+}
+
+/// The arguments that the user's own words name; what clap cannot parse it tells later.
+fn named_by(command: &Command, user: &[OsString]) -> Vec<String> {
+    let words = std::iter::once(OsString::from(command.get_name())).chain(user.iter().cloned());
+    let matches: Result<_, ClapError> = command.clone().ignore_errors(true).try_get_matches_from(words);
+    let Ok(matches) = matches else { return Vec::new() };
+    let ids = command.get_arguments().map(|arg| arg.get_id().to_string());
+    ids.filter(|id| matches.value_source(id) == Some(ValueSource::CommandLine)).collect()
+}
+
+fn similar(word: &str, known: &[&str]) -> String {
+    nearest(word, known).map_or(String::new(), |near| format!("; did you mean '{near}'?"))
+}

@@ -1,0 +1,342 @@
+//! P_ex: the demand in safe rocking as a power law of intensity, and the probability that it exceeds a limit
+//! state (section 2.3.2, Eqs. 14 to 18). From top to bottom: the probability, the law of one measure, the
+//! plane of two, the two planes below and above the transition, the search for the transition.
+
+use std::ops::Range;
+
+use nalgebra::{Matrix4, Vector4};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::cases::{Cases, Sample};
+use super::measure::{Measure, design_row};
+use super::parameter::{Parameter, ParameterRow};
+use super::tree::Probability;
+use crate::keyword::{Keyword, keywords};
+use crate::motion::IntensityMeasures;
+use crate::paper::TRANSITION;
+use crate::statistics::distributions::t_quantile;
+use crate::statistics::{FitStatus, Limits, LinearFit};
+use crate::statistics::{dot, normal, tested_least_squares, variance};
+
+/// Computes the probability that the demand exceeds `limit_state` in safe rocking, of the logarithm of its
+/// median Dm and its dispersion beta: Phi((ln Dm - ln c) / beta) (Eq. 14, which prints the argument with the
+/// other sign, by which it would fall with demand).
+pub fn p_exceeding(ln_median: f64, limit_state: f64, beta: f64) -> f64 {
+    normal::cdf((ln_median - limit_state.ln()) / beta)
+}
+
+/// Computes ln Dm = ln a + b1 ln IMx + b2 ln IMy (Eqs. 17 and 18), or of one measure ln a + b ln IM (Eqs. 15
+/// and 16).
+pub fn ln_median_demand(coefficients: &[f64], ims: &[f64]) -> f64 {
+    coefficients[0] + coefficients[1..].iter().zip(ims).map(|(b, im)| b * im.ln()).sum::<f64>()
+}
+
+/// The measures of a plane.
+pub const PLANE: [Measure; 2] = [Measure::Im4, Measure::Im3];
+const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
+
+/// Fits Dm = a IM^b over all cases (Eqs. 15 and 16).
+pub fn fit_power_law(cases: &Cases, measure: Measure) -> DemandFit {
+    let sample = cases.sample(&[measure], |case| cases.ln_demand(case));
+    DemandFit::new(cases, DemandModel::Univariate, &[measure], EVERYWHERE, &sample)
+}
+
+/// Fits one plane Dm = a IM4^b1 IM3^b2 over all cases (Eqs. 17 and 18).
+pub fn fit_plane(cases: &Cases) -> DemandFit {
+    DemandFit::new(cases, DemandModel::Plane, &PLANE, EVERYWHERE, &plane_sample(cases, EVERYWHERE))
+}
+
+/// Fits two planes, one below and one from the transition on, an IM4 = PGA/(g tan alpha) (Table II).
+pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
+    let plane = |range: Range<f64>| {
+        let sample = plane_sample(cases, range.clone());
+        DemandFit::new(cases, DemandModel::Biplanar, &PLANE, range, &sample)
+    };
+    let mut planes = [plane(0.0..transition), plane(transition..f64::INFINITY)];
+    if let [Some((low_rss, low_tss)), Some((high_rss, high_tss))] = planes.each_ref().map(DemandFit::squares)
+    {
+        let rss = low_rss + high_rss;
+        let all = plane_sample(cases, EVERYWHERE).y;
+        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        let tss: f64 = all.iter().map(|ln_edp| (ln_edp - mean).powi(2)).sum();
+        for fit in &mut planes {
+            fit.r2_pooled = Some(1.0 - rss / (low_tss + high_tss));
+            fit.r2_overall = Some(1.0 - rss / tss);
+        }
+    }
+    planes
+}
+
+/// ln EDP, ln IM4 and ln IM3 of the cases that rocked safely and whose IM4 lies in `range`.
+fn plane_sample(cases: &Cases, range: Range<f64>) -> Sample<f64> {
+    let [.., im4, _, _] = &cases.im;
+    cases.sample(&PLANE, |case| cases.ln_demand(case).filter(|_| range.contains(&im4[case])))
+}
+
+/// The IM4 at which the planes may meet: first, step and number of places.
+const PLACES: (f64, f64, usize) = (1.05, 0.01, 96);
+/// A plane needs this many cases on its side.
+const LEAST_CASES: usize = 20;
+
+/// The pooled residual of two planes that meet at an IM4: a row of pex.scan.parquet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ScanPoint {
+    pub suite: Option<String>,
+    pub structure: String,
+    pub im4: f64,
+    /// Residual sum of squares of both planes.
+    pub pooled_rss: f64,
+    pub n_low: i64,
+    pub n_high: i64,
+}
+
+/// Tries all places where two planes may meet; none of them has too few cases on a side.
+pub fn scan_transition(cases: &Cases) -> Vec<ScanPoint> {
+    let Sample { ln_im, y, .. } = plane_sample(cases, EVERYWHERE);
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let [x_mean, y_mean, edp_mean] = [&ln_im[0], &ln_im[1], &y].map(|values| mean(values));
+    let row = |k: usize| Vector4::new(1.0, ln_im[0][k] - x_mean, ln_im[1][k] - y_mean, y[k] - edp_mean);
+    let mut order: Vec<usize> = (0..y.len()).collect();
+    order.sort_by(|&a, &b| ln_im[0][a].total_cmp(&ln_im[0][b]));
+    let moments = |cases: &[usize]| cases.iter().map(|&k| row(k) * row(k).transpose()).sum::<Matrix4<f64>>();
+    // The residual of the last of four variables on the others is an element of the inverse of their moments.
+    let rss = |moments: Matrix4<f64>| Some(1.0 / moments.try_inverse()?[(3, 3)]);
+    let (all, mut low, mut n_low) = (moments(&order), Matrix4::zeros(), 0);
+    let (first, step, places) = PLACES;
+    let point = |place: usize| {
+        let im4 = first + step * place as f64;
+        let below = order.partition_point(|&k| ln_im[0][k] < im4.ln());
+        low += moments(&order[n_low..below]);
+        n_low = below;
+        let n_high = order.len() - below;
+        let pooled_rss = (n_low.min(n_high) >= LEAST_CASES).then(|| Some(rss(low)? + rss(all - low)?))??;
+        let (suite, structure) = (cases.suite.clone(), cases.structure.name.clone());
+        Some(ScanPoint { suite, structure, im4, pooled_rss, n_low: n_low as i64, n_high: n_high as i64 })
+    };
+    (0..places).filter_map(point).collect()
+}
+
+/// Finds the place of the least pooled residual in a scan, and the first and last place whose residual is no
+/// more than chance above it: limits that hold a break with this confidence, its jump being large against the
+/// scatter (Hansen 2000, Sample splitting and threshold estimation, Econometrica 68, 575-603; for the same
+/// scatter on both sides). None without a scan.
+pub fn transition(scan: &[ScanPoint], confidence: f64) -> Option<(f64, Limits)> {
+    let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
+    let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
+    let is_likely = |point: &&ScanPoint| {
+        let cases = (point.n_low + point.n_high) as f64;
+        cases * (point.pooled_rss - best.pooled_rss) / best.pooled_rss <= critical
+    };
+    let mut likely = scan.iter().filter(is_likely).map(|point| point.im4);
+    let low = likely.next()?;
+    Some((best.im4, Limits { low, high: likely.next_back().unwrap_or(low) }))
+}
+
+/// Which regressions are made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DemandOptions {
+    /// The IM4 at which the two planes meet; none where their pooled residual is least (of too few cases,
+    /// where the paper's meet).
+    pub transition: Option<f64>,
+    /// Probability with which limits hold the truth.
+    pub confidence: f64,
+    /// Whether to fit, besides the two planes, each measure alone and one plane over all cases.
+    pub all: bool,
+}
+
+/// Fits the demand of a structure under a suite: the two planes, then all other regressions if they are asked
+/// for.
+pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> (Vec<DemandFit>, Vec<ScanPoint>) {
+    let scan = scan_transition(cases);
+    let found = transition(&scan, options.confidence);
+    let im4 = options.transition.or(found.map(|(im4, _)| im4)).unwrap_or(TRANSITION);
+    let mut fits = fit_planes(cases, im4).to_vec();
+    for fit in &mut fits {
+        fit.transition_found = found.map(|(im4, _)| im4);
+        fit.transition_low = found.map(|(_, limits)| limits.low);
+        fit.transition_high = found.map(|(_, limits)| limits.high);
+    }
+    if options.all {
+        fits.par_extend(Measure::SCALAR.par_iter().map(|&measure| fit_power_law(cases, measure)));
+        fits.push(fit_plane(cases));
+    }
+    (fits, scan)
+}
+
+/// The form of a regression of demand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DemandModel {
+    /// On one measure.
+    Univariate,
+    /// On two measures.
+    Plane,
+    /// On two measures, on one side of the transition.
+    Biplanar,
+}
+
+keywords!(DemandModel { Univariate = "univariate", Plane = "plane", Biplanar = "biplanar" });
+
+/// A regression of ln EDP in safe rocking: a row of pex.parquet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DemandFit {
+    pub suite: Option<String>,
+    pub structure: String,
+    pub p_rad_s: f64,
+    pub alpha_rad: f64,
+    pub eta: f64,
+    pub model: DemandModel,
+    pub im_x: Measure,
+    pub im_y: Option<Measure>,
+    /// IM4 from which the fit holds; none of one that holds everywhere.
+    pub range_low: Option<f64>,
+    /// IM4 below which the fit holds.
+    pub range_high: Option<f64>,
+    /// ln a, b1 and, on two measures, b2; empty without a fit.
+    pub coefficients: Vec<f64>,
+    /// Covariance of the coefficients, row by row.
+    pub covariance: Vec<f64>,
+    /// Whether the covariance allows for dependence within clusters; else there are too few of them.
+    pub is_clustered: bool,
+    pub n_clusters: i64,
+    /// Degrees of freedom of limits: clusters - 1, or n - k.
+    pub degrees: Option<f64>,
+    /// Dispersion: the residual standard deviation of ln EDP.
+    pub beta: Option<f64>,
+    pub r2: Option<f64>,
+    /// R2 of both planes, each about the mean on its own side: that of the paper.
+    pub r2_pooled: Option<f64>,
+    /// R2 of both planes about the mean of all cases.
+    pub r2_overall: Option<f64>,
+    /// IM4 of the least pooled residual of two planes.
+    pub transition_found: Option<f64>,
+    pub transition_low: Option<f64>,
+    pub transition_high: Option<f64>,
+    pub n: i64,
+    /// Least and largest value of each measure among the cases.
+    pub im_x_low: Option<f64>,
+    pub im_x_high: Option<f64>,
+    pub im_y_low: Option<f64>,
+    pub im_y_high: Option<f64>,
+    /// Probability of what squares and products of ln IM add by chance.
+    pub misfit_p: Option<f64>,
+    pub status: FitStatus,
+}
+
+impl DemandFit {
+    /// Fits the sample of these measures.
+    fn new(
+        cases: &Cases,
+        model: DemandModel,
+        measures: &[Measure],
+        range: Range<f64>,
+        sample: &Sample<f64>,
+    ) -> DemandFit {
+        let linear = tested_least_squares(&sample.x(), &sample.y, &sample.clusters);
+        let end =
+            |measure: usize, end: usize| Some(sample.ranges.get(measure)?[end]).filter(|end| end.is_finite());
+        let fitted = linear.as_ref().ok();
+        let limiting = fitted.map(|linear| linear.fit.limiting_covariance());
+        DemandFit {
+            suite: cases.suite.clone(),
+            structure: cases.structure.name.clone(),
+            p_rad_s: cases.structure.p_rad_s,
+            alpha_rad: cases.structure.alpha_rad,
+            eta: cases.structure.eta,
+            model,
+            im_x: measures[0],
+            im_y: measures.get(1).copied(),
+            range_low: Some(range.start).filter(|start| *start > 0.0),
+            range_high: Some(range.end).filter(|end| end.is_finite()),
+            coefficients: fitted.map_or(Vec::new(), |linear| linear.fit.coefficients.as_slice().to_vec()),
+            covariance: limiting.map_or(Vec::new(), |(covariance, _)| covariance.as_slice().to_vec()),
+            is_clustered: fitted.is_some_and(|linear| linear.fit.clustered.is_some()),
+            n_clusters: fitted.map_or(0, |linear| linear.fit.clusters as i64),
+            degrees: limiting.map(|(_, degrees)| degrees),
+            beta: fitted.map(LinearFit::residual_sd),
+            r2: fitted.map(LinearFit::r2),
+            r2_pooled: None,
+            r2_overall: None,
+            transition_found: None,
+            transition_low: None,
+            transition_high: None,
+            n: sample.y.len() as i64,
+            im_x_low: end(0, 0),
+            im_x_high: end(0, 1),
+            im_y_low: end(1, 0),
+            im_y_high: end(1, 1),
+            misfit_p: fitted.and_then(|linear| linear.fit.misfit_p),
+            status: match &linear {
+                Ok(linear) if linear.fit.coefficients[1] <= 0.0 => FitStatus::WrongSign,
+                Ok(linear) => linear.fit.status,
+                Err(status) => *status,
+            },
+        }
+    }
+
+    /// Returns the residual sum of squares, and that about the mean.
+    fn squares(&self) -> Option<(f64, f64)> {
+        let rss = self.beta?.powi(2) * self.residual_degrees();
+        Some((rss, rss / (1.0 - self.r2?)))
+    }
+
+    /// Returns whether the fit holds at an IM4.
+    pub fn holds_at(&self, im4: f64) -> bool {
+        self.range_low.is_none_or(|low| im4 >= low) && self.range_high.is_none_or(|high| im4 < high)
+    }
+
+    /// Computes the probability that the demand exceeds a limit state in safe rocking (Eq. 14), with limits
+    /// by the delta method on the scale of its argument. None without a fit, or where a measure is missing.
+    pub fn p_exceeding(
+        &self,
+        measures: &IntensityMeasures,
+        limit_state: f64,
+        confidence: f64,
+    ) -> Option<Probability> {
+        let (beta, degrees) = (self.beta?, self.degrees?);
+        let row = design_row(self.im_x, self.im_y, measures)?;
+        let z = (dot(&self.coefficients, &row) - limit_state.ln()) / beta;
+        let of_median = variance(&self.covariance, &row) / (beta * beta);
+        let of_beta = z * z / (2.0 * self.residual_degrees());
+        let quantile = t_quantile(0.5 * (1.0 + confidence), degrees);
+        Some(Probability::of_probit(z, quantile * (of_median + of_beta).sqrt()))
+    }
+
+    /// Degrees of freedom of beta, whose large-sample variance is beta^2 / (2 degrees).
+    fn residual_degrees(&self) -> f64 {
+        (self.n - self.coefficients.len() as i64) as f64
+    }
+
+    /// Returns ln a, b1, b2, beta and zeta = beta / b1 with their errors and limits; none without a fit.
+    pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
+        let (Some(beta), Some(degrees)) = (self.beta, self.degrees) else { return Vec::new() };
+        let quantile = t_quantile(0.5 * (1.0 + confidence), degrees);
+        let row = |parameter: Parameter, value: f64, standard_error: f64| ParameterRow {
+            suite: self.suite.clone(),
+            structure: self.structure.clone(),
+            model: self.model.as_str().to_string(),
+            im_x: self.im_x,
+            im_y: self.im_y,
+            range_low: self.range_low,
+            parameter,
+            value,
+            standard_error,
+            low: value - quantile * standard_error,
+            high: value + quantile * standard_error,
+            confidence,
+        };
+        let b = &self.coefficients;
+        let error = |k: usize| self.covariance[k * (b.len() + 1)].sqrt();
+        let error_of_beta = beta / (2.0 * self.residual_degrees()).sqrt();
+        let error_of_zeta = (error_of_beta / b[1]).hypot(beta * error(1) / (b[1] * b[1]));
+        let coefficients =
+            [Parameter::LnA, Parameter::B1, Parameter::B2].into_iter().enumerate().take(b.len());
+        coefficients
+            .map(|(k, parameter)| row(parameter, b[k], error(k)))
+            .chain([
+                row(Parameter::Beta, beta, error_of_beta),
+                row(Parameter::Zeta, beta / b[1], error_of_zeta),
+            ])
+            .collect()
+    }
+}

@@ -1,0 +1,85 @@
+//! The intensity measures that fits are made of.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::keyword::{self, Keyword, keywords};
+use crate::motion::IntensityMeasures;
+
+/// A dimensionless intensity measure (Eq. 13).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Measure {
+    /// wp / p.
+    Im1,
+    /// wm / p.
+    Im2,
+    /// PGA / (p PGV).
+    Im3,
+    /// PGA / (g tan alpha).
+    Im4,
+    /// p PGV / (g tan alpha).
+    Im5,
+    /// wm PGV / (g tan alpha).
+    Im6,
+    /// p PGV / PGA, the frequency ratio of Figure 12: 1 / IM3.
+    Im3Inverse,
+}
+
+keywords!(Measure {
+    Im1 = "im1",
+    Im2 = "im2",
+    Im3 = "im3",
+    Im4 = "im4",
+    Im5 = "im5",
+    Im6 = "im6",
+    Im3Inverse = "im3_inv",
+});
+
+impl Measure {
+    /// The six of Eq. 13.
+    pub const SCALAR: [Measure; 6] =
+        [Measure::Im1, Measure::Im2, Measure::Im3, Measure::Im4, Measure::Im5, Measure::Im6];
+
+    /// Returns its value for a motion; none where it is missing or not positive, so that it has no logarithm.
+    pub fn among(self, measures: &IntensityMeasures) -> Option<f64> {
+        let value = match self {
+            Measure::Im1 => measures.im1,
+            Measure::Im2 => measures.im2,
+            Measure::Im3 => measures.im3,
+            Measure::Im4 => Some(measures.im4),
+            Measure::Im5 => Some(measures.im5),
+            Measure::Im6 => measures.im6,
+            Measure::Im3Inverse => measures.im3.map(|im3| 1.0 / im3),
+        };
+        value.filter(|value| value.is_finite() && *value > 0.0)
+    }
+}
+
+/// Returns 1, ln IMx and, of two measures, ln IMy: what the coefficients of a fit multiply. None where a
+/// measure is missing.
+pub fn design_row(im_x: Measure, im_y: Option<Measure>, measures: &IntensityMeasures) -> Option<Vec<f64>> {
+    let ln_im = |measure: Measure| measure.among(measures).map(f64::ln);
+    std::iter::once(Some(1.0)).chain(std::iter::once(im_x).chain(im_y).map(ln_im)).collect()
+}
+
+/// Two measures that make a hybrid one (Eq. 23), written as `im4:im3_inv`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pair(pub Measure, pub Measure);
+
+impl FromStr for Pair {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Pair, String> {
+        let (x, y) =
+            text.split_once(':').ok_or_else(|| format!("'{text}': expected two measures as im4:im3_inv"))?;
+        let measure = |name: &str| keyword::parse(name.trim()).map_err(|unknown| unknown.to_string());
+        let pair = Pair(measure(x)?, measure(y)?);
+        if pair.0 == pair.1 { Err(format!("'{text}': expected two different measures")) } else { Ok(pair) }
+    }
+}
+
+impl fmt::Display for Pair {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}:{}", self.0.as_str(), self.1.as_str())
+    }
+}

@@ -1,0 +1,208 @@
+//! P_ro: the probability of overturning given rocking, as a lognormal curve of one measure or of a hybrid of
+//! two (section 2.3.3, Eqs. 19 to 24). From top to bottom: the curve, the hybrid measure, the likelihood and
+//! its maximum, the parameters of the curve.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::cases::{Cases, Event};
+use super::measure::{Measure, Pair, design_row};
+use super::parameter::{Parameter, ParameterRow};
+use super::tree::Probability;
+use crate::keyword::Keyword;
+use crate::motion::IntensityMeasures;
+use crate::statistics::distributions::t_quantile;
+use crate::statistics::scores::{auc, brier_score};
+use crate::statistics::{Estimate, FitStatus};
+use crate::statistics::{dot, normal, predict, tested_probit, variance};
+
+/// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta) (Eq.
+/// 20; of a hybrid Eq. 24).
+pub fn p_overturning(im: f64, mu: f64, beta: f64) -> f64 {
+    normal::cdf((im.ln() - mu) / beta)
+}
+
+/// Computes the hybrid measure IMx^(lambda/(1 + lambda)) IMy^(1/(1 + lambda)) (Eq. 23).
+pub fn hybrid_measure(im_x: f64, im_y: f64, lambda: f64) -> f64 {
+    (im_x.powf(lambda) * im_y).powf(1.0 / (1.0 + lambda))
+}
+
+/// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood. The likelihood is the
+/// product over the cases that rocked of P_ro where the structure overturned and 1 - P_ro where it did not
+/// (Eq. 19). Its logarithm ([`log_likelihood`], Eq. 21) is concave in b0, b1 and b2 of (ln IM - mu) / beta =
+/// b0 + b1 ln IMx + b2 ln IMy; from its maximum (Eq. 22) follow [`lambda`], [`mu`] and [`beta`].
+///
+/// [`log_likelihood`]: crate::statistics::log_likelihood
+pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measure>) -> OverturningFit {
+    let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
+    let sample = cases.sample(&measures, |case| cases.happened(case, event, f64::INFINITY));
+    let probit = tested_probit(&sample.x(), &sample.y, &sample.clusters);
+    let fitted = probit.as_ref().ok();
+    let limiting = fitted.map(|probit| probit.fit.limiting_covariance());
+    let coefficients = fitted.map_or(Vec::new(), |probit| probit.fit.coefficients.as_slice().to_vec());
+    let z = fitted.map_or(Vec::new(), |_| predict(&coefficients, &sample.x()));
+    let probabilities: Vec<f64> = z.into_iter().map(normal::cdf).collect();
+    let end =
+        |measure: usize, end: usize| Some(sample.ranges.get(measure)?[end]).filter(|end| end.is_finite());
+    OverturningFit {
+        suite: cases.suite.clone(),
+        structure: cases.structure.name.clone(),
+        p_rad_s: cases.structure.p_rad_s,
+        alpha_rad: cases.structure.alpha_rad,
+        eta: cases.structure.eta,
+        event,
+        im_x,
+        im_y,
+        covariance: limiting.map_or(Vec::new(), |(covariance, _)| covariance.as_slice().to_vec()),
+        is_clustered: fitted.is_some_and(|probit| probit.fit.clustered.is_some()),
+        n_clusters: fitted.map_or(0, |probit| probit.fit.clusters as i64),
+        degrees: limiting.map(|(_, degrees)| degrees).filter(|degrees| degrees.is_finite()),
+        n: sample.y.len() as i64,
+        n_events: sample.y.iter().filter(|happened| **happened).count() as i64,
+        log_likelihood: fitted.map(|probit| probit.log_likelihood),
+        aic: fitted.map(|probit| probit.aic()),
+        bic: fitted.map(|probit| probit.bic()),
+        auc: fitted.map(|_| auc(&probabilities, &sample.y)),
+        brier: fitted.map(|_| brier_score(&probabilities, &sample.y)),
+        im_x_low: end(0, 0),
+        im_x_high: end(0, 1),
+        im_y_low: end(1, 0),
+        im_y_high: end(1, 1),
+        misfit_p: fitted.and_then(|probit| probit.fit.misfit_p),
+        status: match &probit {
+            Ok(_) if slope(&coefficients) <= 0.0 => FitStatus::WrongSign,
+            Ok(probit) => probit.fit.status,
+            Err(status) => *status,
+        },
+        coefficients,
+    }
+}
+
+/// Computes the slope of z on ln IM, b1 of one measure and b1 + b2 of a hybrid.
+fn slope(b: &[f64]) -> f64 {
+    b[1..].iter().sum()
+}
+
+/// Computes the exponent of the first measure of a hybrid, b1/b2 (Eq. 23), and its gradient.
+pub fn lambda(b: &[f64]) -> (f64, Vec<f64>) {
+    (b[1] / b[2], vec![0.0, 1.0 / b[2], -b[1] / (b[2] * b[2])])
+}
+
+/// Computes the logarithm of the median, -b0/slope, and its gradient.
+pub fn mu(b: &[f64]) -> (f64, Vec<f64>) {
+    let slope = slope(b);
+    let of_slopes = vec![b[0] / (slope * slope); b.len() - 1];
+    (-b[0] / slope, [vec![-1.0 / slope], of_slopes].concat())
+}
+
+/// Computes the dispersion, 1/slope, and its gradient.
+pub fn beta(b: &[f64]) -> (f64, Vec<f64>) {
+    let slope = slope(b);
+    (1.0 / slope, [vec![0.0], vec![-1.0 / (slope * slope); b.len() - 1]].concat())
+}
+
+/// Which curves are made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveOptions {
+    /// [`Event::Overturning`] or [`Event::Rocking`].
+    pub event: Event,
+    /// The hybrid measures.
+    pub pairs: Vec<Pair>,
+    /// Whether to fit all six measures of Eq. 13 alone, in place of IM4 and IM5.
+    pub all: bool,
+}
+
+/// Fits the curves of a structure under a suite: single measures, then hybrid ones.
+pub fn fit_curves(cases: &Cases, options: &CurveOptions) -> Vec<OverturningFit> {
+    let single = if options.all { &Measure::SCALAR[..] } else { &[Measure::Im4, Measure::Im5] };
+    let single = single.iter().map(|&measure| (measure, None));
+    let measures: Vec<_> = single.chain(options.pairs.iter().map(|&Pair(x, y)| (x, Some(y)))).collect();
+    measures.into_par_iter().map(|(x, y)| fit_curve(cases, options.event, x, y)).collect()
+}
+
+/// A fragility curve: a row of pro.parquet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OverturningFit {
+    pub suite: Option<String>,
+    pub structure: String,
+    pub p_rad_s: f64,
+    pub alpha_rad: f64,
+    pub eta: f64,
+    pub event: Event,
+    pub im_x: Measure,
+    pub im_y: Option<Measure>,
+    /// b0, b1 and, of a hybrid, b2; empty without a fit.
+    pub coefficients: Vec<f64>,
+    /// Covariance of the coefficients, row by row.
+    pub covariance: Vec<f64>,
+    /// Whether the covariance allows for dependence within clusters; else there are too few of them.
+    pub is_clustered: bool,
+    pub n_clusters: i64,
+    /// Degrees of freedom of limits, clusters - 1; none of normal ones.
+    pub degrees: Option<f64>,
+    pub n: i64,
+    /// Cases in which the event happened.
+    pub n_events: i64,
+    pub log_likelihood: Option<f64>,
+    pub aic: Option<f64>,
+    pub bic: Option<f64>,
+    /// Area under the receiver operating characteristic, on the fitted cases.
+    pub auc: Option<f64>,
+    /// Brier score on the fitted cases.
+    pub brier: Option<f64>,
+    /// Least and largest value of each measure among the cases.
+    pub im_x_low: Option<f64>,
+    pub im_x_high: Option<f64>,
+    pub im_y_low: Option<f64>,
+    pub im_y_high: Option<f64>,
+    /// Probability of what squares and products of ln IM add by chance.
+    pub misfit_p: Option<f64>,
+    pub status: FitStatus,
+}
+
+impl OverturningFit {
+    fn quantile(&self, confidence: f64) -> f64 {
+        t_quantile(0.5 * (1.0 + confidence), self.degrees.unwrap_or(f64::INFINITY))
+    }
+
+    /// Computes the probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale
+    /// of its argument. None without a fit, or where a measure is missing.
+    pub fn p_overturning(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Probability> {
+        let row = design_row(self.im_x, self.im_y, measures).filter(|_| !self.coefficients.is_empty())?;
+        let error = variance(&self.covariance, &row).sqrt();
+        Some(Probability::of_probit(dot(&self.coefficients, &row), self.quantile(confidence) * error))
+    }
+
+    /// Returns lambda (of a hybrid), mu, beta and theta with their errors by the delta method and limits;
+    /// none without a fit.
+    pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
+        if self.coefficients.is_empty() {
+            return Vec::new();
+        }
+        let row = |parameter: Parameter, estimate: Estimate| ParameterRow {
+            suite: self.suite.clone(),
+            structure: self.structure.clone(),
+            model: self.event.as_str().to_string(),
+            im_x: self.im_x,
+            im_y: self.im_y,
+            range_low: None,
+            parameter,
+            value: estimate.value,
+            standard_error: estimate.standard_error,
+            low: estimate.low,
+            high: estimate.high,
+            confidence,
+        };
+        let estimate = |(value, gradient): (f64, Vec<f64>)| {
+            Estimate::new(value, variance(&self.covariance, &gradient).sqrt(), self.quantile(confidence))
+        };
+        let b = &self.coefficients;
+        let of_hybrid = self.im_y.map(|_| row(Parameter::Lambda, estimate(lambda(b))));
+        let of_all = [
+            row(Parameter::Mu, estimate(mu(b))),
+            row(Parameter::Beta, estimate(beta(b))),
+            row(Parameter::Theta, estimate(mu(b)).exp()),
+        ];
+        of_hybrid.into_iter().chain(of_all).collect()
+    }
+}

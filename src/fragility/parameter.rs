@@ -1,0 +1,58 @@
+//! The numbers that a reader of the paper looks for in a fit, each with its standard error and limits.
+
+use serde::{Deserialize, Serialize};
+
+use super::measure::Measure;
+use crate::keyword::keywords;
+
+/// A parameter of a fit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parameter {
+    /// ln a (Eqs. 16 and 17).
+    LnA,
+    /// Slope on the first measure.
+    B1,
+    /// Slope on the second measure.
+    B2,
+    /// Dispersion: the residual standard deviation of ln EDP, or 1/slope of P_ro.
+    Beta,
+    /// Dispersion of the demand over its slope, beta / b1.
+    Zeta,
+    /// Exponent of the first measure of a hybrid (Eq. 23).
+    Lambda,
+    /// Logarithm of the median intensity (Eqs. 20 and 24).
+    Mu,
+    /// Median intensity, exp(mu).
+    Theta,
+}
+
+keywords!(Parameter {
+    LnA = "ln_a",
+    B1 = "b1",
+    B2 = "b2",
+    Beta = "beta",
+    Zeta = "zeta",
+    Lambda = "lambda",
+    Mu = "mu",
+    Theta = "theta",
+});
+
+/// A parameter of a fit: a row of pex.parameters.parquet or pro.parameters.parquet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ParameterRow {
+    pub suite: Option<String>,
+    pub structure: String,
+    /// The form of a regression of demand, or the event of a curve.
+    pub model: String,
+    pub im_x: Measure,
+    pub im_y: Option<Measure>,
+    /// Where the values of `im_x` begin within which the fit holds.
+    pub range_low: Option<f64>,
+    pub parameter: Parameter,
+    pub value: f64,
+    pub standard_error: f64,
+    pub low: f64,
+    pub high: f64,
+    /// Probability with which the limits hold the truth.
+    pub confidence: f64,
+}

@@ -1,0 +1,110 @@
+//! The event tree of Figure 6 (Eq. 12): no rocking, safe rocking below or above the limit state, overturning.
+
+use crate::keyword::keywords;
+use crate::statistics::normal;
+
+/// The 97.5 % quantile of the normal distribution.
+pub const Z_95: f64 = 1.959_963_984_540_054;
+
+/// Limit states, each within the one before (Table I).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LimitState {
+    /// LS1: rocking.
+    Rocking,
+    /// LS2: a demand above the limit, or overturning.
+    Failure,
+    /// LS3: overturning.
+    Overturning,
+}
+
+keywords!(LimitState { Rocking = "LS1", Failure = "LS2", Overturning = "LS3" });
+
+/// Computes the probability of no rocking, P_nr: 1 below uplift at IM4 = PGA/(g tan alpha) = 1 (Eq. 5), 0
+/// from there on; NaN of NaN.
+pub fn p_no_rocking(im4: f64) -> f64 {
+    if im4.is_nan() { f64::NAN } else { f64::from(im4 < 1.0) }
+}
+
+/// Computes the probability of failure given rocking: P_ro + (1 - P_ro) P_ex (Eq. 12).
+pub fn p_failure_given_rocking(p_ro: f64, p_ex: f64) -> f64 {
+    p_ro + (1.0 - p_ro) * p_ex
+}
+
+/// Computes the probability of failure over the whole tree, (1 - P_nr) P_f|r: exactly 0 without rocking.
+pub fn p_failure(p_nr: f64, p_failure_given_rocking: f64) -> f64 {
+    (1.0 - p_nr) * p_failure_given_rocking
+}
+
+/// A probability with limits of confidence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Probability {
+    pub value: f64,
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Probability {
+    /// Makes a probability that is known without doubt.
+    pub fn exact(value: f64) -> Probability {
+        Probability { value, low: value, high: value }
+    }
+
+    /// Computes Phi(z); its limits are Phi of those of z, and so lie between 0 and 1.
+    pub fn of_probit(z: f64, half_width: f64) -> Probability {
+        let [low, value, high] = [z - half_width, z, z + half_width].map(normal::cdf);
+        Probability { value, low, high }
+    }
+
+    /// Computes failure given rocking (Eq. 12) of two independent estimates: the likelihood of all cases is
+    /// that of overturning times that of the demand of the others. Survival is a product, so that limits of
+    /// its logarithm follow from those of both by the recovery of variance estimates (Zou & Donner 2008,
+    /// Stat. Med. 27, 1693-1702). No limit of failure is below that of either.
+    pub fn of_failure(p_ro: Probability, p_ex: Probability) -> Probability {
+        // Finite, so that a certain event has limits.
+        let ln_survival = |p: f64| (-p).ln_1p().max(f64::MIN_POSITIVE.ln());
+        let (ro, ex) = (ln_survival(p_ro.value), ln_survival(p_ex.value));
+        let away =
+            |ro_limit: f64, ex_limit: f64| (ln_survival(ro_limit) - ro).hypot(ln_survival(ex_limit) - ex);
+        let value = p_failure_given_rocking(p_ro.value, p_ex.value);
+        let low = -(ro + ex + away(p_ro.low, p_ex.low)).exp_m1();
+        let high = -(ro + ex - away(p_ro.high, p_ex.high)).exp_m1();
+        Probability {
+            value,
+            // What rounding loses of limits near 0.
+            low: low.max(p_ro.low).max(p_ex.low).min(value),
+            high: high.max(p_ro.high).max(p_ex.high).max(value),
+        }
+    }
+}
+
+/// The probabilities of the tree at one intensity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Probabilities {
+    /// No rocking.
+    pub p_nr: f64,
+    /// Given rocking; none without rocking, or where a measure is missing.
+    pub given_rocking: Option<GivenRocking>,
+}
+
+/// Probabilities given that the structure rocks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GivenRocking {
+    /// A demand above the limit state, in safe rocking.
+    pub p_ex: Probability,
+    /// Overturning.
+    pub p_ro: Probability,
+    /// Failure, the one or the other (Eq. 12).
+    pub p_failure: Probability,
+}
+
+impl Probabilities {
+    /// Returns the probabilities of reaching LS1, LS2 and LS3 over the whole tree: exactly 0 without rocking.
+    /// None where a measure is missing.
+    pub fn limit_states(&self) -> Option<[Probability; 3]> {
+        let rocking = Probability::exact(1.0 - self.p_nr);
+        if self.p_nr == 1.0 {
+            return Some([rocking; 3]);
+        }
+        self.given_rocking.map(|given| [rocking, given.p_failure, given.p_ro])
+    }
+}

@@ -1,0 +1,151 @@
+//! What a stage is handed: where to write, how to show progress, whom to tell of doubts.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use arrow_schema::SchemaRef;
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::call::Call;
+use crate::doubt::Doubts;
+use crate::table::TableError;
+use crate::table::provenance::{Provenance, key_of};
+use crate::table::rows::{self, Row};
+use crate::table::writer::TableWriter;
+
+/// The heading of the options that all stages have.
+pub const COMMON: &str = "Common options";
+
+/// Options that all stages have.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = COMMON)]
+pub struct Common {
+    /// Take options from the section of this command in a pipeline file
+    #[arg(long, value_name = "FILE")]
+    pub config: Option<PathBuf>,
+    /// Run even if up to date, and replace files that rockfrag did not write
+    #[arg(long)]
+    pub force: bool,
+    /// Number of threads [default: all processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=4096))]
+    pub threads: Option<u64>,
+    /// Print the answer alone
+    #[arg(long)]
+    pub quiet: bool,
+    /// Progress bars: auto (where stderr is a terminal) or never
+    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = ["auto", "never"])]
+    pub progress: String,
+}
+
+/// A program that calls a stage and wants to know how it goes, in place of a terminal.
+pub trait Listener: Send + Sync {
+    /// Begins so many steps.
+    fn begin(&self, steps: u64);
+
+    /// Ends so many further steps; an error stops the stage.
+    fn advance(&self, steps: u64) -> anyhow::Result<()>;
+}
+
+/// What a stage is handed.
+#[derive(Clone, Default)]
+pub struct Context {
+    /// Run even if up to date, and replace files that rockfrag did not write.
+    pub force: bool,
+    /// Print the answer alone.
+    pub quiet: bool,
+    /// Draw progress bars, where stderr is a terminal.
+    pub progress: bool,
+    /// Who hears of progress in place of the terminal.
+    pub listener: Option<Arc<dyn Listener>>,
+    /// What the files of the stage will say of how they were made.
+    pub made: Provenance,
+    /// The files that it reads, and their keys.
+    inputs: Vec<(PathBuf, String)>,
+    doubts: Arc<Mutex<Doubts>>,
+}
+
+impl Context {
+    /// For a command line with these options.
+    pub fn new(common: &Common) -> Context {
+        let progress = common.progress == "auto" && !common.quiet;
+        Context { force: common.force, quiet: common.quiet, progress, ..Context::default() }
+    }
+
+    /// For a call whose files will say this.
+    pub fn of_call(&self, call: &Call, made: Provenance) -> Result<Context, TableError> {
+        let files = call.inputs.values().flatten().filter(|path| path.exists());
+        let inputs =
+            files.map(|path| Ok((path.clone(), key_of(path)?))).collect::<Result<_, TableError>>()?;
+        Ok(Context { made, inputs, doubts: Arc::default(), ..self.clone() })
+    }
+
+    /// Adds doubts.
+    pub fn doubt(&self, doubts: Doubts) {
+        if let Ok(mut all) = self.doubts.lock() {
+            all.extend(doubts);
+        }
+    }
+
+    /// All doubts so far.
+    pub fn doubts(&self) -> Doubts {
+        self.doubts.lock().map(|all| all.clone()).unwrap_or_default()
+    }
+
+    /// Begins a table.
+    pub fn create(&self, path: &Path, schema: &SchemaRef) -> Result<TableWriter, TableError> {
+        TableWriter::create(path, schema)
+    }
+
+    /// Ends a table, which says how it was made, what was printed and what speaks against it.
+    pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
+        for (path, key) in &self.inputs {
+            if key_of(path)? != *key {
+                return Err(TableError::table(path, "changed while it was read; run again"));
+            }
+        }
+        let doubts = self.doubts().lines();
+        writer.finish(&Provenance { summary: summary.to_string(), doubts, ..self.made.clone() })
+    }
+
+    /// Writes a whole table of rows.
+    pub fn write<R: Row>(&self, path: &Path, rows: &[R], summary: &str) -> anyhow::Result<()> {
+        let mut writer = self.create(path, &rows::schema::<R>())?;
+        writer.append(&rows::batch(rows)?)?;
+        Ok(self.finish(writer, summary)?)
+    }
+
+    /// Progress over `total` steps.
+    pub fn bar(&self, total: u64) -> Progress {
+        if let Some(listener) = &self.listener {
+            listener.begin(total);
+        }
+        let is_seen = self.progress && self.listener.is_none() && std::io::stderr().is_terminal();
+        let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let bar = ProgressBar::with_draw_target(Some(total), target).with_message(self.made.stage.clone());
+        let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");
+        let bar = style.map_or(bar.clone(), |style| bar.with_style(style));
+        Progress { bar, listener: self.listener.clone() }
+    }
+}
+
+/// Progress through the steps of a stage; the bar goes when this does.
+pub struct Progress {
+    bar: ProgressBar,
+    listener: Option<Arc<dyn Listener>>,
+}
+
+impl Progress {
+    /// Ends so many further steps; an error if whoever listens wants the stage to stop.
+    pub fn advance(&self, steps: u64) -> anyhow::Result<()> {
+        self.bar.inc(steps);
+        self.listener.as_ref().map_or(Ok(()), |listener| listener.advance(steps))
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

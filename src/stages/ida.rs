@@ -1,0 +1,367 @@
+//! ida: every structure under every motion at rising intensity.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::{Args, ValueHint};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::shared::motions::{DistinctIds, Measures, doubts, record};
+use super::shared::structures::StructureArgs;
+use super::simulate::doubts_of_size;
+use crate::doubt::{Doubt, Doubts};
+use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities};
+use crate::keyword::keywords;
+use crate::motion::IntensityScratch;
+use crate::pipeline::UsageError;
+use crate::pipeline::context::Context;
+use crate::pipeline::options::number;
+use crate::pipeline::stage::{Stage, part};
+use crate::pipeline::stream::{Pool, batches, pipelined};
+use crate::rocking::{
+    Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure, simulate_all,
+};
+use crate::table::TableError;
+use crate::table::motions::{ACCELERATION, Motion, Motions, Part};
+use crate::table::rows;
+use crate::units::G_M_S2;
+
+/// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are bisected.
+const CHUNK: usize = 8;
+/// Scaled samples that are held at once, or those of one motion.
+const MOST_SAMPLES: usize = 1 << 20;
+
+/// Run incremental dynamic analysis: find the lowest intensity at which each motion overturns each structure
+#[derive(Debug, Args)]
+pub struct Ida {
+    /// Motions to read, as in simulate
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "motions.parquet")]
+    input: PathBuf,
+    /// Overturning intensities to write; NAME.stripes.parquet and NAME.fragility.parquet are written beside it
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "ida.parquet")]
+    out: PathBuf,
+    /// Intensity to scan: scale (the factor on the motion), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, for each structure)
+    #[arg(long, default_value = "scale")]
+    measure: ScaledMeasure,
+    /// Smallest intensity, in the unit of --measure
+    #[arg(long, default_value = "0.1", value_name = "IM", value_parser = number(1e-9..=1e9, "an intensity above 0"))]
+    from: f64,
+    /// Largest intensity, in the unit of --measure
+    #[arg(long, default_value = "10", value_name = "IM", value_parser = number(1e-9..=1e9, "an intensity above 0"))]
+    to: f64,
+    /// Steps between them, in equal ratios; their ends are the stripes
+    #[arg(long, default_value = "60", value_name = "N", value_parser = number(1..=10_000_usize, "1 to 10,000"))]
+    steps: usize,
+    #[command(flatten)]
+    structures: StructureArgs,
+}
+
+/// A measure that grows with a motion in proportion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ScaledMeasure {
+    /// The factor itself.
+    Scale,
+    /// Peak ground acceleration, g.
+    Pga,
+    /// Peak ground velocity, m/s.
+    Pgv,
+    /// PGA / (g tan alpha).
+    Im4,
+    /// p PGV / (g tan alpha).
+    Im5,
+    /// wm PGV / (g tan alpha).
+    Im6,
+}
+
+keywords!(ScaledMeasure { Scale = "scale", Pga = "pga", Pgv = "pgv", Im4 = "im4", Im5 = "im5", Im6 = "im6" });
+
+/// The capacity of a structure under a motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CapacityRow {
+    motion_id: String,
+    suite: Option<String>,
+    structure: String,
+    measure: ScaledMeasure,
+    unscaled: f64,
+    capacity: CapacityStatus,
+    safe_below: Option<f64>,
+    overturning_intensity: Option<f64>,
+    safe_up_to: Option<f64>,
+}
+
+/// What a stripe has besides the response: the intensity, and the share of those up to the next that overturn.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct StripeRow {
+    measure: ScaledMeasure,
+    intensity: f64,
+    scale: f64,
+    overturning_above: Option<f64>,
+}
+
+/// The lognormal distribution of the capacities of a structure under the motions of a suite.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CapacityFitRow {
+    pub suite: Option<String>,
+    pub structure: String,
+    pub measure: ScaledMeasure,
+    pub n: i64,
+    pub n_safe: i64,
+    pub n_below: i64,
+    pub theta: Option<f64>,
+    pub theta_low: Option<f64>,
+    pub theta_high: Option<f64>,
+    pub beta: Option<f64>,
+    pub beta_low: Option<f64>,
+    pub beta_high: Option<f64>,
+    pub status: String,
+}
+
+/// What came of some motions.
+struct Analysed {
+    motion_ids: Vec<String>,
+    stripes: arrow_array::RecordBatch,
+    capacities: Vec<CapacityRow>,
+    doubts: Doubts,
+}
+
+/// A structure under a motion.
+struct Case<'a> {
+    path: &'a Path,
+    motion: &'a Motion,
+    measures: Measures,
+    structure: &'a Structure,
+    /// The measure of the motion as it is.
+    unscaled: f64,
+}
+
+impl Stage for Ida {
+    fn outputs(&self) -> Vec<PathBuf> {
+        vec![part(&self.out, "stripes"), part(&self.out, "fragility"), self.out.clone()]
+    }
+
+    fn check(&self) -> anyhow::Result<()> {
+        if self.to <= self.from {
+            return Err(UsageError::because(format!("to is {}; expected an intensity above {}", self.to, self.from)));
+        }
+        self.structures.resolve().map(|_| ())
+    }
+
+    fn run(&self, context: &Context) -> anyhow::Result<String> {
+        let structures = self.structures.resolve()?;
+        context.doubt(doubts_of_size(&structures));
+        let scan = Scan::new(self.from, self.to, self.steps);
+        let motions = Motions::open(&self.input, None)?;
+        let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
+        let mut stripes = context.create(&stripes_file, &stripes_of(&[], &[])?.schema())?;
+        let (mut ids, mut capacities) = (DistinctIds::default(), Vec::new());
+        let pool = Pool::new(IntensityScratch::default);
+        let bar = context.bar(motions.rows());
+        let analyse = |(path, some): (Arc<Path>, Vec<Motion>)| {
+            bar.advance(some.len() as u64)?;
+            pool.lend(|scratch| self.analyse(&scan, &structures, &path, &some, scratch))
+        };
+        pipelined(
+            batches(motions.parts(), rayon::current_num_threads()),
+            |parts| {
+                let read = |part: Part| motions.read(part, CHUNK)?.collect::<Result<Vec<_>, TableError>>();
+                let chunks = parts.into_iter().map(read).collect::<Result<Vec<_>, TableError>>()?;
+                chunks.concat().into_par_iter().map(analyse).collect::<anyhow::Result<Vec<Analysed>>>()
+            },
+            |analysed| {
+                for some in analysed {
+                    ids.add(&self.input, some.motion_ids)?;
+                    stripes.append(&some.stripes)?;
+                    capacities.extend(some.capacities);
+                    context.doubt(some.doubts);
+                }
+                Ok(())
+            },
+        )?;
+        let fits = fits(&capacities, &scan, context);
+        let summary = summary(&fits);
+        context.finish(stripes, &summary)?;
+        context.write(&fragility_file, &fits, &summary)?;
+        context.write(&self.out, &capacities, &summary)?;
+        Ok(summary)
+    }
+}
+
+impl Ida {
+    /// Scans each structure under each of some motions.
+    fn analyse(
+        &self,
+        scan: &Scan,
+        structures: &[Structure],
+        path: &Path,
+        motions: &[Motion],
+        scratch: &mut IntensityScratch,
+    ) -> anyhow::Result<Analysed> {
+        let (mut cases, mut doubted) = (Vec::new(), Doubts::default());
+        for motion in motions {
+            let record = record(path, motion)?;
+            let measures = Measures::new(motion, &record, scratch);
+            doubted.extend(doubts(motion, &record));
+            for structure in structures {
+                let unscaled = self.measure.unscaled(&measures, structure).ok_or_else(|| {
+                    let measure = self.measure;
+                    value_error(path, motion, format!("no {measure} above 0 to scale; leave the motion out, or take --measure scale"))
+                })?;
+                cases.push(Case { path, motion, measures, structure, unscaled });
+            }
+        }
+        let scans = scan.run(cases.len(), |points| respond(&cases, points))?;
+        let (mut responses, mut stripes) = (Vec::new(), Vec::new());
+        for (case, scanned) in cases.iter().zip(&scans) {
+            let shares = scan.overturning_shares(scanned).into_iter().map(Some).chain([None]);
+            let is_level = |at: &&ScanResponse| scan.levels().binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok();
+            for (at, overturning_above) in scanned.iter().filter(is_level).zip(shares) {
+                let scale = at.intensity / case.unscaled;
+                responses.push(case.measures.scaled(scale).response_row(case.motion, case.structure, at.response));
+                stripes.push(StripeRow { measure: self.measure, intensity: at.intensity, scale, overturning_above });
+            }
+        }
+        let capacities = cases.iter().zip(&scans).map(|(case, scanned)| self.capacity(case, &scan.capacity(scanned)));
+        Ok(Analysed {
+            motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
+            stripes: stripes_of(&responses, &stripes)?,
+            capacities: capacities.collect(),
+            doubts: doubted,
+        })
+    }
+
+    fn capacity(&self, case: &Case, capacity: &Capacity) -> CapacityRow {
+        CapacityRow {
+            motion_id: case.motion.motion_id.clone(),
+            suite: case.motion.suite.clone(),
+            structure: case.structure.name.clone(),
+            measure: self.measure,
+            unscaled: case.unscaled,
+            capacity: capacity.status,
+            safe_below: capacity.safe_below,
+            overturning_intensity: capacity.overturning,
+            safe_up_to: capacity.safe_up_to,
+        }
+    }
+}
+
+impl ScaledMeasure {
+    /// That of a motion as it is; none where it has none, or the ground does not move.
+    fn unscaled(self, measures: &Measures, structure: &Structure) -> Option<f64> {
+        let dimensionless = measures.of_structure(structure);
+        let value = match self {
+            ScaledMeasure::Scale => Some(1.0),
+            ScaledMeasure::Pga => Some(measures.pga_m_s2 / G_M_S2),
+            ScaledMeasure::Pgv => Some(measures.pgv_m_s),
+            ScaledMeasure::Im4 => Some(dimensionless.im4),
+            ScaledMeasure::Im5 => Some(dimensionless.im5),
+            ScaledMeasure::Im6 => dimensionless.im6,
+        };
+        value.filter(|&value| value > 0.0)
+    }
+}
+
+/// Responses and what stripes have besides, side by side.
+fn stripes_of(responses: &[crate::table::responses::ResponseRow], stripes: &[StripeRow]) -> anyhow::Result<arrow_array::RecordBatch> {
+    rows::side_by_side(&[rows::batch(responses)?, rows::batch(stripes)?])
+}
+
+/// Simulates scaled copies of motions, as many at once as fit.
+fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableError> {
+    let mut responses = Vec::with_capacity(points.len());
+    let samples = |point: &ScanPoint| cases[point.case].motion.acceleration_m_s2.len();
+    let mut rest = points;
+    while !rest.is_empty() {
+        let mut held = 0;
+        let fits = |point: &&ScanPoint| {
+            held += samples(point);
+            held <= MOST_SAMPLES
+        };
+        let (block, later) = rest.split_at(rest.iter().take_while(fits).count().max(1));
+        let scaled: Vec<Vec<f64>> = block.iter().map(|point| cases[point.case].scaled(point.intensity)).collect();
+        let problems = block.iter().zip(&scaled).map(|(point, samples)| {
+            let Case { path, motion, structure, .. } = cases[point.case];
+            let record = Record::new(samples, motion.dt_s);
+            let record = record.map_err(|problem| value_error(path, motion, format!("{problem}; scale less by a lower --to")))?;
+            Ok(Problem { structure, record })
+        });
+        responses.extend(simulate_all(&problems.collect::<Result<Vec<_>, TableError>>()?));
+        rest = later;
+    }
+    Ok(responses)
+}
+
+impl Case<'_> {
+    fn scaled(&self, intensity: f64) -> Vec<f64> {
+        self.motion.acceleration_m_s2.iter().map(|sample| intensity / self.unscaled * sample).collect()
+    }
+}
+
+fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
+    let problem = format!("motion '{}': {problem}", motion.motion_id);
+    TableError::Value { path: path.to_path_buf(), row: motion.row, column: ACCELERATION, problem }
+}
+
+/// The lognormal distribution of the capacities of each suite and structure.
+fn fits(capacities: &[CapacityRow], scan: &Scan, context: &Context) -> Vec<CapacityFitRow> {
+    let mut groups: BTreeMap<(Option<&str>, &str), Vec<KnownCapacity>> = BTreeMap::new();
+    let mut order = Vec::new();
+    for row in capacities {
+        let known = match (row.capacity, row.overturning_intensity) {
+            (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
+            (CapacityStatus::Below, _) => KnownCapacity::Below(scan.lowest()),
+            _ => KnownCapacity::Above(scan.highest()),
+        };
+        let name = (row.suite.as_deref(), row.structure.as_str());
+        groups.entry(name).or_insert_with(|| { order.push(name); Vec::new() }).push(known);
+    }
+    let measure = capacities.first().map_or(ScaledMeasure::Scale, |row| row.measure);
+    let fit = |name: (Option<&str>, &str)| {
+        let known = &groups[&name];
+        let count = |is: fn(&KnownCapacity) -> bool| known.iter().filter(|capacity| is(capacity)).count() as i64;
+        let (fit, status) = match fit_capacities(known) {
+            Ok(fit) => (Some(fit), "ok".to_string()),
+            Err(status) => (None, status.to_string()),
+        };
+        let of = |value: fn(&CapacityFit) -> f64| fit.as_ref().map(value);
+        let row = CapacityFitRow {
+            suite: name.0.map(str::to_string),
+            structure: name.1.to_string(),
+            measure,
+            n: known.len() as i64,
+            n_safe: count(|capacity| matches!(capacity, KnownCapacity::Above(_))),
+            n_below: count(|capacity| matches!(capacity, KnownCapacity::Below(_))),
+            theta: of(|fit| fit.theta),
+            theta_low: of(|fit| fit.theta_low),
+            theta_high: of(|fit| fit.theta_high),
+            beta: of(|fit| fit.beta),
+            beta_low: of(|fit| fit.beta_low),
+            beta_high: of(|fit| fit.beta_high),
+            status,
+        };
+        if row.theta.is_none() && 2 * row.n_safe >= row.n {
+            context.doubt([(Doubt::ScanEndsEarly, row.structure.clone())].into_iter().collect());
+        }
+        row
+    };
+    order.into_iter().map(fit).collect()
+}
+
+/// A line a structure: its median intensity of overturning with limits.
+fn summary(fits: &[CapacityFitRow]) -> String {
+    let mut text = String::new();
+    for row in fits {
+        let suite = row.suite.as_deref().map_or(String::new(), |suite| format!(" ({suite})"));
+        let _ = match (row.theta, row.theta_low, row.theta_high, row.beta) {
+            (Some(theta), Some(low), Some(high), Some(beta)) => writeln!(
+                text,
+                "{}{suite}: half of the motions overturn it at {} {theta:.3} (95 % limits {low:.3} to {high:.3}), dispersion {beta:.2}",
+                row.structure, row.measure
+            ),
+            _ => writeln!(text, "{}{suite}: no median; {} of {} motions do not overturn it", row.structure, row.n_safe, row.n),
+        };
+    }
+    text
+}

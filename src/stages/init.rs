@@ -1,0 +1,63 @@
+//! init: a folder to start from. It replaces nothing.
+
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::Write as _;
+use std::path::Path;
+
+use anyhow::Context;
+use clap::ValueEnum;
+
+use crate::pipeline::UsageError;
+
+/// What a folder starts from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Start {
+    /// The paper's set-up
+    Paper,
+    /// A folder of your records
+    Records,
+    /// The hazard curve of a site
+    Site,
+}
+
+const STRUCTURES: (&str, &str) = ("structures.csv", include_str!("../../data/start/structures.csv"));
+
+impl Start {
+    /// The files by name, and their text.
+    fn files(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Start::Paper => &[("pipeline.yaml", include_str!("../../pipeline.yaml"))],
+            Start::Records => &[("pipeline.yaml", include_str!("../../data/start/records.yaml")), STRUCTURES],
+            Start::Site => &[
+                ("pipeline.yaml", include_str!("../../data/start/site.yaml")),
+                STRUCTURES,
+                ("hazard.csv", include_str!("../../data/hazard.csv")),
+            ],
+        }
+    }
+}
+
+/// Writes the files of a start into a folder, unless one of them is there already. Returns which.
+pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
+    let folder = folder.strip_prefix(".").unwrap_or(folder);
+    let files: Vec<_> = start.files().iter().map(|(name, text)| (folder.join(name), text)).collect();
+    if let Some((path, _)) = files.iter().find(|(path, _)| path.symlink_metadata().is_ok()) {
+        let path = path.display();
+        return Err(UsageError::because(format!(
+            "{path}: is there already; choose another folder with --out"
+        )));
+    }
+    let mut text = String::new();
+    for (path, content) in &files {
+        let place = || path.display().to_string();
+        std::fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).with_context(place)?;
+        // A file that came meanwhile is left as it is.
+        File::create_new(path).and_then(|mut file| file.write_all(content.as_bytes())).with_context(place)?;
+        writeln!(text, "wrote {}", path.display())?;
+    }
+    let there = if folder == Path::new("") { String::new() } else { format!("cd {} && ", folder.display()) };
+    let before = if start == Start::Records { "put your records into the folder records, then " } else { "" };
+    writeln!(text, "next: {before}{there}rockfrag run")?;
+    Ok(text)
+}

@@ -1,0 +1,202 @@
+//! simulate: every structure through every motion.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use arrow_array::RecordBatch;
+use clap::{Args, ValueHint};
+use rayon::prelude::*;
+
+use super::shared::motions::{DistinctIds, Measures, doubts, record};
+use super::shared::structures::StructureArgs;
+use super::synthesize_motions::out_of_partition;
+use crate::doubt::{Doubt, Doubts};
+use crate::motion::IntensityScratch;
+use crate::pipeline::context::Context;
+use crate::pipeline::options::listed;
+use crate::pipeline::stage::{Stage, part};
+use crate::pipeline::stream::{Pool, batches, pipelined};
+use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
+use crate::table::TableError;
+use crate::table::file::Partition;
+use crate::table::motions::{Motion, Motions, Part};
+use crate::table::responses::{ResponseRow, TraceRow};
+use crate::table::rows;
+
+/// Parts of the file that are read at once, for each thread.
+const PARTS_A_THREAD: usize = 4;
+/// Motions that a thread takes at once: enough to keep the lanes of its registers busy, and few enough for its caches.
+const CHUNK: usize = 32;
+/// Quiet time after a traced record in which free rocking shows, s.
+const TRACE_TAIL_S: f64 = 10.0;
+/// Motions that are named if they overturn a structure.
+const NAMED: usize = 8;
+
+/// Simulate the rocking response of structures to motions
+#[derive(Debug, Args)]
+pub struct Simulate {
+    /// Motions to read: a file or a folder; those of other programs need motion_id, dt_s and acceleration_m_s2
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "motions.parquet")]
+    input: PathBuf,
+    /// Responses to write
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "responses.parquet")]
+    out: PathBuf,
+    #[command(flatten)]
+    structures: StructureArgs,
+    /// Also write the rotation over time for these motions, to NAME.trace.parquet beside the output
+    #[arg(long, value_name = "ID,...", value_delimiter = ',', help_heading = None::<&str>)]
+    trace: Vec<String>,
+    /// Simulate only part i of n (from 0 to n - 1): rows of a file, or a file of a folder; --out is a folder
+    #[arg(long, value_name = "I/N", conflicts_with = "trace", help_heading = None::<&str>)]
+    partition: Option<Partition>,
+}
+
+impl Stage for Simulate {
+    fn outputs(&self) -> Vec<PathBuf> {
+        let traced = (!self.trace.is_empty()).then(|| part(&self.out, "trace"));
+        traced.into_iter().chain([out_of_partition(&self.out, self.partition)]).collect()
+    }
+
+    fn check(&self) -> anyhow::Result<()> {
+        self.structures.resolve().map(|_| ())
+    }
+
+    fn run(&self, context: &Context) -> anyhow::Result<String> {
+        let structures = self.structures.resolve()?;
+        context.doubt(doubts_of_size(&structures));
+        let motions = Motions::open(&self.input, self.partition)?;
+        let out = out_of_partition(&self.out, self.partition);
+        let mut writer = context.create(&out, &rows::schema::<ResponseRow>())?;
+        let (mut ids, mut overturned, mut traces) = (DistinctIds::default(), Overturned::default(), Vec::new());
+        let pool = Pool::new(IntensityScratch::default);
+        let bar = context.bar(motions.rows());
+        let simulate_part = |part: Part| -> anyhow::Result<Vec<Responded>> {
+            let simulate_chunk = |chunk: Result<_, TableError>| {
+                let (path, chunk): (std::sync::Arc<Path>, Vec<Motion>) = chunk?;
+                bar.advance(chunk.len() as u64)?;
+                pool.lend(|scratch| respond(&path, &chunk, &structures, &self.trace, scratch))
+            };
+            motions.read(part, CHUNK)?.map(simulate_chunk).collect()
+        };
+        pipelined(
+            batches(motions.parts(), PARTS_A_THREAD * rayon::current_num_threads()),
+            |parts| parts.into_par_iter().map(simulate_part).collect::<anyhow::Result<Vec<_>>>(),
+            |responded| {
+                for some in responded.into_iter().flatten() {
+                    ids.add(&self.input, some.motion_ids)?;
+                    overturned.extend(some.overturned);
+                    context.doubt(some.doubts);
+                    traces.extend(some.traces);
+                    writer.append(&some.rows)?;
+                }
+                Ok(())
+            },
+        )?;
+        let summary = overturned.text(&structures, motions.rows());
+        if let Some(id) = self.trace.iter().find(|id| traces.iter().all(|row: &TraceRow| row.motion_id != **id)) {
+            anyhow::bail!("{}: no motion '{id}' to trace; expected one of its motion_id", self.input.display());
+        }
+        if !self.trace.is_empty() {
+            context.write(&part(&self.out, "trace"), &traces, &summary)?;
+        }
+        context.finish(writer, &summary)?;
+        Ok(summary)
+    }
+}
+
+/// What came of some motions.
+struct Responded {
+    motion_ids: Vec<String>,
+    rows: RecordBatch,
+    traces: Vec<TraceRow>,
+    doubts: Doubts,
+    overturned: Overturned,
+}
+
+/// Runs all structures on some motions, while these are at hand.
+fn respond(
+    path: &Path,
+    motions: &[Motion],
+    structures: &[Structure],
+    traced: &[String],
+    scratch: &mut IntensityScratch,
+) -> anyhow::Result<Responded> {
+    let records = motions.iter().map(|motion| record(path, motion)).collect::<Result<Vec<_>, _>>()?;
+    let of_record = |&record| structures.iter().map(move |structure| Problem { structure, record });
+    let problems: Vec<Problem> = records.iter().flat_map(of_record).collect();
+    let mut responses = simulate_all(&problems).into_iter();
+    let mut responded =
+        Responded { motion_ids: Vec::new(), rows: rows::batch::<ResponseRow>(&[])?, traces: Vec::new(), doubts: Doubts::default(), overturned: Overturned::default() };
+    let mut all = Vec::with_capacity(problems.len());
+    for (motion, record) in motions.iter().zip(&records) {
+        let measures = Measures::new(motion, record, scratch);
+        for (structure, response) in structures.iter().zip(&mut responses) {
+            if response.outcome == Outcome::Overturning {
+                responded.overturned.add(structure, motion);
+            }
+            all.push(measures.response_row(motion, structure, response));
+        }
+        if traced.contains(&motion.motion_id) {
+            responded.traces.extend(trace_rows(motion, record, structures)?);
+        }
+        responded.doubts.extend(doubts(motion, record));
+        responded.motion_ids.push(motion.motion_id.clone());
+    }
+    Ok(Responded { rows: rows::batch(&all)?, ..responded })
+}
+
+/// The rotation of all structures over time under a motion.
+fn trace_rows(motion: &Motion, record: &Record, structures: &[Structure]) -> anyhow::Result<Vec<TraceRow>> {
+    let ended = with_tail(record, TRACE_TAIL_S);
+    let record = Record::new(&ended, record.dt_s())?;
+    let of_structure = |structure: &Structure| {
+        let row = |point: crate::rocking::TracePoint| TraceRow {
+            motion_id: motion.motion_id.clone(),
+            structure: structure.name.clone(),
+            time_s: point.time_s,
+            theta_rad: point.theta_rad,
+            theta_dot_rad_s: point.theta_dot_rad_s,
+            theta_over_alpha: point.theta_rad / structure.alpha_rad,
+            ground_m_s2: record.acceleration_at(point.time_s),
+            solver_event: point.solver_event,
+        };
+        trace(structure, &record).1.into_iter().map(row).collect::<Vec<_>>()
+    };
+    Ok(structures.iter().flat_map(of_structure).collect())
+}
+
+/// The structures that are larger than any that stands.
+pub fn doubts_of_size(structures: &[Structure]) -> Doubts {
+    let is_doubtful = |structure: &&Structure| structure.doubt().is_some();
+    structures.iter().filter(is_doubtful).map(|structure| (Doubt::ImplausibleSize, structure.name.clone())).collect()
+}
+
+/// The motions that overturn each structure: how many, and the first of them.
+#[derive(Default)]
+struct Overturned(BTreeMap<String, (u64, Vec<String>)>);
+
+impl Overturned {
+    fn add(&mut self, structure: &Structure, motion: &Motion) {
+        self.merge(structure.name.clone(), 1, vec![motion.motion_id.clone()]);
+    }
+
+    fn extend(&mut self, others: Overturned) {
+        others.0.into_iter().for_each(|(structure, (count, named))| self.merge(structure, count, named));
+    }
+
+    fn merge(&mut self, structure: String, count: u64, named: Vec<String>) {
+        let known = self.0.entry(structure).or_default();
+        known.0 += count;
+        known.1.extend(named.into_iter().take(NAMED - known.1.len().min(NAMED)));
+    }
+
+    /// A line a structure.
+    fn text(&self, structures: &[Structure], motions: u64) -> String {
+        let line = |structure: &Structure| {
+            let (count, named) = self.0.get(&structure.name).cloned().unwrap_or_default();
+            let named = if (1..=NAMED as u64).contains(&count) { format!(" ({})", listed(&named, NAMED)) } else { String::new() };
+            format!("{}: {count} of {motions} motions overturn it{named}\n", structure.name)
+        };
+        structures.iter().map(line).collect()
+    }
+}

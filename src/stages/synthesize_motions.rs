@@ -1,0 +1,196 @@
+//! synthesize-motions: the pulse, the high frequencies and their combination for every scenario.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use clap::{Args, ValueHint};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::motion::{
+    Difference, Epoch, IntensityScratch, LowCut, MeasurePlan, Measured, MotionModel, Scenario, Site, StochasticModel, Suite,
+    Synthesizer,
+};
+use crate::pipeline::UsageError;
+use crate::pipeline::context::Context;
+use crate::pipeline::options::{Steps, number};
+use crate::pipeline::stage::Stage;
+use crate::pipeline::stream::{Pool, pipelined};
+use crate::sheet::Sheet;
+use crate::table::file::Partition;
+use crate::table::{motions, rows};
+
+/// Scenarios that are held in memory together.
+const AT_ONCE: usize = 128;
+
+/// Synthesize near-fault ground motions: coherent pulse and stochastic high frequencies
+#[derive(Debug, Args)]
+pub struct SynthesizeMotions {
+    /// Scenarios to read
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "scenarios.parquet")]
+    input: PathBuf,
+    /// Motions to write
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "motions.parquet")]
+    out: PathBuf,
+    /// Seed of the noise
+    #[arg(long, default_value = "42")]
+    seed: u64,
+    /// Suites: pulse (the pulse alone), csgm (pulse and high frequencies), hfc (high frequencies alone)
+    #[arg(long, default_value = "pulse,csgm", value_delimiter = ',')]
+    suite: Vec<Suite>,
+    /// Time between samples, s
+    #[arg(long, default_value = "0.005", value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
+    dt: f64,
+    /// How to subtract the pulse from the spectrum of the high frequencies where the pulse is stronger: absolute, signed, clamp or none
+    /// (plain sum)
+    #[arg(long, default_value = "absolute")]
+    difference: Difference,
+    /// When the pulse peaks: envelope-peak (at the peak of the envelope), pga or pgv (at the peak acceleration or velocity of the
+    /// high frequencies)
+    #[arg(long, default_value = "envelope-peak")]
+    epoch: Epoch,
+    /// Site amplification: rock, soil, none, or a CSV file of frequencies (Hz) and factors
+    #[arg(long, default_value = "rock", value_hint = ValueHint::FilePath)]
+    site: PathBuf,
+    /// Near-surface attenuation kappa, s
+    #[arg(long, default_value = "0.03", value_name = "S", value_parser = number(0.0..=1.0, "0 to 1 s"))]
+    kappa: f64,
+    /// Corner of the filter 1/sqrt(1 + (f/fmax)^8), Hz [default: none]
+    #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1e6, "a frequency above 0 Hz"))]
+    fmax: Option<f64>,
+    /// Corner of the high-pass filter 1/(1 + (fc/f)^(2n)), Hz [default: none]
+    #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1e6, "a frequency above 0 Hz"))]
+    low_cut: Option<f64>,
+    /// Order n of the high-pass filter
+    #[arg(long, default_value = "4", value_name = "N", value_parser = number(1..=20_u32, "1 to 20"))]
+    low_cut_order: u32,
+    /// Also compute the Housner intensity, which takes 15 times as long or more
+    #[arg(long)]
+    housner: bool,
+    /// Add spectral accelerations (5 % damping) at these periods, s; the column sa_0p20_m_s2 is for 0.2 s
+    #[arg(long, value_name = "S,...")]
+    sa: Option<Steps>,
+    /// Make only part i of n (from 0 to n - 1) of the scenarios, as a file of the folder --out
+    #[arg(long, value_name = "I/N")]
+    partition: Option<Partition>,
+}
+
+/// What names a motion in the file.
+#[derive(Serialize, Deserialize)]
+struct MotionName {
+    motion_id: String,
+    suite: Suite,
+    dt_s: f64,
+}
+
+/// A synthetic motion: what names it, its scenario, its samples as they are written and what they measure.
+struct Motion {
+    name: MotionName,
+    scenario: Scenario,
+    acceleration_m_s2: Vec<f32>,
+    measured: Measured,
+}
+
+impl Stage for SynthesizeMotions {
+    fn outputs(&self) -> Vec<PathBuf> {
+        vec![out_of_partition(&self.out, self.partition)]
+    }
+
+    fn check(&self) -> anyhow::Result<()> {
+        let is_made = |suite: &Suite| Suite::SYNTHETIC.contains(suite);
+        let is_distinct = (1..self.suite.len()).all(|k| !self.suite[..k].contains(&self.suite[k]));
+        match self.suite.iter().all(is_made) && is_distinct {
+            true => Ok(()),
+            false => Err(UsageError::because("suite: expected some of pulse, csgm and hfc, each once")),
+        }
+    }
+
+    fn run(&self, context: &Context) -> anyhow::Result<String> {
+        let all: Vec<Scenario> = rows::read(&self.input)?;
+        let part = self.partition.map_or(0..all.len(), |partition| partition.rows(all.len()));
+        let (scenarios, suites) = (&all[part], &self.suite);
+        let periods = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
+        let plan = MeasurePlan { housner: self.housner, sa_periods_s: periods.clone() };
+        let model = self.model()?;
+        let of_thread = suites.clone();
+        let pool = Pool::new(move || (Synthesizer::new(model.clone(), &of_thread), IntensityScratch::default()));
+        let motions = |scenario: &Scenario| pool.lend(|scratch| synthesize(scenario, suites, &plan, scratch));
+        let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
+        let bar = context.bar(scenarios.len() as u64);
+        pipelined(
+            scenarios.chunks(AT_ONCE).map(Ok),
+            |some| {
+                let motions: Vec<Motion> = some.par_iter().flat_map_iter(motions).collect();
+                bar.advance(some.len() as u64)?;
+                batch(&motions, &periods)
+            },
+            |batch| Ok(writer.append(&batch)?),
+        )?;
+        let summary = format!("{} motions of {} scenarios\n", scenarios.len() * suites.len(), scenarios.len());
+        context.finish(writer, &summary)?;
+        Ok(summary)
+    }
+}
+
+impl SynthesizeMotions {
+    fn model(&self) -> anyhow::Result<MotionModel> {
+        let low_cut = self.low_cut.map(|corner_hz| LowCut { corner_hz, order: self.low_cut_order });
+        let site = site(&self.site)?;
+        Ok(MotionModel {
+            dt_s: self.dt,
+            difference: self.difference,
+            epoch: self.epoch,
+            stochastic: StochasticModel { site, kappa_s: self.kappa, fmax_hz: self.fmax, low_cut },
+            seed: self.seed,
+        })
+    }
+}
+
+/// The site amplification of this name, or in this file.
+fn site(name: &Path) -> anyhow::Result<Site> {
+    match name.to_str() {
+        Some("rock") => return Ok(Site::Rock),
+        Some("soil") => return Ok(Site::Soil),
+        Some("none") => return Ok(Site::None),
+        _ => {}
+    }
+    let place = || format!("{}: expected rock, soil, none, or a CSV file of frequencies (Hz) and factors", name.display());
+    let sheet = Sheet::parse(&std::fs::read(name).with_context(place)?).with_context(place)?;
+    let pairs = (0..sheet.lines.len()).map(|row| Ok((sheet.number(row, 0)?, sheet.number(row, 1)?)));
+    Site::table(pairs.collect::<anyhow::Result<_>>().with_context(place)?).with_context(place)
+}
+
+/// The motions of a scenario, each measured as it will be read.
+fn synthesize(
+    scenario: &Scenario,
+    suites: &[Suite],
+    plan: &MeasurePlan,
+    (synthesizer, scratch): &mut (Synthesizer, IntensityScratch),
+) -> Vec<Motion> {
+    let synthetic = synthesizer.synthesize(scenario);
+    let dt_s = synthetic.dt_s;
+    let motion = |&suite: &Suite| {
+        let acceleration_m_s2: Vec<f32> = synthetic.samples(suite).iter().map(|&a| a as f32).collect();
+        let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
+        let measured = plan.measure(&written, dt_s, scratch);
+        let motion_id = suite.motion_id(scenario.scenario_id).to_string();
+        Motion { name: MotionName { motion_id, suite, dt_s }, scenario: *scenario, acceleration_m_s2, measured }
+    };
+    suites.iter().map(motion).collect()
+}
+
+fn batch(some: &[Motion], periods_s: &[f64]) -> anyhow::Result<arrow_array::RecordBatch> {
+    let (names, scenarios): (Vec<&MotionName>, Vec<Scenario>) = some.iter().map(|motion| (&motion.name, motion.scenario)).unzip();
+    let measures: Vec<_> = some.iter().map(|motion| motion.measured.measures).collect();
+    let sa: Vec<&[f64]> = some.iter().map(|motion| motion.measured.sa_m_s2.as_slice()).collect();
+    let known = [rows::batch_of::<MotionName, _>(&names)?, rows::batch(&scenarios)?, rows::batch(&measures)?];
+    motions::batch(&known, periods_s, &sa, some.iter().map(|motion| motion.acceleration_m_s2.as_slice()))
+}
+
+/// Where a partition is written: as a file of the folder that stands for the whole.
+pub fn out_of_partition(out: &Path, partition: Option<Partition>) -> PathBuf {
+    match partition {
+        Some(partition) => out.with_extension("").join(partition.file_name()),
+        None => out.to_path_buf(),
+    }
+}

@@ -1,0 +1,57 @@
+//! Standard errors where cases of one cluster (an earthquake, a cell of magnitude and distance) may depend on
+//! each other.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Fewer clusters say too little of how they differ: their errors come out too small (Cameron & Miller 2015,
+/// section VI).
+pub const MIN_CLUSTERS: usize = 10;
+
+/// The sums of each cluster's `k` terms, of the clusters that occur; `terms` is called for each case with the
+/// place to add to.
+fn cluster_sums(clusters: &[u32], k: usize, add: impl Fn(usize, &mut [f64])) -> Vec<Vec<f64>> {
+    let count = clusters.iter().max().map_or(0, |&last| last as usize + 1);
+    let (mut sums, mut occurs) = (vec![0.0; count * k], vec![false; count]);
+    for (case, &cluster) in clusters.iter().enumerate() {
+        let cluster = cluster as usize;
+        occurs[cluster] = true;
+        add(case, &mut sums[cluster * k..][..k]);
+    }
+    sums.chunks_exact(k).zip(occurs).filter(|(_, occurs)| *occurs).map(|(sum, _)| sum.to_vec()).collect()
+}
+
+/// Computes the sandwich covariance of coefficients, with the factor G/(G - 1) (n - 1)/(n - k) for G clusters
+/// (Cameron & Miller 2015, A practitioner's guide to cluster-robust inference, J. Human Resources 50,
+/// 317-372), and G. `x` are the columns of predictors, `scores` the derivatives of the log-likelihood with
+/// respect to the linear predictor, `bread` the inverse information. There is no covariance of fewer than
+/// [`MIN_CLUSTERS`].
+pub fn sandwich(
+    x: &[&[f64]],
+    scores: &[f64],
+    bread: &DMatrix<f64>,
+    clusters: &[u32],
+) -> (Option<DMatrix<f64>>, usize) {
+    let (n, k) = (scores.len() as f64, x.len() + 1);
+    let sums = cluster_sums(clusters, k, |case, sum| {
+        sum[0] += scores[case];
+        sum[1..].iter_mut().zip(x).for_each(|(sum, x)| *sum += scores[case] * x[case]);
+    });
+    let g = sums.len() as f64;
+    let meat = sums
+        .into_iter()
+        .map(DVector::from_vec)
+        .fold(DMatrix::zeros(k, k), |meat, sum| meat + &sum * sum.transpose());
+    let factor = g / (g - 1.0) * (n - 1.0) / (n - k as f64);
+    let covariance = bread * meat * bread * factor;
+    ((g >= MIN_CLUSTERS as f64).then_some(covariance), g as usize)
+}
+
+/// Computes the mean of the values and its standard error, C/(C - 1) sum (S_c - n_c mean)^2 / n^2 for C
+/// clusters.
+pub fn clustered_mean(values: &[f64], clusters: &[u32]) -> (f64, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let sums = cluster_sums(clusters, 1, |case, sum| sum[0] += values[case] - mean);
+    let (g, squares) = (sums.len() as f64, sums.iter().map(|sum| sum[0] * sum[0]).sum::<f64>());
+    (mean, (g / (g - 1.0) * squares).sqrt() / n)
+}

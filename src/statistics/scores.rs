@@ -1,0 +1,29 @@
+//! How well probabilities foretell events.
+
+/// Computes the area under the receiver operating characteristic: the probability that an event has a higher
+/// score than another case, ties counted half. NaN without both.
+pub fn auc(scores: &[f64], events: &[bool]) -> f64 {
+    let mut order: Vec<usize> = (0..scores.len()).collect();
+    order.sort_by(|&a, &b| scores[a].total_cmp(&scores[b]));
+    let (mut wins, mut others_below, mut happened_in_all) = (0.0, 0.0, 0.0);
+    for tied in order.chunk_by(|&a, &b| scores[a] == scores[b]) {
+        let happened = tied.iter().filter(|&&case| events[case]).count() as f64;
+        let others = tied.len() as f64 - happened;
+        wins += happened * (others_below + 0.5 * others);
+        others_below += others;
+        happened_in_all += happened;
+    }
+    wins / (happened_in_all * others_below)
+}
+
+/// Computes the Brier score: the mean squared difference of probability and outcome.
+pub fn brier_score(probabilities: &[f64], events: &[bool]) -> f64 {
+    let square = |(p, &event): (&f64, &bool)| (p - f64::from(event)).powi(2);
+    probabilities.iter().zip(events).map(square).sum::<f64>() / events.len() as f64
+}
+
+/// Computes the logarithmic score: the mean logarithm of the probability of what happened, 0 at best.
+pub fn log_score(probabilities: &[f64], events: &[bool]) -> f64 {
+    let term = |(p, &event): (&f64, &bool)| if event { p.ln() } else { (-p).ln_1p() };
+    probabilities.iter().zip(events).map(term).sum::<f64>() / events.len() as f64
+}

@@ -1,0 +1,347 @@
+//! A table on disk: a Parquet file, or a folder of them whose rows follow each other in the order of their names.
+
+use std::cell::Cell;
+use std::fmt;
+use std::fs::File;
+use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::sync::Arc;
+
+use arrow_array::RecordBatch;
+use arrow_schema::SchemaRef;
+use parquet::arrow::ProjectionMask;
+use parquet::arrow::arrow_reader::{
+    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
+};
+use parquet::file::metadata::{ParquetMetaData, RowGroupMetaData};
+
+use super::TableError;
+use super::columns::Columns;
+use super::provenance::Provenance;
+
+/// The most bytes that the wanted columns of a row group may announce: what is more is damage, or does not fit into memory.
+const MOST_BYTES: i64 = 4 << 30;
+/// Rows of a narrow table that are read at once.
+const NARROW_BATCH: usize = 8192;
+
+/// One of `of` equal parts of a table, counted from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Partition {
+    pub index: u64,
+    pub of: u64,
+}
+
+impl FromStr for Partition {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Partition, String> {
+        let parts =
+            text.split_once('/').and_then(|(index, of)| Some((index.parse().ok()?, of.parse().ok()?)));
+        match parts {
+            Some((index, of)) if index < of => Ok(Partition { index, of }),
+            _ => Err("expected i/n with i from 0 to n - 1, such as 0/4".to_string()),
+        }
+    }
+}
+
+impl fmt::Display for Partition {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}/{}", self.index, self.of)
+    }
+}
+
+impl Partition {
+    /// The name of its file in a folder.
+    pub fn file_name(self) -> String {
+        format!("part-{:05}.parquet", self.index)
+    }
+
+    /// Its share of so many rows.
+    pub fn rows(self, total: usize) -> Range<usize> {
+        let at = |index: u64| (total as u128 * u128::from(index) / u128::from(self.of)) as usize;
+        at(self.index)..at(self.index + 1)
+    }
+}
+
+/// A table that is open for reading, by several threads if need be.
+pub struct Table {
+    files: Vec<TableFile>,
+    /// The rows that are read; all, but of a partition.
+    rows: Range<u64>,
+}
+
+struct TableFile {
+    path: Arc<Path>,
+    metadata: ArrowReaderMetadata,
+}
+
+/// Rows of one row group.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowGroup {
+    file: usize,
+    group: usize,
+    /// Within the row group.
+    rows: Range<u64>,
+    /// The first of them, counted in its file.
+    pub first_row: u64,
+}
+
+impl RowGroup {
+    /// How many rows there are.
+    pub fn len(&self) -> usize {
+        (self.rows.end - self.rows.start) as usize
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+}
+
+/// Neighbouring rows of a table.
+#[derive(Debug, Clone)]
+pub struct Batch {
+    pub path: Arc<Path>,
+    /// The first of them, counted in its file.
+    pub first_row: u64,
+    pub rows: RecordBatch,
+}
+
+impl Batch {
+    /// Its columns by name.
+    pub fn columns(&self) -> Columns<'_> {
+        Columns { path: &self.path, first_row: self.first_row, batch: &self.rows }
+    }
+
+    /// So many of its rows.
+    pub fn slice(&self, rows: Range<usize>) -> Batch {
+        let first_row = self.first_row + rows.start as u64;
+        Batch { path: self.path.clone(), first_row, rows: self.rows.slice(rows.start, rows.len()) }
+    }
+}
+
+impl Table {
+    /// Opens a file, or a folder of the parts of one table.
+    pub fn open(path: &Path) -> Result<Table, TableError> {
+        let open = |path: PathBuf| Ok(TableFile { metadata: metadata(&path)?, path: path.into() });
+        let files = files(path)?.into_iter().map(open).collect::<Result<Vec<_>, TableError>>()?;
+        let total = files.iter().map(TableFile::rows).sum();
+        Ok(Table { files, rows: 0..total })
+    }
+
+    /// Opens one partition: of a file a range of rows, of a folder the file of that number.
+    pub fn open_partition(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
+        let Some(partition) = partition else { return Table::open(path) };
+        if path.is_dir() {
+            let files = files(path)?;
+            return match files.get(partition.index as usize) {
+                Some(file) if files.len() as u64 == partition.of => Table::open(file),
+                _ => Err(TableError::table(
+                    path,
+                    format!(
+                        "a folder of {} files; expected {}, as in partition {partition}",
+                        files.len(),
+                        partition.of
+                    ),
+                )),
+            };
+        }
+        let table = Table::open(path)?;
+        let rows = partition.rows(table.rows.end as usize);
+        Ok(Table { rows: rows.start as u64..rows.end as u64, ..table })
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> u64 {
+        self.rows.end - self.rows.start
+    }
+
+    /// The schema of the first file.
+    pub fn schema(&self) -> &SchemaRef {
+        self.files[0].metadata.schema()
+    }
+
+    /// The row groups, in order.
+    pub fn row_groups(&self) -> Vec<RowGroup> {
+        let mut groups = Vec::new();
+        let mut before = 0;
+        for (file, table_file) in self.files.iter().enumerate() {
+            let mut first_row = 0;
+            for (group, metadata) in table_file.metadata.metadata().row_groups().iter().enumerate() {
+                let count = metadata.num_rows() as u64;
+                let at = |row: u64| row.clamp(before, before + count) - before;
+                let rows = at(self.rows.start)..at(self.rows.end);
+                if !rows.is_empty() {
+                    groups.push(RowGroup { file, group, first_row: first_row + rows.start, rows });
+                }
+                (before, first_row) = (before + count, first_row + count);
+            }
+        }
+        groups
+    }
+
+    /// Reads the columns that `wanted` picks of a row group, so many rows at a time.
+    pub fn read(
+        &self,
+        group: &RowGroup,
+        wanted: &dyn Fn(&str) -> bool,
+        batch_size: usize,
+    ) -> Result<impl Iterator<Item = Result<Batch, TableError>> + Send + use<>, TableError> {
+        let TableFile { path, metadata } = &self.files[group.file];
+        let (path, first_row) = (path.clone(), group.first_row);
+        let wanted = wanted_columns(metadata.metadata(), wanted);
+        expect_small(&path, metadata.metadata().row_group(group.group), &wanted)?;
+        let file = File::open(&path).map_err(|source| TableError::io(&path, source))?;
+        let reader = guarded(&path, || {
+            let mask = ProjectionMask::roots(metadata.parquet_schema(), wanted);
+            ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata.clone())
+                .with_projection(mask)
+                .with_row_groups(vec![group.group])
+                .with_offset(group.rows.start as usize)
+                .with_limit(group.len())
+                .with_batch_size(batch_size)
+                .build()
+        })?;
+        let mut reader = AssertUnwindSafe(reader);
+        let mut next_row = first_row;
+        Ok(std::iter::from_fn(move || {
+            let batch = guarded(&path, || reader.next().transpose());
+            let rows = batch.transpose()?;
+            Some(rows.map(|rows| {
+                let first_row = next_row;
+                next_row += rows.num_rows() as u64;
+                Batch { path: path.clone(), first_row, rows }
+            }))
+        }))
+    }
+
+    /// Reads the columns that `wanted` picks, batch by batch.
+    pub fn batches<'a>(
+        &'a self,
+        wanted: &'a dyn Fn(&str) -> bool,
+    ) -> impl Iterator<Item = Result<Batch, TableError>> + 'a {
+        let read = |group| -> Box<dyn Iterator<Item = _>> {
+            match self.read(&group, wanted, NARROW_BATCH) {
+                Ok(batches) => Box::new(batches),
+                Err(error) => Box::new(std::iter::once(Err(error))),
+            }
+        };
+        self.row_groups().into_iter().flat_map(read)
+    }
+}
+
+impl TableFile {
+    fn rows(&self) -> u64 {
+        self.metadata.metadata().row_groups().iter().map(|group| group.num_rows() as u64).sum()
+    }
+}
+
+/// The footer of a Parquet file. Texts, lists and numbers have the plain types of Parquet, whatever wrote them.
+pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
+    let file = File::open(path).map_err(|source| TableError::io(path, source))?;
+    if path.is_dir() {
+        return Err(TableError::table(path, "a folder; expected a Parquet file"));
+    }
+    let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
+    let metadata = guarded(path, || ArrowReaderMetadata::load(&file, options))?;
+    match metadata.metadata().row_groups().iter().find(|group| group.num_rows() < 0) {
+        Some(group) => Err(TableError::parquet(path, format!("a row group of {} rows", group.num_rows()))),
+        None => Ok(metadata),
+    }
+}
+
+/// The files of a table: the file itself, or those of a folder in the order of their names.
+pub fn files(path: &Path) -> Result<Vec<PathBuf>, TableError> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_path_buf()]);
+    }
+    let files = tables(path)?;
+    if files.is_empty() {
+        return Err(TableError::table(path, "a folder without Parquet files"));
+    }
+    expect_all_parts(path, &files)?;
+    Ok(files)
+}
+
+/// The Parquet files of a folder, in the order of their names.
+pub fn tables(path: &Path) -> Result<Vec<PathBuf>, TableError> {
+    let entries = std::fs::read_dir(path).map_err(|source| TableError::io(path, source))?;
+    let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    files.retain(|file| {
+        let is_hidden = file.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+        !is_hidden && file.extension().is_some_and(|extension| extension == "parquet")
+    });
+    files.sort_unstable();
+    Ok(files)
+}
+
+/// Of partitions all must be there: rows are sorted by magnitude, so that a part that lacks distorts every fit.
+fn expect_all_parts(folder: &Path, files: &[PathBuf]) -> Result<(), TableError> {
+    let partition = |file: &PathBuf| -> Result<Option<Partition>, TableError> {
+        let made = Provenance::of_file(file)?;
+        Ok(made.and_then(|made| made.arguments.get("partition")?.first()?.parse().ok()))
+    };
+    let parts: Vec<Partition> =
+        files.iter().map(partition).collect::<Result<Option<_>, _>>()?.unwrap_or_default();
+    let Some(of) = parts.first().map(|part| part.of) else { return Ok(()) };
+    let missing = (0..of).map(|index| Partition { index, of }).find(|part| !parts.contains(part));
+    match missing {
+        Some(part) => Err(TableError::table(
+            folder,
+            format!("partition {part} is missing; make it with --partition {part}"),
+        )),
+        None if parts.len() as u64 == of => Ok(()),
+        None => Err(TableError::table(
+            folder,
+            format!("{} files; expected the {of} partitions of one table", parts.len()),
+        )),
+    }
+}
+
+fn wanted_columns(metadata: &ParquetMetaData, wanted: &dyn Fn(&str) -> bool) -> Vec<usize> {
+    let roots = metadata.file_metadata().schema_descr().root_schema().get_fields().iter();
+    roots.enumerate().filter(|(_, root)| wanted(root.name())).map(|(place, _)| place).collect()
+}
+
+fn expect_small(path: &Path, group: &RowGroupMetaData, wanted: &[usize]) -> Result<(), TableError> {
+    let columns = group.columns().iter().enumerate();
+    let is_wanted = |leaf: usize| wanted.contains(&group.schema_descr().get_column_root_idx(leaf));
+    let bytes: i64 = columns
+        .filter(|(leaf, _)| is_wanted(*leaf))
+        .map(|(_, column)| column.uncompressed_size().max(0))
+        .sum();
+    if bytes > MOST_BYTES {
+        return Err(TableError::parquet(
+            path,
+            format!("a row group of {bytes} bytes; expected {MOST_BYTES} or less"),
+        ));
+    }
+    Ok(())
+}
+
+thread_local! {
+    static GUARDED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Reads a file that may be damaged: where the decoder panics, that is an error of the file.
+fn guarded<T, E: ToString>(path: &Path, read: impl FnOnce() -> Result<T, E>) -> Result<T, TableError> {
+    let before = GUARDED.replace(true);
+    let read = catch_unwind(AssertUnwindSafe(read));
+    GUARDED.set(before);
+    match read {
+        Ok(read) => read.map_err(|cause| TableError::parquet(path, cause)),
+        Err(_) => Err(TableError::parquet(path, "it is damaged")),
+    }
+}
+
+/// Keeps the panics of decoders, which are told as errors, off the terminal.
+pub fn quiet_damage() {
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if !GUARDED.get() {
+            usual(panic);
+        }
+    }));
+}

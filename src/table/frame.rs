@@ -1,0 +1,178 @@
+//! Narrow tables as polars frames: joined, filtered and sorted there, and shown as text, CSV or JSON.
+
+use arrow_array::cast::AsArray;
+use arrow_array::{Array, ArrayRef, RecordBatch};
+use polars::prelude::{AnyValue, Column, DataFrame, DataType, IntoColumn, NamedFrom, PolarsError, Series};
+use serde_json::{Map, Value};
+
+use super::TableError;
+use super::columns::numbers;
+use super::file::Table;
+use crate::keyword::keywords;
+
+/// How a table is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    Text,
+    Csv,
+    Json,
+}
+
+keywords!(Format { Text = "text", Csv = "csv", Json = "json" });
+
+/// The first rows of a table; a list is shown by its length.
+pub fn head(table: &Table, rows: usize) -> anyhow::Result<DataFrame> {
+    let mut left = rows;
+    let mut frame: Option<DataFrame> = None;
+    for group in table.row_groups() {
+        for batch in table.read(&group, &|_| true, rows.clamp(1, 64))? {
+            if left == 0 {
+                return Ok(frame.unwrap_or_default());
+            }
+            let batch = batch?;
+            let batch = batch.slice(0..left.min(batch.rows.num_rows()));
+            left -= batch.rows.num_rows();
+            let some = of_batch(&batch.rows)?;
+            match &mut frame {
+                Some(frame) => drop(frame.vstack_mut(&some)?),
+                None => frame = Some(some),
+            }
+        }
+    }
+    Ok(frame.unwrap_or_default())
+}
+
+/// A narrow table whole.
+pub fn read(table: &Table) -> Result<DataFrame, TableError> {
+    let mut whole: Option<DataFrame> = None;
+    for batch in table.batches(&|_| true) {
+        let batch = batch?;
+        let failed = |error: PolarsError| TableError::table(&batch.path, error.to_string());
+        let frame = of_batch(&batch.rows).map_err(failed)?;
+        match &mut whole {
+            Some(whole) => drop(whole.vstack_mut(&frame).map_err(failed)?),
+            None => whole = Some(frame),
+        }
+    }
+    Ok(whole.unwrap_or_default())
+}
+
+/// The rows of a batch.
+pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
+    let schema = rows.schema();
+    let columns =
+        schema.fields().iter().zip(rows.columns()).map(|(field, array)| column(field.name(), array));
+    DataFrame::new(rows.num_rows(), columns.collect())
+}
+
+fn column(name: &str, array: &ArrayRef) -> Column {
+    let name = name.into();
+    let is_null = |row: usize| array.is_null(row);
+    let series = if let Some(texts) = array.as_string_opt::<i32>() {
+        Series::new(name, texts.iter().collect::<Vec<_>>())
+    } else if let Some(flags) = array.as_boolean_opt() {
+        Series::new(name, flags.iter().collect::<Vec<_>>())
+    } else if let Some(values) = numbers(array) {
+        let some = |(row, value): (usize, f64)| (!is_null(row)).then_some(value);
+        let values: Vec<Option<f64>> = values.into_iter().enumerate().map(some).collect();
+        match array.data_type().is_integer() {
+            true => Series::new(
+                name,
+                values.iter().map(|value| value.map(|value| value as i64)).collect::<Vec<_>>(),
+            ),
+            false => Series::new(name, values),
+        }
+    } else {
+        let length = |row: usize| {
+            array.as_list_opt::<i32>().map(|lists| format!("{} numbers", lists.value_length(row)))
+        };
+        Series::new(name, (0..array.len()).map(length).collect::<Vec<_>>())
+    };
+    series.into_column()
+}
+
+/// A frame as text with aligned columns, as CSV, or as a list of JSON objects.
+pub fn show(frame: &DataFrame, format: Format) -> anyhow::Result<String> {
+    match format {
+        Format::Text => Ok(text(frame)),
+        Format::Csv => csv(frame),
+        Format::Json => {
+            let object = |row| {
+                frame
+                    .columns()
+                    .iter()
+                    .map(|column| (column.name().to_string(), json(&value(column, row))))
+                    .collect()
+            };
+            let objects: Vec<Map<String, Value>> = (0..frame.height()).map(object).collect();
+            Ok(serde_json::to_string_pretty(&objects)? + "\n")
+        }
+    }
+}
+
+fn value(column: &Column, row: usize) -> AnyValue<'_> {
+    column.get(row).unwrap_or(AnyValue::Null)
+}
+
+fn json(value: &AnyValue) -> Value {
+    match value {
+        AnyValue::Float64(number) => Value::from(*number),
+        AnyValue::Int64(count) => Value::from(*count),
+        AnyValue::Boolean(flag) => Value::from(*flag),
+        AnyValue::String(text) => Value::from(*text),
+        AnyValue::StringOwned(text) => Value::from(text.as_str()),
+        _ => Value::Null,
+    }
+}
+
+/// Comma-separated values: numbers in full, nothing where there is none.
+fn csv(frame: &DataFrame) -> anyhow::Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(frame.columns().iter().map(|column| column.name().as_str()))?;
+    for row in 0..frame.height() {
+        writer.write_record(frame.columns().iter().map(|column| match json(&value(column, row)) {
+            Value::Null => String::new(),
+            Value::String(text) => text,
+            other => other.to_string(),
+        }))?;
+    }
+    Ok(String::from_utf8(writer.into_inner()?)?)
+}
+
+/// Columns under their names: numbers to the right with four significant digits, "-" where there is none.
+pub fn text(frame: &DataFrame) -> String {
+    let cells = |column: &Column| -> Vec<String> {
+        let cells = (0..column.len()).map(|row| match value(column, row) {
+            AnyValue::Float64(number) => short(number),
+            other => match json(&other) {
+                Value::Null => "-".to_string(),
+                Value::String(text) => text,
+                other => other.to_string(),
+            },
+        });
+        let cells: Vec<String> = std::iter::once(column.name().to_string()).chain(cells).collect();
+        let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0);
+        let is_text = column.dtype() == &DataType::String;
+        cells
+            .iter()
+            .map(|cell| if is_text { format!("{cell:width$}") } else { format!("{cell:>width$}") })
+            .collect()
+    };
+    let columns: Vec<Vec<String>> = frame.columns().iter().map(cells).collect();
+    let line = |row: usize| {
+        let cells: Vec<&str> = columns.iter().map(|column| column[row].as_str()).collect();
+        format!("{}\n", cells.join("  ").trim_end())
+    };
+    (0..=frame.height()).map(line).collect()
+}
+
+/// A number with four significant digits.
+pub fn short(number: f64) -> String {
+    if number == 0.0 {
+        return "0".to_string();
+    }
+    match number.abs().log10().floor() as i32 {
+        magnitude @ -4..5 => format!("{number:.*}", (3 - magnitude).max(0) as usize),
+        _ => format!("{number:.3e}"),
+    }
+}

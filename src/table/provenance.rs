@@ -1,0 +1,118 @@
+//! What made a file, and the key by which a stage knows that it is up to date: one JSON in the footer.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use parquet::file::metadata::{KeyValue, ParquetMetaData};
+use serde::{Deserialize, Serialize};
+
+use super::TableError;
+use super::file;
+
+/// The key of the JSON among the key-value metadata.
+const KEY: &str = "rockfrag";
+/// Who wrote the file; another program that rewrites it puts its own name here.
+pub const CREATED_BY: &str = concat!("rockfrag ", env!("CARGO_PKG_VERSION"));
+
+/// What made a file.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    pub stage: String,
+    /// The version of rockfrag.
+    pub version: String,
+    /// All arguments as they were resolved, defaults included, but for files.
+    pub arguments: BTreeMap<String, Vec<String>>,
+    /// The keys of its inputs.
+    pub inputs: BTreeMap<String, String>,
+    /// What the stage printed.
+    pub summary: String,
+    /// What speaks against its results.
+    pub doubts: Vec<String>,
+}
+
+impl Provenance {
+    /// The hash of stage, version, arguments and the keys of the inputs.
+    pub fn key(&self) -> String {
+        let text = serde_json::json!([self.stage, self.version, self.arguments, self.inputs]).to_string();
+        blake3::hash(text.as_bytes()).to_hex().to_string()
+    }
+
+    /// Reads it from a Parquet file; `None` where another program wrote the file.
+    pub fn of_file(path: &Path) -> Result<Option<Provenance>, TableError> {
+        Ok(Provenance::of_footer(file::metadata(path)?.metadata()))
+    }
+
+    /// Reads it from a footer; `None` where another program wrote it.
+    pub fn of_footer(metadata: &ParquetMetaData) -> Option<Provenance> {
+        let footer = metadata.file_metadata();
+        footer.created_by().filter(|program| program.starts_with("rockfrag "))?;
+        let pair = footer.key_value_metadata()?.iter().find(|pair| pair.key == KEY)?;
+        serde_json::from_str(pair.value.as_ref()?).ok()
+    }
+
+    /// As it stands in the footer.
+    pub fn key_value(&self) -> KeyValue {
+        KeyValue::new(KEY.to_string(), serde_json::json!(self).to_string())
+    }
+
+    /// What differs in what made a file before and would make it now, in words.
+    pub fn difference(&self, now: &Provenance) -> Option<String> {
+        if self.stage != now.stage {
+            return Some(format!("the file is of {}", self.stage));
+        }
+        if self.version != now.version {
+            return Some(format!("it is of rockfrag {}", self.version));
+        }
+        let text =
+            |values: Option<&Vec<String>>| values.map_or("nothing".to_string(), |values| values.join(","));
+        let names = now.arguments.keys().chain(self.arguments.keys());
+        for name in names {
+            let (before, now) = (self.arguments.get(name), now.arguments.get(name));
+            if before != now {
+                return Some(format!("--{name} changed from {} to {}", text(before), text(now)));
+            }
+        }
+        let other = now.inputs.iter().find(|(name, key)| self.inputs.get(*name) != Some(key));
+        other.map(|(name, _)| format!("what --{name} reads changed"))
+    }
+}
+
+/// All files, those in folders and below them included, in the order of their names; hidden ones are none.
+pub fn files_below(paths: &[PathBuf]) -> Result<Vec<PathBuf>, TableError> {
+    let mut files = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let entries = std::fs::read_dir(path).map_err(|source| TableError::io(path, source))?;
+        let mut inside: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+        inside.retain(|path| path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.')));
+        inside.sort_unstable();
+        files.extend(files_below(&inside)?);
+    }
+    Ok(files)
+}
+
+/// The key of an input: that in its footer if rockfrag wrote it, the hash of its bytes if another program did; of a folder
+/// the hash of the keys of its tables, or of all files where there is none.
+pub fn key_of(path: &Path) -> Result<String, TableError> {
+    if path.is_dir() {
+        let files = match file::tables(path)? {
+            tables if tables.is_empty() => files_below(&[path.to_path_buf()])?,
+            tables => tables,
+        };
+        let keys = files.iter().map(|file| key_of(file)).collect::<Result<Vec<_>, _>>()?;
+        return Ok(blake3::hash(keys.join(" ").as_bytes()).to_hex().to_string());
+    }
+    if path.extension().is_some_and(|extension| extension == "parquet")
+        && let Ok(Some(made)) = Provenance::of_file(path)
+    {
+        return Ok(made.key());
+    }
+    let mut hasher = blake3::Hasher::new();
+    let read = File::open(path).and_then(|file| hasher.update_reader(file).map(|_| ()));
+    read.map_err(|source| TableError::io(path, source))?;
+    Ok(hasher.finalize().to_hex().to_string())
+}

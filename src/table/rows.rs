@@ -1,0 +1,70 @@
+//! Structs as rows of a table: the struct is the schema, the dictionary adds unit and meaning.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use arrow_array::RecordBatch;
+use arrow_schema::{FieldRef, Schema, SchemaRef};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_arrow::schema::{SchemaLike, TracingOptions};
+
+use super::TableError;
+use super::dictionary;
+use super::file::Table;
+
+/// A struct of numbers, texts, options of them and lists, each field a column.
+pub trait Row: Serialize + DeserializeOwned {}
+
+impl<T: Serialize + DeserializeOwned> Row for T {}
+
+/// The columns of a row, with unit and meaning.
+pub fn schema<R: Row>() -> SchemaRef {
+    let options = TracingOptions::default()
+        .strings_as_large_utf8(false)
+        .sequence_as_large_list(false)
+        .enums_without_data_as_strings(true);
+    let fields = Vec::<FieldRef>::from_type::<R>(options).expect("rows are flat structs");
+    let with_meaning = |field: &FieldRef| Arc::new(dictionary::with_meaning(field.as_ref().clone()));
+    Arc::new(Schema::new(fields.iter().map(with_meaning).collect::<Vec<_>>()))
+}
+
+/// Rows as a batch of columns.
+pub fn batch<R: Row>(rows: &[R]) -> anyhow::Result<RecordBatch> {
+    batch_of::<R, R>(rows)
+}
+
+/// Rows, or references to them, as a batch of columns.
+pub fn batch_of<R: Row, S: Serialize>(rows: &[S]) -> anyhow::Result<RecordBatch> {
+    let schema = schema::<R>();
+    let batch = serde_arrow::to_record_batch(schema.fields(), &rows)?;
+    Ok(batch.with_schema(schema)?)
+}
+
+/// Reads all rows of a table. A column that no row needs may be missing.
+pub fn read<R: Row>(path: &Path) -> Result<Vec<R>, TableError> {
+    let (table, schema) = (Table::open(path)?, schema::<R>());
+    let found = table.schema();
+    if let Some(field) =
+        schema.fields().iter().find(|f| !f.is_nullable() && found.index_of(f.name()).is_err())
+    {
+        let (path, column) = (path.to_path_buf(), field.name().clone());
+        return Err(TableError::MissingColumn { path, expected: dictionary::meaning(&column), column });
+    }
+    let mut rows = Vec::new();
+    for batch in table.batches(&|name| schema.index_of(name).is_ok()) {
+        let batch = batch?;
+        let read: Vec<R> = serde_arrow::from_record_batch(&batch.rows)
+            .map_err(|error| TableError::table(&batch.path, error.to_string()))?;
+        rows.extend(read);
+    }
+    Ok(rows)
+}
+
+/// Batches of as many rows, side by side.
+pub fn side_by_side(batches: &[RecordBatch]) -> anyhow::Result<RecordBatch> {
+    let schemas: Vec<SchemaRef> = batches.iter().map(RecordBatch::schema).collect();
+    let fields: Vec<FieldRef> = schemas.iter().flat_map(|schema| schema.fields().iter().cloned()).collect();
+    let columns = batches.iter().flat_map(|batch| batch.columns().iter().cloned()).collect();
+    Ok(RecordBatch::try_new(Arc::new(Schema::new(fields)), columns)?)
+}

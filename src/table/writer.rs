@@ -1,0 +1,127 @@
+//! Writes a table beside its name and renames it when it is whole: a reader never sees half a file.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use arrow_array::RecordBatch;
+use arrow_schema::{DataType, Field, SchemaRef};
+use parquet::arrow::ArrowWriter;
+use parquet::basic::{Compression, Encoding, ZstdLevel};
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
+use parquet::schema::types::ColumnPath;
+use tempfile::NamedTempFile;
+
+use super::TableError;
+use super::provenance::{CREATED_BY, Provenance};
+
+/// Rows of a row group of a narrow table, and of one with samples.
+const ROWS_IN_GROUP: usize = 32_768;
+const MOTIONS_IN_GROUP: usize = 64;
+/// How the names of files end that are not yet whole.
+const PARTIAL: &str = ".partial";
+
+/// A table that is being written.
+pub struct TableWriter {
+    path: PathBuf,
+    partial: NamedTempFile,
+    writer: ArrowWriter<File>,
+}
+
+impl TableWriter {
+    /// Begins the table that is to stand at `path`.
+    pub fn create(path: &Path, schema: &SchemaRef) -> Result<TableWriter, TableError> {
+        let partial = partial_beside(path)?;
+        let file = partial.as_file().try_clone().map_err(|source| TableError::io(path, source))?;
+        let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(schema)));
+        let writer = writer.map_err(|cause| cannot_write(path, cause))?;
+        Ok(TableWriter { path: path.to_path_buf(), partial, writer })
+    }
+
+    /// Adds rows.
+    pub fn append(&mut self, rows: &RecordBatch) -> Result<(), TableError> {
+        self.writer.write(rows).map_err(|cause| cannot_write(&self.path, cause))
+    }
+
+    /// Ends the table and gives it its name.
+    pub fn finish(mut self, made: &Provenance) -> Result<(), TableError> {
+        self.writer.append_key_value_metadata(made.key_value());
+        self.writer.finish().map_err(|cause| cannot_write(&self.path, cause))?;
+        persist(self.partial, &self.path)
+    }
+}
+
+/// Writes a text or other small file, whole or not at all.
+pub fn write_file(path: &Path, content: &[u8]) -> Result<(), TableError> {
+    let mut partial = partial_beside(path)?;
+    partial.write_all(content).map_err(|source| cannot_write(path, source))?;
+    persist(partial, path)
+}
+
+fn persist(partial: NamedTempFile, path: &Path) -> Result<(), TableError> {
+    partial.as_file().sync_all().map_err(|source| cannot_write(path, source))?;
+    partial.persist(path).map_err(|refused| cannot_write(path, refused.error))?;
+    Ok(())
+}
+
+fn cannot_write(path: &Path, cause: impl ToString) -> TableError {
+    TableError::table(path, format!("cannot write: {}", cause.to_string()))
+}
+
+/// A new file beside `path`, locked as long as it is being written, so that others can tell it from a stray.
+fn partial_beside(path: &Path) -> Result<NamedTempFile, TableError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = path.file_name().ok_or_else(|| cannot_write(path, "that is not a file name"))?;
+    let prefix = format!(".{}.", name.to_string_lossy());
+    std::fs::create_dir_all(folder).map_err(|source| cannot_write(path, source))?;
+    remove_strays(folder, &prefix);
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix).suffix(PARTIAL);
+    // The permissions that any new file gets, not the private ones of a temporary file.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let partial = builder.tempfile_in(folder).map_err(|source| cannot_write(path, source))?;
+    partial.as_file().try_lock().map_err(|source| cannot_write(path, source))?;
+    Ok(partial)
+}
+
+/// Removes what a killed run left. A stray that cannot be removed does no harm.
+fn remove_strays(folder: &Path, prefix: &str) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_partial = name.starts_with(prefix) && name.ends_with(PARTIAL);
+        if is_partial && File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok()) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// How columns are compressed. Few numbers occur twice, so that a dictionary of them only costs time; samples compress by their bytes.
+fn properties(schema: &SchemaRef) -> WriterProperties {
+    let zstd = Compression::ZSTD(ZstdLevel::try_new(1).unwrap_or_default());
+    let samples = |field: &Field| match field.data_type() {
+        DataType::List(item) if item.data_type() == &DataType::Float32 => Some(item.name().clone()),
+        _ => None,
+    };
+    let has_samples = schema.fields().iter().any(|field| samples(field).is_some());
+    let mut properties = WriterProperties::builder()
+        .set_created_by(CREATED_BY.to_string())
+        .set_compression(zstd)
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_offset_index_disabled(true)
+        .set_max_row_group_row_count(Some(if has_samples { MOTIONS_IN_GROUP } else { ROWS_IN_GROUP }));
+    for field in schema.fields() {
+        if field.data_type() == &DataType::Float64 {
+            properties =
+                properties.set_column_dictionary_enabled(ColumnPath::from(field.name().as_str()), false);
+        }
+        if let Some(item) = samples(field) {
+            let path = ColumnPath::new(vec![field.name().clone(), "list".to_string(), item]);
+            properties = properties
+                .set_column_dictionary_enabled(path.clone(), false)
+                .set_column_statistics_enabled(path.clone(), EnabledStatistics::None)
+                .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT);
+        }
+    }
+    properties.build()
+}

@@ -1,0 +1,60 @@
+//! pipeline.yaml and the command line: what cannot be right is refused, and the nearest right word is named.
+
+use crate::common::{SMALL, fail, folder_with, succeed};
+
+#[test]
+fn mistakes_in_a_pipeline_file_are_named() {
+    for (wrong, named) in [
+        ("fit-prox: {}", vec!["pipeline.yaml", "fit-prox", "fit-pro"]),
+        ("fit-pro: { confidense: 0.9 }", vec!["fit-pro", "confidense", "confidence"]),
+        ("fit-pro: { confidence: 2 }", vec!["fit-pro", "confidence", "2"]),
+        ("fit-pro: 3", vec!["pipeline.yaml", "fit-pro", "3"]),
+        ("simulate: { structure: [{ name: a, q: 1 }] }", vec!["simulate", "'q'"]),
+        ("simulate: { structures: none.csv }", vec!["none.csv"]),
+        ("a: [", vec!["pipeline.yaml"]),
+        ("{}", vec!["pipeline.yaml", "no stage"]),
+        ("seed: x\nfit-pro: {}\nsample-scenarios: {}", vec!["seed", "x"]),
+    ] {
+        let folder = folder_with(wrong);
+        fail(folder.path(), "run", 2, &named);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "{wrong}: nothing is written");
+    }
+    fail(tempfile::tempdir().unwrap().path(), "run", 2, &["pipeline.yaml", "rockfrag init"]);
+}
+
+#[test]
+fn mistakes_on_the_command_line_are_named() {
+    let folder = folder_with(SMALL);
+    for (call, named) in [
+        ("simulat", vec!["simulat", "simulate"]),
+        ("simulate --pp 3", vec!["--pp", "--p"]),
+        ("simulate --p 1 --width 2", vec!["--p", "--width"]),
+        ("simulate --p 1 --alpha 0.2", vec!["eta"]),
+        ("simulate --p 1 --alpha 20 --eta 0.9", vec!["alpha", "20"]),
+        ("simulate --width 2 --height 0.5", vec!["width"]),
+        ("simulate --p 1,0 --alpha 0.2 --eta 0.9", vec!["--p"]),
+        ("simulate --structures paper --threads 0", vec!["--threads"]),
+        ("sample-scenarios --mw 5:4:1", vec!["--mw"]),
+        ("sample-scenarios --re 5,5", vec!["--re"]),
+        ("sample-scenarios --mw 12", vec!["mw"]),
+        ("sample-scenarios --design sobol", vec!["--design", "sobol", "lhs"]),
+        ("synthesize-motions --dt 1", vec!["--dt", "0.1"]),
+        ("synthesize-motions --suite pulse,pulse", vec!["suite"]),
+        ("synthesize-motions --site swamp --in out.parquet", vec!["out.parquet"]),
+        ("ida --from 2 --to 1 --structures paper", vec!["to", "2"]),
+    ] {
+        let code = if call.contains("out.parquet") { 1 } else { 2 };
+        fail(folder.path(), call, code, &named);
+    }
+}
+
+#[test]
+fn every_start_is_a_pipeline_that_can_be_planned() {
+    for start in ["paper", "records", "site"] {
+        let folder = tempfile::tempdir().unwrap();
+        succeed(folder.path(), &format!("init {start}"));
+        std::fs::create_dir_all(folder.path().join("records")).unwrap();
+        succeed(folder.path(), "run --dry-run");
+        fail(folder.path(), &format!("init {start}"), 2, &["pipeline.yaml"]);
+    }
+}

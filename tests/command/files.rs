@@ -1,0 +1,150 @@
+//! Files: what is damaged, foreign or in the way is named, and nothing of the user's is lost.
+
+use std::sync::Arc;
+
+use arrow_array::types::Float32Type;
+use arrow_array::{ArrayRef, Float32Array, Float64Array, Int32Array, ListArray, StringArray};
+
+use crate::common::{SMALL, bytes, fail, folder_with, succeed, write, write_motions};
+
+const STRUCTURE: &str = "--p 2.5 --alpha 0.2 --eta 0.92";
+
+#[test]
+fn motions_that_cannot_be_used_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let nan: &[f64] = &[0.0, f64::NAN];
+    let (fine, short, huge): (&[f64], &[f64], &[f64]) = (&[0.0, 1.0], &[1.0], &[0.0, f64::INFINITY]);
+    for (dt, motions, named) in [
+        (0.01, vec![fine, nan], vec!["m.parquet", "row 1", "acceleration_m_s2"]),
+        (0.01, vec![huge], vec!["row 0", "acceleration_m_s2"]),
+        (0.01, vec![short], vec!["row 0", "acceleration_m_s2"]),
+        (0.0, vec![fine], vec!["row 0", "dt_s"]),
+        (f64::NAN, vec![fine], vec!["row 0", "dt_s"]),
+        (0.01, vec![], vec!["m.parquet"]),
+    ] {
+        write_motions(&folder.path().join("m.parquet"), dt, &motions);
+        fail(folder.path(), &format!("simulate --in m.parquet {STRUCTURE}"), 1, &named);
+        assert!(!folder.path().join("responses.parquet").exists());
+    }
+}
+
+#[test]
+fn columns_that_are_missing_or_of_another_type_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.parquet");
+    let column = |column: &str| -> ArrayRef {
+        match column {
+            "text" => Arc::new(StringArray::from(vec!["x"])),
+            "number" => Arc::new(Float64Array::from(vec![0.01])),
+            _ => Arc::new(ListArray::from_iter_primitive::<Float32Type, _, _>([Some(vec![
+                Some(0.0),
+                Some(1.0),
+            ])])),
+        }
+    };
+    for (columns, named) in [
+        (["number", "number", ""], vec!["acceleration_m_s2", "m/s2"]),
+        (["number", "text", "list"], vec!["dt_s"]),
+        (["number", "number", "text"], vec!["acceleration_m_s2"]),
+        (["list", "number", "list"], vec!["motion_id"]),
+    ] {
+        let names = ["motion_id", "dt_s", "acceleration_m_s2"];
+        let some = names.into_iter().zip(columns).filter(|(_, kind)| !kind.is_empty());
+        write(&path, some.map(|(name, kind)| (name, column(kind))).collect());
+        fail(
+            folder.path(),
+            &format!("simulate --in m.parquet {STRUCTURE}"),
+            1,
+            &[&["m.parquet"], &named[..]].concat(),
+        );
+    }
+}
+
+#[test]
+fn narrower_numbers_of_other_programs_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let samples = [0.0, 3.0, -4.0, 0.0];
+    write_motions(&folder.path().join("wide.parquet"), 0.0625, &[&samples]);
+    let list = ListArray::from_iter_primitive::<Float32Type, _, _>([Some(
+        samples.map(|sample| Some(sample as f32)),
+    )]);
+    let narrow: Vec<(&str, ArrayRef)> = vec![
+        ("motion_id", Arc::new(Int32Array::from(vec![0]))),
+        ("dt_s", Arc::new(Float32Array::from(vec![0.0625]))),
+        ("acceleration_m_s2", Arc::new(list)),
+    ];
+    write(&folder.path().join("narrow.parquet"), narrow);
+    let rows = |name: &str| {
+        succeed(
+            folder.path(),
+            &format!("simulate --in {name}.parquet --out {name}.responses.parquet {STRUCTURE}"),
+        );
+        succeed(folder.path(), &format!("inspect --head 5 --format csv {name}.responses.parquet")).0
+    };
+    assert_eq!(rows("narrow"), rows("wide"));
+}
+
+#[test]
+fn damaged_files_are_errors_that_name_them() {
+    let folder = folder_with(SMALL);
+    succeed(folder.path(), "run");
+    let motions = bytes(&folder.path().join("out/motions.parquet"));
+    let size = motions.len();
+    let flipped = |at: usize| [&motions[..at], &[motions[at] ^ 0x55], &motions[at + 1..]].concat();
+    let damaged =
+        [vec![], motions[..size / 2].to_vec(), motions[..size - 3].to_vec(), b"pga,pgv\n1,2\n".to_vec()];
+    let flips = (1..60).map(|k| flipped(size - 7 * k * k % size - 1));
+    for (number, content) in damaged.into_iter().chain(flips).enumerate() {
+        std::fs::write(folder.path().join("m.parquet"), content).unwrap();
+        let call = format!("simulate --in m.parquet --out r.parquet --quiet {STRUCTURE}");
+        let output = crate::common::rockfrag(folder.path(), &call).output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        // A flipped bit of a sample is a sample: only what cannot be read is an error.
+        assert!(number >= 4 || !output.status.success(), "{number}");
+        assert!(output.status.success() || stderr.contains("m.parquet"), "{number}: {stderr}");
+        assert!(!stderr.contains("panicked") && output.status.code().is_some(), "{number}: {stderr}");
+        let _ = std::fs::remove_file(folder.path().join("r.parquet"));
+    }
+}
+
+#[test]
+fn what_is_in_the_way_is_kept_unless_it_is_given_up() {
+    let folder = folder_with(SMALL);
+    succeed(folder.path(), "run");
+    let simulate =
+        |out: &str, more: &str| format!("simulate --in out/motions.parquet --out {out} {STRUCTURE} {more}");
+    fail(folder.path(), &simulate("out/motions.parquet", "--force"), 2, &["out/motions.parquet"]);
+    std::fs::create_dir(folder.path().join("folder")).unwrap();
+    fail(folder.path(), &simulate("folder", ""), 2, &["folder"]);
+    let other = folder.path().join("other.parquet");
+    write_motions(&other, 0.01, &[&[0.0, 1.0]]);
+    std::fs::write(folder.path().join("notes.parquet"), "my notes").unwrap();
+    for name in ["other.parquet", "notes.parquet"] {
+        let before = bytes(&folder.path().join(name));
+        fail(folder.path(), &simulate(name, ""), 1, &[name, "--force"]);
+        assert_eq!(bytes(&folder.path().join(name)), before);
+        succeed(folder.path(), &simulate(name, "--force"));
+    }
+    succeed(folder.path(), &simulate("out/responses.parquet", ""));
+}
+
+#[test]
+fn a_file_that_another_program_rewrote_is_not_taken_for_ours() {
+    let folder = folder_with(SMALL);
+    succeed(folder.path(), "run");
+    let path = folder.path().join("out/motions.parquet");
+    let file = std::fs::File::open(&path).unwrap();
+    let reader = parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder::try_new(file).unwrap();
+    let pairs = reader.metadata().file_metadata().key_value_metadata().cloned();
+    let schema = reader.schema().clone();
+    let rows: Vec<_> = reader.build().unwrap().map(|batch| batch.unwrap().slice(0, 5)).collect();
+    let properties =
+        parquet::file::properties::WriterProperties::builder().set_key_value_metadata(pairs).build();
+    let file = std::fs::File::create(&path).unwrap();
+    let mut writer = parquet::arrow::ArrowWriter::try_new(file, schema, Some(properties)).unwrap();
+    rows.iter().for_each(|batch| writer.write(batch).unwrap());
+    writer.close().unwrap();
+    let (plan, _) = succeed(folder.path(), "run --dry-run");
+    assert!(plan.contains("simulate: run"), "{plan}");
+    fail(folder.path(), "run", 1, &["motions.parquet", "--force"]);
+}

@@ -1,0 +1,80 @@
+//! The event tree (Eq. 12), limits of failure, and the tree as the paper answers it.
+
+use proptest::prelude::*;
+use rockfrag::fragility::{
+    DemandOptions, Event, Measure, Probability, fit_curve, fit_demand, hybrid_measure, ln_median_demand,
+    p_exceeding, p_failure, p_failure_given_rocking, p_no_rocking, p_overturning, paper_probabilities,
+};
+use rockfrag::motion::IntensityMeasures;
+use rockfrag::statistics::normal;
+
+use crate::common::{close, equipment, rocking};
+
+#[test]
+fn without_rocking_all_is_exactly_zero() {
+    assert_eq!((p_no_rocking(0.999), p_no_rocking(1.0)), (1.0, 0.0));
+    assert!(p_no_rocking(f64::NAN).is_nan(), "an unknown intensity is no statement about rocking");
+    let given = p_failure_given_rocking(0.25, 0.5);
+    assert_eq!((given, p_failure(1.0, given), p_failure(0.0, given)), (0.625, 0.0, 0.625));
+}
+
+#[test]
+fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
+    let cases = rocking(2000);
+    let (planes, _) =
+        fit_demand(&cases, &DemandOptions { transition: Some(1.3), confidence: 0.95, all: false });
+    let curve = fit_curve(&cases, Event::Overturning, Measure::Im4, Some(Measure::Im3Inverse));
+    let b = &curve.coefficients;
+    for (im4, im3) in [(1.1, 2.0), (1.29, 0.7), (1.31, 0.7), (3.5, 1.1)] {
+        let measures =
+            IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5: im4 / im3, im6: None };
+        let given = paper_probabilities(&planes, &curve, &measures, 0.1, 0.95).given_rocking.unwrap();
+        let plane = &planes[usize::from(im4 >= 1.3)];
+        let p_ex = p_exceeding(ln_median_demand(&plane.coefficients, &[im4, im3]), 0.1, plane.beta.unwrap());
+        let hybrid = hybrid_measure(im4, 1.0 / im3, b[1] / b[2]);
+        let p_ro = p_overturning(hybrid, -b[0] / (b[1] + b[2]), 1.0 / (b[1] + b[2]));
+        close(given.p_ex.value, p_ex, 1e-12);
+        close(given.p_ro.value, p_ro, 1e-9);
+        close(given.p_failure.value, p_failure_given_rocking(p_ro, p_ex), 1e-9);
+    }
+    let uplift = equipment().uplift_acceleration_m_s2();
+    let at = |pga: f64, pgv: f64| {
+        let measures = IntensityMeasures::new(&equipment(), pga, pgv, None, None);
+        paper_probabilities(&planes, &curve, &measures, 0.1, 0.95).limit_states()
+    };
+    assert_eq!(at(uplift * (1.0 - 1e-12), 1.0), Some([Probability::exact(0.0); 3]));
+    let above = at(uplift * (1.0 + 1e-12), 1.0).unwrap();
+    assert!(above[0] == Probability::exact(1.0) && above[1].value > 0.0 && above[2].value > 0.0);
+    assert_eq!(at(9.0, 0.0), None, "no velocity, no IM3");
+}
+
+proptest! {
+    #[test]
+    fn failure_is_at_least_as_likely_as_either_way_to_it(ro in 0.0..=1.0f64, ex in 0.0..=1.0f64) {
+        let failure = p_failure_given_rocking(ro, ex);
+        prop_assert!(failure >= ro.max(ex) - 1e-15 && failure <= 1.0);
+    }
+
+    #[test]
+    fn limits_of_failure_enclose_it_and_those_of_both(
+        (ro, ro_half) in (-45.0..45.0f64, 0.0..80.0f64), (ex, ex_half) in (-45.0..45.0f64, 0.0..80.0f64),
+    ) {
+        let (ro, ex) = (Probability::of_probit(ro, ro_half), Probability::of_probit(ex, ex_half));
+        let p = Probability::of_failure(ro, ex);
+        prop_assert!(0.0 <= p.low && p.low <= p.value && p.value <= p.high && p.high <= 1.0, "{p:?}");
+        prop_assert!((p.value - p_failure_given_rocking(ro.value, ex.value)).abs() < 1e-14);
+        let least = |a: f64, b: f64| a.max(b) * (1.0 - 1e-12);
+        prop_assert!(p.low >= least(ro.low, ex.low) && p.high >= least(ro.high, ex.high), "{p:?} {ro:?} {ex:?}");
+    }
+
+    #[test]
+    fn narrow_limits_of_failure_are_those_of_the_delta_method(ro in -5.0..2.0f64, ex in -5.0..2.0f64) {
+        let (ro_half, ex_half, step) = (6e-4, 4e-4, 1e-6);
+        let at = |ro: f64, ex: f64| p_failure_given_rocking(normal::cdf(ro), normal::cdf(ex));
+        let by_ro = (at(ro + step, ex) - at(ro - step, ex)) / (2.0 * step);
+        let by_ex = (at(ro, ex + step) - at(ro, ex - step)) / (2.0 * step);
+        let p = Probability::of_failure(Probability::of_probit(ro, ro_half), Probability::of_probit(ex, ex_half));
+        let expected = 2.0 * (ro_half * by_ro).hypot(ex_half * by_ex);
+        prop_assert!(((p.high - p.low) / expected - 1.0).abs() < 1e-2, "{p:?} {expected}");
+    }
+}
