@@ -1,4 +1,4 @@
-"""A headless Chromium for check_report.py and check_book.py: windows light and dark, findings of axe-core."""
+"""A headless Chromium for check_book.py: windows light and dark, findings of axe-core."""
 
 import pathlib
 

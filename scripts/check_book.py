@@ -1,4 +1,4 @@
-"""Looks at each page of the book in a headless Chromium: python check_book.py BOOK AXE
+"""Looks at each page of a folder (the book, a report) in a headless Chromium: python check_book.py FOLDER AXE
 
 No finding of axe-core, light in a window of 1280 pixels and dark in one of 400, where no page is wider than the window.
 """
@@ -36,4 +36,4 @@ with concurrent.futures.ThreadPoolExecutor() as pool:
     found = [fault for share in pool.map(lambda share: list(faults(share)), shares) for fault in share]
 if found:
     sys.exit("\n".join(found))
-print(f"book: {len(pages)} pages; axe-core: nothing")
+print(f"{book.name}: {len(pages)} pages; axe-core: nothing")

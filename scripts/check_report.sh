@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Opens a report in a headless Chromium and looks at it: check_report.sh ROCKFRAG DIR [SCREENSHOTS], where DIR holds the
-# files of a run; then at the book, if scripts/build_docs.sh has built it into target/book. Needs Debian's chromium and
+# Looks at a report in a headless Chromium: check_report.sh ROCKFRAG DIR, where DIR holds the files of a run; then at the
+# book, if scripts/build_docs.sh has built it into target/book. Needs Debian's chromium and
 # chromium-driver (installed when they are missing and it may), Python with venv, and npm for axe-core. Where none of this
 # can be had it says so and leaves the pages unchecked.
 set -euo pipefail
-rockfrag=$(realpath "$1") run=$(realpath "$2") screenshots=${3:-}
+rockfrag=$(realpath "$1") run=$(realpath "$2")
 cd "$(dirname "$0")"
 
 skip() {
@@ -22,8 +22,7 @@ trap 'rm -rf "$work"' EXIT
 python3 -m venv "$work/venv"
 "$work/venv/bin/pip" install --quiet selenium || skip "pip cannot install selenium"
 npm install --silent --no-fund --no-audit --prefix "$work" axe-core > /dev/null 2>&1 || skip "npm cannot install axe-core"
-"$rockfrag" report --quiet --force --in "$run" --out "$work/report.html"
-"$work/venv/bin/python" check_report.py "$rockfrag" "$run" "$work/report.html" \
-    "$work/node_modules/axe-core/axe.min.js" ${screenshots:+"$screenshots"}
-book=../target/book
-[ ! -d "$book" ] || "$work/venv/bin/python" check_book.py "$book" "$work/node_modules/axe-core/axe.min.js"
+axe=$work/node_modules/axe-core/axe.min.js book=../target/book
+"$rockfrag" report --quiet --force --in "$run" --out "$work/report/report.html"
+"$work/venv/bin/python" check_book.py "$work/report" "$axe"
+[ ! -d "$book" ] || "$work/venv/bin/python" check_book.py "$book" "$axe"

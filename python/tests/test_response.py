@@ -41,7 +41,7 @@ def test_velocity_is_the_slope_of_the_rotation_and_falls_by_eta_at_an_impact():
 def test_the_peak_is_that_of_simulate(out):
     acceleration, dt = sine(3.5, frequency=10.0)
     motions = pl.DataFrame({"motion_id": [1], "dt_s": [dt], "acceleration_m_s2": [acceleration.tolist()]})
-    responses = rockfrag.simulate(motions, **STRUCTURE, simd="scalar", trace=[1])
+    responses = rockfrag.simulate(motions, **STRUCTURE, trace=[1])
     response = rockfrag.response(acceleration, dt, STRUCTURE)
     row = responses.to_polars().row(0, named=True)
     assert (row["edp"], row["outcome"], row["impacts"]) == (response.edp, response.outcome, response.impacts)

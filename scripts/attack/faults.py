@@ -29,7 +29,7 @@ simulate:
   structures:
     - { name: frame, p: 1.0, alpha: 0.15, eta: 0.92 }
     - { name: electrical-equipment, p: 2.5, alpha: 0.20, eta: 0.92 }
-ida: { structures: paper, from: 1, to: 2, steps: 4, halvings: 1, tolerance: 0.1 }
+ida: { structures: paper, from: 1, to: 2, steps: 4 }
 fit-pex: { bootstrap: 200 }
 fit-pro: { bootstrap: 50 }
 universality: {}
@@ -48,7 +48,7 @@ STAGES = {
     "simulate": "--in {i}/motions.parquet --structures paper --trace 0,1 --out {o}/one.parquet",
     "fit-pex": "--in {i}/responses.parquet --bootstrap 100 --out {o}/pex.parquet",
     "fit-pro": "--in {i}/responses.parquet --out {o}/pro.parquet",
-    "ida": "--in {i}/motions.parquet --structures paper --from 1 --to 2 --steps 4 --halvings 1 --tolerance 0.1 --out {o}/ida.parquet",
+    "ida": "--in {i}/motions.parquet --structures paper --from 1 --to 2 --steps 4 --out {o}/ida.parquet",
     "universality": "--in {i}/responses.parquet --out {o}/universality.parquet",
     "rank-ims": "--in {i}/responses.parquet --out {o}/ranking.parquet",
     "compare-paper": "--pex {i}/pex.parquet --pro {i}/pro.parquet --responses {i}/responses.parquet --out {o}/paper.parquet",

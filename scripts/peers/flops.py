@@ -78,7 +78,7 @@ def main():
         pq.write_table(motions.take(few), folder / "motions.parquet")
         grid(folder / "structures.csv")
         files = ("--in", folder / "motions.parquet", "--structures", folder / "structures.csv", "--out", folder / "out.parquet")
-        command = (options.rockfrag, "--quiet", "--threads", 1, "simulate", *files, "--simd", "avx2")
+        command = (options.rockfrag, "--quiet", "--threads", 1, "simulate", *files)
         counts, of_place = executed(command, options.rockfrag, folder), operations(options.rockfrag)
         analyses = pq.read_metadata(folder / "out.parquet").num_rows
     total = sum(count * of_place.get(place, 0) for place, count in counts.items())
