@@ -7,18 +7,44 @@ use crate::keyword::keywords;
 /// A doubt that changes what one would decide, the weightiest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Doubt {
+    ImplausibleRow,
     ImplausibleRecord,
     OtherPeak,
     ImplausibleSize,
+    LowRestitution,
+    ImplausibleHazard,
+    HazardEndsEarly,
+    HazardExtrapolated,
+    HazardStartsLate,
+    NotFitted,
+    Extrapolated,
+    UnusualStructure,
+    PoorFit,
+    NoEvents,
+    FewEvents,
+    FewClusters,
     ScanEndsEarly,
     UnreadableFile,
     NoPartner,
 }
 
 keywords!(Doubt {
+    ImplausibleRow = "implausible_row",
     ImplausibleRecord = "implausible_record",
     OtherPeak = "other_peak",
     ImplausibleSize = "implausible_size",
+    LowRestitution = "low_restitution",
+    ImplausibleHazard = "implausible_hazard",
+    HazardEndsEarly = "hazard_ends_early",
+    HazardExtrapolated = "hazard_extrapolated",
+    HazardStartsLate = "hazard_starts_late",
+    NotFitted = "not_fitted",
+    Extrapolated = "extrapolated",
+    UnusualStructure = "unusual_structure",
+    PoorFit = "poor_fit",
+    NoEvents = "no_events",
+    FewEvents = "few_events",
+    FewClusters = "few_clusters",
     ScanEndsEarly = "scan_ends_early",
     UnreadableFile = "unreadable_file",
     NoPartner = "no_partner",
@@ -28,9 +54,28 @@ impl Doubt {
     /// In at most 15 words.
     pub fn text(self) -> &'static str {
         match self {
+            Doubt::ImplausibleRow => "this row cannot be right; it has no result",
             Doubt::ImplausibleRecord => "this is no plausible record of an earthquake",
             Doubt::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",
             Doubt::ImplausibleSize => "no solid block is as high: are its dimensions in cm?",
+            Doubt::LowRestitution => "eta is below 0.5: a typing error?",
+            Doubt::ImplausibleHazard => "such strong motion is never so frequent: wrong unit or column?",
+            Doubt::HazardEndsEarly => "the hazard curve ends too early for one value: bounds are given",
+            Doubt::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
+            Doubt::HazardStartsLate => {
+                "the hazard curve starts above the intensity that uplifts it: rates are too low"
+            }
+            Doubt::NotFitted => "not among the fitted structures: the universal surface is used",
+            Doubt::Extrapolated => "outside of the motions that the model was fitted to",
+            Doubt::UnusualStructure => "outside of the structures that the universal surface was fitted to",
+            Doubt::PoorFit => "the paper's curve or planes do not fit these responses",
+            Doubt::NoEvents => {
+                "no response or every response overturned: the level comes from other structures"
+            }
+            Doubt::FewEvents => "fewer than ten responses differ from the others: the level is uncertain",
+            Doubt::FewClusters => {
+                "fewer than ten earthquakes or cells: limits assume the usual differences between them"
+            }
             Doubt::ScanEndsEarly => "too few motions overturn it for a median; raise --to",
             Doubt::UnreadableFile => "not imported",
             Doubt::NoPartner => "vertical, or no partner at right angles: left out",

@@ -10,28 +10,34 @@
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
 
+mod calibration;
 mod capacity;
 mod cases;
 mod demand;
 mod measure;
+mod model;
 mod overturning;
 mod paper_model;
 mod parameter;
 mod peaks;
+mod surface;
 mod tree;
 pub mod universal;
 
+pub use calibration::{Calibration, Scenarios};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::{CaseRow, Cases, CasesBuilder, CasesError, Event, MOST_CASES, Sample, SharedBy};
 pub use demand::{DemandFit, DemandModel, DemandOptions, PLANE, ScanPoint};
 pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
 pub use demand::{ln_median_demand, p_exceeding};
 pub use measure::{Measure, Pair};
+pub use model::Model;
 pub use overturning::{CurveOptions, OverturningFit, fit_curve, fit_curves};
 pub use overturning::{beta, hybrid_measure, lambda, mu, p_overturning};
 pub use paper_model::paper_probabilities;
 pub use parameter::{Parameter, ParameterRow};
 pub use peaks::{JointPeaks, Peak, RatioGiven};
+pub use surface::{Kind, logit_exceeding, logit_overturning};
 pub use tree::{GivenRocking, LimitState, Probabilities, Probability, Z_95};
 pub use tree::{p_failure, p_failure_given_rocking, p_no_rocking};
 pub use universal::UniversalModel;
