@@ -1,4 +1,4 @@
-//! One call of a stage, as clap has parsed it: its parameters, inputs and key.
+//! One call of a stage, as parsed by clap: its parameters, inputs and key.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -9,23 +9,23 @@ use super::stage::Stage;
 use crate::table::TableError;
 use crate::table::provenance::{Provenance, key_of};
 
-/// A call.
+/// A call of a stage.
 pub struct Call {
     pub name: String,
     pub stage: Box<dyn Stage>,
-    /// The resolved values of all options but files, by their flags.
+    /// Values of all options except files, defaults included, by flag.
     pub arguments: BTreeMap<String, Vec<String>>,
-    /// The files and folders that it reads, or words that stand for some (the name of a site), by their flags.
+    /// Files and folders to read, or words in their place (a site name), by flag.
     pub inputs: BTreeMap<String, Vec<PathBuf>>,
 }
 
-/// Whether an argument names something that a stage reads.
+/// Returns whether an argument is an input file or folder.
 pub fn is_input(arg: &Arg) -> bool {
     matches!(arg.get_value_hint(), ValueHint::FilePath | ValueHint::DirPath)
 }
 
 impl Call {
-    /// Takes apart what clap has parsed of this command.
+    /// Makes a call from the matches of a command.
     pub fn new(command: &Command, matches: &ArgMatches, stage: Box<dyn Stage>) -> Call {
         let (mut arguments, mut inputs) = (BTreeMap::new(), BTreeMap::new());
         for arg in
@@ -45,7 +45,7 @@ impl Call {
         Call { name: command.get_name().to_string(), stage, arguments, inputs }
     }
 
-    /// What its files will say of how they were made. `planned` has the keys of files that are yet to be made.
+    /// Returns the provenance of its files. `planned` has the keys of files not yet written.
     pub fn provenance(&self, planned: &HashMap<PathBuf, String>) -> Result<Provenance, TableError> {
         let is_word = |path: &Path| path.extension().is_none() && !path.exists();
         let key = |path: &Path| match planned.get(path) {
