@@ -1,4 +1,4 @@
-//! Narrow tables as polars frames: joined, filtered and sorted there, and shown as text, CSV or JSON.
+//! Narrow tables as polars frames, and their text, CSV and JSON.
 
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
@@ -10,7 +10,7 @@ use super::columns::numbers;
 use super::file::Table;
 use crate::keyword::keywords;
 
-/// How a table is printed.
+/// Format of a printed table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     Text,
@@ -20,7 +20,7 @@ pub enum Format {
 
 keywords!(Format { Text = "text", Csv = "csv", Json = "json" });
 
-/// The first rows of a table; a list is shown by its length.
+/// Reads the first rows of a table; a list is shown by its length.
 pub fn head(table: &Table, rows: usize) -> anyhow::Result<DataFrame> {
     let mut left = rows;
     let mut frame: Option<DataFrame> = None;
@@ -42,7 +42,7 @@ pub fn head(table: &Table, rows: usize) -> anyhow::Result<DataFrame> {
     Ok(frame.unwrap_or_default())
 }
 
-/// A narrow table whole.
+/// Reads a narrow table.
 pub fn read(table: &Table) -> Result<DataFrame, TableError> {
     let mut whole: Option<DataFrame> = None;
     for batch in table.batches(&|_| true) {
@@ -57,7 +57,7 @@ pub fn read(table: &Table) -> Result<DataFrame, TableError> {
     Ok(whole.unwrap_or_default())
 }
 
-/// The rows of a batch.
+/// Converts a batch to a frame.
 pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
     let schema = rows.schema();
     let columns =
@@ -91,7 +91,7 @@ fn column(name: &str, array: &ArrayRef) -> Column {
     series.into_column()
 }
 
-/// A frame as text with aligned columns, as CSV, or as a list of JSON objects.
+/// Formats a frame as text with aligned columns, as CSV, or as a list of JSON objects.
 pub fn show(frame: &DataFrame, format: Format) -> anyhow::Result<String> {
     match format {
         Format::Text => Ok(text(frame)),
@@ -125,7 +125,7 @@ fn json(value: &AnyValue) -> Value {
     }
 }
 
-/// Comma-separated values: numbers in full, nothing where there is none.
+/// Formats a frame as CSV: numbers in full, null as an empty cell.
 fn csv(frame: &DataFrame) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(frame.columns().iter().map(|column| column.name().as_str()))?;
@@ -139,7 +139,7 @@ fn csv(frame: &DataFrame) -> anyhow::Result<String> {
     Ok(String::from_utf8(writer.into_inner()?)?)
 }
 
-/// Columns under their names: numbers to the right with four significant digits, "-" where there is none.
+/// Formats a frame as text: numbers right-aligned with four significant digits, "-" for null.
 pub fn text(frame: &DataFrame) -> String {
     let cells = |column: &Column| -> Vec<String> {
         let cells = (0..column.len()).map(|row| match value(column, row) {
@@ -166,7 +166,7 @@ pub fn text(frame: &DataFrame) -> String {
     (0..=frame.height()).map(line).collect()
 }
 
-/// A number with four significant digits.
+/// Formats a number with four significant digits.
 pub fn short(number: f64) -> String {
     if number == 0.0 {
         return "0".to_string();
