@@ -12,8 +12,8 @@ pub fn simulate(structure: &Structure, record: &Record) -> Response {
     simulate_all(&[Problem { structure, record: *record }])[0]
 }
 
-/// Simulates each problem, in order, in the widest vector registers available. Each response is independent
-/// of the other problems.
+/// Simulates the problems in the widest vector registers, independently of each other. Returns one response
+/// for each, in order.
 pub fn simulate_all(problems: &[Problem]) -> Vec<Response> {
     Arch::new().dispatch(Batch { problems })
 }

@@ -72,8 +72,7 @@ impl Scan {
     }
 
     /// Returns the resolution: the ratio of neighbouring intensities simulated wherever a case rocks.
-    /// Narrower overturning ranges may be missed where no peak near the tipping point reveals them; narrower
-    /// safe windows do not count.
+    /// Narrower overturning ranges may be missed; narrower safe windows do not count.
     pub fn finest_ratio(&self) -> f64 {
         self.ratio_after(HALVINGS)
     }
@@ -87,9 +86,8 @@ impl Scan {
         &self.levels
     }
 
-    /// Simulates all cases at as many intensities as the scan needs, in rounds. `respond` simulates the
-    /// points of one round, in order. Returns the responses of each case at ascending intensity, or the error
-    /// of `respond`.
+    /// Simulates all cases at as many intensities as needed, in rounds. `respond` simulates the points of a
+    /// round, in order. Returns the responses of each case at ascending intensity, or the error of `respond`.
     pub fn run<E>(
         &self,
         cases: usize,
@@ -181,8 +179,8 @@ fn width(run: &[ScanResponse]) -> f64 {
     run[run.len() - 1].intensity / run[0].intensity
 }
 
-/// Returns whether the demand may reach the tipping point within a step, if it grows as it changes there and
-/// in the neighbouring safe steps.
+/// Returns whether the demand may reach the tipping point in a step, by its rate of change in safe steps
+/// near.
 fn may_tip(found: &[ScanResponse], step: usize) -> bool {
     let beside = &found[step.saturating_sub(1)..found.len().min(step + 3)];
     let rate = |pair: &[ScanResponse]| {

@@ -134,8 +134,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
         self.refill(lane);
     }
 
-    /// Starts the next problem that uplifts in a lane, at its first uplift. Without one the lane idles in a
-    /// state that has no events.
+    /// Starts the next problem that uplifts in a lane, at its first uplift. Without one the lane idles.
     fn refill(&mut self, lane: usize) {
         while let Some(problem) = self.problems.get(self.waiting) {
             (self.problem[lane], self.waiting) = (self.waiting, self.waiting + 1);
@@ -205,8 +204,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
         true
     }
 
-    /// Sets the time left to the next sample, always above 0: after an uplift that rounds to that sample, the
-    /// lane must still reach it.
+    /// Sets the time left to the next sample, above 0 even for an uplift that rounds to that sample.
     fn set_left(&mut self, lane: usize, left: f64) {
         let left = left.max(self.p_dt.lane(lane) * f64::EPSILON);
         self.left.set(lane, left);

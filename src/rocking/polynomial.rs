@@ -52,8 +52,8 @@ fn add_roots(c: &Polynomial, b: &Polynomial, low: f64, high: f64, roots: &mut Ve
     }
 }
 
-/// Converts to Bernstein coefficients by repeated sums: `b[j] = sum over i <= j of binomial(j,
-/// i) / binomial(ORDER, i) c[i]`.
+/// Converts to Bernstein coefficients by repeated sums: `b[j] = sum over i <= j of
+/// binomial(j,i) / binomial(ORDER,i) c[i]`.
 #[inline(always)]
 pub fn bernstein(c: &Polynomial) -> Polynomial {
     const INVERSE_BINOMIAL: Polynomial =
@@ -93,8 +93,8 @@ fn starts_positive(b: &Polynomial) -> bool {
     b.iter().find(|&&coefficient| coefficient != 0.0).is_some_and(|&first| first > 0.0)
 }
 
-/// Finds the only root between `low` and `high` by Newton's method with bisection. `falling`: the values left
-/// of the root are positive.
+/// Finds the only root in a bracket by Newton's method with bisection; `falling` if values are positive left
+/// of it.
 fn root_in_bracket(c: &Polynomial, low: f64, high: f64, falling: bool) -> f64 {
     let slope = derivative(c);
     let (mut low, mut high) = (low, high);

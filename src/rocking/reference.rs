@@ -13,12 +13,10 @@ use super::trace::{SolverEvent, TracePoint};
 use super::uplift::Uplift;
 use crate::units::PER_G;
 
-/// Longest step, as p h sqrt(1 + PGA/g). With steps this long, Runge-Kutta truncation changes the median peak
-/// by 1e-12 of itself.
+/// Longest step, as p h sqrt(1 + PGA/g): truncation changes the median peak by 1e-12 of itself.
 const LONGEST_STEP: f64 = 5e-4;
 
-/// A rocking structure: side to which it leans (1 or -1), rotation theta (rad), angular velocity theta'
-/// (rad/s).
+/// A rocking structure: its side (1 or -1), rotation theta (rad) and angular velocity theta' (rad/s).
 #[derive(Clone, Copy, Default)]
 struct Rocking {
     side: f64,

@@ -185,8 +185,7 @@ impl<S: Simd> Lanes<'_, S> {
         }
     }
 
-    /// Moves the lanes that have `arrived` at a sample to the next one. Returns the lanes at their last
-    /// sample.
+    /// Moves `arrived` lanes to their next sample. Returns the lanes at their last sample.
     #[inline(always)]
     fn pass_samples(&mut self, arrived: u32) -> u32 {
         let mut ended = 0;

@@ -57,10 +57,9 @@ const fn bound(
     Bound { parameter, range, expected, slip }
 }
 
-/// Ranges that a user may give, narrower than those of [`Structure::new`]. Beyond them a number is most
-/// likely in the wrong unit: no rocking structure is taller than 200 m, has a semi-diagonal below 3 mm (p 50
-/// rad/s) or above 184 m (p 0.2 rad/s), is wider than tall (it slides), or has a beam 50 times as heavy as
-/// its columns.
+/// Ranges that a user may give, narrower than those of [`Structure::new`]. Other numbers are likely in a
+/// wrong unit: no rocking structure is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or
+/// above 184 m (p 0.2 rad/s), is wider than tall (it slides), or has a beam of 50 times the column mass.
 pub const BOUNDS: [Bound; 6] = [
     bound("width", (1e-4, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
     bound("height", (1e-3, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
@@ -91,8 +90,7 @@ impl Bound {
         BOUNDS.iter().find(|bound| bound.parameter == parameter)
     }
 
-    /// Returns what to expect in place of a number out of range, with the likely mistake; none of a valid
-    /// number.
+    /// Returns the expected range and likely mistake of a number out of range; none of a valid number.
     pub fn refusal(&self, value: f64) -> Option<String> {
         let Bound { range: (least, most), expected, slip, .. } = *self;
         match value {
@@ -144,13 +142,7 @@ impl Structure {
         })
     }
 
-    /// Returns the friction below which it slides instead of rocking; sliding is not modelled.
-    pub fn words_of_friction(&self) -> String {
-        format!("slides instead unless its friction is above {:.2}", self.alpha_rad.tan())
-    }
-
-    /// Makes a structure of frequency parameter p (rad/s), slenderness alpha (rad) and coefficient of
-    /// restitution eta.
+    /// Makes a structure from p (rad/s), alpha (rad) and eta.
     ///
     /// # Errors
     /// If `p` is not in [0.001, 100] rad/s, `alpha` not in [1e-6, pi/2) rad or `eta` not in (0, 1].
@@ -171,8 +163,7 @@ impl Structure {
     /// Makes a solid rectangular block of width 2b and height 2h (m); `eta` as given, or [`housner_eta`].
     ///
     /// # Errors
-    /// If a dimension is not positive and finite, or `eta` is out of range. A block so stocky that Housner's
-    /// eta is not positive does not rock.
+    /// If a dimension is not positive and finite, or `eta` is out of range (of a very stocky block).
     pub fn rectangular_block(
         name: &str,
         width_m: f64,

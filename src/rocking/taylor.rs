@@ -4,8 +4,7 @@
 //! theta'' = -p^2 [ sin(alpha sgn(theta) - theta) + a/g cos(alpha sgn(theta) - theta) ]
 //! ```
 //!
-//! With r = |theta|, x = p t, and w the ground acceleration a over g, positive towards the base, this is on
-//! either side of the rest position
+//! With r = |theta|, x = p t, and w the ground acceleration over g, positive towards the base:
 //!
 //! ```text
 //! r'' = -[ sin(alpha - r) + w cos(alpha - r) ] = -[ A cos r + B sin r ]
@@ -58,8 +57,7 @@ pub struct State<T = f64> {
     pub velocity: T,
 }
 
-/// Expands r over a step of `h` = p dt, in powers of the fraction of the step (Eq. 4, the equation of
-/// motion).
+/// Expands the equation of motion (Eq. 4) over a step of `h` = p dt, in powers of the fraction of the step.
 ///
 /// The series of sin r and cos r follow term by term from s' = r' c and c' = -r' s.
 #[inline(always)]

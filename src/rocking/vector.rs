@@ -4,8 +4,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use pulp::{Simd, bytemuck};
 
-/// Repeats a block for each value of a constant. Nested loops over arrays of vectors otherwise stay loops,
-/// with every vector in memory.
+/// Repeats a block for each value of a constant; loops over arrays of vectors would work in memory.
 macro_rules! unrolled {
     ($k:ident in [$($value:literal)*] $block:block) => {
         $({
@@ -35,8 +34,7 @@ pub struct Mask<S: Simd> {
     registers: [S::m64s; REGISTERS],
 }
 
-/// Evaluates an expression for each register `k`. A loop or closure is not always inlined, and then works in
-/// memory.
+/// Evaluates an expression for each register `k`; a loop or closure may not be inlined, and works in memory.
 macro_rules! in_each {
     ($k:ident: $result:expr) => {
         [
@@ -199,8 +197,7 @@ impl<S: Simd> Not for Mask<S> {
 /// pi/2 as a sum of two numbers: the second is the rounding error of the first.
 const HALF_PI: (f64, f64) = (std::f64::consts::FRAC_PI_2, 6.123233995736766e-17);
 
-/// Coefficients of y^3, y^5 ... of sin y and of y^4, y^6 ... of cos y for |y| <= pi/4 (FreeBSD msun, k_sin.c
-/// and k_cos.c).
+/// Coefficients of y^3, y^5 ... of sin y and y^4, y^6 ... of cos y, |y| <= pi/4 (FreeBSD k_sin.c, k_cos.c).
 const SINE: [f64; 6] = [
     -0.16666666666666632,
     0.00833333333332249,
