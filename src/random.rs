@@ -10,8 +10,7 @@ pub enum Purpose {
     Strata,
     /// Place of a sample in its stratum, or in the unit cube; the row is the scenario.
     Sample,
-    /// Noise of the stochastic motion; the row is the scenario. Scenarios of one seed and number have the
-    /// same noise in every file.
+    /// Noise of the stochastic motion; the row is the scenario, whatever file it is in.
     Noise,
     /// Rows of a resample; the row is the replicate.
     Bootstrap,

@@ -40,8 +40,7 @@ impl Grid {
         self.mw.len() * self.re_km.len()
     }
 
-    /// Samples the scenarios of a cell, independently of other cells. Cells are numbered magnitude by
-    /// magnitude.
+    /// Samples the scenarios of a cell, independently of other cells. The cells of a magnitude are adjacent.
     pub fn scenarios_of_cell(&self, cell: usize) -> Vec<Scenario> {
         let mw = self.mw[cell / self.re_km.len()];
         let re_km = self.re_km[cell % self.re_km.len()];

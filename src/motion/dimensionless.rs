@@ -1,5 +1,5 @@
-//! Dimensionless intensity measures: IM1 to IM6 (Eq. 13), and other measures of a motion made dimensionless
-//! with the parameters of a structure (section 2.2.3).
+//! Dimensionless intensity measures: IM1 to IM6 (Eq. 13), and other measures of a motion, made dimensionless
+//! with p and g tan alpha of a structure (section 2.2.3, Eqs. 9 and 10).
 
 use std::f64::consts::PI;
 
@@ -47,8 +47,7 @@ impl IntensityMeasures {
     }
 }
 
-/// Physical quantity of a measure. p (1/time) and g tan alpha (an acceleration) make it dimensionless, as in
-/// Eq. 13.
+/// Physical quantity of a measure; p and g tan alpha make it dimensionless, as in Eq. 13.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// A duration D, s: p D.

@@ -58,8 +58,7 @@ impl<T> ByLength<T> {
     }
 }
 
-/// Returns the least even number of at least `n` without prime factors above 5, a fast length of Fourier
-/// transforms.
+/// Returns the least even number of at least `n` without prime factors above 5, for fast transforms.
 pub fn even_smooth_at_least(n: usize) -> usize {
     let smooth = |mut n: usize| {
         for prime in [2, 3, 5] {

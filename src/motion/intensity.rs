@@ -187,8 +187,7 @@ pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, dam
     let (mut displacement, mut velocity, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
     for pair in acceleration.windows(2) {
         let slope = (pair[1] - pair[0]) / dt_s;
-        // The particular solution of u'' + 2 z w u' + w^2 u = -(a0 + slope t) is linear; the remainder is a
-        // free vibration.
+        // The particular solution of u'' + 2 z w u' + w^2 u = -(a0 + slope t) is linear; the rest is free.
         let linear = -slope / (w * w);
         let constant = -pair[0] / (w * w) - 2.0 * damping / w * linear;
         let free = displacement - constant;
@@ -202,8 +201,8 @@ pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, dam
     w * w * largest
 }
 
-/// Computes the Housner intensity, m: the trapezoidal integral of the pseudo-velocity spectrum at 5 % damping
-/// over periods from 0.1 to 2.5 s.
+/// Computes the Housner intensity, m: the integral of the pseudo-velocity spectrum at 5 % damping from 0.1 to
+/// 2.5 s, by trapezoids.
 pub fn housner_intensity(acceleration: &[f64], dt_s: f64) -> f64 {
     let (first, last, points) = HOUSNER_PERIODS;
     let step = (last - first) / (points - 1) as f64;

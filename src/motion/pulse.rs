@@ -55,8 +55,7 @@ impl Pulse {
     }
 
     /// Samples the ground acceleration (m/s2) `samples` times at steps of `dt_s`, with the middle of the
-    /// pulse at `epoch_s`. Envelope and carrier are rotated by a constant angle per step, four times faster
-    /// than computing sines.
+    /// pulse at `epoch_s`. Rotating envelope and carrier by constant angles is four times faster than sines.
     pub fn sample(&self, dt_s: f64, epoch_s: f64, samples: usize) -> Vec<f64> {
         let wp = 2.0 * PI / self.tp_s;
         let half_s = 0.5 * self.duration_s();

@@ -39,9 +39,8 @@ const GAMMA: (f64, f64) = (1.93, 0.47);
 const NU_RAD: (f64, f64) = (1.83, 0.98);
 
 impl Scenario {
-    /// Makes the scenario of a cell (magnitude, distance in km) whose Vp, Tp, gamma and nu are the quantiles
-    /// `u` in (0, 1) of their distributions: Vp and Tp lognormal (Eqs. 2 and 3), gamma normal truncated below
-    /// at 1, nu normal.
+    /// Makes the scenario of a cell (magnitude, distance in km) from quantiles `u` in (0, 1) of Vp, Tp, gamma
+    /// and nu: Vp and Tp lognormal (Eqs. 2 and 3), gamma normal truncated below at 1, nu normal.
     pub fn at_quantiles(
         scenario_id: i64,
         cell: i32,
@@ -71,14 +70,13 @@ impl Scenario {
     }
 }
 
-/// Computes the mean of log10 Vp, Vp in cm/s (Eq. 2), from the moment magnitude, at most 7, and the distance
-/// (km).
+/// Computes the mean of log10 Vp, Vp in cm/s (Eq. 2), from magnitude (at most 7 counts) and distance (km).
 pub fn mean_log10_vp_cm_s(mw: f64, re_km: f64) -> f64 {
     let m = mw.min(SATURATION_MW);
     -5.17 + 1.98 * m - 0.14 * m * m - 0.10 * (re_km * re_km + 0.562).log10()
 }
 
-/// Computes the mean of log10 Tp, Tp in s (Eq. 3), from the moment magnitude.
+/// Computes the mean of log10 Tp, Tp in s (Eq. 3), from magnitude.
 pub fn mean_log10_tp_s(mw: f64) -> f64 {
     -2.87 + 0.47 * mw
 }

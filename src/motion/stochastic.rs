@@ -1,5 +1,4 @@
-//! High frequencies by Boore's stochastic method with the two-corner source of Atkinson & Silva (2000)
-//! (section 2.1.2).
+//! High frequencies: Boore's stochastic method, source of Atkinson & Silva (2000) (section 2.1.2).
 
 use std::f64::consts::{E, FRAC_1_SQRT_2, PI};
 
@@ -19,8 +18,8 @@ pub const PEAK_SHARE: f64 = 0.2;
 /// Value of the window at its end: Boore's eta.
 const END_VALUE: f64 = 0.05;
 
-/// Constant C of the Fourier amplitude: 0.55 (radiation) / sqrt(2) (one of two components) x 2 (free surface)
-/// x 1e-20 / (4 pi rho beta^3).
+/// Constant C of the amplitude: 0.55 (radiation) / sqrt(2) (one of two components) x 2 (free surface) x
+/// 1e-20 / (4 pi rho beta^3).
 pub const CONSTANT: f64 = 0.55 * FRAC_1_SQRT_2 * 2.0 * 1e-20
     / (4.0 * PI * DENSITY * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S);
 
@@ -93,8 +92,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// Computes the source of an earthquake of moment magnitude `mw` at the distance `re_km` (Atkinson &
-    /// Silva 2000).
+    /// Computes the source of an earthquake of magnitude `mw` at the distance `re_km`.
     pub fn new(mw: f64, re_km: f64) -> Source {
         // The depth h of the equivalent point source: R = sqrt(re^2 + h^2).
         let depth_km = 10_f64.powf(-0.05 + 0.15 * mw);
@@ -129,8 +127,7 @@ fn spreading(distance_km: f64) -> f64 {
     }
 }
 
-/// The exponential window w = a (t/te)^b exp(-c t/te) of Saragoni & Hart, with the parameters of Boore
-/// (2003).
+/// The window w = a (t/te)^b exp(-c t/te) of Saragoni & Hart, with the parameters of Boore (2003).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
     /// Scale that makes the peak 1.

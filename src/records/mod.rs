@@ -1,5 +1,4 @@
-//! Recorded ground motions: from the files of strong-motion networks to motions ready to simulate. Pure
-//! functions, without file access.
+//! Recorded ground motions: from the bytes of files to motions ready to simulate. Pure functions.
 //!
 //! ```text
 //! recorded_motion  a record as in its file, and options for reading files

@@ -14,8 +14,7 @@ pub struct Pairs<T> {
     pub left_out: Vec<T>,
 }
 
-/// Pairs each component with the first earlier one of the same event, station and time step at right angles
-/// that has no partner yet.
+/// Pairs each component with the first free earlier one of its event, station and time step at right angles.
 pub fn pairs<T>(components: Vec<(RecordedMotion, T)>) -> Pairs<T> {
     let mut waiting: HashMap<_, Vec<(usize, f64)>> = HashMap::new();
     let mut found = Vec::new();

@@ -12,8 +12,8 @@ const FEWEST_SAMPLES: usize = 25;
 /// IWTH25 (Iwate-Miyagi 2008; Yamada, Mori & Heaton 2009, The slapdown phase in high-acceleration records of
 /// large earthquakes, Seismological Research Letters 80).
 const LARGEST_PGA_G: f64 = 5.0;
-/// Largest PGV, m/s, with a margin: 3.18 m/s at Chi-Chi 1999 (Wikipedia, "1999 Jiji earthquake"; without a
-/// source that no other was larger).
+/// Largest PGV, m/s, with a margin over the 3.18 m/s of Chi-Chi 1999 (Wikipedia, "1999 Jiji earthquake";
+/// whether it is the largest is not known).
 const LARGEST_PGV_M_S: f64 = 5.0;
 /// Above these, a motion is rare: m/s2 read as g is ten times too strong, without effect on PGV/PGA.
 const RARE_PGA_G: f64 = 2.0;
@@ -24,9 +24,8 @@ const PGV_PGA_S: (f64, f64) = (0.005, 1.0);
 /// Highest mean frequency, Hz: the ground damps frequencies above some 20 Hz even on the hardest rock; the
 /// records of FEMA P695 have 1.5 to 14.
 const HIGHEST_FREQUENCY_HZ: f64 = 30.0;
-/// A spike is a sample with more than the first share of the sum of squares, and neighbours below the second
-/// share of it. In the records of FEMA P695 the largest sample has at most 0.044 of the sum, and its
-/// neighbours at least 0.79 of it.
+/// A spike has more than the first share of the sum of squares, and neighbours below the second share of it.
+/// The largest samples of FEMA P695 have at most 0.044 of the sum, and neighbours of at least 0.79.
 const SPIKE: (f64, f64) = (0.02, 0.25);
 /// A drift is a final velocity above the first value, m/s, and the second, as a share of PGV: the ground is
 /// at rest at the end of a record. The records of FEMA P695 end at 0.015 m/s and 0.025 of PGV at most.

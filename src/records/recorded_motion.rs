@@ -70,8 +70,7 @@ pub struct ReadOptions {
     pub dt_s: Option<f64>,
     /// Unit of the samples.
     pub unit: Option<Unit>,
-    /// Column of the acceleration in a CSV file: its number from 1, its heading, or `all` if one series wraps
-    /// over lines.
+    /// Column of the acceleration in a CSV file: number from 1, heading, or `all` for a series over lines.
     pub column: Option<String>,
     /// Accepted relative difference of the samples from the peak in the header.
     pub pga_tolerance: f64,

@@ -44,8 +44,7 @@ impl RotD {
 }
 
 impl HorizontalPair {
-    /// Returns whether two azimuths (degrees) are at right angles, to within a degree; either component may
-    /// be reversed.
+    /// Returns whether two azimuths (degrees) are at right angles to a degree; either may be reversed.
     pub fn is_right_angle(first_deg: f64, second_deg: f64) -> bool {
         ((first_deg - second_deg).rem_euclid(180.0) - 90.0).abs() <= 1.0
     }

@@ -34,8 +34,7 @@ impl ProbitFit {
 }
 
 /// Computes the log-likelihood (Eq. 21): the sum of ln Phi(z) over events (overturning) and ln(1 - Phi(z))
-/// over the other cases, where z = X b is (ln IM - mu) / beta of Eqs. 20 and 24. `x` is n x k with a column
-/// of ones, `b` has k elements.
+/// over other cases, z = X b being (ln IM - mu) / beta of Eqs. 20 and 24. `x` is n x k, `b` has k elements.
 pub fn log_likelihood(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>) -> f64 {
     let z = x * b;
     z.iter().zip(events).map(|(&z, &event)| normal::ln_cdf(if event { z } else { -z })).sum()

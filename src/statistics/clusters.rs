@@ -5,8 +5,7 @@ use nalgebra::{DMatrix, DVector};
 /// With fewer clusters the standard errors are too small (Cameron & Miller 2015, section VI).
 pub const MIN_CLUSTERS: usize = 10;
 
-/// Sums `k` terms over the cases of each cluster; `add` adds a case to the sum of its cluster. Returns a sum
-/// for each cluster with cases.
+/// Sums `k` terms over the cases of each cluster that has any; `add` adds a case to a sum.
 fn cluster_sums(clusters: &[u32], k: usize, add: impl Fn(usize, &mut [f64])) -> Vec<Vec<f64>> {
     let count = clusters.iter().max().map_or(0, |&last| last as usize + 1);
     let (mut sums, mut occurs) = (vec![0.0; count * k], vec![false; count]);

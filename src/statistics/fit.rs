@@ -137,8 +137,7 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Computes g' C g, the variance of a function with gradient `gradient` (k) by the delta method; `covariance`
-/// is k x k, row by row.
+/// Computes g' C g, the variance of a function of gradient g (k) by the delta method; C is k x k, by row.
 pub fn variance(covariance: &[f64], gradient: &[f64]) -> f64 {
     let rows = covariance.chunks_exact(gradient.len());
     rows.zip(gradient).map(|(row, g)| g * dot(row, gradient)).sum()

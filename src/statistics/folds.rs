@@ -12,8 +12,8 @@ pub struct Folds {
 }
 
 impl Folds {
-    /// Deals the clusters to at most `most` folds in turn, so that neighbouring clusters are in different
-    /// folds. None for a single cluster.
+    /// Deals the clusters to at most `most` folds in turn, so that neighbours are apart. None for one
+    /// cluster.
     pub fn new(clusters: &[u32], most: usize) -> Option<Folds> {
         let distinct: Vec<u32> = clusters.iter().copied().collect::<BTreeSet<u32>>().into_iter().collect();
         let count = distinct.len().min(most);

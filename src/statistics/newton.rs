@@ -1,6 +1,5 @@
 //! Maximum of a log-likelihood by Newton's method. argmin's Newton has no stopping rule and takes 2.8 times
-//! as long for the 28 curves of the paper's run; its BFGS and trust region take 6 times as long and are less
-//! accurate.
+//! as long for the 28 curves of the paper's run; its BFGS and trust region take 6 times as long.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;

@@ -50,9 +50,8 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion
     if motions.is_empty() { Err(refusal) } else { Ok(motions) }
 }
 
-/// Reads the block of numbers after its announcement (`100 Real-header values follow on 20 lines, Format=
-/// (5F15.6)`) on the line before `at`: by field width, since numbers may follow without a blank, or as words,
-/// since later edits change blanks.
+/// Reads the block of numbers announced on the line before `at` (`100 Real-header values follow on 20 lines,
+/// Format= (5F15.6)`): by field width, since blanks may be missing, or as words, if edits changed them.
 fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>, RecordFileError> {
     let text = lines[*at - 1];
     let layout = || {

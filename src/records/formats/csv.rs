@@ -176,8 +176,7 @@ fn step_of_times(sheet: &Sheet, column: usize, given: Option<f64>) -> Result<f64
     Ok((mean * 1e12).round() / 1e12)
 }
 
-/// Replaces the error of uneven times if the headings are exchanged: the column of accelerations has even
-/// steps.
+/// Replaces the error of uneven times if the column of accelerations has even steps: headings exchanged.
 fn exchanged(sheet: &Sheet, times: usize, column: usize, refusal: RecordFileError) -> RecordFileError {
     let headings = sheet.headings.get(times).zip(sheet.headings.get(column));
     let has_steps = step_of_times(sheet, column, None).is_ok_and(|step| step > 0.0);

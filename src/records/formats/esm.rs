@@ -1,5 +1,4 @@
-//! ASCII of the Engineering Strong Motion database (DYNA 1.2): lines of `KEY: value`, then one sample per
-//! line.
+//! ASCII of the Engineering Strong Motion database (DYNA 1.2): lines of `KEY: value`, then samples.
 
 use super::error::RecordFileError;
 use super::header::{

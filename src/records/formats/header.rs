@@ -38,8 +38,7 @@ pub fn header_pga(text: &str, unit: Unit) -> Option<HeaderPga> {
     (value > 0.0).then_some(HeaderPga { m_s2: value * unit.si, rounding_m_s2: rounding * unit.si })
 }
 
-/// Reads the azimuth of a component (degrees clockwise from north) from its name, a number or a compass
-/// direction; none of other names.
+/// Reads the azimuth (degrees clockwise from north) from the name of a component, if it has one.
 pub fn azimuth_of(component: &str) -> Option<f64> {
     match component.trim().to_ascii_uppercase().as_str() {
         "N" | "NS" | "N-S" | "NORTH" => Some(0.0),

@@ -24,8 +24,7 @@ const SIDES: [f64; 3] = [0.1, 0.3, 0.1];
 const GAMMA: (f64, f64) = (1.0, 5.0);
 /// Averaging intervals per period: the pulse changes little within one.
 const PARTS_OF_PERIOD: f64 = 100.0;
-/// Largest number of steps of a search, and spread of the simplex at its end, as a share of the explained sum
-/// of squares.
+/// Largest number of steps of a search, and relative spread of the simplex at its end.
 const MOST_STEPS: u64 = 300;
 const TOLERANCE: f64 = 1e-10;
 
@@ -41,8 +40,8 @@ pub struct FittedPulse {
 }
 
 impl FittedPulse {
-    /// Fits a pulse to a velocity (m/s) at steps of `dt_s`, from the period and time (s) of a wavelet. None
-    /// if the velocity is zero.
+    /// Fits a pulse to a velocity (m/s) at steps of `dt_s`, from period and time (s) of a wavelet. None of
+    /// zeros.
     pub fn fit(velocity: &[f64], dt_s: f64, period_s: f64, time_s: f64) -> Option<FittedPulse> {
         let series = Series::of(velocity, dt_s, period_s);
         let mut starts = Vec::new();
@@ -90,9 +89,8 @@ impl Series {
         Series { means, first_s: 0.5 * (samples - 1) as f64 * dt_s, step_s: samples as f64 * dt_s }
     }
 
-    /// Computes the nearest pulse of a period (s), gamma and time of its middle (s), each clamped to its
-    /// bounds, by the normal equations of A cos nu and A sin nu. Returns it with its explained sum of
-    /// squares.
+    /// Computes the pulse nearest to a period (s), gamma and time of its middle (s), clamped to their bounds,
+    /// by the normal equations of A cos nu and A sin nu, and its explained sum of squares.
     fn nearest(&self, Place(place): &Place) -> (Pulse, f64) {
         let (tp_s, gamma) = (place.x.clamp(PERIODS_S.0, PERIODS_S.1), place.y.clamp(GAMMA.0, GAMMA.1));
         let (t0_s, half) = (place.z, 0.5 * gamma * tp_s);

@@ -10,8 +10,7 @@ pub const PERIODS_S: (f64, f64) = (0.25, 15.0);
 /// Number of periods of the scan, in equal ratios, and subdivisions of an interval about a local maximum.
 const PERIODS: usize = 60;
 const REFINED: usize = 20;
-/// Local maxima whose square is at least this share of the largest are refined: with intervals this small no
-/// other can become the largest.
+/// Local maxima of at least this share of the largest square are refined; no other can become the largest.
 const LEAST_PEAK: f64 = 0.9;
 /// Wavelets of the extracted pulse.
 const WAVELETS: usize = 10;
@@ -23,8 +22,7 @@ const STEP_S: f64 = 0.02;
 pub const THRESHOLD: f64 = 0.85;
 /// Least peak velocity of a pulse-like record, m/s.
 pub const LEAST_PGV_M_S: f64 = 0.3;
-/// A pulse is early if it reaches the first share of its squared velocity before the record reaches the
-/// second share of its own.
+/// A pulse is early if the first share of its squared velocity precedes the second share of the record's.
 const EARLY: (f64, f64) = (0.10, 0.20);
 
 /// Pulse indicator of one component, with the extracted pulse.
@@ -129,8 +127,7 @@ fn samples_in_step(dt_s: f64) -> usize {
     ((STEP_S / dt_s) as usize).max(1)
 }
 
-/// Extracts the pulse: the strongest wavelet, then repeatedly the strongest of the same period near it in the
-/// remainder.
+/// Extracts the pulse: the strongest wavelet, then repeatedly the strongest near it in the remainder.
 fn extract(velocity: &[f64], dt_s: f64, period_s: f64, centre: i64) -> Vec<f64> {
     let every = samples_in_step(dt_s);
     let step_s = dt_s * every as f64;

@@ -74,8 +74,7 @@ fn mother(x: f64) -> f64 {
     }
 }
 
-/// Tabulates the scaling function at the integers by its refinement equation, then at finer levels, and the
-/// wavelet from it.
+/// Tabulates the scaling function, at the integers and then at finer levels, and the wavelet from it.
 fn tabulate() -> Vec<f64> {
     let filter = |k: isize| usize::try_from(k).ok().and_then(|k| FILTER.get(k)).copied().unwrap_or(0.0);
     // Refinement keeps the sum of the values at the integers, 1; the other eigenvalues are at most 1/2.
