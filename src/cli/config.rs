@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
-use clap::{ArgAction, Command, Error as ClapError};
+use clap::{ArgAction, ArgMatches, Command};
 use serde_json::Value;
 
 use crate::keyword::nearest;
@@ -200,11 +200,15 @@ fn text_of(value: &Value) -> String {
     }
 }
 
-/// Returns the arguments named by the user; later parsing reports errors.
+/// Parses the arguments of a stage without errors, which later parsing reports.
+pub fn lenient(command: &Command, user: &[OsString]) -> Option<ArgMatches> {
+    let words = [&[OsString::from(command.get_name())], user].concat();
+    command.clone().ignore_errors(true).try_get_matches_from(words).ok()
+}
+
+/// Returns the arguments named by the user.
 fn named_by(command: &Command, user: &[OsString]) -> Vec<String> {
-    let words = std::iter::once(OsString::from(command.get_name())).chain(user.iter().cloned());
-    let matches: Result<_, ClapError> = command.clone().ignore_errors(true).try_get_matches_from(words);
-    let Ok(matches) = matches else { return Vec::new() };
+    let Some(matches) = lenient(command, user) else { return Vec::new() };
     let ids = command.get_arguments().map(|arg| arg.get_id().to_string());
     ids.filter(|id| matches.value_source(id) == Some(ValueSource::CommandLine)).collect()
 }

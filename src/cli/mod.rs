@@ -10,7 +10,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
 
-use self::config::Config;
+use self::config::{Config, lenient};
 use crate::pipeline::call::Call;
 use crate::pipeline::context::{Common, Context};
 use crate::pipeline::{UsageError, cache};
@@ -74,8 +74,7 @@ pub fn stage_commands() -> Vec<Command> {
     command.get_subcommands().filter(|command| is_stage(command)).cloned().collect()
 }
 
-/// Runs a command line, whose first word is the program. Returns the exit code: 0 success, 1 failure, 2 a
-/// mistake in the call.
+/// Runs a command line, program name first. Returns the exit code: 0 success, 1 failure, 2 wrong usage.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     quiet_damage();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
@@ -115,9 +114,8 @@ fn obey(arguments: &[OsString]) -> anyhow::Result<()> {
 }
 
 fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
-    let words = |user: &[OsString]| [&[OsString::from(command.get_name())], user].concat();
-    let known = command.clone().ignore_errors(true).try_get_matches_from(words(user));
-    let config = known.ok().and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());
+    let known = lenient(command, user);
+    let config = known.and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());
     let section = match &config {
         Some(path) => Config::read(path)?.section(command, user)?,
         None => Vec::new(),

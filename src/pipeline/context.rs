@@ -98,8 +98,7 @@ impl Context {
         TableWriter::create(path, schema)
     }
 
-    /// Ends a table with its provenance, the printed summary and the doubts. An input that changed while it
-    /// was read is an error.
+    /// Ends a table with provenance, printed summary and doubts. A changed input is an error.
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
         for (path, key) in &self.inputs {
             if key_of(path)? != *key {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::context::Context;
 
-/// A stage with its options. Arguments with a value hint of a file or folder are its inputs, `--out` is its
+/// A stage with its options. Arguments with the value hint of a file or folder are inputs, `--out` is the
 /// output, all others are parameters.
 pub trait Stage {
     /// Returns the files that it writes, the last one written last; none if it only prints.

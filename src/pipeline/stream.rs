@@ -1,5 +1,4 @@
-//! Concurrent reading, work and writing in order, with bounded queues: memory does not depend on the number
-//! of items.
+//! Concurrent reading, work and writing in order, in memory bounded by short queues.
 
 use std::sync::Mutex;
 use std::sync::mpsc::sync_channel;

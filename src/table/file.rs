@@ -238,8 +238,7 @@ impl TableFile {
     }
 }
 
-/// Reads the footer of a Parquet file. Ignores the Arrow schema, so that columns of any program have plain
-/// Parquet types.
+/// Reads the footer of a Parquet file, with plain Parquet types: the Arrow schema is ignored.
 pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
     let file = File::open(path).map_err(|source| TableError::io(path, source))?;
     if path.is_dir() {
@@ -278,8 +277,7 @@ pub fn tables(path: &Path) -> Result<Vec<PathBuf>, TableError> {
     Ok(files)
 }
 
-/// Checks that no partition is missing: rows are sorted by magnitude, and a missing part would bias every
-/// fit.
+/// Checks that no partition is missing: rows are sorted by magnitude, so that a gap would bias fits.
 fn expect_all_parts(folder: &Path, files: &[PathBuf]) -> Result<(), TableError> {
     let partition = |file: &PathBuf| -> Result<Option<Partition>, TableError> {
         let made = Provenance::of_file(file)?;

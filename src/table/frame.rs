@@ -125,16 +125,20 @@ fn json(value: &AnyValue) -> Value {
     }
 }
 
+fn cell(value: &AnyValue, null: &str) -> String {
+    match json(value) {
+        Value::Null => null.to_string(),
+        Value::String(text) => text,
+        other => other.to_string(),
+    }
+}
+
 /// Formats a frame as CSV: numbers in full, null as an empty cell.
 fn csv(frame: &DataFrame) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(frame.columns().iter().map(|column| column.name().as_str()))?;
     for row in 0..frame.height() {
-        writer.write_record(frame.columns().iter().map(|column| match json(&value(column, row)) {
-            Value::Null => String::new(),
-            Value::String(text) => text,
-            other => other.to_string(),
-        }))?;
+        writer.write_record(frame.columns().iter().map(|column| cell(&value(column, row), "")))?;
     }
     Ok(String::from_utf8(writer.into_inner()?)?)
 }
@@ -144,11 +148,7 @@ pub fn text(frame: &DataFrame) -> String {
     let cells = |column: &Column| -> Vec<String> {
         let cells = (0..column.len()).map(|row| match value(column, row) {
             AnyValue::Float64(number) => short(number),
-            other => match json(&other) {
-                Value::Null => "-".to_string(),
-                Value::String(text) => text,
-                other => other.to_string(),
-            },
+            other => cell(&other, "-"),
         });
         let cells: Vec<String> = std::iter::once(column.name().to_string()).chain(cells).collect();
         let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0);

@@ -1,4 +1,4 @@
-//! The motions file: one motion per row, its samples as a list. Other programs must write motion_id, dt_s and
+//! The motions file: one motion per row, its samples as a list. The required columns are motion_id, dt_s and
 //! acceleration_m_s2.
 
 use std::path::Path;

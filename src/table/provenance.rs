@@ -78,8 +78,7 @@ impl Provenance {
     }
 }
 
-/// Returns all files, including those in folders, recursively in the order of their names; hidden files are
-/// excluded.
+/// Returns all files, those in folders included, in the order of their names, without hidden files.
 pub fn files_below(paths: &[PathBuf]) -> Result<Vec<PathBuf>, TableError> {
     let mut files = Vec::new();
     for path in paths {

@@ -96,8 +96,8 @@ fn remove_strays(folder: &Path, prefix: &str) {
     }
 }
 
-/// Returns the compression of the columns. Numbers rarely repeat, so a dictionary of them only costs time;
-/// samples are split by bytes.
+/// Returns the compression of the columns: no dictionary of numbers, which rarely repeat; samples split by
+/// bytes.
 fn properties(schema: &SchemaRef) -> WriterProperties {
     let zstd = Compression::ZSTD(ZstdLevel::try_new(1).unwrap_or_default());
     let samples = |field: &Field| match field.data_type() {
