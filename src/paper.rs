@@ -1,6 +1,5 @@
 //! Published values of Dimitrakopoulos & Paraskeva (2015): set-up, structures, Table II (the eight planes)
-//! and other numbers to compare with. The constants of Eqs. 2 and 3 (median Vp and Tp) are in
-//! [`crate::motion::scenario`].
+//! and other numbers. The constants of Eqs. 2 and 3 (median Vp and Tp) are in [`crate::motion::scenario`].
 
 use serde::{Deserialize, Serialize};
 
@@ -56,8 +55,7 @@ pub struct Published {
     /// Least and largest number that round to the printed one.
     pub print_low: Option<f64>,
     pub print_high: Option<f64>,
-    /// Hotelling's T2 of the four numbers of a plane against ours over seeds, and its p-value
-    /// (scripts/paper_planes.py).
+    /// Hotelling's T2 of a plane against ours over seeds, and its p-value (scripts/paper_planes.py).
     pub t2: Option<f64>,
     pub t2_p: Option<f64>,
 }

@@ -79,8 +79,7 @@ pub struct Ranking {
     pub incomplete: Vec<(String, usize)>,
 }
 
-/// The cases of a target, with the measures known in all of them: likelihoods are comparable only on the same
-/// cases.
+/// The cases of a target, with the measures known in all of them: only then are likelihoods comparable.
 struct Contest {
     target: Target,
     names: Vec<String>,
