@@ -50,6 +50,9 @@ pub struct Motion {
     pub row: u64,
 }
 
+/// Motions, and the file they are in.
+type MotionsOfFile = (Arc<Path>, Vec<Motion>);
+
 /// A motions table open for reading by several threads.
 pub struct Motions(Table);
 
@@ -100,7 +103,7 @@ impl Motions {
         &self,
         part: Part,
         at_once: usize,
-    ) -> Result<impl Iterator<Item = Result<(Arc<Path>, Vec<Motion>), TableError>> + use<>, TableError> {
+    ) -> Result<impl Iterator<Item = Result<MotionsOfFile, TableError>> + use<>, TableError> {
         let batches: Box<dyn Iterator<Item = Result<Batch, TableError>>> = match part {
             Part::Unread(group) => Box::new(self.0.read(&group, &is_column, at_once)?),
             Part::Read(batch) => {
