@@ -7,6 +7,7 @@ use clap::{Arg, ArgMatches, Command, ValueHint};
 
 use super::stage::Stage;
 use crate::table::TableError;
+use crate::table::file::Partition;
 use crate::table::provenance::{Provenance, key_of};
 
 /// A call of a stage.
@@ -27,7 +28,8 @@ pub fn is_input(arg: &Arg) -> bool {
 impl Call {
     /// Makes a call from the matches of a command.
     pub fn new(command: &Command, matches: &ArgMatches, stage: Box<dyn Stage>) -> Call {
-        let (mut arguments, mut inputs) = (BTreeMap::new(), BTreeMap::new());
+        let mut arguments: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        let mut inputs: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
         for arg in
             command.get_arguments().filter(|arg| arg.get_help_heading() != Some(super::context::COMMON))
         {
@@ -41,6 +43,11 @@ impl Call {
                 let text = |value: PathBuf| value.to_string_lossy().into_owned();
                 arguments.insert(flag, values.into_iter().map(text).collect());
             }
+        }
+        // A partition reads one file of a folder, whatever comes and goes beside it.
+        if let Some(partition) = arguments.get("partition").and_then(|values| values.first()?.parse().ok()) {
+            let part = |path: &PathBuf| Partition::file_of(partition, path).ok().filter(|_| path.is_dir());
+            inputs.values_mut().flatten().for_each(|path| *path = part(path).unwrap_or(path.clone()));
         }
         Call { name: command.get_name().to_string(), stage, arguments, inputs }
     }

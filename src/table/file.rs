@@ -58,6 +58,14 @@ impl Partition {
         format!("part-{:05}.parquet", self.index)
     }
 
+    /// Returns its file in a folder: the one of that name, or else the one of that number among as many.
+    pub fn file_of(self, folder: &Path) -> Result<PathBuf, TableError> {
+        let named = folder.join(self.file_name());
+        let files = if named.exists() { Vec::new() } else { tables(folder)? };
+        let numbered = files.get(self.index as usize).filter(|_| files.len() as u64 == self.of);
+        Ok(numbered.cloned().unwrap_or(named))
+    }
+
     /// Returns its range of `total` rows.
     pub fn rows(self, total: usize) -> Range<usize> {
         let at = |index: u64| (total as u128 * u128::from(index) / u128::from(self.of)) as usize;
@@ -135,17 +143,12 @@ impl Table {
     pub fn open_partition(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
         let Some(partition) = partition else { return Table::open(path) };
         if path.is_dir() {
-            let files = files(path)?;
-            return match files.get(partition.index as usize) {
-                Some(file) if files.len() as u64 == partition.of => Table::open(file),
-                _ => Err(TableError::table(
-                    path,
-                    format!(
-                        "a folder of {} files; expected {}, as in partition {partition}",
-                        files.len(),
-                        partition.of
-                    ),
-                )),
+            let file = partition.file_of(path)?;
+            return match partition_of(&file)?.filter(|made| made.of != partition.of) {
+                Some(made) => {
+                    Err(TableError::table(&file, format!("partition {made}; expected {partition}")))
+                }
+                None => Table::open(&file),
             };
         }
         let table = Table::open(path)?;
@@ -277,14 +280,16 @@ pub fn tables(path: &Path) -> Result<Vec<PathBuf>, TableError> {
     Ok(files)
 }
 
+/// Returns which partition a file is; none if it is a whole table.
+fn partition_of(file: &Path) -> Result<Option<Partition>, TableError> {
+    let made = Provenance::of_file(file)?;
+    Ok(made.and_then(|made| made.arguments.get("partition")?.first()?.parse().ok()))
+}
+
 /// Checks that no partition is missing: rows are sorted by magnitude, so that a gap would bias fits.
 fn expect_all_parts(folder: &Path, files: &[PathBuf]) -> Result<(), TableError> {
-    let partition = |file: &PathBuf| -> Result<Option<Partition>, TableError> {
-        let made = Provenance::of_file(file)?;
-        Ok(made.and_then(|made| made.arguments.get("partition")?.first()?.parse().ok()))
-    };
-    let parts: Vec<Partition> =
-        files.iter().map(partition).collect::<Result<Option<_>, _>>()?.unwrap_or_default();
+    let parts = files.iter().map(|file| partition_of(file)).collect::<Result<Option<Vec<_>>, _>>()?;
+    let parts = parts.unwrap_or_default();
     let Some(of) = parts.first().map(|part| part.of) else { return Ok(()) };
     let missing = (0..of).map(|index| Partition { index, of }).find(|part| !parts.contains(part));
     match missing {
