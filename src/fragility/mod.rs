@@ -10,6 +10,7 @@
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
 
+mod along;
 mod calibration;
 mod capacity;
 mod cases;
@@ -24,6 +25,7 @@ mod surface;
 mod tree;
 pub mod universal;
 
+pub use along::{Along, Ratio, limit_states_at};
 pub use calibration::{Calibration, Scenarios};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::{CaseRow, Cases, CasesBuilder, CasesError, Event, MOST_CASES, Sample, SharedBy};
