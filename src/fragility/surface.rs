@@ -69,9 +69,8 @@ pub fn has_like(structure: &Structure) -> bool {
 
 /// Returns whether the measures of a motion, and a limit state, are within those that the surface was fitted to.
 pub fn covers(measures: &IntensityMeasures, limit_state: f64) -> bool {
-    let is_known = |measure: &Measure| {
-        measure.among(measures).is_none_or(|value| is_inside(measure.as_str(), value))
-    };
+    let is_known =
+        |measure: &Measure| measure.among(measures).is_none_or(|value| is_inside(measure.as_str(), value));
     [Measure::Im4, Measure::Im3, Measure::Im5].iter().all(is_known) && is_inside("limit", limit_state)
 }
 
@@ -147,12 +146,14 @@ struct Surface {
 /// A product of powers of features.
 struct Term {
     curve: Curve,
-    powers: [i32; FEATURES.len()],
+    /// Feature and power of each.
+    factors: Vec<(usize, i32)>,
     /// For combined motions, pulses and high frequencies.
     coefficients: [f64; 3],
 }
 
-static SURFACE: LazyLock<Surface> = LazyLock::new(|| Surface::parse(include_str!("../../data/universal.csv")));
+static SURFACE: LazyLock<Surface> =
+    LazyLock::new(|| Surface::parse(include_str!("../../data/universal.csv")));
 
 impl Surface {
     /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which tests find.
@@ -175,7 +176,7 @@ impl Surface {
                 }
                 _ => surface.terms.push(Term {
                     curve: curve(1),
-                    powers: powers(cells[2]),
+                    factors: factors(cells[2]),
                     coefficients: [3, 4, 5].map(number),
                 }),
             }
@@ -185,7 +186,7 @@ impl Surface {
 
     fn logit(&self, curve: Curve, kind: Kind, features: &[f64; FEATURES.len()]) -> f64 {
         let product = |term: &Term| {
-            features.iter().zip(term.powers).map(|(feature, power)| feature.powi(power)).product::<f64>()
+            term.factors.iter().map(|&(feature, power)| features[feature].powi(power)).product::<f64>()
         };
         let terms = self.terms.iter().filter(|term| term.curve == curve);
         terms.map(|term| term.coefficients[kind.column()] * product(term)).sum()
@@ -193,12 +194,11 @@ impl Surface {
 }
 
 /// Reads a product such as `x*w^2`; 1 is the empty one.
-fn powers(product: &str) -> [i32; FEATURES.len()] {
-    let mut powers = [0; FEATURES.len()];
-    for factor in product.split('*').filter(|factor| *factor != "1") {
+fn factors(product: &str) -> Vec<(usize, i32)> {
+    let factor = |factor: &str| {
         let (name, power) = factor.split_once('^').unwrap_or((factor, "1"));
         let place = FEATURES.iter().position(|feature| *feature == name).expect(product);
-        powers[place] += power.parse::<i32>().expect(product);
-    }
-    powers
+        (place, power.parse().expect(product))
+    };
+    product.split('*').filter(|name| *name != "1").map(factor).collect()
 }
