@@ -27,8 +27,8 @@ def derivatives(b, logit, happened, prior):
 
 def calibrate(logit, happened, prior, clusters=None):
     """Returns (c, ln s) and their covariance: the inverse Hessian H^-1 of the posterior; of ten clusters or more
-    H^-1 (M + P) H^-1, M = G/(G-1) times the sum over the G clusters of u u', u the sum of the scores of their cases, P the
-    precision of the prior (so that without any information the covariance is that of the prior)."""
+    H^-1 (M + P) H^-1, M = G/(G-1) (n-1)/(n-2) times the sum over the G clusters of u u', u the sum of the scores of their
+    n cases in all, P the precision of the prior (so that without any information the covariance is that of the prior)."""
     b = np.array(prior[:2], dtype=float)
     happened = happened.astype(float)
     for _ in range(100):
@@ -44,11 +44,12 @@ def calibrate(logit, happened, prior, clusters=None):
     covariance = np.linalg.inv(hessian)
     if clusters is not None:
         _, at = np.unique(clusters, return_inverse=True)
-        n = at.max(initial=0) + 1
-        if n >= LEAST_CLUSTERS:
-            sums = np.stack([np.bincount(at, column, n) for column in scores.T], axis=1)
+        n, of = len(logit), at.max(initial=-1) + 1
+        if of >= LEAST_CLUSTERS:
+            sums = np.stack([np.bincount(at, column, of) for column in scores.T], axis=1)
             precision = np.diag(1.0 / np.square(prior[2:4]))
-            covariance = covariance @ (n / (n - 1) * sums.T @ sums + precision) @ covariance
+            meat = of / (of - 1) * (n - 1) / (n - 2) * sums.T @ sums + precision
+            covariance = covariance @ meat @ covariance
     return b, covariance
 
 

@@ -16,7 +16,7 @@ HEAD = """\
 # The universal fragility surface: P_ro and P_ex of every rocking structure. Made by scripts/universal/make.sh.
 # From {structures} structures and {motions} synthetic motions on rock: {cases} cases of rocking; and {records} records.
 # logit P = sum of coefficients, each times a function. FUNCTION is 1 or a product of features, a feature^k is its power.
-# Features: x = ln(ln IM4 + 0.2); w = ln IM5 in P_ro, ln IM5 - 0.4 limit in P_ex; r = ln IM5 - ln IM4;
+# Features: x = ln(ln IM4 + 0.2); w = ln IM5 in P_ro, ln IM5 - 0.4 limit in P_ex; r = ln IM3;
 # eta = (eta - 0.85)/0.1; p = ln(p/2), p in rad/s; limit = ln(limit state/0.2), in P_ex only.
 # domain,NAME,LOW,HIGH: 0.1 % and 99.9 % quantiles of the measures; ranges of the structures and limit states.
 # term,pro|pex,FUNCTION,csgm,pulse,hfc: coefficients for each kind of motion; recorded has those of hfc.

@@ -15,7 +15,7 @@ def features(event, cases, limit=0.2):
     limit = np.log(limit / 0.2) if event == "pex" else 0.0
     ln_im4, ln_im5 = np.log(cases["im4"]), np.log(cases["im5"])
     return {
-        "x": np.log(ln_im4 + 0.2), "w": ln_im5 - 0.4 * limit, "r": ln_im5 - ln_im4,
+        "x": np.log(ln_im4 + 0.2), "w": ln_im5 - 0.4 * limit, "r": np.log(cases["im3"]),
         "eta": (cases["eta"] - 0.85) / 0.1, "p": np.log(cases["p_rad_s"] / 2.0), "limit": limit,
     }  # fmt: skip
 
