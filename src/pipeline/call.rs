@@ -10,6 +10,10 @@ use crate::table::TableError;
 use crate::table::file::Partition;
 use crate::table::provenance::{Provenance, key_of};
 
+/// The files that are read from a folder of fits.
+pub const FITS: [&str; 4] =
+    ["pro.calibration.parquet", "pex.calibration.parquet", "pro.parquet", "pex.parquet"];
+
 /// A call of a stage.
 pub struct Call {
     pub name: String,
@@ -20,7 +24,7 @@ pub struct Call {
     pub inputs: BTreeMap<String, Vec<PathBuf>>,
 }
 
-/// Returns whether an argument is an input file or folder.
+/// Returns whether an argument is an input: a file, or a folder of fits.
 pub fn is_input(arg: &Arg) -> bool {
     matches!(arg.get_value_hint(), ValueHint::FilePath | ValueHint::DirPath)
 }
@@ -37,7 +41,12 @@ impl Call {
             let flag = arg.get_long().unwrap_or(id).to_string();
             let Ok(Some(values)) = matches.try_get_raw(id) else { continue };
             let values: Vec<PathBuf> = values.map(PathBuf::from).collect();
-            if is_input(arg) {
+            if arg.get_value_hint() == ValueHint::DirPath {
+                inputs.insert(
+                    flag,
+                    values.iter().flat_map(|folder| FITS.map(|name| folder.join(name))).collect(),
+                );
+            } else if is_input(arg) {
                 inputs.insert(flag, values);
             } else if flag != "out" {
                 let text = |value: PathBuf| value.to_string_lossy().into_owned();
