@@ -76,7 +76,7 @@ fn figures(count: usize) -> Vec<Figure> {
 #[test]
 fn each_figure_is_drawn_and_its_table_has_the_numbers() {
     for figure in [figures(100), figures(1), figures(0)].concat() {
-        let text = svg(&figure);
+        let text = svg(&figure, "{\"stage\": \"report\"}");
         assert!(!text.contains("NaN") && !text.contains("inf"), "{}", figure.name);
         let tree = usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
         let image =
@@ -104,7 +104,7 @@ fn values_stand_where_the_axes_say() {
     let panel =
         Panel { x, y, layers: vec![Layer::points("", Ink::Data(0), [[5.0, 10.0]])], ..Default::default() };
     let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
-    assert!(svg(&figure).contains("M230.6 50h0"), "half of 510.2 - 40 - 9 points, and of 100");
+    assert!(svg(&figure, "").contains("M230.6 50h0"), "half of 510.2 - 40 - 9 points, and of 100");
 }
 
 #[test]
