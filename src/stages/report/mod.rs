@@ -16,7 +16,7 @@ use crate::pipeline::UsageError;
 use crate::pipeline::cache::is_ours;
 use crate::pipeline::context::Context;
 use crate::pipeline::stage::Stage;
-use crate::report::{Figure, png, svg};
+use crate::report::{Figure, Page, png, svg};
 use crate::table::writer::write_file;
 use tables::Tables;
 
@@ -27,7 +27,7 @@ const DPI: f32 = 300.0;
 #[derive(Debug, Args)]
 pub struct Report {
     /// Folder of the tables of other commands
-    #[arg(long = "in", id = "in", value_name = "DIR", value_hint = ValueHint::DirPath, default_value = ".")]
+    #[arg(long = "in", id = "in", value_name = "DIR", value_hint = ValueHint::FilePath, default_value = ".")]
     input: PathBuf,
     /// Page to write, with its figures as SVG, PNG and CSV in a folder of its name [default: report.html in DIR]
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
@@ -84,7 +84,8 @@ impl Stage for Report {
         let paths = figures.par_iter().zip(&stems);
         paths.try_for_each(|(figure, stem)| write_figure(figure, stem, &key))?;
         let byline = [&self.author, &self.date].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ");
-        let html = page::page(&tables, figures, self.title.clone(), byline, key).html();
+        let whole = page::page(&tables, figures, key)?;
+        let html = Page { title: self.title.clone(), byline, ..whole }.html();
         write_file(&page, html.as_bytes())?;
         Ok(summary)
     }
