@@ -46,5 +46,6 @@ stages! {
     fit_pro::FitPro,
     compare_paper::ComparePaper,
     rank_ims::RankIms,
+    evaluate::Evaluate,
     report::Report,
 }
