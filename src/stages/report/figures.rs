@@ -15,7 +15,6 @@ use crate::report::figures::{self as draw, MEASURES, MeasureFit, ProbabilityPane
 use crate::report::text::number;
 use crate::rocking::{Outcome, Record, Structure, simulate, trace, with_tail};
 use crate::statistics::scores::log_score;
-use crate::studies::wilson_limits;
 use crate::table::motions::Motion;
 use crate::units::G_M_S2;
 
@@ -96,7 +95,7 @@ fn rocked(cases: &Cases) -> impl Iterator<Item = (usize, bool)> {
 }
 
 fn group(cases: &Cases) -> draw::Group {
-    let case = |(k, overturned)| {
+    let case = |(k, overturned): (usize, bool)| {
         let measures = cases.measures(k);
         draw::RockingCase {
             pgv_m_s: cases.pgv_m_s[k],
@@ -241,7 +240,7 @@ fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
     };
     let all = |im: usize| groups.iter().flat_map(|cases| safe(cases, im)).collect::<Vec<f64>>();
     let (im3, most) = (all(2), all(3).into_iter().fold(1.5, f64::max));
-    let limit_state = tables.limit_state();
+    let limit_state = tables.limit_state().ok()?;
     let structure = |cases: &&Cases| {
         let planes: Vec<&DemandFit> = regressions(tables, cases, DemandModel::Biplanar).collect();
         let at_share = |share: f64| {
@@ -359,8 +358,5 @@ fn ends(cases: &[(f64, bool)]) -> [f64; 2] {
 /// Shares of events in bins of equal ratio, with Wilson's limits.
 fn binned(cases: &[(f64, bool)]) -> Vec<crate::report::Estimate> {
     let bins = draw::equal_ratios(ends(cases), (cases.len() / CASES).clamp(4, BINS));
-    draw::observed_shares(cases, bins, |events, n| {
-        let limits = wilson_limits(events, n);
-        [limits.low, limits.high]
-    })
+    draw::observed_shares(cases, bins, studies::wilson)
 }

@@ -1,175 +1,183 @@
 //! The page: one answer, one table, one figure; then further figures; then, folded, how it was made and tested.
 
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::figures::name;
 use super::studies;
-use super::tables::{FileMade, ObjectRates, Tables};
-use crate::fragility::{Calibration, Cases, Measure, Parameter, ParameterRow};
-use crate::keyword::Keyword;
+use super::tables::Tables;
+use crate::fragility::{Calibration, Cases, Measure, Parameter};
 use crate::report::text::number;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::Outcome;
+use crate::stages::evaluate::{ObjectRow, RatesRow};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
+use crate::table::provenance::Provenance;
 use crate::units::G_M_S2;
 
 /// Doubts under the table; the others are folded.
 const MOST_DOUBTS: usize = 3;
-/// Figures that are seen where there are rates, numbers of the paper, or neither; the others are folded.
-const SEEN: [&[&str]; 3] = [
-    &["list"],
-    &["overturning-hybrid", "calibrated", "motion", "similarity", "planes", "exceedance"],
-    &["ida", "calibrated", "overturning", "validation", "ranking"],
+/// Figures that are seen: of annual rates, of the paper, of other responses. The others are folded.
+const OF_RATES: &[&str] = &["list"];
+const OF_PAPER: &[&str] =
+    &["overturning-hybrid", "calibrated", "motion", "similarity", "planes", "exceedance"];
+const OF_RESPONSES: &[&str] = &["ida", "calibrated", "overturning", "validation", "ranking"];
+
+/// What is said of each stage that made a table.
+const METHOD: [(&str, &str); 8] = [
+    (
+        "synthesize-motions",
+        "Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), high frequencies of a stochastic source, or both.",
+    ),
+    ("import-motions", "Ground motions are records, one component each."),
+    (
+        "simulate",
+        "The rocking of each structure, a rigid block or frame that does not slide, follows from the equation of motion with a loss of velocity at each impact (Eqs. 4 to 6). The demand is the largest rotation over the slenderness *α* (Eq. 7); *p* is the frequency parameter.",
+    ),
+    (
+        "fit-pex",
+        "The demand in safe rocking is regressed on one measure or two, with two planes that meet at 1.3 times the peak acceleration of uplift (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & Structural Dynamics 44, 2015\u{2013}2033).",
+    ),
+    (
+        "fit-pro",
+        "The probability of overturning given rocking is the paper's lognormal curve of one measure or of a hybrid of two, of greatest likelihood (Eqs. 19 to 24), and the universal surface, which predicts it for any block from peak acceleration and velocity; the responses calibrate level and slope of its logit.",
+    ),
+    (
+        "ida",
+        "Incremental dynamic analysis scales each motion until it overturns the structure; a lognormal distribution of these intensities has the median.",
+    ),
+    (
+        "validate",
+        "Validation compares predicted probabilities with the outcomes of motions that were not fitted.",
+    ),
+    (
+        "evaluate",
+        "Annual rates are the integral of the probabilities of the universal surface, calibrated where there are responses, over the hazard of the site. The limits do not have the error of the hazard.",
+    ),
 ];
 
 /// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
-    let subject = match (tables.objects.is_empty(), tables.compared.is_empty()) {
-        (false, _) => 0,
-        (_, false) => 1,
-        _ => 2,
+    let (sentence, first, shown) = match (&tables.objects[..], &tables.compared[..]) {
+        ([], []) => (sentence_of_responses(&tables.groups), outcomes(tables)?, OF_RESPONSES),
+        ([], compared) => (sentence_of_paper(compared), planes(compared), OF_PAPER),
+        (objects, _) => (sentence_of_rates(objects), rates(objects), OF_RATES),
     };
-    let (sentence, table) = match subject {
-        0 => (sentence_of_rates(tables), rates(tables)),
-        1 => (sentence_of_paper(&tables.compared), planes(&tables.compared)),
-        _ => (sentence_of_outcomes(tables), outcomes(tables)?),
-    };
-    let (seen, more): (Vec<Figure>, Vec<Figure>) =
-        figures.into_iter().partition(|figure| SEEN[subject].contains(&figure.name.as_str()));
-    let mut doubts: Vec<String> = tables
-        .files
-        .iter()
-        .filter_map(|file| file.made.as_ref())
-        .flat_map(|made| made.doubts.clone())
-        .collect();
+    let (seen, more) = figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
+    let made = || tables.files.iter().filter_map(|(.., made)| made.as_ref());
+    let mut doubts: Vec<String> = made().flat_map(|made| made.doubts.clone()).collect();
     doubts.sort_unstable();
     doubts.dedup();
     let others = doubts.split_off(doubts.len().min(MOST_DOUBTS));
+    let method = METHOD.iter().filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
+    let section = |heading: &str, paragraphs, tables, figures| Section {
+        heading: heading.to_string(),
+        paragraphs,
+        tables,
+        figures,
+    };
     let mut sections = vec![
-        Section { heading: "More figures".to_string(), figures: more, ..Section::default() },
-        Section { heading: "Method".to_string(), paragraphs: method(tables), ..Section::default() },
-        Section {
-            heading: "Tests and fits".to_string(),
-            paragraphs: others,
-            tables: tests(tables, subject)?,
-            ..Section::default()
-        },
-        Section { heading: "Files".to_string(), tables: vec![files(&tables.files)], ..Section::default() },
+        section("More figures", Vec::new(), Vec::new(), more),
+        section("Method", method.collect(), Vec::new(), Vec::new()),
+        section("Tests and fits", others, tests(tables)?, Vec::new()),
+        section("Files", Vec::new(), vec![files(tables)], Vec::new()),
     ];
-    sections.retain(|section| section.figures.len() + section.paragraphs.len() + section.tables.len() > 0);
-    Ok(Page { sentence, table: Some(table), notes: doubts, figures: seen, sections, key, ..Page::default() })
-}
-
-/// Columns of texts, then of numbers.
-fn table(caption: &str, texts: &[&str], numbers: &[&str], rows: Vec<Vec<String>>) -> Table {
-    let texts = texts.iter().map(|head| Column::text(head));
-    let columns = texts.chain(numbers.iter().map(|head| Column::number(head))).collect();
-    Table { caption: caption.to_string(), columns, rows }
+    sections.retain(|of| of.figures.len() + of.paragraphs.len() + of.tables.len() > 0);
+    Ok(Page { sentence, table: Some(first), notes: doubts, figures: seen, sections, key, ..Page::default() })
 }
 
 /// Some fields of rows, under their names.
-fn fields<R: Serialize>(caption: &str, rows: &[R], texts: &[&str], numbers: &[&str]) -> Table {
-    let cell = |row: &Value, field: &&str| match &row[*field] {
-        Value::Number(count) if count.is_i64() => count.to_string(),
+fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields: &[&str]) -> Table {
+    let rows: Vec<Value> = rows.into_iter().map(|row| json!(row)).collect();
+    let plain = |text: &str| if text.contains('{') { text.to_string() } else { text.replace('_', " ") };
+    let is_number = |value: &Value| match value {
+        Value::String(text) => {
+            text.starts_with(|sign: char| sign.is_ascii_digit() || "\u{2212}\u{2013}".contains(sign))
+        }
+        other => other.is_number(),
+    };
+    let cell = |value: &Value| match value {
+        Value::Number(count) if count.is_u64() => number::count(count.as_u64().unwrap_or(0) as usize),
         Value::Number(value) => number::significant(value.as_f64().unwrap_or(f64::NAN), 3),
-        Value::String(text) if text.starts_with("im") => text.to_uppercase().replace("IM3_INV", "1/IM3"),
-        Value::String(text) => text.replace('_', " "),
+        Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
+        Value::String(text) if text.starts_with("im") => text.to_uppercase(),
+        Value::String(text) => plain(text),
         _ => String::new(),
     };
-    let row = |row: &R| {
-        let row = serde_json::json!(row);
-        texts.iter().chain(numbers).map(|field| cell(&row, field)).collect()
+    let column = |field: &&str| Column {
+        head: plain(field),
+        is_number: rows.iter().any(|row| is_number(&row[*field])),
     };
-    let rows = rows.iter().map(row).collect();
-    let head =
-        |fields: &[&str]| -> Vec<String> { fields.iter().map(|field| field.replace('_', " ")).collect() };
-    let (texts, numbers) = (head(texts), head(numbers));
-    let all = |head: &'_ [String]| -> Vec<String> { head.to_vec() };
-    let (texts, numbers) = (all(&texts), all(&numbers));
-    let [texts, numbers] = [&texts, &numbers].map(|head| head.iter().map(String::as_str).collect::<Vec<_>>());
-    table(caption, &texts, &numbers, rows)
+    let cells = |row: &Value| fields.iter().map(|field| cell(&row[*field])).collect();
+    let columns = fields.iter().map(column).collect();
+    Table { caption: caption.to_string(), columns, rows: rows.iter().map(cells).collect() }
 }
 
-fn with_limits([value, low, high]: [Option<f64>; 3], unit: f64) -> String {
-    match (value, low, high) {
-        (Some(value), Some(low), Some(high)) => number::with_limits([value, low, high].map(|x| unit * x), 2),
-        (None, Some(low), Some(high)) => {
-            let [low, high] = [low, high].map(|x| number::significant(unit * x, 2));
-            format!("{low} to {high}")
-        }
-        (Some(value), ..) => number::significant(unit * value, 2),
-        _ => "\u{2013}".to_string(),
+/// A value with its limits, or limits alone.
+fn limits([value, low, high]: [Option<f64>; 3], unit: f64) -> String {
+    let [x, a, b] = [value, low, high].map(|x| number::significant(unit * x.unwrap_or(f64::NAN), 2));
+    match (value, low) {
+        (Some(_), Some(_)) => format!("{x} ({a} to {b})"),
+        (None, Some(_)) => format!("{a} to {b}"),
+        _ => x,
     }
 }
 
-fn in_years(object: &ObjectRates) -> String {
-    with_limits([object.p_overturning, object.p_overturning_low, object.p_overturning_high], 100.0)
+/// Years to two digits.
+fn once_in(rate: f64) -> String {
+    let unit = 10_f64.powf((1.0 / rate).log10().floor() - 1.0).max(1.0);
+    number::count(((1.0 / rate / unit).round() * unit) as usize)
 }
 
-fn years(tables: &Tables) -> String {
-    number::plain(tables.objects.iter().find_map(|object| object.years).unwrap_or(f64::NAN))
+fn sentence_of_rates(objects: &[(ObjectRow, RatesRow)]) -> String {
+    let (object, row) = &objects[0];
+    let percent = limits([row.p_overturning, row.p_overturning_low, row.p_overturning_high], 100.0);
+    let often = row.overturning_per_year.filter(|rate| *rate > 0.0);
+    let often = often.map_or(String::new(), |rate| format!("once in {} years, ", once_in(rate)));
+    let most =
+        if objects.len() > 1 { format!("Of {} objects the worst is ", objects.len()) } else { String::new() };
+    let years = number::plain(row.years.unwrap_or(f64::NAN));
+    format!("{most}{}: it overturns {often}{percent} % in {years} years (95 % limits).", object.structure)
 }
 
-fn sentence_of_rates(tables: &Tables) -> String {
-    let worst = &tables.objects[0];
-    let rate = worst.overturning_per_year.or(worst.overturning_per_year_high);
-    let often = match rate.filter(|rate| *rate > 0.0) {
-        Some(rate) => format!("once in {} years", number::count(round(1.0 / rate))),
-        None => "hardly ever".to_string(),
-    };
-    let limits = if worst.p_overturning_low.is_some() { ", 95 % limits in brackets" } else { "" };
-    let all = if tables.objects.len() > 1 {
-        format!("Of {} objects, ", tables.objects.len())
-    } else {
-        String::new()
-    };
-    let most = if all.is_empty() { "" } else { " most often" };
-    let (years, p) = (years(tables), in_years(worst));
-    format!("{all}{} overturns{most}: {often}; {p} % in {years} years{limits}.", worst.structure)
-}
-
-/// To two digits.
-fn round(years: f64) -> usize {
-    let unit = 10_f64.powf(years.log10().floor() - 1.0).max(1.0);
-    ((years / unit).round() * unit) as usize
-}
-
-/// A row an object, the worst first.
-fn rates(tables: &Tables) -> Table {
-    let row = |object: &ObjectRates| {
+/// A row an object.
+fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
+    let years = objects.iter().find_map(|(_, row)| row.years).unwrap_or(f64::NAN);
+    let percent = format!("% in {} years (95 % limits)", number::plain(years));
+    let row = |(object, row): &(ObjectRow, RatesRow)| {
         let size = object.width_m.zip(object.height_m);
-        let size = size.map_or(String::new(), |(width, height)| format!("{width:.2} \u{d7} {height:.2} m"));
-        let number = |value: Option<f64>| with_limits([value, None, None], 1.0);
-        let rates = [object.rocking_per_year, object.overturning_per_year].map(number);
-        let years = object.overturning_per_year.filter(|rate| *rate > 0.0);
-        let years = years.map_or("\u{2013}".to_string(), |rate| number::count(round(1.0 / rate)));
-        let [rock, overturn] = rates;
-        let doubts = object.doubts.clone().unwrap_or_default();
-        vec![
-            object.structure.clone(),
-            size,
-            doubts,
-            rock,
-            overturn,
-            years,
-            in_years(object),
-            number(object.friction),
-        ]
+        let once = row.overturning_per_year.filter(|rate| *rate > 0.0).map(once_in);
+        json!({
+            "object": object.structure,
+            "size": size.map(|(width, height)| format!("{width:.2} \u{d7} {height:.2} m")),
+            "rocks a year": row.rocking_per_year.map(|rate| number::significant(rate, 2)),
+            "overturns a year": row.overturning_per_year.map(|rate| number::significant(rate, 2)),
+            "once in years": once,
+            (percent.as_str()): limits([row.p_overturning, row.p_overturning_low, row.p_overturning_high], 100.0),
+            "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
+            "doubt": row.doubts,
+        })
     };
-    let percent = format!("% in {} years (95 % limits)", years(tables));
-    let numbers = ["rocks a year", "overturns a year", "once in years", &percent, "friction needed"];
-    table("", &["object", "size", "doubt"], &numbers, tables.objects.iter().map(row).collect())
+    let fields = [
+        "object",
+        "size",
+        "rocks a year",
+        "overturns a year",
+        "once in years",
+        &percent,
+        "friction needed",
+        "doubt",
+    ];
+    table("", objects.iter().map(row), &fields)
 }
 
 fn sentence_of_paper(compared: &[Comparison]) -> String {
     let z: Vec<f64> = compared.iter().filter_map(|number| number.z).collect();
-    let near = z.iter().filter(|z| z.abs() <= 2.0).count();
+    let (all, near) = (z.len(), z.iter().filter(|z| z.abs() <= 2.0).count());
     format!(
-        "Of {} published numbers that vary between seeds, {near} lie within two standard deviations of ours.",
-        z.len()
+        "Of {all} published numbers that vary between seeds, {near} lie within two standard deviations of ours."
     )
 }
 
@@ -183,31 +191,33 @@ fn planes(compared: &[Comparison]) -> Table {
                 (&number.quantity, &number.suite, &number.structure)
                     == (&quantity, &plane.suite, &plane.structure)
             };
-            let found = compared.iter().find(is_its).map(|found| [found.published, found.ours]);
-            let written = found.unwrap_or_default().map(|value| number::fixed(value.unwrap_or(f64::NAN), 2));
-            written.join(" / ")
+            let both = compared.iter().find(is_its).map(|number| [number.published, number.ours]);
+            both.map(|both| both.map(|value| number::fixed(value.unwrap_or(f64::NAN), 2)).join(" / "))
         };
-        let side = if side == "low" { "below" } else { "above" };
-        let texts = [plane.structure.clone(), plane.suite.clone(), side.to_string()];
-        let p = with_limits([plane.t2_p, None, None], 1.0);
-        texts.into_iter().chain(["ln_a", "b1", "b2", "r2"].map(cell)).chain([p]).collect()
+        json!({
+            "structure": plane.structure, "motions": plane.suite, "plane": if side == "low" { "below" } else { "above" },
+            "ln *a*": cell("ln_a"), "*b*_{1}": cell("b1"), "*b*_{2}": cell("b2"), "*R*^{2}": cell("r2"), "*p*": plane.t2_p,
+        })
     };
-    let is_plane = |number: &&Comparison| number.quantity.ends_with("_plane");
+    let of_planes = compared.iter().filter(|number| number.quantity.ends_with("_plane"));
     table(
-        "Table II, the planes of the demand below and above the transition: published / ours. *p*: probability of so large a difference between seeds.",
-        &["structure", "motions", "plane"],
-        &["ln *a*", "*b*_{1}", "*b*_{2}", "*R*^{2}", "*p*"],
-        compared.iter().filter(is_plane).map(row).collect(),
+        "Table II, the planes of the demand below and above the transition, published / ours. *p* is the probability of so large a difference between seeds.",
+        of_planes.map(row),
+        &["structure", "motions", "plane", "ln *a*", "*b*_{1}", "*b*_{2}", "*R*^{2}", "*p*"],
     )
 }
 
-fn overturned(cases: &Cases) -> usize {
-    cases.outcome.iter().filter(|outcome| **outcome == Outcome::Overturning).count()
+fn count(cases: &Cases, is: impl Fn(&Outcome) -> bool) -> usize {
+    cases.outcome.iter().filter(|outcome| is(outcome)).count()
 }
 
-fn sentence_of_outcomes(tables: &Tables) -> String {
+fn overturned(cases: &Cases) -> usize {
+    count(cases, |outcome| *outcome == Outcome::Overturning)
+}
+
+fn sentence_of_responses(groups: &[Cases]) -> String {
     let share = |cases: &&Cases| overturned(cases) as f64 / cases.len() as f64;
-    match tables.groups.iter().max_by(|a, b| share(a).total_cmp(&share(b))) {
+    match groups.iter().max_by(|a, b| share(a).total_cmp(&share(b))) {
         None => "There are no responses.".to_string(),
         Some(cases) if overturned(cases) == 0 => "No motion overturns any structure.".to_string(),
         Some(cases) => {
@@ -217,7 +227,7 @@ fn sentence_of_outcomes(tables: &Tables) -> String {
     }
 }
 
-/// What came of each structure and suite, and the median that overturns it: of its capacities, else of its paper's curve.
+/// What came of each structure and suite, and the median that overturns it: of its capacities, else of the paper's curve.
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let capacities: Vec<CapacityFitRow> = tables.rows("ida.fragility")?;
     let median = match capacities.first() {
@@ -225,144 +235,114 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
-        let (suite, structure) = (&cases.suite, &cases.structure.name);
-        let rock = cases.outcome.iter().filter(|outcome| **outcome != Outcome::NoRocking).count();
-        let is_its = |row: &&Calibration| row.suite == *suite && row.structure == *structure;
-        let often = tables.calibrations.iter().find(is_its).map(|row| row.n_events as f64 / row.expected);
-        let capacity = capacities.iter().find(|fit| fit.suite == *suite && fit.structure == *structure);
-        let [median, dispersion] = match capacity {
-            Some(fit) => {
-                [[fit.theta, fit.theta_low, fit.theta_high], [fit.beta, fit.beta_low, fit.beta_high]]
-                    .map(|value| with_limits(value, 1.0))
-            }
-            None => curve(tables, cases),
+        let is_its = |suite: &Option<String>, structure: &str| {
+            *suite == cases.suite && structure == cases.structure.name
         };
-        let counts = [cases.len(), rock, overturned(cases)].map(number::count);
-        let often =
-            often.map_or("\u{2013}".to_string(), |often| format!("{} times", number::significant(often, 2)));
-        let texts = [structure.clone(), suite.clone().unwrap_or_default()];
-        texts.into_iter().chain(counts).chain([often, median, dispersion]).collect()
+        let calibration =
+            tables.calibrations.iter().find(|row: &&Calibration| is_its(&row.suite, &row.structure));
+        let often = calibration.map(|row| row.n_events as f64 / row.expected);
+        let capacity = capacities.iter().find(|fit| is_its(&fit.suite, &fit.structure));
+        let of_capacity = capacity.map(|fit| {
+            [
+                limits([fit.theta, fit.theta_low, fit.theta_high], 1.0),
+                limits([fit.beta, fit.beta_low, fit.beta_high], 1.0),
+            ]
+        });
+        let mut curves = tables.curves.iter().filter(|fit| fit.im_x == Measure::Im5 && fit.im_y.is_none());
+        let curve = curves.find(|fit| is_its(&fit.suite, &fit.structure));
+        let of_curve = || {
+            let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
+            let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
+            [(Parameter::Theta, pgv), (Parameter::Beta, 1.0)].map(|(which, unit)| {
+                let row = parameters.iter().find(|row| row.parameter == which);
+                limits(row.map_or([None; 3], |row| [row.value, row.low, row.high].map(Some)), unit)
+            })
+        };
+        let [theta, beta] = of_capacity.unwrap_or_else(of_curve);
+        json!({
+            "structure": cases.structure.name, "motions": cases.suite, "number": cases.len(),
+            "rock": count(cases, |outcome| *outcome != Outcome::NoRocking), "overturn": overturned(cases),
+            "as often as the surface predicts": often.map(|often| format!("{} times", number::significant(often, 2))),
+            (median.as_str()): theta, "dispersion": beta,
+        })
     };
-    let numbers = ["number", "rock", "overturn", "as often as the surface predicts", &median, "dispersion"];
-    let rows = tables.groups.iter().map(row).collect();
+    let fields = [
+        "structure",
+        "motions",
+        "number",
+        "rock",
+        "overturn",
+        "as often as the surface predicts",
+        &median,
+        "dispersion",
+    ];
     Ok(table(
         "Motions that rock and overturn each structure, with 95 % limits",
-        &["structure", "motions"],
-        &numbers,
-        rows,
+        tables.groups.iter().map(row),
+        &fields,
     ))
 }
 
-/// Median, as a PGV, and dispersion of the paper's curve of p PGV / (g tan alpha).
-fn curve(tables: &Tables, cases: &Cases) -> [String; 2] {
-    let mut fits = tables.curves.iter().filter(|fit| fit.im_x == Measure::Im5 && fit.im_y.is_none());
-    let fit = fits.find(|fit| fit.suite == cases.suite && fit.structure == cases.structure.name);
-    let rows = fit.map_or(Vec::new(), |fit| fit.parameters(0.95));
-    let unit = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
-    [(Parameter::Theta, unit), (Parameter::Beta, 1.0)].map(|(parameter, unit)| {
-        let row = rows.iter().find(|row: &&ParameterRow| row.parameter == parameter);
-        with_limits(row.map_or([None; 3], |row| [row.value, row.low, row.high].map(Some)), unit)
-    })
-}
-
-/// How it was made: a paragraph for each kind of table.
-fn method(tables: &Tables) -> Vec<String> {
-    let made = |stage: &str| {
-        tables.files.iter().any(|file| file.made.as_ref().is_some_and(|made| made.stage == stage))
-    };
-    let paragraphs = [
-        (
-            made("synthesize-motions"),
-            "Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), high frequencies of a stochastic source, or both.",
-        ),
-        (made("import-motions"), "Ground motions are records, one component each."),
-        (
-            !tables.groups.is_empty(),
-            "The rocking of each structure, a rigid block or frame that does not slide, follows from the equation of motion with a loss of velocity at each impact (Eqs. 4 to 6). The demand is the largest rotation over the slenderness *α* (Eq. 7); *p* is the frequency parameter.",
-        ),
-        (
-            !tables.demand.is_empty(),
-            "The demand in safe rocking is regressed on one measure or two, with two planes that meet at 1.3 times the peak acceleration of uplift (Eqs. 14 to 18).",
-        ),
-        (
-            !tables.curves.is_empty(),
-            "The probability of overturning given rocking is a lognormal curve of one measure or of a hybrid of two, of greatest likelihood (Eqs. 19 to 24).",
-        ),
-        (
-            !tables.calibrations.is_empty() || !tables.objects.is_empty(),
-            "The universal surface predicts the overturning of any block from peak acceleration and velocity; level and slope of its logit are calibrated with the responses where there are any.",
-        ),
-        (
-            !tables.objects.is_empty(),
-            "Annual rates are the integral of these probabilities over the hazard of the site. The limits do not have the error of the hazard.",
-        ),
-        (
-            made("ida"),
-            "Incremental dynamic analysis scales each motion until it overturns the structure; a lognormal distribution of these intensities has the median.",
-        ),
-        (
-            made("validate"),
-            "Validation compares predicted probabilities with the outcomes of motions that were not fitted.",
-        ),
-        (
-            !tables.demand.is_empty(),
-            "The paper is Dimitrakopoulos & Paraskeva (2015), Dimensionless fragility curves for rocking response to near-fault excitations, Earthquake Engineering & Structural Dynamics 44, 2015\u{2013}2033.",
-        ),
-    ];
-    paragraphs.into_iter().filter(|(is_there, _)| *is_there).map(|(_, words)| words.to_string()).collect()
-}
-
 /// The tables that are folded.
-fn tests(tables: &Tables, subject: usize) -> anyhow::Result<Vec<Table>> {
+fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let is_of_plane =
-        |number: &Comparison| number.quantity.starts_with("low_") || number.quantity.starts_with("high_");
-    let published: Vec<&Comparison> = tables.compared.iter().filter(|number| !is_of_plane(number)).collect();
-    let group = ["structure", "suite"];
+        |number: &&Comparison| number.quantity.starts_with("low_") || number.quantity.starts_with("high_");
+    let published = tables.compared.iter().filter(|number| !is_of_plane(number));
+    let validations: Vec<Validation> = tables.rows("validation")?;
     let mut all = vec![
-        fields(
+        table(
             "Further numbers of the paper beside ours; *z* is (published \u{2212} mean) / sd over seeds",
-            &published,
-            &["quantity", "structure", "suite"],
-            &["published", "ours", "mean", "sd", "z"],
+            published,
+            &["quantity", "structure", "suite", "published", "ours", "mean", "sd", "z"],
         ),
-        fields(
+        table(
             "Lognormal curves of overturning",
             &tables.curves,
-            &[&group[..], &["im_x", "im_y", "status"]].concat(),
-            &["auc", "brier", "n", "n_events"],
+            &["structure", "suite", "im_x", "im_y", "auc", "brier", "n", "n_events", "status"],
         ),
-        fields(
+        table(
             "Regressions of the demand",
             &tables.demand,
-            &[&group[..], &["model", "im_x", "im_y", "status"]].concat(),
-            &["r2", "beta", "n"],
+            &["structure", "suite", "model", "im_x", "im_y", "r2", "beta", "n", "status"],
         ),
-        fields(
+        table(
             "Validation: events observed and expected",
-            &tables.rows::<Validation>("validation")?,
-            &[&group[..], &["event", "model"]].concat(),
-            &["n", "observed", "expected", "expected_error", "log_score", "calibration_slope"],
+            validations,
+            &[
+                "structure",
+                "suite",
+                "event",
+                "model",
+                "n",
+                "observed",
+                "expected",
+                "expected_error",
+                "log_score",
+                "calibration_slope",
+            ],
         ),
     ];
-    if subject < 2 {
+    if !(tables.objects.is_empty() && tables.compared.is_empty()) {
         all.insert(0, outcomes(tables)?);
     }
     all.retain(|table| !table.rows.is_empty());
     Ok(all)
 }
 
-fn files(files: &[FileMade]) -> Table {
-    let row = |file: &FileMade| {
-        let name = file.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let option = |(name, values): (&String, &Vec<String>)| format!("{name} {}", values.join(" "));
-        let options = |made: &crate::table::provenance::Provenance| {
-            made.arguments.iter().map(option).collect::<Vec<_>>().join("; ")
-        };
-        let by = file
-            .made
-            .as_ref()
-            .map_or("another program".to_string(), |made| format!("{} {}", made.stage, made.version));
-        vec![name, by, file.made.as_ref().map(options).unwrap_or_default(), number::count(file.rows as usize)]
+fn files(tables: &Tables) -> Table {
+    let options = |made: &Provenance| {
+        made.arguments
+            .iter()
+            .map(|(name, values)| format!("{name} {}", values.join(" ")))
+            .collect::<Vec<_>>()
+            .join("; ")
     };
-    table("", &["file", "made by", "with"], &["rows"], files.iter().map(row).collect())
+    let row = |(path, rows, made): &(std::path::PathBuf, u64, Option<Provenance>)| {
+        json!({
+            "file": path.file_name().map(|name| name.to_string_lossy()), "rows": rows,
+            "made by": made.as_ref().map_or("another program".to_string(), |made| format!("{} {}", made.stage, made.version)),
+            "with": made.as_ref().map(options),
+        })
+    };
+    table("", tables.files.iter().map(row), &["file", "made by", "with", "rows"])
 }

@@ -1,13 +1,10 @@
 //! The tables of a folder, as far as they are there.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-use serde::{Deserialize, Serialize};
 
 use crate::fragility::{Calibration, Cases, DemandFit, Event, OverturningFit};
 use crate::paper;
-use crate::rocking::Outcome;
+use crate::stages::evaluate::{ObjectRow, RatesRow};
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
@@ -17,6 +14,7 @@ use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
 
 /// What most of the report needs; further tables are read where they are shown.
+#[derive(Default)]
 pub struct Tables {
     folder: PathBuf,
     /// Responses by suite and structure.
@@ -26,41 +24,13 @@ pub struct Tables {
     pub curves: Vec<OverturningFit>,
     pub calibrations: Vec<Calibration>,
     pub compared: Vec<Comparison>,
-    /// The worst first.
-    pub objects: Vec<ObjectRates>,
-    pub files: Vec<FileMade>,
+    /// Objects with annual rates, the worst first.
+    pub objects: Vec<(ObjectRow, RatesRow)>,
+    /// Each file with its number of rows and, if it is ours, what made it.
+    pub files: Vec<(PathBuf, u64, Option<Provenance>)>,
 }
 
-/// What evaluate predicts for an object over a hazard, as far as its table has it.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct ObjectRates {
-    pub structure: String,
-    pub width_m: Option<f64>,
-    pub height_m: Option<f64>,
-    pub friction: Option<f64>,
-    pub rocking_per_year: Option<f64>,
-    pub failure_per_year: Option<f64>,
-    pub failure_per_year_low: Option<f64>,
-    pub failure_per_year_high: Option<f64>,
-    pub overturning_per_year: Option<f64>,
-    pub overturning_per_year_low: Option<f64>,
-    pub overturning_per_year_high: Option<f64>,
-    pub years: Option<f64>,
-    pub p_overturning: Option<f64>,
-    pub p_overturning_low: Option<f64>,
-    pub p_overturning_high: Option<f64>,
-    pub doubts: Option<String>,
-}
-
-/// A table and what made it.
-pub struct FileMade {
-    pub path: PathBuf,
-    pub rows: u64,
-    /// None of another program.
-    pub made: Option<Provenance>,
-}
-
-/// The column of annual rates of objects, whatever their file is called.
+/// A column of annual rates, by which their table is known whatever it is called.
 const RATES: &str = "overturning_per_year";
 /// Motions of a row group that rockfrag wrote.
 const MOTIONS_IN_GROUP: u64 = 64;
@@ -68,16 +38,7 @@ const MOTIONS_IN_GROUP: u64 = 64;
 impl Tables {
     /// Reads what there is in a folder.
     pub fn read(folder: &Path) -> anyhow::Result<Tables> {
-        let mut tables = Tables {
-            folder: folder.to_path_buf(),
-            groups: Vec::new(),
-            demand: Vec::new(),
-            curves: Vec::new(),
-            calibrations: Vec::new(),
-            compared: Vec::new(),
-            objects: Vec::new(),
-            files: Vec::new(),
-        };
+        let mut tables = Tables { folder: folder.to_path_buf(), ..Tables::default() };
         if let Some(path) = tables.place("responses") {
             tables.groups = responses::read(&path)?;
         }
@@ -89,12 +50,12 @@ impl Tables {
         for path in file::tables(folder)? {
             let table = Table::open(&path)?;
             if table.schema().index_of(RATES).is_ok() {
-                tables.objects.extend(rows::read::<ObjectRates>(&path)?);
+                tables.objects.extend(rows::read(&path)?.into_iter().zip(rows::read(&path)?));
             }
-            tables.files.push(FileMade { rows: table.rows(), made: Provenance::of_file(&path)?, path });
+            let made = Provenance::of_file(&path)?;
+            tables.files.push((path, table.rows(), made));
         }
-        let rate = |object: &ObjectRates| object.overturning_per_year.or(object.overturning_per_year_high);
-        tables.objects.sort_by(|a, b| rate(b).unwrap_or(-1.0).total_cmp(&rate(a).unwrap_or(-1.0)));
+        tables.objects.sort_by(|a, b| b.1.severity().total_cmp(&a.1.severity()));
         Ok(tables)
     }
 
@@ -109,14 +70,15 @@ impl Tables {
         if file.exists() { Some(file) } else { Some(parts).filter(|parts| parts.is_dir()) }
     }
 
+    /// Whether a stage made one of them.
+    pub fn are_of(&self, stage: &str) -> bool {
+        self.files.iter().any(|(.., made)| made.as_ref().is_some_and(|made| made.stage == stage))
+    }
+
     /// The demand whose exceedance was fitted.
-    pub fn limit_state(&self) -> f64 {
-        let mut made =
-            self.files.iter().filter_map(|file| file.made.as_ref()).filter(|made| made.stage == "fit-pex");
-        let given = made
-            .next()
-            .and_then(|made| made.arguments.get("limit-state")?.first()?.split(',').next()?.parse().ok());
-        given.unwrap_or(paper::LIMIT_STATE)
+    pub fn limit_state(&self) -> Result<f64, TableError> {
+        let rows: Vec<Calibration> = self.rows("pex.calibration")?;
+        Ok(rows.first().and_then(|row| row.limit_state).unwrap_or(paper::LIMIT_STATE))
     }
 
     /// The motions of a row group in the middle of the file.
@@ -127,28 +89,5 @@ impl Tables {
         let part = motions.parts().nth(middle).or_else(|| motions.parts().next());
         let some = part.map(|part| motions.read(part?, MOTIONS_IN_GROUP as usize)?.next().transpose());
         Ok(some.transpose()?.flatten().map_or(Vec::new(), |(_, motions)| motions))
-    }
-
-    /// Of an incremental dynamic analysis: numbers of motions and of those that overturn, by structure and intensity.
-    pub fn stripes(
-        &self,
-    ) -> Result<BTreeMap<(Option<String>, String), BTreeMap<u64, [usize; 2]>>, TableError> {
-        let mut counts: BTreeMap<_, BTreeMap<u64, [usize; 2]>> = BTreeMap::new();
-        let Some(path) = self.place("ida.stripes") else { return Ok(counts) };
-        let table = Table::open(&path)?;
-        for batch in table.batches(&|name| ["suite", "structure", "intensity", "outcome"].contains(&name)) {
-            let batch = batch?;
-            let columns = batch.columns();
-            let (suites, outcomes) = (columns.texts("suite")?, columns.required_texts("outcome")?);
-            let (structures, levels) =
-                (columns.required_texts("structure")?, columns.required_numbers("intensity")?);
-            for (row, level) in levels.into_iter().enumerate() {
-                let of_structure = counts.entry((suites[row].clone(), structures[row].clone())).or_default();
-                let [n, events] = of_structure.entry(level.to_bits()).or_default();
-                (*n, *events) =
-                    (*n + 1, *events + usize::from(outcomes[row] == Outcome::Overturning.to_string()));
-            }
-        }
-        Ok(counts)
     }
 }
