@@ -4,15 +4,13 @@ use std::f64::consts::TAU;
 
 use super::studies;
 use super::tables::Tables;
-use crate::fragility::{
-    Calibration, Cases, DemandFit, DemandModel, Event, JointPeaks, Measure, OverturningFit,
-};
-use crate::fragility::{Peak, Probability, Scenarios, hybrid_measure, lambda, logit_overturning};
+use crate::fragility::{Calibration, Cases, DemandFit, DemandModel, Event, Measure, OverturningFit};
+use crate::fragility::{Probability, Scenarios, hybrid_measure, lambda};
 use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Suite, intensity};
-use crate::report::Figure;
 use crate::report::figures::{self as draw, MEASURES, MeasureFit, ProbabilityPanel, StructureCurves};
 use crate::report::text::number;
+use crate::report::{Estimate, Figure};
 use crate::rocking::{Outcome, Record, Structure, simulate, trace, with_tail};
 use crate::statistics::scores::log_score;
 use crate::table::motions::Motion;
@@ -327,22 +325,26 @@ fn score(fit: &OverturningFit, cases: &Cases) -> f64 {
     log_score(&p, &events)
 }
 
-/// P_ro over PGA along the motions' median PGV/PGA: the calibrated curve, and the surface as it is shipped.
+/// P_ro over PGA: the means over the motions in each bin of the calibrated curve, and of the surface as it is shipped.
 fn over_pga(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
-    let peaks = JointPeaks::of(&groups[0].pga_m_s2, &groups[0].pgv_m_s)?;
     let structure = |cases: &&Cases| {
         let is_its = |row: &&Calibration| row.suite == cases.suite && row.structure == cases.structure.name;
         let own = tables.calibrations.iter().find(is_its)?;
         let shares: Vec<(f64, bool)> =
             rocked(cases).map(|(k, event)| (cases.pga_m_s2[k] / G_M_S2, event)).collect();
+        let (ends, bins) = (ends(&shares), bins(&shares));
+        let bin = draw::equal_ratios(ends, bins);
         let drawn = |label: &str, row: &Calibration| {
-            curve(label, ratios(ends(&shares)), |pga_g| {
-                let pga = pga_g * G_M_S2;
-                let pgv = pga * peaks.pgv_over_pga(Peak::Pga, pga, 0.0);
-                let measures = IntensityMeasures::new(&cases.structure, pga, pgv, None, None);
-                let logit = logit_overturning(row.kind, &cases.structure, &measures)?;
-                Some(row.probability(logit, Scenarios::Many))
-            })
+            let mut sums = vec![[0.0; 5]; bins];
+            for (&(pga, _), (k, _)) in shares.iter().zip(rocked(cases)) {
+                let logit = row.logit(&cases.structure, &cases.measures(k));
+                let Some(p) = logit.map(|logit| row.probability(logit, Scenarios::Many)) else { continue };
+                let terms = [1.0, pga, p.value, p.low, p.high];
+                sums[bin(pga)].iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            }
+            let means = sums.iter().filter(|sum| sum[0] > 0.0).map(|sum| sum.map(|term| term / sum[0]));
+            let (points, band) = means.map(|[_, pga, p, low, high]| ([pga, p], [low, high])).unzip();
+            draw::Curve { label: label.to_string(), points, band }
         };
         let surface = drawn("surface", &Calibration::shipped(own.kind, &cases.structure, None));
         let curves = vec![drawn("calibrated", own), draw::Curve { band: Vec::new(), ..surface }];
@@ -355,8 +357,11 @@ fn ends(cases: &[(f64, bool)]) -> [f64; 2] {
     cases.iter().fold([f64::INFINITY, 0.0], |[low, high], (value, _)| [low.min(*value), high.max(*value)])
 }
 
+fn bins(cases: &[(f64, bool)]) -> usize {
+    (cases.len() / CASES).clamp(4, BINS)
+}
+
 /// Shares of events in bins of equal ratio, with Wilson's limits.
-fn binned(cases: &[(f64, bool)]) -> Vec<crate::report::Estimate> {
-    let bins = draw::equal_ratios(ends(cases), (cases.len() / CASES).clamp(4, BINS));
-    draw::observed_shares(cases, bins, studies::wilson)
+fn binned(cases: &[(f64, bool)]) -> Vec<Estimate> {
+    draw::observed_shares(cases, draw::equal_ratios(ends(cases), bins(cases)), studies::wilson)
 }

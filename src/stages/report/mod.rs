@@ -5,7 +5,6 @@ mod page;
 mod studies;
 mod tables;
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
@@ -72,8 +71,7 @@ impl Stage for Report {
             bail!("{}: no such folder; expected that of the tables", self.input.display());
         }
         let tables = Tables::read(&self.input)?;
-        let mut figures = figures::all(&tables)?;
-        name_apart(&mut figures);
+        let figures = figures::all(&tables)?;
         let (page, folder) = (self.page(), self.page().with_extension(""));
         let summary = format!("{}: {} figures\n", page.display(), figures.len());
         let key = context.provenance(&summary)?.json();
@@ -88,16 +86,6 @@ impl Stage for Report {
         let html = Page { title: self.title.clone(), byline, ..whole }.html();
         write_file(&page, html.as_bytes())?;
         Ok(summary)
-    }
-}
-
-/// Gives each figure a name of its own, whatever structures are called.
-fn name_apart(figures: &mut [Figure]) {
-    let mut names = HashSet::new();
-    for (place, figure) in figures.iter_mut().enumerate() {
-        if !names.insert(figure.name.clone()) {
-            figure.name = format!("{}-{}", figure.name, place + 1);
-        }
     }
 }
 

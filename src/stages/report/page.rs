@@ -14,7 +14,6 @@ use crate::stages::evaluate::{ObjectRow, RatesRow};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
-use crate::table::provenance::Provenance;
 use crate::units::G_M_S2;
 
 /// Doubts under the table; the others are folded.
@@ -26,37 +25,24 @@ const OF_PAPER: &[&str] =
 const OF_RESPONSES: &[&str] = &["ida", "calibrated", "overturning", "validation", "ranking"];
 
 /// What is said of each stage that made a table.
-const METHOD: [(&str, &str); 8] = [
-    (
-        "synthesize-motions",
-        "Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), high frequencies of a stochastic source, or both.",
-    ),
-    ("import-motions", "Ground motions are records, one component each."),
-    (
-        "simulate",
-        "The rocking of each structure, a rigid block or frame that does not slide, follows from the equation of motion with a loss of velocity at each impact (Eqs. 4 to 6). The demand is the largest rotation over the slenderness *α* (Eq. 7); *p* is the frequency parameter.",
-    ),
-    (
-        "fit-pex",
-        "The demand in safe rocking is regressed on one measure or two, with two planes that meet at 1.3 times the peak acceleration of uplift (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & Structural Dynamics 44, 2015\u{2013}2033).",
-    ),
-    (
-        "fit-pro",
-        "The probability of overturning given rocking is the paper's lognormal curve of one measure or of a hybrid of two, of greatest likelihood (Eqs. 19 to 24), and the universal surface, which predicts it for any block from peak acceleration and velocity; the responses calibrate level and slope of its logit.",
-    ),
-    (
-        "ida",
-        "Incremental dynamic analysis scales each motion until it overturns the structure; a lognormal distribution of these intensities has the median.",
-    ),
-    (
-        "validate",
-        "Validation compares predicted probabilities with the outcomes of motions that were not fitted.",
-    ),
-    (
-        "evaluate",
-        "Annual rates are the integral of the probabilities of the universal surface, calibrated where there are responses, over the hazard of the site. The limits do not have the error of the hazard.",
-    ),
-];
+const METHOD: &str = "\
+synthesize-motions: Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), high frequencies of a \
+stochastic source, or both.
+import-motions: Ground motions are records, one component each.
+simulate: The rocking of each structure, a rigid block or frame that does not slide, follows from the equation of motion \
+with a loss of velocity at each impact (Eqs. 4 to 6). The demand is the largest rotation over the slenderness *α* \
+(Eq. 7); *p* is the frequency parameter.
+fit-pex: The demand in safe rocking is regressed on one measure or two, with two planes that meet at 1.3 times the peak \
+acceleration of uplift (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & Structural \
+Dynamics 44, 2015\u{2013}2033).
+fit-pro: The probability of overturning given rocking is the paper's lognormal curve of one measure or of a hybrid of two \
+(Eqs. 19 to 24), or the universal surface, which predicts it for any block from peak acceleration and velocity; the \
+responses calibrate level and slope of its logit.
+ida: Incremental dynamic analysis scales each motion until it overturns the structure; a lognormal distribution of these \
+intensities has the median.
+validate: Validation compares predicted probabilities with the outcomes of motions that were not fitted.
+evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal surface, \
+calibrated where there are responses. The limits do not have the error of the hazard.";
 
 /// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
@@ -71,7 +57,8 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     doubts.sort_unstable();
     doubts.dedup();
     let others = doubts.split_off(doubts.len().min(MOST_DOUBTS));
-    let method = METHOD.iter().filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
+    let method = METHOD.lines().filter_map(|line| line.split_once(": "));
+    let method = method.filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
     let section = |heading: &str, paragraphs, tables, figures| Section {
         heading: heading.to_string(),
         paragraphs,
@@ -89,7 +76,8 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
 }
 
 /// Some fields of rows, under their names.
-fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields: &[&str]) -> Table {
+fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields: &str) -> Table {
+    let fields: Vec<&str> = fields.split('|').collect();
     let rows: Vec<Value> = rows.into_iter().map(|row| json!(row)).collect();
     let plain = |text: &str| if text.contains('{') { text.to_string() } else { text.replace('_', " ") };
     let is_number = |value: &Value| match value {
@@ -160,16 +148,8 @@ fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
             "doubt": row.doubts,
         })
     };
-    let fields = [
-        "object",
-        "size",
-        "rocks a year",
-        "overturns a year",
-        "once in years",
-        &percent,
-        "friction needed",
-        "doubt",
-    ];
+    let fields =
+        format!("object|size|rocks a year|overturns a year|once in years|{percent}|friction needed|doubt");
     table("", objects.iter().map(row), &fields)
 }
 
@@ -203,7 +183,7 @@ fn planes(compared: &[Comparison]) -> Table {
     table(
         "Table II, the planes of the demand below and above the transition, published / ours. *p* is the probability of so large a difference between seeds.",
         of_planes.map(row),
-        &["structure", "motions", "plane", "ln *a*", "*b*_{1}", "*b*_{2}", "*R*^{2}", "*p*"],
+        "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}|*p*",
     )
 }
 
@@ -266,16 +246,9 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
             (median.as_str()): theta, "dispersion": beta,
         })
     };
-    let fields = [
-        "structure",
-        "motions",
-        "number",
-        "rock",
-        "overturn",
-        "as often as the surface predicts",
-        &median,
-        "dispersion",
-    ];
+    let fields = format!(
+        "structure|motions|number|rock|overturn|as often as the surface predicts|{median}|dispersion"
+    );
     Ok(table(
         "Motions that rock and overturn each structure, with 95 % limits",
         tables.groups.iter().map(row),
@@ -286,40 +259,29 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
 /// The tables that are folded.
 fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let is_of_plane =
-        |number: &&Comparison| number.quantity.starts_with("low_") || number.quantity.starts_with("high_");
+        |number: &&Comparison| ["low_", "high_"].iter().any(|side| number.quantity.starts_with(side));
     let published = tables.compared.iter().filter(|number| !is_of_plane(number));
     let validations: Vec<Validation> = tables.rows("validation")?;
     let mut all = vec![
         table(
             "Further numbers of the paper beside ours; *z* is (published \u{2212} mean) / sd over seeds",
             published,
-            &["quantity", "structure", "suite", "published", "ours", "mean", "sd", "z"],
+            "quantity|structure|suite|published|ours|mean|sd|z",
         ),
         table(
             "Lognormal curves of overturning",
             &tables.curves,
-            &["structure", "suite", "im_x", "im_y", "auc", "brier", "n", "n_events", "status"],
+            "structure|suite|im_x|im_y|auc|n|n_events|status",
         ),
         table(
             "Regressions of the demand",
             &tables.demand,
-            &["structure", "suite", "model", "im_x", "im_y", "r2", "beta", "n", "status"],
+            "structure|suite|model|im_x|im_y|r2|beta|n|status",
         ),
         table(
             "Validation: events observed and expected",
             validations,
-            &[
-                "structure",
-                "suite",
-                "event",
-                "model",
-                "n",
-                "observed",
-                "expected",
-                "expected_error",
-                "log_score",
-                "calibration_slope",
-            ],
+            "structure|suite|event|model|n|observed|expected|expected_error|log_score|calibration_slope",
         ),
     ];
     if !(tables.objects.is_empty() && tables.compared.is_empty()) {
@@ -330,19 +292,11 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
 }
 
 fn files(tables: &Tables) -> Table {
-    let options = |made: &Provenance| {
-        made.arguments
-            .iter()
-            .map(|(name, values)| format!("{name} {}", values.join(" ")))
-            .collect::<Vec<_>>()
-            .join("; ")
-    };
-    let row = |(path, rows, made): &(std::path::PathBuf, u64, Option<Provenance>)| {
-        json!({
-            "file": path.file_name().map(|name| name.to_string_lossy()), "rows": rows,
-            "made by": made.as_ref().map_or("another program".to_string(), |made| format!("{} {}", made.stage, made.version)),
-            "with": made.as_ref().map(options),
-        })
-    };
-    table("", tables.files.iter().map(row), &["file", "made by", "with", "rows"])
+    let rows = tables.files.iter().map(|(path, rows, made)| {
+        let by = made
+            .as_ref()
+            .map_or("another program".to_string(), |made| format!("{} {}", made.stage, made.version));
+        json!({ "file": path.file_name().map(|name| name.to_string_lossy()), "made by": by, "rows": rows })
+    });
+    table("", rows, "file|made by|rows")
 }
