@@ -47,9 +47,7 @@ fn figures(count: usize) -> Vec<Figure> {
     let frame =
         StructureCurves { name: "frame".to_string(), curves: vec![curve; 2], shares: vec![share; count] };
     let panel = ProbabilityPanel { structures: vec![frame; count.min(2)], ..Default::default() };
-    let bars = vec![("overturns".to_string(), vec![[0.1, 0.3, 0.6]; count])];
-    let site = SiteRates { hazard: vec![[0.1, 1e-2]; count], contributions: bars, ..Default::default() };
-    let object = ObjectRate { name: "rack ".repeat(30), rate: 1e-3, low: f64::NAN, high: 2e-3 };
+    let object = AnnualRate { name: "rack ".repeat(30), rate: 1e-3, low: f64::NAN, high: 2e-3 };
     let analysis = Ida { capacities: vec![0.3; count], motions: count, ..Default::default() };
     let named =
         NamedEstimates { series: vec![("im4".to_string(), vec![share]); count], ..Default::default() };
@@ -65,7 +63,7 @@ fn figures(count: usize) -> Vec<Figure> {
         overturning(&[panel.clone(), panel.clone()]),
         hybrids(from_ref(&panel)),
         calibrated(&[panel]),
-        rates(&site),
+        rates(&vec![object.clone(); count]),
         list(&vec![object; count]),
         ida(&[analysis]),
         validation(from_ref(&named)),

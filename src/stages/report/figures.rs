@@ -44,6 +44,7 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
         groups.iter().zip(&fits).map(|(cases, (_, fits))| draw::regressions(&group(cases), fits));
     let figures = [
         drawn(draw::list, studies::objects(tables)),
+        drawn(draw::rates, studies::states(tables)),
         drawn(draw::ida, studies::analyses(tables)?),
         drawn(draw::hybrids, over(Measure::Im4, Some(Measure::Im3Inverse))),
         drawn(draw::calibrated, panels(&|groups| over_pga(tables, groups))),

@@ -19,7 +19,7 @@ use crate::units::G_M_S2;
 /// Doubts under the table; the others are folded.
 const MOST_DOUBTS: usize = 3;
 /// Figures that are seen: of annual rates, of the paper, of other responses. The others are folded.
-const OF_RATES: &[&str] = &["list"];
+const OF_RATES: &[&str] = &["list", "rates"];
 const OF_PAPER: &[&str] =
     &["overturning-hybrid", "calibrated", "motion", "similarity", "planes", "exceedance"];
 const OF_RESPONSES: &[&str] = &["ida", "calibrated", "overturning", "validation", "ranking"];
@@ -145,7 +145,7 @@ fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
             "once in years": once,
             (percent.as_str()): limits([row.p_overturning, row.p_overturning_low, row.p_overturning_high], 100.0),
             "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
-            "doubt": row.doubts,
+            "doubt": row.doubts.as_ref().filter(|_| row.rocking_per_year.is_none()),
         })
     };
     let fields =

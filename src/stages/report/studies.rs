@@ -6,7 +6,7 @@ use super::figures::title;
 use super::tables::Tables;
 use crate::fragility::{Z_95, p_overturning};
 use crate::report::Estimate;
-use crate::report::figures::{Curve, Ida, MEASURES, NamedEstimates, ObjectRate, observed_shares};
+use crate::report::figures::{AnnualRate, Curve, Ida, MEASURES, NamedEstimates, observed_shares};
 use crate::rocking::{CapacityStatus, Outcome};
 use crate::stages::evaluate::RatesRow;
 use crate::stages::ida::{CapacityFitRow, CapacityRow, ScaledMeasure};
@@ -22,26 +22,30 @@ const STEPS: usize = 100;
 const SETS: i64 = 6;
 const PAPER: [&str; 2] = ["im3:im4", "im5"];
 
-/// The annual rates at which objects overturn, or at which one reaches each limit state.
-pub fn objects(tables: &Tables) -> Vec<ObjectRate> {
-    let rate = |name: &str, rates: [Option<f64>; 3]| {
-        let [rate, low, high] = rates.map(|rate| rate.unwrap_or(f64::NAN));
-        ObjectRate { name: name.to_string(), rate, low, high }
-    };
-    let overturning = |name: &str, row: &RatesRow| {
-        rate(name, [row.overturning_per_year, row.overturning_per_year_low, row.overturning_per_year_high])
-    };
-    match &tables.objects[..] {
-        [(_, one)] => vec![
-            rate("rocks", [one.rocking_per_year, None, None]),
-            rate(
-                "rocks too far",
-                [one.failure_per_year, one.failure_per_year_low, one.failure_per_year_high],
-            ),
-            overturning("overturns", one),
-        ],
-        all => all.iter().take(OBJECTS).map(|(object, row)| overturning(&object.structure, row)).collect(),
-    }
+fn rate(name: &str, rates: [Option<f64>; 3]) -> AnnualRate {
+    let [rate, low, high] = rates.map(|rate| rate.unwrap_or(f64::NAN));
+    AnnualRate { name: name.to_string(), rate, low, high }
+}
+
+fn overturning(name: &str, row: &RatesRow) -> AnnualRate {
+    rate(name, [row.overturning_per_year, row.overturning_per_year_low, row.overturning_per_year_high])
+}
+
+/// Annual rates of overturning of objects, if there are several.
+pub fn objects(tables: &Tables) -> Vec<AnnualRate> {
+    let objects = tables.objects.iter().filter(|_| tables.objects.len() > 1).take(OBJECTS);
+    objects.map(|(object, row)| overturning(&object.structure, row)).collect()
+}
+
+/// Annual rates of the limit states, if there is one object.
+pub fn states(tables: &Tables) -> Vec<AnnualRate> {
+    let [(_, row)] = &tables.objects[..] else { return Vec::new() };
+    let failure = [row.failure_per_year, row.failure_per_year_low, row.failure_per_year_high];
+    vec![
+        rate("rocks", [row.rocking_per_year, None, None]),
+        rate("rocks too far, or overturns", failure),
+        overturning("overturns", row),
+    ]
 }
 
 /// The measure that is scaled, with its unit.
