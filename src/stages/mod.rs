@@ -47,5 +47,7 @@ stages! {
     compare_paper::ComparePaper,
     rank_ims::RankIms,
     evaluate::Evaluate,
+    export::Export,
+    validate::Validate,
     report::Report,
 }
