@@ -3,7 +3,7 @@
 //! ```text
 //! structure    p, alpha, eta and where they come from
 //! record       the ground acceleration as a piecewise-linear function of time
-//! reference    Eqs. 4 to 6 as the paper writes them, one structure and one small step at a time: read this first
+//! reference    Eqs. 4 to 6, motion, uplift and impact, as the paper writes them: read this first
 //! taylor       the equation of motion (Eq. 4): the rotation over one step as a Taylor polynomial
 //! uplift       where a structure at rest leaves its base (Eq. 5)
 //! vector       the numbers in which all of this is written: one or several to a register, a lane each

@@ -25,7 +25,8 @@ struct Rocking {
     velocity: f64,
 }
 
-/// Computes the angular acceleration of a structure that leans to a side, from its rotation and the ground acceleration a over g (Eq. 4):
+/// Computes the angular acceleration of a structure that leans to a side, from its rotation and the ground acceleration a over g, by
+/// the equation of motion (Eq. 4):
 /// theta'' = -p^2 [sin(alpha sgn theta - theta) + a/g cos(alpha sgn theta - theta)].
 fn angular_acceleration(structure: &Structure, side: f64, theta: f64, ground: f64) -> f64 {
     let p2 = structure.p_rad_s * structure.p_rad_s;
@@ -45,7 +46,7 @@ fn impact(structure: &Structure, before: Rocking) -> Rocking {
     Rocking { side: -before.side, theta: 0.0, velocity: structure.eta * before.velocity }
 }
 
-/// Follows Eq. 4 for `h` seconds by the method of Runge and Kutta; `ground` is the ground acceleration over g after so many seconds.
+/// Follows the equation of motion (Eq. 4) for `h` seconds by the method of Runge and Kutta; `ground` is the ground acceleration over g after so many seconds.
 fn step(structure: &Structure, from: Rocking, ground: impl Fn(f64) -> f64, h: f64) -> Rocking {
     let Rocking { side, theta, velocity } = from;
     let acceleration = |time: f64, theta: f64| angular_acceleration(structure, side, theta, ground(time));

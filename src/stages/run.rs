@@ -14,10 +14,10 @@ use crate::pipeline::context::Context;
 /// Runs what must run. Returns what the last stages print.
 pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     calls.iter().try_for_each(|call| call.stage.check())?;
-    let mut printed = String::new();
+    let (mut printed, mut made) = (String::new(), HashMap::new());
     for call in calls {
         let start = Instant::now();
-        let done = cache::run(call, context).with_context(|| call.name.clone())?;
+        let done = cache::run(call, context, &made).with_context(|| call.name.clone())?;
         if !context.quiet {
             let took = if done.ran {
                 format!("{:.2} s", start.elapsed().as_secs_f64())
@@ -27,6 +27,7 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
             eprintln!("{:20} {took}", call.name);
             done.doubts.iter().for_each(|doubt| eprintln!("warning: {doubt}"));
         }
+        made.extend(call.stage.outputs().into_iter().map(|path| (path, done.key.clone())));
         printed = done.summary;
     }
     Ok(printed)
