@@ -11,7 +11,7 @@ const LAYERS: [&[&str]; 7] = [
     &["table", "export", "report"],
     &["studies", "records"],
     &["fragility", "hazard", "paper", "sheet"],
-    &["motion", "rocking", "random", "statistics", "doubt", "keyword", "units"],
+    &["motion", "rocking", "random", "statistics", "keyword", "units", "doubt"],
 ];
 
 fn layer(room: &str) -> usize {
