@@ -12,12 +12,13 @@ use crate::keyword::nearest;
 use crate::pipeline::UsageError;
 use crate::pipeline::call::is_input;
 
-/// Inputs in a run besides default files: flag, file, and the stage whose section must exist.
-const READ_IN_RUN: [(&str, &str, &str); 4] = [
+/// Files of a run besides those that flags name by default: flag, file, and the stage whose section must be there.
+const IN_RUN: [(&str, &str, &str); 5] = [
     ("fits", ".", "fit-pro"),
     ("motions", "motions.parquet", "synthesize-motions"),
     ("motions", "motions.parquet", "import-motions"),
     ("responses", "responses.parquet", "simulate"),
+    ("out", "evaluated.parquet", "evaluate"),
 ];
 
 /// A pipeline file.
@@ -121,7 +122,7 @@ impl Config {
                 .first()
                 .filter(names_file)
                 .filter(|_| is_input(arg) || flag == "out");
-            let in_run = READ_IN_RUN.iter().find(|(other, _, maker)| *other == flag && self.has(maker));
+            let in_run = IN_RUN.iter().find(|(other, _, maker)| *other == flag && self.has(maker));
             let file = default.map(PathBuf::from).or(in_run.map(|(_, file, _)| PathBuf::from(file)));
             if let Some(file) = file.filter(|_| flag != "config") {
                 arguments.push(assigned(flag, folder.join(file).as_os_str()));

@@ -131,7 +131,7 @@ fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
     }
     print(&done.summary)?;
     if !context.quiet {
-        done.doubts.iter().for_each(|doubt| eprintln!("warning: {doubt}"));
+        run::warn(&done.doubts);
     }
     Ok(())
 }

@@ -11,6 +11,7 @@
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
 
+mod along;
 mod calibration;
 mod capacity;
 mod cases;
@@ -24,6 +25,7 @@ mod peaks;
 mod surface;
 mod tree;
 
+pub use along::{Along, Ratio, limit_states_at};
 pub use calibration::{Calibration, Scenarios};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::{CaseRow, Cases, CasesBuilder, CasesError, Event, MOST_CASES, Sample, SharedBy};

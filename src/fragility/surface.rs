@@ -117,7 +117,7 @@ pub(super) fn peaks(kind: Kind) -> JointPeaks {
 
 const FEATURES: [&str; 6] = ["x", "w", "r", "eta", "p", "limit"];
 
-/// Computes x = ln(ln IM4 + 0.2), w = ln IM5 - 0.4 l, r = -ln IM3, (eta - 0.85)/0.1, ln(p/2) and l = ln(c/0.2) of a
+/// Computes x = ln(ln IM4 + 0.2), w = ln IM5 - 0.4 l, r = ln IM3, (eta - 0.85)/0.1, ln(p/2) and l = ln(c/0.2) of a
 /// limit state c, 0 of P_ro. None where the ground has no velocity.
 fn features(
     structure: &Structure,
@@ -128,7 +128,7 @@ fn features(
     Some([
         (measures.im4.max(1.0).ln() + 0.2).ln(),
         Measure::Im5.among(measures)?.ln() - 0.4 * limit,
-        -Measure::Im3.among(measures)?.ln(),
+        Measure::Im3.among(measures)?.ln(),
         (structure.eta - 0.85) / 0.1,
         (structure.p_rad_s / 2.0).ln(),
         limit,

@@ -46,4 +46,7 @@ stages! {
     fit_pro::FitPro,
     compare_paper::ComparePaper,
     rank_ims::RankIms,
+    evaluate::Evaluate,
+    export::Export,
+    validate::Validate,
 }

@@ -126,6 +126,24 @@ impl FittedModels {
         Ok((model, (overturning.n == 0).then_some(Doubt::NotFitted).into_iter().collect()))
     }
 
+    /// All fitted structures, or the one named.
+    pub fn structures(&self) -> Vec<Structure> {
+        let mut structures: Vec<Structure> = Vec::new();
+        for row in &self.overturning {
+            let Calibration { structure: name, p_rad_s, alpha_rad, eta, .. } = row;
+            let is_wanted = self.args.name.as_ref().is_none_or(|wanted| wanted == name);
+            if is_wanted && structures.iter().all(|other| other.name != *name) {
+                structures.push(Structure {
+                    name: name.clone(),
+                    p_rad_s: *p_rad_s,
+                    alpha_rad: *alpha_rad,
+                    eta: *eta,
+                });
+            }
+        }
+        structures
+    }
+
     fn folder(&self) -> String {
         self.args.fits.as_ref().map_or(String::new(), |folder| folder.display().to_string())
     }

@@ -1,0 +1,173 @@
+//! Probabilities along one peak: at each intensity averaged over PGV / PGA of the motions that have it.
+
+use std::f64::consts::TAU;
+
+use super::calibration::Scenarios;
+use super::model::Model;
+use super::peaks::Peak;
+use super::tree::Probability;
+use crate::motion::IntensityMeasures;
+use crate::rocking::Structure;
+
+/// PGV / PGA of motions of one intensity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ratio {
+    /// Lognormal, as in the motions that the model stands for.
+    Distributed,
+    /// So many standard deviations of its logarithm above the median.
+    Deviations(f64),
+    /// The same for all motions, s.
+    Seconds(f64),
+}
+
+/// The motions of one peak, as they meet a structure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Along<'a> {
+    pub model: &'a Model,
+    pub structure: &'a Structure,
+    pub peak: Peak,
+    pub ratio: Ratio,
+}
+
+/// Probabilities of LS1, LS2 and LS3 under motions of a PGA and PGV (m/s2 and m/s); NaN where the model has none.
+pub fn limit_states_at(
+    model: &Model,
+    structure: &Structure,
+    [pga_m_s2, pgv_m_s]: [f64; 2],
+    scenarios: Scenarios,
+) -> [Probability; 3] {
+    let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None);
+    let probabilities = model.probabilities(structure, &measures, scenarios);
+    let (rocking, unknown) = (Probability::exact(1.0 - probabilities.p_nr), Probability::exact(f64::NAN));
+    probabilities.limit_states().unwrap_or([rocking, unknown, unknown])
+}
+
+/// Standard deviations from the median within which all ratios lie that count.
+const FARTHEST: f64 = 5.0;
+/// Step of the trapezoidal rule, in standard deviations: exact to 1e-6 for smooth functions under a normal density.
+const STEP: f64 = 0.625;
+/// Widest panel of the Gauss-Legendre rule of order 4, whose nodes and weights on (0, 1) these are.
+const PANEL: f64 = 1.25;
+const GAUSS_LEGENDRE: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
+
+impl<'a> Along<'a> {
+    /// The same motions with another ratio.
+    pub fn with(self, ratio: Ratio) -> Along<'a> {
+        Along { ratio, ..self }
+    }
+
+    /// PGA and PGV (m/s2 and m/s) of the motions of median PGV / PGA.
+    pub fn median_motion(&self, intensity: f64) -> [f64; 2] {
+        self.peaks(intensity, 0.0)
+    }
+
+    /// Probabilities of LS1, LS2 and LS3 at an intensity, with limits; NaN where the model has none.
+    pub fn limit_states(&self, intensity: f64, scenarios: Scenarios) -> [Probability; 3] {
+        let mut mean = [Probability::exact(0.0); 3];
+        for (node, weight) in self.nodes(intensity) {
+            let peaks = self.peaks(intensity, node);
+            let states = limit_states_at(self.model, self.structure, peaks, scenarios);
+            for (sum, state) in mean.iter_mut().zip(states) {
+                sum.value += weight * state.value;
+                sum.low += weight * state.low;
+                sum.high += weight * state.high;
+            }
+        }
+        mean
+    }
+
+    /// Least intensity that uplifts the structure, and that which does so with the median PGV / PGA.
+    pub fn uplift(&self) -> [f64; 2] {
+        let uplift = self.structure.uplift_acceleration_m_s2();
+        [-FARTHEST, 0.0].map(|node| self.intensity_of(uplift, node))
+    }
+
+    /// Intensities at which a probability jumps: that of uplift, and that of the planes' transition. Over a
+    /// distribution of PGA none does.
+    pub fn jumps(&self) -> Vec<f64> {
+        match (self.peak, self.ratio) {
+            (Peak::Pgv, Ratio::Distributed) => Vec::new(),
+            _ => self.jumps_of_pga().into_iter().map(|pga| self.intensity_of(pga, 0.0)).collect(),
+        }
+    }
+
+    /// PGA at which a probability jumps, m/s2, rising.
+    fn jumps_of_pga(&self) -> Vec<f64> {
+        let transitions: Vec<f64> = match self.model {
+            Model::Paper { demand, .. } => demand.iter().filter_map(|fit| fit.range_low).collect(),
+            Model::Calibrated { .. } => Vec::new(),
+        };
+        let uplift = self.structure.uplift_acceleration_m_s2();
+        let levels = std::iter::once(1.0).chain(transitions.into_iter().filter(|&im4| im4 > 1.0));
+        levels.map(|im4| im4 * uplift).collect()
+    }
+
+    /// The intensity at which motions so many standard deviations from the median have a PGA (m/s2): by bisection,
+    /// since the median bends.
+    fn intensity_of(&self, pga_m_s2: f64, node: f64) -> f64 {
+        if self.peak == Peak::Pga {
+            return pga_m_s2;
+        }
+        let (mut low, mut high) = (1e-6_f64, 1e3_f64);
+        while high > low * (1.0 + 1e-12) {
+            let middle = (low * high).sqrt();
+            if self.peaks(middle, node)[0] < pga_m_s2 { low = middle } else { high = middle }
+        }
+        high
+    }
+
+    /// Standard deviations from the median, with weights that sum to 1, but for motions of too little PGA.
+    fn nodes(&self, intensity: f64) -> Vec<(f64, f64)> {
+        let density = |z: f64| libm::exp(-0.5 * z * z) / TAU.sqrt();
+        match (self.ratio, self.peak) {
+            (Ratio::Distributed, Peak::Pga) => {
+                let last = (FARTHEST / STEP) as i32;
+                (-last..=last).map(|k| STEP * f64::from(k)).map(|z| (z, STEP * density(z))).collect()
+            }
+            (Ratio::Distributed, Peak::Pgv) => {
+                let edges = self.edges(intensity);
+                let panels = edges.windows(2).flat_map(|edge| {
+                    let panels = ((edge[1] - edge[0]) / PANEL).ceil().max(1.0);
+                    let (start, width) = (edge[0], (edge[1] - edge[0]) / panels);
+                    (0..panels as usize).map(move |panel| (start + width * panel as f64, width))
+                });
+                let nodes = |(start, width): (f64, f64)| {
+                    GAUSS_LEGENDRE.map(|(node, weight)| (start + node * width, weight * width))
+                };
+                panels.flat_map(nodes).map(|(z, width)| (z, width * density(z))).collect()
+            }
+            _ => vec![(0.0, 1.0)],
+        }
+    }
+
+    /// Standard deviations between which the motions of a PGV have probabilities without a jump.
+    fn edges(&self, pgv_m_s: f64) -> Vec<f64> {
+        let ln_ratio = |z| libm::log(self.peaks(pgv_m_s, z)[1] / self.peaks(pgv_m_s, z)[0]);
+        let (median, sd) = (ln_ratio(0.0), ln_ratio(1.0) - ln_ratio(0.0));
+        let of_pga = |pga: f64| (libm::log(pgv_m_s / pga) - median) / sd;
+        let jumps = self.jumps_of_pga().into_iter().map(of_pga).map(|z| z.clamp(-FARTHEST, FARTHEST));
+        // Those with less PGA than uplifts the structure, behind the last, do not count.
+        let mut edges: Vec<f64> = std::iter::once(-FARTHEST).chain(jumps).collect();
+        edges.sort_by(f64::total_cmp);
+        edges.dedup();
+        edges
+    }
+
+    fn peaks(&self, intensity: f64, node: f64) -> [f64; 2] {
+        let of_model = |deviations| self.model.peaks().pgv_over_pga(self.peak, intensity, deviations);
+        let ratio = match self.ratio {
+            Ratio::Distributed => of_model(node),
+            Ratio::Deviations(deviations) => of_model(deviations),
+            Ratio::Seconds(ratio) => ratio,
+        };
+        match self.peak {
+            Peak::Pga => [intensity, intensity * ratio],
+            Peak::Pgv => [intensity / ratio, intensity],
+        }
+    }
+}
