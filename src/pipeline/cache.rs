@@ -1,14 +1,13 @@
 //! Runs a call unless its files are up to date: the key in their footers equals the key of the call.
 
 use std::collections::HashMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::UsageError;
 use super::call::Call;
 use super::context::Context;
 use crate::table::TableError;
-use crate::table::provenance::Provenance;
+use crate::table::provenance::{Provenance, head};
 
 /// Whether the files of a call are up to date.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,12 +83,10 @@ fn expect_replaceable(out: &Path, call: &Call, force: bool) -> anyhow::Result<()
     Ok(())
 }
 
-/// Returns whether rockfrag wrote a file, by the footer of a table or the first bytes of a text.
-fn is_ours(path: &Path) -> bool {
+/// Whether rockfrag wrote a file: tables say so in their footers, texts at their beginning.
+pub fn is_ours(path: &Path) -> bool {
     if path.extension().is_some_and(|extension| extension == "parquet") {
         return Provenance::of_file(path).is_ok_and(|made| made.is_some());
     }
-    let mut head = Vec::new();
-    let read = std::fs::File::open(path).and_then(|file| file.take(4096).read_to_end(&mut head));
-    read.is_ok() && String::from_utf8_lossy(&head).contains("rockfrag")
+    head(path).is_ok_and(|head| head.contains("rockfrag"))
 }

@@ -8,7 +8,7 @@ use clap::{Arg, ArgMatches, Command, ValueHint};
 use super::stage::Stage;
 use crate::table::TableError;
 use crate::table::file::Partition;
-use crate::table::provenance::{Provenance, key_of};
+use crate::table::provenance::{Provenance, key_with};
 
 /// What is read of a folder of fits.
 pub const FITS: [&str; 4] =
@@ -65,9 +65,8 @@ impl Call {
     pub fn provenance(&self, planned: &HashMap<PathBuf, String>) -> Result<Provenance, TableError> {
         let is_word = |path: &Path| path.extension().is_none() && !path.exists();
         let key = |path: &Path| match planned.get(path) {
-            Some(key) => Ok(key.clone()),
             None if is_word(path) => Ok(path.display().to_string()),
-            None => key_of(path),
+            _ => key_with(path, planned),
         };
         let inputs = self.inputs.iter().map(|(flag, paths)| {
             let keys = paths.iter().map(|path| key(path)).collect::<Result<Vec<_>, _>>()?;

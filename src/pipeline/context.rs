@@ -100,13 +100,18 @@ impl Context {
 
     /// Ends a table with provenance, printed summary and doubts. A changed input is an error.
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
+        writer.finish(&self.provenance(summary)?)
+    }
+
+    /// What a file that is ready says of how it was made, unless what was read has changed meanwhile.
+    pub fn provenance(&self, summary: &str) -> Result<Provenance, TableError> {
         for (path, key) in &self.inputs {
             if key_of(path)? != *key {
                 return Err(TableError::table(path, "changed by another run; run again"));
             }
         }
         let doubts = self.doubts().lines();
-        writer.finish(&Provenance { summary: summary.to_string(), doubts, ..self.made.clone() })
+        Ok(Provenance { summary: summary.to_string(), doubts, ..self.made.clone() })
     }
 
     /// Writes a table of rows.

@@ -1,7 +1,9 @@
-//! Provenance of a file, and the key that shows whether it is up to date: JSON in the footer.
+//! What made a file, and the key by which a stage knows that it is up to date: one JSON, in the footer of a table or in the first
+//! lines of a page or figure.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use parquet::file::metadata::{KeyValue, ParquetMetaData};
@@ -12,7 +14,10 @@ use super::file;
 
 /// Key of the JSON among the key-value metadata.
 const KEY: &str = "rockfrag";
-/// Writer of the file; another program that rewrites it puts its own name here.
+/// What stands before the JSON in a page or figure, and within how many bytes it is looked for.
+const META: &str = "name=\"rockfrag\" content=\"";
+const HEAD: u64 = 8192;
+/// Who wrote the file; another program that rewrites it puts its own name here.
 pub const CREATED_BY: &str = concat!("rockfrag ", env!("CARGO_PKG_VERSION"));
 
 /// The provenance of a file.
@@ -38,9 +43,20 @@ impl Provenance {
         blake3::hash(text.as_bytes()).to_hex().to_string()
     }
 
-    /// Reads the provenance of a Parquet file; `None` if another program wrote it.
+    /// Reads it from a Parquet file, a page or a figure; `None` where another program wrote the file.
     pub fn of_file(path: &Path) -> Result<Option<Provenance>, TableError> {
-        Ok(Provenance::of_footer(file::metadata(path)?.metadata()))
+        let is_text = path.extension().is_some_and(|ending| ending == "html" || ending == "svg");
+        match is_text {
+            true => Ok(Provenance::of_text(&head(path)?)),
+            false => Ok(Provenance::of_footer(file::metadata(path)?.metadata())),
+        }
+    }
+
+    /// Reads it from the beginning of a page or figure.
+    fn of_text(text: &str) -> Option<Provenance> {
+        let (_, rest) = text.split_once(META)?;
+        let json = rest.split_once('"')?.0.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">");
+        serde_json::from_str(&json.replace("&amp;", "&")).ok()
     }
 
     /// Reads the provenance in a footer; `None` if another program wrote it.
@@ -53,7 +69,12 @@ impl Provenance {
 
     /// Returns the entry of the footer.
     pub fn key_value(&self) -> KeyValue {
-        KeyValue::new(KEY.to_string(), serde_json::json!(self).to_string())
+        KeyValue::new(KEY.to_string(), self.json())
+    }
+
+    /// As text.
+    pub fn json(&self) -> String {
+        serde_json::json!(self).to_string()
     }
 
     /// Describes the first difference from the planned provenance.
@@ -95,18 +116,38 @@ pub fn files_below(paths: &[PathBuf]) -> Result<Vec<PathBuf>, TableError> {
     Ok(files)
 }
 
-/// Computes the key of an input: the one in its footer if rockfrag wrote it, otherwise the hash of its bytes;
-/// for a folder, the hash of the keys of its tables, or of all files if there is no table.
+/// The beginning of a file, as text.
+pub fn head(path: &Path) -> Result<String, TableError> {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    read.map_err(|source| TableError::io(path, source))?;
+    Ok(String::from_utf8_lossy(&head).into_owned())
+}
+
+/// The key of an input: that in its footer if rockfrag wrote it, the hash of its bytes if another program did; of a folder
+/// the hash of the keys of the tables in it and below, or of all files where there is none.
 pub fn key_of(path: &Path) -> Result<String, TableError> {
+    key_with(path, &HashMap::new())
+}
+
+/// The same, with the keys of files that are yet to be made.
+pub fn key_with(path: &Path, planned: &HashMap<PathBuf, String>) -> Result<String, TableError> {
+    if let Some(key) = planned.get(path) {
+        return Ok(key.clone());
+    }
+    let is_table = |path: &Path| path.extension().is_some_and(|extension| extension == "parquet");
     if path.is_dir() {
-        let files = match file::tables(path)? {
-            tables if tables.is_empty() => files_below(&[path.to_path_buf()])?,
-            tables => tables,
-        };
-        let keys = files.iter().map(|file| key_of(file)).collect::<Result<Vec<_>, _>>()?;
+        let mut files = files_below(&[path.to_path_buf()])?;
+        let to_come = planned.keys().filter(|file| file.starts_with(path) && !file.exists());
+        files.extend(to_come.cloned());
+        files.sort_unstable();
+        if files.iter().any(|file| is_table(file)) {
+            files.retain(|file| is_table(file));
+        }
+        let keys = files.iter().map(|file| key_with(file, planned)).collect::<Result<Vec<_>, _>>()?;
         return Ok(blake3::hash(keys.join(" ").as_bytes()).to_hex().to_string());
     }
-    if path.extension().is_some_and(|extension| extension == "parquet")
+    if is_table(path)
         && let Ok(Some(made)) = Provenance::of_file(path)
     {
         return Ok(made.key());
