@@ -2,6 +2,7 @@
 
 pub mod config;
 
+use std::collections::HashMap;
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -124,7 +125,7 @@ fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
     let common = Common::from_arg_matches(&matches)?;
     set_threads(&common)?;
     let context = Context::new(&common);
-    let done = cache::run(&call, &context)?;
+    let done = cache::run(&call, &context, &HashMap::new())?;
     if !done.ran && !context.quiet {
         eprintln!("{}: up to date", call.name);
     }
@@ -165,13 +166,18 @@ fn calls_of(config: &Config, out: Option<PathBuf>, pipeline: &Path) -> anyhow::R
     let commands = stage_commands();
     config.check(&commands, pipeline)?;
     let folder = config.run_folder(out);
-    let call = |command: &Command| Ok(parsed(command, config.section_of_run(command, &folder)?)?.0);
-    let named = |error: anyhow::Error| match error.downcast::<clap::Error>() {
-        Ok(refused) => UsageError::because(format!("{}: {}", pipeline.display(), first_line(&refused))),
-        Err(error) => error,
+    let call = |command: &Command| match parsed(command, config.section_of_run(command, &folder)?) {
+        Ok((call, _)) => Ok(call),
+        Err(error) => Err(match error.downcast_ref::<clap::Error>() {
+            Some(refused) => {
+                let (file, section) = (pipeline.display(), command.get_name());
+                UsageError::because(format!("{file}: {section}: {}", first_line(refused)))
+            }
+            None => error,
+        }),
     };
     let calls = commands.iter().filter(|command| config.has(command.get_name())).map(call);
-    let calls = calls.collect::<anyhow::Result<Vec<Call>>>().map_err(named)?;
+    let calls = calls.collect::<anyhow::Result<Vec<Call>>>()?;
     match calls.is_empty() {
         true => Err(UsageError::because(format!("{}: no stage; expected at least one", pipeline.display()))),
         false => Ok(calls),

@@ -27,6 +27,8 @@ pub struct Done {
     pub doubts: Vec<String>,
     /// Whether the stage ran; otherwise its files were up to date.
     pub ran: bool,
+    /// The key of its files.
+    pub key: String,
 }
 
 /// Compares the provenance of the files of a call with the planned one.
@@ -45,21 +47,23 @@ pub fn freshness(call: &Call, planned: &Provenance) -> Freshness {
     last.map_or(Freshness::Stale("it only prints".to_string()), Freshness::UpToDate)
 }
 
-/// Runs a call unless its files are up to date.
-pub fn run(call: &Call, context: &Context) -> anyhow::Result<Done> {
+/// Runs a call unless its files are up to date. `made` has the keys of files that the same run made before: its inputs must
+/// still be these.
+pub fn run(call: &Call, context: &Context, made: &HashMap<PathBuf, String>) -> anyhow::Result<Done> {
     call.stage.check()?;
-    let planned = call.provenance(&HashMap::new())?;
+    let planned = call.provenance(made)?;
+    let key = planned.key();
     if !context.force
         && let Freshness::UpToDate(made) = freshness(call, &planned)
     {
-        return Ok(Done { summary: made.summary, doubts: made.doubts, ran: false });
+        return Ok(Done { summary: made.summary, doubts: made.doubts, ran: false, key });
     }
     for path in call.stage.outputs() {
         expect_replaceable(&path, call, context.force)?;
     }
-    let context = context.of_call(call, planned)?;
+    let context = context.of_call(call, planned);
     let summary = call.stage.run(&context)?;
-    Ok(Done { summary, doubts: context.doubts().lines(), ran: true })
+    Ok(Done { summary, doubts: context.doubts().lines(), ran: true, key })
 }
 
 /// Checks that an output is not an input, nor, unless forced, a file of another program.

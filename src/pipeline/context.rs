@@ -74,11 +74,11 @@ impl Context {
     }
 
     /// Returns the context of a call with this provenance.
-    pub fn of_call(&self, call: &Call, made: Provenance) -> Result<Context, TableError> {
-        let files = call.inputs.values().flatten().filter(|path| path.exists());
-        let inputs =
-            files.map(|path| Ok((path.clone(), key_of(path)?))).collect::<Result<_, TableError>>()?;
-        Ok(Context { made, inputs, doubts: Arc::default(), ..self.clone() })
+    pub fn of_call(&self, call: &Call, made: Provenance) -> Context {
+        let keys = made.inputs.values().flat_map(|keys| keys.split(' '));
+        let files = call.inputs.values().flatten().cloned().zip(keys.map(str::to_string));
+        let inputs = files.filter(|(path, _)| path.exists()).collect();
+        Context { made, inputs, doubts: Arc::default(), ..self.clone() }
     }
 
     /// Adds doubts.
@@ -107,7 +107,7 @@ impl Context {
     pub fn provenance(&self, summary: &str) -> Result<Provenance, TableError> {
         for (path, key) in &self.inputs {
             if key_of(path)? != *key {
-                return Err(TableError::table(path, "changed while it was read; run again"));
+                return Err(TableError::table(path, "changed by another run; run again"));
             }
         }
         let doubts = self.doubts().lines();

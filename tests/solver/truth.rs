@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use rockfrag::keyword::Keyword;
 use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, simulate_all};
-use rockfrag::table::motions::MotionBatches;
+
+use crate::motions;
 
 #[derive(Debug, serde::Deserialize)]
 struct Answer {
@@ -43,11 +44,10 @@ fn in_repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-fn compare<'a>(motions: &Path, answers: &'a [Answer]) -> Vec<Comparison<'a>> {
-    let motions: HashMap<String, (Vec<f64>, f64)> = MotionBatches::open(motions, 64)
-        .unwrap()
-        .flat_map(Result::unwrap)
-        .map(|motion| (motion.motion_id.to_string(), (motion.acceleration_m_s2.to_vec(), motion.dt_s)))
+fn compare<'a>(path: &Path, answers: &'a [Answer]) -> Vec<Comparison<'a>> {
+    let motions: HashMap<String, (Vec<f64>, f64)> = motions(path)
+        .into_iter()
+        .map(|motion| (motion.motion_id, (motion.acceleration_m_s2, motion.dt_s)))
         .collect();
     let structure =
         |answer: &Answer| Structure::new("s", answer.p_rad_s, answer.alpha_rad, answer.eta).unwrap();
