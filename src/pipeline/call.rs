@@ -9,6 +9,10 @@ use super::stage::Stage;
 use crate::table::TableError;
 use crate::table::provenance::{Provenance, key_of};
 
+/// What is read of a folder of fits.
+pub const FITS: [&str; 4] =
+    ["pro.calibration.parquet", "pex.calibration.parquet", "pro.parquet", "pex.parquet"];
+
 /// A call.
 pub struct Call {
     pub name: String,
@@ -19,7 +23,7 @@ pub struct Call {
     pub inputs: BTreeMap<String, Vec<PathBuf>>,
 }
 
-/// Whether an argument names something that a stage reads.
+/// Whether an argument names something that a stage reads: a file, or a folder of fits.
 pub fn is_input(arg: &Arg) -> bool {
     matches!(arg.get_value_hint(), ValueHint::FilePath | ValueHint::DirPath)
 }
@@ -35,7 +39,12 @@ impl Call {
             let flag = arg.get_long().unwrap_or(id).to_string();
             let Ok(Some(values)) = matches.try_get_raw(id) else { continue };
             let values: Vec<PathBuf> = values.map(PathBuf::from).collect();
-            if is_input(arg) {
+            if arg.get_value_hint() == ValueHint::DirPath {
+                inputs.insert(
+                    flag,
+                    values.iter().flat_map(|folder| FITS.map(|name| folder.join(name))).collect(),
+                );
+            } else if is_input(arg) {
                 inputs.insert(flag, values);
             } else if flag != "out" {
                 let text = |value: PathBuf| value.to_string_lossy().into_owned();
