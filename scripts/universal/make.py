@@ -12,6 +12,7 @@ from surface import KINDS, TERMS, Surface, some
 
 LIMIT = 0.1
 WIDE = (0.0, 0.0, 5.0, 5.0)
+KNOT, LEAST_TO_BEND = 0.9, 300
 HEAD = """\
 # The universal fragility surface: P_ro and P_ex of every rocking structure. Made by scripts/universal/make.sh.
 # From {structures} structures and {motions} synthetic motions on rock: {cases} cases of rocking; and {records} records.
@@ -21,7 +22,8 @@ HEAD = """\
 # domain,NAME,LOW,HIGH: 0.1 % and 99.9 % quantiles of the measures; ranges of the structures and limit states.
 # term,pro|pex,FUNCTION,csgm,pulse,hfc: coefficients for each kind of motion; recorded has those of hfc.
 # calibration,KIND,pro|pex,c,ln_s,sd_c,sd_ln_s,tau: logit = c + s L; priors; sd of the logit between cells or earthquakes.
-# peaks,KIND,pga|pgv,intercept,slope,sd: ln(PGV/PGA) = intercept + slope ln(peak), SI units, and the sd about it.
+# peaks,KIND,pga|pgv,intercept,slope,knot,bend,sd_below,sd_above: ln(PGV/PGA) = intercept + slope u + bend max(u - knot, 0),
+# u = ln(peak) in SI units; normal about it, with one sd below and one above.
 """
 
 
@@ -56,11 +58,14 @@ def priors(surface, kind, event, cases):
 
 
 def peak_lines(motions):
-    """ln(PGV/PGA) on the logarithm of either peak: a straight line and the standard deviation about it."""
+    """ln(PGV/PGA) on the logarithm of either peak: a line, with one bend where there are motions enough."""
     pga, pgv = (np.log(motions[name].to_numpy()) for name in ("pga_m_s2", "pgv_m_s"))
     for name, peak in (("pga", pga), ("pgv", pgv)):
-        slope, intercept = np.polyfit(peak, pgv - pga, 1)
-        yield name, intercept, slope, np.std(pgv - pga - intercept - slope * peak, ddof=2)
+        knot = np.quantile(peak, KNOT)
+        columns = np.stack([np.ones_like(peak), peak, np.maximum(peak - knot, 0)], axis=1)[:, : 2 + (len(peak) >= LEAST_TO_BEND)]
+        b, *_ = np.linalg.lstsq(columns, pgv - pga, rcond=None)
+        off = pgv - pga - columns @ b
+        yield name, *b[:2], knot, sum(b[2:]), *(np.sqrt(np.mean(off[side] ** 2)) for side in (off < 0, off > 0))
 
 
 def main():

@@ -54,7 +54,7 @@ pub struct Calibration {
     pub pgv_high: Option<f64>,
     pub ratio_low: Option<f64>,
     pub ratio_high: Option<f64>,
-    /// ln(PGV/PGA) of all motions given ln PGA and ln PGV: intercept, slope, standard deviation.
+    /// ln(PGV/PGA) of all motions given ln PGA and ln PGV: the fields of RatioGiven.
     pub ratio_given_pga: Vec<f64>,
     pub ratio_given_pgv: Vec<f64>,
 }

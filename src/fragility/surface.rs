@@ -177,8 +177,8 @@ impl Surface {
                     surface.priors.push((kind(), curve(2), Prior { c, ln_s, sd_c, sd_ln_s, tau }));
                 }
                 "peaks" => {
-                    let [intercept, slope, sd] = [3, 4, 5].map(number);
-                    surface.peaks.push((kind(), cells[2], RatioGiven { intercept, slope, sd }));
+                    let numbers = [3, 4, 5, 6, 7, 8].map(number);
+                    surface.peaks.push((kind(), cells[2], RatioGiven::of_numbers(&numbers).expect(line)));
                 }
                 _ => surface.terms.push(Term {
                     curve: curve(1),
