@@ -221,7 +221,8 @@ impl Sample {
         let mut sample = Sample { cases: vec![], logits: vec![], events: vec![], clusters: vec![] };
         for case in 0..cases.len() {
             let happened = cases.happened(case, event, limit_state.unwrap_or(f64::INFINITY));
-            let Some((event, logit)) = happened.zip(logit(&cases.measures(case))) else { continue };
+            let logit = logit(&cases.measures(case)).filter(|logit| logit.is_finite());
+            let Some((event, logit)) = happened.zip(logit) else { continue };
             sample.cases.push(case);
             sample.logits.push(logit);
             sample.events.push(event);
