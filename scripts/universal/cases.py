@@ -42,7 +42,7 @@ if __name__ == "__main__":
     chosen = {
         "training": lambda: structures(320, 2015, LOW, HIGH),
         "test": lambda: structures(64, 777, LOW, HIGH),
-        "study": lambda: structures(20, 22, (0.8, 0.07, 0.78), (6.0, 0.35, 0.97), [(1.0, 0.15, 0.92), (2.5, 0.20, 0.92)]),
+        "study": lambda: structures(28, 22, (0.8, 0.07, 0.78), (6.0, 0.35, 0.97), [(1.0, 0.15, 0.92), (2.5, 0.20, 0.92)]),
         "blocks": lambda: housner(structures(60, 60, (1.0, 0.08, 0.7), (6.0, 0.4, 0.999))),
     }
     with open(sys.argv[2], "w") as file:

@@ -28,5 +28,4 @@ call simulate --in records.parquet --structures blocks.csv --out blocks.parquet
 
 python3 "$here/make.py" "$root/data/universal.csv" training.motions.parquet blocks.parquet training_?.parquet
 python3 "$here/answers.py" "$root/data/universal.csv" study_101.parquet blocks.parquet "$root/tests/reference/fits"
-git -C "$root" show 6769d62:data/universal.csv > former.csv
-python3 "$here/judge.py" "$root/data/universal.csv" former.csv .
+python3 "$here/judge.py" "$root/data/universal.csv" "$root/data/hazard.csv" .
