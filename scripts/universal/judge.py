@@ -1,7 +1,6 @@
-"""Prints how well the surface does, as tables in Markdown: python judge.py SURFACE.csv HAZARD.csv FOLDER [TABLE...]"""
+"""Prints how well the surface does, as tables in Markdown: python judge.py SURFACE.csv HAZARD.csv FOLDER"""
 
 import sys
-from functools import cache
 
 import numpy as np
 from scipy.optimize import minimize
@@ -11,288 +10,206 @@ import cases as of
 from calibration import apply, calibrate, logistic, standard_error
 from fit import monotone_logistic
 from make import LIMIT, WIDE, chosen
-from surface import KINDS, LIMITS, Surface, log_score, scaled, some
+from surface import KINDS, LIMITS, Surface, some
 
-SURFACE, HAZARD, FOLDER, *TABLES = sys.argv[1:]
-surface = Surface(SURFACE)
+surface = Surface(sys.argv[1])
 rng = np.random.default_rng(1)
 
 
 def table(title, head, rows):
-    cell = lambda v: v if isinstance(v, str) else str(v) if isinstance(v, (int, np.integer)) else f"{v:.4f}"
+    cell = lambda v: str(v) if isinstance(v, (str, int)) else f"{v:.4f}"
     print(f"\n{title}\n\n| " + " | ".join(head) + " |\n|" + "---|" * len(head))
     print("\n".join("| " + " | ".join(map(cell, row)) + " |" for row in rows), flush=True)
 
 
-@cache
-def study(seed, kind):
-    return of.read([f"{FOLDER}/study_{seed}.parquet"], 1.0, kind)
-
-
-def of_structure(cases, number):
-    return some(cases, cases["structure"] == number)
+def log_scores(p, happened):
+    p = np.clip(p, 1e-6, 1 - 1e-6)
+    return np.where(happened, np.log(p), np.log1p(-p))
 
 
 def lines(cases):
-    return np.stack([np.ones(len(cases["im4"])), np.log(cases["im4"]), np.log(cases["im3"])], axis=1)
+    return np.stack([np.ones_like(cases["im4"]), np.log(cases["im4"]), np.log(cases["im3"])], axis=1)
 
 
-def bent(cases):
-    _, x, y = lines(cases).T
-    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)
-
-
-def probit(cases, happened):
-    """The paper's curve: coefficients, and their covariance between clusters."""
-    columns, sign = lines(cases), np.where(happened, 1.0, -1.0)
-    loss = lambda b: -log_ndtr(sign * (columns @ b)).sum()
-    b = minimize(loss, [0.0, 1.0, -1.0], method="BFGS", options={"gtol": 1e-7}).x
-    z = sign * (columns @ b)
-    mills = np.exp(-z * z / 2 - log_ndtr(z)) / np.sqrt(2 * np.pi)
-    bread = np.linalg.pinv(columns.T @ (columns * (mills * (z + mills))[:, None]))
-    _, at = np.unique(cases["cluster"], return_inverse=True)
-    sums = np.stack([np.bincount(at, column) for column in (columns * (sign * mills)[:, None]).T], axis=1)
-    g, n = len(sums), len(z)
-    return b, bread @ (g / (g - 1) * (n - 1) / (n - 3) * sums.T @ sums) @ bread
-
-
-def planes(cases):
-    """The paper's two planes of the demand, as a function that gives P_ex at the limit."""
-    columns, demand, out = lines(cases), np.log(cases["edp"]), []
-    low = cases["im4"] < 1.3
+def paper(event, cases, happened):
+    """The paper's probit of IM4 and IM3, or its two planes of the demand, as a function of cases."""
+    columns = lines(cases)
+    if event == "pro":
+        loss = lambda b: -log_ndtr(np.where(happened, 1, -1) * (columns @ b)).sum()
+        b = minimize(loss, [0.0, 1.0, -1.0], method="BFGS").x
+        return lambda c: ndtr(lines(c) @ b)
+    low, fits = cases["im4"] < 1.3, []
     for side in (low, ~low):
-        b, *_ = np.linalg.lstsq(columns[side], demand[side], rcond=None)
-        out.append((b, np.std(demand[side] - columns[side] @ b, ddof=3) if side.sum() > 3 else 1.0))
+        b, *_ = np.linalg.lstsq(columns[side], np.log(cases["edp"][side]), rcond=None)
+        fits.append((b, np.std(np.log(cases["edp"][side]) - columns[side] @ b) if side.sum() > 3 else 1.0))
     at = lambda c, b, sd: ndtr((lines(c) @ b - np.log(LIMIT)) / sd)
-    return lambda c: np.where(c["im4"] < 1.3, at(c, *out[0]), at(c, *out[1]))
+    return lambda c: np.where(c["im4"] < 1.3, at(c, *fits[0]), at(c, *fits[1]))
 
 
-def quadratic(cases, happened):
-    b = monotone_logistic(bent(cases), happened.astype(float), np.zeros((0, 6)))
-    return lambda c: logistic(bent(c) @ b)
-
-
-def own(event, kind, cases, few=None):
-    """What is fitted to one's own cases: functions of cases that give probabilities, by name."""
+def own(event, kind, cases, few):
+    """What is fitted to one's own cases, as functions of cases; `few` are the motions of the last one."""
     cases, happened = chosen(event, cases)
-    share = (happened.sum() + 0.5) / (len(happened) + 1)
     logit = lambda c: surface.logit(event, kind, c, LIMIT)
-    prior, shipped = surface.calibration[kind, event][:4], surface.calibration[kind, event][:2]
-    b, _ = calibrate(logit(cases), happened, prior)
-    b_few = b if few is None else calibrate(logit(some(cases, few(cases))), happened[few(cases)], prior)[0]
-    paper = planes(cases) if event == "pex" else (lambda b: lambda c: ndtr(lines(c) @ b))(probit(cases, happened)[0])
-    return {"share": lambda c: np.full(len(c["im4"]), share), "paper": paper, "quadratic": quadratic(cases, happened),
-            "surface": lambda c: logistic(apply(shipped, logit(c))), "calibrated": lambda c: logistic(apply(b, logit(c))),
-            "of 350": lambda c: logistic(apply(b_few, logit(c)))}  # fmt: skip
+    prior, few = surface.calibration[kind, event][:4], np.isin(cases["motion_id"], few)
+    bent = lambda c: np.stack([*lines(c).T, *(lines(c)[:, [1, 1, 2]] * lines(c)[:, [1, 2, 2]]).T], axis=1)
+    quadratic = monotone_logistic(bent(cases), happened.astype(float), np.zeros((0, 6)), 0.01)
+    calibrated = lambda b: lambda c: logistic(apply(b, logit(c)))
+    return {
+        "share": lambda c: np.full(len(c["im4"]), (happened.sum() + 0.5) / (len(happened) + 1)),
+        "paper": paper(event, cases, happened), "quadratic": lambda c: logistic(bent(c) @ quadratic),
+        "surface": calibrated(prior[:2]),
+        "calibrated": calibrated(calibrate(logit(cases), happened, prior)[0]),
+        "of few": calibrated(calibrate(logit(cases)[few], happened[few], prior)[0]),
+    }  # fmt: skip
 
 
-def score(p, happened):
-    p = np.clip(p, 1e-6, 1 - 1e-6)
-    return np.where(happened, np.log(p), np.log1p(-p)).mean()
-
-
-def held_out():
-    cases, rows = of.read([f"{FOLDER}/test.parquet"]), []
+def held_out(folder):
+    cases, rows = of.read([f"{folder}/test.parquet"]), []
     for event in ("pro", "pex"):
-        counted, _ = chosen(event, cases)
-        limits = LIMITS if event == "pex" else LIMITS[:1]
-        each = {}
+        each = []
         for kind in KINDS:
-            c = some(counted, counted["kind"] == kind)
-            happened = lambda limit: c["overturned"] if event == "pro" else c["edp"] > limit
-            each[kind] = np.mean([log_score(surface.logit(event, kind, c, at), happened(at)) for at in limits], axis=0)
-        rows.append((event, *(v.mean() for v in each.values()), np.concatenate(list(each.values())).mean()))
-    table("Held out: 64 structures and a seed, mean log score", ["", *KINDS, "all"], rows)
+            c, _ = chosen(event, some(cases, cases["kind"] == kind))
+            limits = LIMITS if event == "pex" else LIMITS[:1]
+            happened = [c["edp"] > limit if event == "pex" else c["overturned"] for limit in limits]
+            p = [logistic(surface.logit(event, kind, c, limit)) for limit in limits]
+            each.append(log_scores(np.concatenate(p), np.concatenate(happened)))
+        rows.append((event, *(v.mean() for v in each), np.concatenate(each).mean()))
+    table("Held out: 64 structures under motions of another seed, mean log score", ["", *KINDS, "all"], rows)
 
 
-def own_responses(event):
-    rows, names = {}, ["share", "paper", "quadratic", "surface", "calibrated", "of 350"]
+def own_responses(folder, event):
+    rows = {}
     for kind in KINDS:
+        study = [of.read([f"{folder}/study_{seed}.parquet"], 1.0, kind) for seed in (101, 102, 103)]
         for number in range(22):
-            fitted = of_structure(study(101, kind), number)
-            judged = [chosen(event, of_structure(study(seed, kind), number)) for seed in (102, 103)]
+            fitted, *judged = [some(cases, cases["structure"] == number) for cases in study]
             _, happened = chosen(event, fitted)
-            if happened.sum() == 0 and event == "pex":
-                continue
-            motions = rng.permutation(np.unique(study(101, kind)["motion_id"]))[:350]
-            models = own(event, kind, fitted, lambda c: np.isin(c["motion_id"], motions))
-            share = happened.mean()
-            band = "< 5 %" if share < 0.05 else "5-20 %" if share < 0.2 else "> 20 %"
-            rows.setdefault((kind, band), []).append([np.mean([score(models[n](c), y) for c, y in judged]) for n in names])
+            few = rng.permutation(np.unique(study[0]["motion_id"]))[:350]
+            models = own(event, kind, fitted, few)
+            band = np.array(["< 5 %", "5-20 %", "> 20 %"])[np.searchsorted([0.05, 0.2], happened.mean())]
+            judged = [chosen(event, cases) for cases in judged]
+            each = [np.mean([log_scores(model(c), y).mean() for c, y in judged]) for model in models.values()]
+            rows.setdefault((kind, str(band)), []).append(each)
     body = [(*key, len(v), *np.mean(v, axis=0)) for key, v in sorted(rows.items())]
-    table(f"Own responses, {event}: mean log score on two other seeds", ["kind", "share", "structures", *names], body)
-
-
-def falls():
-    rows = []
-    structures = of.structures(128, 100, (0.4, 0.04, 0.7), (8.0, 0.5, 0.999))[:100]
-    for kind in KINDS:
-        cases = study(102, kind)
-        first = np.unique(cases["motion_id"], return_index=True)[1]
-        worst = {"surface": 0.0, "c, s": 0.0, "more": 0.0}
-        for p, alpha, eta in structures:
-            m = some(cases, rng.choice(first, 20))
-            n = np.ones(20)
-            base = {"p_rad_s": p * n, "eta": eta * n, "im4": m["pga_m_s2"] / (9.81 * np.tan(alpha)),
-                    "im5": p * m["pgv_m_s"] / (9.81 * np.tan(alpha)), "im3": m["pga_m_s2"] / (p * m["pgv_m_s"])}  # fmt: skip
-            scales = np.exp(np.linspace(np.log(0.25), np.log(4), 57))
-            with np.errstate(invalid="ignore", divide="ignore"):
-                logit = np.stack([surface.logit("pro", kind, scaled(base, k)) for k in scales])
-            rocks = base["im4"] * scales[:, None] > 1.0
-            for name, b in (("surface", (0, 0)), ("c, s", (0.5, 0.3)), ("more", (2.0, -0.3))):
-                p_ro = np.where(rocks, logistic(apply(b, logit)), 0.0)
-                worst[name] = max(worst[name], (np.maximum.accumulate(p_ro, axis=0) - p_ro).max())
-        rows.append((kind, *worst.values()))
-    table("Largest fall of P_ro as a motion is scaled 0.25 to 4 times", ["kind", "surface", "c 0.5, ln s 0.3", "c 2, ln s -0.3"], rows)
-
-
-def hazard():
-    rows = [line.split(",") for line in open(HAZARD) if line[0] in "0123456789"]
-    pga, rate = np.array(rows, dtype=float).T
-    return np.log(9.81 * pga), np.log(rate)
-
-
-def rates():
-    """Annual rates of overturning: of the calibrated model, against the count of 35,000 motions in bins of 0.05 of ln PGA."""
-    ln_pga, ln_rate = hazard()
-    rate = lambda at: np.exp(np.interp(at, ln_pga, ln_rate))
-    nodes, weights = np.polynomial.hermite_e.hermegauss(9)
-    rows, seeds = [], range(101, 111)
-    for number in range(30):
-        each = [of_structure(study(seed, "csgm"), number) for seed in seeds]
-        events = np.mean([c["overturned"].sum() for c in each])
-        if not 5 <= events <= 500 or len(rows) == 10:
-            continue
-        p, alpha, eta = (each[0][name][0] for name in ("p_rad_s", "alpha_rad", "eta"))
-        weight = 9.81 * np.tan(alpha)
-        edges = np.linspace(np.log(weight), ln_pga[-1], 60)
-        middle, share = (edges[1:] + edges[:-1]) / 2, -np.diff(rate(edges))
-        share[-1] += rate(edges[-1])
-        peak = np.log(np.concatenate([c["pga_m_s2"] for c in each]))
-        at = np.clip(np.searchsorted(edges, peak) - 1, 0, len(middle) - 1)
-        count = np.bincount(at, minlength=len(middle))
-        fell = np.bincount(at, np.concatenate([c["overturned"] for c in each]), len(middle))
-        known = count > 0
-        truth = (share * np.interp(middle, middle[known], fell[known] / count[known])).sum()
-        middle = np.minimum(middle, peak.max())
-        intercept, slope, knot, bend, *sd = surface.peaks["csgm", "pga"]
-        line = intercept + slope * middle + bend * np.maximum(middle - knot, 0)
-        ratio = np.exp(line[:, None] + np.where(nodes > 0, sd[1], sd[0]) * nodes)
-        im4 = np.repeat(np.exp(middle) / weight, len(nodes))
-        grid = {"p_rad_s": np.full(im4.size, p), "eta": np.full(im4.size, eta), "im4": im4, "im5": im4 * p * ratio.ravel()}
-        grid["im3"] = grid["im4"] / grid["im5"]
-        logit, of_grid = surface.logit("pro", "csgm", grid), np.outer(share, weights / weights.sum()).ravel()
-        predicted, held, ratios = lambda b: (of_grid * logistic(apply(b, logit))).sum(), 0, []
-        for c in each:
-            own_logit = surface.logit("pro", "csgm", c)
-            b, v = calibrate(own_logit, c["overturned"], surface.calibration["csgm", "pro"][:4], c["cluster"])
-            steps = [(np.log(predicted(b + h)) - np.log(predicted(b - h))) / 2e-4 for h in 1e-4 * np.eye(2)]
-            width = 1.96 * np.sqrt(np.array(steps) @ v @ np.array(steps))
-            ratios.append(predicted(b) / truth)
-            held += abs(np.log(ratios[-1])) <= width
-        rows.append((f"p {p:.2f}, alpha {alpha:.3f}, eta {eta:.3f}", round(events), f"{truth:.2e}", predicted(np.zeros(2)) / truth,
-                     np.exp(np.mean(np.log(ratios))), min(ratios), max(ratios), f"{held} of {len(ratios)}"))  # fmt: skip
-    head = ["structure", "events of 3500", "rate, counted", "surface", "calibrated, mean of ten", "least", "largest", "limits hold"]
-    table("Annual rates of overturning, ratio to the count", head, rows)
-    print("\nlimits that hold:", sum(int(r[-1].split()[0]) for r in rows), "of", 10 * len(rows))
-
-
-@cache
-def blocks():
-    return of.read([f"{FOLDER}/blocks.parquet"])
+    title = f"Own responses, {event}: fitted to 3500 motions (few: 350), mean log score on two other seeds"
+    table(title, ["kind", "share", "structures", *models], body)
 
 
 def holds(logit, sd, happened, groups):
-    """Share of groups (of five cases or more) whose number of events is within 95 % of what the logits predict, if each
-    group is off by one normal number of standard deviation `sd`; ties count by chance."""
+    """Share of groups of five or more whose number of events is within 95 % of what the logits predict,
+    where each group is off by one normal number of standard deviation `sd`; ties count by chance."""
     _, at = np.unique(groups, return_inverse=True)
     n = at.max() + 1
-    seen, below, tied = np.bincount(at, happened, n), np.zeros(n), np.zeros(n)
-    for _ in range(400):
-        drawn = rng.random(len(at)) < logistic(logit + (sd * rng.standard_normal(n)[at]))
-        count = np.bincount(at, drawn, n)
-        below, tied = below + (count < seen), tied + (count == seen)
-    rank = (below + rng.random(n) * tied) / 400
+    shifted = (logistic(logit + sd * rng.standard_normal(n)[at]) for _ in range(400))
+    more = np.bincount(at, happened, n) - [np.bincount(at, rng.random(len(at)) < p, n) for p in shifted]
+    rank = (more > 0).mean(axis=0) + rng.random(n) * (more == 0).mean(axis=0)
     return ((rank > 0.025) & (rank < 0.975))[np.bincount(at) >= 5].mean()
 
 
-def recorded(event):
-    """Half of the earthquakes and blocks left out together, 40 times: c and s of the other half."""
-    cases, happened = chosen(event, blocks())
-    logit, out = surface.logit(event, "recorded", cases, LIMIT), []
-    sets, tau = np.array([name.split()[0] for name in cases["motion_id"]]), surface.calibration["recorded", event][4]
+def recorded(folder, event):
+    """Half of the earthquakes and half of the blocks left out together, 40 times."""
+    cases, happened = chosen(event, of.read([f"{folder}/blocks.parquet"]))
+    logit, tau = surface.logit(event, "recorded", cases, LIMIT), surface.calibration["recorded", event][4]
+    sets, parts = np.array([name.split()[0] for name in cases["motion_id"]]), []
     for _ in range(40):
-        fitted = [np.isin(cases[name], rng.permutation(np.unique(cases[name]))[::2]) for name in ("cluster", "structure")]
-        train, test = fitted[0] & fitted[1], ~fitted[0] & ~fitted[1]
+        half = lambda name: np.isin(cases[name], rng.permutation(np.unique(cases[name]))[::2])
+        quakes, blocks = half("cluster"), half("structure")
+        train, test = np.flatnonzero(quakes & blocks), np.flatnonzero(~quakes & ~blocks)
         b, v = calibrate(logit[train], happened[train], WIDE, cases["cluster"][train])
         sd = np.hypot(standard_error(b, v, logit[test]), tau)
-        held = holds(apply(b, logit[test]), sd, happened[test], np.char.add(cases["cluster"][test].astype(str), cases["structure"][test].astype(str)))
-        by_quake = holds(apply(b, logit[test]), sd, happened[test], cases["cluster"][test])
-        out.append((np.flatnonzero(test), apply(b, logit[test]), held, by_quake, b))
-    at, z = (np.concatenate([o[k] for o in out]) for k in (0, 1))
-    p, y = logistic(z), happened[at]
-    cuts = [0, 0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1]
-    bins = [(p >= low) & (p < high) for low, high in zip(cuts, cuts[1:])]
-    table(f"Records, {event}: earthquakes and blocks left out, nine bins", ["", *map(str, cuts[1:])],
-          [("predicted", *(p[k].mean() for k in bins)), ("observed", *(y[k].mean() for k in bins)),
-           ("cases", *(f"{k.sum() / 40:.0f}" for k in bins))])  # fmt: skip
-    rows = [(name, int(k.sum() / 40), log_score(logit[at][k], y[k]).mean(), log_score(z[k], y[k]).mean(), p[k].mean(), y[k].mean())
-            for name, k in (("all", at >= 0), *((n, sets[at] == n) for n in np.unique(sets)))]
-    table(f"Records, {event}: log score", ["set", "cases", "before", "calibrated", "predicted", "observed"], rows)
-    print(f"\nc {np.mean([o[4][0] for o in out]):.2f} (sd {np.std([o[4][0] for o in out]):.2f}), ln s {np.mean([o[4][1] for o in out]):.2f};",
-          f"limits hold of an earthquake and block {np.nanmean([o[2] for o in out]):.3f}, of an earthquake {np.mean([o[3] for o in out]):.3f}")
+        held = holds(apply(b, logit[test]), sd, happened[test], cases["cluster"][test])
+        parts.append((test, apply(b, logit[test]), [*b, held]))
+    at, z = (np.concatenate([part[k] for part in parts]) for k in (0, 1))
+    p, y, before = logistic(z), happened[at], logistic(logit[at])
+    cuts = np.array([0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95])
+    bins = [np.digitize(p, cuts) == k for k in range(9)]
+    rows = [("predicted", *(p[k].mean() for k in bins)), ("observed", *(y[k].mean() for k in bins))]
+    table(f"Records, {event}: earthquakes and blocks left out, nine bins", ["", *map(str, cuts), "1"], rows)
+    of_sets = {"all": at >= 0} | {str(name): sets[at] == name for name in np.unique(sets)}
+    rows = [(name, *(log_scores(q[k], y[k]).mean() for q in (before, p)), p[k].mean(), y[k].mean())
+            for name, k in of_sets.items()]  # fmt: skip
+    table(f"Records, {event}: mean log score", ["", "surface", "calibrated", "predicted", "observed"], rows)
+    c, ln_s, held = np.mean([part[2] for part in parts], axis=0)
+    print(f"\nc {c:.2f}, ln s {ln_s:.2f}; limits hold the events of {held:.3f} of the earthquakes")
 
 
-def forty():
-    """Forty of the 100 components, a block at a time, judged on the other sixty."""
-    names = ["share", "paper", "quadratic", "surface", "calibrated"]
-    rows = []
+def hazard_weights(hazard, least, most):
+    """60 values of ln PGA (m/s2), none above `most`, and their annual rates, straight between logarithms."""
+    rows = [line.split(",") for line in open(hazard) if line[0].isdigit()]
+    pga, rate = np.log(np.array(rows, dtype=float).T)
+    edges = np.append(np.linspace(least, most, 60), np.inf)
+    rates = np.exp(np.interp(edges[:-1], pga + np.log(9.81), rate))
+    return np.append((edges[1:-1] + edges[:-2]) / 2, most), -np.diff(np.append(rates, 0.0))
+
+
+def rates(folder, hazard):
+    """Annual rates of overturning by calibrations to 3500 motions, and the count of all 35,000."""
+    study = [of.read([f"{folder}/study_{seed}.parquet"], 1.0, "csgm") for seed in range(101, 111)]
+    nodes, weights = np.polynomial.hermite_e.hermegauss(9)
+    intercept, slope, knot, bend, *sd = surface.peaks["csgm", "pga"]
+    rows, held = [], []
+    for number in range(30):
+        each = [some(cases, cases["structure"] == number) for cases in study]
+        events = np.mean([cases["overturned"].sum() for cases in each])
+        if not 5 <= events <= 500 or len(rows) == 10:
+            continue
+        every = {name: np.concatenate([cases[name] for cases in each]) for name in each[0]}
+        p, alpha, eta, uplift = (
+            *(every[k][0] for k in ("p_rad_s", "alpha_rad", "eta")),
+            9.81 * np.tan(every["alpha_rad"][0]),
+        )
+        peak = np.log(every["pga_m_s2"])
+        ln_pga, annual = hazard_weights(hazard, np.log(uplift), peak.max())
+        at = np.abs(peak[:, None] - ln_pga).argmin(axis=1)
+        count, fell = (np.bincount(at, w, len(ln_pga)) for w in (None, every["overturned"]))
+        truth = annual @ np.interp(ln_pga, ln_pga[count > 0], (fell / np.maximum(count, 1))[count > 0])
+        line = intercept + slope * ln_pga + bend * np.maximum(ln_pga - knot, 0)
+        ratio = np.exp(line[:, None] + np.where(nodes > 0, sd[1], sd[0]) * nodes).ravel()
+        im4, weight = (
+            np.repeat(np.exp(ln_pga) / uplift, len(nodes)),
+            np.outer(annual, weights / weights.sum()).ravel(),
+        )
+        one = np.ones_like(im4)
+        grid = {
+            "im4": im4,
+            "im5": im4 * p * ratio,
+            "im3": 1 / (p * ratio),
+            "p_rad_s": p * one,
+            "eta": eta * one,
+        }
+        logit = surface.logit("pro", "csgm", grid)
+        rate, ratios = lambda b: weight @ logistic(apply(b, logit)), []
+        for cases in each:
+            own_logit, prior = surface.logit("pro", "csgm", cases), surface.calibration["csgm", "pro"][:4]
+            b, v = calibrate(own_logit, cases["overturned"], prior, cases["cluster"])
+            tangent = np.array([np.log(rate(b + h) / rate(b - h)) / 2e-4 for h in 1e-4 * np.eye(2)])
+            ratios.append(rate(b) / truth)
+            held.append(abs(np.log(ratios[-1])) <= 1.96 * np.sqrt(tangent @ v @ tangent))
+        ratios = [rate(np.zeros(2)) / truth, np.exp(np.mean(np.log(ratios))), min(ratios), max(ratios)]
+        name = f"{p:.2f}, {alpha:.3f}, {eta:.3f}"
+        rows.append((name, round(events), f"{truth:.2e}", *ratios, f"{sum(held[-10:])} of 10"))
+    head = [
+        "p, alpha, eta",
+        "events",
+        "rate, counted",
+        "surface",
+        "calibrated",
+        "least",
+        "largest",
+        "limits hold",
+    ]
+    table(
+        "Annual rates of overturning, ratio to the count of 35,000 motions; calibrated: mean of ten seeds",
+        head,
+        rows,
+    )
+    print(f"\n95 % limits hold {sum(held)} of {len(held)}")
+
+
+if __name__ == "__main__":
+    _, _, hazard, folder = sys.argv
+    held_out(folder)
     for event in ("pro", "pex"):
-        scores = []
-        for _ in range(6):
-            components = rng.permutation(np.unique(blocks()["motion_id"]))
-            for number in range(60):
-                of_block = of_structure(blocks(), number)
-                mine = np.isin(of_block["motion_id"], components[:40])
-                _, happened = chosen(event, some(of_block, mine))
-                others, judged = chosen(event, some(of_block, ~mine))
-                if min(happened.sum(), (~happened).sum()) < 3 or len(judged) == 0:
-                    continue
-                models = own(event, "recorded", some(of_block, mine))
-                scores.append([score(models[name](others), judged) for name in names])
-        rows.append((event, len(scores), *np.mean(scores, axis=0), np.mean(np.array(scores)[:, 4] > np.array(scores)[:, 1])))
-    table("Forty records of one's own", ["", "cases", *names[:3], "recorded as shipped", names[4], "better than the paper's"], rows)
-
-
-def pair():
-    """95 % limits of P_ro of the paper's curve and of the calibrated surface, of few records."""
-    every, rows = of_structure(blocks(), 2), []
-    order = rng.permutation(np.unique(every["motion_id"]))
-    apart = {name: name for name in order}
-    twins = next((a, b) for a in order for b in order if a < b and a[:-3] == b[:-3])
-    forty = [*twins, *[name for name in order if name not in twins][:38]]
-    fell = [name for name in order if every["overturned"][every["motion_id"] == name].any()]
-    stood = [name for name in order if name not in fell]
-    prior = surface.calibration["recorded", "pro"][:4]
-    for title, chosen_names in (("forty, one pair of one earthquake", forty), ("eight", [*fell[:3], *stood[:5]]),
-                                ("forty, none overturning", stood[:40]), ("thirty, all overturning", fell[:30])):  # fmt: skip
-        cases = some(every, np.isin(every["motion_id"], chosen_names))
-        cases["cluster"] = np.array(["pair" if name in twins else apart[name] for name in cases["motion_id"]])
-        logit = surface.logit("pro", "recorded", cases)
-        b, v = calibrate(logit, cases["overturned"], prior, cases["cluster"])
-        at = np.argsort(logit)[[len(logit) // 4, len(logit) // 2, 3 * len(logit) // 4]]
-        with np.errstate(all="ignore"):
-            paper, cov = probit(cases, cases["overturned"])
-            z, sd = lines(cases)[at] @ paper, np.sqrt(np.einsum("ni,ij,nj->n", lines(cases)[at], cov, lines(cases)[at]))
-            before = [f"{ndtr(m):.3f} ({ndtr(m - 1.96 * s):.3f}-{ndtr(m + 1.96 * s):.3f})" for m, s in zip(z, sd)]
-        z, sd = apply(b, logit[at]), standard_error(b, v, logit[at])
-        now = [f"{logistic(m):.3f} ({logistic(m - 1.96 * s):.3f}-{logistic(m + 1.96 * s):.3f})" for m, s in zip(z, sd)]
-        rows += [(title, f"{cases['overturned'].sum()} of {len(logit)}", "paper", *before), ("", "", "calibrated", *now)]
-    table("P_ro with 95 % limits (of many earthquakes) at three of the records", ["records", "fell", "", "quarter", "median", "three quarters"], rows)
-
-
-ALL = {"held_out": held_out, "own_pro": lambda: own_responses("pro"), "own_pex": lambda: own_responses("pex"),
-       "recorded_pro": lambda: recorded("pro"), "recorded_pex": lambda: recorded("pex"), "forty": forty, "falls": falls,
-       "rates": rates, "pair": pair}  # fmt: skip
-for name in TABLES or ALL:
-    ALL[name]()
+        own_responses(folder, event)
+        recorded(folder, event)
+    rates(folder, hazard)
