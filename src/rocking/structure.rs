@@ -117,13 +117,20 @@ impl Bound {
 pub fn judge(structure: &str, given: &[(&'static str, f64)]) -> Result<(), StructureError> {
     let value =
         |wanted: &str| given.iter().find(|(parameter, _)| *parameter == wanted).map(|&(_, value)| value);
-    let can_be = |parameter: &str, value: f64| Bound::of(parameter).is_some_and(|bound| bound.refusal(value).is_none());
+    let can_be = |parameter: &str, value: f64| {
+        Bound::of(parameter).is_some_and(|bound| bound.refusal(value).is_none())
+    };
     if let (Some(p), Some(alpha)) = (value("p"), value("alpha"))
         && !can_be("alpha", alpha)
         && can_be("alpha", p)
         && can_be("p", alpha)
     {
-        return refuse(structure, "alpha", alpha, "a slenderness up to 0.7854 rad; were p and alpha exchanged?");
+        return refuse(
+            structure,
+            "alpha",
+            alpha,
+            "a slenderness up to 0.7854 rad; were p and alpha exchanged?",
+        );
     }
     for &(parameter, value) in given {
         if let Some(expected) = Bound::of(parameter).and_then(|bound| bound.refusal(value)) {

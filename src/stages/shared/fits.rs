@@ -133,7 +133,12 @@ impl FittedModels {
             let Calibration { structure: name, p_rad_s, alpha_rad, eta, .. } = row;
             let is_wanted = self.args.name.as_ref().is_none_or(|wanted| wanted == name);
             if is_wanted && structures.iter().all(|other| other.name != *name) {
-                structures.push(Structure { name: name.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta });
+                structures.push(Structure {
+                    name: name.clone(),
+                    p_rad_s: *p_rad_s,
+                    alpha_rad: *alpha_rad,
+                    eta: *eta,
+                });
             }
         }
         structures
