@@ -19,12 +19,12 @@ const SHOWN: usize = 3;
 /// Runs what must run. Returns what the stage prints that answers; of none, what the last one does.
 pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     calls.iter().try_for_each(|call| call.stage.check())?;
-    let (mut printed, mut doubts) = (String::new(), Vec::new());
+    let (mut printed, mut doubts, mut made) = (String::new(), Vec::new(), HashMap::new());
     let place_of = |name: &&str| calls.iter().position(|call| call.name == *name);
     let answer = ANSWERS.iter().find_map(place_of).unwrap_or(calls.len() - 1);
     for (place, call) in calls.iter().enumerate() {
         let start = Instant::now();
-        let done = cache::run(call, context).with_context(|| call.name.clone())?;
+        let done = cache::run(call, context, &made).with_context(|| call.name.clone())?;
         if !context.quiet {
             let took = if done.ran {
                 format!("{:.2} s", start.elapsed().as_secs_f64())
@@ -33,6 +33,7 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
             };
             eprintln!("{:20} {took}", call.name);
         }
+        made.extend(call.stage.outputs().into_iter().map(|path| (path, done.key.clone())));
         let new: Vec<String> = done.doubts.into_iter().filter(|doubt| !doubts.contains(doubt)).collect();
         doubts.extend(new);
         if place == answer {

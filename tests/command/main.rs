@@ -5,4 +5,5 @@ mod config;
 mod evaluate;
 mod files;
 mod interruption;
+mod paper;
 mod pipeline;

@@ -1,4 +1,4 @@
-//! The rocking solver: closed forms, another program in quadruple precision, the equations written plainly, hostile input.
+//! The rocking solver against closed forms, quadruple precision, the printed equations, and extreme input.
 
 mod company;
 mod dense_scan;
@@ -8,3 +8,10 @@ mod numbers;
 mod reference;
 mod rocking;
 mod truth;
+
+/// All motions of a file.
+fn motions(path: &std::path::Path) -> Vec<rockfrag::table::motions::Motion> {
+    let motions = rockfrag::table::motions::Motions::open(path, None).unwrap();
+    let read = |part| motions.read(part, 64).unwrap().flat_map(|batch| batch.unwrap().1).collect::<Vec<_>>();
+    motions.parts().flat_map(|part| read(part.unwrap())).collect()
+}
