@@ -29,8 +29,8 @@ use crate::table::rows;
 use crate::table::writer::write_file;
 use crate::units::G_M_S2;
 
-use self::object::{Answer, Predicted, texts};
-pub use self::object::{ObjectRow, TreeRow, words_of};
+use self::object::{Answer, texts};
+pub use self::object::{ObjectRow, Predicted, TreeRow, words_of};
 pub use self::site::RatesRow;
 use self::site::Site;
 
