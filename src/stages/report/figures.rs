@@ -65,9 +65,10 @@ fn drawn<T>(draw: fn(&[T]) -> Figure, data: Vec<T>) -> Option<Figure> {
     (!data.is_empty()).then(|| draw(&data))
 }
 
-/// Structure and suite.
+/// Structure and, of synthetic motions, suite.
 pub fn title(structure: &str, suite: Option<&str>) -> String {
-    suite.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
+    let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
+    synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
 }
 
 pub fn name(cases: &Cases) -> String {
