@@ -3,10 +3,10 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::figures::name;
+use super::figures::{is_of, name};
 use super::studies;
 use super::tables::Tables;
-use crate::fragility::{Calibration, Cases, Measure, Parameter};
+use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::report::text::number;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::Outcome;
@@ -197,17 +197,13 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
-        let is_its = |suite: &Option<String>, structure: &str| {
-            *suite == cases.suite && structure == cases.structure.name
-        };
-        let calibration =
-            tables.calibrations.iter().find(|row: &&Calibration| is_its(&row.suite, &row.structure));
+        let calibration = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure));
         let often = calibration.map(|row| row.n_events as f64 / row.expected);
-        let mut capacities = capacities.iter().filter(|fit| is_its(&fit.suite, &fit.structure));
+        let mut capacities = capacities.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
         let of_capacity = capacities
             .next()
             .map(|fit| [[fit.theta, fit.theta_low, fit.theta_high], [fit.beta, fit.beta_low, fit.beta_high]]);
-        let mut curves = tables.curves.iter().filter(|fit| is_its(&fit.suite, &fit.structure));
+        let mut curves = tables.curves.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
         let curve = curves.find(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
         let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
         let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
@@ -240,6 +236,7 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let is_of_plane =
         |number: &&Comparison| ["low_", "high_"].iter().any(|side| number.quantity.starts_with(side));
     let published = tables.compared.iter().filter(|number| !is_of_plane(number));
+    let planes = tables.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
     let validations: Vec<Validation> = tables.rows("validation")?;
     let mut all = vec![
         table(
@@ -252,11 +249,7 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
             &tables.curves,
             "structure|suite|im_x|im_y|auc|n|n_events|status",
         ),
-        table(
-            "Regressions of the demand",
-            &tables.demand,
-            "structure|suite|model|im_x|im_y|r2|beta|n|status",
-        ),
+        table("Planes of the demand", planes, "structure|suite|range_low|range_high|r2|beta|n|status"),
         table(
             "Validation: events observed and expected",
             validations,
