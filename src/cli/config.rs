@@ -12,7 +12,7 @@ use crate::keyword::nearest;
 use crate::pipeline::UsageError;
 use crate::pipeline::call::is_input;
 
-/// Files of a run besides those that flags name by default: flag, file, and the stage whose section must be there.
+/// Inputs in a run besides default files: flag, file, and the stage whose section must exist.
 const IN_RUN: [(&str, &str, &str); 5] = [
     ("fits", ".", "fit-pro"),
     ("motions", "motions.parquet", "synthesize-motions"),

@@ -83,7 +83,7 @@ fn expect_replaceable(out: &Path, call: &Call, force: bool) -> anyhow::Result<()
     Ok(())
 }
 
-/// Whether rockfrag wrote a file: tables say so in their footers, texts at their beginning.
+/// Returns whether rockfrag wrote a file, by the footer of a table or the first bytes of a text.
 pub fn is_ours(path: &Path) -> bool {
     if path.extension().is_some_and(|extension| extension == "parquet") {
         return Provenance::of_file(path).is_ok_and(|made| made.is_some());

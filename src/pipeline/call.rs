@@ -10,7 +10,7 @@ use crate::table::TableError;
 use crate::table::file::Partition;
 use crate::table::provenance::{Provenance, key_with};
 
-/// What is read of a folder of fits.
+/// The files that are read from a folder of fits.
 pub const FITS: [&str; 4] =
     ["pro.calibration.parquet", "pex.calibration.parquet", "pro.parquet", "pex.parquet"];
 
@@ -24,7 +24,7 @@ pub struct Call {
     pub inputs: BTreeMap<String, Vec<PathBuf>>,
 }
 
-/// Returns whether an argument is an input file or folder.
+/// Returns whether an argument is an input: a file, or a folder of fits.
 pub fn is_input(arg: &Arg) -> bool {
     matches!(arg.get_value_hint(), ValueHint::FilePath | ValueHint::DirPath)
 }

@@ -1,5 +1,5 @@
-//! What made a file, and the key by which a stage knows that it is up to date: one JSON, in the footer of a table or in the first
-//! lines of a page or figure.
+//! Provenance of a file, and the key that shows whether it is up to date: JSON in the footer of a table, or in
+//! the first lines of a page or figure.
 
 use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
@@ -14,10 +14,10 @@ use super::file;
 
 /// Key of the JSON among the key-value metadata.
 const KEY: &str = "rockfrag";
-/// What stands before the JSON in a page or figure, and within how many bytes it is looked for.
+/// The text before the JSON in a page or figure, and the bytes that are searched for it.
 const META: &str = "name=\"rockfrag\" content=\"";
 const HEAD: u64 = 8192;
-/// Who wrote the file; another program that rewrites it puts its own name here.
+/// Writer of the file; another program that rewrites it puts its own name here.
 pub const CREATED_BY: &str = concat!("rockfrag ", env!("CARGO_PKG_VERSION"));
 
 /// The provenance of a file.
@@ -43,7 +43,7 @@ impl Provenance {
         blake3::hash(text.as_bytes()).to_hex().to_string()
     }
 
-    /// Reads it from a Parquet file, a page or a figure; `None` where another program wrote the file.
+    /// Reads the provenance of a table, page or figure; `None` if another program wrote it.
     pub fn of_file(path: &Path) -> Result<Option<Provenance>, TableError> {
         let is_text = path.extension().is_some_and(|ending| ending == "html" || ending == "svg");
         match is_text {
@@ -116,7 +116,7 @@ pub fn files_below(paths: &[PathBuf]) -> Result<Vec<PathBuf>, TableError> {
     Ok(files)
 }
 
-/// The beginning of a file, as text.
+/// Reads the beginning of a file as text.
 pub fn head(path: &Path) -> Result<String, TableError> {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
@@ -124,13 +124,13 @@ pub fn head(path: &Path) -> Result<String, TableError> {
     Ok(String::from_utf8_lossy(&head).into_owned())
 }
 
-/// The key of an input: that in its footer if rockfrag wrote it, the hash of its bytes if another program did; of a folder
-/// the hash of the keys of the tables in it and below, or of all files where there is none.
+/// Computes the key of an input: the one in the file if rockfrag wrote it, otherwise the hash of its bytes;
+/// for a folder, the hash of the keys of its tables, or of all files if there is no table.
 pub fn key_of(path: &Path) -> Result<String, TableError> {
     key_with(path, &HashMap::new())
 }
 
-/// The same, with the keys of files that are yet to be made.
+/// Computes the same with the keys of files that are not made yet.
 pub fn key_with(path: &Path, planned: &HashMap<PathBuf, String>) -> Result<String, TableError> {
     if let Some(key) = planned.get(path) {
         return Ok(key.clone());
