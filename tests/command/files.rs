@@ -85,6 +85,27 @@ fn narrower_numbers_of_other_programs_are_read() {
 }
 
 #[test]
+fn a_file_of_pandas_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/files/pandas.parquet");
+    let (own, foreign) = (folder.path().join("own.parquet"), folder.path().join("pandas.parquet"));
+    std::fs::copy(path, foreign).unwrap();
+    write_motions(
+        &own,
+        0.0625,
+        &[1.0, 3.0, 5.0].map(|k| [0.0, k, -k, 0.0]).each_ref().map(|motion| &motion[..]),
+    );
+    let edp = |name: &str| {
+        let call = format!("simulate --in {name}.parquet --out {name}.responses.parquet {STRUCTURE}");
+        succeed(folder.path(), &call);
+        let rows =
+            succeed(folder.path(), &format!("inspect --head 5 --format csv {name}.responses.parquet")).0;
+        rows.lines().map(|line| line.split_once(',').unwrap().1.to_string()).collect::<Vec<_>>()
+    };
+    assert_eq!(edp("pandas"), edp("own"));
+}
+
+#[test]
 fn damaged_files_are_errors_that_name_them() {
     let folder = folder_with(SMALL);
     succeed(folder.path(), "run");
