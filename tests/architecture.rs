@@ -9,9 +9,9 @@ const LAYERS: [&[&str]; 7] = [
     &["stages"],
     &["pipeline"],
     &["table", "export", "report"],
-    &["studies", "records", "doubt"],
+    &["studies", "records"],
     &["fragility", "hazard", "paper", "sheet"],
-    &["motion", "rocking", "random", "statistics", "keyword", "units"],
+    &["motion", "rocking", "random", "statistics", "keyword", "units", "doubt"],
 ];
 
 fn layer(room: &str) -> usize {

@@ -1,12 +1,19 @@
 //! The universal surface, calibrated by two numbers: logit P = c + s logit P_surface. c and s are estimated from
 //! the responses of one structure to one suite of motions; without responses they are those of the kind of motion.
 
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::cases::Cases;
-use super::surface::Kind;
-use super::tree::Probability;
+use super::cases::{Cases, Event};
+use super::peaks::{JointPeaks, RatioGiven};
+use super::surface::{self, Curve, Kind, Prior, logit_exceeding, logit_overturning};
+use super::tree::{Probability, Z_95};
+use crate::doubt::Doubt;
+use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
+use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
+use crate::statistics::newton::{Objective, maximise};
+use crate::statistics::variance;
 
 /// Over which magnitudes and distances a probability is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,27 +43,250 @@ pub struct Calibration {
     pub tau: f64,
     pub n: i64,
     pub n_events: i64,
+    /// Events that the surface predicts.
+    pub expected: f64,
     pub n_clusters: i64,
-    /// Of the motions that it was fitted to: least and largest PGA (m/s2) and PGV/PGA (s).
+    /// Of the motions that it was fitted to: least and largest PGA (m/s2), PGV (m/s) and PGV/PGA (s).
     pub pga_low: Option<f64>,
     pub pga_high: Option<f64>,
+    pub pgv_low: Option<f64>,
+    pub pgv_high: Option<f64>,
     pub ratio_low: Option<f64>,
     pub ratio_high: Option<f64>,
+    /// ln(PGV/PGA) of all motions given ln PGA and ln PGV: intercept, slope, standard deviation.
+    pub ratio_given_pga: Vec<f64>,
+    pub ratio_given_pgv: Vec<f64>,
 }
+
+/// With fewer cases on a side the level is uncertain.
+const FEW_EVENTS: i64 = 10;
+/// A peak within this factor of those of the data is like them.
+const LIKE: f64 = 1.2;
 
 impl Calibration {
     /// That of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, none of P_ro.
-    pub fn shipped(_kind: Kind, _structure: &Structure, _limit_state: Option<f64>) -> Calibration {
-        todo!()
+    pub fn shipped(kind: Kind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
+        let Prior { c, ln_s, sd_c, sd_ln_s, tau } = surface::prior(kind, curve(limit_state));
+        let peaks = surface::peaks(kind);
+        Calibration {
+            suite: None,
+            kind,
+            structure: structure.name.clone(),
+            p_rad_s: structure.p_rad_s,
+            alpha_rad: structure.alpha_rad,
+            eta: structure.eta,
+            limit_state,
+            c,
+            ln_s,
+            covariance: vec![sd_c * sd_c, 0.0, 0.0, sd_ln_s * sd_ln_s],
+            tau,
+            n: 0,
+            n_events: 0,
+            expected: 0.0,
+            n_clusters: 0,
+            pga_low: None,
+            pga_high: None,
+            pgv_low: None,
+            pgv_high: None,
+            ratio_low: None,
+            ratio_high: None,
+            ratio_given_pga: peaks.given_pga.to_numbers(),
+            ratio_given_pgv: peaks.given_pgv.to_numbers(),
+        }
     }
 
-    /// Fits c and s to responses: maximum a posteriori, with the priors of the kind of motion.
-    pub fn fit(_cases: &Cases, _limit_state: Option<f64>) -> Calibration {
-        todo!()
+    /// Fits c and ln s to responses: the maximum of their posterior density, with the priors of the kind of motion.
+    pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
+        let kind = Kind::of(cases.suite.as_deref().and_then(|suite| suite.parse().ok()));
+        let prior = surface::prior(kind, curve(limit_state));
+        let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
+        let sample = Sample::of(cases, limit_state, |measures| shipped.logit(&cases.structure, measures));
+        let (at, covariance) = sample.maximum(&prior);
+        let (pga, pgv) = (sample.of_cases(&cases.pga_m_s2), sample.of_cases(&cases.pgv_m_s));
+        let ratio: Vec<f64> = pga.iter().zip(&pgv).map(|(pga, pgv)| pgv / pga).collect();
+        let [(pga_low, pga_high), (pgv_low, pgv_high), (ratio_low, ratio_high)] = [pga, pgv, ratio].map(ends);
+        let own = JointPeaks::of(&cases.pga_m_s2, &cases.pgv_m_s);
+        let numbers = |of: fn(&JointPeaks) -> RatioGiven| own.as_ref().map(|own| of(own).to_numbers());
+        let ratio_given_pga = numbers(|peaks| peaks.given_pga).unwrap_or(shipped.ratio_given_pga);
+        let ratio_given_pgv = numbers(|peaks| peaks.given_pgv).unwrap_or(shipped.ratio_given_pgv);
+        let mut clusters = sample.clusters.clone();
+        clusters.sort_unstable();
+        clusters.dedup();
+        Calibration {
+            suite: cases.suite.clone(),
+            c: at[0],
+            ln_s: at[1],
+            covariance: covariance.as_slice().to_vec(),
+            n: sample.logits.len() as i64,
+            n_events: sample.events.iter().filter(|event| **event).count() as i64,
+            expected: sample.logits.iter().map(|logit| logistic(*logit)).sum(),
+            n_clusters: clusters.len() as i64,
+            pga_low,
+            pga_high,
+            pgv_low,
+            pgv_high,
+            ratio_low,
+            ratio_high,
+            ratio_given_pga,
+            ratio_given_pgv,
+            ..shipped
+        }
     }
 
-    /// Computes the calibrated probability from the logit of the surface, with 95 % limits.
-    pub fn probability(&self, _logit: f64, _scenarios: Scenarios) -> Probability {
-        todo!()
+    /// Computes the logit of the surface; none where a measure is missing.
+    pub fn logit(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<f64> {
+        match self.limit_state {
+            None => logit_overturning(self.kind, structure, measures),
+            Some(limit_state) => logit_exceeding(self.kind, structure, measures, limit_state),
+        }
     }
+
+    /// Computes the calibrated probability from the logit of the surface, with 95 % limits: those of c + s L by the delta
+    /// method, J V J', and of one scenario by tau too.
+    pub fn probability(&self, logit: f64, scenarios: Scenarios) -> Probability {
+        let slope = self.ln_s.exp() * logit;
+        let between = if scenarios == Scenarios::One { self.tau * self.tau } else { 0.0 };
+        let half_width = Z_95 * (variance(&self.covariance, &[1.0, slope]) + between).sqrt();
+        let z = self.c + slope;
+        let [value, low, high] = [z, z - half_width, z + half_width].map(logistic);
+        Probability { value, low, high }
+    }
+
+    /// How PGA and PGV go together in the motions that it stands for.
+    pub fn peaks(&self) -> Option<JointPeaks> {
+        let given_pga = RatioGiven::of_numbers(&self.ratio_given_pga)?;
+        Some(JointPeaks { given_pga, given_pgv: RatioGiven::of_numbers(&self.ratio_given_pgv)? })
+    }
+
+    /// What speaks against it as a whole; nothing where it is that of a kind of motion.
+    pub fn doubts(&self) -> Vec<Doubt> {
+        let rarer = self.n_events.min(self.n - self.n_events);
+        let of_events = match (rarer, self.limit_state) {
+            (0, None) => Some(Doubt::NoEvents),
+            (0..FEW_EVENTS, _) => Some(Doubt::FewEvents),
+            _ => None,
+        };
+        let of_clusters = (self.n_clusters < MIN_CLUSTERS as i64).then_some(Doubt::FewClusters);
+        let is_own = self.n > 0;
+        of_events.into_iter().chain(of_clusters).filter(|_| is_own).collect()
+    }
+
+    /// Returns whether some of the motions that it was fitted to had a like PGA and PGV; that of a kind of motion is
+    /// fitted to all that the surface covers.
+    pub fn has_like(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
+        let unit = structure.uplift_acceleration_m_s2();
+        let (pga, pgv) = (measures.im4 * unit, measures.im5 * unit / structure.p_rad_s);
+        let ranges = [
+            (pga, self.pga_low, self.pga_high),
+            (pgv, self.pgv_low, self.pgv_high),
+            (pgv / pga, self.ratio_low, self.ratio_high),
+        ];
+        ranges.iter().all(|(value, low, high)| {
+            low.is_none_or(|low| *value >= low / LIKE) && high.is_none_or(|high| *value <= high * LIKE)
+        })
+    }
+}
+
+fn curve(limit_state: Option<f64>) -> Curve {
+    if limit_state.is_some() { Curve::Pex } else { Curve::Pro }
+}
+
+fn logistic(z: f64) -> f64 {
+    1.0 / (1.0 + (-z).exp())
+}
+
+/// Least and largest value; none of none.
+fn ends(values: Vec<f64>) -> (Option<f64>, Option<f64>) {
+    (values.iter().copied().reduce(f64::min), values.into_iter().reduce(f64::max))
+}
+
+/// The responses that count, with the logit of the surface.
+struct Sample {
+    cases: Vec<usize>,
+    logits: Vec<f64>,
+    events: Vec<bool>,
+    clusters: Vec<u32>,
+}
+
+impl Sample {
+    fn of(
+        cases: &Cases,
+        limit_state: Option<f64>,
+        logit: impl Fn(&IntensityMeasures) -> Option<f64>,
+    ) -> Sample {
+        let event = if limit_state.is_some() { Event::Exceeding } else { Event::Overturning };
+        let mut sample = Sample { cases: vec![], logits: vec![], events: vec![], clusters: vec![] };
+        for case in 0..cases.len() {
+            let happened = cases.happened(case, event, limit_state.unwrap_or(f64::INFINITY));
+            let Some((event, logit)) = happened.zip(logit(&cases.measures(case))) else { continue };
+            sample.cases.push(case);
+            sample.logits.push(logit);
+            sample.events.push(event);
+            sample.clusters.push(cases.cluster[case]);
+        }
+        sample
+    }
+
+    fn of_cases(&self, column: &[f64]) -> Vec<f64> {
+        self.cases.iter().map(|&case| column[case]).collect()
+    }
+
+    /// Finds c and ln s of greatest posterior density, and their covariance V. With B the inverse of the information, prior
+    /// included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B, M the sum over clusters of the squares of their
+    /// scores and P the information of the prior, which counts as one more cluster.
+    fn maximum(&self, prior: &Prior) -> (DVector<f64>, DMatrix<f64>) {
+        let start = DVector::from_vec(vec![prior.c, prior.ln_s]);
+        let found = maximise(|at| self.log_posterior(prior, at), start);
+        let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
+        let s = found.at[1].exp();
+        let slopes: Vec<f64> = self.logits.iter().map(|logit| s * logit).collect();
+        let score = |(slope, event): (&f64, &bool)| f64::from(u8::from(*event)) - logistic(found.at[0] + slope);
+        let scores: Vec<f64> = slopes.iter().zip(&self.events).map(score).collect();
+        let (clustered, _) = sandwich(&[&slopes], &scores, &bread, &self.clusters);
+        let of_prior = DMatrix::from_diagonal(&information(prior));
+        let covariance = clustered.map(|clustered| clustered + &bread * of_prior * &bread);
+        (found.at, covariance.unwrap_or(bread))
+    }
+
+    /// ln likelihood + ln prior with its derivatives by c and ln s: of z = c + s L and the slope m = s L = dz / d(ln s), the
+    /// sum of y z - ln(1 + e^z). Where the second derivatives are not those of a maximum, their expectation stands for them.
+    fn log_posterior(&self, prior: &Prior, at: &DVector<f64>) -> Objective {
+        let (c, s) = (at[0], at[1].exp());
+        let terms = |case: usize, sum: &mut Objective| {
+            let slope = s * self.logits[case];
+            let z = c + slope;
+            let (p, sign) = (logistic(z), if self.events[case] { 1.0 } else { -1.0 });
+            let (score, weight) = (0.5 * (1.0 + sign) - p, p * (1.0 - p));
+            sum.value -= softplus(-sign * z);
+            sum.gradient[0] += score;
+            sum.gradient[1] += score * slope;
+            sum.information[(0, 0)] += weight;
+            sum.information[(0, 1)] += weight * slope;
+            sum.information[(1, 1)] += weight * slope * slope;
+        };
+        let mut sum = Objective::sum(self.logits.len(), 2, terms);
+        sum.information[(1, 0)] = sum.information[(0, 1)];
+        let away = at - DVector::from_vec(vec![prior.c, prior.ln_s]);
+        let precision = information(prior);
+        let bend = sum.gradient[1];
+        sum.value -= 0.5 * away.component_mul(&precision).dot(&away);
+        sum.gradient -= away.component_mul(&precision);
+        sum.information += DMatrix::from_diagonal(&precision);
+        let mut observed = sum.information.clone();
+        observed[(1, 1)] -= bend;
+        if observed.clone().cholesky().is_some() {
+            sum.information = observed;
+        }
+        sum
+    }
+}
+
+/// The information of the prior on c and ln s.
+fn information(prior: &Prior) -> DVector<f64> {
+    DVector::from_vec([prior.sd_c, prior.sd_ln_s].map(|sd| 1.0 / (sd * sd)).to_vec())
+}
+
+/// Computes ln(1 + e^x).
+fn softplus(x: f64) -> f64 {
+    x.max(0.0) + (-x.abs()).exp().ln_1p()
 }

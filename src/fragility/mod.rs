@@ -4,12 +4,14 @@
 //! ```text
 //! cases        the responses of one structure to one suite of motions; measure: the intensity measures of Eq. 13
 //! demand       P_ex: regressions of the demand in safe rocking (Eqs. 14 to 18)
-//! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: what either tells, with limits
-//! tree         the tree that joins them (Eq. 12); paper_model: the tree as the paper answers it
-//! universal    the surface that is shipped: the same probabilities for any structure; peaks: how PGA and PGV go together
+//! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: the numbers of either, with limits
+//! tree         the tree that joins them (Eq. 12); paper_model: the tree by the paper's fits
+//! surface      P_ro and P_ex of any structure; calibration: the surface by one's own responses; peaks: PGA and PGV together
+//! model        what answers: the calibrated surface, or the paper's fits
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
 
+mod along;
 mod calibration;
 mod capacity;
 mod cases;
@@ -22,8 +24,8 @@ mod parameter;
 mod peaks;
 mod surface;
 mod tree;
-pub mod universal;
 
+pub use along::{Along, Ratio, limit_states_at};
 pub use calibration::{Calibration, Scenarios};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::{CaseRow, Cases, CasesBuilder, CasesError, Event, MOST_CASES, Sample, SharedBy};
@@ -40,4 +42,3 @@ pub use peaks::{JointPeaks, Peak, RatioGiven};
 pub use surface::{Kind, logit_exceeding, logit_overturning};
 pub use tree::{GivenRocking, LimitState, Probabilities, Probability, Z_95};
 pub use tree::{p_failure, p_failure_given_rocking, p_no_rocking};
-pub use universal::UniversalModel;

@@ -3,12 +3,14 @@
 use super::calibration::{Calibration, Scenarios};
 use super::demand::DemandFit;
 use super::overturning::OverturningFit;
+use super::paper_model::paper_probabilities;
 use super::peaks::JointPeaks;
-use super::surface::Kind;
-use super::tree::Probabilities;
+use super::surface::{self, Kind};
+use super::tree::{GivenRocking, Probabilities, Probability, p_failure_given_rocking, p_no_rocking};
 use crate::doubt::Doubt;
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
+use crate::statistics::FitStatus;
 
 /// What answers for one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,20 +21,47 @@ pub enum Model {
     Paper { demand: Vec<DemandFit>, overturning: OverturningFit, limit_state: f64, peaks: JointPeaks },
 }
 
+/// Probability with which the limits hold the truth.
+const CONFIDENCE: f64 = 0.95;
+
 impl Model {
     /// That of a structure without fits: the surface for this kind of motion.
-    pub fn shipped(_kind: Kind, _structure: &Structure, _limit_state: f64) -> Model {
-        todo!()
+    pub fn shipped(kind: Kind, structure: &Structure, limit_state: f64) -> Model {
+        Model::Calibrated {
+            overturning: Calibration::shipped(kind, structure, None),
+            exceeding: Calibration::shipped(kind, structure, Some(limit_state)),
+            peaks: surface::peaks(kind),
+        }
     }
 
     /// The probabilities of the tree at an intensity (Eq. 12).
     pub fn probabilities(
         &self,
-        _structure: &Structure,
-        _measures: &IntensityMeasures,
-        _scenarios: Scenarios,
+        structure: &Structure,
+        measures: &IntensityMeasures,
+        scenarios: Scenarios,
     ) -> Probabilities {
-        todo!()
+        let (overturning, exceeding) = match self {
+            Model::Calibrated { overturning, exceeding, .. } => (overturning, exceeding),
+            Model::Paper { demand, overturning, limit_state, .. } => {
+                return paper_probabilities(demand, overturning, measures, *limit_state, CONFIDENCE);
+            }
+        };
+        let given_rocking = || {
+            let of = |calibration: &Calibration| {
+                Some(calibration.probability(calibration.logit(structure, measures)?, scenarios))
+            };
+            let (p_ro, p_ex) = (of(overturning)?, of(exceeding)?);
+            // What is not known of a structure moves both branches the same way.
+            let p_failure = Probability {
+                value: p_failure_given_rocking(p_ro.value, p_ex.value),
+                low: p_failure_given_rocking(p_ro.low, p_ex.low),
+                high: p_failure_given_rocking(p_ro.high, p_ex.high),
+            };
+            Some(GivenRocking { p_ex, p_ro, p_failure })
+        };
+        let p_nr = p_no_rocking(measures.im4);
+        Probabilities { p_nr, given_rocking: if p_nr == 0.0 { given_rocking() } else { None } }
     }
 
     /// How PGA and PGV go together in the motions that it stands for.
@@ -43,7 +72,32 @@ impl Model {
     }
 
     /// What speaks against its answer at an intensity.
-    pub fn doubts(&self, _structure: &Structure, _measures: &IntensityMeasures) -> Vec<Doubt> {
-        todo!()
+    pub fn doubts(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Doubt> {
+        let rocks = p_no_rocking(measures.im4) == 0.0;
+        let mut doubts = match self {
+            Model::Calibrated { overturning, exceeding, .. } => {
+                let covered = exceeding.limit_state.is_none_or(|limit| surface::covers(measures, limit))
+                    && overturning.has_like(structure, measures);
+                let unusual = (!surface::has_like(structure)).then_some(Doubt::UnusualStructure);
+                let outside = (rocks && !covered).then_some(Doubt::Extrapolated);
+                let of_fits = [overturning.doubts(), exceeding.doubts()].concat();
+                outside.into_iter().chain(unusual).chain(of_fits).collect()
+            }
+            Model::Paper { demand, overturning, .. } => {
+                let demand = demand.iter().find(|fit| fit.holds_at(measures.im4));
+                let is_ok = overturning.status == FitStatus::Ok
+                    && demand.is_some_and(|demand| demand.status == FitStatus::Ok);
+                let outside = rocks && !overturning.has_like(measures);
+                let few = !overturning.is_clustered;
+                [(outside, Doubt::Extrapolated), (!is_ok, Doubt::PoorFit), (few, Doubt::FewClusters)]
+                    .into_iter()
+                    .filter(|(holds, _)| *holds)
+                    .map(|(_, doubt)| doubt)
+                    .collect::<Vec<Doubt>>()
+            }
+        };
+        doubts.sort_unstable();
+        doubts.dedup();
+        doubts
     }
 }

@@ -79,6 +79,16 @@ impl HazardCurve {
         [self.points[0], self.points[self.points.len() - 1]]
     }
 
+    /// The curve continued to ten times its last intensity with the slope of its last two points.
+    pub fn extrapolated(&self) -> HazardCurve {
+        const FURTHER: f64 = 10.0;
+        let mut points = self.points.clone();
+        let [(low, rate), (high, rate_at_high)] = [points[points.len() - 2], points[points.len() - 1]];
+        let slope = (rate / rate_at_high).ln() / (high / low).ln();
+        points.push((FURTHER * high, (rate_at_high * FURTHER.powf(-slope)).max(f64::MIN_POSITIVE)));
+        HazardCurve { points }
+    }
+
     /// The annual rate at which an intensity is exceeded; beyond the ends of the curve that of the end.
     pub fn exceedance(&self, im: f64) -> f64 {
         let above = self.points.partition_point(|&(point, _)| point <= im);

@@ -10,8 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{DistinctIds, Measures, doubts, record};
-use super::shared::structures::StructureArgs;
-use super::simulate::doubts_of_size;
+use super::shared::structures::{StructureArgs, doubts_of_all};
 use crate::doubt::{Doubt, Doubts};
 use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities};
 use crate::keyword::keywords;
@@ -151,7 +150,7 @@ impl Stage for Ida {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let structures = self.structures.resolve()?;
-        context.doubt(doubts_of_size(&structures));
+        context.doubt(doubts_of_all(&structures));
         let scan = Scan::new(self.from, self.to, self.steps);
         let motions = Motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));

@@ -46,4 +46,5 @@ stages! {
     fit_pro::FitPro,
     compare_paper::ComparePaper,
     rank_ims::RankIms,
+    evaluate::Evaluate,
 }

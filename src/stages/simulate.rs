@@ -8,9 +8,9 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
 use super::shared::motions::{DistinctIds, Measures, doubts, record};
-use super::shared::structures::StructureArgs;
+use super::shared::structures::{StructureArgs, doubts_of_all};
 use super::synthesize_motions::out_of_partition;
-use crate::doubt::{Doubt, Doubts};
+use crate::doubt::Doubts;
 use crate::motion::IntensityScratch;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::listed;
@@ -63,7 +63,7 @@ impl Stage for Simulate {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let structures = self.structures.resolve()?;
-        context.doubt(doubts_of_size(&structures));
+        context.doubt(doubts_of_all(&structures));
         let motions = Motions::open(&self.input, self.partition)?;
         let out = out_of_partition(&self.out, self.partition);
         let mut writer = context.create(&out, &rows::schema::<ResponseRow>())?;
@@ -163,12 +163,6 @@ fn trace_rows(motion: &Motion, record: &Record, structures: &[Structure]) -> any
         trace(structure, &record).1.into_iter().map(row).collect::<Vec<_>>()
     };
     Ok(structures.iter().flat_map(of_structure).collect())
-}
-
-/// The structures that are larger than any that stands.
-pub fn doubts_of_size(structures: &[Structure]) -> Doubts {
-    let is_doubtful = |structure: &&Structure| structure.doubt().is_some();
-    structures.iter().filter(is_doubtful).map(|structure| (Doubt::ImplausibleSize, structure.name.clone())).collect()
 }
 
 /// The motions that overturn each structure: how many, and the first of them.

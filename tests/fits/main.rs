@@ -15,5 +15,4 @@ mod paper;
 mod ranking;
 mod regression;
 mod tree;
-mod universal;
 mod validation;

@@ -1,5 +1,6 @@
 //! What several stages have: the options of structures, and motions as simulate and ida take them.
 
+pub mod fits;
 pub mod hazard;
 pub mod motions;
 pub mod responses;

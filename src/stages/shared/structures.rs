@@ -6,6 +6,7 @@ use std::str::FromStr;
 use anyhow::Context;
 use clap::{Args, ValueHint};
 
+use crate::doubt::{Doubt, Doubts};
 use crate::keyword::nearest;
 use crate::paper;
 use crate::pipeline::UsageError;
@@ -198,6 +199,23 @@ impl StructureArgs {
             None => Ok(objects),
         }
     }
+}
+
+/// Below this a coefficient of restitution is more likely a typing error.
+const LOW_ETA: f64 = 0.5;
+
+/// What is doubtful about the parameters of a structure.
+pub fn doubts_of(structure: &Structure) -> Vec<Doubt> {
+    let size = structure.doubt().map(|_| Doubt::ImplausibleSize);
+    size.into_iter().chain((structure.eta < LOW_ETA).then_some(Doubt::LowRestitution)).collect()
+}
+
+/// The same of several structures.
+pub fn doubts_of_all(structures: &[Structure]) -> Doubts {
+    let of = |structure: &Structure| {
+        doubts_of(structure).into_iter().map(|doubt| (doubt, structure.name.clone())).collect::<Vec<_>>()
+    };
+    structures.iter().flat_map(of).collect()
 }
 
 /// An object of a list: a structure, or what is wrong with its row.

@@ -1,0 +1,78 @@
+//! Annual rates of the limit states of a structure at a site: the hazard times the probabilities of a model.
+
+use super::curve::HazardCurve;
+use super::joint::{JointHazard, PairOfPeaks};
+use crate::fragility::{Along, Model, Probability, Scenarios, limit_states_at};
+use crate::rocking::Structure;
+
+/// A mean annual rate with 95 % limits, which are those of the model alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rate {
+    pub value: f64,
+    pub low: f64,
+    pub high: f64,
+    /// What motions stronger than the last of the curve could add: they count with the probability at it.
+    pub beyond: f64,
+}
+
+/// Annual rates of LS1 to LS3; NaN where the model has no probability.
+pub type Rates = [Rate; 3];
+
+/// Integrates the probabilities along a peak over its hazard curve. Limits are those of the probabilities at all
+/// intensities at once.
+pub fn rates_along(along: &Along, curve: &HazardCurve) -> Rates {
+    let states = |intensity| terms(along.limit_states(intensity, Scenarios::Many));
+    let sums = curve.mean_annual_rates(&along.jumps(), states);
+    let [_, (last, rate_beyond)] = curve.ends();
+    let at_last = along.limit_states(last, Scenarios::Many);
+    let beyond = at_last.map(|state| rate_beyond * (1.0 - state.value).max(0.0));
+    rates(sums, beyond)
+}
+
+/// Sums the probabilities over the bins of a joint hazard.
+pub fn rates_over_pairs(model: &Model, structure: &Structure, joint: &JointHazard) -> Rates {
+    let states = |bin: &PairOfPeaks| {
+        let peaks = [bin.pga_m_s2, bin.pgv_m_s];
+        terms(limit_states_at(model, structure, peaks, Scenarios::Many))
+    };
+    rates(joint.mean_annual_rates(states), [0.0; 3])
+}
+
+/// The intensity above which half of the annual rate of overturning comes from, to a hundredth of the curve's range.
+pub fn median_intensity(along: &Along, curve: &HazardCurve) -> f64 {
+    const STEPS: i32 = 100;
+    let [(first, _), (last, rate_beyond)] = curve.ends();
+    let edge = |k: i32| first * (last / first).powf(f64::from(k) / f64::from(STEPS));
+    let overturning = |intensity| along.limit_states(intensity, Scenarios::Many)[2].value;
+    let step = |k: i32| {
+        let middle = (edge(k) * edge(k + 1)).sqrt();
+        (middle, overturning(middle) * (curve.exceedance(edge(k)) - curve.exceedance(edge(k + 1))))
+    };
+    let parts: Vec<(f64, f64)> =
+        (0..STEPS).map(step).chain([(last, overturning(last) * rate_beyond)]).collect();
+    let half = 0.5 * parts.iter().map(|part| part.1).sum::<f64>();
+    let mut sum = 0.0;
+    let is_half = |part: &&(f64, f64)| {
+        sum += part.1;
+        sum >= half
+    };
+    parts.iter().find(is_half).map_or(last, |part| part.0)
+}
+
+/// Value and limits of each state in turn, as the quadratures take them.
+fn terms(states: [Probability; 3]) -> [f64; 9] {
+    let [rocking, failure, overturning] = states.map(|state| [state.value, state.low, state.high]);
+    let mut terms = [0.0; 9];
+    let all = [rocking, failure, overturning].into_iter().flatten();
+    terms.iter_mut().zip(all).for_each(|(term, value)| *term = value);
+    terms
+}
+
+fn rates(sums: [f64; 9], beyond: [f64; 3]) -> Rates {
+    [0, 1, 2].map(|k| Rate {
+        value: sums[3 * k],
+        low: sums[3 * k + 1],
+        high: sums[3 * k + 2],
+        beyond: beyond[k],
+    })
+}

@@ -1,0 +1,214 @@
+//! Annual rates over the hazard of a site.
+
+use serde::{Deserialize, Serialize};
+
+use super::object::texts;
+use crate::doubt::Doubt;
+use crate::fragility::{Along, Cases, Event, Kind, Model, Peak, Ratio};
+use crate::hazard::{CountedMotion, CountedRate, HazardCurve, Rate};
+use crate::hazard::{counted_rates, median_intensity, probability_in_years, rates_along, rates_over_pairs};
+use crate::motion::IntensityMeasures;
+use crate::pipeline::UsageError;
+use crate::rocking::Structure;
+use crate::stages::shared::hazard::Hazard;
+use crate::units::G_M_S2;
+
+/// The hazard, and how rates over it are computed.
+pub struct Site {
+    pub hazard: Hazard,
+    pub years: f64,
+    pub ratio: Ratio,
+    pub extrapolate: bool,
+    /// Demand |theta|max / alpha beyond which it rocks too far.
+    pub limit_state: f64,
+    /// Responses to count in, of each suite and structure.
+    pub responses: Option<Vec<Cases>>,
+}
+
+/// Annual rates of an object, and probabilities in the time of exposure. Where the hazard ends too early for a value
+/// there are bounds alone, in the columns of limits.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct RatesRow {
+    pub rocking_per_year: Option<f64>,
+    pub failure_per_year: Option<f64>,
+    pub failure_per_year_low: Option<f64>,
+    pub failure_per_year_high: Option<f64>,
+    pub overturning_per_year: Option<f64>,
+    pub overturning_per_year_low: Option<f64>,
+    pub overturning_per_year_high: Option<f64>,
+    pub return_period_years: Option<f64>,
+    pub years: Option<f64>,
+    pub p_rocking: Option<f64>,
+    pub p_failure: Option<f64>,
+    pub p_failure_low: Option<f64>,
+    pub p_failure_high: Option<f64>,
+    pub p_overturning: Option<f64>,
+    pub p_overturning_low: Option<f64>,
+    pub p_overturning_high: Option<f64>,
+    /// With PGV / PGA a standard deviation below its median, and above.
+    pub overturning_per_year_less_velocity: Option<f64>,
+    pub overturning_per_year_more_velocity: Option<f64>,
+    pub counted_motions: Option<i64>,
+    pub counted_per_year: Option<f64>,
+    pub counted_per_year_low: Option<f64>,
+    pub counted_per_year_high: Option<f64>,
+    pub doubts: Option<String>,
+}
+
+/// PGA of a curve (m/s2) and PGV (m/s) beyond which nothing was ever recorded: it cannot end too early.
+const STRONGEST: [f64; 2] = [4.5 * G_M_S2, 5.0];
+/// Share of a rate that stronger motions than the last may add before it is no value.
+const NEGLIGIBLE: f64 = 0.1;
+/// Rate a year at which no site has 1 g or 1 m/s, and by which power of the peak it falls: a hundred times less than
+/// 0.1 g once a year.
+const IMPLAUSIBLE: (f64, f64) = (0.02, 1.7);
+/// The seed of the resamples of a count.
+const SEED: u64 = 1;
+
+impl Site {
+    /// Refuses options that a joint hazard has no use for.
+    pub fn check(&self, ratio: Option<f64>) -> anyhow::Result<()> {
+        match (&self.hazard, ratio, self.extrapolate) {
+            (Hazard::Joint(_), Some(_), _) => Err(UsageError::because("ratio: the hazard has PGA and PGV of each motion")),
+            (Hazard::Joint(_), _, true) => Err(UsageError::because("extrapolate: expected a hazard curve of one peak")),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether strong motions are more frequent than anywhere on earth.
+    pub fn is_implausible(&self) -> bool {
+        let exceeds = |one: f64, points: &[(f64, f64)]| {
+            points.iter().any(|&(peak, rate)| rate >= IMPLAUSIBLE.0 * (peak / one).powf(-IMPLAUSIBLE.1))
+        };
+        match &self.hazard {
+            Hazard::Curve(Peak::Pga, curve) => exceeds(G_M_S2, curve.points()),
+            Hazard::Curve(Peak::Pgv, curve) => exceeds(1.0, curve.points()),
+            Hazard::Joint(joint) => {
+                exceeds(G_M_S2, &joint.exceedance(|bin| bin.pga_m_s2))
+                    || exceeds(1.0, &joint.exceedance(|bin| bin.pgv_m_s))
+            }
+        }
+    }
+
+    /// The rates of a structure, and the measures of a motion that half of its rate of overturning is above.
+    pub fn rates(
+        &self,
+        structure: &Structure,
+        model: &Model,
+        doubts: &mut Vec<Doubt>,
+    ) -> (RatesRow, IntensityMeasures) {
+        let (row, peaks) = match &self.hazard {
+            Hazard::Curve(peak, curve) => {
+                let along = Along { model, structure, peak: *peak, ratio: self.ratio };
+                self.over_curve(&along, curve, doubts)
+            }
+            Hazard::Joint(joint) => {
+                let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
+                let peaks = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
+                (RatesRow::new(rates_over_pairs(model, structure, joint), self.years, false), peaks)
+            }
+        };
+        let measures = IntensityMeasures::new(structure, peaks[0], peaks[1], None, None);
+        doubts.extend(model.doubts(structure, &measures));
+        doubts.sort();
+        doubts.dedup();
+        (RatesRow { doubts: texts(doubts), ..row }, measures)
+    }
+
+    fn over_curve(&self, along: &Along, curve: &HazardCurve, doubts: &mut Vec<Doubt>) -> (RatesRow, [f64; 2]) {
+        let [(first, _), (last, _)] = curve.ends();
+        let mut rates = rates_along(along, curve);
+        let is_short = last < STRONGEST[usize::from(along.peak == Peak::Pgv)]
+            && rates[2].beyond > NEGLIGIBLE * rates[2].value;
+        let extrapolated = (is_short && self.extrapolate).then(|| curve.extrapolated());
+        if let Some(curve) = &extrapolated {
+            rates = rates_along(along, curve);
+            doubts.push(Doubt::HazardExtrapolated);
+        } else if is_short {
+            doubts.push(Doubt::HazardEndsEarly);
+        }
+        let curve = extrapolated.as_ref().unwrap_or(curve);
+        let jumps = along.jumps();
+        if first > jumps[jumps.len() / 2] {
+            doubts.push(Doubt::HazardStartsLate);
+        }
+        let mut row = RatesRow::new(rates, self.years, is_short && extrapolated.is_none());
+        if self.ratio == Ratio::Distributed {
+            let overturning = |z| rates_along(&along.with(Ratio::Deviations(z)), curve)[2].value;
+            row.overturning_per_year_less_velocity = Some(overturning(-1.0));
+            row.overturning_per_year_more_velocity = Some(overturning(1.0));
+        }
+        if let Some((motions, count)) = self.count(along, curve) {
+            row.counted_motions = Some(motions as i64);
+            row.counted_per_year = Some(count.value);
+            row.counted_per_year_low = Some(count.limits.low);
+            row.counted_per_year_high = Some(count.limits.high);
+        }
+        (row, along.median_motion(median_intensity(along, curve)))
+    }
+
+    /// The rate of overturning, counted among the responses of this structure to this kind of motion.
+    fn count(&self, along: &Along, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
+        let kind_of = |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
+        let kind = match along.model {
+            Model::Calibrated { overturning, .. } => overturning.kind,
+            Model::Paper { overturning, .. } => kind_of(&overturning.suite),
+        };
+        let parameters = |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta];
+        let is_same = |cases: &&Cases| {
+            let pairs = parameters(&cases.structure).into_iter().zip(parameters(along.structure));
+            kind_of(&cases.suite) == kind && pairs.into_iter().all(|(a, b)| (a / b - 1.0).abs() < 0.01)
+        };
+        let cases = self.responses.iter().flatten().find(is_same)?;
+        let motion = |case: usize| CountedMotion {
+            intensity: if along.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
+            events: [f64::from(cases.happened(case, Event::Overturning, self.limit_state) == Some(true))],
+            cluster: cases.cluster[case],
+        };
+        let motions: Vec<CountedMotion<1>> = (0..cases.len()).map(motion).collect();
+        // Weaker motions uplift nothing.
+        let least = match along.peak {
+            Peak::Pga => along.structure.uplift_acceleration_m_s2(),
+            Peak::Pgv => motions.iter().map(|motion| motion.intensity).fold(f64::INFINITY, f64::min),
+        };
+        let count = counted_rates(curve, least, motions, SEED)?;
+        Some((count.motions, count.rates[0]))
+    }
+}
+
+impl RatesRow {
+    /// Of rates of rocking, failure and overturning; `is_short` where the hazard ends too early for values.
+    fn new([rocking, failure, overturning]: [Rate; 3], years: f64, is_short: bool) -> RatesRow {
+        let known = |rate: f64| Some(rate).filter(|rate| !rate.is_nan());
+        let values = |rate: Rate| match is_short {
+            true => [None, known(rate.low), known(rate.high.max(rate.value + rate.beyond))],
+            false => [known(rate.value), known(rate.low), known(rate.high)],
+        };
+        let ([failure, failure_low, failure_high], [value, low, high]) = (values(failure), values(overturning));
+        let p = |rate: Option<f64>| rate.map(|rate| probability_in_years(rate, years));
+        RatesRow {
+            rocking_per_year: known(rocking.value),
+            failure_per_year: failure,
+            failure_per_year_low: failure_low,
+            failure_per_year_high: failure_high,
+            overturning_per_year: value,
+            overturning_per_year_low: low,
+            overturning_per_year_high: high,
+            return_period_years: value.map(|rate| 1.0 / rate).filter(|years| years.is_finite()),
+            years: Some(years),
+            p_rocking: p(known(rocking.value)),
+            p_failure: p(failure),
+            p_failure_low: p(failure_low),
+            p_failure_high: p(failure_high),
+            p_overturning: p(value),
+            p_overturning_low: p(low),
+            p_overturning_high: p(high),
+            ..RatesRow::default()
+        }
+    }
+
+    /// By which objects are sorted, the worst first.
+    pub fn severity(&self) -> f64 {
+        self.overturning_per_year.or(self.overturning_per_year_high).unwrap_or(f64::NEG_INFINITY)
+    }
+}
