@@ -12,12 +12,13 @@ use rockfrag::statistics::{Estimate, FitStatus, normal, tested_probit, variance}
 
 use crate::error::to_python;
 
-/// Rows of 8 bytes as numbers.
-fn numbers(bytes: &[u8]) -> Vec<f64> {
+/// Numbers from their bytes.
+pub fn numbers(bytes: &[u8]) -> Vec<f64> {
     bytes.as_chunks::<8>().0.iter().map(|number| f64::from_ne_bytes(*number)).collect()
 }
 
-fn bytes<'py>(py: Python<'py>, numbers: impl Iterator<Item = f64>) -> Bound<'py, PyBytes> {
+/// The bytes of numbers.
+pub fn bytes<'py>(py: Python<'py>, numbers: impl Iterator<Item = f64>) -> Bound<'py, PyBytes> {
     PyBytes::new(py, &numbers.flat_map(f64::to_ne_bytes).collect::<Vec<u8>>())
 }
 

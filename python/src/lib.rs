@@ -26,7 +26,7 @@ mod _rockfrag {
     #[pymodule_export]
     use crate::stages::{call, command, describe, inspect, run_pipeline};
     #[pymodule_export]
-    use crate::table::{read_table, write_table};
+    use crate::table::{read_numbers, read_table, write_numbers, write_table};
 
     #[pymodule_init]
     fn init(module: &Bound<PyModule>) -> PyResult<()> {

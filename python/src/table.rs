@@ -1,19 +1,24 @@
 //! Tables between Python and Parquet files, by the C streams of Arrow.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::Context as _;
-use arrow_array::RecordBatchReader;
+use arrow_array::{ArrayRef, Float64Array, RecordBatch, RecordBatchReader};
+use arrow_schema::{ArrowError, SchemaRef};
 use arrow_array::ffi_stream::{ArrowArrayStreamReader, FFI_ArrowArrayStream};
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::properties::WriterProperties;
 use pyo3::prelude::*;
-use pyo3::types::PyCapsule;
+use pyo3::pybacked::PyBackedBytes;
+use pyo3::types::{PyBytes, PyCapsule};
 use rockfrag::table::file::Table;
 use rockfrag::table::frame::{self, Format};
 
+use crate::arrays::{bytes, numbers};
 use crate::error::to_python;
 
 /// Rows of a row group: of lists, such as the samples of motions, and of numbers.
@@ -43,14 +48,43 @@ pub fn write_table(py: Python, capsule: &Bound<PyCapsule>, path: PathBuf) -> PyR
         // What makes the rows may be Python itself, which takes the GIL again where it needs it.
         py.detach(|| match path.extension().is_some_and(|extension| extension == "csv") {
             true => write_csv(reader, &path),
-            false => write_parquet(reader, &path),
+            false => write(reader.schema(), reader, &path),
         })
     });
     written.map_err(|error| to_python(&error))
 }
 
-fn write_parquet(reader: ArrowArrayStreamReader, path: &Path) -> anyhow::Result<()> {
-    let schema = reader.schema();
+/// Writes columns, given as the bytes of f64, to a Parquet file.
+#[pyfunction]
+pub fn write_numbers(columns: BTreeMap<String, PyBackedBytes>, path: PathBuf) -> PyResult<()> {
+    let column = |(name, bytes): (String, PyBackedBytes)| (name, Arc::new(Float64Array::from(numbers(&bytes))) as ArrayRef);
+    let written = RecordBatch::try_from_iter(columns.into_iter().map(column)).map_err(anyhow::Error::from);
+    let written = written.and_then(|batch| write(batch.schema(), [Ok(batch)], &path));
+    written.map_err(|error| to_python(&error))
+}
+
+/// The columns of a Parquet file whose names `wanted` has, as the bytes of f64; NaN where there is no number.
+#[pyfunction]
+pub fn read_numbers<'py>(py: Python<'py>, path: PathBuf, wanted: Vec<String>) -> PyResult<BTreeMap<String, Bound<'py, PyBytes>>> {
+    let mut columns: BTreeMap<String, Vec<f64>> = wanted.into_iter().map(|name| (name, Vec::new())).collect();
+    let read = |columns: &mut BTreeMap<String, Vec<f64>>| -> anyhow::Result<()> {
+        for batch in Table::open(&path)?.batches(&|_| true) {
+            let batch = batch?;
+            for (name, values) in columns.iter_mut() {
+                values.extend(batch.columns().numbers(name)?);
+            }
+        }
+        Ok(())
+    };
+    py.detach(|| read(&mut columns)).map_err(|error| to_python(&error))?;
+    Ok(columns.into_iter().map(|(name, values)| (name, bytes(py, values.into_iter()))).collect())
+}
+
+fn write(
+    schema: SchemaRef,
+    batches: impl IntoIterator<Item = Result<RecordBatch, ArrowError>>,
+    path: &Path,
+) -> anyhow::Result<()> {
     let has_lists = schema.fields().iter().any(|field| field.data_type().is_nested());
     let rows = if has_lists { ROWS_OF_LISTS } else { ROWS_OF_NUMBERS };
     let properties = WriterProperties::builder()
@@ -58,15 +92,13 @@ fn write_parquet(reader: ArrowArrayStreamReader, path: &Path) -> anyhow::Result<
         .set_max_row_group_row_count(Some(rows))
         .build();
     let mut writer = ArrowWriter::try_new(File::create(path)?, schema, Some(properties))?;
-    for batch in reader {
-        writer.write(&batch?)?;
-    }
+    batches.into_iter().try_for_each(|batch| Ok::<(), anyhow::Error>(writer.write(&batch?)?))?;
     writer.close()?;
     Ok(())
 }
 
 fn write_csv(reader: ArrowArrayStreamReader, path: &Path) -> anyhow::Result<()> {
     let parquet = path.with_extension("parquet");
-    write_parquet(reader, &parquet)?;
+    write(reader.schema(), reader, &parquet)?;
     Ok(std::fs::write(path, frame::show(&frame::read(&Table::open(&parquet)?)?, Format::Csv)?)?)
 }

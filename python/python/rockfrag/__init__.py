@@ -18,7 +18,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from . import _rockfrag, _stages
-from ._arrays import FragilityCurve, Response, fit_fragility, simulate_motion
+from ._arrays import FragilityCurve, Probabilities, Response, fit_fragility, probability, simulate_motion
 from ._result import Result
 from ._rockfrag import Error, __version__
 
@@ -33,15 +33,17 @@ else:
 __all__ = [
     "Error",
     "FragilityCurve",
+    "Probabilities",
     "Response",
     "Result",
     "__version__",
     "fit_fragility",
     "inspect",
+    "probability",
     "run",
     "simulate_motion",
-    *_stages.functions,
 ]
+__all__ += list(_stages.functions)
 
 
 def run(

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _rockfrag
+from . import _rockfrag, _stages
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -56,10 +59,10 @@ def simulate_motion(acceleration: ArrayLike, dt: float, *, tail: float = 10.0, *
     samples = np.asarray(acceleration, dtype=np.float64)
     if samples.ndim != 1:
         raise ValueError(f"acceleration has {samples.ndim} dimensions; expected 1")
-    words = ",".join(f"{name}={value}" for name, value in structure.items())
+    words = ",".join(["name=structure", *(f"{name}={value}" for name, value in structure.items())])
     solved = _rockfrag.simulate_motion(samples.tobytes(), dt, words, tail)
-    arrays = {name: np.frombuffer(solved.pop(name)) for name in ("time", "theta", "theta_dot")}
-    return Response(**arrays, **solved)
+    solved.update({name: np.frombuffer(solved[name]) for name in ("time", "theta", "theta_dot")})
+    return Response(**solved)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +82,8 @@ class FragilityCurve:
     beta_low: float = np.nan
     beta_high: float = np.nan
     #: z = b0 + b1 ln im, and its covariance, row by row.
-    coefficients: tuple[float, ...] = (np.nan, np.nan)
-    covariance: tuple[float, ...] = (np.nan,) * 4
+    coefficients: Sequence[float] = (np.nan, np.nan)
+    covariance: Sequence[float] = (np.nan,) * 4
     #: Standard errors from a number to its limits.
     quantile: float = np.nan
 
@@ -118,4 +121,45 @@ def fit_fragility(im: ArrayLike, outcome: ArrayLike, *, confidence: float = 0.95
     for name in ("theta", "beta"):
         if name in fit:
             fit[name], fit[f"{name}_low"], fit[f"{name}_high"] = fit[name]
-    return FragilityCurve(**{name: tuple(value) if isinstance(value, list) else value for name, value in fit.items()})
+    return FragilityCurve(**fit)
+
+
+@dataclass(frozen=True, eq=False)
+class Probabilities:
+    """The probabilities of the tree (Eq. 12), with 95 % limits: of no rocking, and given rocking of exceeding the limit state and of
+    overturning; then of failure, given rocking and of all."""
+
+    p_nr: Floats
+    p_ex: Floats
+    p_ex_low: Floats
+    p_ex_high: Floats
+    p_ro: Floats
+    p_ro_low: Floats
+    p_ro_high: Floats
+    p_f_r: Floats
+    p_f_r_low: Floats
+    p_f_r_high: Floats
+    p_f: Floats
+    #: What speaks against them.
+    doubts: list[str]
+
+
+def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities:
+    """Predicts probabilities for one structure at intensities, as :func:`rockfrag.evaluate` does for a table of them.
+
+    Parameters
+    ----------
+    pga, pgv : arrays that broadcast to one shape
+        Peak ground acceleration, g, and velocity, m/s.
+    **options
+        Of :func:`rockfrag.evaluate`: the structure, ``fits``, ``suite``, ``limit_state`` ...
+    """
+    given = np.broadcast_arrays(*(np.asarray(peak, dtype=np.float64) for peak in (pga, pgv)))
+    names = [field.name for field in fields(Probabilities) if field.name != "doubts"]
+    with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
+        path = Path(folder, "intensities.parquet")
+        _rockfrag.write_numbers({"pga_g": given[0].tobytes(), "pgv_m_s": given[1].tobytes()}, path)
+        evaluated = _stages.functions["evaluate"](path, **options)
+        columns = _rockfrag.read_numbers(evaluated._table(), names)
+    arrays: dict[str, Any] = {name: np.frombuffer(columns[name]).reshape(given[0].shape) for name in names}
+    return Probabilities(**arrays, doubts=evaluated.doubts)

@@ -75,4 +75,8 @@ class Result:
         return self.path
 
     def __repr__(self) -> str:
-        return "\n".join([self.summary.rstrip() or f"{self.stage}: {self.path}", *(f"doubt: {doubt}" for doubt in self.doubts)])
+        doubts = [f"doubt: {doubt}" for doubt in self.doubts]
+        return "\n".join([self.summary.rstrip() or f"{self.stage}: {self.path}", *doubts])
+
+
+Result.__module__ = "rockfrag"

@@ -52,20 +52,26 @@ class Stage(NamedTuple):
         return next((option for option in self.options if option.positional or option.name == "in"), None)
 
     @property
+    def makes_table(self) -> bool:
+        outs = [option for option in self.options if option.name == "out"]
+        return any(".parquet" in out.default or ".parquet" in out.help for out in outs)
+
+    @property
     def named(self) -> list[Option]:
         own = [option for option in self.options if not option.common and option is not self.input]
-        return [option._replace(name=f"{option.name}_") if option.name in RESERVED else option for option in own]
+        return [o._replace(name=f"{o.name}_") if o.name in RESERVED else o for o in own]
 
 
 def described() -> list[Stage]:
     """All stages, in the order of a run."""
     stages = json.loads(_rockfrag.describe())
-    return [Stage(stage["name"], stage["help"], [Option(**option) for option in stage["options"]]) for stage in stages]
+    return [Stage(each["name"], each["help"], [Option(**option) for option in each["options"]]) for each in stages]
 
 
 def call(
     stage: Stage,
     given: object = None,
+    /,
     *,
     out: str | os.PathLike[str] | None = None,
     threads: int | None = None,
@@ -75,17 +81,16 @@ def call(
     """Runs a stage on tables and files."""
     if stage.input is not None and given is not None:
         options[stage.input.name] = given
-    words = {name.removesuffix("_").replace("_", "-"): value for name, value in options.items() if value is not None}
-    default = next((Path(option.default) for option in stage.options if option.name == "out" and option.default), None)
+    words = {flag(name): value for name, value in options.items() if value is not None}
     folder = None
     if out is not None:
         words["out"] = out
-    elif default is not None and default.suffix == ".parquet":
+    elif stage.makes_table:
         folder = Path(tempfile.mkdtemp(prefix="rockfrag."))
-        words["out"] = folder / default
+        words["out"] = folder / f"{stage.command}.parquet"
     if threads is not None:
         words["threads"] = threads
-    files = {option.name.replace("_", "-"): option for option in stage.options if option.file}
+    files = {flag(option.name): option for option in stage.options if option.file}
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as scratch:
         for name, option in files.items():
             if hasattr(words.get(name), "__arrow_c_stream__"):
@@ -98,6 +103,11 @@ def call(
     return result(made, folder)
 
 
+def flag(name: str) -> str:
+    """``limit-state`` of ``limit_state``, and ``from`` of ``from_``."""
+    return name.removesuffix("_").replace("_", "-")
+
+
 def result(made: tuple[str, list[Path], str, list[str]], folder: Path | None = None) -> Result:
     """What came of a stage that is done."""
     stage, paths, summary, doubts = made
@@ -108,7 +118,7 @@ def written(table: Any, path: Path, option: Option) -> Path:
     """The file of a table: a result has one, others are written to one."""
     if isinstance(table, Result):
         return table._table()
-    path = path.with_suffix(".csv" if "CSV" in option.help else ".parquet")
+    path = path.with_suffix(".csv" if "CSV" in option.help and "Parquet" not in option.help else ".parquet")
     _rockfrag.write_table(table.__arrow_c_stream__(), path)
     return path
 
@@ -130,16 +140,17 @@ def plain(value: Any) -> Any:
 
 def line(option: Option) -> str:
     """An option with its default and meaning, on one line."""
-    is_table = option.name == "out" and option.default.endswith(".parquet")
-    default = " = temporary" if is_table else f" = {option.default}" if option.default else ""
+    default = " = False" if option.flag else f" = {option.default}" if option.default else ""
     return textwrap.shorten(f"{option.name}{default}: {option.help}", WIDTH, placeholder=" ...")
 
 
 def docstring(stage: Stage) -> str:
     """The help of a stage: a line an option."""
     first = [line(stage.input._replace(name="input"))] if stage.input else []
+    temporary = "out" if stage.makes_table else ""
+    named = [o._replace(default="temporary") if o.name == temporary else o for o in stage.named]
     common = "threads, force, config, progress: as of all stages; progress(done, total) is called as it runs"
-    return "\n".join([f"{stage.help}.", "", *first, *map(line, stage.named), common])
+    return "\n".join([f"{stage.help}.", "", *first, *map(line, named), common])
 
 
 def function(stage: Stage) -> Callable[..., Result]:
@@ -151,7 +162,7 @@ def function(stage: Stage) -> Callable[..., Result]:
         return call(stage, *given, **options)
 
     given = [Parameter("input", Parameter.POSITIONAL_ONLY, default=None)] if stage.input else []
-    signature = Signature([*given, Parameter("options", Parameter.VAR_KEYWORD)], return_annotation="Result")
+    signature = Signature([*given, Parameter("options", Parameter.VAR_KEYWORD)], return_annotation=Result)
     run.__name__ = run.__qualname__ = stage.name
     run.__module__ = "rockfrag"
     run.__doc__ = docstring(stage)

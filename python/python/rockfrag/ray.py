@@ -20,7 +20,7 @@ try:
 except ModuleNotFoundError as missing:
     raise ImportError("rockfrag.ray needs Ray: pip install 'rockfrag[ray]'") from missing
 
-import rockfrag
+from . import _stages
 
 __all__ = ["simulate", "synthesize_motions"]
 
@@ -83,4 +83,4 @@ def _each(
 
 
 def _one(stage: str, source: Path, call: dict[str, object]) -> Path | None:
-    return getattr(rockfrag, stage)(source, **call).path
+    return _stages.functions[stage](source, **call).path

@@ -1,0 +1,33 @@
+"""Small tables that the tests share."""
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import rockfrag
+
+FRAME = {"name": "frame", "p": 1.5, "alpha": 0.15, "eta": 0.92}
+
+
+@pytest.fixture(scope="session")
+def motions() -> rockfrag.Result:
+    return rockfrag.synthesize_motions(rockfrag.sample_scenarios(samples=4, seed=7))
+
+
+@pytest.fixture(scope="session")
+def responses(motions: rockfrag.Result) -> rockfrag.Result:
+    return rockfrag.simulate(motions, structure=FRAME)
+
+
+@pytest.fixture
+def command(tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Runs the command of the wheel in the test's folder."""
+
+    def run(*words: object) -> subprocess.CompletedProcess[str]:
+        program = Path(sys.executable).with_name("rockfrag")
+        return subprocess.run([program, *map(str, words)], cwd=tmp_path, capture_output=True, text=True, check=False)
+
+    return run

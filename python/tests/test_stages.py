@@ -1,0 +1,151 @@
+"""Every stage is a function that does what the command does, with the same options."""
+
+import inspect
+import os
+import pydoc
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import FRAME
+
+import rockfrag
+from rockfrag import _stages
+
+
+def test_a_stage_writes_the_bytes_of_the_command(tmp_path, command):
+    for stage, options in [
+        ("sample-scenarios", {"samples": 3, "mw": "6:7:0.5"}),
+        ("synthesize-motions", {"suite": ["pulse", "csgm"], "in": "scenarios.parquet"}),
+        ("simulate", {"structure": [FRAME], "in": "motions.parquet"}),
+        ("fit-pro", {"in": "responses.parquet", "pairs": ["im4:im5"]}),
+    ]:
+        words = {"structure": "name=frame,p=1.5,alpha=0.15,eta=0.92", "suite": "pulse,csgm", "pairs": "im4:im5"}
+        flags = [f"--{name}={words.get(name, value)}" for name, value in options.items()]
+        done = command(stage, *flags)
+        assert done.returncode == 0, done.stderr
+        files = {path.name: path.read_bytes() for path in tmp_path.glob("*.parquet")}
+        given = tmp_path / options.pop("in") if "in" in options else None
+        call = getattr(rockfrag, stage.replace("-", "_"))
+        made = call(*[given][: given is not None], out=tmp_path / "python" / newest(tmp_path), **options)
+        assert made.path.read_bytes() == files[made.path.name]
+        assert made.summary == done.stdout
+
+
+def newest(folder: Path) -> str:
+    """The file that was written last; of a table with parts, the table."""
+    names = [path.name for path in folder.glob("*.parquet") if path.name.count(".") == 1]
+    return max(names, key=lambda name: (folder / name).stat().st_mtime_ns)
+
+
+def test_an_unknown_option_names_the_nearest(motions):
+    with pytest.raises(TypeError, match="simulate: unknown option 'alpah'; did you mean 'alpha'?"):
+        rockfrag.simulate(motions, p=1.5, alpah=0.15, eta=0.92)
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({}, ValueError, "no structure; expected width and height"),
+        ({"p": "x", "alpha": 0.15, "eta": 0.92}, ValueError, "invalid value 'x' for 'p"),
+        ({"p": 1.5, "alpha": 15, "eta": 0.92}, ValueError, "alpha is 15; .* is it in degrees"),
+        ({"structures": "none.csv"}, FileNotFoundError, "none.csv"),
+        ({**FRAME, "name": None, "threads": 0}, ValueError, "threads"),
+        ({"p": object(), "alpha": 0.15, "eta": 0.92}, TypeError, "is no value of an option"),
+    ],
+)
+def test_a_wrong_option_is_told(motions, options, error, message):
+    with pytest.raises(error, match=message):
+        rockfrag.simulate(motions, **options)
+
+
+def test_a_missing_or_damaged_file_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError, match="none.parquet: no such file"):
+        rockfrag.simulate("none.parquet", structure=FRAME)
+    (tmp_path / "bad.parquet").write_bytes(b"PAR1 no Parquet")
+    with pytest.raises(rockfrag.Error, match="bad.parquet: not a readable Parquet file"):
+        rockfrag.simulate(tmp_path / "bad.parquet", structure=FRAME)
+
+
+@pytest.mark.parametrize("stage", _stages.functions)
+def test_help_fits_on_a_screen(stage):
+    lines = pydoc.render_doc(getattr(rockfrag, stage), renderer=pydoc.plaintext).splitlines()
+    assert len(lines) <= 50
+    assert max(map(len, lines)) <= 115
+    described = next(each for each in _stages.described() if each.name == stage)
+    for option in described.named:
+        assert sum(line.strip().startswith((f"{option.name}:", f"{option.name} = ")) for line in lines) == 1
+    assert "options" in inspect.signature(getattr(rockfrag, stage)).parameters
+
+
+def test_a_file_that_is_up_to_date_is_left_as_it_is(tmp_path, motions):
+    out = tmp_path / "responses.parquet"
+    first = rockfrag.simulate(motions, out=out, structure=FRAME)
+    before = out.stat().st_mtime_ns
+    again = rockfrag.simulate(motions, out=out, structure=FRAME)
+    assert (out.stat().st_mtime_ns, again.summary) == (before, first.summary)
+    rockfrag.simulate(motions, out=out, structure=FRAME, force=True)
+    assert out.stat().st_mtime_ns > before
+
+
+def test_a_run_is_that_of_the_command(tmp_path, command):
+    (tmp_path / "pipeline.yaml").write_text(
+        "sample-scenarios: { samples: 2, mw: '6.5' }\nsynthesize-motions: { suite: pulse }\n"
+        "simulate: { structure: [{ name: frame, p: 1, alpha: 0.15, eta: 0.92 }] }\n"
+    )
+    results = rockfrag.run(tmp_path / "pipeline.yaml", seed=3)
+    assert list(results) == ["sample_scenarios", "synthesize_motions", "simulate"]
+    assert command("run", "--seed=3", "--quiet", "--out=again").returncode == 0
+    for result in results.values():
+        assert result.path.read_bytes() == (tmp_path / "again" / result.path.name).read_bytes()
+    seen = rockfrag.inspect(results["simulate"].path)
+    assert (seen["rows"], seen["made"]["stage"]) == (14, "simulate")
+    section = rockfrag.simulate(results["synthesize_motions"], config=tmp_path / "pipeline.yaml")
+    assert section.to_polars().equals(results["simulate"].to_polars())
+
+
+def test_progress_is_told_and_an_interrupt_ends_the_call(tmp_path, motions):
+    steps: list[tuple[int, int]] = []
+    rockfrag.simulate(motions, structure=FRAME, threads=1, progress=lambda done, total: steps.append((done, total)))
+    assert steps[-1] == (280, 280)
+    script = f"""
+import os, signal, threading, rockfrag
+threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+try:
+    rockfrag.ida({str(motions.path)!r}, out="ida.parquet", p=1.5, alpha=0.15, eta=0.92, steps=10000)
+except KeyboardInterrupt:
+    print("interrupted", os.listdir("."))
+"""
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stdout == "interrupted []\n"
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_a_forked_process_is_refused(motions):
+    pid = os.fork()
+    if pid == 0:
+        try:
+            rockfrag.simulate(motions, structure=FRAME)
+        except rockfrag.Error as error:
+            os._exit(7 if "spawn" in str(error) else 1)
+        os._exit(2)
+    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 7
+
+
+def test_types_of_the_package_and_of_its_users(tmp_path):
+    def mypy(*words: str) -> str:
+        done = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), *words]
+        return subprocess.run(done, cwd=tmp_path, capture_output=True, text=True, check=False).stdout
+
+    package = Path(__file__).parents[1]
+    found = mypy("--config-file", str(package / "pyproject.toml"), str(package / "python" / "rockfrag"))
+    assert found.startswith("Success"), found
+    (tmp_path / "user.py").write_text(
+        "import rockfrag\n"
+        "made: rockfrag.Result = rockfrag.simulate('motions.parquet', p=1.5, alpha=0.15, eta=0.92)\n"
+        "rockfrag.simulate('motions.parquet', alpah=0.15)\n"
+    )
+    found = mypy("user.py")
+    assert 'user.py:3: error: Unexpected keyword argument "alpah" for "simulate"' in found
+    assert found.count("error:") == 1
