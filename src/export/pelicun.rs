@@ -25,7 +25,7 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
     }
 }
 
-/// Writes the rows: rocking has a capacity that is known, uplift; the others have tables of their cumulative distribution, which
+/// Writes the rows: rocking has a PGA that is known, uplift; else they have tables of their cumulative distribution, which
 /// must rise from 0 (just below uplift) to 1 (just above the last level).
 pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
@@ -39,8 +39,15 @@ pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
         let uplift = (function.range_of_data[0] / unit).to_string();
         // Directional: the peaks are those of one component of motion, which pelicun must not enlarge to that of two.
         let mut row = [&function.id, "0", name, unit_name, "0", "1"].map(str::to_string).to_vec();
-        row.extend(["deterministic", &uplift, "", ""].map(str::to_string));
-        for state in [1, 2] {
+        // PGA alone decides on uplift.
+        let tables = match function.peak {
+            Peak::Pga => {
+                row.extend(["deterministic", &uplift, "", ""].map(str::to_string));
+                1..3
+            }
+            Peak::Pgv => 0..3,
+        };
+        for state in tables {
             let table = cumulative_distribution(function, state, unit);
             row.extend(["multilinear_CDF", &table, "", ""].map(str::to_string));
         }

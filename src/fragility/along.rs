@@ -42,10 +42,18 @@ pub fn limit_states_at(
     probabilities.limit_states().unwrap_or([rocking, unknown, unknown])
 }
 
-/// Step and last node of the trapezoidal rule in standard deviations: exact to 1e-7 for smooth functions under a
-/// normal density.
+/// Standard deviations from the median within which all ratios lie that count.
+const FARTHEST: f64 = 5.0;
+/// Step of the trapezoidal rule, in standard deviations: exact to 1e-6 for smooth functions under a normal density.
 const STEP: f64 = 0.625;
-const LAST_NODE: i32 = 8;
+/// Widest panel of the Gauss-Legendre rule of order 4, whose nodes and weights on (0, 1) these are.
+const PANEL: f64 = 1.25;
+const GAUSS_LEGENDRE: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
 
 impl<'a> Along<'a> {
     /// The same motions with another ratio.
@@ -53,20 +61,16 @@ impl<'a> Along<'a> {
         Along { ratio, ..self }
     }
 
-    /// PGA and PGV (m/s2 and m/s) of motions of an intensity (that of the peak), with weights whose sum is 1.
-    pub fn motions(&self, intensity: f64) -> Vec<([f64; 2], f64)> {
-        self.nodes().into_iter().map(|(node, weight)| (self.peaks(intensity, node), weight)).collect()
-    }
-
-    /// PGA and PGV of the motions of median PGV / PGA.
+    /// PGA and PGV (m/s2 and m/s) of the motions of median PGV / PGA.
     pub fn median_motion(&self, intensity: f64) -> [f64; 2] {
-        self.peaks(intensity, self.nodes()[self.nodes().len() / 2].0)
+        self.peaks(intensity, 0.0)
     }
 
     /// Probabilities of LS1, LS2 and LS3 at an intensity, with limits; NaN where the model has none.
     pub fn limit_states(&self, intensity: f64, scenarios: Scenarios) -> [Probability; 3] {
         let mut mean = [Probability::exact(0.0); 3];
-        for (peaks, weight) in self.motions(intensity) {
+        for (node, weight) in self.nodes(intensity) {
+            let peaks = self.peaks(intensity, node);
             let states = limit_states_at(self.model, self.structure, peaks, scenarios);
             for (sum, state) in mean.iter_mut().zip(states) {
                 sum.value += weight * state.value;
@@ -77,42 +81,81 @@ impl<'a> Along<'a> {
         mean
     }
 
-    /// Intensities at which a probability jumps: that of uplift first, then those of the planes' transition.
+    /// Least intensity that uplifts the structure, and that which does so with the median PGV / PGA.
+    pub fn uplift(&self) -> [f64; 2] {
+        let uplift = self.structure.uplift_acceleration_m_s2();
+        [-FARTHEST, 0.0].map(|node| self.intensity_of(uplift, node))
+    }
+
+    /// Intensities at which a probability jumps: that of uplift, and that of the planes' transition. Over a
+    /// distribution of PGA none does.
     pub fn jumps(&self) -> Vec<f64> {
-        let transitions = match self.model {
+        match (self.peak, self.ratio) {
+            (Peak::Pgv, Ratio::Distributed) => Vec::new(),
+            _ => self.jumps_of_pga().into_iter().map(|pga| self.intensity_of(pga, 0.0)).collect(),
+        }
+    }
+
+    /// PGA at which a probability jumps, m/s2, rising.
+    fn jumps_of_pga(&self) -> Vec<f64> {
+        let transitions: Vec<f64> = match self.model {
             Model::Paper { demand, .. } => demand.iter().filter_map(|fit| fit.range_low).collect(),
             Model::Calibrated { .. } => Vec::new(),
         };
         let uplift = self.structure.uplift_acceleration_m_s2();
-        let levels = std::iter::once(1.0).chain(transitions.into_iter().filter(|&im4: &f64| im4 > 1.0));
-        let mut jumps: Vec<f64> = match self.peak {
-            Peak::Pga => levels.map(|im4| im4 * uplift).collect(),
-            Peak::Pgv => levels.flat_map(|im4| self.pgv_at(im4 * uplift)).collect(),
-        };
-        jumps.sort_by(f64::total_cmp);
-        jumps.dedup();
-        jumps
+        let levels = std::iter::once(1.0).chain(transitions.into_iter().filter(|&im4| im4 > 1.0));
+        levels.map(|im4| im4 * uplift).collect()
     }
 
-    /// PGV at which the motions of each node have a PGA, m/s2: by bisection, since the median ratio bends.
-    fn pgv_at(&self, pga_m_s2: f64) -> Vec<f64> {
-        let bisect = |(node, _)| {
-            let (mut low, mut high) = (1e-6_f64, 1e3_f64);
-            while high > low * (1.0 + 1e-12) {
-                let middle = (low * high).sqrt();
-                if self.peaks(middle, node)[0] < pga_m_s2 { low = middle } else { high = middle }
+    /// The intensity at which motions so many standard deviations from the median have a PGA (m/s2): by bisection,
+    /// since the median bends.
+    fn intensity_of(&self, pga_m_s2: f64, node: f64) -> f64 {
+        if self.peak == Peak::Pga {
+            return pga_m_s2;
+        }
+        let (mut low, mut high) = (1e-6_f64, 1e3_f64);
+        while high > low * (1.0 + 1e-12) {
+            let middle = (low * high).sqrt();
+            if self.peaks(middle, node)[0] < pga_m_s2 { low = middle } else { high = middle }
+        }
+        high
+    }
+
+    /// Standard deviations from the median, with weights that sum to 1, but for motions of too little PGA.
+    fn nodes(&self, intensity: f64) -> Vec<(f64, f64)> {
+        let density = |z: f64| libm::exp(-0.5 * z * z) / TAU.sqrt();
+        match (self.ratio, self.peak) {
+            (Ratio::Distributed, Peak::Pga) => {
+                let last = (FARTHEST / STEP) as i32;
+                (-last..=last).map(|k| STEP * f64::from(k)).map(|z| (z, STEP * density(z))).collect()
             }
-            high
-        };
-        self.nodes().into_iter().map(bisect).collect()
+            (Ratio::Distributed, Peak::Pgv) => {
+                let edges = self.edges(intensity);
+                let panels = edges.windows(2).flat_map(|edge| {
+                    let panels = ((edge[1] - edge[0]) / PANEL).ceil().max(1.0);
+                    let (start, width) = (edge[0], (edge[1] - edge[0]) / panels);
+                    (0..panels as usize).map(move |panel| (start + width * panel as f64, width))
+                });
+                let nodes = |(start, width): (f64, f64)| {
+                    GAUSS_LEGENDRE.map(|(node, weight)| (start + node * width, weight * width))
+                };
+                panels.flat_map(nodes).map(|(z, width)| (z, width * density(z))).collect()
+            }
+            _ => vec![(0.0, 1.0)],
+        }
     }
 
-    /// Standard deviations from the median, with their weights.
-    fn nodes(&self) -> Vec<(f64, f64)> {
-        let Ratio::Distributed = self.ratio else { return vec![(0.0, 1.0)] };
-        let density = |z: f64| STEP * libm::exp(-0.5 * z * z) / TAU.sqrt();
-        let nodes = (-LAST_NODE..=LAST_NODE).map(|k| STEP * f64::from(k));
-        nodes.map(|z| (z, density(z))).collect()
+    /// Standard deviations between which the motions of a PGV have probabilities without a jump.
+    fn edges(&self, pgv_m_s: f64) -> Vec<f64> {
+        let ln_ratio = |z| libm::log(self.peaks(pgv_m_s, z)[1] / self.peaks(pgv_m_s, z)[0]);
+        let (median, sd) = (ln_ratio(0.0), ln_ratio(1.0) - ln_ratio(0.0));
+        let of_pga = |pga: f64| (libm::log(pgv_m_s / pga) - median) / sd;
+        let jumps = self.jumps_of_pga().into_iter().map(of_pga).map(|z| z.clamp(-FARTHEST, FARTHEST));
+        // Those with less PGA than uplifts the structure, behind the last, do not count.
+        let mut edges: Vec<f64> = std::iter::once(-FARTHEST).chain(jumps).collect();
+        edges.sort_by(f64::total_cmp);
+        edges.dedup();
+        edges
     }
 
     fn peaks(&self, intensity: f64, node: f64) -> [f64; 2] {

@@ -240,7 +240,8 @@ impl Sample {
         let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
         let s = found.at[1].exp();
         let slopes: Vec<f64> = self.logits.iter().map(|logit| s * logit).collect();
-        let score = |(slope, event): (&f64, &bool)| f64::from(u8::from(*event)) - logistic(found.at[0] + slope);
+        let score =
+            |(slope, event): (&f64, &bool)| f64::from(u8::from(*event)) - logistic(found.at[0] + slope);
         let scores: Vec<f64> = slopes.iter().zip(&self.events).map(score).collect();
         let (clustered, _) = sandwich(&[&slopes], &scores, &bread, &self.clusters);
         let of_prior = DMatrix::from_diagonal(&information(prior));

@@ -177,7 +177,9 @@ impl OverturningFit {
     pub fn has_like(&self, measures: &IntensityMeasures) -> bool {
         let is_inside = |measure: Option<Measure>, low: Option<f64>, high: Option<f64>| {
             let value = measure.and_then(|measure| measure.among(measures));
-            value.is_none_or(|value| low.is_none_or(|low| value >= low) && high.is_none_or(|high| value <= high))
+            value.is_none_or(|value| {
+                low.is_none_or(|low| value >= low) && high.is_none_or(|high| value <= high)
+            })
         };
         is_inside(Some(self.im_x), self.im_x_low, self.im_x_high)
             && is_inside(self.im_y, self.im_y_low, self.im_y_high)

@@ -69,9 +69,8 @@ pub fn has_like(structure: &Structure) -> bool {
 
 /// Returns whether the measures of a motion, and a limit state, are within those that the surface was fitted to.
 pub fn covers(measures: &IntensityMeasures, limit_state: f64) -> bool {
-    let is_known = |measure: &Measure| {
-        measure.among(measures).is_none_or(|value| is_inside(measure.as_str(), value))
-    };
+    let is_known =
+        |measure: &Measure| measure.among(measures).is_none_or(|value| is_inside(measure.as_str(), value));
     [Measure::Im4, Measure::Im3, Measure::Im5].iter().all(is_known) && is_inside("limit", limit_state)
 }
 
@@ -152,7 +151,8 @@ struct Term {
     coefficients: [f64; 3],
 }
 
-static SURFACE: LazyLock<Surface> = LazyLock::new(|| Surface::parse(include_str!("../../data/universal.csv")));
+static SURFACE: LazyLock<Surface> =
+    LazyLock::new(|| Surface::parse(include_str!("../../data/universal.csv")));
 
 impl Surface {
     /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which tests find.

@@ -47,4 +47,6 @@ stages! {
     compare_paper::ComparePaper,
     rank_ims::RankIms,
     evaluate::Evaluate,
+    export::Export,
+    validate::Validate,
 }

@@ -78,12 +78,12 @@ fn states(tree: &TreeRow) -> [[Option<f64>; 3]; 2] {
 
 fn sentence_of_point(object: &ObjectRow, tree: &TreeRow) -> String {
     let [[p, low, high], _] = states(tree).map(|state| state.map(|p| p.unwrap_or(f64::NAN)));
-    let (title, peaks, model) = (title(object), words_of_peaks(tree), model(object));
-    let validity = validity(object);
+    let (title, peaks, model, friction) = (title(object), words_of_peaks(tree), model(object), friction(object));
+    let comma = if title.contains(", ") { "," } else { "" };
     match tree.p_nr {
-        Some(1.0) => format!("\n{title} does not rock {peaks}, by the theory of rigid blocks. {validity}\n"),
+        Some(1.0) => format!("\n{title}{comma} does not rock {peaks}: PGA is below what uplifts it.\n"),
         _ => format!(
-            "\n{title} overturns with a probability of {} (95 % confidence limits {} to {}) {peaks}, by {model}. {validity}\n",
+            "\n{title}{comma} overturns with a probability of {} (95 % confidence limits {} to {}) {peaks}, by {model}, if its friction is above {friction}.\n",
             percent(p), number(low), percent(high)
         ),
     }
@@ -98,9 +98,13 @@ pub fn of_rates(all: &All<RatesRow>, site: &Site, sentence: bool) -> String {
     if sentence {
         let known = all.iter().filter(|(object, ..)| object.p_rad_s.is_some());
         known.for_each(|(object, rates, _)| {
-            let (title, model, validity) = (title(object), model(object), validity(object));
+            let (title, model, friction) = (title(object), model(object), friction(object));
+            let comma = if title.contains(", ") { "," } else { "" };
             let how_often = how_often(rates, site, "95 % confidence limits ");
-            let _ = writeln!(text, "\n{title} {how_often}, by {model} and the hazard of the site, whose own error is not included. {validity}");
+            let _ = writeln!(
+                text,
+                "\n{title}{comma} {how_often}, by {model} and a hazard whose own error is not included, if its friction is above {friction}."
+            );
         });
     }
     all.iter().for_each(|(.., more)| text += more);
@@ -135,13 +139,13 @@ fn rate(object: &ObjectRow, rates: &RatesRow, site: &Site) -> String {
         lines.push(row(format!("overturns, counted among {} motions", grouped(motions as f64)), of, in_years));
     }
     let least_known = match (site.ratio, rates.overturning_per_year_less_velocity, rates.overturning_per_year_more_velocity) {
-        (Ratio::Distributed, Some(less), Some(more)) => {
+        (Ratio::Distributed, Some(less), Some(more)) if rates.overturning_per_year.is_some() => {
             format!(" Least known: PGV/PGA (one standard deviation: {} to {}).", per_year(Some(less)), per_year(Some(more)))
         }
         _ => String::new(),
     };
     format!(
-        "{}: {}\n{}By {}. Not in the limits: the error of the hazard.{least_known} {}\n",
+        "{}: {}\n{}Not in the limits: the error of the hazard.{least_known}\nBy {}. {}\n",
         title(object), how_often(rates, site, "95 % limits "), aligned(&lines), model(object), validity(object)
     )
 }
@@ -327,7 +331,7 @@ fn between([_, low, high]: [Option<f64>; 3], text: impl Fn(f64) -> String) -> St
 fn brief(doubts: &Option<String>, object: &ObjectRow) -> String {
     let Some(doubts) = doubts else { return String::new() };
     if object.p_rad_s.is_none() {
-        return doubts.clone();
+        return doubts.rsplit("': ").next().unwrap_or_default().to_string();
     }
     let is_in = |doubt: &&Doubt| doubts.contains(doubt.text());
     let words = Doubt::ALL.iter().filter(is_in).map(|doubt| doubt.to_string().replace('_', " "));

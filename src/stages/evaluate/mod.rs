@@ -27,7 +27,7 @@ use crate::table::rows;
 use crate::table::writer::write_file;
 use crate::units::G_M_S2;
 
-pub use self::object::{ObjectRow, TreeRow};
+pub use self::object::{ObjectRow, TreeRow, words_of};
 pub use self::site::RatesRow;
 
 /// Predict how probable rocking and overturning are: at a PGA and PGV, at each of a table, or a year at a site

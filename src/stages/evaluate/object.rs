@@ -47,7 +47,7 @@ impl ObjectRow {
 }
 
 /// What predicts, in words.
-fn words_of(model: &Model) -> String {
+pub fn words_of(model: &Model) -> String {
     match model {
         Model::Calibrated { overturning, .. } => {
             let motions = words_of_kind(overturning.kind);

@@ -128,8 +128,7 @@ impl Site {
             doubts.push(Doubt::HazardEndsEarly);
         }
         let curve = extrapolated.as_ref().unwrap_or(curve);
-        let jumps = along.jumps();
-        if first > jumps[jumps.len() / 2] {
+        if first > along.uplift()[1] {
             doubts.push(Doubt::HazardStartsLate);
         }
         let mut row = RatesRow::new(rates, self.years, is_short && extrapolated.is_none());
@@ -169,7 +168,7 @@ impl Site {
         // Weaker motions uplift nothing.
         let least = match along.peak {
             Peak::Pga => along.structure.uplift_acceleration_m_s2(),
-            Peak::Pgv => motions.iter().map(|motion| motion.intensity).fold(f64::INFINITY, f64::min),
+            Peak::Pgv => along.uplift()[0],
         };
         let count = counted_rates(curve, least, motions, SEED)?;
         Some((count.motions, count.rates[0]))
@@ -180,6 +179,8 @@ impl RatesRow {
     /// Of rates of rocking, failure and overturning; `is_short` where the hazard ends too early for values.
     fn new([rocking, failure, overturning]: [Rate; 3], years: f64, is_short: bool) -> RatesRow {
         let known = |rate: f64| Some(rate).filter(|rate| !rate.is_nan());
+        let is_rocking_known = !is_short || rocking.beyond <= NEGLIGIBLE * rocking.value;
+        let rocking = known(rocking.value).filter(|_| is_rocking_known);
         let values = |rate: Rate| match is_short {
             true => [None, known(rate.low), known(rate.high.max(rate.value + rate.beyond))],
             false => [known(rate.value), known(rate.low), known(rate.high)],
@@ -187,7 +188,7 @@ impl RatesRow {
         let ([failure, failure_low, failure_high], [value, low, high]) = (values(failure), values(overturning));
         let p = |rate: Option<f64>| rate.map(|rate| probability_in_years(rate, years));
         RatesRow {
-            rocking_per_year: known(rocking.value),
+            rocking_per_year: rocking,
             failure_per_year: failure,
             failure_per_year_low: failure_low,
             failure_per_year_high: failure_high,
@@ -196,7 +197,7 @@ impl RatesRow {
             overturning_per_year_high: high,
             return_period_years: value.map(|rate| 1.0 / rate).filter(|years| years.is_finite()),
             years: Some(years),
-            p_rocking: p(known(rocking.value)),
+            p_rocking: p(rocking),
             p_failure: p(failure),
             p_failure_low: p(failure_low),
             p_failure_high: p(failure_high),

@@ -1,0 +1,121 @@
+//! export: the fragility of structures for OpenQuake or pelicun.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueHint};
+
+use super::evaluate::words_of;
+use super::shared::fits::FitsArgs;
+use super::shared::structures::{StructureArgs, doubts_of};
+use crate::export::{Function, Model, OWN_ID, PELICUN_TOLERANCE};
+use crate::export::{discrete, levels, metadata, parameters, plain_id, whole_curve_end};
+use crate::fragility::{Along, Peak, Ratio, Scenarios};
+use crate::keyword::keywords;
+use crate::pipeline::context::Context;
+use crate::pipeline::stage::Stage;
+use crate::rocking::Structure;
+use crate::table::writer::write_file;
+use crate::units::G_M_S2;
+
+/// Write the fragility of structures over PGA or PGV for OpenQuake or pelicun, averaged over PGV/PGA
+#[derive(Debug, Args)]
+pub struct Export {
+    /// Program that reads it: openquake (NRML) or pelicun (CSV, and JSON beside it)
+    #[arg(long, value_name = "PROGRAM")]
+    to: Program,
+    /// Intensity: pga or pgv
+    #[arg(long, value_name = "PEAK", default_value = "pga")]
+    im: Peak,
+    /// File to write; for pelicun its name ends in .csv
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "fragility.xml")]
+    out: PathBuf,
+    #[command(flatten)]
+    fits: FitsArgs,
+    #[command(flatten)]
+    structures: StructureArgs,
+}
+
+/// A program that reads fragility.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Program {
+    OpenQuake,
+    Pelicun,
+}
+
+keywords!(Program { OpenQuake = "openquake", Pelicun = "pelicun" });
+
+/// Largest error of straight lines between the levels for OpenQuake.
+const TOLERANCE: f64 = 4e-6;
+/// PGA (m/s2) and PGV (m/s) beyond which nothing was ever recorded.
+const STRONGEST: [f64; 2] = [4.5 * G_M_S2, 5.0];
+
+impl Stage for Export {
+    fn outputs(&self) -> Vec<PathBuf> {
+        match self.to {
+            Program::OpenQuake => vec![self.out.clone()],
+            Program::Pelicun => ["json", "csv"].map(|ending| self.out.with_extension(ending)).to_vec(),
+        }
+    }
+
+    fn check(&self) -> anyhow::Result<()> {
+        self.structures.resolve().map(|_| ())
+    }
+
+    fn run(&self, context: &Context) -> anyhow::Result<String> {
+        let structures = self.structures.resolve()?;
+        let models = self.fits.models()?;
+        let (mut functions, mut description) = (Vec::new(), String::new());
+        for structure in &structures {
+            let (model, mut doubts) = models.model(structure)?;
+            doubts.extend(doubts_of(structure));
+            context.doubt(doubts.into_iter().map(|doubt| (doubt, structure.name.clone())).collect());
+            let along = Along { model: &model, structure, peak: self.im, ratio: Ratio::Distributed };
+            functions.push(self.function(structure, &along));
+            description = words_of(&model);
+        }
+        let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.fits.limit_state);
+        let model = Model {
+            id: format!("{OWN_ID}{}", plain_id(&structures[0].name)),
+            description,
+            limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],
+        };
+        let files = self.outputs();
+        match self.to {
+            Program::OpenQuake => write_file(&files[0], discrete(&model, &functions).as_bytes())?,
+            Program::Pelicun => {
+                let json = serde_json::to_string_pretty(&metadata(&model, &functions))? + "\n";
+                write_file(&files[0], json.as_bytes())?;
+                write_file(&files[1], parameters(&functions)?.as_bytes())?;
+            }
+        }
+        let most = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
+        let file = files[files.len() - 1].display();
+        Ok(format!("{file}: {} over {}, up to {most} levels\n", structures.len(), self.im))
+    }
+}
+
+impl Export {
+    /// The probabilities of a structure as a table, from uplift to where all are 1 or nothing was ever recorded.
+    fn function(&self, structure: &Structure, along: &Along) -> Function {
+        let reaching = |intensity: f64| {
+            along.limit_states(intensity, Scenarios::One).map(|state| state.value.clamp(0.0, 1.0))
+        };
+        let tolerance = match self.to {
+            Program::OpenQuake => TOLERANCE,
+            Program::Pelicun => PELICUN_TOLERANCE,
+        };
+        let [uplift, _] = along.uplift();
+        let strongest = STRONGEST[usize::from(self.im == Peak::Pgv)].max(2.0 * uplift);
+        let end = whole_curve_end(uplift, tolerance, reaching).min(strongest);
+        let jumps = along.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
+        let edges: Vec<f64> = std::iter::once(uplift).chain(jumps).chain([end]).collect();
+        let levels = levels(&edges, tolerance, reaching);
+        Function {
+            id: format!("{OWN_ID}{}_{}", plain_id(&structure.name), self.im),
+            peak: self.im,
+            probabilities: levels.iter().map(|&level| reaching(level)).collect(),
+            range_of_data: [uplift, end],
+            levels,
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! validate: predictions beside what happened in responses that no fit has seen.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueHint};
+
+use super::shared::fits::FitsArgs;
+use super::shared::responses;
+use crate::doubt::{Doubt, Doubts};
+use crate::fragility::{Cases, Event, Kind, Model, Scenarios};
+use crate::pipeline::context::Context;
+use crate::pipeline::stage::{Stage, part};
+use crate::studies::{Forecasts, ReliabilityBin, Validation};
+use crate::table::frame;
+use crate::table::provenance::{Provenance, key_of};
+use crate::table::rows;
+
+/// Test predictions on responses that they were not fitted to: counts, scores and reliability
+#[derive(Debug, Args)]
+pub struct Validate {
+    /// Responses to test on
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "responses.parquet")]
+    input: PathBuf,
+    /// Scores to write; NAME.reliability.parquet is written beside it
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "validation.parquet")]
+    out: PathBuf,
+    #[command(flatten)]
+    fits: FitsArgs,
+}
+
+const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
+
+impl Stage for Validate {
+    fn outputs(&self) -> Vec<PathBuf> {
+        vec![part(&self.out, "reliability"), self.out.clone()]
+    }
+
+    fn run(&self, context: &Context) -> anyhow::Result<String> {
+        let groups = responses::read(&self.input)?;
+        let bar = context.bar(groups.len() as u64);
+        let (mut scores, mut bins) = (Vec::new(), Vec::new());
+        for cases in &groups {
+            // Without --suite the fits to the same kind of motion predict.
+            let kind = Kind::of(cases.suite.as_deref().and_then(|suite| suite.parse().ok()));
+            let fits = FitsArgs { suite: Some(self.fits.suite.unwrap_or(kind)), ..self.fits.clone() };
+            let (model, doubts) = fits.models()?.model(&cases.structure)?;
+            context.doubt(doubts.into_iter().map(|doubt| (doubt, cases.structure.name.clone())).collect());
+            for event in EVENTS {
+                let (of_event, of_bins, outside) = validate(cases, &model, event, self.fits.limit_state);
+                scores.extend(of_event);
+                bins.extend(of_bins);
+                context.doubt(outside);
+            }
+            bar.advance(1)?;
+        }
+        if scores.is_empty() {
+            anyhow::bail!("{}: no structure rocks; expected responses with rocking", self.input.display());
+        }
+        let summary = summary(&scores)? + if self.are_own()? { "These are the responses that were fitted.\n" } else { "" };
+        context.write::<ReliabilityBin>(&part(&self.out, "reliability"), &bins, &summary)?;
+        context.write::<Validation>(&self.out, &scores, &summary)?;
+        Ok(summary)
+    }
+}
+
+impl Validate {
+    /// Whether the fits were made from these responses.
+    fn are_own(&self) -> anyhow::Result<bool> {
+        let Some(folder) = &self.fits.fits else { return Ok(false) };
+        let Some(made) = Provenance::of_file(&folder.join("pro.calibration.parquet"))? else { return Ok(false) };
+        Ok(made.inputs.get("in") == Some(&key_of(&self.input)?))
+    }
+}
+
+/// Scores and reliability of one event; nothing of one without a case.
+fn validate(
+    cases: &Cases,
+    model: &Model,
+    event: Event,
+    limit_state: f64,
+) -> (Option<Validation>, Vec<ReliabilityBin>, Doubts) {
+    let (mut probabilities, mut happened, mut clusters) = (Vec::new(), Vec::new(), Vec::new());
+    let mut outside = false;
+    for case in 0..cases.len() {
+        let Some(has_happened) = cases.happened(case, event, limit_state) else { continue };
+        let measures = cases.measures(case);
+        let predicted = model.probabilities(&cases.structure, &measures, Scenarios::Many).given_rocking;
+        let Some(given) = predicted else { continue };
+        let p = match event {
+            Event::Overturning => given.p_ro,
+            Event::Exceeding => given.p_ex,
+            Event::Rocking | Event::Failure => given.p_failure,
+        };
+        if p.value.is_nan() {
+            continue;
+        }
+        outside |= model.doubts(&cases.structure, &measures).contains(&Doubt::Extrapolated);
+        probabilities.push(p.value);
+        happened.push(has_happened);
+        clusters.push(cases.cluster[case]);
+    }
+    let forecasts = Forecasts {
+        suite: cases.suite.as_deref(),
+        structure: &cases.structure.name,
+        event,
+        model: match model {
+            Model::Calibrated { overturning, .. } if overturning.n == 0 => "surface",
+            Model::Calibrated { .. } => "calibrated",
+            Model::Paper { .. } => "paper",
+        },
+        probabilities: &probabilities,
+        happened: &happened,
+        clusters: &clusters,
+    };
+    let doubt = (outside && event == Event::Failure).then(|| (Doubt::Extrapolated, cases.structure.name.clone()));
+    (forecasts.validate(), forecasts.reliability(), doubt.into_iter().collect())
+}
+
+/// A line a suite, structure and event.
+fn summary(scores: &[Validation]) -> anyhow::Result<String> {
+    let frame = frame::of_batch(&rows::batch(scores)?)?;
+    let columns = ["suite", "structure", "event", "model", "n", "observed", "expected", "expected_error", "log_score", "brier"];
+    Ok(frame::text(&frame.select(columns)?))
+}
