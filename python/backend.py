@@ -15,7 +15,7 @@ SCRIPT = """
 import sys, types
 sys.modules["rockfrag"] = package = types.ModuleType("rockfrag")
 package.__path__ = ["rockfrag"]
-from rockfrag._stages import stub
+from rockfrag._bridge import stub
 print(stub(), end="")
 """
 
@@ -24,7 +24,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     name = maturin.build_wheel(wheel_directory, config_settings, metadata_directory)
     with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(Path(wheel_directory, name)) as wheel:
         wheel.extractall(folder)
-        stub = subprocess.run([sys.executable, "-c", SCRIPT], cwd=folder, check=True, stdout=subprocess.PIPE).stdout
+        stub = subprocess.run(
+            [sys.executable, "-c", SCRIPT], cwd=folder, check=True, stdout=subprocess.PIPE
+        ).stdout
     if STUB.exists() and STUB.read_bytes() == stub:
         return name
     STUB.write_bytes(stub)

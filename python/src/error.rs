@@ -7,7 +7,12 @@ use pyo3::prelude::*;
 use rockfrag::pipeline::UsageError;
 use rockfrag::table::TableError;
 
-pyo3::create_exception!(rockfrag, Error, PyRuntimeError, "A stage failed; the message names the file and what was expected.");
+pyo3::create_exception!(
+    rockfrag,
+    Error,
+    PyRuntimeError,
+    "A stage failed; the message names the file and what was expected."
+);
 
 /// The exception for an error of the library: ValueError of a mistake in the call, FileNotFoundError, else [`Error`].
 pub fn to_python(error: &anyhow::Error) -> PyErr {

@@ -42,7 +42,8 @@ fn describe_stage(command: &Command) -> Value {
             "common": arg.get_help_heading() == Some(COMMON),
         })
     };
-    let options = command.get_arguments().filter(|arg| !["help", "progress", "quiet"].contains(&arg.get_id().as_str()));
+    let options =
+        command.get_arguments().filter(|arg| !["help", "progress", "quiet"].contains(&arg.get_id().as_str()));
     json!({ "name": command.get_name(), "help": words(command.get_about()), "options": options.map(option).collect::<Vec<_>>() })
 }
 
@@ -98,7 +99,8 @@ pub fn run_pipeline(
 pub fn inspect(path: PathBuf) -> PyResult<String> {
     let words = ["inspect".into(), "--format=json".into(), path.into_os_string()];
     let inspect = Inspect::augment_args(Command::new("inspect")).try_get_matches_from::<_, OsString>(words);
-    let inspect = inspect.and_then(|matches| Inspect::from_arg_matches(&matches)).map_err(anyhow::Error::from);
+    let inspect =
+        inspect.and_then(|matches| Inspect::from_arg_matches(&matches)).map_err(anyhow::Error::from);
     inspect.and_then(|inspect| inspect.run()).map_err(|error| to_python(&error))
 }
 

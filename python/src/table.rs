@@ -6,9 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::Context as _;
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, RecordBatchReader};
-use arrow_schema::{ArrowError, SchemaRef};
+use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::{ArrowArrayStreamReader, FFI_ArrowArrayStream};
+use arrow_array::{ArrayRef, Float64Array, RecordBatch, RecordBatchReader};
+use arrow_schema::{ArrowError, DataType, Schema, SchemaRef};
+use arrow_select::take::take;
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::properties::WriterProperties;
@@ -57,7 +59,9 @@ pub fn write_table(py: Python, capsule: &Bound<PyCapsule>, path: PathBuf) -> PyR
 /// Writes columns, given as the bytes of f64, to a Parquet file.
 #[pyfunction]
 pub fn write_numbers(columns: BTreeMap<String, PyBackedBytes>, path: PathBuf) -> PyResult<()> {
-    let column = |(name, bytes): (String, PyBackedBytes)| (name, Arc::new(Float64Array::from(numbers(&bytes))) as ArrayRef);
+    let column = |(name, bytes): (String, PyBackedBytes)| {
+        (name, Arc::new(Float64Array::from(numbers(&bytes))) as ArrayRef)
+    };
     let written = RecordBatch::try_from_iter(columns.into_iter().map(column)).map_err(anyhow::Error::from);
     let written = written.and_then(|batch| write(batch.schema(), [Ok(batch)], &path));
     written.map_err(|error| to_python(&error))
@@ -65,7 +69,11 @@ pub fn write_numbers(columns: BTreeMap<String, PyBackedBytes>, path: PathBuf) ->
 
 /// The columns of a Parquet file whose names `wanted` has, as the bytes of f64; NaN where there is no number.
 #[pyfunction]
-pub fn read_numbers<'py>(py: Python<'py>, path: PathBuf, wanted: Vec<String>) -> PyResult<BTreeMap<String, Bound<'py, PyBytes>>> {
+pub fn read_numbers<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    wanted: Vec<String>,
+) -> PyResult<BTreeMap<String, Bound<'py, PyBytes>>> {
     let mut columns: BTreeMap<String, Vec<f64>> = wanted.into_iter().map(|name| (name, Vec::new())).collect();
     let read = |columns: &mut BTreeMap<String, Vec<f64>>| -> anyhow::Result<()> {
         for batch in Table::open(&path)?.batches(&|_| true) {
@@ -91,10 +99,28 @@ fn write(
         .set_dictionary_enabled(false)
         .set_max_row_group_row_count(Some(rows))
         .build();
-    let mut writer = ArrowWriter::try_new(File::create(path)?, schema, Some(properties))?;
-    batches.into_iter().try_for_each(|batch| Ok::<(), anyhow::Error>(writer.write(&batch?)?))?;
+    let fields = schema.fields().iter().map(|field| match field.data_type() {
+        DataType::Dictionary(_, values) => {
+            Arc::new(field.as_ref().clone().with_data_type(values.as_ref().clone()))
+        }
+        _ => field.clone(),
+    });
+    let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
+    let mut writer = ArrowWriter::try_new(File::create(path)?, schema.clone(), Some(properties))?;
+    for batch in batches {
+        let columns = batch?.columns().iter().map(without_dictionary).collect::<Result<_, _>>()?;
+        writer.write(&RecordBatch::try_new(schema.clone(), columns)?)?;
+    }
     writer.close()?;
     Ok(())
+}
+
+/// A column of categories as the values themselves.
+fn without_dictionary(column: &ArrayRef) -> Result<ArrayRef, ArrowError> {
+    match column.as_any_dictionary_opt() {
+        Some(categories) => take(categories.values(), categories.keys(), None),
+        None => Ok(column.clone()),
+    }
 }
 
 fn write_csv(reader: ArrowArrayStreamReader, path: &Path) -> anyhow::Result<()> {

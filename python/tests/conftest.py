@@ -28,6 +28,8 @@ def command(tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
 
     def run(*words: object) -> subprocess.CompletedProcess[str]:
         program = Path(sys.executable).with_name("rockfrag")
-        return subprocess.run([program, *map(str, words)], cwd=tmp_path, capture_output=True, text=True, check=False)
+        return subprocess.run(
+            [program, *map(str, words)], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
 
     return run

@@ -19,7 +19,11 @@ def test_one_motion_is_the_row_and_trace_of_the_stage(motions):
     row = trace.to_polars().row(by_predicate=polars.col("motion_id") == "1", named=True)
     assert (solved.outcome, solved.demand, solved.impacts) == (row["outcome"], row["edp"], row["impacts"])
     traced = trace.part("trace").to_polars()
-    for name, array in [("time_s", solved.time), ("theta_rad", solved.theta), ("theta_dot_rad_s", solved.theta_dot)]:
+    for name, array in [
+        ("time_s", solved.time),
+        ("theta_rad", solved.theta),
+        ("theta_dot_rad_s", solved.theta_dot),
+    ]:
         assert np.array_equal(array, traced[name])
     assert np.allclose(solved.theta_over_alpha, traced["theta_over_alpha"])
     assert [event for _, event in solved.events] == traced["solver_event"].drop_nulls().to_list()
@@ -28,7 +32,7 @@ def test_one_motion_is_the_row_and_trace_of_the_stage(motions):
 def test_a_block_is_known_by_its_dimensions():
     still = rockfrag.simulate_motion(np.full(100, 0.1), 0.01, **BLOCK)
     assert (still.outcome, still.demand, still.impacts) == ("no_rocking", 0.0, 0)
-    assert still.p == pytest.approx(np.sqrt(0.75 * 9.80665 / np.hypot(0.25, 1.0)))
+    assert still.p == pytest.approx(np.sqrt(0.75 * 9.81 / np.hypot(0.25, 1.0)))
     assert rockfrag.simulate_motion(np.full(100, 9.0), 0.01, **BLOCK).demand is None
 
 
@@ -50,9 +54,13 @@ def test_a_wrong_motion_or_structure_is_told(acceleration, structure, message):
 def test_a_curve_is_the_probit_of_statsmodels():
     draw = np.random.default_rng(5)
     im = draw.lognormal(0.0, 0.8, 300)
-    happened = draw.random(300) < rockfrag.FragilityCurve("ok", 0, 0, coefficients=(-0.4, 1.7)).probability(im)
+    happened = draw.random(300) < rockfrag.FragilityCurve("ok", 0, 0, coefficients=(-0.4, 1.7)).probability(
+        im
+    )
     curve = rockfrag.fit_fragility(im, happened)
-    other = statsmodels.api.Probit(happened, statsmodels.api.add_constant(np.log(im))).fit(disp=False, tol=1e-12)
+    other = statsmodels.api.Probit(happened, statsmodels.api.add_constant(np.log(im))).fit(
+        disp=False, tol=1e-12
+    )
     b, covariance = other.params, other.cov_params()
     assert curve.status == "ok"
     assert (curve.n, curve.n_events) == (300, happened.sum())
@@ -106,7 +114,15 @@ def test_probabilities_are_those_of_the_command(command):
     pga, pgv = np.array([0.1, 0.5, 0.9])[:, None], np.array([0.3, 0.6])
     found = rockfrag.probability(pga, pgv, suite="csgm", **BLOCK)
     assert found.p_ro.shape == (3, 2)
-    words = ("evaluate", "--width=0.5", "--height=2", "--pga=0.5", "--pgv=0.6", "--suite=csgm", "--format=json")
+    words = (
+        "evaluate",
+        "--width=0.5",
+        "--height=2",
+        "--pga=0.5",
+        "--pgv=0.6",
+        "--suite=csgm",
+        "--format=json",
+    )
     row = polars.read_json(command(*words).stdout.encode()).row(0, named=True)
     for name in ("p_nr", "p_ex", "p_ro_low", "p_f_r_high", "p_f"):
         assert getattr(found, name)[1, 1] == pytest.approx(row[name], rel=1e-9)

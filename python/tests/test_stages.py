@@ -11,7 +11,7 @@ import pytest
 from conftest import FRAME
 
 import rockfrag
-from rockfrag import _stages
+from rockfrag import _bridge
 
 
 def test_a_stage_writes_the_bytes_of_the_command(tmp_path, command):
@@ -21,7 +21,11 @@ def test_a_stage_writes_the_bytes_of_the_command(tmp_path, command):
         ("simulate", {"structure": [FRAME], "in": "motions.parquet"}),
         ("fit-pro", {"in": "responses.parquet", "pairs": ["im4:im5"]}),
     ]:
-        words = {"structure": "name=frame,p=1.5,alpha=0.15,eta=0.92", "suite": "pulse,csgm", "pairs": "im4:im5"}
+        words = {
+            "structure": "name=frame,p=1.5,alpha=0.15,eta=0.92",
+            "suite": "pulse,csgm",
+            "pairs": "im4:im5",
+        }
         flags = [f"--{name}={words.get(name, value)}" for name, value in options.items()]
         done = command(stage, *flags)
         assert done.returncode == 0, done.stderr
@@ -68,12 +72,12 @@ def test_a_missing_or_damaged_file_is_named(tmp_path):
         rockfrag.simulate(tmp_path / "bad.parquet", structure=FRAME)
 
 
-@pytest.mark.parametrize("stage", _stages.functions)
+@pytest.mark.parametrize("stage", _bridge.functions)
 def test_help_fits_on_a_screen(stage):
     lines = pydoc.render_doc(getattr(rockfrag, stage), renderer=pydoc.plaintext).splitlines()
     assert len(lines) <= 50
     assert max(map(len, lines)) <= 115
-    described = next(each for each in _stages.described() if each.name == stage)
+    described = next(each for each in _bridge.described() if each.name == stage)
     for option in described.named:
         assert sum(line.strip().startswith((f"{option.name}:", f"{option.name} = ")) for line in lines) == 1
     assert "options" in inspect.signature(getattr(rockfrag, stage)).parameters
@@ -107,7 +111,9 @@ def test_a_run_is_that_of_the_command(tmp_path, command):
 
 def test_progress_is_told_and_an_interrupt_ends_the_call(tmp_path, motions):
     steps: list[tuple[int, int]] = []
-    rockfrag.simulate(motions, structure=FRAME, threads=1, progress=lambda done, total: steps.append((done, total)))
+    rockfrag.simulate(
+        motions, structure=FRAME, threads=1, progress=lambda done, total: steps.append((done, total))
+    )
     assert steps[-1] == (280, 280)
     script = f"""
 import os, signal, threading, rockfrag
@@ -117,7 +123,9 @@ try:
 except KeyboardInterrupt:
     print("interrupted", os.listdir("."))
 """
-    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
     assert done.stdout == "interrupted []\n"
 
 

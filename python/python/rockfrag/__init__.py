@@ -17,18 +17,16 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from . import _rockfrag, _stages
+from . import _bridge, _rockfrag
 from ._arrays import FragilityCurve, Probabilities, Response, fit_fragility, probability, simulate_motion
 from ._result import Result
 from ._rockfrag import Error, __version__
+from ._stages import *
 
 if TYPE_CHECKING:
-    from ._stages import *
-
     # Where the stub of the stages is not built.
     def __getattr__(name: str) -> Callable[..., Result]: ...
-else:
-    globals().update(_stages.functions)
+
 
 __all__ = [
     "Error",
@@ -43,7 +41,7 @@ __all__ = [
     "run",
     "simulate_motion",
 ]
-__all__ += list(_stages.functions)
+__all__ += list(_bridge.functions)
 
 
 def run(
@@ -57,7 +55,7 @@ def run(
 ) -> dict[str, Result]:
     """Runs all stages of a pipeline file, skipping what is up to date; gives their results by name."""
     made = _rockfrag.run_pipeline(config, out, seed, force, threads, progress)
-    return {stage[0].replace("-", "_"): _stages.result(stage) for stage in made}
+    return {stage[0].replace("-", "_"): _bridge.result(stage) for stage in made}
 
 
 def inspect(path: str | os.PathLike[str]) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _rockfrag, _stages
+from . import _bridge, _rockfrag
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -44,7 +44,9 @@ class Response:
         return self.theta / self.alpha
 
 
-def simulate_motion(acceleration: ArrayLike, dt: float, *, tail: float = 10.0, **structure: float | str) -> Response:
+def simulate_motion(
+    acceleration: ArrayLike, dt: float, *, tail: float = 10.0, **structure: float | str
+) -> Response:
     """Simulates one structure under one motion.
 
     Parameters
@@ -98,7 +100,8 @@ class FragilityCurve:
     def _at(self, im: ArrayLike, errors: float) -> Floats:
         ln_im = np.log(np.asarray(im, dtype=np.float64))
         variance = self.covariance[0] + ln_im * (2 * self.covariance[1] + ln_im * self.covariance[3])
-        z = self.coefficients[0] + self.coefficients[1] * ln_im + errors * np.sqrt(variance)
+        z = self.coefficients[0] + self.coefficients[1] * ln_im
+        z = z + errors * np.sqrt(variance) if errors else z
         return np.frombuffer(_rockfrag.normal_cdf(z.tobytes())).reshape(z.shape)
 
 
@@ -117,7 +120,9 @@ def fit_fragility(im: ArrayLike, outcome: ArrayLike, *, confidence: float = 0.95
     happened = np.asarray(outcome)
     if not np.isin(happened, (0, 1)).all():
         raise ValueError("outcome has other values than true and false, 1 and 0")
-    fit = _rockfrag.fit_curve(np.asarray(im, dtype=np.float64).tobytes(), happened.astype(bool).tobytes(), confidence)
+    fit = _rockfrag.fit_curve(
+        np.asarray(im, dtype=np.float64).tobytes(), happened.astype(bool).tobytes(), confidence
+    )
     for name in ("theta", "beta"):
         if name in fit:
             fit[name], fit[f"{name}_low"], fit[f"{name}_high"] = fit[name]
@@ -159,7 +164,7 @@ def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
         path = Path(folder, "intensities.parquet")
         _rockfrag.write_numbers({"pga_g": given[0].tobytes(), "pgv_m_s": given[1].tobytes()}, path)
-        evaluated = _stages.functions["evaluate"](path, **options)
+        evaluated = _bridge.functions["evaluate"](path, **options)
         columns = _rockfrag.read_numbers(evaluated._table(), names)
     arrays: dict[str, Any] = {name: np.frombuffer(columns[name]).reshape(given[0].shape) for name in names}
     return Probabilities(**arrays, doubts=evaluated.doubts)

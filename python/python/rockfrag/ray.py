@@ -20,7 +20,7 @@ try:
 except ModuleNotFoundError as missing:
     raise ImportError("rockfrag.ray needs Ray: pip install 'rockfrag[ray]'") from missing
 
-from . import _stages
+from . import _bridge
 
 __all__ = ["simulate", "synthesize_motions"]
 
@@ -51,7 +51,9 @@ def synthesize_motions(
     return _each("synthesize_motions", scenarios, out, partitions, num_cpus, options)
 
 
-def simulate(motions: PathLike, out: PathLike, *, partitions: int, num_cpus: int = 1, **options: object) -> list[Path]:
+def simulate(
+    motions: PathLike, out: PathLike, *, partitions: int, num_cpus: int = 1, **options: object
+) -> list[Path]:
     """Simulates the response to motions in partitions, a task each.
 
     Parameters
@@ -79,8 +81,15 @@ def _each(
     source, out = Path(source).absolute(), Path(out).absolute()
     task = ray.remote(num_cpus=num_cpus)(_one)
     call = {**options, "out": out, "threads": num_cpus}
-    return list(ray.get([task.remote(stage, source, {**call, "partition": f"{index}/{partitions}"}) for index in range(partitions)]))
+    return list(
+        ray.get(
+            [
+                task.remote(stage, source, {**call, "partition": f"{index}/{partitions}"})
+                for index in range(partitions)
+            ]
+        )
+    )
 
 
 def _one(stage: str, source: Path, call: dict[str, object]) -> Path | None:
-    return _stages.functions[stage](source, **call).path
+    return _bridge.functions[stage](source, **call).path
