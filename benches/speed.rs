@@ -1,6 +1,8 @@
-//! The solver and the motions of the paper's grid.
+//! Times the solver and the motions of the paper's grid on one core: cargo bench --bench speed. Prints medians as JSON.
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use std::hint::black_box;
+use std::time::Instant;
+
 use rockfrag::motion::{Design, Grid, IntensityScratch, MotionModel, Scenario, Suite, Synthesizer, measures};
 use rockfrag::rocking::{Problem, Record, Structure, reference, simulate_all};
 
@@ -16,50 +18,42 @@ fn scenarios(samples: usize) -> Vec<Scenario> {
     (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell)).collect()
 }
 
-fn synthesis(c: &mut Criterion) {
-    let scenarios = scenarios(100);
-    let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
-    let mut scratch = IntensityScratch::default();
-    let mut group = c.benchmark_group("motions");
-    group.throughput(Throughput::Elements(scenarios.len() as u64)).sample_size(10);
-    group.bench_function("synthesis", |b| {
-        b.iter(|| scenarios.iter().for_each(|scenario| drop(synthesizer.synthesize(scenario))))
-    });
-    group.bench_function("synthesis and measures", |b| {
-        b.iter(|| {
-            for scenario in &scenarios {
-                let motion = synthesizer.synthesize(scenario);
-                std::hint::black_box(measures(&motion.combined, motion.dt_s, &mut scratch));
-            }
-        })
-    });
-    group.finish();
+/// The median of nine runs, in microseconds for each of `count` pieces of work.
+fn median_us(count: usize, mut work: impl FnMut()) -> f64 {
+    let run = |_| {
+        let start = Instant::now();
+        work();
+        1e6 * start.elapsed().as_secs_f64() / count as f64
+    };
+    let mut times: Vec<f64> = (0..9).map(run).collect();
+    times.sort_by(f64::total_cmp);
+    times[4]
 }
 
-fn solver(c: &mut Criterion) {
-    let structure = Structure::new("electrical-equipment", 2.5, 0.20, 0.92).expect("the paper's");
+fn main() {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the first pool");
+    let scenarios = scenarios(20);
     let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
+    let mut scratch = IntensityScratch::default();
+    let synthesis = median_us(scenarios.len(), || {
+        for scenario in &scenarios {
+            let motion = synthesizer.synthesize(scenario);
+            black_box(measures(&motion.combined, motion.dt_s, &mut scratch));
+        }
+    });
+    let structure = Structure::new("electrical-equipment", 2.5, 0.20, 0.92).expect("the paper's");
     let motions: Vec<Vec<f64>> =
-        scenarios(10).iter().map(|scenario| synthesizer.synthesize(scenario).combined).collect();
+        scenarios.iter().map(|scenario| synthesizer.synthesize(scenario).combined).collect();
     let record = |motion| Record::new(motion, 0.005).expect("samples in m/s2");
     let problems: Vec<Problem> =
         motions.iter().map(|motion| Problem { structure: &structure, record: record(motion) }).collect();
-    let mut group = c.benchmark_group("solver");
-    group.throughput(Throughput::Elements(problems.len() as u64)).sample_size(20);
-    group.bench_function("vectors", |b| b.iter(|| simulate_all(&problems)));
-    group.finish();
-    let mut group = c.benchmark_group("reference");
-    group.throughput(Throughput::Elements(10)).sample_size(10);
-    group.bench_function("one after the other", |b| {
-        b.iter(|| {
-            problems[..10]
-                .iter()
-                .map(|problem| reference::solve(problem.structure, &problem.record, |_| {}))
-                .collect::<Vec<_>>()
-        })
+    let solver = median_us(problems.len(), || drop(black_box(simulate_all(&problems))));
+    let scalar = median_us(10, || {
+        for problem in &problems[..10] {
+            black_box(reference::solve(problem.structure, &problem.record, |_| {}));
+        }
     });
-    group.finish();
+    println!(
+        "{{\"synthesis_us\": {synthesis:.2}, \"solver_us\": {solver:.3}, \"reference_us\": {scalar:.1}}}"
+    );
 }
-
-criterion_group!(benches, synthesis, solver);
-criterion_main!(benches);

@@ -1,29 +1,37 @@
-"""A headless Chromium for check_book.py: windows light and dark, findings of axe-core."""
+"""Looks at a page in a headless Chromium: python browser.py PAGE [FOLDER]
 
+Takes a picture (into FOLDER, else beside the page) at 1280 and 400 pixels, light and dark. Fails on messages of the
+console, and where the page is wider than the window.
+"""
+
+import base64
 import pathlib
+import sys
 
 from selenium import webdriver
 
-
-def open_browser():
-    options = webdriver.ChromeOptions()
-    options.binary_location = "/usr/bin/chromium"
-    for argument in ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--allow-file-access-from-files"]:
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    return webdriver.Chrome(options=options, service=webdriver.ChromeService("/usr/bin/chromedriver"))
-
-
-def view(browser, width, height, scheme, media=""):
-    metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+page = pathlib.Path(sys.argv[1]).resolve()
+folder = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else page.parent
+options = webdriver.ChromeOptions()
+options.binary_location = "/usr/bin/chromium"
+for argument in ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu"]:
+    options.add_argument(argument)
+options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+browser = webdriver.Chrome(options=options, service=webdriver.ChromeService("/usr/bin/chromedriver"))
+faults = []
+for width, scheme in [(1280, "light"), (1280, "dark"), (400, "light"), (400, "dark")]:
+    metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
     features = [{"name": "prefers-color-scheme", "value": scheme}]
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})
-    browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
-
-
-def violations(browser, axe):
-    """What axe-core finds: the rule, and where."""
-    browser.execute_script(pathlib.Path(axe).read_text())
-    found = browser.execute_async_script("axe.run().then(arguments[0])")["violations"]
-    return [(finding["id"], [node["html"][:120] for node in finding["nodes"]]) for finding in found]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+    browser.get(page.as_uri())
+    if browser.execute_script("return document.documentElement.scrollWidth") > width:
+        faults.append(f"{width} px: wider than the window")
+    faults += [f"{width} px, {scheme}: {entry['message']}" for entry in browser.get_log("browser")]
+    picture = browser.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": True})["data"]
+    (folder / f"{page.stem}-{width}-{scheme}.png").write_bytes(base64.b64decode(picture))
+seen = browser.execute_script("return document.body.innerText").split()
+whole = browser.execute_script("return document.body.textContent").split()
+browser.quit()
+print(f"{page.name}: {len(seen)} words seen, {len(whole)} in all")
+sys.exit("\n".join(faults) or None)

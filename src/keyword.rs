@@ -1,17 +1,17 @@
-//! Words of a fixed list, as they stand in options and in files.
+//! Enums with one word per variant, in options and in files.
 
 use std::fmt;
 
-/// An enum whose variants each have one word.
+/// An enum with one word per variant.
 pub trait Keyword: Copy + PartialEq + 'static {
     const ALL: &'static [Self];
-    /// What to do about words that one may well expect on the list.
+    /// Advice on words that a user may expect on the list.
     const ADVICE: &'static [(&'static str, &'static str)] = &[];
 
     fn as_str(self) -> &'static str;
 }
 
-/// Gives each variant of an enum its word, in options, messages and files.
+/// Implements [`Keyword`], `FromStr`, `Display` and serde for an enum.
 macro_rules! keywords {
     ($type:ident { $($variant:ident = $word:literal),* $(,)? } $(but $advice:expr)?) => {
         impl $crate::keyword::Keyword for $type {
@@ -48,7 +48,7 @@ macro_rules! keywords {
         impl<'de> serde::Deserialize<'de> for $type {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 let word = <std::borrow::Cow<str>>::deserialize(deserializer)?;
-                // A schema is traced from the type, with no word at hand.
+                // serde_arrow traces the schema from the type, with an empty word.
                 match word.as_ref() {
                     "" => Ok(<Self as $crate::keyword::Keyword>::ALL[0]),
                     word => word.parse().map_err(serde::de::Error::custom),
@@ -59,7 +59,7 @@ macro_rules! keywords {
 }
 pub(crate) use keywords;
 
-/// A word that is not on the list.
+/// An unknown word.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnknownKeyword {
     word: String,
@@ -80,18 +80,20 @@ impl fmt::Display for UnknownKeyword {
 
 impl std::error::Error for UnknownKeyword {}
 
-/// Finds the variant of a word.
+/// Returns the variant of a word.
 ///
 /// # Errors
-/// If no variant has it, naming the nearest one.
+/// If no variant has it, with the most similar word.
 pub fn parse<T: Keyword>(word: &str) -> Result<T, UnknownKeyword> {
-    let known = || T::ALL.iter().map(|keyword| keyword.as_str());
-    let found = T::ALL.iter().find(|keyword| keyword.as_str() == word);
-    let advice = T::ADVICE.iter().find(|(other, _)| *other == word).map(|(_, advice)| *advice);
-    found.copied().ok_or_else(|| UnknownKeyword { word: word.to_string(), known: known().collect(), advice })
+    let found = T::ALL.iter().find(|keyword| keyword.as_str() == word).copied();
+    found.ok_or_else(|| UnknownKeyword {
+        word: word.to_string(),
+        known: T::ALL.iter().map(|keyword| keyword.as_str()).collect(),
+        advice: T::ADVICE.iter().find(|(other, _)| *other == word).map(|(_, advice)| *advice),
+    })
 }
 
-/// Finds the known word that is most like this one, if any is.
+/// Returns the most similar known word, if any is similar.
 pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let similarity = |candidate: &str| strsim::jaro_winkler(word, candidate);
     let best = known.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;

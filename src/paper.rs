@@ -1,5 +1,5 @@
-//! What Dimitrakopoulos & Paraskeva (2015) print: set-up, structures, and the numbers that ours are compared
-//! with. The constants of Eqs. 2 and 3 stand beside these, in [`crate::motion::scenario`].
+//! Published values of Dimitrakopoulos & Paraskeva (2015): set-up, structures, Table II (the eight planes)
+//! and other numbers. The constants of Eqs. 2 and 3 (median Vp and Tp) are in [`crate::motion::scenario`].
 
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +22,7 @@ pub const ETA: f64 = 0.92;
 /// Name, p (rad/s) and alpha (rad) of the two structures.
 pub const STRUCTURES: [(&str, f64, f64); 2] = [("frame", 1.0, 0.15), ("electrical-equipment", 2.5, 0.20)];
 
-/// The two structures.
+/// Returns the two structures.
 pub fn structures() -> Vec<Structure> {
     let structure = |(name, p_rad_s, alpha_rad): (&str, f64, f64)| Structure {
         name: name.to_string(),
@@ -33,11 +33,10 @@ pub fn structures() -> Vec<Structure> {
     STRUCTURES.map(structure).into()
 }
 
-/// The exponent that the hybrid measures printed in the worked example imply.
+/// Exponent lambda implied by the hybrid measures of the worked example (section 3).
 pub const EXAMPLE_LAMBDA: f64 = 1.5;
 
-/// Computes the measures of the motion of the worked example (section 3: PGA 0.5 g, PGA/PGV 2 1/s) for a
-/// structure.
+/// Computes the measures of the worked example (section 3: PGA 0.5 g, PGA/PGV 2 1/s) for a structure.
 pub fn example(structure: &Structure) -> IntensityMeasures {
     let pga_m_s2 = 0.5 * G_M_S2;
     IntensityMeasures::new(structure, pga_m_s2, pga_m_s2 / 2.0, None, None)
@@ -47,22 +46,21 @@ pub fn example(structure: &Structure) -> IntensityMeasures {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Published {
     pub quantity: String,
-    /// Where the paper prints it.
+    /// Place in the paper.
     pub place: String,
     pub suite: String,
     pub structure: String,
-    /// None of a row that holds the test of a whole plane.
+    /// None in a row with the test of a whole plane.
     pub published: Option<f64>,
-    /// The least number that is printed so, and the largest.
+    /// Least and largest number that round to the printed one.
     pub print_low: Option<f64>,
     pub print_high: Option<f64>,
-    /// Hotelling's T2 of the four numbers of a plane about ours over seeds, and its probability
-    /// (scripts/paper_planes.py).
+    /// Hotelling's T2 of a plane against ours over seeds, and its p-value (scripts/paper_planes.py).
     pub t2: Option<f64>,
     pub t2_p: Option<f64>,
 }
 
-/// Our value of a published quantity with one seed: a row of data/seed_spread.csv.
+/// Our value of a published quantity for one seed: a row of data/seed_spread.csv.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SeedValue {
     pub quantity: String,
@@ -72,17 +70,17 @@ pub struct SeedValue {
     pub value: f64,
 }
 
-/// Reads the published numbers, Table II among them, in the order in which they are shown.
+/// Reads the published numbers, in the order of display.
 pub fn published() -> Vec<Published> {
     read(include_str!("../data/paper.csv"))
 }
 
-/// Reads ours over twenty seeds.
+/// Reads our values for twenty seeds.
 pub fn seed_values() -> Vec<SeedValue> {
     read(include_str!("../data/seed_spread.csv"))
 }
 
-/// Reads a table that is compiled in: a row that does not fit is a fault of the build, which tests find.
+/// Reads an embedded table. An invalid row is a fault of the build, which tests find.
 fn read<T: for<'de> Deserialize<'de>>(text: &str) -> Vec<T> {
     let rows = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
     rows.into_deserialize().map(|row| row.expect("a table in data/")).collect()

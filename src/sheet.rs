@@ -1,4 +1,4 @@
-//! The one reader of tables as people and agencies write them: CSV of any country, or numbers between blanks.
+//! Reads tables as people and agencies write them: CSV of any country, or numbers between blanks.
 
 use std::borrow::Cow;
 
@@ -6,7 +6,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 use crate::units::Unit;
 
-/// Why a table cannot be read as it stands.
+/// An unreadable table. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SheetError {
     #[error("binary data; expected text: save a workbook as CSV")]
@@ -20,16 +20,16 @@ pub enum SheetError {
 /// The heading of a column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
-    /// As it stands in the file.
+    /// Text in the file.
     pub text: String,
     /// Letters and digits in lower case, joined by underscores: `pga` of `PGA [g]` and of `pga_g`.
     pub name: String,
-    /// The unit with which it ends.
+    /// Unit at its end.
     pub unit: Option<Unit>,
 }
 
 impl Heading {
-    /// Parts a heading into name and unit.
+    /// Splits a heading into name and unit.
     pub fn of(text: &str) -> Heading {
         let unit = |end: &str| Unit::parse(end[1..].trim_matches(['(', ')', '[', ']', ' ']));
         let mut ends = text.match_indices(['(', '[', ' ', '_', ',']).map(|(at, _)| text.split_at(at));
@@ -44,25 +44,25 @@ impl Heading {
 /// A table: rows of cells under headings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet {
-    /// Comments, and lines above the heading, as they stand in the file.
+    /// Comments, and lines above the heading.
     pub notes: Vec<String>,
-    /// One for each column; empty if the file has none.
+    /// One for each column; empty without a heading line.
     pub headings: Vec<Heading>,
     pub columns: usize,
-    /// The line of each row in the file, from 1.
+    /// Line of each row in the file, from 1.
     pub lines: Vec<usize>,
     rows: Vec<StringRecord>,
     separator: char,
 }
 
 impl Sheet {
-    /// Reads a table. Comments begin with `#`, `%` or `//`. The heading is the line of most cells, or a note
-    /// of as many as the row of most numbers, above the first row with numbers where that one has some.
+    /// Reads a table. Comments begin with `#`, `%` or `//`. The heading is the line with the most cells above
+    /// the first row of numbers; a comment needs as many cells as the row with the most numbers.
     pub fn parse(bytes: &[u8]) -> Result<Sheet, SheetError> {
         let text = decode(bytes)?;
         let lines: Vec<&str> = text.lines().map(|line| line.trim_matches([' ', '\x0c', '\x1a'])).collect();
         let is_comment = |line: &str| ["#", "%", "//"].iter().any(|sign| line.starts_with(sign));
-        // The last lines show what parts the cells, and where numbers stand.
+        // The last lines show the separator and the columns of numbers.
         let body = lines.iter().rev().filter(|line| !line.is_empty() && !is_comment(line));
         let body: Vec<&&str> = body.take(400).collect();
         let in_most = |c: &char| 2 * body.iter().filter(|line| is_parted(line, *c)).count() >= body.len();
@@ -98,22 +98,22 @@ impl Sheet {
         Ok(Sheet { notes, headings, columns, lines, rows, separator })
     }
 
-    /// Finds the column of one of these names; see [`Heading::name`].
+    /// Returns the index of the column with one of these names; see [`Heading::name`].
     pub fn column(&self, names: &[&str]) -> Option<usize> {
         self.headings.iter().position(|heading| names.contains(&heading.name.as_str()))
     }
 
-    /// Returns the words of a cell; a row may be short.
+    /// Returns the text of a cell; empty beyond the end of a short row.
     pub fn cell(&self, row: usize, column: usize) -> &str {
         self.rows[row].get(column).unwrap_or_default()
     }
 
-    /// Reads the number in a cell; 10 % are 0.1.
+    /// Reads the number in a cell; 10 % is 0.1.
     pub fn number(&self, row: usize, column: usize) -> Result<f64, SheetError> {
         number(self.cell(row, column), self.separator).ok_or_else(|| self.refusal(row, column, "a number"))
     }
 
-    /// Makes the error of a cell in which something else was expected.
+    /// Makes the error of a cell with an unexpected value.
     pub fn refusal(&self, row: usize, column: usize, expected: impl Into<String>) -> SheetError {
         let heading = self.headings.get(column).map_or((column + 1).to_string(), |known| known.text.clone());
         let found = self.cell(row, column).chars().take(60).collect();
@@ -121,25 +121,25 @@ impl Sheet {
     }
 }
 
-/// Whether a character parts the cells of a line; among numbers between blanks a comma is a decimal one.
+/// Returns whether `c` separates cells of a line. Among numbers between blanks, a comma is a decimal one.
 fn is_parted(line: &str, c: char) -> bool {
     let is_number = |word: &str| !word.ends_with(',') && number(word, ' ').is_some();
     let are_numbers = || line.contains(' ') && line.split_whitespace().all(is_number);
     line.split('"').step_by(2).any(|unquoted| unquoted.contains(c)) && !(c == ',' && are_numbers())
 }
 
-/// The line of a row in the file, from 1, and its cells.
+/// Line of a row in the file, and its cells.
 type Row = (usize, StringRecord);
 
-/// Reads the rows of successive lines that are not empty, without the signs of comments.
+/// Reads the rows of lines that are not empty, without comment signs.
 fn rows(lines: &[&str], separator: char) -> Vec<Row> {
     let mut text = String::new();
     for line in lines.iter().map(|line| line.trim_start_matches(['#', '%', '/', ' '])) {
-        // Among blanks, a unit in brackets stays with its heading.
+        // Between blanks, a unit in brackets belongs to its heading.
         let units = || line.replace(" (", "(").replace(" [", "[");
         let words = |line: String| line.split_whitespace().collect::<Vec<_>>().join(" ");
         text += &if separator == ' ' { Cow::Owned(words(units())) } else { Cow::Borrowed(line) };
-        // A row of one empty cell keeps the numbers of lines.
+        // A row with one empty cell keeps the line count.
         text += if line.is_empty() { "\"\"\n" } else { "\n" };
     }
     let mut reader = ReaderBuilder::new();
@@ -149,7 +149,7 @@ fn rows(lines: &[&str], separator: char) -> Vec<Row> {
     rows.map(|row| (row.position().map_or(0, |at| at.line() as usize), row)).collect()
 }
 
-/// Reads a number, with a decimal comma where no comma parts the cells.
+/// Reads a number; its comma is decimal unless commas separate cells.
 fn number(cell: &str, separator: char) -> Option<f64> {
     let (text, size) = cell.strip_suffix('%').map_or((cell, 1.0), |share| (share.trim_end(), 0.01));
     let has_comma = separator != ',' && text.contains(',');
@@ -157,9 +157,9 @@ fn number(cell: &str, separator: char) -> Option<f64> {
     value.ok().filter(|value: &f64| value.is_finite()).map(|value| size * value)
 }
 
-/// Decodes a text in UTF-8 or Latin-1; typographic blanks and minus signs become plain ones.
+/// Decodes a text in UTF-8 or Latin-1; typographic blanks and minus signs become ASCII.
 pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, SheetError> {
-    // Single null bytes pad the text of some real headers.
+    // Some real headers are padded with null bytes.
     if bytes.iter().take(4096).filter(|byte| **byte < b'\t').count() > bytes.len().min(4096) / 50 {
         return Err(SheetError::Binary);
     }

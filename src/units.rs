@@ -1,17 +1,17 @@
-//! Units as people write them, and the constants that tie them together.
+//! Units as people write them, and physical constants.
 
 use std::fmt;
 
 /// Acceleration of gravity, m/s2.
 pub const G_M_S2: f64 = 9.81;
 
-/// Inverse of [`G_M_S2`]: turns an acceleration in m/s2 into a fraction of g.
+/// Inverse of [`G_M_S2`]: converts m/s2 to g.
 pub const PER_G: f64 = 1.0 / G_M_S2;
 
-/// Centimetres in a metre: the published ground-motion relations are in cm/s and cm/s2.
+/// Centimetres per metre: published ground-motion relations are in cm/s and cm/s2.
 pub const CM_PER_M: f64 = 100.0;
 
-/// What a unit measures.
+/// Physical quantity of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     Acceleration,
@@ -20,25 +20,25 @@ pub enum Quantity {
     Time,
     Angle,
     AngularFrequency,
-    /// Counts or volts of an instrument that is not calibrated.
+    /// Counts or volts of an uncalibrated instrument.
     Counts,
 }
 
-/// A unit of a heading, a header or an option.
+/// A unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
     pub name: &'static str,
     pub quantity: Quantity,
-    /// Its size in m/s2, m/s, m, s, rad or rad/s.
+    /// Value in m/s2, m/s, m, s, rad or rad/s.
     pub si: f64,
 }
 
-/// The unit in which accelerations are kept.
+/// Unit of stored accelerations.
 pub const M_S2: Unit = Unit { name: "m/s2", quantity: Acceleration, si: 1.0 };
 
 use Quantity::{Acceleration, Angle, AngularFrequency, Counts, Length, Time, Velocity};
 
-/// Name, quantity, size, and further spellings as [`Unit::parse`] joins them.
+/// Name, quantity, value, and other spellings as normalised by [`Unit::parse`].
 #[rustfmt::skip]
 const UNITS: [(&str, Quantity, f64, &[&str]); 30] = [
     ("g", Acceleration, G_M_S2, &["gs"]),
@@ -74,8 +74,7 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 30] = [
 ];
 
 impl Unit {
-    /// Finds the unit that a text names and nothing else, however its parts are joined: `cm/s^2`,
-    /// `cm/sec/sec`, `cm_s2`, `cm s-2`.
+    /// Reads a unit, in any common notation: `cm/s^2`, `cm/sec/sec`, `cm_s2`, `cm s-2`. None of other text.
     pub fn parse(text: &str) -> Option<Unit> {
         let per = |c: char| if c.is_whitespace() || matches!(c, '_' | '.') { '/' } else { c };
         let text = text.trim().trim_end_matches('.').to_lowercase().replace('\u{b2}', "2");
@@ -86,7 +85,7 @@ impl Unit {
         Some(Unit { name, quantity: *quantity, si: *si })
     }
 
-    /// Reads a unit of acceleration, as `--unit` takes it.
+    /// Reads a unit of acceleration, the value of `--unit`.
     pub fn of_acceleration(text: &str) -> Result<Unit, String> {
         Unit::parse(text).filter(|unit| unit.quantity == Acceleration).ok_or_else(|| {
             let known =

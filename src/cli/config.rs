@@ -1,31 +1,32 @@
-//! The command line is the only language of options: a section of pipeline.yaml, or a call from Python, becomes arguments.
+//! Pipeline files: a section, or a call from Python, becomes arguments of the command line.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
-use clap::{ArgAction, Command, Error as ClapError};
+use clap::{ArgAction, ArgMatches, Command};
 use serde_json::Value;
 
 use crate::keyword::nearest;
 use crate::pipeline::UsageError;
 use crate::pipeline::call::is_input;
 
-/// What a stage reads in a run besides the files that it reads by default: flag, file, and the stage whose section must be there.
-const READ_IN_RUN: [(&str, &str, &str); 4] = [
+/// Inputs in a run besides default files: flag, file, and the stage whose section must exist.
+const IN_RUN: [(&str, &str, &str); 5] = [
     ("fits", ".", "fit-pro"),
     ("motions", "motions.parquet", "synthesize-motions"),
     ("motions", "motions.parquet", "import-motions"),
     ("responses", "responses.parquet", "simulate"),
+    ("out", "evaluated.parquet", "evaluate"),
 ];
 
 /// A pipeline file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Config {
-    /// The folder that paths are relative to.
+    /// Folder of relative paths.
     folder: PathBuf,
-    /// The folder of all files, as the file has it.
+    /// Folder of all outputs, if given.
     pub out: Option<PathBuf>,
     seed: Option<String>,
     sections: BTreeMap<String, BTreeMap<String, Value>>,
@@ -55,7 +56,7 @@ impl Config {
         Ok(config)
     }
 
-    /// Refuses sections that are none of these commands.
+    /// Checks that sections are among these commands.
     pub fn check(&self, commands: &[Command], path: &Path) -> anyhow::Result<()> {
         let names: Vec<&str> = commands.iter().map(Command::get_name).chain(["seed", "out"]).collect();
         match self.sections.keys().find(|section| !names.contains(&section.as_str())) {
@@ -68,22 +69,22 @@ impl Config {
         }
     }
 
-    /// The same file with another seed.
+    /// Returns the configuration with another seed.
     pub fn with_seed(self, seed: Option<u64>) -> Config {
         Config { seed: seed.map(|seed| seed.to_string()).or(self.seed), ..self }
     }
 
-    /// Where the files of a run lie.
+    /// Returns the folder of the files of a run.
     pub fn run_folder(&self, out: Option<PathBuf>) -> PathBuf {
         out.unwrap_or_else(|| self.folder.join(self.out.clone().unwrap_or_else(|| PathBuf::from("out"))))
     }
 
-    /// Whether the file has a section for a command.
+    /// Returns whether there is a section for a command.
     pub fn has(&self, command: &str) -> bool {
         self.sections.contains_key(command)
     }
 
-    /// The arguments of a section, but for what the user's own arguments name or exclude.
+    /// Returns the arguments of a section, except those that `user` names or excludes.
     pub fn section(&self, command: &Command, user: &[OsString]) -> anyhow::Result<Vec<OsString>> {
         let empty = BTreeMap::new();
         let section = self.sections.get(command.get_name()).unwrap_or(&empty);
@@ -109,7 +110,7 @@ impl Config {
         Ok(arguments)
     }
 
-    /// The arguments of a section in a run whose files lie in `folder`: defaults that are files lie there too.
+    /// Returns the arguments of a section in a run; default files are in `folder`.
     pub fn section_of_run(&self, command: &Command, folder: &Path) -> anyhow::Result<Vec<OsString>> {
         let mut arguments = self.section(command, &[])?;
         let section = &self.sections[command.get_name()];
@@ -121,7 +122,7 @@ impl Config {
                 .first()
                 .filter(names_file)
                 .filter(|_| is_input(arg) || flag == "out");
-            let in_run = READ_IN_RUN.iter().find(|(other, _, maker)| *other == flag && self.has(maker));
+            let in_run = IN_RUN.iter().find(|(other, _, maker)| *other == flag && self.has(maker));
             let file = default.map(PathBuf::from).or(in_run.map(|(_, file, _)| PathBuf::from(file)));
             if let Some(file) = file.filter(|_| flag != "config") {
                 arguments.push(assigned(flag, folder.join(file).as_os_str()));
@@ -131,7 +132,7 @@ impl Config {
     }
 }
 
-/// Options by name as arguments. Paths are relative to `folder`.
+/// Converts options to arguments. Paths are relative to `folder`.
 pub fn arguments(
     command: &Command,
     options: impl IntoIterator<Item = (String, Value)>,
@@ -153,7 +154,7 @@ pub fn arguments(
         let text = |value: &Value| -> OsString {
             let text = text_of(value);
             let path = folder.join(&text);
-            // A word, such as that of a site, may stand where a file may.
+            // An input may be a word, such as a site name, in place of a file.
             if is_input(arg) && (path.exists() || !folder.as_os_str().is_empty() && text.contains(['/', '.']))
             {
                 path.into()
@@ -181,14 +182,14 @@ pub fn arguments(
     Ok(arguments)
 }
 
-/// `--flag=value`, which may begin with a minus sign.
+/// Returns `--flag=value`; the value may begin with a minus sign.
 fn assigned(flag: &str, value: &std::ffi::OsStr) -> OsString {
     let mut argument = OsString::from(format!("--{flag}="));
     argument.push(value);
     argument
 }
 
-/// A value as it stands on the command line; a mapping as `name=frame,p=1`.
+/// Converts a value to command-line text; a mapping becomes `name=frame,p=1`.
 fn text_of(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
@@ -200,11 +201,15 @@ fn text_of(value: &Value) -> String {
     }
 }
 
-/// The arguments that the user's own words name; what clap cannot parse it tells later.
+/// Parses the arguments of a stage without errors, which later parsing reports.
+pub fn lenient(command: &Command, user: &[OsString]) -> Option<ArgMatches> {
+    let words = [&[OsString::from(command.get_name())], user].concat();
+    command.clone().ignore_errors(true).try_get_matches_from(words).ok()
+}
+
+/// Returns the arguments named by the user.
 fn named_by(command: &Command, user: &[OsString]) -> Vec<String> {
-    let words = std::iter::once(OsString::from(command.get_name())).chain(user.iter().cloned());
-    let matches: Result<_, ClapError> = command.clone().ignore_errors(true).try_get_matches_from(words);
-    let Ok(matches) = matches else { return Vec::new() };
+    let Some(matches) = lenient(command, user) else { return Vec::new() };
     let ids = command.get_arguments().map(|arg| arg.get_id().to_string());
     ids.filter(|id| matches.value_source(id) == Some(ValueSource::CommandLine)).collect()
 }

@@ -1,7 +1,8 @@
-//! The command line: which command, with which options, and what is printed.
+//! The command line: commands, options and printed text.
 
 pub mod config;
 
+use std::collections::HashMap;
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -10,14 +11,14 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
 
-use self::config::Config;
+use self::config::{Config, lenient};
 use crate::pipeline::call::Call;
 use crate::pipeline::context::{Common, Context};
 use crate::pipeline::{UsageError, cache};
 use crate::stages::{Stages, init, inspect, run};
 use crate::table::file::quiet_damage;
 
-/// The pipeline file that is read where none is named.
+/// Default pipeline file.
 const PIPELINE: &str = "pipeline.yaml";
 
 /// Dimensionless fragility curves for rocking structures in near-fault earthquakes
@@ -42,7 +43,8 @@ enum Tool {
         #[command(flatten)]
         common: Common,
     },
-    /// Write a folder to start from: paper (the paper's set-up), records (your records) or site (a hazard curve)
+    /// Write a folder to start from: paper (the paper's set-up), records (your records) or site (a hazard
+    /// curve)
     Init {
         #[arg(value_enum, default_value = "paper")]
         start: init::Start,
@@ -56,7 +58,7 @@ enum Tool {
     Completions { shell: Shell },
 }
 
-/// The whole command line.
+/// Returns the whole command line.
 pub fn command() -> Command {
     let stages = Stages::augment_subcommands(Command::new("stages"));
     let with_common = |stage: &Command| {
@@ -67,7 +69,7 @@ pub fn command() -> Command {
     <Tool as clap::CommandFactory>::command().subcommands(stages)
 }
 
-/// The commands that are stages, in the order of a run.
+/// Returns the commands of stages, in the order of a run.
 pub fn stage_commands() -> Vec<Command> {
     let stages = Stages::augment_subcommands(Command::new("stages"));
     let is_stage = |command: &Command| stages.find_subcommand(command.get_name()).is_some();
@@ -76,8 +78,7 @@ pub fn stage_commands() -> Vec<Command> {
     command.get_subcommands().filter(|command| is_stage(command)).cloned().collect()
 }
 
-/// Does what a command line asks for, whose first word is the program, and gives the code to exit with: 0 done, 1 a failure, 2 a
-/// mistake in the call.
+/// Runs a command line, program name first. Returns the exit code: 0 success, 1 failure, 2 wrong usage.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     quiet_damage();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
@@ -121,22 +122,21 @@ fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
     let common = Common::from_arg_matches(&matches)?;
     set_threads(&common)?;
     let context = Context::new(&common);
-    let done = cache::run(&call, &context)?;
+    let done = cache::run(&call, &context, &HashMap::new())?;
     if !done.ran && !context.quiet {
         eprintln!("{}: up to date", call.name);
     }
     print(&done.summary)?;
     if !context.quiet {
-        done.doubts.iter().for_each(|doubt| eprintln!("warning: {doubt}"));
+        run::warn(&done.doubts);
     }
     Ok(())
 }
 
-/// A call of a stage with the user's arguments, and those of its section where `--config` names a file.
+/// Returns the call of a stage with the user's arguments, and those of its section where `--config` names a file.
 pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<(Call, ArgMatches)> {
-    let words = [&[OsString::from(command.get_name())], user].concat();
-    let known = command.clone().ignore_errors(true).try_get_matches_from(words);
-    let config = known.ok().and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());
+    let known = lenient(command, user);
+    let config = known.and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());
     let section = match &config {
         Some(path) => Config::read(path)?.section(command, user)?,
         None => Vec::new(),
@@ -144,10 +144,10 @@ pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<(Call,
     parsed(command, [section, user.to_vec()].concat())
 }
 
-/// A call of a stage with these arguments. What it writes lies beside its input, unless named.
+/// Parses the arguments of a stage. Without `--out`, the output is beside a given `--in`.
 pub fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<(Call, ArgMatches)> {
     let words = [vec![OsString::from("rockfrag"), command.get_name().into()], arguments].concat();
-    // Usage lines name the whole command.
+    // Parsed as part of the whole command line, which usage lines name.
     let parse = |words: &[OsString]| -> Result<ArgMatches, clap::Error> {
         let whole = self::command().try_get_matches_from(words)?;
         Ok(whole.subcommand().map(|(_, matches)| matches.clone()).unwrap_or_default())
@@ -165,35 +165,39 @@ pub fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<(Ca
         out.push(folder.with_file_name(file));
         matches = parse(&[words, vec![out]].concat())?;
     }
-    let whole = ArgMatches::clone(&matches);
-    let stage = Stages::of(command.get_name(), &whole)?;
+    let stage = Stages::of(command.get_name(), &matches)?;
     Ok((Call::new(command, &matches, stage), matches))
 }
 
-/// The calls of a pipeline file, in the order in which they run.
+/// Returns the calls of a pipeline file, in the order of a run.
 pub fn calls_of(config: &Config, out: Option<PathBuf>, pipeline: &Path) -> anyhow::Result<Vec<Call>> {
     let commands = stage_commands();
     config.check(&commands, pipeline)?;
     let folder = config.run_folder(out);
-    let call = |command: &Command| Ok(parsed(command, config.section_of_run(command, &folder)?)?.0);
-    let named = |error: anyhow::Error| match error.downcast::<clap::Error>() {
-        Ok(refused) => UsageError::because(format!("{}: {}", pipeline.display(), first_line(&refused))),
-        Err(error) => error,
+    let call = |command: &Command| match parsed(command, config.section_of_run(command, &folder)?) {
+        Ok((call, _)) => Ok(call),
+        Err(error) => Err(match error.downcast_ref::<clap::Error>() {
+            Some(refused) => {
+                let (file, section) = (pipeline.display(), command.get_name());
+                UsageError::because(format!("{file}: {section}: {}", first_line(refused)))
+            }
+            None => error,
+        }),
     };
     let calls = commands.iter().filter(|command| config.has(command.get_name())).map(call);
-    let calls = calls.collect::<anyhow::Result<Vec<Call>>>().map_err(named)?;
+    let calls = calls.collect::<anyhow::Result<Vec<Call>>>()?;
     match calls.is_empty() {
         true => Err(UsageError::because(format!("{}: no stage; expected at least one", pipeline.display()))),
         false => Ok(calls),
     }
 }
 
-/// What clap refuses, in one line.
+/// Returns an error of clap in one line.
 fn first_line(refused: &clap::Error) -> String {
     refused.to_string().lines().next().unwrap_or_default().trim_start_matches("error: ").to_string()
 }
 
-/// Reads a pipeline file; where there is none, tells how to get one.
+/// Reads a pipeline file; without one, the error names `rockfrag init`.
 fn read_pipeline(path: &Path) -> anyhow::Result<Config> {
     if path == Path::new(PIPELINE) && !path.exists() {
         return Err(UsageError::because(format!(
@@ -210,7 +214,7 @@ fn set_threads(common: &Common) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// To stdout; a reader that has seen enough (`| head`) is no error.
+/// Prints to stdout; a closed pipe (`| head`) is not an error.
 fn print(text: &str) -> anyhow::Result<()> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {

@@ -43,7 +43,7 @@ pub struct Calibration {
     pub tau: f64,
     pub n: i64,
     pub n_events: i64,
-    /// Events that the surface predicts.
+    /// Events that the surface for the kind of motion predicts.
     pub expected: f64,
     pub n_clusters: i64,
     /// Of the motions that it was fitted to: least and largest PGA (m/s2), PGV (m/s) and PGV/PGA (s).
@@ -119,7 +119,7 @@ impl Calibration {
             covariance: covariance.as_slice().to_vec(),
             n: sample.logits.len() as i64,
             n_events: sample.events.iter().filter(|event| **event).count() as i64,
-            expected: sample.logits.iter().map(|logit| logistic(*logit)).sum(),
+            expected: sample.logits.iter().map(|logit| logistic(prior.c + prior.ln_s.exp() * logit)).sum(),
             n_clusters: clusters.len() as i64,
             pga_low,
             pga_high,

@@ -34,12 +34,12 @@ impl Kind {
         }
     }
 
-    /// The column of its coefficients: recorded motions have those of combined ones.
+    /// The column of its coefficients: recorded motions have those of high frequencies.
     fn column(self) -> usize {
         match self {
-            Kind::Recorded | Kind::Csgm => 0,
+            Kind::Csgm => 0,
             Kind::Pulse => 1,
-            Kind::Hfc => 2,
+            Kind::Recorded | Kind::Hfc => 2,
         }
     }
 }
@@ -117,8 +117,8 @@ pub(super) fn peaks(kind: Kind) -> JointPeaks {
 
 const FEATURES: [&str; 6] = ["x", "w", "r", "eta", "p", "limit"];
 
-/// Computes x = ln(ln IM4 + 0.2), w = ln IM5 - 0.4 ln(c/0.2) of a limit state c, r = ln IM3, (eta - 0.85)/0.1, ln(p/2) and
-/// ln(c/0.2); without a limit state c counts as 0.2. None where the ground has no velocity.
+/// Computes x = ln(ln IM4 + 0.2), w = ln IM5 - 0.4 l, r = ln IM3, (eta - 0.85)/0.1, ln(p/2) and l = ln(c/0.2) of a
+/// limit state c, 0 of P_ro. None where the ground has no velocity.
 fn features(
     structure: &Structure,
     measures: &IntensityMeasures,
@@ -146,7 +146,8 @@ struct Surface {
 /// A product of powers of features.
 struct Term {
     curve: Curve,
-    powers: [i32; FEATURES.len()],
+    /// Feature and power of each.
+    factors: Vec<(usize, i32)>,
     /// For combined motions, pulses and high frequencies.
     coefficients: [f64; 3],
 }
@@ -175,7 +176,7 @@ impl Surface {
                 }
                 _ => surface.terms.push(Term {
                     curve: curve(1),
-                    powers: powers(cells[2]),
+                    factors: factors(cells[2]),
                     coefficients: [3, 4, 5].map(number),
                 }),
             }
@@ -185,7 +186,7 @@ impl Surface {
 
     fn logit(&self, curve: Curve, kind: Kind, features: &[f64; FEATURES.len()]) -> f64 {
         let product = |term: &Term| {
-            features.iter().zip(term.powers).map(|(feature, power)| feature.powi(power)).product::<f64>()
+            term.factors.iter().map(|&(feature, power)| features[feature].powi(power)).product::<f64>()
         };
         let terms = self.terms.iter().filter(|term| term.curve == curve);
         terms.map(|term| term.coefficients[kind.column()] * product(term)).sum()
@@ -193,12 +194,11 @@ impl Surface {
 }
 
 /// Reads a product such as `x*w^2`; 1 is the empty one.
-fn powers(product: &str) -> [i32; FEATURES.len()] {
-    let mut powers = [0; FEATURES.len()];
-    for factor in product.split('*').filter(|factor| *factor != "1") {
+fn factors(product: &str) -> Vec<(usize, i32)> {
+    let factor = |factor: &str| {
         let (name, power) = factor.split_once('^').unwrap_or((factor, "1"));
         let place = FEATURES.iter().position(|feature| *feature == name).expect(product);
-        powers[place] += power.parse::<i32>().expect(product);
-    }
-    powers
+        (place, power.parse().expect(product))
+    };
+    product.split('*').filter(|name| *name != "1").map(factor).collect()
 }

@@ -1,4 +1,4 @@
-//! Which points of the unit cube sample the random parameters of a scenario (section 2.1.1).
+//! Samples the random parameters of scenarios (section 2.1.1).
 
 use rand::RngExt;
 use rand::seq::SliceRandom;
@@ -7,10 +7,10 @@ use super::scenario::Scenario;
 use crate::keyword::keywords;
 use crate::random::{Purpose, stream};
 
-/// How the four random parameters of a cell are sampled.
+/// Sampling of the four random parameters in a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Design {
-    /// Latin hypercube: one sample in each of as many strata as samples, in every parameter.
+    /// Latin hypercube: each parameter has one sample in each of as many strata as samples.
     Lhs,
     /// Independent samples.
     Random,
@@ -18,7 +18,7 @@ pub enum Design {
 
 keywords!(Design { Lhs = "lhs", Random = "random" });
 
-/// Random parameters of a pulse: Vp, Tp, gamma and nu.
+/// Number of random parameters: Vp, Tp, gamma and nu.
 const DIMENSIONS: usize = 4;
 
 /// The magnitude-distance grid and how its cells are sampled (section 2.1.1).
@@ -40,8 +40,7 @@ impl Grid {
         self.mw.len() * self.re_km.len()
     }
 
-    /// Samples the scenarios of a cell, the same whichever other cells are sampled. The cells of one magnitude follow each
-    /// other.
+    /// Samples the scenarios of a cell, independently of other cells. The cells of a magnitude are adjacent.
     pub fn scenarios_of_cell(&self, cell: usize) -> Vec<Scenario> {
         let mw = self.mw[cell / self.re_km.len()];
         let re_km = self.re_km[cell % self.re_km.len()];
@@ -52,7 +51,7 @@ impl Grid {
         self.quantiles_of_cell(cell).into_iter().enumerate().map(scenario).collect()
     }
 
-    /// Samples the points of a cell in the unit cube.
+    /// Samples a cell in the unit cube. Returns `samples` points.
     pub fn quantiles_of_cell(&self, cell: usize) -> Vec<[f64; DIMENSIONS]> {
         match self.design {
             Design::Lhs => self.latin_hypercube(cell),
@@ -84,7 +83,7 @@ impl Grid {
     }
 }
 
-/// Moves a uniform number of [0, 1) away from 0, where quantiles are infinite.
+/// Moves a uniform number in [0, 1) away from 0, whose quantile is infinite.
 fn open_unit(u: f64) -> f64 {
     u.max(f64::EPSILON)
 }

@@ -1,18 +1,19 @@
-//! Intensity measures without units: those of Eq. 13, and any other measure of a motion as it meets a structure.
+//! Dimensionless intensity measures: IM1 to IM6 (Eq. 13), and other measures of a motion, made dimensionless
+//! with p and g tan alpha of a structure (section 2.2.3, Eqs. 9 and 10).
 
 use std::f64::consts::PI;
 
 use crate::rocking::Structure;
 use crate::units::G_M_S2;
 
-/// The dimensionless intensity measures of Eq. 13. Those of periods are missing where the period is.
+/// The dimensionless intensity measures of Eq. 13. Those of a period are missing where the period is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IntensityMeasures {
     /// wp / p.
     pub im1: Option<f64>,
     /// wm / p.
     pub im2: Option<f64>,
-    /// PGA / (p PGV); missing where the ground does not move.
+    /// PGA / (p PGV); missing without a ground velocity.
     pub im3: Option<f64>,
     /// PGA / (g tan alpha).
     pub im4: f64,
@@ -23,7 +24,7 @@ pub struct IntensityMeasures {
 }
 
 impl IntensityMeasures {
-    /// Computes the measures (Eq. 13) of a motion with these peaks (m/s2, m/s) and periods (s) for a structure.
+    /// Computes IM1 to IM6 (Eq. 13) of a motion with these peaks (m/s2, m/s) and periods (s) for a structure.
     pub fn new(
         structure: &Structure,
         pga_m_s2: f64,
@@ -46,8 +47,7 @@ impl IntensityMeasures {
     }
 }
 
-/// What a measure of a motion is. p (1/time) and g tan alpha (an acceleration) make it dimensionless, as Eq. 13 does with the
-/// peaks and periods.
+/// Physical quantity of a measure; p and g tan alpha make it dimensionless, as in Eq. 13.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// A duration D, s: p D.
@@ -58,12 +58,13 @@ pub enum Quantity {
     Velocity,
     /// An acceleration a, m/s2: a / (g tan alpha).
     Acceleration,
-    /// An Arias intensity pi / (2 g) times the integral of the squared acceleration, m/s: p times that integral / (g tan alpha)^2.
+    /// An Arias intensity pi / (2 g) times the integral I of the squared acceleration, m/s:
+    /// p I / (g tan alpha)^2.
     AriasIntensity,
 }
 
 impl Quantity {
-    /// Makes a value in the unit above dimensionless for a structure.
+    /// Computes the dimensionless measure of a structure from `value` in the unit above.
     pub fn dimensionless(self, value: f64, structure: &Structure) -> f64 {
         let (p, g_tan_alpha) = (structure.p_rad_s, structure.uplift_acceleration_m_s2());
         match self {

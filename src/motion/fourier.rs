@@ -1,4 +1,4 @@
-//! Fourier transforms of real series, planned once for each length.
+//! Fourier transforms of real series of even length.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -6,21 +6,21 @@ use std::sync::Arc;
 pub use realfft::num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-/// The Fourier transforms of real series of one even length.
+/// Fourier transforms of real series of one even length.
 pub struct Transform {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
 }
 
 impl Transform {
-    /// Plans the transforms of `samples` samples. Each length has a planner of its own: a shared one builds on what it has planned
-    /// before, and the last digits would depend on the history of the thread.
+    /// Plans the transforms of series of `samples` samples. Each length has its own planner: a shared planner
+    /// reuses earlier plans, and the last digits would depend on the history of the thread.
     pub fn new(samples: usize) -> Transform {
         let mut planner = RealFftPlanner::new();
         Transform { forward: planner.plan_fft_forward(samples), inverse: planner.plan_fft_inverse(samples) }
     }
 
-    /// Computes the Fourier coefficients of `samples`, which are used up.
+    /// Computes the `n / 2 + 1` Fourier coefficients of `n` samples; overwrites `samples`.
     pub fn forward(&self, samples: &mut [f64], spectrum: &mut Vec<Complex64>, scratch: &mut Vec<Complex64>) {
         spectrum.resize(samples.len() / 2 + 1, Complex64::ZERO);
         scratch.resize(self.forward.get_scratch_len(), Complex64::ZERO);
@@ -28,9 +28,9 @@ impl Transform {
         debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
     }
 
-    /// Computes the samples of these Fourier coefficients, which are used up.
+    /// Computes the samples of Fourier coefficients; overwrites `spectrum`.
     pub fn inverse(&self, spectrum: &mut [Complex64], samples: &mut [f64], scratch: &mut Vec<Complex64>) {
-        // Of a real series the mean and the Nyquist coefficient are real.
+        // The mean and the Nyquist coefficient of a real series are real.
         if let [first, .., last] = spectrum {
             (first.im, last.im) = (0.0, 0.0);
         }
@@ -42,7 +42,7 @@ impl Transform {
     }
 }
 
-/// A cache of something that depends on the length of a series.
+/// A cache of values that depend on the length of a series.
 pub struct ByLength<T>(HashMap<usize, Arc<T>>);
 
 impl<T> Default for ByLength<T> {
@@ -52,13 +52,13 @@ impl<T> Default for ByLength<T> {
 }
 
 impl<T> ByLength<T> {
-    /// Returns what is kept for a length, made first where it is new.
+    /// Returns the value for a length; makes it if it is new.
     pub fn get(&mut self, length: usize, make: impl FnOnce() -> T) -> Arc<T> {
         self.0.entry(length).or_insert_with(|| Arc::new(make())).clone()
     }
 }
 
-/// Finds the least even number of at least `n` without prime factors above 5: a length that a fast Fourier transform likes.
+/// Returns the least even number of at least `n` without prime factors above 5, for fast transforms.
 pub fn even_smooth_at_least(n: usize) -> usize {
     let smooth = |mut n: usize| {
         for prime in [2, 3, 5] {

@@ -1,20 +1,20 @@
-//! Intensity measures of a ground acceleration (m/s2), whatever it comes from.
+//! Intensity measures of a ground acceleration (m/s2).
 
 use std::f64::consts::PI;
 
 use super::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
 use crate::units::G_M_S2;
 
-/// The widest frequency step of the mean period, Hz.
+/// Largest frequency step of the mean period, Hz.
 const FREQUENCY_STEP_HZ: f64 = 0.05;
-/// The band of the mean period, Hz.
+/// Frequency band of the mean period, Hz.
 const BAND_HZ: (f64, f64) = (0.25, 20.0);
-/// Damping ratio of the spectral accelerations that become columns and of the Housner intensity.
+/// Damping ratio of spectral accelerations and of the Housner intensity.
 const DAMPING: f64 = 0.05;
-/// First and last period (s) at which the Housner intensity is integrated, and how many there are.
+/// First and last period (s) of the Housner intensity, and number of periods.
 const HOUSNER_PERIODS: (f64, f64, usize) = (0.1, 2.5, 49);
 
-/// The measures that every motion has.
+/// The measures of every motion.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Measures {
     /// Peak ground acceleration, m/s2.
@@ -23,28 +23,28 @@ pub struct Measures {
     pub pgv_m_s: f64,
     /// Peak ground displacement, m.
     pub pgd_m: f64,
-    /// Mean period, s; none where there is no energy between 0.25 and 20 Hz.
+    /// Mean period, s; none without energy between 0.25 and 20 Hz.
     pub tm_s: Option<f64>,
     /// Arias intensity, m/s: pi/(2 g) times the integral of a^2.
     pub arias_m_s: f64,
     /// Cumulative absolute velocity, m/s: the integral of |a|.
     pub cav_m_s: f64,
-    /// Significant duration, s: between the moments at which 5 and 75 % of the Arias intensity have come.
+    /// Significant duration, s: from 5 to 75 % of the Arias intensity.
     pub d5_75_s: f64,
-    /// Significant duration, s: between 5 and 95 % of the Arias intensity.
+    /// Significant duration, s: from 5 to 95 % of the Arias intensity.
     pub d5_95_s: f64,
 }
 
-/// Which measures are taken besides [`Measures`].
+/// The measures to compute besides [`Measures`].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MeasurePlan {
-    /// Whether the Housner intensity, which takes as long as all others together.
+    /// Whether to compute the Housner intensity, which takes as long as all others together.
     pub housner: bool,
     /// Periods of the spectral accelerations, s.
     pub sa_periods_s: Vec<f64>,
 }
 
-/// The measures of one motion that a plan asks for.
+/// The measures of one motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
     pub measures: Measures,
@@ -54,7 +54,7 @@ pub struct Measured {
     pub sa_m_s2: Vec<f64>,
 }
 
-/// Plans of transforms and buffers that one motion after the other uses.
+/// Transforms and buffers, reused for each motion.
 #[derive(Default)]
 pub struct IntensityScratch {
     transforms: ByLength<Transform>,
@@ -63,7 +63,7 @@ pub struct IntensityScratch {
 }
 
 impl MeasurePlan {
-    /// Measures a motion of these samples (m/s2), `dt_s` apart.
+    /// Computes the measures of an acceleration (m/s2) at steps of `dt_s`.
     pub fn measure(&self, acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Measured {
         let sa = |period_s: &f64| spectral_acceleration(acceleration, dt_s, *period_s, DAMPING);
         Measured {
@@ -74,12 +74,12 @@ impl MeasurePlan {
     }
 }
 
-/// Takes the measures that every motion has. The square of the acceleration is integrated along lines between the samples, the rest
-/// by trapezoids.
+/// Computes the measures of every motion from an acceleration (m/s2) at steps of `dt_s`. The squared
+/// acceleration is integrated exactly for lines between samples, everything else by trapezoids.
 pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Measures {
     let (mut velocity, mut displacement, mut squares, mut cav_m_s) = (0.0_f64, 0.0_f64, 0.0, 0.0);
     let (mut pgv_m_s, mut pgd_m) = (0.0, 0.0);
-    // The running integral of the squared acceleration, m2/s3.
+    // Running integral of the squared acceleration, m2/s3.
     let mut energy = vec![0.0; acceleration.len()];
     for k in 1..acceleration.len() {
         let (left, right) = (acceleration[k - 1], acceleration[k]);
@@ -105,11 +105,11 @@ pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch)
     }
 }
 
-/// Halvings of a time step that find a moment within it, to the rounding of the time.
+/// Halvings of a time step to rounding.
 const HALVINGS: usize = 40;
 
-/// Finds when a share of the last value of `energy`, the running integral of the squared acceleration, has come, s. 0 for a motion
-/// without energy.
+/// Computes the time (s) at which a share of the total `energy`, the running integral of the squared
+/// acceleration, is reached. 0 without energy.
 fn time_of_share(acceleration: &[f64], energy: &[f64], dt_s: f64, share: f64) -> f64 {
     let Some(&total) = energy.last().filter(|total| **total > 0.0) else { return 0.0 };
     let reached = share * total;
@@ -124,7 +124,7 @@ fn time_of_share(acceleration: &[f64], energy: &[f64], dt_s: f64, share: f64) ->
     dt_s * ((after - 1) as f64 + part[1])
 }
 
-/// Integrates between two samples.
+/// Integrates a line between two samples.
 fn trapezoid(dt_s: f64, left: f64, right: f64) -> f64 {
     0.5 * dt_s * (left + right)
 }
@@ -134,12 +134,12 @@ fn squared(dt_s: f64, left: f64, right: f64) -> f64 {
     dt_s / 3.0 * (left * left + left * right + right * right)
 }
 
-/// Returns the larger of two numbers in one instruction: the maximum of the standard library asks for NaN too.
+/// Returns the larger of two numbers in one instruction; `f64::max` also checks for NaN.
 fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// Finds the largest absolute value of a series.
+/// Returns the largest absolute value of a series.
 pub fn peak(series: &[f64]) -> f64 {
     series.iter().fold(0.0, |largest, value| larger(largest, value.abs()))
 }
@@ -153,9 +153,9 @@ pub fn velocity(acceleration: &[f64], dt_s: f64) -> Vec<f64> {
     velocity
 }
 
-/// Computes the mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of the
-/// acceleration from 0.25 to 20 Hz, without smoothing, the record padded with zeros to a frequency step of 0.05 Hz or less. None where there
-/// is no amplitude in this band.
+/// Computes the mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of
+/// the acceleration from 0.25 to 20 Hz, without smoothing, padded with zeros to a frequency step of at most
+/// 0.05 Hz. None without amplitude in this band.
 pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Option<f64> {
     let least = (1.0 / (FREQUENCY_STEP_HZ * dt_s)).ceil() as usize;
     let length = even_smooth_at_least(acceleration.len().max(least));
@@ -176,9 +176,9 @@ pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScrat
     (total > 0.0).then(|| weighted / total)
 }
 
-/// Computes the pseudo-spectral acceleration, m/s2: (2 pi / T)^2 times the largest relative displacement of a linear oscillator of
-/// period `period_s` and damping ratio `damping` (0 to below 1), exact for an acceleration that is linear between samples (Nigam &
-/// Jennings 1969).
+/// Computes the pseudo-spectral acceleration, m/s2: (2 pi / T)^2 times the largest relative displacement of a
+/// linear oscillator of period `period_s` and damping ratio `damping` in [0, 1), exact for an acceleration
+/// linear between samples (Nigam & Jennings 1969).
 pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, damping: f64) -> f64 {
     let w = 2.0 * PI / period_s;
     let wd = w * (1.0 - damping * damping).sqrt();
@@ -187,7 +187,7 @@ pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, dam
     let (mut displacement, mut velocity, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
     for pair in acceleration.windows(2) {
         let slope = (pair[1] - pair[0]) / dt_s;
-        // The particular solution of u'' + 2 z w u' + w^2 u = -(a0 + slope t) is linear; the rest decays freely.
+        // The particular solution of u'' + 2 z w u' + w^2 u = -(a0 + slope t) is linear; the rest is free.
         let linear = -slope / (w * w);
         let constant = -pair[0] / (w * w) - 2.0 * damping / w * linear;
         let free = displacement - constant;
@@ -201,8 +201,8 @@ pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, dam
     w * w * largest
 }
 
-/// Computes the Housner intensity, m: the trapezoidal integral of the pseudo-velocity spectrum at 5 % damping over the
-/// periods 0.1 to 2.5 s.
+/// Computes the Housner intensity, m: the integral of the pseudo-velocity spectrum at 5 % damping from 0.1 to
+/// 2.5 s, by trapezoids.
 pub fn housner_intensity(acceleration: &[f64], dt_s: f64) -> f64 {
     let (first, last, points) = HOUSNER_PERIODS;
     let step = (last - first) / (points - 1) as f64;

@@ -1,16 +1,16 @@
 //! Near-fault ground motions: a coherent velocity pulse plus stochastic high frequencies (section 2.1).
 //!
 //! ```text
-//! scenario       magnitude, distance and the random parameters of the pulse (section 2.1.1); suites of motions
-//! design         how a cell of the magnitude-distance grid is sampled
+//! scenario       magnitude, distance, random parameters of the pulse (section 2.1.1, Eqs. 2 and 3); suites
+//! design         samples of the random parameters in a cell of the magnitude-distance grid
 //! pulse          Mavroeidis & Papageorgiou's pulse (Eq. 1)
-//! stochastic     Boore's stochastic method with the source of Atkinson & Silva (section 2.1.2)
+//! stochastic     high frequencies by Boore's stochastic method, source of Atkinson & Silva (section 2.1.2)
 //! site           amplification from the source to the surface
 //! combine        high frequencies and pulse into one motion (section 2.1.3)
-//! synthesis      all of it for one scenario, on one time axis
-//! intensity      measures of any motion
-//! dimensionless  the six measures of Eq. 13, and how all others become dimensionless
-//! fourier        transforms of real series, planned once for each length
+//! synthesis      all of these for one scenario, on one time axis
+//! intensity      intensity measures of any motion
+//! dimensionless  IM1 to IM6 (Eq. 13), and other measures without units
+//! fourier        transforms of real series
 //! ```
 
 mod combine;
@@ -34,5 +34,5 @@ pub use site::Site;
 pub use stochastic::{LowCut, StochasticModel};
 pub use synthesis::{MotionModel, Synthesizer, Synthetic};
 
-/// The most samples of a motion: what is made of them (spectra, velocities) takes many times their room.
+/// Largest number of samples of a motion; its spectra and velocities take many times the memory.
 pub const LONGEST_MOTION: usize = 1 << 24;

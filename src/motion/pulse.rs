@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::fourier::Complex64;
 use super::scenario::Scenario;
 
-/// Newton steps to the largest velocity: after three it is found to 1e-12 for any pulse of one half cycle or more.
+/// Newton steps to the largest velocity; three reach 1e-12 for any pulse of at least one half cycle.
 const NEWTON_STEPS: usize = 4;
 
 /// A velocity pulse: a cosine under a raised-cosine envelope.
@@ -22,7 +22,7 @@ pub struct Pulse {
 }
 
 impl Pulse {
-    /// Makes the pulse whose largest velocity is the Vp of the scenario: A = Vp / F(gamma, nu).
+    /// Makes the pulse of a scenario, whose largest velocity is Vp: A = Vp / F(gamma, nu).
     pub fn of(scenario: &Scenario) -> Pulse {
         let Scenario { vp_m_s, tp_s, gamma, nu_rad, .. } = *scenario;
         Pulse { amplitude_m_s: vp_m_s / largest_velocity(gamma, nu_rad), tp_s, gamma, nu_rad }
@@ -33,14 +33,14 @@ impl Pulse {
         self.gamma * self.tp_s
     }
 
-    /// Computes the ground velocity (m/s) at a time (s) from the middle of the pulse, Eq. 1:
+    /// Computes the ground velocity (m/s) at a time (s) from the middle of the pulse (Eq. 1):
     /// v = A/2 [1 + cos(x / gamma)] cos(x + nu) with x = wp (t - t0), and 0 where |x| > pi gamma.
     pub fn velocity_m_s(&self, time_s: f64) -> f64 {
         self.phase(time_s).map_or(0.0, |x| self.amplitude_m_s * unit_velocity(x, self.gamma, self.nu_rad))
     }
 
-    /// Computes the ground acceleration (m/s2) at a time (s) from the middle of the pulse, the derivative of Eq. 1:
-    /// a = -A wp / (2 gamma) [sin(x / gamma) cos(x + nu) + gamma (1 + cos(x / gamma)) sin(x + nu)].
+    /// Computes the ground acceleration (m/s2) at a time (s) from the middle of the pulse, the derivative of
+    /// Eq. 1: a = -A wp / (2 gamma) [sin(x / gamma) cos(x + nu) + gamma (1 + cos(x / gamma)) sin(x + nu)].
     pub fn acceleration_m_s2(&self, time_s: f64) -> f64 {
         let Some(x) = self.phase(time_s) else { return 0.0 };
         self.acceleration(Complex64::cis(x / self.gamma), Complex64::cis(x + self.nu_rad))
@@ -54,8 +54,8 @@ impl Pulse {
             * (sin * carrier.re + self.gamma * (1.0 + cos) * carrier.im)
     }
 
-    /// Samples the ground acceleration (m/s2) `samples` times, `dt_s` apart, with the middle of the pulse at `epoch_s`. Its angles
-    /// are turned by equal steps, four times as fast as a sine and a cosine for each.
+    /// Samples the ground acceleration (m/s2) `samples` times at steps of `dt_s`, with the middle of the
+    /// pulse at `epoch_s`. Rotating envelope and carrier by constant angles is four times faster than sines.
     pub fn sample(&self, dt_s: f64, epoch_s: f64, samples: usize) -> Vec<f64> {
         let wp = 2.0 * PI / self.tp_s;
         let half_s = 0.5 * self.duration_s();
@@ -72,23 +72,23 @@ impl Pulse {
         acceleration
     }
 
-    /// Computes x = wp (t - t0); none outside the pulse, |x| <= pi gamma.
+    /// Computes x = wp (t - t0); none outside the pulse, |x| > pi gamma.
     fn phase(&self, time_s: f64) -> Option<f64> {
         let x = 2.0 * PI / self.tp_s * time_s;
         (x.abs() <= PI * self.gamma).then_some(x)
     }
 }
 
-/// Computes v / A of Eq. 1 from x = wp (t - t0).
+/// Computes v / A (Eq. 1) from x = wp (t - t0).
 fn unit_velocity(x: f64, gamma: f64, nu: f64) -> f64 {
     0.5 * (1.0 + (x / gamma).cos()) * (x + nu).cos()
 }
 
 /// Computes F(gamma, nu), the largest |v| / A of a pulse.
 ///
-/// Peaks lie where gamma tan(x + nu) = -tan(x / (2 gamma)), one for each half cycle of the carrier. The farther one is from
-/// the middle, the lower is the envelope there and the carrier too: the nearest is the largest, and Newton's method
-/// finds it from where it would be if both tangents were straight.
+/// Peaks are the roots of gamma tan(x + nu) = -tan(x / (2 gamma)), one in each half cycle of the carrier. The
+/// nearest to the middle is the largest, since envelope and carrier both decrease with distance from it.
+/// Newton's method starts from the root of the linearised equation.
 pub fn largest_velocity(gamma: f64, nu: f64) -> f64 {
     let from_peak = nu - PI * (nu / PI).round();
     let mut x = -from_peak / (1.0 + 0.5 / (gamma * gamma));

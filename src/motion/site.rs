@@ -1,25 +1,23 @@
-//! Site amplification V(f) of the stochastic method.
+//! Site amplification V(f) of the stochastic method (section 2.1.2).
 
-/// The amplification from the source to the surface, as a function of frequency.
+/// Amplification from the source to the surface, as a function of frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Site {
     /// Generic rock (Boore & Joyner 1997).
     Rock,
     /// Generic soil (Boore & Joyner 1997).
     Soil,
-    /// No amplification: a factor of 1.
+    /// No amplification, V = 1.
     None,
-    /// The user's own frequencies, Hz, and factors.
+    /// Frequencies, Hz, and factors of the user.
     Table(Vec<(f64, f64)>),
 }
 
-/// Why a table of amplification cannot be used. `row` counts from 0.
+/// An invalid table of amplification. `row` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SiteTableError {
-    /// There is nothing to interpolate between.
     #[error("site table: {0} row(s); expected 2 or more of frequency in Hz and amplification")]
     TooShort(usize),
-    /// A row is out of order or not positive.
     #[error(
         "site table, row {row}: frequency {frequency_hz} Hz, amplification {amplification}; expected \
              rising frequencies and factors above 0"
@@ -43,10 +41,10 @@ const GENERIC: [(f64, f64, f64); 11] = [
 ];
 
 impl Site {
-    /// Takes the user's own table.
+    /// Makes a table of frequencies (Hz) and factors.
     ///
     /// # Errors
-    /// If there are fewer than two rows, frequencies do not rise, or a number is not above 0.
+    /// If there are fewer than two rows, frequencies do not rise, or a number is not positive.
     pub fn table(rows: Vec<(f64, f64)>) -> Result<Site, SiteTableError> {
         if rows.len() < 2 {
             return Err(SiteTableError::TooShort(rows.len()));
@@ -62,7 +60,7 @@ impl Site {
         Ok(Site::Table(rows))
     }
 
-    /// Interpolates V(f) at a frequency in Hz: the logarithm of the factor is linear in the frequency, constant beyond the ends.
+    /// Interpolates V(f) at a frequency (Hz): ln V is linear in the frequency, constant beyond the ends.
     pub fn amplification(&self, frequency_hz: f64) -> f64 {
         match self {
             Site::None => 1.0,

@@ -1,5 +1,4 @@
-//! The high-frequency component: Boore's stochastic method with the two-corner source of Atkinson & Silva (2000)
-//! (section 2.1.2).
+//! High frequencies: Boore's stochastic method, source of Atkinson & Silva (2000) (section 2.1.2).
 
 use std::f64::consts::{E, FRAC_1_SQRT_2, PI};
 
@@ -9,31 +8,30 @@ use super::site::Site;
 const DENSITY: f64 = 2.8;
 /// Shear-wave velocity of the crust, km/s.
 const SHEAR_VELOCITY_KM_S: f64 = 3.5;
-/// Distance beyond which waves spread in two dimensions, km.
+/// Distance (km) at which geometric spreading changes from 1/R to 1/sqrt(R).
 const CROSSOVER_KM: f64 = 40.0;
 /// Quality factor Q = 180 f^0.45.
 const QUALITY: f64 = 180.0;
 const QUALITY_EXPONENT: f64 = 0.45;
-/// Where the window peaks, as a share of its duration: Boore's epsilon.
+/// Peak of the window as a share of its duration: Boore's epsilon.
 pub const PEAK_SHARE: f64 = 0.2;
-/// What is left of the window at its end: Boore's eta.
+/// Value of the window at its end: Boore's eta.
 const END_VALUE: f64 = 0.05;
 
-/// The constant C of the Fourier amplitude: 0.55 (radiation) / sqrt(2) (one of two components) x 2 (free surface) x 1e-20 /
-/// (4 pi rho beta^3).
+/// Constant C of the amplitude: 0.55 (radiation) / sqrt(2) (one of two components) x 2 (free surface) x
+/// 1e-20 / (4 pi rho beta^3).
 pub const CONSTANT: f64 = 0.55 * FRAC_1_SQRT_2 * 2.0 * 1e-20
     / (4.0 * PI * DENSITY * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S);
 
-/// The parts of the model that do not depend on the scenario.
+/// The stochastic model apart from the scenario.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StochasticModel {
     /// Site amplification V(f).
     pub site: Site,
-    /// Attenuation near the surface, exp(-pi kappa f), s.
+    /// kappa of the near-surface attenuation exp(-pi kappa f), s.
     pub kappa_s: f64,
-    /// Corner of the filter 1/sqrt(1 + (f/fmax)^8), Hz.
+    /// Corner fmax of the low-pass filter 1/sqrt(1 + (f/fmax)^8), Hz.
     pub fmax_hz: Option<f64>,
-    /// High-pass filter 1/(1 + (fc/f)^(2n)).
     pub low_cut: Option<LowCut>,
 }
 
@@ -78,7 +76,7 @@ impl StochasticModel {
     }
 }
 
-/// The source of Atkinson & Silva (2000) with its two corner frequencies, at its distance.
+/// The two-corner source of Atkinson & Silva (2000) at a distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Source {
     /// Lower corner frequency fa, Hz.
@@ -94,10 +92,9 @@ pub struct Source {
 }
 
 impl Source {
-    /// Computes the corner frequencies, their weight and the effective distance (Atkinson & Silva 2000) of an earthquake of moment
-    /// magnitude `mw` at the distance `re_km`.
+    /// Computes the source of an earthquake of magnitude `mw` at the distance `re_km`.
     pub fn new(mw: f64, re_km: f64) -> Source {
-        // The depth h of an equivalent point source makes the effective distance R = sqrt(re^2 + h^2).
+        // The depth h of the equivalent point source: R = sqrt(re^2 + h^2).
         let depth_km = 10_f64.powf(-0.05 + 0.15 * mw);
         Source {
             fa_hz: 10_f64.powf(2.181 - 0.496 * mw),
@@ -109,7 +106,7 @@ impl Source {
         }
     }
 
-    /// Returns the duration of source and path: 0.5/fa + 0.05 R, s.
+    /// Computes the duration of source and path, s: 0.5/fa + 0.05 R.
     pub fn duration_s(&self) -> f64 {
         0.5 / self.fa_hz + 0.05 * self.distance_km
     }
@@ -121,7 +118,7 @@ impl Source {
     }
 }
 
-/// Computes the geometric spreading G(R): 1/R to 40 km, then 1/40 sqrt(40/R).
+/// Computes the geometric spreading G(R): 1/R up to 40 km, sqrt(40/R)/40 beyond.
 fn spreading(distance_km: f64) -> f64 {
     if distance_km <= CROSSOVER_KM {
         1.0 / distance_km
@@ -130,7 +127,7 @@ fn spreading(distance_km: f64) -> f64 {
     }
 }
 
-/// The exponential window w = a (t/te)^b exp(-c t/te) of Saragoni & Hart as used by Boore.
+/// The window w = a (t/te)^b exp(-c t/te) of Saragoni & Hart, with the parameters of Boore (2003).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
     /// Scale that makes the peak 1.
@@ -144,16 +141,17 @@ pub struct Window {
 }
 
 impl Window {
-    /// Shapes the window of a motion whose source and path last `source_duration_s`.
+    /// Makes the window of a motion from the duration of source and path, s.
     pub fn new(source_duration_s: f64) -> Window {
-        // Boore (2003): b = -epsilon ln eta / (1 + epsilon (ln epsilon - 1)), c = b / epsilon, a = (e / epsilon)^b.
+        // Boore (2003): b = -epsilon ln eta / (1 + epsilon (ln epsilon - 1)), c = b / epsilon,
+        // a = (e / epsilon)^b.
         let b = -PEAK_SHARE * END_VALUE.ln() / (1.0 + PEAK_SHARE * (PEAK_SHARE.ln() - 1.0));
         let c = b / PEAK_SHARE;
         let a = (E / PEAK_SHARE).powf(b);
         Window { a, b, c, duration_s: 2.0 * source_duration_s }
     }
 
-    /// Computes the value at a time from its beginning, s: 0 outside, 1 at its peak.
+    /// Computes the window at a time (s) from its start: at most 1, and 0 outside.
     pub fn value(&self, time_s: f64) -> f64 {
         let x = time_s / self.duration_s;
         if x <= 0.0 || x > 1.0 {

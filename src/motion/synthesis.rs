@@ -13,17 +13,17 @@ use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window};
 use crate::random::{Purpose, stream};
 use crate::units::CM_PER_M;
 
-/// Quiet time before and after all that moves, s: the zero-phase filters reach this far.
+/// Quiet time before and after the motion, s: the reach of the zero-phase filters.
 const MARGIN_S: f64 = 2.0;
 
-/// The model that makes motions of scenarios, with its options.
+/// The model of synthetic motions, with its options.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionModel {
     /// Time between samples, s.
     pub dt_s: f64,
-    /// What the high frequencies keep where the pulse is the stronger.
+    /// Treatment of the difference of the Fourier amplitudes of high frequencies and pulse.
     pub difference: Difference,
-    /// When the pulse comes.
+    /// When the pulse peaks.
     pub epoch: Epoch,
     pub stochastic: StochasticModel,
     /// Seed of the noise.
@@ -42,11 +42,11 @@ impl Default for MotionModel {
     }
 }
 
-/// The motions of one scenario on one time axis: accelerations, m/s2. Those of suites that nobody asked for are empty.
+/// The motions of one scenario on one time axis: accelerations, m/s2. Those of other suites are empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Synthetic {
     pub dt_s: f64,
-    /// When the pulse peaks, s from the first sample.
+    /// Time of the middle of the pulse from the first sample, s.
     pub epoch_s: f64,
     /// The pulse alone.
     pub pulse: Vec<f64>,
@@ -57,7 +57,7 @@ pub struct Synthetic {
 }
 
 impl Synthetic {
-    /// Returns the samples of the motion in a suite that is synthesized.
+    /// Returns the samples of the motion in a synthetic suite.
     pub fn samples(&self, suite: Suite) -> &[f64] {
         match suite {
             Suite::Pulse => &self.pulse,
@@ -67,11 +67,11 @@ impl Synthetic {
     }
 }
 
-/// Makes motions one after the other, each the same whatever came before. One for each thread: it keeps the plans of transforms and
-/// what scenarios of one magnitude and distance share.
+/// Synthesizes motions, each independent of the motions before. Use one for each thread: it keeps transforms,
+/// and the values that scenarios of one magnitude and distance share.
 pub struct Synthesizer {
     model: MotionModel,
-    /// Whether the suites need them.
+    /// Whether to compute the high frequencies, and the combined motion.
     high_frequency: bool,
     combined: bool,
     transforms: ByLength<Transform>,
@@ -79,15 +79,15 @@ pub struct Synthesizer {
     scratch: Vec<Complex64>,
 }
 
-/// What the scenarios of one magnitude and distance share.
+/// Values that the scenarios of one magnitude and distance share.
 struct Earthquake {
     mw: f64,
     re_km: f64,
     source: Source,
     window: Window,
-    /// The window at the samples after its onset.
+    /// Window at the samples after its onset.
     weights: Vec<f64>,
-    /// Fourier amplitudes (m/s), for each length of motion.
+    /// Fourier amplitudes (m/s) by length of motion.
     amplitudes: ByLength<Vec<f64>>,
 }
 
@@ -108,16 +108,16 @@ impl Earthquake {
     }
 }
 
-/// Where window and pulse lie on the time axis.
+/// The time axis of a motion.
 #[derive(Debug, Clone, Copy)]
 struct Timeline {
-    /// The sample at which the window begins.
+    /// Sample at which the window begins.
     onset: usize,
     samples: usize,
 }
 
 impl Synthesizer {
-    /// Prepares the synthesis of some suites by a model.
+    /// Makes a synthesizer of some suites.
     pub fn new(model: MotionModel, suites: &[Suite]) -> Synthesizer {
         Synthesizer {
             high_frequency: suites.contains(&Suite::Hfc) || model.epoch != Epoch::EnvelopePeak,
@@ -129,7 +129,7 @@ impl Synthesizer {
         }
     }
 
-    /// Makes the motions of a scenario.
+    /// Synthesizes the motions of a scenario.
     pub fn synthesize(&mut self, scenario: &Scenario) -> Synthetic {
         let Scenario { mw, re_km, .. } = *scenario;
         let mut earthquake = match self.earthquake.take() {
@@ -163,12 +163,12 @@ impl Synthesizer {
         made
     }
 
-    /// Lays out the time axis: padded at the start so that the pulse is never cut, and at the end; as long as a fast Fourier
-    /// transform likes. The window begins at a sample.
+    /// Computes the time axis: padded at the start so that the pulse is never cut, and at the end to a fast
+    /// length of Fourier transforms. The window begins at a sample.
     fn timeline(&self, window: &Window, pulse: &Pulse) -> Timeline {
         let dt_s = self.model.dt_s;
         let half_pulse_s = 0.5 * pulse.duration_s();
-        // The earliest and the latest moment at which the pulse may peak, from the onset of the window.
+        // Earliest and latest peak of the pulse, from the onset of the window.
         let (earliest_s, latest_s) = match self.model.epoch {
             Epoch::EnvelopePeak => (PEAK_SHARE * window.duration_s, PEAK_SHARE * window.duration_s),
             Epoch::Pga | Epoch::Pgv => (0.0, window.duration_s),
@@ -179,7 +179,7 @@ impl Synthesizer {
         Timeline { onset, samples: even_smooth_at_least(onset + after) }
     }
 
-    /// Draws normal noise under the window.
+    /// Draws normal noise, times the window.
     fn windowed_noise(&self, scenario: &Scenario, weights: &[f64], timeline: &Timeline) -> Vec<f64> {
         let mut samples = vec![0.0; timeline.samples];
         let noise = stream(self.model.seed, Purpose::Noise, scenario.scenario_id as u64);
@@ -202,15 +202,15 @@ impl Synthesizer {
     }
 }
 
-/// Gives the spectrum of the noise the Fourier amplitudes of the model.
+/// Scales the spectrum of the noise to the Fourier amplitudes of the model.
 fn shape_noise(noise: &mut [Complex64], amplitudes: &[f64], dt_s: f64) {
-    // The noise has a mean square of 1 over all frequencies but the first and the last.
+    // Normalises the noise to a mean square of 1 over all frequencies but the first and the last.
     let inner = &noise[1..noise.len() - 1];
     let mean_square = inner.iter().map(|x| x.norm_sqr()).sum::<f64>() / inner.len() as f64;
     // From the continuous spectrum to the discrete one.
     let scale = 1.0 / (mean_square.sqrt() * dt_s);
     noise.iter_mut().zip(amplitudes).for_each(|(x, amplitude)| *x *= scale * amplitude);
-    // Without a mean the ground comes to rest.
+    // With a mean of 0 the ground comes to rest.
     noise[0] = Complex64::ZERO;
 }
 

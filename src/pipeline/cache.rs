@@ -1,36 +1,37 @@
-//! Runs a call unless its files are up to date: the key in their footers equals that of what it would do.
+//! Runs a call unless its files are up to date: the key in their footers equals the key of the call.
 
 use std::collections::HashMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::UsageError;
 use super::call::Call;
 use super::context::Context;
 use crate::table::TableError;
-use crate::table::provenance::Provenance;
+use crate::table::provenance::{Provenance, head};
 
-/// Whether a call must run.
+/// Whether the files of a call are up to date.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Freshness {
-    /// What made the files.
+    /// Provenance of the files.
     UpToDate(Provenance),
-    /// Why not.
+    /// The reason.
     Stale(String),
 }
 
-/// What came of a call.
+/// The result of a call.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Done {
-    /// What the stage prints.
+    /// Text printed by the stage.
     pub summary: String,
-    /// What speaks against its results, a line a doubt.
+    /// Doubts about the results, one per line.
     pub doubts: Vec<String>,
-    /// Whether it ran; else its files were up to date.
+    /// Whether the stage ran; otherwise its files were up to date.
     pub ran: bool,
+    /// The key of its files.
+    pub key: String,
 }
 
-/// Compares what made the files of a call with what would make them now.
+/// Compares the provenance of the files of a call with the planned one.
 pub fn freshness(call: &Call, planned: &Provenance) -> Freshness {
     let mut last = None;
     for path in call.stage.outputs() {
@@ -46,24 +47,26 @@ pub fn freshness(call: &Call, planned: &Provenance) -> Freshness {
     last.map_or(Freshness::Stale("it only prints".to_string()), Freshness::UpToDate)
 }
 
-/// Runs a call if it must run.
-pub fn run(call: &Call, context: &Context) -> anyhow::Result<Done> {
+/// Runs a call unless its files are up to date. `made` has the keys of files that the same run made before: its inputs must
+/// still be these.
+pub fn run(call: &Call, context: &Context, made: &HashMap<PathBuf, String>) -> anyhow::Result<Done> {
     call.stage.check()?;
-    let planned = call.provenance(&HashMap::new())?;
+    let planned = call.provenance(made)?;
+    let key = planned.key();
     if !context.force
         && let Freshness::UpToDate(made) = freshness(call, &planned)
     {
-        return Ok(Done { summary: made.summary, doubts: made.doubts, ran: false });
+        return Ok(Done { summary: made.summary, doubts: made.doubts, ran: false, key });
     }
     for path in call.stage.outputs() {
         expect_replaceable(&path, call, context.force)?;
     }
-    let context = context.of_call(call, planned)?;
+    let context = context.of_call(call, planned);
     let summary = call.stage.run(&context)?;
-    Ok(Done { summary, doubts: context.doubts().lines(), ran: true })
+    Ok(Done { summary, doubts: context.doubts().lines(), ran: true, key })
 }
 
-/// No stage replaces its input, nor, unless forced, a file that rockfrag did not write.
+/// Checks that an output is not an input, nor, unless forced, a file of another program.
 fn expect_replaceable(out: &Path, call: &Call, force: bool) -> anyhow::Result<()> {
     let Ok(real) = out.canonicalize() else { return Ok(()) };
     let is_out = |path: &PathBuf| path.canonicalize().is_ok_and(|path| path == real);
@@ -80,12 +83,10 @@ fn expect_replaceable(out: &Path, call: &Call, force: bool) -> anyhow::Result<()
     Ok(())
 }
 
-/// Whether rockfrag wrote a file: tables say so in their footers, texts at their beginning.
-fn is_ours(path: &Path) -> bool {
+/// Returns whether rockfrag wrote a file, by the footer of a table or the first bytes of a text.
+pub fn is_ours(path: &Path) -> bool {
     if path.extension().is_some_and(|extension| extension == "parquet") {
         return Provenance::of_file(path).is_ok_and(|made| made.is_some());
     }
-    let mut head = Vec::new();
-    let read = std::fs::File::open(path).and_then(|file| file.take(4096).read_to_end(&mut head));
-    read.is_ok() && String::from_utf8_lossy(&head).contains("rockfrag")
+    head(path).is_ok_and(|head| head.contains("rockfrag"))
 }

@@ -1,4 +1,4 @@
-//! One call of a stage, as clap has parsed it: its parameters, inputs and key.
+//! One call of a stage, as parsed by clap: its parameters, inputs and key.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -7,27 +7,33 @@ use clap::{Arg, ArgMatches, Command, ValueHint};
 
 use super::stage::Stage;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, key_of};
+use crate::table::file::Partition;
+use crate::table::provenance::{Provenance, key_with};
 
-/// A call.
+/// The files that are read from a folder of fits.
+pub const FITS: [&str; 4] =
+    ["pro.calibration.parquet", "pex.calibration.parquet", "pro.parquet", "pex.parquet"];
+
+/// A call of a stage.
 pub struct Call {
     pub name: String,
     pub stage: Box<dyn Stage>,
-    /// The resolved values of all options but files, by their flags.
+    /// Values of all options except files, defaults included, by flag.
     pub arguments: BTreeMap<String, Vec<String>>,
-    /// The files and folders that it reads, or words that stand for some (the name of a site), by their flags.
+    /// Files and folders to read, or words in their place (a site name), by flag.
     pub inputs: BTreeMap<String, Vec<PathBuf>>,
 }
 
-/// Whether an argument names something that a stage reads.
+/// Returns whether an argument is an input: a file, or a folder of fits.
 pub fn is_input(arg: &Arg) -> bool {
     matches!(arg.get_value_hint(), ValueHint::FilePath | ValueHint::DirPath)
 }
 
 impl Call {
-    /// Takes apart what clap has parsed of this command.
+    /// Makes a call from the matches of a command.
     pub fn new(command: &Command, matches: &ArgMatches, stage: Box<dyn Stage>) -> Call {
-        let (mut arguments, mut inputs) = (BTreeMap::new(), BTreeMap::new());
+        let mut arguments: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        let mut inputs: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
         for arg in
             command.get_arguments().filter(|arg| arg.get_help_heading() != Some(super::context::COMMON))
         {
@@ -35,23 +41,32 @@ impl Call {
             let flag = arg.get_long().unwrap_or(id).to_string();
             let Ok(Some(values)) = matches.try_get_raw(id) else { continue };
             let values: Vec<PathBuf> = values.map(PathBuf::from).collect();
-            if is_input(arg) {
+            if arg.get_value_hint() == ValueHint::DirPath {
+                inputs.insert(
+                    flag,
+                    values.iter().flat_map(|folder| FITS.map(|name| folder.join(name))).collect(),
+                );
+            } else if is_input(arg) {
                 inputs.insert(flag, values);
             } else if flag != "out" {
                 let text = |value: PathBuf| value.to_string_lossy().into_owned();
                 arguments.insert(flag, values.into_iter().map(text).collect());
             }
         }
+        // A partition reads one file of a folder, whatever comes and goes beside it.
+        if let Some(partition) = arguments.get("partition").and_then(|values| values.first()?.parse().ok()) {
+            let part = |path: &PathBuf| Partition::file_of(partition, path).ok().filter(|_| path.is_dir());
+            inputs.values_mut().flatten().for_each(|path| *path = part(path).unwrap_or(path.clone()));
+        }
         Call { name: command.get_name().to_string(), stage, arguments, inputs }
     }
 
-    /// What its files will say of how they were made. `planned` has the keys of files that are yet to be made.
+    /// Returns the provenance of its files. `planned` has the keys of files not yet written.
     pub fn provenance(&self, planned: &HashMap<PathBuf, String>) -> Result<Provenance, TableError> {
         let is_word = |path: &Path| path.extension().is_none() && !path.exists();
         let key = |path: &Path| match planned.get(path) {
-            Some(key) => Ok(key.clone()),
             None if is_word(path) => Ok(path.display().to_string()),
-            None => key_of(path),
+            _ => key_with(path, planned),
         };
         let inputs = self.inputs.iter().map(|(flag, paths)| {
             let keys = paths.iter().map(|path| key(path)).collect::<Result<Vec<_>, _>>()?;

@@ -1,4 +1,4 @@
-//! What a stage is handed: where to write, how to show progress, whom to tell of doubts.
+//! Output, progress and doubts of a running stage.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -15,10 +15,10 @@ use crate::table::provenance::{Provenance, key_of};
 use crate::table::rows::{self, Row};
 use crate::table::writer::TableWriter;
 
-/// The heading of the options that all stages have.
+/// Help heading of the common options.
 pub const COMMON: &str = "Common options";
 
-/// Options that all stages have.
+/// Options of all stages.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = COMMON)]
 pub struct Common {
@@ -31,7 +31,7 @@ pub struct Common {
     /// Number of threads [default: all processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=4096))]
     pub threads: Option<u64>,
-    /// Print the answer alone
+    /// Print only the result
     #[arg(long)]
     pub quiet: bool,
     /// Progress bars: auto (where stderr is a terminal) or never
@@ -39,46 +39,46 @@ pub struct Common {
     pub progress: String,
 }
 
-/// A program that calls a stage and wants to know how it goes, in place of a terminal.
+/// A program that observes the progress of a stage, in place of the terminal.
 pub trait Listener: Send + Sync {
-    /// Begins so many steps.
+    /// Begins a number of steps.
     fn begin(&self, steps: u64);
 
-    /// Ends so many further steps; an error stops the stage.
+    /// Ends a number of steps; an error stops the stage.
     fn advance(&self, steps: u64) -> anyhow::Result<()>;
 }
 
-/// What a stage is handed.
+/// The context of a running stage.
 #[derive(Clone, Default)]
 pub struct Context {
     /// Run even if up to date, and replace files that rockfrag did not write.
     pub force: bool,
-    /// Print the answer alone.
+    /// Print only the result.
     pub quiet: bool,
-    /// Draw progress bars, where stderr is a terminal.
+    /// Draw progress bars if stderr is a terminal.
     pub progress: bool,
-    /// Who hears of progress in place of the terminal.
+    /// Observer of progress, in place of the terminal.
     pub listener: Option<Arc<dyn Listener>>,
-    /// What the files of the stage will say of how they were made.
+    /// Provenance of the files of the stage.
     pub made: Provenance,
-    /// The files that it reads, and their keys.
+    /// Input files and their keys.
     inputs: Vec<(PathBuf, String)>,
     doubts: Arc<Mutex<Doubts>>,
 }
 
 impl Context {
-    /// For a command line with these options.
+    /// Makes the context of a command line.
     pub fn new(common: &Common) -> Context {
         let progress = common.progress == "auto" && !common.quiet;
         Context { force: common.force, quiet: common.quiet, progress, ..Context::default() }
     }
 
-    /// For a call whose files will say this.
-    pub fn of_call(&self, call: &Call, made: Provenance) -> Result<Context, TableError> {
-        let files = call.inputs.values().flatten().filter(|path| path.exists());
-        let inputs =
-            files.map(|path| Ok((path.clone(), key_of(path)?))).collect::<Result<_, TableError>>()?;
-        Ok(Context { made, inputs, doubts: Arc::default(), ..self.clone() })
+    /// Returns the context of a call with this provenance.
+    pub fn of_call(&self, call: &Call, made: Provenance) -> Context {
+        let keys = made.inputs.values().flat_map(|keys| keys.split(' '));
+        let files = call.inputs.values().flatten().cloned().zip(keys.map(str::to_string));
+        let inputs = files.filter(|(path, _)| path.exists()).collect();
+        Context { made, inputs, doubts: Arc::default(), ..self.clone() }
     }
 
     /// Adds doubts.
@@ -88,7 +88,7 @@ impl Context {
         }
     }
 
-    /// All doubts so far.
+    /// Returns all doubts so far.
     pub fn doubts(&self) -> Doubts {
         self.doubts.lock().map(|all| all.clone()).unwrap_or_default()
     }
@@ -98,25 +98,30 @@ impl Context {
         TableWriter::create(path, schema)
     }
 
-    /// Ends a table, which says how it was made, what was printed and what speaks against it.
+    /// Ends a table with provenance, printed summary and doubts. A changed input is an error.
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
+        writer.finish(&self.provenance(summary)?)
+    }
+
+    /// What a file that is ready says of how it was made, unless what was read has changed meanwhile.
+    pub fn provenance(&self, summary: &str) -> Result<Provenance, TableError> {
         for (path, key) in &self.inputs {
             if key_of(path)? != *key {
-                return Err(TableError::table(path, "changed while it was read; run again"));
+                return Err(TableError::table(path, "changed by another run; run again"));
             }
         }
         let doubts = self.doubts().lines();
-        writer.finish(&Provenance { summary: summary.to_string(), doubts, ..self.made.clone() })
+        Ok(Provenance { summary: summary.to_string(), doubts, ..self.made.clone() })
     }
 
-    /// Writes a whole table of rows.
+    /// Writes a table of rows.
     pub fn write<R: Row>(&self, path: &Path, rows: &[R], summary: &str) -> anyhow::Result<()> {
         let mut writer = self.create(path, &rows::schema::<R>())?;
         writer.append(&rows::batch(rows)?)?;
         Ok(self.finish(writer, summary)?)
     }
 
-    /// Progress over `total` steps.
+    /// Begins progress over `total` steps.
     pub fn bar(&self, total: u64) -> Progress {
         if let Some(listener) = &self.listener {
             listener.begin(total);
@@ -130,14 +135,14 @@ impl Context {
     }
 }
 
-/// Progress through the steps of a stage; the bar goes when this does.
+/// Progress of a stage; dropping it clears the bar.
 pub struct Progress {
     bar: ProgressBar,
     listener: Option<Arc<dyn Listener>>,
 }
 
 impl Progress {
-    /// Ends so many further steps; an error if whoever listens wants the stage to stop.
+    /// Ends a number of steps; an error if the listener stops the stage.
     pub fn advance(&self, steps: u64) -> anyhow::Result<()> {
         self.bar.inc(steps);
         self.listener.as_ref().map_or(Ok(()), |listener| listener.advance(steps))

@@ -1,10 +1,10 @@
-//! Types of options that several stages have.
+//! Option types of several stages.
 
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-/// Parses a number in a range; `expected` says what it is, with its unit and range.
+/// Returns a parser of numbers in a range; `expected` describes them, with unit and range.
 pub fn number<T: FromStr + PartialOrd + Clone>(
     range: RangeInclusive<T>,
     expected: &'static str,
@@ -16,11 +16,11 @@ pub fn number<T: FromStr + PartialOrd + Clone>(
     }
 }
 
-/// Rising numbers: one, some separated by commas, or first:last:step.
+/// Ascending numbers: one, several separated by commas, or first:last:step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steps(pub Vec<f64>);
 
-/// More values than any grid needs.
+/// Largest number of values.
 const MOST_STEPS: f64 = 10_000.0;
 
 impl FromStr for Steps {
@@ -46,7 +46,7 @@ impl FromStr for Steps {
     }
 }
 
-/// The items of a list, the first few by name: `a, b, c and 9 more`.
+/// Joins the items of a list, the first few by name: `a, b, c and 9 more`.
 pub fn listed<T: Display>(items: &[T], named: usize) -> String {
     let first: Vec<String> = items.iter().take(named).map(T::to_string).collect();
     match items.len() - first.len() {

@@ -1,18 +1,14 @@
-//! Read, work and write at the same time, in order, with bounded queues between: memory does not grow with the number of
-//! items.
+//! Concurrent reading, work and writing in order, in memory bounded by short queues.
 
 use std::sync::Mutex;
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
-/// Items that wait between two steps.
+/// Capacity of a queue between two steps.
 const QUEUE: usize = 2;
 
-/// Passes each item of `source` through `work` to `sink`. Source and sink each run on a thread of their own, the work on
-/// this one; the first error of any ends all.
-///
-/// # Errors
-/// The first one of source, work or sink.
+/// Passes each item of `source` through `work` to `sink`. Source and sink each have their own thread, the
+/// work has this one. The first error ends all and is returned.
 pub fn pipelined<A: Send, B: Send>(
     source: impl Iterator<Item = anyhow::Result<A>> + Send,
     work: impl Fn(A) -> anyhow::Result<B>,
@@ -24,7 +20,7 @@ pub fn pipelined<A: Send, B: Send>(
         scope.spawn(move || {
             for item in source {
                 let last = item.is_err();
-                // A closed queue means that a later step has failed and will say so.
+                // The queue is closed if a later step failed; that step returns the error.
                 if to_work.send(item).is_err() || last {
                     break;
                 }
@@ -34,7 +30,7 @@ pub fn pipelined<A: Send, B: Send>(
         let mut worked = Ok(true);
         for item in from_source {
             worked = item.and_then(&work).map(|done| to_sink.send(done).is_ok());
-            // A closed queue means that the sink has failed and will say so.
+            // The queue is closed if the sink failed; the sink returns the error.
             if !matches!(worked, Ok(true)) {
                 break;
             }
@@ -47,7 +43,7 @@ pub fn pipelined<A: Send, B: Send>(
     })
 }
 
-/// The items of `source`, `size` at a time; an error ends them.
+/// Returns the items of `source` in batches of `size`, up to the first error.
 pub fn batches<A, E: Into<anyhow::Error>>(
     source: impl Iterator<Item = Result<A, E>>,
     size: usize,
@@ -62,19 +58,19 @@ pub fn batches<A, E: Into<anyhow::Error>>(
     })
 }
 
-/// Scratch that threads take, use and put back: as many as there are threads, whatever the number of items.
+/// A pool of scratch memory, at most one for each thread.
 pub struct Pool<T> {
     idle: Mutex<Vec<T>>,
     make: Box<dyn Fn() -> T + Sync>,
 }
 
 impl<T> Pool<T> {
-    /// Of scratch made like this.
+    /// Makes a pool; `make` makes new scratch.
     pub fn new(make: impl Fn() -> T + Sync + 'static) -> Pool<T> {
         Pool { idle: Mutex::new(Vec::new()), make: Box::new(make) }
     }
 
-    /// Lends one to `work`.
+    /// Lends scratch to `work`.
     pub fn lend<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
         let idle = self.idle.lock().ok().and_then(|mut idle| idle.pop());
         let mut scratch = idle.unwrap_or_else(|| (self.make)());

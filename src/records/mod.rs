@@ -1,15 +1,14 @@
-//! Recorded ground motions: from files of the strong-motion networks to motions that are simulated. Pure
-//! functions: nothing here knows files.
+//! Recorded ground motions: from the bytes of files to motions ready to simulate. Pure functions.
 //!
 //! ```text
-//! recorded_motion  a record as its file gives it, and what the user says of files
-//! formats          from the bytes of a file to records, one file a format
-//! pairs            which horizontal components belong together
+//! recorded_motion  a record as in its file, and options for reading files
+//! formats          from the bytes of a file to records, one module for each format
+//! pairs            horizontal components at right angles
 //! rotation         two horizontal components in another direction, and RotD
-//! plausibility     whether a motion can be that of an earthquake
-//! signal           steps on samples alone: baseline, high-pass, time step, scale
-//! pulses           whether a record holds a velocity pulse, and which
-//! processing       all of these in order: from records to the motions that are imported of them
+//! plausibility     checks that a motion can be of an earthquake
+//! signal           baseline, high-pass, time step, scale
+//! pulses           velocity pulses: indicator and fit
+//! processing       these steps in order: from records to imported motions
 //! ```
 
 pub mod formats;

@@ -1,20 +1,20 @@
-//! Which horizontal components belong together: those of one event and station at right angles.
+//! Pairs of horizontal components: one event and station, at right angles.
 
 use std::collections::HashMap;
 
 use super::RecordedMotion;
 use super::rotation::HorizontalPair;
 
-/// The pairs among components of which only what `T` says is kept.
+/// The pairs among components; `T` identifies a component.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pairs<T> {
     /// In the order of their first components.
     pub pairs: Vec<[T; 2]>,
-    /// Components that are vertical, of unknown place, or without a partner.
+    /// Components that are vertical, of unknown origin, or without a partner.
     pub left_out: Vec<T>,
 }
 
-/// Pairs each component with the first one before it that belongs to it and has no partner yet.
+/// Pairs each component with the first free earlier one of its event, station and time step at right angles.
 pub fn pairs<T>(components: Vec<(RecordedMotion, T)>) -> Pairs<T> {
     let mut waiting: HashMap<_, Vec<(usize, f64)>> = HashMap::new();
     let mut found = Vec::new();

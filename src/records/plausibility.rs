@@ -1,41 +1,39 @@
-//! Whether an acceleration can be that of an earthquake: a wrong unit, a wrong time step and damaged samples
-//! give motions that no instrument has ever recorded.
+//! Checks that an acceleration can be of an earthquake: wrong units, wrong time steps and damaged samples
+//! give motions that no instrument has recorded.
 
 use crate::motion::intensity::{peak, velocity};
 use crate::units::G_M_S2;
 
-/// Time steps of records, s: from 200 to 500 samples a second to film digitised by hand, with a margin.
+/// Time steps of records, s: 200 to 500 samples a second to film digitised by hand, with a margin.
 const STEPS_S: (f64, f64) = (1e-4, 0.1);
-/// The fewest samples of a motion that rises, peaks and dies away: half a second at the longest steps.
+/// Least number of samples: half a second at a step of 0.02 s, enough to rise, peak and decay.
 const FEWEST_SAMPLES: usize = 25;
-/// The largest recorded PGA is that of Iwate-Miyagi 2008, IWTH25: 4278 cm/s2 as the vector of all three
-/// components (Yamada, Mori & Heaton 2009, The slapdown phase in high-acceleration records of large
-/// earthquakes, Seismological Research Letters 80), and so less of one; with a margin.
+/// Largest PGA, g, with a margin: the largest recorded is 4278 cm/s2, the vector of three components at
+/// IWTH25 (Iwate-Miyagi 2008; Yamada, Mori & Heaton 2009, The slapdown phase in high-acceleration records of
+/// large earthquakes, Seismological Research Letters 80).
 const LARGEST_PGA_G: f64 = 5.0;
-/// Chi-Chi 1999 reached a PGV of 3.18 m/s (Wikipedia, "1999 Jiji earthquake"; no source was found that none
-/// was larger); with a margin.
+/// Largest PGV, m/s, with a margin over the 3.18 m/s of Chi-Chi 1999 (Wikipedia, "1999 Jiji earthquake";
+/// whether it is the largest is not known).
 const LARGEST_PGV_M_S: f64 = 5.0;
-/// Above these a motion is rare enough to ask for its unit: one in m/s2 under a heading that says g is ten
-/// times too strong, and PGV/PGA does not show it.
+/// Above these, a motion is rare: m/s2 read as g is ten times too strong, without effect on PGV/PGA.
 const RARE_PGA_G: f64 = 2.0;
 const RARE_PGV_M_S: f64 = 2.5;
-/// The range of PGV/PGA, s: sines of 30 Hz have 0.005; the records of FEMA P695 have 0.06 to 0.47, and
-/// records with the longest pulses about 0.9 (from memory, without a source).
+/// Range of PGV/PGA, s: 0.005 for a sine of 30 Hz; 0.06 to 0.47 in the records of FEMA P695; about 0.9 in
+/// those with the longest pulses (from memory, without a source).
 const PGV_PGA_S: (f64, f64) = (0.005, 1.0);
-/// The highest mean frequency, Hz: the ground damps what is faster, on the hardest rock above some 20 Hz; the
+/// Highest mean frequency, Hz: the ground damps frequencies above some 20 Hz even on the hardest rock; the
 /// records of FEMA P695 have 1.5 to 14.
 const HIGHEST_FREQUENCY_HZ: f64 = 30.0;
-/// A spike: one sample that holds this share of the sum of squares, while its neighbours are below this share
-/// of it. In the records of FEMA P695 the largest sample holds 0.044 at most, and its neighbours reach 0.79
-/// of it at least.
+/// A spike has more than the first share of the sum of squares, and neighbours below the second share of it.
+/// The largest samples of FEMA P695 have at most 0.044 of the sum, and neighbours of at least 0.79.
 const SPIKE: (f64, f64) = (0.02, 0.25);
-/// The ground is at rest when a record ends: a velocity above this, m/s, that is also above this share of PGV
-/// is a drift. The records of FEMA P695 end at 0.015 m/s and 0.025 of PGV at most.
+/// A drift is a final velocity above the first value, m/s, and the second, as a share of PGV: the ground is
+/// at rest at the end of a record. The records of FEMA P695 end at 0.015 m/s and 0.025 of PGV at most.
 const DRIFT: (f64, f64) = (0.1, 0.5);
-/// Accelerographs resolve some 1e-4 g, and a motion of 1e-3 g rocks nothing that stands.
+/// Least PGA, g: accelerographs resolve some 1e-4 g, and 1e-3 g rocks no stable structure.
 const WEAKEST_PGA_G: f64 = 1e-3;
 
-/// Why a motion can hardly be one of an earthquake: what was found; what records have, and the likely slip.
+/// Why a motion is implausible: value found, value expected, likely mistake.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Doubt {
     #[error("dt {} s; expected 0.0001 to 0.1 s: milliseconds, or sample numbers?", rounded(*.dt_s))]
@@ -65,13 +63,13 @@ pub enum Doubt {
 }
 
 impl Doubt {
-    /// Tells whether no record was ever like this, rather than few that matter.
+    /// Returns whether no record was ever like this; otherwise it is only rare.
     pub fn is_impossible(&self) -> bool {
         !matches!(self, Doubt::WeakPga { .. } | Doubt::RarePga { .. } | Doubt::RarePgv { .. })
     }
 }
 
-/// Judges an acceleration (m/s2) at steps of `dt_s`; gives the first doubt.
+/// Checks an acceleration (m/s2) at steps of `dt_s`. Returns the first doubt.
 pub fn doubt(acceleration: &[f64], dt_s: f64) -> Option<Doubt> {
     let samples = acceleration.len();
     let velocity = velocity(acceleration, dt_s);
@@ -97,7 +95,7 @@ pub fn doubt(acceleration: &[f64], dt_s: f64) -> Option<Doubt> {
     doubts.into_iter().find_map(|(is_so, doubt)| is_so.then_some(doubt))
 }
 
-/// The place of the largest sample, if it stands alone.
+/// Returns the index of the largest sample if it is a spike.
 fn spike(acceleration: &[f64], pga: f64) -> Option<usize> {
     let at = acceleration.iter().position(|a| a.abs() == pga)?;
     let mut neighbours =
@@ -106,14 +104,14 @@ fn spike(acceleration: &[f64], pga: f64) -> Option<usize> {
     (neighbours.all(|a| a.abs() < SPIKE.1 * pga) && pga * pga > SPIKE.0 * squares).then_some(at)
 }
 
-/// The root of the mean square of frequencies, Hz: that of the sine whose steps are as large.
+/// Computes the root mean square frequency, Hz.
 fn mean_frequency_hz(acceleration: &[f64], dt_s: f64) -> f64 {
     let steps: f64 = acceleration.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
     let squares: f64 = acceleration.iter().map(|a| a * a).sum();
     (steps / squares).sqrt() / (std::f64::consts::TAU * dt_s)
 }
 
-/// To three digits.
+/// Formats a value with three digits.
 fn rounded(value: f64) -> String {
     let digits = format!("{value:.2e}");
     let plain = digits.parse::<f64>().ok().filter(|value| (1e-6..1e6).contains(&value.abs()));

@@ -8,7 +8,7 @@ use super::signal::{Baseline, HighPass, Scaling, resample, resampled_length};
 use crate::keyword::keywords;
 use crate::motion::{IntensityScratch, LONGEST_MOTION, MeasurePlan, Measured, Suite, intensity};
 
-/// A file, and the hash of what it holds.
+/// A file and the hash of its content.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SourceFile {
     /// Path as given.
@@ -20,13 +20,13 @@ pub struct SourceFile {
 /// A record with its name and its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedRecord {
-    /// Unique among all that are imported.
+    /// Unique among the imported records.
     pub motion_id: String,
     pub source: SourceFile,
     pub motion: RecordedMotion,
 }
 
-/// Why a record cannot be processed as asked.
+/// Why a record cannot be processed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ProcessingError {
     #[error("{0} (--accept-implausible imports it anyway)")]
@@ -37,33 +37,33 @@ pub enum ProcessingError {
     Zero,
 }
 
-/// A motion that is imported of a record, ready to be written.
+/// An imported motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportedMotion {
     /// Unique in the file.
     pub motion_id: String,
     pub suite: Suite,
     pub source: SourceFile,
-    /// What is known of the record; its samples are not kept.
+    /// The record, without its samples.
     pub record: RecordedMotion,
-    /// Why it can hardly be a record, if it was accepted all the same.
+    /// Why it is implausible, if accepted all the same.
     pub doubt: Option<Doubt>,
-    /// The factor by which it is scaled.
+    /// Scale factor.
     pub scale: f64,
-    /// Samples, m/s2, as they are written.
+    /// Samples as written, m/s2.
     pub acceleration_m_s2: Vec<f32>,
     /// Intensity measures of these samples.
     pub measured: Measured,
-    /// Peaks over all directions of the pair it is rotated from.
+    /// Peaks over all directions of the pair.
     pub rotd: Option<RotD>,
-    /// Whether it holds a pulse, if that was looked for.
+    /// Pulse indicator; none if pulses were not searched.
     pub indicator: Option<PulseIndicator>,
-    /// The pulse that it holds.
+    /// Fitted pulse; none without a pulse.
     pub pulse: Option<FittedPulse>,
 }
 
 impl ImportedMotion {
-    /// Joins earthquake, station and component; none if the file names none of them.
+    /// Joins earthquake, station and component; none if the file has none of them.
     pub fn name(&self) -> Option<String> {
         let RecordedMotion { event, station, component, .. } = &self.record;
         let parts: Vec<&str> =
@@ -72,7 +72,7 @@ impl ImportedMotion {
     }
 }
 
-/// Whether pulses are looked for.
+/// Whether to search for pulses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PulseSearch {
     Find,
@@ -81,25 +81,25 @@ pub enum PulseSearch {
 
 keywords!(PulseSearch { Find = "find", Skip = "skip" });
 
-/// What becomes of motions that can hardly be those of an earthquake.
+/// Treatment of implausible motions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Implausible {
     Refuse,
     Accept,
 }
 
-/// What is done to records.
+/// Options of the processing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Processing {
     pub baseline: Baseline,
     pub high_pass: Option<HighPass>,
     /// Another time step, s.
     pub resample_s: Option<f64>,
-    /// Where pairs are rotated to; nowhere: motions are imported one by one.
+    /// Direction of pairs; none imports components one by one.
     pub direction: Option<Direction>,
     pub scaling: Scaling,
     pub pulses: PulseSearch,
-    /// Whether motions without their pulses are written too.
+    /// Whether to add motions without their pulses.
     pub residual: bool,
     pub implausible: Implausible,
     pub plan: MeasurePlan,
@@ -123,7 +123,7 @@ impl Processing {
         self.scaled(record, first_doubt.or(second_doubt), Some(rotd))
     }
 
-    /// Corrects the baseline, filters, judges and resamples.
+    /// Corrects the baseline, filters, checks and resamples.
     fn corrected(&self, mut record: NamedRecord) -> Result<(NamedRecord, Option<Doubt>), ProcessingError> {
         let motion = &mut record.motion;
         self.baseline.remove_from(&mut motion.acceleration_m_s2);
@@ -147,7 +147,7 @@ impl Processing {
         Ok((record, doubt))
     }
 
-    /// Rotates two components to the direction asked for.
+    /// Rotates two components to the chosen direction.
     fn rotated(&self, first: NamedRecord, second: NamedRecord) -> (NamedRecord, RotD) {
         let azimuths_deg = [&first, &second].map(|record| record.motion.azimuth_deg.unwrap_or_default());
         let accelerations = [first.motion.acceleration_m_s2, second.motion.acceleration_m_s2];
@@ -177,7 +177,7 @@ impl Processing {
         (record, pair.rotd())
     }
 
-    /// Scales and measures a record: one motion for each factor, followed by its residual if that is wanted.
+    /// Scales and measures a record: one motion for each factor, followed by its residual if wanted.
     fn scaled(
         &self,
         record: NamedRecord,
@@ -215,7 +215,7 @@ impl Processing {
         Ok(motions.collect())
     }
 
-    /// Looks for the pulse of a record, and fits it where there is one.
+    /// Searches a record for a pulse, and fits it.
     fn pulse_of(&self, motion: &RecordedMotion) -> (Option<PulseIndicator>, Option<FittedPulse>) {
         if self.pulses == PulseSearch::Skip {
             return (None, None);
@@ -228,7 +228,7 @@ impl Processing {
         (indicator, found.and_then(fit))
     }
 
-    /// Makes the same motion without its pulse.
+    /// Returns the motion without its pulse.
     fn residual(
         &self,
         motion: &ImportedMotion,
@@ -251,7 +251,7 @@ impl Processing {
         }
     }
 
-    /// Measures samples as they will be read: in single precision.
+    /// Measures samples as written, in single precision.
     fn measured(&self, samples: &[f32], dt_s: f64) -> Measured {
         let written: Vec<f64> = samples.iter().map(|&a| f64::from(a)).collect();
         self.plan.measure(&written, dt_s, &mut IntensityScratch::default())

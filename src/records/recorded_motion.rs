@@ -1,33 +1,33 @@
-//! A record as its file gives it, and what the user says of files that leave something open.
+//! A record as in its file, and options for reading files.
 
 use super::formats::Format;
 use crate::units::Unit;
 
-/// One component of a record, as its file gives it.
+/// One component of a record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedMotion {
     /// Time between samples, s.
     pub dt_s: f64,
     /// Samples, m/s2.
     pub acceleration_m_s2: Vec<f64>,
-    /// The earthquake in the words of the file.
+    /// Earthquake, as named in the file.
     pub event: Option<String>,
-    /// The station in the words of the file.
+    /// Station, as named in the file.
     pub station: Option<String>,
-    /// The component in the words of the file.
+    /// Component, as named in the file.
     pub component: Option<String>,
     /// Direction of positive acceleration, degrees clockwise from north; none of a vertical component.
     pub azimuth_deg: Option<f64>,
-    /// Peak acceleration that the header gives.
+    /// Peak acceleration in the header.
     pub header_pga: Option<HeaderPga>,
-    /// The format of the file, in a word.
+    /// Name of the file format.
     pub format: &'static str,
-    /// The unit that the samples had.
+    /// Unit of the samples in the file.
     pub unit: Unit,
     pub unit_source: UnitSource,
 }
 
-/// Where the unit of the samples is stated.
+/// Source of the unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum UnitSource {
     File,
@@ -35,7 +35,7 @@ pub enum UnitSource {
 }
 
 impl RecordedMotion {
-    /// Creates a record of samples in a unit of acceleration, `dt_s` apart, of which nothing else is known.
+    /// Makes a record of samples in a unit of acceleration, `dt_s` apart, without labels.
     pub fn new(dt_s: f64, samples: Vec<f64>, (unit, unit_source): (Unit, UnitSource)) -> RecordedMotion {
         RecordedMotion {
             dt_s,
@@ -52,28 +52,27 @@ impl RecordedMotion {
     }
 }
 
-/// A peak acceleration as a header gives it.
+/// A peak acceleration in a header.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeaderPga {
-    /// The value, m/s2, without its sign.
+    /// Absolute value, m/s2.
     pub m_s2: f64,
-    /// Half of the unit of its last digit, m/s2.
+    /// Half a unit of its last digit, m/s2.
     pub rounding_m_s2: f64,
 }
 
-/// How files are read, and what the user says of those that leave it open.
+/// Options for reading files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadOptions {
-    /// None: the format that the content shows.
+    /// None: detected from the content.
     pub format: Option<Format>,
     /// Time between samples, s.
     pub dt_s: Option<f64>,
     /// Unit of the samples.
     pub unit: Option<Unit>,
-    /// Which column of a CSV file holds the acceleration: its number from 1, its heading, or `all` where one
-    /// series wraps over lines.
+    /// Column of the acceleration in a CSV file: number from 1, heading, or `all` for a series over lines.
     pub column: Option<String>,
-    /// Share by which samples may miss the peak that the header gives.
+    /// Accepted relative difference of the samples from the peak in the header.
     pub pga_tolerance: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Two horizontal components in another direction, and their peaks over all directions.
+//! Rotation of two horizontal components, and their peaks over all directions.
 
 use std::str::FromStr;
 
@@ -7,7 +7,7 @@ use crate::motion::intensity::{peak, velocity};
 /// Directions of RotD: each degree of a half turn.
 const DIRECTIONS: usize = 180;
 
-/// Two horizontal components of one station at right angles, of one length.
+/// Two horizontal components of one station at right angles, of equal length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HorizontalPair {
     /// Time between samples, s.
@@ -32,7 +32,7 @@ pub struct RotD {
 }
 
 impl RotD {
-    /// Returns the peaks of the same pair scaled by a factor.
+    /// Returns the peaks of the scaled pair.
     pub fn scaled(&self, factor: f64) -> RotD {
         RotD {
             pga50_m_s2: factor * self.pga50_m_s2,
@@ -44,13 +44,12 @@ impl RotD {
 }
 
 impl HorizontalPair {
-    /// Tells whether two azimuths (degrees) are at right angles to within a degree.
+    /// Returns whether two azimuths (degrees) are at right angles to a degree; either may be reversed.
     pub fn is_right_angle(first_deg: f64, second_deg: f64) -> bool {
-        // Either component may be reversed.
         ((first_deg - second_deg).rem_euclid(180.0) - 90.0).abs() <= 1.0
     }
 
-    /// Pairs accelerations that start together; the longer one is cut.
+    /// Makes a pair of accelerations that start together; the longer one is cut.
     pub fn new(dt_s: f64, azimuths_deg: [f64; 2], mut accelerations: [Vec<f64>; 2]) -> HorizontalPair {
         let length = accelerations.iter().map(Vec::len).min().unwrap_or(0);
         accelerations.iter_mut().for_each(|samples| samples.truncate(length));
@@ -64,7 +63,7 @@ impl HorizontalPair {
         first.iter().zip(second).map(|(a, b)| weights[0] * a + weights[1] * b).collect()
     }
 
-    /// Computes the azimuth (degrees, 0 to below 360) of a direction with these parts along both components.
+    /// Computes the azimuth (degrees, in [0, 360)) of a direction given by its parts along both components.
     pub fn azimuth_of(&self, parts: [f64; 2]) -> f64 {
         let [first, second] = self.azimuths_deg.map(f64::to_radians);
         let north = parts[0] * first.cos() + parts[1] * second.cos();
@@ -86,7 +85,7 @@ impl HorizontalPair {
     }
 }
 
-/// Computes the peak in each direction, in ascending order.
+/// Computes the peak in each direction, ascending.
 fn peaks_over_directions(first: &[f64], second: &[f64]) -> Vec<f64> {
     let in_direction = |degrees: usize| {
         let (sin, cos) = (degrees as f64).to_radians().sin_cos();
@@ -101,12 +100,12 @@ fn median(ascending: &[f64]) -> f64 {
     0.5 * (ascending[(DIRECTIONS - 1) / 2] + ascending[DIRECTIONS / 2])
 }
 
-/// Where a pair of components is rotated to.
+/// Target direction of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Direction {
     /// An azimuth, degrees.
     Azimuth(f64),
-    /// The azimuth of the strongest wavelet (Shahi & Baker 2014).
+    /// Azimuth of the strongest wavelet (Shahi & Baker 2014).
     StrongestPulse,
 }
 

@@ -1,4 +1,4 @@
-//! What is done to the samples of recorded accelerations: baseline, high-pass, time step, scale.
+//! Processing of recorded accelerations: baseline, high-pass, time step, scale.
 
 use std::f64::consts::PI;
 
@@ -6,35 +6,35 @@ use crate::keyword::keywords;
 use crate::motion::fourier::{Transform, even_smooth_at_least};
 use crate::motion::intensity::{peak, velocity};
 
-/// Order n of the high-pass, each way.
+/// Order n of the high-pass, in each direction.
 const HIGH_PASS_ORDER: i32 = 4;
-/// The most padding of the high-pass, in lengths of the record: corners far below 1 / duration ask for more.
+/// Largest padding of the high-pass, in lengths of the record, for corners far below 1 / duration.
 const MOST_PADDING: f64 = 8.0;
 /// Zero crossings of the interpolating sinc on each side.
 const LOBES: f64 = 24.0;
 /// Shape of the Kaiser window: side lobes of about -80 dB.
 const KAISER_BETA: f64 = 8.0;
-/// Corner of the resampling as a share of the lower Nyquist frequency: the transition band lies below it.
+/// Corner of the resampling filter as a share of the lower Nyquist frequency.
 const CORNER: f64 = 0.9;
 
-/// What is removed from an acceleration that should be zero on average.
+/// Baseline to remove from an acceleration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Baseline {
     None,
     Mean,
-    /// The line of least squares.
+    /// Least-squares line.
     Linear,
 }
 
 keywords!(Baseline { None = "none", Mean = "mean", Linear = "linear" });
 
 impl Baseline {
-    /// Removes it from samples.
+    /// Removes the baseline from samples, in place.
     pub fn remove_from(self, samples: &mut [f64]) {
         let n = samples.len() as f64;
         let mean = samples.iter().sum::<f64>() / n;
         let middle = 0.5 * (n - 1.0);
-        // The sum of the squares of k - middle.
+        // Sum of (k - middle)^2.
         let squares = n * (n * n - 1.0) / 12.0;
         let slope = match self {
             Baseline::None => return,
@@ -50,20 +50,20 @@ impl Baseline {
     }
 }
 
-/// A zero-phase Butterworth high-pass of order 4, forward and backward: the gain is 1 / (1 + (fc/f)^8),
-/// applied to the Fourier coefficients. The record is padded with zeros on both sides by 1.5 n / fc (Boore
-/// 2005, "On pads and filters"), and keeps its length.
+/// A zero-phase Butterworth high-pass of order 4, forward and backward, applied to the Fourier coefficients:
+/// the gain is 1 / (1 + (fc/f)^8). The record is padded with zeros on both sides by 1.5 n / fc (Boore 2005,
+/// "On pads and filters"), and keeps its length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HighPass {
-    /// Corner frequency fc, Hz, at which the gain is one half.
+    /// Corner frequency fc, Hz; the gain there is one half.
     pub corner_hz: f64,
 }
 
 impl HighPass {
-    /// Filters an acceleration of this time step (s) in place.
+    /// Filters an acceleration at steps of `dt_s` in place.
     pub fn apply(&self, samples: &mut [f64], dt_s: f64) {
         let record = samples.len();
-        // Boore (2005): the filter rings for about this long.
+        // Ringing time of the filter (Boore 2005).
         let wanted = 1.5 * f64::from(HIGH_PASS_ORDER) / (self.corner_hz * dt_s);
         let pad = wanted.min(MOST_PADDING * record as f64).ceil() as usize;
         let length = even_smooth_at_least(record + 2 * pad);
@@ -84,14 +84,14 @@ impl HighPass {
     }
 }
 
-/// Counts the samples of a record of `samples` samples at another time step.
+/// Computes the number of samples of a resampled record.
 pub fn resampled_length(samples: usize, dt_s: f64, new_dt_s: f64) -> f64 {
-    // A billionth of a step, so that rounding does not cost the last sample.
+    // Tolerance for rounding, which would lose the last sample.
     ((samples.max(1) - 1) as f64 * dt_s / new_dt_s + 1e-9).floor() + 1.0
 }
 
-/// Resamples a record at the time step `new_dt_s` (s) by a sinc under a Kaiser window, which passes nothing
-/// above the Nyquist frequency of the longer of the two steps. The record counts as zero outside.
+/// Resamples a record from steps of `dt_s` to `new_dt_s` (s) by a sinc with a Kaiser window, low-pass at the
+/// lower Nyquist frequency. The record is zero outside.
 pub fn resample(samples: &[f64], dt_s: f64, new_dt_s: f64) -> Vec<f64> {
     let corner = if new_dt_s > dt_s { CORNER * dt_s / new_dt_s } else { 1.0 };
     let reach = LOBES / corner;
@@ -114,29 +114,29 @@ fn sinc(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { (PI * x).sin() / (PI * x) }
 }
 
-/// Computes the Kaiser window at a place from -1 to 1.
+/// Computes the Kaiser window at `x` in [-1, 1].
 fn kaiser(x: f64) -> f64 {
     bessel_i0(KAISER_BETA * (1.0 - x * x).max(0.0).sqrt()) / bessel_i0(KAISER_BETA)
 }
 
-/// Computes the modified Bessel function of order 0 by its power series, from its end.
+/// Computes the modified Bessel function I0 by its power series, last term first.
 fn bessel_i0(x: f64) -> f64 {
     (1..40).rev().fold(1.0, |sum, k| 1.0 + 0.25 * x * x / f64::from(k * k) * sum)
 }
 
-/// By how much records are scaled.
+/// Scaling of records.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Scaling {
-    /// By each of these factors: as many motions.
+    /// By each factor: one motion each.
     Factors(Vec<f64>),
-    /// To this peak acceleration, m/s2.
+    /// To a peak acceleration, m/s2.
     Pga(f64),
-    /// To this peak velocity, m/s.
+    /// To a peak velocity, m/s.
     Pgv(f64),
 }
 
 impl Scaling {
-    /// Computes the factors for an acceleration (m/s2) at steps of `dt_s`; none if it has no peak to scale.
+    /// Computes the factors of an acceleration (m/s2) at steps of `dt_s`; none without a peak to scale.
     pub fn factors(&self, acceleration: &[f64], dt_s: f64) -> Vec<f64> {
         let to = |target: f64, peak: f64| Some(target / peak).filter(|factor| factor.is_finite());
         match self {

@@ -57,13 +57,17 @@ impl Ink {
     }
 }
 
-/// Writes a figure as an SVG file on white.
-pub fn svg(figure: &Figure) -> String {
+/// Writes a figure as an SVG file on white, with the key of what made it.
+pub fn svg(figure: &Figure, key: &str) -> String {
     let (body, height) = drawing(figure);
     let (title, caption) = (escape(&words(&figure.title)), escape(&words(&figure.caption)));
     let size = format!("width=\"{WIDTH}pt\" height=\"{height}pt\" viewBox=\"0 0 {WIDTH} {height}\"");
+    let meta = format!(
+        "<meta xmlns=\"http://www.w3.org/1999/xhtml\" name=\"rockfrag\" content=\"{}\"/>",
+        escape(key)
+    );
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" {size} font-family=\"{FONTS}\">\n<title>{title}</title>\n<desc>{caption}</desc>\n<rect width=\"{WIDTH}\" height=\"{height}\" fill=\"#fff\"/>\n{body}</svg>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" {size} font-family=\"{FONTS}\">\n<metadata>{meta}</metadata>\n<title>{title}</title>\n<desc>{caption}</desc>\n<rect width=\"{WIDTH}\" height=\"{height}\" fill=\"#fff\"/>\n{body}</svg>\n"
     )
 }
 

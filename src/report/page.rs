@@ -131,10 +131,9 @@ fn write_table(Table { caption, columns, rows }: &Table) -> String {
     };
     let (heads, body) = (heads.collect::<String>(), rows.iter().map(row).collect::<String>());
     let words =
-        if caption.is_empty() { String::new() } else { format!("<caption>{}</caption>\n", html(caption)) };
-    let table =
-        format!("<table>\n{words}<thead><tr>{heads}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n");
-    scrolled(caption, &table)
+        if caption.is_empty() { String::new() } else { format!("<p class=\"by\">{}</p>\n", html(caption)) };
+    let table = format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n");
+    words + &scrolled(caption, &table)
 }
 
 /// Lets what is wider than a small screen be scrolled, by keys too.

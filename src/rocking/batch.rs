@@ -1,4 +1,4 @@
-//! Simulates structures and records, one in each lane of the processor's vector registers.
+//! Simulates many structures and records, one in each lane of the vector registers.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -7,12 +7,13 @@ use super::record::Record;
 use super::response::Response;
 use super::structure::Structure;
 
-/// Simulates a structure, at rest at first, through a record and the free rocking that follows it.
+/// Simulates a structure, initially at rest, through a record and the free rocking after it.
 pub fn simulate(structure: &Structure, record: &Record) -> Response {
     simulate_all(&[Problem { structure, record: *record }])[0]
 }
 
-/// Simulates each problem, in order, in the widest registers of the processor. A response does not depend on the other problems.
+/// Simulates the problems in the widest vector registers, independently of each other. Returns one response
+/// for each, in order.
 pub fn simulate_all(problems: &[Problem]) -> Vec<Response> {
     Arch::new().dispatch(Batch { problems })
 }
@@ -27,7 +28,7 @@ impl WithSimd for Batch<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, registers: S) -> Vec<Response> {
         let mut lanes = Lanes::new(registers, self.problems);
-        while lanes.are_busy() {
+        while lanes.busy != 0 {
             let step = lanes.step();
             let events = lanes.advance(&step);
             if events.any() {

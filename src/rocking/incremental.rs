@@ -1,46 +1,46 @@
-//! Incremental dynamic analysis: one structure under one motion at rising intensity (Vamvatsikos & Cornell 2002, Incremental
-//! dynamic analysis, Earthquake Engineering & Structural Dynamics 31, 491-514).
+//! Incremental dynamic analysis: one structure under one motion at rising intensity (Vamvatsikos & Cornell
+//! 2002, Incremental dynamic analysis, Earthquake Engineering & Structural Dynamics 31, 491-514).
 //!
-//! Rocking is not monotone in the intensity: a structure that overturns under a motion may survive a stronger one of the same
-//! shape, and the closer one looks the more changes of outcome there are: the edges are fractal. So there is no one capacity. What a
-//! scan tells is, at its resolution, the least overturning intensity, the share of each band above that overturns, and the windows in
-//! which nothing that was simulated does.
+//! Rocking is not monotone in the intensity: a structure that overturns under a motion may survive a stronger
+//! one of the same shape, and a finer scan finds more changes of outcome, since the boundaries are fractal.
+//! There is no single capacity. At its resolution, a scan returns the least overturning intensity, the
+//! overturning share of each band above it, and the windows in which no simulated intensity overturns.
 
 use super::response::{Outcome, Response};
 use crate::keyword::keywords;
 
-/// How often a step between levels is halved where the structure rocks: the resolution.
+/// Halvings of a step between levels where the structure rocks: the resolution.
 const HALVINGS: i32 = 4;
-/// How many times more where the demand may so reach the tipping point.
+/// Further halvings where the demand may reach the tipping point.
 const CLOSER_HALVINGS: i32 = 4;
-/// At least so many steps, of equal ratios or smaller, make a safe window.
+/// A safe window has at least this many steps, of equal or smaller ratios.
 const WINDOW_PARTS: f64 = 16.0;
 /// Relative error of the intensities at which the outcome changes.
 const TOLERANCE: f64 = 1e-3;
-/// The demand |theta|max / alpha at which a structure tips, but for what the ground does meanwhile.
+/// Demand |theta|max / alpha at the tipping point on still ground.
 const TIPPING: f64 = 1.0;
-/// Between impacts the demand is a continuous function of the intensity. It is taken to grow within a step by up to so many times its
-/// change over the step, or over one of those beside: more, and fewer grazing peaks are missed.
+/// Between impacts the demand is a continuous function of the intensity. Within a step it may grow by this
+/// many times its change over the step or a neighbouring step; a larger factor misses fewer grazing peaks.
 const GROWTH: f64 = 8.0;
-/// Rounding must not ask for one halving more.
+/// Keeps rounding from causing one more halving.
 const ROUNDING: f64 = 1.0 + 1e-12;
 
-/// The intensities of an incremental dynamic analysis: levels in equal ratios, equal parts of them where the structure rocks, and
-/// more where the outcome changes or a peak may graze the tipping point.
+/// The intensities of an incremental dynamic analysis: levels in equal ratios, halved where the structure
+/// rocks, and halved further where the outcome changes or a peak may graze the tipping point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
     levels: Vec<f64>,
     ratio: f64,
 }
 
-/// A response at an intensity.
+/// The response at one intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScanResponse {
     pub intensity: f64,
     pub response: Response,
 }
 
-/// A case (a structure under a motion) and the intensity at which to simulate it.
+/// A case (a structure under a motion) and an intensity to simulate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScanPoint {
     /// Index of the case.
@@ -49,7 +49,7 @@ pub struct ScanPoint {
 }
 
 impl Scan {
-    /// Divides the intensities between two in `steps` equal ratios.
+    /// Divides the range from `from` to `to` in `steps` equal ratios.
     pub fn new(from: f64, to: f64, steps: usize) -> Scan {
         let level = |k: usize| from * (to / from).powf(k as f64 / steps as f64);
         Scan {
@@ -59,20 +59,20 @@ impl Scan {
     }
 
     pub fn lowest(&self) -> f64 {
-        self.levels.first().copied().unwrap_or(f64::NAN)
+        self.levels[0]
     }
 
     pub fn highest(&self) -> f64 {
-        self.levels.last().copied().unwrap_or(f64::NAN)
+        self.levels[self.levels.len() - 1]
     }
 
-    /// Ratio of neighbouring levels.
+    /// Returns the ratio of neighbouring levels.
     pub fn ratio(&self) -> f64 {
         self.ratio
     }
 
-    /// Ratio of the intensities at which every case is simulated as soon as it rocks: the resolution. Narrower overturning ranges may be
-    /// missed where no peak near the tipping point shows them, and narrower safe windows count as none.
+    /// Returns the resolution: the ratio of neighbouring intensities simulated wherever a case rocks.
+    /// Narrower overturning ranges may be missed; narrower safe windows do not count.
     pub fn finest_ratio(&self) -> f64 {
         self.ratio_after(HALVINGS)
     }
@@ -81,13 +81,13 @@ impl Scan {
         self.ratio.powf(0.5_f64.powi(halvings))
     }
 
-    /// Intensities at which every case is simulated, rising.
+    /// Returns the intensities at which every case is simulated, ascending.
     pub fn levels(&self) -> &[f64] {
         &self.levels
     }
 
-    /// Simulates all cases at as many intensities as the scan needs, in rounds: `respond` gives the responses to all points of a
-    /// round, in order. Returns the responses of each case at rising intensity, or the error of `respond`.
+    /// Simulates all cases at as many intensities as needed, in rounds. `respond` simulates the points of a
+    /// round, in order. Returns the responses of each case at ascending intensity, or the error of `respond`.
     pub fn run<E>(
         &self,
         cases: usize,
@@ -109,7 +109,7 @@ impl Scan {
         Ok(found)
     }
 
-    /// Returns the intensities that have yet to be simulated between those of a case: the middles of steps that are too wide.
+    /// Returns the intensities of a case still to simulate: the middles of steps that are too wide.
     fn missing<'a>(&'a self, found: &'a [ScanResponse]) -> impl Iterator<Item = f64> + 'a {
         let first = found.iter().position(ScanResponse::overturns).unwrap_or(found.len());
         let runs = found.chunk_by(|a, b| a.overturns() == b.overturns());
@@ -131,12 +131,12 @@ impl Scan {
         })
     }
 
-    /// Tells whether a run of responses is one of safe ones, as wide as the resolution.
+    /// Returns whether a run of responses is safe and at least as wide as the resolution.
     fn is_window(&self, run: &[ScanResponse]) -> bool {
         !run[0].overturns() && width(run) * ROUNDING >= self.finest_ratio()
     }
 
-    /// Finds the capacity in responses at rising intensity.
+    /// Finds the capacity in responses at ascending intensity.
     pub fn capacity(&self, responses: &[ScanResponse]) -> Capacity {
         let mut runs = responses.chunk_by(|a, b| a.overturns() == b.overturns()).peekable();
         let safe = runs.next_if(|run| !run[0].overturns());
@@ -158,8 +158,8 @@ impl Scan {
         Capacity { status, safe_below, overturning, windows, safe_up_to }
     }
 
-    /// Finds in responses at rising intensity which share of the intensities from each level to the next overturns, in logarithms:
-    /// a step whose ends differ counts by half.
+    /// Computes the overturning share of each band between levels, in logarithms of the intensity. A step
+    /// with one overturning end counts half.
     pub fn overturning_shares(&self, responses: &[ScanResponse]) -> Vec<f64> {
         let overturning = |pair: &[ScanResponse]| {
             let ends = pair.iter().filter(|end| end.overturns()).count();
@@ -179,7 +179,8 @@ fn width(run: &[ScanResponse]) -> f64 {
     run[run.len() - 1].intensity / run[0].intensity
 }
 
-/// Tells whether the demand may reach the tipping point within a step, growing as it changes there and in the safe steps beside.
+/// Returns whether the demand may reach the tipping point in a step, by its rate of change in safe steps
+/// near.
 fn may_tip(found: &[ScanResponse], step: usize) -> bool {
     let beside = &found[step.saturating_sub(1)..found.len().min(step + 3)];
     let rate = |pair: &[ScanResponse]| {
@@ -200,36 +201,35 @@ impl ScanResponse {
 /// Whether and where a structure overturns in a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CapacityStatus {
-    /// It overturns from an intensity within the scan on.
+    /// Overturns from an intensity within the scan.
     Overturns,
-    /// It overturns nowhere in the scan.
+    /// Safe at all simulated intensities.
     Safe,
-    /// It overturns already at the lowest intensity of the scan.
+    /// Overturns at the lowest intensity of the scan.
     Below,
 }
 
 keywords!(CapacityStatus { Overturns = "overturns", Safe = "safe", Below = "below" });
 
-/// The capacity of a structure against overturning, as a scan finds it.
+/// The overturning capacity of a structure in a scan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Capacity {
     pub status: CapacityStatus,
-    /// Largest simulated intensity below all that overturn it.
+    /// Largest safe intensity below the first overturning one.
     pub safe_below: Option<f64>,
-    /// Least simulated intensity that overturns it.
+    /// Least overturning intensity.
     pub overturning: Option<f64>,
-    /// Safe ranges above.
+    /// Safe ranges above it.
     pub windows: Vec<SafeWindow>,
-    /// Largest simulated intensity that it survives.
+    /// Largest safe intensity.
     pub safe_up_to: Option<f64>,
 }
 
-/// A range above an overturning intensity, as wide as the resolution of the scan, in which the structure survives every simulated
-/// intensity.
+/// A safe range above an overturning intensity, at least as wide as the resolution of the scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SafeWindow {
-    /// Least intensity of the window.
+    /// Least safe intensity.
     pub low: f64,
-    /// Largest intensity of the window; none where the scan ends within it.
+    /// Largest safe intensity; none where the scan ends within the window.
     pub high: Option<f64>,
 }

@@ -1,5 +1,5 @@
-//! The states of many structures, one in each lane of a vector, each at its own moment of its own record: rest, uplift, rocking. No
-//! lane's arithmetic depends on what is in the others. A lane whose structure is done takes the next problem.
+//! The states of many structures, one in each lane of a vector, each at its own moment of its own record:
+//! rest, uplift, rocking. Lanes are independent of each other. A lane that is done takes the next problem.
 
 use pulp::Simd;
 
@@ -11,21 +11,21 @@ use super::uplift::Uplift;
 use super::vector::{MOST_LANES, Vector};
 use crate::units::PER_G;
 
-/// The longest Taylor step, as p dt sqrt(1 + PGA/g). What order 8 leaves out of steps this long moves the peak of a
-/// structure in white noise of 0.6 g by some 1e-12 of itself.
+/// Longest Taylor step, as p dt sqrt(1 + PGA/g). With steps this long, truncation at order 8 changes the peak
+/// of a structure in white noise of 0.6 g by about 1e-12 of itself.
 const LONGEST_STEP: f64 = 0.03;
 
-/// A structure, at rest at first, and the ground motion that shakes it.
+/// A structure, initially at rest, and its ground motion.
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
     pub structure: &'a Structure,
     pub record: Record<'a>,
 }
 
-/// The lanes to which something happened during a step, a bit for each.
+/// The lanes with an event in a step, one bit for each.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Events {
-    /// The record is over while the structure rocks.
+    /// The record ended while the structure rocked.
     pub ended: u32,
     /// The structure came to rest after an impact.
     pub rested: u32,
@@ -43,16 +43,16 @@ impl Events {
 pub struct Lanes<'a, S: Simd> {
     pub(super) simd: S,
     problems: &'a [Problem<'a>],
-    /// Index of the first problem that waits for a lane.
+    /// Index of the next problem.
     waiting: usize,
     /// The responses so far.
     pub(super) responses: Vec<Response>,
-    /// The lanes in use, a bit for each.
+    /// The lanes in use, one bit for each.
     pub(super) busy: u32,
     /// Index of the problem.
     problem: [usize; MOST_LANES],
     pub(super) samples: [&'a [f64]; MOST_LANES],
-    /// Index of the last sample that has passed.
+    /// Index of the last sample passed.
     pub(super) index: [usize; MOST_LANES],
     pub(super) slenderness: Slenderness<Vector<S>>,
     pub(super) eta: Vector<S>,
@@ -108,11 +108,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
         lanes
     }
 
-    pub fn are_busy(&self) -> bool {
-        self.busy != 0
-    }
-
-    /// Finishes or restarts the lanes that cannot go on by themselves.
+    /// Finishes or restarts the lanes with events.
     #[inline(never)]
     pub fn handle(&mut self, events: Events) {
         for lane in each(events.overturned) {
@@ -138,8 +134,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
         self.refill(lane);
     }
 
-    /// Gives a lane the next problem in which the structure uplifts, at its first uplift. If there is none the lane stands still and
-    /// meets no event.
+    /// Starts the next problem that uplifts in a lane, at its first uplift. Without one the lane idles.
     fn refill(&mut self, lane: usize) {
         while let Some(problem) = self.problems.get(self.waiting) {
             (self.problem[lane], self.waiting) = (self.waiting, self.waiting + 1);
@@ -178,7 +173,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
     /// Advances a lane from rest to the next uplift. Returns false if there is none.
     fn leave_rest(&mut self, lane: usize) -> bool {
         let (samples, index, tan) = (self.samples[lane], self.index[lane], self.slenderness.tan.lane(lane));
-        // A lane that has just arrived at its last sample.
+        // A lane at its last sample.
         if index + 1 >= samples.len() {
             return false;
         }
@@ -195,11 +190,11 @@ impl<'a, S: Simd> Lanes<'a, S> {
         true
     }
 
-    /// Puts a lane at the moment of an uplift, if there is one.
+    /// Puts a lane at an uplift. Returns false without one.
     fn start_at(&mut self, lane: usize, uplift: Option<Uplift>) -> bool {
         let Some(Uplift { index, fraction, ground }) = uplift else { return false };
         self.index[lane] = index;
-        // It leans to the side opposite to the acceleration.
+        // The structure leans opposite to the acceleration.
         self.side.set(lane, -ground.signum());
         self.now.set(lane, ground);
         self.next.set(lane, self.samples[lane][index + 1]);
@@ -209,8 +204,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
         true
     }
 
-    /// Sets the time left to the next sample, never to 0: an uplift so near to that sample that rounding leaves nothing has yet to
-    /// reach it.
+    /// Sets the time left to the next sample, above 0 even for an uplift that rounds to that sample.
     fn set_left(&mut self, lane: usize, left: f64) {
         let left = left.max(self.p_dt.lane(lane) * f64::EPSILON);
         self.left.set(lane, left);

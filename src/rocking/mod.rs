@@ -1,18 +1,20 @@
 //! The response of a free-standing rocking block or frame to a ground motion (section 2.2).
 //!
 //! ```text
-//! structure    p, alpha, eta and where they come from
-//! record       the ground acceleration as a piecewise-linear function of time
-//! reference    Eqs. 4 to 6 as the paper writes them, one structure and one small step at a time: read this first
-//! taylor       the equation of motion (Eq. 4): the rotation over one step as a Taylor polynomial
-//! uplift       where a structure at rest leaves its base (Eq. 5)
-//! vector       the numbers in which all of this is written: one or several to a register, a lane each
-//! lanes        the states of the structures in the lanes: rest, uplift, rocking
-//! step         a step of all lanes: impact, peak, overturning
-//! roots        where these are: roots of the step's polynomials; polynomial: of one lane, by Bernstein coefficients
-//! response     the outcome, the demand (Eq. 7), and free rocking after the record in closed form
-//! batch        many structures and records, as lanes come free; trace: one, with rotation, velocity and events over time
-//! incremental  one motion at rising intensity: where a structure overturns, and which stronger motions it survives
+//! structure    p, alpha and eta, and their formulas for blocks and frames
+//! record       ground acceleration, piecewise linear in time
+//! reference    equation of motion, uplift, impact (Eqs. 4 to 6) as printed, in small steps: read this first
+//! taylor       the equation of motion (Eq. 4): rotation over one step as a Taylor polynomial
+//! uplift       when a structure at rest leaves its base (Eq. 5)
+//! vector       SIMD numbers, one structure to a lane
+//! lanes        state of the structures in the lanes: rest, uplift, rocking
+//! step         one step of all lanes: impact (Eq. 6), peak, overturning
+//! roots        roots of the step's polynomials, all lanes at once
+//! polynomial   roots of one lane's polynomial, by Bernstein coefficients
+//! response     outcome, demand (Eq. 7), and free rocking after the record in closed form
+//! batch        many structures and records; a lane that is done takes the next
+//! trace        one response over time: rotation, velocity, events
+//! incremental  one motion at rising intensity: where a structure overturns, and where it is safe again
 //! ```
 
 mod batch;
@@ -37,6 +39,6 @@ pub use record::{Record, RecordError};
 pub use reference::trace;
 pub use response::{Outcome, Response};
 pub use structure::{
-    BOUNDS, Block, Bound, Structure, StructureError, frame_eta, frame_p, housner_eta, judge, rectangular_p,
+    BOUNDS, Bound, Structure, StructureError, frame_eta, frame_p, housner_eta, judge, rectangular_p,
 };
 pub use trace::{SolverEvent, TracePoint, with_tail};

@@ -3,13 +3,13 @@
 /// The order of the Taylor series of a step.
 pub const ORDER: usize = 8;
 
-/// A polynomial in powers of the step's own time, 0 at its start and 1 at its end.
+/// A polynomial in the fraction of the step, 0 at its start and 1 at its end.
 pub type Polynomial<T = f64> = [T; ORDER + 1];
 
-/// A bracket this narrow that still shows several sign changes holds a multiple root.
+/// A narrower bracket with several sign changes holds a multiple root.
 const NARROWEST_BRACKET: f64 = 1e-12;
 
-/// After so many of Newton's iterations bisection goes on alone, which ends in any case.
+/// Newton steps before bisection alone, which always ends.
 const MOST_NEWTON_STEPS: usize = 64;
 
 /// Evaluates the polynomial at `x` (Horner).
@@ -17,13 +17,13 @@ pub fn value(c: &Polynomial, x: f64) -> f64 {
     c.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
-/// Differentiates, into a polynomial of the same length.
+/// Computes the derivative, as a polynomial of the same length.
 #[inline]
 pub fn derivative(c: &Polynomial) -> Polynomial {
     std::array::from_fn(|k| if k < ORDER { (k + 1) as f64 * c[k + 1] } else { 0.0 })
 }
 
-/// Finds the roots in (0, 1), in ascending order. Roots at 0 do not count.
+/// Finds the roots in (0, 1), ascending. A root at 0 does not count.
 pub fn roots(c: &Polynomial) -> Vec<f64> {
     let mut roots = Vec::new();
     if let Some(zeros) = c.iter().position(|&coefficient| coefficient != 0.0) {
@@ -33,8 +33,8 @@ pub fn roots(c: &Polynomial) -> Vec<f64> {
     roots
 }
 
-/// Adds the roots between `low` and `high`, the left half first, so that they come in order. By Descartes' rule they are at
-/// most as many as the sign changes of the Bernstein coefficients `b`, and of the same parity.
+/// Adds the roots between `low` and `high` in ascending order. By Descartes' rule their number is at most the
+/// number of sign changes of the Bernstein coefficients `b`, and of the same parity.
 fn add_roots(c: &Polynomial, b: &Polynomial, low: f64, high: f64, roots: &mut Vec<f64>) {
     match sign_changes(b) {
         0 => {}
@@ -52,7 +52,8 @@ fn add_roots(c: &Polynomial, b: &Polynomial, low: f64, high: f64, roots: &mut Ve
     }
 }
 
-/// Converts to Bernstein coefficients: `b[j] = sum over i <= j of binomial(j, i) / binomial(ORDER, i) c[i]`, in place by repeated sums.
+/// Converts to Bernstein coefficients by repeated sums: `b[j] = sum over i <= j of
+/// binomial(j,i) / binomial(ORDER,i) c[i]`.
 #[inline(always)]
 pub fn bernstein(c: &Polynomial) -> Polynomial {
     const INVERSE_BINOMIAL: Polynomial =
@@ -69,7 +70,7 @@ pub fn bernstein(c: &Polynomial) -> Polynomial {
     b
 }
 
-/// Divides at the middle by de Casteljau's algorithm: the Bernstein coefficients of both halves.
+/// Computes the Bernstein coefficients of both halves by de Casteljau's algorithm.
 fn halves(b: &Polynomial) -> (Polynomial, Polynomial) {
     let mut right = *b;
     let mut left = *b;
@@ -92,8 +93,8 @@ fn starts_positive(b: &Polynomial) -> bool {
     b.iter().find(|&&coefficient| coefficient != 0.0).is_some_and(|&first| first > 0.0)
 }
 
-/// Finds the one root between `low` and `high`: Newton's iterations, kept inside the shrinking bracket by bisection. `falling`
-/// tells whether the values left of the root are positive.
+/// Finds the only root in a bracket by Newton's method with bisection; `falling` if values are positive left
+/// of it.
 fn root_in_bracket(c: &Polynomial, low: f64, high: f64, falling: bool) -> f64 {
     let slope = derivative(c);
     let (mut low, mut high) = (low, high);

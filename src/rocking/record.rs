@@ -4,10 +4,10 @@ use std::ops::RangeInclusive;
 
 /// Accepted time steps, s.
 const TIME_STEPS_S: RangeInclusive<f64> = 1e-6..=10.0;
-/// Upper bound of the acceleration, m/s2, a thousand times that of gravity: it catches wrong units.
+/// Largest accepted acceleration, m/s2, about 1000 g: larger samples have a wrong unit.
 const LARGEST_M_S2: f64 = 1e4;
 
-/// A ground acceleration sampled at a constant step: linear between its samples and zero after its last one.
+/// A ground acceleration sampled at a constant step: linear between samples, zero after the last one.
 #[derive(Debug, Clone, Copy)]
 pub struct Record<'a> {
     acceleration_m_s2: &'a [f64],
@@ -15,7 +15,7 @@ pub struct Record<'a> {
     peak_m_s2: f64,
 }
 
-/// Why samples make no record. `sample` counts from 0.
+/// An invalid record. `sample` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RecordError {
     #[error("dt_s is {0}; expected a time step above 0 s, from 1e-6 to 10")]
@@ -31,11 +31,10 @@ pub enum RecordError {
 }
 
 impl<'a> Record<'a> {
-    /// Checks samples (m/s2), `dt_s` seconds apart.
+    /// Makes a record of samples (m/s2), `dt_s` seconds apart.
     ///
     /// # Errors
-    /// If the time step is not in [1e-6, 10] s, a sample not finite or larger than 1e4 m/s2, or there are fewer than two
-    /// samples.
+    /// If the time step is not in [1e-6, 10] s, or samples are fewer than 2, not finite or above 1e4 m/s2.
     pub fn new(acceleration_m_s2: &'a [f64], dt_s: f64) -> Result<Record<'a>, RecordError> {
         if !TIME_STEPS_S.contains(&dt_s) {
             return Err(RecordError::TimeStep(dt_s));
@@ -43,7 +42,7 @@ impl<'a> Record<'a> {
         if acceleration_m_s2.len() < 2 {
             return Err(RecordError::TooShort(acceleration_m_s2.len()));
         }
-        // Not finite if a sample is not: the bits of infinity and NaN are above all others.
+        // Infinite or NaN if any sample is: their bits exceed those of all finite numbers.
         let peak_m_s2 =
             acceleration_m_s2.iter().map(|value| value.abs().to_bits()).max().map_or(0.0, f64::from_bits);
         if !peak_m_s2.is_finite() {
@@ -58,7 +57,7 @@ impl<'a> Record<'a> {
         Ok(Record { acceleration_m_s2, dt_s, peak_m_s2 })
     }
 
-    /// Peak ground acceleration, m/s2.
+    /// Returns the peak ground acceleration, m/s2.
     pub fn peak_m_s2(&self) -> f64 {
         self.peak_m_s2
     }
@@ -71,7 +70,7 @@ impl<'a> Record<'a> {
         self.dt_s
     }
 
-    /// Interpolates the acceleration (m/s2) at a time from the first sample, s: linear between samples, zero outside.
+    /// Interpolates the acceleration (m/s2) at a time (s) from the first sample; zero outside the record.
     pub fn acceleration_at(&self, time_s: f64) -> f64 {
         let position = time_s / self.dt_s;
         let before = position.floor().max(0.0) as usize;

@@ -1,7 +1,7 @@
-//! Section 2.2 as the paper writes it, one structure and one small step at a time: the place to read what the solver does.
+//! Section 2.2 as the paper prints it, for one structure and in small steps: the readable form of the solver.
 //!
-//! [`simulate_all`](super::simulate_all) solves the same equations by Taylor series in vector registers, hundreds of times as fast; a
-//! test holds it against this.
+//! [`simulate_all`](super::simulate_all) solves the same equations by Taylor series in vector registers,
+//! hundreds of times faster; a test compares both.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,11 +13,10 @@ use super::trace::{SolverEvent, TracePoint};
 use super::uplift::Uplift;
 use crate::units::PER_G;
 
-/// The longest step, as p h sqrt(1 + PGA/g). What the method of Runge and Kutta leaves out of such steps moves the median peak by 1e-12
-/// of itself.
+/// Longest step, as p h sqrt(1 + PGA/g): truncation changes the median peak by 1e-12 of itself.
 const LONGEST_STEP: f64 = 5e-4;
 
-/// A structure that rocks: the side to which it leans, 1 or -1, its rotation theta (rad) and angular velocity theta' (rad/s).
+/// A rocking structure: its side (1 or -1), rotation theta (rad) and angular velocity theta' (rad/s).
 #[derive(Clone, Copy, Default)]
 struct Rocking {
     side: f64,
@@ -25,7 +24,8 @@ struct Rocking {
     velocity: f64,
 }
 
-/// Computes the angular acceleration of a structure that leans to a side, from its rotation and the ground acceleration a over g (Eq. 4):
+/// Computes the angular acceleration (rad/s2) from the side, the rotation and the ground acceleration over g,
+/// by the equation of motion (Eq. 4):
 /// theta'' = -p^2 [sin(alpha sgn theta - theta) + a/g cos(alpha sgn theta - theta)].
 fn angular_acceleration(structure: &Structure, side: f64, theta: f64, ground: f64) -> f64 {
     let p2 = structure.p_rad_s * structure.p_rad_s;
@@ -33,19 +33,21 @@ fn angular_acceleration(structure: &Structure, side: f64, theta: f64, ground: f6
     -p2 * (angle.sin() + ground * angle.cos())
 }
 
-/// Finds the uplift of a structure at rest while the ground acceleration over g goes linearly from `now` to `next` in `left` seconds:
-/// after how long it reaches tan alpha, and that the structure then leans to the side opposite to it (Eq. 5).
+/// Finds the uplift (Eq. 5) of a structure at rest while the ground acceleration over g goes linearly from
+/// `now` to `next` in `left` seconds: the time until |a|/g = tan alpha, and the state then. The structure
+/// leans opposite to the acceleration.
 fn uplift(structure: &Structure, now: f64, next: f64, left: f64) -> Option<(f64, Rocking)> {
     let Uplift { fraction, ground, .. } = Uplift::between(now, next, structure.alpha_rad.tan())?;
     Some((fraction * left, Rocking { side: -ground.signum(), theta: 0.0, velocity: 0.0 }))
 }
 
-/// Takes a structure that strikes its base over to the other side: theta'+ = eta theta'- (Eq. 6).
+/// Computes the state after an impact, on the other side: theta'+ = eta theta'- (Eq. 6).
 fn impact(structure: &Structure, before: Rocking) -> Rocking {
     Rocking { side: -before.side, theta: 0.0, velocity: structure.eta * before.velocity }
 }
 
-/// Follows Eq. 4 for `h` seconds by the method of Runge and Kutta; `ground` is the ground acceleration over g after so many seconds.
+/// Integrates the equation of motion (Eq. 4) over `h` seconds by the classical Runge-Kutta method; `ground`
+/// is the ground acceleration over g as a function of time from the start of the step.
 fn step(structure: &Structure, from: Rocking, ground: impl Fn(f64) -> f64, h: f64) -> Rocking {
     let Rocking { side, theta, velocity } = from;
     let acceleration = |time: f64, theta: f64| angular_acceleration(structure, side, theta, ground(time));
@@ -57,7 +59,7 @@ fn step(structure: &Structure, from: Rocking, ground: impl Fn(f64) -> f64, h: f6
     Rocking { side, theta, velocity: velocity + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4) }
 }
 
-/// Finds, by bisection, when something happened that has happened at `h`.
+/// Finds by bisection the first time in (0, `h`] at which `happened` holds; it holds at `h`.
 fn first(h: f64, happened: impl Fn(f64) -> bool) -> f64 {
     let halve = |(before, after): (f64, f64), _| {
         let middle = 0.5 * (before + after);
@@ -66,26 +68,26 @@ fn first(h: f64, happened: impl Fn(f64) -> bool) -> f64 {
     (0..60).fold((0.0, h), halve).1
 }
 
-/// Simulates a structure, at rest at first, through a record and the free rocking that follows it. Calls `observe` at every sample and
-/// event of the record.
+/// Simulates a structure, initially at rest, through a record and the free rocking after it. Calls `observe`
+/// at each sample and event of the record.
 pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(TracePoint)) -> Response {
     let (samples, dt_s, alpha) = (record.acceleration_m_s2(), record.dt_s(), structure.alpha_rad);
     let longest_s = LONGEST_STEP / (structure.p_rad_s * (1.0 + record.peak_m_s2() * PER_G).sqrt());
     let (mut state, mut peak, mut impacts, mut uplifted) = (None, 0.0_f64, 0, false);
-    let mut tell = |time_s: f64, state: Option<Rocking>, solver_event| {
+    let mut note = |time_s: f64, state: Option<Rocking>, solver_event| {
         let Rocking { theta, velocity, .. } = state.unwrap_or_default();
         observe(TracePoint { time_s, theta_rad: theta, theta_dot_rad_s: velocity, solver_event });
     };
     for (k, pair) in samples.windows(2).enumerate() {
         let ground = |t: f64| (pair[0] + (pair[1] - pair[0]) * t / dt_s) * PER_G;
         let (sample_s, mut t, most_impacts) = (k as f64 * dt_s, 0.0, impacts + MOST_IMPACTS);
-        tell(sample_s, state, None);
+        note(sample_s, state, None);
         while t < dt_s {
             let Some(now) = state else {
                 let soon = uplift(structure, ground(t), ground(dt_s), dt_s - t);
                 let Some((wait, start)) = soon.filter(|_| impacts < most_impacts) else { break };
                 (t, state, uplifted) = (t + wait, Some(start), true);
-                tell(sample_s + t, state, Some(SolverEvent::Uplift));
+                note(sample_s + t, state, Some(SolverEvent::Uplift));
                 continue;
             };
             let at = |h: f64| step(structure, now, |after| ground(t + after), h);
@@ -100,22 +102,22 @@ pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(Tra
             let top = if falls(next) && !falls(now) { at(first(h, |h| falls(at(h)))) } else { next };
             (t, state, peak) = (t + h, Some(next), peak.max(now.side * top.theta));
             if overturns(next) {
-                tell(sample_s + t, state, Some(SolverEvent::Overturn));
+                note(sample_s + t, state, Some(SolverEvent::Overturn));
                 return Response::of_rocking(Tail::Overturns, peak, alpha, impacts);
             }
             if strikes(next) {
                 let after = impact(structure, next);
                 impacts += 1;
-                tell(sample_s + t, Some(after), Some(SolverEvent::Impact));
+                note(sample_s + t, Some(after), Some(SolverEvent::Impact));
                 let rocks = after.velocity.abs() >= REST_VELOCITY * structure.p_rad_s;
                 state = Some(after).filter(|_| rocks && impacts < most_impacts);
                 if state.is_none() {
-                    tell(sample_s + t, None, Some(SolverEvent::Rest));
+                    note(sample_s + t, None, Some(SolverEvent::Rest));
                 }
             }
         }
     }
-    tell((samples.len() - 1) as f64 * dt_s, state, None);
+    note((samples.len() - 1) as f64 * dt_s, state, None);
     let Rocking { side, theta, velocity } = state.unwrap_or_default();
     let tail = free_rocking(
         State { rotation: side * theta, velocity: side * velocity / structure.p_rad_s },
@@ -125,8 +127,8 @@ pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(Tra
     if uplifted { Response::of_rocking(tail, peak, alpha, impacts) } else { Response::NO_ROCKING }
 }
 
-/// Simulates as [`solve`] does and keeps the rotation at every sample and event. The record ends with its last sample;
-/// [`with_tail`](super::with_tail) appends quiet time to see the free rocking that follows.
+/// Simulates as [`solve`] and returns the rotation at each sample and event. The record ends with its last
+/// sample; [`with_tail`](super::with_tail) appends quiet time for free rocking.
 pub fn trace(structure: &Structure, record: &Record) -> (Response, Vec<TracePoint>) {
     let mut points = Vec::new();
     let response = solve(structure, record, |point| points.push(point));

@@ -1,18 +1,18 @@
-//! What a structure does in the end: the outcome, the demand, and free rocking after the record in closed form.
+//! The outcome, the demand, and free rocking after the record in closed form.
 
 use std::f64::consts::FRAC_PI_2;
 
 use super::taylor::State;
 use crate::keyword::keywords;
 
-/// The branch of the tree of Figure 6 that a structure takes in a ground motion.
+/// The outcome of one structure under one ground motion (Figure 6).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// It never left its base.
+    /// The structure stays on its base.
     NoRocking,
-    /// It rocked and came back.
+    /// It rocks and comes to rest.
     SafeRocking,
-    /// Its rotation reached pi/2, or will after the record by its energy.
+    /// Its rotation reaches pi/2, in the record or, by its energy, after it.
     Overturning,
 }
 
@@ -26,7 +26,7 @@ keywords!(Outcome {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
     pub outcome: Outcome,
-    /// Engineering demand parameter |theta|max / alpha (Eq. 7); where it overturns, pi / (2 alpha).
+    /// Engineering demand parameter |theta|max / alpha (Eq. 7); pi / (2 alpha) if it overturns.
     pub edp: f64,
     /// Number of impacts during the record.
     pub impacts: u32,
@@ -35,8 +35,9 @@ pub struct Response {
 impl Response {
     pub(super) const NO_ROCKING: Response = Response { outcome: Outcome::NoRocking, edp: 0.0, impacts: 0 };
 
-    /// Makes the response of a structure of slenderness `alpha` that rocked up to `peak` (rad) during the record, and after it as
-    /// `tail` says.
+    /// Computes the response of a structure of slenderness `alpha` (rad) that rocks, from the largest
+    /// rotation `peak` (rad) and the number of impacts during the record, and the free rocking after it. The
+    /// demand is |theta|max / alpha (Eq. 7).
     pub(super) fn of_rocking(tail: Tail, peak: f64, alpha: f64, impacts: u32) -> Response {
         let (outcome, peak) = match tail {
             Tail::Overturns => (Outcome::Overturning, FRAC_PI_2),
@@ -46,35 +47,37 @@ impl Response {
     }
 }
 
-/// How a structure that rocks at the end of the record ends.
+/// The end of free rocking after the record.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tail {
     Overturns,
-    /// It comes to rest; the largest rotation (rad) still to come.
+    /// It comes to rest; `peak` is the largest later rotation, rad.
     Settles {
         peak: f64,
     },
 }
 
-/// Decides by energy what follows the record for a structure of slenderness `alpha` (rad) and restitution `eta` in `state`.
+/// Finds the end of free rocking by energy, for a structure of slenderness `alpha` (rad) and restitution
+/// `eta` in `state` at the end of the record.
 ///
-/// The ground is at rest: between impacts v^2/2 + cos(alpha - r) is constant, with a barrier of height 1 at r = alpha. Each impact
-/// takes the fraction 1 - eta^2 of the kinetic energy, so only the first peak and the one after the first impact can be the largest.
+/// On still ground v^2/2 + cos(alpha - r) is constant between impacts, with a barrier of height 1 at
+/// r = alpha. Each impact removes the fraction 1 - eta^2 of the kinetic energy, so that only the first peak
+/// and the one after the first impact can be the largest.
 pub fn free_rocking(state: State, alpha: f64, eta: f64) -> Tail {
     let State { rotation, velocity } = state;
     let kinetic = 0.5 * velocity * velocity;
-    // The energy above that at rest: cos(alpha - r) - cos(alpha), without cancellation.
+    // Energy above rest: cos(alpha - r) - cos(alpha), without cancellation.
     let potential = 2.0 * (alpha - 0.5 * rotation).sin() * (0.5 * rotation).sin();
     let energy = kinetic + potential;
     let escapes = energy > barrier(alpha);
-    // Beyond the tipping point gravity overturns it, unless it swings back with enough energy to pass that point again.
+    // Beyond the tipping point it overturns, unless it moves back with enough energy to pass that point.
     if rotation > alpha && (velocity >= 0.0 || !escapes) {
         return Tail::Overturns;
     }
     if velocity >= 0.0 {
         return if escapes { Tail::Overturns } else { Tail::Settles { peak: peak(energy, alpha) } };
     }
-    // It swings back to its base: what is left after the impact decides.
+    // It returns to its base; the energy after the impact decides.
     let energy_after_impact = eta * eta * energy;
     if energy_after_impact > barrier(alpha) {
         return Tail::Overturns;
@@ -82,13 +85,13 @@ pub fn free_rocking(state: State, alpha: f64, eta: f64) -> Tail {
     Tail::Settles { peak: peak(energy_after_impact, alpha) }
 }
 
-/// Returns the energy that carries the structure over its tipping point: 1 - cos(alpha).
+/// Computes the energy from rest to the tipping point: 1 - cos(alpha).
 fn barrier(alpha: f64) -> f64 {
     2.0 * (0.5 * alpha).sin().powi(2)
 }
 
-/// Finds the rotation at which `energy`, not above the barrier, is all potential: cos(alpha - r) - cos(alpha) = energy,
-/// solved as a difference of two inverse sines so that a small rotation keeps its precision.
+/// Computes the rotation r (rad) at which `energy`, at most the barrier, is all potential:
+/// cos(alpha - r) - cos(alpha) = energy, as a difference of two inverse sines, precise for small rotations.
 fn peak(energy: f64, alpha: f64) -> f64 {
     let a = (0.5 * alpha).sin();
     let b = (a * a - 0.5 * energy).max(0.0).sqrt();

@@ -1,5 +1,5 @@
-//! Roots and maxima of the rotation over a step: of all lanes at once where the signs of slope or curvature tell that there is one,
-//! and else of one lane alone.
+//! Roots and maxima of the rotation over a step: in all lanes at once where the sign of slope or curvature
+//! ensures a single root, else lane by lane.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,10 +8,10 @@ use pulp::Simd;
 use super::polynomial::{self, ORDER, Polynomial};
 use super::vector::{Mask, Vector};
 
-/// When Halley's step is this small, relative to the root, the next one is below rounding.
+/// After a Halley step this small, relative to the root, the next is below rounding.
 const CONVERGED: f64 = 4e-6;
 
-/// More iterations than any root takes: bisection alone would have narrowed the bracket to rounding.
+/// More iterations than bisection alone needs to narrow the bracket to rounding.
 const MOST_ITERATIONS: usize = 64;
 
 /// Evaluates the polynomials at `x` (Horner).
@@ -34,8 +34,8 @@ pub fn slopes<S: Simd>(c: &Polynomial<Vector<S>>, x: Vector<S>) -> Vector<S> {
     sum
 }
 
-/// Finds the root of each lane of `wanted`, which falls through zero once in (0, 1) and may start at zero: Halley's iterations,
-/// kept inside the shrinking bracket by bisection. A lane's iterations do not depend on the other lanes.
+/// Finds the root in (0, 1) of each lane of `wanted`, whose polynomial falls through zero once and may start
+/// at zero, by Halley's method with bisection. The iterations of a lane are independent of the other lanes.
 #[inline(always)]
 pub fn falling_root<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Vector<S> {
     let (zero, one) = (c[0].like(0.0), c[0].like(1.0));
@@ -63,12 +63,12 @@ pub fn falling_root<S: Simd>(c: &Polynomial<Vector<S>>, wanted: Mask<S>) -> Vect
     x
 }
 
-/// Guesses by the falling root of the parabola that begins as the polynomial does, and one iteration from there on the cubic.
+/// Estimates the root: the falling root of the leading parabola, then one Halley step on the leading cubic.
 #[inline(always)]
 fn first_guess<S: Simd>(c: &Polynomial<Vector<S>>) -> Vector<S> {
     let (zero, one) = (c[0].like(0.0), c[0].like(1.0));
     let root = c[1].mul_add(c[1], c[0] * c[2] * -4.0).max(zero).sqrt();
-    // Of two equal fractions the one in which nothing cancels.
+    // The one of two equal fractions without cancellation.
     let rises = zero.lt(c[1]);
     let x = rises.select(c[1] + root, c[0] * 2.0) / rises.select(c[2] * -2.0, root - c[1]);
     let x = (zero.lt(x) & x.lt(one)).select(x, one * 0.5);
@@ -78,19 +78,19 @@ fn first_guess<S: Simd>(c: &Polynomial<Vector<S>>) -> Vector<S> {
     (zero.lt(closer) & closer.lt(one)).select(closer, x)
 }
 
-/// Takes Halley's step from x, by value, slope and half the curvature there.
+/// Computes Halley's step from x, from value, slope and half the curvature.
 #[inline(always)]
 fn halley<S: Simd>(x: Vector<S>, value: Vector<S>, slope: Vector<S>, bend: Vector<S>) -> Vector<S> {
     x - value * slope / slope.mul_add(slope, -(value * bend))
 }
 
-/// Finds the first return to the base. A rotation that starts downwards from 0 strikes at once.
+/// Finds the first return to the base. A rotation that falls from 0 returns at once.
 pub fn first_impact(rotation: &Polynomial) -> Option<f64> {
     let leading = rotation.iter().find(|&&coefficient| coefficient != 0.0)?;
     if *leading < 0.0 { Some(0.0) } else { polynomial::roots(rotation).first().copied() }
 }
 
-/// Finds where the rotation first reaches pi/2.
+/// Finds the fraction of the step at which the rotation first reaches pi/2.
 pub fn first_overturning(rotation: &Polynomial) -> Option<f64> {
     let mut margin = rotation.map(|coefficient| -coefficient);
     margin[0] += FRAC_PI_2;

@@ -1,6 +1,7 @@
-//! A step of all lanes at once: the Taylor polynomial to the next sample, its first root if the structure strikes before, the impact,
-//! the peak, overturning. Where the curvature or the slope keeps its sign over the step, which is nearly always, the ends tell all;
-//! what is rare is worked out for the lane that needs it alone. `tests/solver/truth.rs` holds this against quadruple precision.
+//! One step of all lanes: the Taylor polynomial to the next sample, its first root if the structure strikes
+//! its base before, the impact, the peak, overturning. Where curvature or slope keeps its sign over the step,
+//! which is nearly always, its ends suffice; the other lanes are solved one by one. `tests/solver/truth.rs`
+//! compares this with quadruple precision.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,32 +14,32 @@ use super::taylor::{Excess, MOST_IMPACTS, REST_VELOCITY, State, series};
 use super::vector::{Mask, Vector};
 use crate::units::PER_G;
 
-/// The Taylor steps from where the lanes stand.
+/// One Taylor step of each lane.
 pub struct Step<S: Simd> {
     rotation: Polynomial<Vector<S>>,
-    /// Inverse of the length in p t.
+    /// Inverse of its length in p t.
     per_h: Vector<S>,
-    /// Fraction of the time to the next sample.
+    /// Its share of the time to the next sample.
     fraction: Vector<S>,
-    /// Rotation at the end of the polynomial: below 0 if the structure strikes its base before.
+    /// Rotation at its end; negative if the structure strikes its base before.
     last: Vector<S>,
-    /// State at the end, if there is no impact.
+    /// State at its end, without an impact.
     end: State<Vector<S>>,
     /// Bounds of the rotation over the step.
     low: Vector<S>,
     high: Vector<S>,
-    /// The lanes whose curvature is negative, or nowhere negative, over the whole step.
+    /// The lanes whose curvature is negative, or nowhere negative, over the step.
     concave: Mask<S>,
     convex: Mask<S>,
 }
 
 impl<S: Simd> Step<S> {
-    /// Finds the lanes of `asked` whose curvature or slope keeps its sign over the whole step. Asks for the slope only where the
-    /// curvature does not.
+    /// Finds the lanes of `wanted` whose curvature or slope keeps its sign over the step. The slope is used
+    /// only where the curvature changes sign.
     #[inline(always)]
-    fn keeps_a_sign(&self, asked: Mask<S>) -> Mask<S> {
+    fn keeps_a_sign(&self, wanted: Mask<S>) -> Mask<S> {
         let curvature = self.concave | self.convex;
-        if !(asked & !curvature).any() {
+        if !(wanted & !curvature).any() {
             return curvature;
         }
         // Upper bound of the change of the slope.
@@ -52,7 +53,7 @@ impl<S: Simd> Step<S> {
 }
 
 impl<S: Simd> Lanes<'_, S> {
-    /// Expands the rotation from where the lanes stand to their next samples, or as far as the series converges.
+    /// Expands the rotation to the next sample of each lane, or as far as the series converges.
     #[inline(always)]
     pub fn step(&self) -> Step<S> {
         let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
@@ -93,7 +94,7 @@ impl<S: Simd> Lanes<'_, S> {
         }
     }
 
-    /// Advances the lanes by a step, or as far as the first impact in it.
+    /// Advances the lanes by a step, or to the first impact in it.
     #[inline(always)]
     pub fn advance(&mut self, step: &Step<S>) -> Events {
         let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
@@ -115,7 +116,7 @@ impl<S: Simd> Lanes<'_, S> {
         self.left = within.select((one - passed) * self.left, self.p_dt);
         self.per_left = one / self.left;
         self.bounces = within.select(self.bounces, zero);
-        // The impact, theta'+ = eta theta'- (Eq. 6), on to the other side.
+        // Impact (Eq. 6): theta'+ = eta theta'-, on the other side.
         let struck = until.lt(one);
         if struck.any() {
             let after = -(slopes(&step.rotation, until) * step.per_h * self.eta);
@@ -132,7 +133,7 @@ impl<S: Simd> Lanes<'_, S> {
         events
     }
 
-    /// Finds which fraction of a step passes before the first impact of `candidates`; 1 in lanes that do not strike.
+    /// Finds the fraction of the step before the first impact of `candidates`; 1 without an impact.
     #[inline(always)]
     fn first_impacts(&self, step: &Step<S>, candidates: Mask<S>) -> Vector<S> {
         let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
@@ -160,7 +161,7 @@ impl<S: Simd> Lanes<'_, S> {
         each(high).filter(overturns).fold(0, |bits, lane| bits | 1 << lane)
     }
 
-    /// Raises the peak of the lanes that rotate further than before.
+    /// Updates the peaks.
     #[inline(always)]
     fn raise_peak(&mut self, step: &Step<S>, until: Vector<S>) {
         let zero = Vector::splat(self.simd, 0.0);
@@ -184,7 +185,7 @@ impl<S: Simd> Lanes<'_, S> {
         }
     }
 
-    /// Moves the lanes that have `arrived` at a sample on to the next; returns those at their last one.
+    /// Moves `arrived` lanes to their next sample. Returns the lanes at their last sample.
     #[inline(always)]
     fn pass_samples(&mut self, arrived: u32) -> u32 {
         let mut ended = 0;

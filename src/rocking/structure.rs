@@ -1,20 +1,11 @@
-//! Structures by their three parameters, and where these come from.
+//! Rocking structures: p, alpha and eta, given or computed from dimensions (section 2.2.1).
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::ops::RangeInclusive;
 
 use crate::units::G_M_S2;
 
-/// The size and slenderness of a structure, whatever its coefficient of restitution.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Block {
-    /// Frequency parameter p, rad/s.
-    pub p_rad_s: f64,
-    /// Slenderness, rad.
-    pub alpha_rad: f64,
-}
-
-/// A rigid rocking structure, reduced to the three parameters that govern its response.
+/// A rigid rocking structure: the three parameters of its response.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Structure {
     /// Name in tables.
@@ -27,14 +18,14 @@ pub struct Structure {
     pub eta: f64,
 }
 
-/// Accepted frequency parameters, rad/s: of blocks from 0.7 mm to 7000 km. With the bounds of a record they bound the Taylor steps
-/// between two of its samples to some million.
+/// Accepted frequency parameters, rad/s: blocks from 0.7 mm to 7000 km. With the bounds of a record they
+/// limit the Taylor steps between two samples to some million.
 const FREQUENCIES_RAD_S: RangeInclusive<f64> = 1e-3..=100.0;
 /// Accepted slendernesses, rad, and coefficients of restitution.
 const SLENDERNESSES_RAD: RangeInclusive<f64> = 1e-6..=FRAC_PI_2.next_down();
 const RESTITUTIONS: RangeInclusive<f64> = f64::MIN_POSITIVE..=1.0;
 
-/// A parameter outside the range in which a rocking structure exists.
+/// A parameter out of range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("structure '{structure}': {parameter} is {value}; expected {expected}")]
 pub struct StructureError {
@@ -44,16 +35,16 @@ pub struct StructureError {
     pub expected: String,
 }
 
-/// The range of a parameter in which there are structures, and what a number outside of it is likely to be.
+/// The range of a parameter that a user may give, and the likely mistake outside it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bound {
-    /// The name of the parameter in options.
+    /// Name of the parameter in options.
     pub parameter: &'static str,
-    /// The least and the largest.
+    /// Least and largest value.
     pub range: (f64, f64),
     /// The range in words.
     pub expected: &'static str,
-    /// The likely slip.
+    /// The likely mistake.
     pub slip: &'static str,
 }
 
@@ -66,9 +57,9 @@ const fn bound(
     Bound { parameter, range, expected, slip }
 }
 
-/// What a user may give. The solver takes more ([`Structure::new`]), but outside of these bounds a number is a slip, most often of the
-/// unit: no structure that rocks is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or
-/// is wider than tall, for then it slides; nor is a beam 50 times as heavy as its columns.
+/// Ranges that a user may give, narrower than those of [`Structure::new`]. Other numbers are likely in a
+/// wrong unit: no rocking structure is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or
+/// above 184 m (p 0.2 rad/s), is wider than tall (it slides), or has a beam of 50 times the column mass.
 pub const BOUNDS: [Bound; 6] = [
     bound("width", (1e-4, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
     bound("height", (1e-3, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
@@ -94,12 +85,12 @@ pub const BOUNDS: [Bound; 6] = [
 ];
 
 impl Bound {
-    /// Finds the bound of a parameter.
+    /// Finds the range of a parameter.
     pub fn of(parameter: &str) -> Option<&'static Bound> {
         BOUNDS.iter().find(|bound| bound.parameter == parameter)
     }
 
-    /// Says what is expected in place of a number that cannot be right, and what slip it may be.
+    /// Returns the expected range and likely mistake of a number out of range; none of a valid number.
     pub fn refusal(&self, value: f64) -> Option<String> {
         let Bound { range: (least, most), expected, slip, .. } = *self;
         match value {
@@ -110,18 +101,33 @@ impl Bound {
     }
 }
 
-/// Judges the parameters of a structure as a user gives them, by name.
+/// Checks the parameters of a structure as a user gives them, by name.
 ///
 /// # Errors
-/// If one of them cannot be right, with the likely slip.
+/// If one is out of range, or the width exceeds the height.
 pub fn judge(structure: &str, given: &[(&'static str, f64)]) -> Result<(), StructureError> {
+    let value =
+        |wanted: &str| given.iter().find(|(parameter, _)| *parameter == wanted).map(|&(_, value)| value);
+    let can_be = |parameter: &str, value: f64| {
+        Bound::of(parameter).is_some_and(|bound| bound.refusal(value).is_none())
+    };
+    if let (Some(p), Some(alpha)) = (value("p"), value("alpha"))
+        && !can_be("alpha", alpha)
+        && can_be("alpha", p)
+        && can_be("p", alpha)
+    {
+        return refuse(
+            structure,
+            "alpha",
+            alpha,
+            "a slenderness up to 0.7854 rad; were p and alpha exchanged?",
+        );
+    }
     for &(parameter, value) in given {
         if let Some(expected) = Bound::of(parameter).and_then(|bound| bound.refusal(value)) {
             return refuse(structure, parameter, value, &expected);
         }
     }
-    let value =
-        |wanted: &str| given.iter().find(|(parameter, _)| *parameter == wanted).map(|&(_, value)| value);
     match (value("width"), value("height")) {
         (Some(width), Some(height)) if width > height => {
             let expected = format!("no more than the height, {height} m; were they exchanged?");
@@ -136,11 +142,11 @@ fn refuse(name: &str, parameter: &'static str, value: f64, expected: &str) -> Re
     Err(StructureError { structure, parameter, value, expected })
 }
 
-/// Below this p, rad/s, a solid block is higher than some 90 m.
+/// Solid blocks of a smaller p (rad/s) are higher than about 90 m.
 const DOUBTFUL_P: f64 = 0.4;
 
 impl Structure {
-    /// What may be wrong with its size, which no solid block that stands has; none where nothing is.
+    /// Returns the likely mistake in a size that no solid block has; none of a plausible size.
     pub fn doubt(&self) -> Option<String> {
         let height = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s) * self.alpha_rad.cos();
         (self.p_rad_s < DOUBTFUL_P).then(|| {
@@ -151,17 +157,7 @@ impl Structure {
         })
     }
 
-    /// Says when it slides in place of rocking, which nothing here computes.
-    pub fn words_of_friction(&self) -> String {
-        format!("slides instead unless its friction is above {:.2}", self.alpha_rad.tan())
-    }
-
-    /// Returns its size and slenderness.
-    pub fn block(&self) -> Block {
-        Block { p_rad_s: self.p_rad_s, alpha_rad: self.alpha_rad }
-    }
-
-    /// Checks the frequency parameter p (rad/s), slenderness alpha (rad) and coefficient of restitution eta of a structure.
+    /// Makes a structure from p (rad/s), alpha (rad) and eta.
     ///
     /// # Errors
     /// If `p` is not in [0.001, 100] rad/s, `alpha` not in [1e-6, pi/2) rad or `eta` not in (0, 1].
@@ -179,11 +175,10 @@ impl Structure {
         Ok(Structure { name: name.to_string(), p_rad_s, alpha_rad, eta })
     }
 
-    /// Makes a solid rectangular block of width 2b and height 2h (m); `eta` as given, or Housner's.
+    /// Makes a solid rectangular block of width 2b and height 2h (m); `eta` as given, or [`housner_eta`].
     ///
     /// # Errors
-    /// If a dimension is not positive or finite, or `eta` is out of range: a block so stocky that Housner's
-    /// eta is not positive does not rock.
+    /// If a dimension is not positive and finite, or `eta` is out of range (of a very stocky block).
     pub fn rectangular_block(
         name: &str,
         width_m: f64,
@@ -200,8 +195,8 @@ impl Structure {
         Structure::new(name, rectangular_p(0.5 * width_m.hypot(height_m)), alpha_rad, eta)
     }
 
-    /// Makes a frame of rocking columns (each a solid rectangle of width 2b and height 2h, m) that carry a rigid beam;
-    /// `beam_mass_ratio` is the mass of the beam over that of all columns. `eta` as given, or the frame's own.
+    /// Makes a frame of rocking columns (solid rectangles of width 2b and height 2h, m) with a rigid beam;
+    /// `beam_mass_ratio` is the mass of the beam over that of all columns, `eta` as given, or [`frame_eta`].
     ///
     /// # Errors
     /// As for [`Structure::rectangular_block`], or if the mass ratio is negative or not finite.
@@ -220,30 +215,31 @@ impl Structure {
         Structure::new(name, frame_p(column.p_rad_s, beam_mass_ratio), column.alpha_rad, eta)
     }
 
-    /// Ground acceleration g tan(alpha) from which the structure uplifts, m/s2: the unit of IM4 to IM6.
+    /// Computes the uplift acceleration g tan(alpha), m/s2 (Eq. 5): the unit of IM4 to IM6.
     pub fn uplift_acceleration_m_s2(&self) -> f64 {
         G_M_S2 * self.alpha_rad.tan()
     }
 }
 
-/// Frequency parameter of a solid rectangular block: p = sqrt(3 g / (4 R)), rad/s, of its semi-diagonal R, m.
+/// Computes the frequency parameter of a solid rectangular block, rad/s, from its semi-diagonal R (m):
+/// p = sqrt(3 g / (4 R)).
 pub fn rectangular_p(semi_diagonal_m: f64) -> f64 {
     (3.0 * G_M_S2 / (4.0 * semi_diagonal_m)).sqrt()
 }
 
-/// Frequency parameter of a rocking frame, rad/s: p = pb sqrt((1 + 2 y)/(1 + 3 y)), of that of one column, pb, and the
-/// ratio y of beam to columns mass (Makris & Vassiliou 2013).
+/// Computes the frequency parameter of a rocking frame, rad/s, from that of one column, pb, and the ratio y
+/// of beam to column mass: p = pb sqrt((1 + 2 y)/(1 + 3 y)) (Makris & Vassiliou 2013).
 pub fn frame_p(column_p_rad_s: f64, beam_mass_ratio: f64) -> f64 {
     column_p_rad_s * ((1.0 + 2.0 * beam_mass_ratio) / (1.0 + 3.0 * beam_mass_ratio)).sqrt()
 }
 
-/// Housner's (1963) coefficient of restitution of a rectangular block: eta = 1 - 1.5 sin^2(alpha).
+/// Computes Housner's (1963) coefficient of restitution of a rectangular block: eta = 1 - 1.5 sin^2(alpha).
 pub fn housner_eta(alpha_rad: f64) -> f64 {
     1.0 - 1.5 * alpha_rad.sin().powi(2)
 }
 
-/// Coefficient of restitution of a rocking frame: eta = (1 - 1.5 sin^2(alpha) + 3 y cos(2 alpha)) / (1 + 3 y), of the
-/// ratio y of beam to columns mass (Makris & Vassiliou 2013).
+/// Computes the coefficient of restitution of a rocking frame with the ratio y of beam to column mass:
+/// eta = (1 - 1.5 sin^2(alpha) + 3 y cos(2 alpha)) / (1 + 3 y) (Makris & Vassiliou 2013).
 pub fn frame_eta(alpha_rad: f64, beam_mass_ratio: f64) -> f64 {
     (housner_eta(alpha_rad) + 3.0 * beam_mass_ratio * (2.0 * alpha_rad).cos()) / (1.0 + 3.0 * beam_mass_ratio)
 }

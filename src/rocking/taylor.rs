@@ -4,28 +4,27 @@
 //! theta'' = -p^2 [ sin(alpha sgn(theta) - theta) + a/g cos(alpha sgn(theta) - theta) ]
 //! ```
 //!
-//! With r = |theta|, x = p t, and w the ground acceleration a over g, positive where it presses the structure back onto its base,
-//! this is on either side of the rest position
+//! With r = |theta|, x = p t, and w the ground acceleration over g, positive towards the base:
 //!
 //! ```text
 //! r'' = -[ sin(alpha - r) + w cos(alpha - r) ] = -[ A cos r + B sin r ]
 //! A = e cos(alpha),  B = e sin(alpha) - 1/cos(alpha),  e = w + tan(alpha)
 //! ```
 //!
-//! The second form keeps the full relative precision of a small rotation, and of the excess e of the ground
-//! acceleration over the uplift threshold, which is negative while the ground lifts the structure further.
+//! The second form is precise for small rotations, and for a small excess e of the ground acceleration over
+//! the uplift threshold. The excess is negative while the ground lifts the structure further.
 
 use pulp::Simd;
 
 use super::polynomial::{ORDER, Polynomial};
 use super::vector::{Vector, unrolled};
 
-/// After an impact, a velocity eta |theta'| below this fraction of p counts as none: the structure rests, or uplifts at once if the
-/// ground demands it.
+/// A structure whose velocity eta |theta'| after an impact is below this fraction of p rests, or uplifts at
+/// once if the ground acceleration is large enough.
 pub const REST_VELOCITY: f64 = 1e-6;
 
-/// After this many impacts between two samples the structure rests until the next one: a bound of the work. It takes a coefficient
-/// of restitution near 1 to come to this, and a velocity of some 1e-6 p.
+/// After this many impacts between two samples the structure rests until the next one: a bound of the work.
+/// Only coefficients of restitution near 1 and velocities of about 1e-6 p reach it.
 pub const MOST_IMPACTS: u32 = 10_000;
 
 /// Functions of the slenderness alpha.
@@ -44,7 +43,7 @@ impl Slenderness {
     }
 }
 
-/// The excess e of the ground acceleration over the uplift threshold, linear from the start of a step to its end.
+/// Excess e of the ground acceleration over the uplift threshold, linear from the start of a step to its end.
 #[derive(Debug, Clone, Copy)]
 pub struct Excess<T> {
     pub start: T,
@@ -58,9 +57,9 @@ pub struct State<T = f64> {
     pub velocity: T,
 }
 
-/// Expands r over a step of `h` = p dt, in powers of the fraction of the step.
+/// Expands the equation of motion (Eq. 4) over a step of `h` = p dt, in powers of the fraction of the step.
 ///
-/// The series of sin r and cos r follow from s' = r' c and c' = -r' s, term by term.
+/// The series of sin r and cos r follow term by term from s' = r' c and c' = -r' s.
 #[inline(always)]
 pub fn series<S: Simd>(
     slenderness: &Slenderness<Vector<S>>,
@@ -94,7 +93,8 @@ pub fn series<S: Simd>(
     r
 }
 
-/// Returns term k of x r' f, from the terms of x r' and of f up to k. The newest term of f comes last: it is the one to wait for.
+/// Computes term k of x r' f from the terms of x r' and of f up to k. The newest term of f is used last,
+/// since its latency is the bottleneck.
 #[inline(always)]
 fn product<S: Simd>(rate: &[Vector<S>; ORDER - 1], f: &[Vector<S>; ORDER - 1], k: usize) -> Vector<S> {
     let mut sum = rate[k] * f[0];

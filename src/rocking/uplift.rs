@@ -1,20 +1,21 @@
-//! Where a structure at rest leaves its base.
+//! Uplift of a structure at rest (Eq. 5).
 
 use crate::units::PER_G;
 
-/// The moment at which a structure at rest leaves its base.
+/// When a structure at rest leaves its base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Uplift {
-    /// Index of the sample before it.
+    /// Index of the sample before uplift.
     pub index: usize,
-    /// Fraction that has passed of the time from that sample, or from where the structure stands, to the next.
+    /// Fraction of the time from that sample, or from the current time, to the next sample.
     pub fraction: f64,
-    /// Ground acceleration over g.
+    /// Ground acceleration over g at uplift.
     pub ground: f64,
 }
 
 impl Uplift {
-    /// Finds the uplift, |a| = g tan(alpha) (Eq. 5), while the ground acceleration over g goes linearly from `start` to `end`.
+    /// Finds the uplift, |a| = g tan(alpha) (Eq. 5), while the ground acceleration over g goes linearly from
+    /// `start` to `end`; `tan` is tan(alpha).
     pub fn between(start: f64, end: f64, tan: f64) -> Option<Uplift> {
         if start.abs() > tan {
             return Some(Uplift { index: 0, fraction: 0.0, ground: start });
@@ -25,7 +26,7 @@ impl Uplift {
         })
     }
 
-    /// Finds the first uplift from sample `from` on of a structure that rests there, in `samples` of m/s2.
+    /// Finds the first uplift from sample `from` on; `samples` are in m/s2.
     pub fn next(samples: &[f64], from: usize, tan: f64) -> Option<Uplift> {
         let loud = from + samples[from..].iter().position(|a| a.abs() * PER_G > tan)?;
         let index = loud.saturating_sub(1).max(from);

@@ -1,11 +1,10 @@
-//! The numbers in which the equation of motion is written: [`Vector`]s of several, a lane each.
+//! SIMD numbers: [`Vector`]s of f64, one structure to a lane.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use pulp::{Simd, bytemuck};
 
-/// Repeats a block for each value of a constant. Otherwise nested loops over arrays of vectors stay loops, with every vector in
-/// memory.
+/// Repeats a block for each value of a constant; loops over arrays of vectors would work in memory.
 macro_rules! unrolled {
     ($k:ident in [$($value:literal)*] $block:block) => {
         $({
@@ -18,10 +17,10 @@ pub(super) use unrolled;
 
 const REGISTERS: usize = 2;
 
-/// Upper bound of [`Vector::LANES`], of registers of 512 bits.
+/// Upper bound of [`Vector::LANES`]: registers of 512 bits.
 pub const MOST_LANES: usize = REGISTERS * 8;
 
-/// As many numbers as two vector registers hold: while one register waits for a result, the processor works on the other.
+/// Two vector registers of f64: the processor computes in one while the other waits for a result.
 #[derive(Debug, Clone, Copy)]
 pub struct Vector<S: Simd> {
     simd: S,
@@ -35,7 +34,7 @@ pub struct Mask<S: Simd> {
     registers: [S::m64s; REGISTERS],
 }
 
-/// Evaluates an expression for each register `k`. A loop or a closure is not always inlined, and then works in memory.
+/// Evaluates an expression for each register `k`; a loop or closure may not be inlined, and works in memory.
 macro_rules! in_each {
     ($k:ident: $result:expr) => {
         [
@@ -59,7 +58,7 @@ impl<S: Simd> Vector<S> {
         Vector { simd, registers: [simd.splat_f64s(value); REGISTERS] }
     }
 
-    /// Splats `value` with the registers of this vector.
+    /// Returns a vector of `value` in every lane, for the same registers.
     #[inline(always)]
     pub fn like(self, value: f64) -> Vector<S> {
         Vector::splat(self.simd, value)
@@ -115,16 +114,14 @@ impl<S: Simd> Vector<S> {
 }
 
 impl<S: Simd> Mask<S> {
-    /// Takes `yes` in the lanes of the mask, `no` in the others.
+    /// Returns `yes` in the lanes of the mask, `no` in the others.
     #[inline(always)]
     pub fn select(self, yes: Vector<S>, no: Vector<S>) -> Vector<S> {
-        Vector {
-            simd: self.simd,
-            registers: in_each!(k: self.simd.select_f64s(self.registers[k], yes.registers[k], no.registers[k])),
-        }
+        let (mask, a, b) = (self.registers, yes.registers, no.registers);
+        Vector { simd: self.simd, registers: in_each!(k: self.simd.select_f64s(mask[k], a[k], b[k])) }
     }
 
-    /// Packs the mask: bit k is that of lane k.
+    /// Packs the mask into bits: bit k is lane k.
     #[inline(always)]
     pub fn bits(self) -> u32 {
         let [first, second] = in_each!(k: bits_of::<S>(&self.registers[k]));
@@ -137,14 +134,14 @@ impl<S: Simd> Mask<S> {
     }
 }
 
-/// Packs the mask of one register.
+/// Packs the mask of one register into bits.
 #[inline(always)]
 fn bits_of<S: Simd>(mask: &S::m64s) -> u32 {
     let bytes = bytemuck::bytes_of(mask);
     if let [bits] = bytes {
         return u32::from(*bits);
     }
-    // Below AVX-512 a mask is a vector of whole words, all ones or all zeros.
+    // Before AVX-512 a mask is a vector of whole words, all ones or all zeros.
     bytes.chunks_exact(8).enumerate().fold(0, |bits, (lane, word)| bits | (u32::from(word[7] >> 7) << lane))
 }
 
@@ -197,10 +194,10 @@ impl<S: Simd> Not for Mask<S> {
     }
 }
 
-/// pi/2 as a sum of two numbers: the second is what the first one rounds off.
+/// pi/2 as a sum of two numbers: the second is the rounding error of the first.
 const HALF_PI: (f64, f64) = (std::f64::consts::FRAC_PI_2, 6.123233995736766e-17);
 
-/// Coefficients of y^3, y^5 ... of sin y and of y^4, y^6 ... of cos y for |y| <= pi/4 (FreeBSD's msun, k_sin.c and k_cos.c).
+/// Coefficients of y^3, y^5 ... of sin y and y^4, y^6 ... of cos y, |y| <= pi/4 (FreeBSD k_sin.c, k_cos.c).
 const SINE: [f64; 6] = [
     -0.16666666666666632,
     0.00833333333332249,
@@ -230,10 +227,10 @@ fn horner<S: Simd>(c: &[f64; 6], z: Vector<S>) -> Vector<S> {
 }
 
 impl<S: Simd> Vector<S> {
-    /// Computes sine and cosine of an angle from 0 to pi/2.
+    /// Computes sine and cosine of angles from 0 to pi/2.
     #[inline(always)]
     pub fn sin_cos(self) -> (Vector<S>, Vector<S>) {
-        // Above pi/4 sine and cosine of the complement, whose polynomials converge, exchanged.
+        // Above pi/4, the polynomials of the complement, exchanged.
         let beyond = self.like(std::f64::consts::FRAC_PI_4).lt(self);
         let complement = (self.like(HALF_PI.0) - self) + self.like(HALF_PI.1);
         let y = beyond.select(complement, self);

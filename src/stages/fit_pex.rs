@@ -4,13 +4,19 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, ValueHint};
+use serde::{Deserialize, Serialize};
 
+use super::shared::fits::{doubts, suite_name, words};
 use super::shared::responses;
-use crate::fragility::{DemandOptions, fit_demand};
+use crate::fragility::{Calibration, DemandFit, DemandModel, DemandOptions, fit_demand};
+use crate::keyword::Keyword;
 use crate::paper;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::{Stage, part};
+use crate::statistics::FitStatus;
+use crate::table::frame;
+use crate::table::rows;
 
 /// Fit the probability of exceeding a demand in safe rocking: P_ex
 #[derive(Debug, Args)]
@@ -57,23 +63,95 @@ impl FromStr for Transition {
 
 impl Stage for FitPex {
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![part(&self.out, "parameters"), self.out.clone()]
+        vec![part(&self.out, "calibration"), part(&self.out, "parameters"), self.out.clone()]
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let mut groups = responses::read(&self.input)?;
-        let options = DemandOptions { transition: self.transition.0, confidence: self.confidence, all: self.all };
+        let options =
+            DemandOptions { transition: self.transition.0, confidence: self.confidence, all: self.all };
         let bar = context.bar(groups.len() as u64);
-        let mut fits = Vec::new();
+        let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
             fits.extend(fit_demand(cases, &options).0);
+            let of_limit = |limit_state: &f64| Calibration::fit(cases, Some(*limit_state));
+            calibrations.extend(self.limit_state.iter().map(of_limit));
             bar.advance(1)?;
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
-        let summary = format!("{} fits\n", fits.len());
+        let summary = format!("{}\n{}", calibrations_text(&calibrations)?, planes_text(&fits)?);
+        context.doubt(doubts(&calibrations));
+        context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
         context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
         context.write(&self.out, &fits, &summary)?;
         Ok(summary)
     }
+}
+
+/// A printed row: the surface beside what was observed.
+#[derive(Serialize, Deserialize)]
+struct CalibrationLine {
+    suite: String,
+    structure: String,
+    limit: f64,
+    #[serde(rename = "rock safely")]
+    rock_safely: i64,
+    exceed: i64,
+    calibration: String,
+}
+
+fn calibrations_text(rows: &[Calibration]) -> anyhow::Result<String> {
+    let line = |row: &Calibration| CalibrationLine {
+        suite: suite_name(&row.suite),
+        structure: row.structure.clone(),
+        limit: row.limit_state.unwrap_or(f64::NAN),
+        rock_safely: row.n,
+        exceed: row.n_events,
+        calibration: words(row),
+    };
+    let lines: Vec<CalibrationLine> = rows.iter().map(line).collect();
+    Ok(frame::text(&frame::of_batch(&rows::batch(&lines)?)?))
+}
+
+/// A printed row: the two planes.
+#[derive(Serialize, Deserialize)]
+struct PlanesLine {
+    suite: String,
+    structure: String,
+    #[serde(rename = "R2 below")]
+    r2_below: Option<f64>,
+    #[serde(rename = "R2 above")]
+    r2_above: Option<f64>,
+    #[serde(rename = "sigma below")]
+    sigma_below: Option<f64>,
+    #[serde(rename = "sigma above")]
+    sigma_above: Option<f64>,
+    verdict: String,
+}
+
+fn planes_text(fits: &[DemandFit]) -> anyhow::Result<String> {
+    let planes: Vec<&DemandFit> = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar).collect();
+    let line = |pair: &[&DemandFit]| {
+        let (below, above) = (pair[0], pair[1]);
+        let worse = if below.status == FitStatus::Ok { above.status } else { below.status };
+        PlanesLine {
+            suite: suite_name(&below.suite),
+            structure: below.structure.clone(),
+            r2_below: below.r2,
+            r2_above: above.r2,
+            sigma_below: below.beta,
+            sigma_above: above.beta,
+            verdict: worse.as_str().replace('_', " "),
+        }
+    };
+    let lines: Vec<PlanesLine> = planes.chunks_exact(2).map(line).collect();
+    let transition = planes.first().and_then(|plane| plane.range_high);
+    let title = match transition
+        .filter(|im4| planes.iter().all(|p| [p.range_low, p.range_high].contains(&Some(*im4))))
+    {
+        Some(im4) => format!("planes (paper) of ln demand, below and above IM4 {im4}"),
+        None => "planes (paper) of ln demand, below and above their transition".to_string(),
+    };
+    Ok(format!("{title}\n{}", frame::text(&frame::of_batch(&rows::batch(&lines)?)?)))
 }

@@ -3,13 +3,20 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
+use serde::{Deserialize, Serialize};
 
+use super::shared::fits::{doubts, suite_name, with_limits, words};
 use super::shared::responses;
-use crate::fragility::{CurveOptions, Event, Pair, fit_curves};
+use crate::fragility::{
+    Calibration, CurveOptions, Event, Measure, OverturningFit, Pair, Parameter, fit_curves,
+};
+use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::{Stage, part};
+use crate::table::frame;
+use crate::table::rows;
 
 /// Fit the probability of overturning: P_ro
 #[derive(Debug, Args)]
@@ -36,7 +43,9 @@ pub struct FitPro {
 
 impl Stage for FitPro {
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![part(&self.out, "parameters"), self.out.clone()]
+        let calibration = self.calibrates().then(|| part(&self.out, "calibration"));
+        let others = [part(&self.out, "parameters"), self.out.clone()];
+        calibration.into_iter().chain(others).collect()
     }
 
     fn check(&self) -> anyhow::Result<()> {
@@ -50,15 +59,86 @@ impl Stage for FitPro {
         let groups = responses::read(&self.input)?;
         let options = CurveOptions { event: self.event, pairs: self.pairs.clone(), all: self.all };
         let bar = context.bar(groups.len() as u64);
-        let mut fits = Vec::new();
+        let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &groups {
             fits.extend(fit_curves(cases, &options));
+            if self.calibrates() {
+                calibrations.push(Calibration::fit(cases, None));
+            }
             bar.advance(1)?;
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
-        let summary = format!("{} fits\n", fits.len());
+        let curves = curves_text(&fits, self.confidence)?;
+        let summary = match self.calibrates() {
+            true => format!("{}\n{curves}", calibrations_text(&calibrations)?),
+            false => curves,
+        };
+        context.doubt(doubts(&calibrations));
+        if self.calibrates() {
+            context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
+        }
         context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
         context.write(&self.out, &fits, &summary)?;
         Ok(summary)
     }
+}
+
+impl FitPro {
+    /// The surface gives the probability of overturning, not that of rocking.
+    fn calibrates(&self) -> bool {
+        self.event == Event::Overturning
+    }
+}
+
+/// A printed row: the surface beside what was observed.
+#[derive(Serialize, Deserialize)]
+struct CalibrationLine {
+    suite: String,
+    structure: String,
+    rock: i64,
+    overturn: i64,
+    calibration: String,
+}
+
+fn calibrations_text(rows: &[Calibration]) -> anyhow::Result<String> {
+    let line = |row: &Calibration| CalibrationLine {
+        suite: suite_name(&row.suite),
+        structure: row.structure.clone(),
+        rock: row.n,
+        overturn: row.n_events,
+        calibration: words(row),
+    };
+    let lines: Vec<CalibrationLine> = rows.iter().map(line).collect();
+    Ok(frame::text(&frame::of_batch(&rows::batch(&lines)?)?))
+}
+
+/// A printed row: the curve of IM5.
+#[derive(Serialize, Deserialize)]
+struct CurveLine {
+    suite: String,
+    structure: String,
+    median: Option<String>,
+    dispersion: Option<String>,
+    verdict: String,
+}
+
+fn curves_text(fits: &[OverturningFit], confidence: f64) -> anyhow::Result<String> {
+    let line = |fit: &OverturningFit| {
+        let parameters = fit.parameters(confidence);
+        let of = |wanted: Parameter| {
+            let row = parameters.iter().find(|row| row.parameter == wanted)?;
+            Some(with_limits(row.value, row.low, row.high))
+        };
+        CurveLine {
+            suite: suite_name(&fit.suite),
+            structure: fit.structure.clone(),
+            median: of(Parameter::Theta),
+            dispersion: of(Parameter::Beta),
+            verdict: fit.status.as_str().replace('_', " "),
+        }
+    };
+    let of_im5 = fits.iter().filter(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
+    let lines: Vec<CurveLine> = of_im5.map(line).collect();
+    let table = frame::text(&frame::of_batch(&rows::batch(&lines)?)?);
+    Ok(format!("lognormal curve (paper), over IM5, with {} % limits\n{table}", 100.0 * confidence))
 }

@@ -80,15 +80,15 @@ keywords!(ScaledMeasure { Scale = "scale", Pga = "pga", Pgv = "pgv", Im4 = "im4"
 /// The capacity of a structure under a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CapacityRow {
-    motion_id: String,
-    suite: Option<String>,
-    structure: String,
-    measure: ScaledMeasure,
-    unscaled: f64,
-    capacity: CapacityStatus,
-    safe_below: Option<f64>,
-    overturning_intensity: Option<f64>,
-    safe_up_to: Option<f64>,
+    pub motion_id: String,
+    pub suite: Option<String>,
+    pub structure: String,
+    pub measure: ScaledMeasure,
+    pub unscaled: f64,
+    pub capacity: CapacityStatus,
+    pub safe_below: Option<f64>,
+    pub overturning_intensity: Option<f64>,
+    pub safe_up_to: Option<f64>,
 }
 
 /// What a stripe has besides the response: the intensity, and the share of those up to the next that overturn.

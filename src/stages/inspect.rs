@@ -46,7 +46,8 @@ impl Inspect {
     pub fn run(&self) -> anyhow::Result<String> {
         let table = Table::open(&self.file)?;
         if let Some(head) = self.head {
-            return Ok(frame::show(&frame::head(&table, head)?, self.format)?);
+            let shown = frame::show(&frame::head(&table, head)?, self.format)?;
+            return Ok(if self.format == Format::Text { cut(&shown) } else { shown });
         }
         let first = file::files(&self.file)?.swap_remove(0);
         let metadata: ArrowReaderMetadata = file::metadata(&first)?;
@@ -75,8 +76,20 @@ impl Inspect {
                 made.doubts.iter().try_for_each(|doubt| writeln!(text, "  doubt: {doubt}"))?;
             }
         }
-        Ok(format!("{text}\n{shown}"))
+        Ok(cut(&format!("{text}\n{shown}")))
     }
+}
+
+/// The columns of a terminal.
+const WIDTH: usize = 100;
+
+/// Lines that fit the terminal; what is cut stands in the other formats.
+fn cut(text: &str) -> String {
+    let line = |line: &str| match line.char_indices().nth(WIDTH) {
+        None => format!("{line}\n"),
+        Some(_) => format!("{}...\n", line.chars().take(WIDTH - 3).collect::<String>().trim_end()),
+    };
+    text.lines().map(line).collect()
 }
 
 fn column(field: &Field, metadata: &ParquetMetaData) -> ColumnRow {

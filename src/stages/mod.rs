@@ -49,4 +49,5 @@ stages! {
     evaluate::Evaluate,
     export::Export,
     validate::Validate,
+    report::Report,
 }

@@ -11,13 +11,20 @@ use crate::pipeline::cache::{self, Freshness};
 use crate::pipeline::call::Call;
 use crate::pipeline::context::Context;
 
-/// Runs what must run. Returns what the last stages print.
+/// The stages that answer what a folder is for, the first of which is printed at the end of a run.
+const ANSWERS: [&str; 4] = ["evaluate", "compare-paper", "ida", "fit-pro"];
+/// Doubts that are printed.
+const SHOWN: usize = 3;
+
+/// Runs what must run. Returns what the stage prints that answers; of none, what the last one does.
 pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     calls.iter().try_for_each(|call| call.stage.check())?;
-    let mut printed = String::new();
-    for call in calls {
+    let (mut printed, mut doubts, mut made) = (String::new(), Vec::new(), HashMap::new());
+    let place_of = |name: &&str| calls.iter().position(|call| call.name == *name);
+    let answer = ANSWERS.iter().find_map(place_of).unwrap_or(calls.len() - 1);
+    for (place, call) in calls.iter().enumerate() {
         let start = Instant::now();
-        let done = cache::run(call, context).with_context(|| call.name.clone())?;
+        let done = cache::run(call, context, &made).with_context(|| call.name.clone())?;
         if !context.quiet {
             let took = if done.ran {
                 format!("{:.2} s", start.elapsed().as_secs_f64())
@@ -25,11 +32,27 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
                 "up to date".to_string()
             };
             eprintln!("{:20} {took}", call.name);
-            done.doubts.iter().for_each(|doubt| eprintln!("warning: {doubt}"));
         }
-        printed = done.summary;
+        made.extend(call.stage.outputs().into_iter().map(|path| (path, done.key.clone())));
+        let new: Vec<String> = done.doubts.into_iter().filter(|doubt| !doubts.contains(doubt)).collect();
+        doubts.extend(new);
+        if place == answer {
+            printed = done.summary;
+        }
+    }
+    if !context.quiet {
+        warn(&doubts);
     }
     Ok(printed)
+}
+
+/// Prints the weightiest doubts.
+pub fn warn(doubts: &[String]) {
+    doubts.iter().take(SHOWN).for_each(|doubt| eprintln!("warning: {doubt}"));
+    match doubts.len().saturating_sub(SHOWN) {
+        0 => {}
+        more => eprintln!("{more} more: rockfrag inspect shows the doubts of a file"),
+    }
 }
 
 /// Tells what each stage would do, with which options, and why.

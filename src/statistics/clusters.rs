@@ -1,14 +1,11 @@
-//! Standard errors where cases of one cluster (an earthquake, a cell of magnitude and distance) may depend on
-//! each other.
+//! Standard errors for dependent cases in clusters: earthquakes, or cells of magnitude and distance.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Fewer clusters say too little of how they differ: their errors come out too small (Cameron & Miller 2015,
-/// section VI).
+/// With fewer clusters the standard errors are too small (Cameron & Miller 2015, section VI).
 pub const MIN_CLUSTERS: usize = 10;
 
-/// The sums of each cluster's `k` terms, of the clusters that occur; `terms` is called for each case with the
-/// place to add to.
+/// Sums `k` terms over the cases of each cluster that has any; `add` adds a case to a sum.
 fn cluster_sums(clusters: &[u32], k: usize, add: impl Fn(usize, &mut [f64])) -> Vec<Vec<f64>> {
     let count = clusters.iter().max().map_or(0, |&last| last as usize + 1);
     let (mut sums, mut occurs) = (vec![0.0; count * k], vec![false; count]);
@@ -20,11 +17,10 @@ fn cluster_sums(clusters: &[u32], k: usize, add: impl Fn(usize, &mut [f64])) -> 
     sums.chunks_exact(k).zip(occurs).filter(|(_, occurs)| *occurs).map(|(sum, _)| sum.to_vec()).collect()
 }
 
-/// Computes the sandwich covariance of coefficients, with the factor G/(G - 1) (n - 1)/(n - k) for G clusters
-/// (Cameron & Miller 2015, A practitioner's guide to cluster-robust inference, J. Human Resources 50,
-/// 317-372), and G. `x` are the columns of predictors, `scores` the derivatives of the log-likelihood with
-/// respect to the linear predictor, `bread` the inverse information. There is no covariance of fewer than
-/// [`MIN_CLUSTERS`].
+/// Computes the sandwich covariance of coefficients (k x k), with the factor G/(G - 1) (n - 1)/(n - k) for G
+/// clusters (Cameron & Miller 2015, A practitioner's guide to cluster-robust inference, J. Human Resources
+/// 50, 317-372), and G. `x` are the columns of predictors, `scores` the derivatives of the log-likelihood
+/// with respect to z of each case, `bread` the inverse information. None for fewer than [`MIN_CLUSTERS`].
 pub fn sandwich(
     x: &[&[f64]],
     scores: &[f64],
@@ -46,8 +42,8 @@ pub fn sandwich(
     ((g >= MIN_CLUSTERS as f64).then_some(covariance), g as usize)
 }
 
-/// Computes the mean of the values and its standard error, C/(C - 1) sum (S_c - n_c mean)^2 / n^2 for C
-/// clusters.
+/// Computes the mean and its standard error, sqrt(C/(C - 1) sum (S_c - n_c mean)^2) / n for C clusters, where
+/// S_c is the sum of the n_c values of a cluster.
 pub fn clustered_mean(values: &[f64], clusters: &[u32]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;

@@ -4,20 +4,19 @@ use nalgebra::{DMatrix, DVector};
 
 use super::fit::FitStatus;
 
-/// Values that differ by less than this share of their size do not differ.
+/// Values that vary by less than this share of their mean are constant.
 const ROUNDING: f64 = 1e-12;
-/// A predictor of which less than this share is left, once the others have explained what they can, is a
-/// combination of them.
+/// A predictor with less than this share left, after regression on the others, is a combination of them.
 const LEAST_SHARE: f64 = 1e-7;
 
-/// An intercept and predictors, each about its mean and in units of its standard deviation: n x k.
+/// An intercept and standardised predictors: n x k.
 pub struct Design {
     pub x: DMatrix<f64>,
-    /// Turns coefficients of `x` into those of the predictors as they were given.
+    /// Transforms coefficients of `x` to those of the original predictors, k x k.
     to_given: DMatrix<f64>,
 }
 
-/// Returns the mean and the standard deviation; none of values that do not vary.
+/// Computes the mean and the standard deviation; none of constant values.
 pub fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
@@ -26,10 +25,10 @@ pub fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
 }
 
 impl Design {
-    /// Makes the design of predictors, each a column.
+    /// Makes the design matrix of predictors, each a column of length n.
     ///
     /// # Errors
-    /// [`FitStatus::Degenerate`] where a predictor is constant or a combination of others, or cases are as few as coefficients.
+    /// [`FitStatus::Degenerate`] if a predictor is constant or a combination of others, or n <= k.
     pub fn new(columns: &[&[f64]]) -> Result<Design, FitStatus> {
         let (n, k) = (columns.first().map_or(0, |x| x.len()), columns.len() + 1);
         if n <= k {
@@ -48,13 +47,13 @@ impl Design {
         if shares.min() < LEAST_SHARE { Err(FitStatus::Degenerate) } else { Ok(Design { x, to_given }) }
     }
 
-    /// Turns coefficients and covariance of `x` into those of the predictors as they were given.
+    /// Transforms coefficients and covariance of `x` to those of the original predictors.
     pub fn of_given(&self, b: &DVector<f64>, covariance: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
         (&self.to_given * b, &self.to_given * covariance * self.to_given.transpose())
     }
 }
 
-/// Returns the predictors followed by their squares and products, about their means: what a poor fit lacks.
+/// Returns the standardised predictors, followed by their squares and products.
 pub fn with_squares(x: &[&[f64]]) -> Option<Vec<Vec<f64>>> {
     let standardised = |x: &&[f64]| {
         let (mean, sd) = mean_and_sd(x)?;

@@ -1,27 +1,25 @@
-//! What a regression gives: coefficients with their uncertainty, and one word that says whether it can be
-//! used.
+//! The result of a regression: coefficients with their uncertainty, and a status.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::clusters::sandwich;
 use crate::keyword::keywords;
 
-/// Whether there is a fit that can be used, and if not, why.
+/// Whether a fit is usable, and if not, why.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FitStatus {
     Ok,
-    /// Squares and products of the predictors add to it (p < 0.01).
+    /// Squares and products of the predictors improve the fit (p < 0.01).
     PoorFit,
-    /// Demand or probability falls as the measure grows.
+    /// Demand or probability decreases with the measure.
     WrongSign,
-    /// The predictors tell events and others apart: the likelihood has no maximum.
+    /// The predictors separate events from the other cases: the likelihood has no maximum.
     Separated,
-    /// Fewer than five events, or fewer than five others.
+    /// Fewer than five events, or fewer than five other cases.
     TooFewEvents,
     /// A measure is constant, or a combination of others, or there are fewer cases than coefficients.
     Degenerate,
-    /// The iterations did not come to an end.
+    /// The iterations did not converge.
     NotConverged,
 }
 
@@ -36,23 +34,23 @@ keywords!(FitStatus {
 });
 
 impl FitStatus {
-    /// Whether the fit can answer.
+    /// Returns whether the fit is usable.
     pub fn is_usable(self) -> bool {
         matches!(self, FitStatus::Ok | FitStatus::PoorFit)
     }
 }
 
-/// A fit whose test has a smaller probability is poor.
+/// Largest p-value of a poor fit.
 const POOR_FIT: f64 = 0.01;
 
-/// Limits of confidence.
+/// Confidence limits.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
     pub low: f64,
     pub high: f64,
 }
 
-/// A number with its standard error and limits of confidence.
+/// A value with its standard error and confidence limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     pub value: f64,
@@ -62,13 +60,13 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Makes an estimate whose limits are `quantile` standard errors away.
+    /// Makes an estimate with limits `quantile` standard errors away.
     pub fn new(value: f64, standard_error: f64, quantile: f64) -> Estimate {
         let half_width = quantile * standard_error;
         Estimate { value, standard_error, low: value - half_width, high: value + half_width }
     }
 
-    /// Takes the exponential: the error by the delta method, the limits those of this estimate.
+    /// Computes the exponential: standard error by the delta method, limits transformed.
     pub fn exp(self) -> Estimate {
         let value = self.value.exp();
         let standard_error = value * self.standard_error;
@@ -81,37 +79,34 @@ impl Estimate {
 pub struct Fit {
     /// Intercept first.
     pub coefficients: DVector<f64>,
-    /// Covariance of the coefficients if the cases are independent and the model holds.
+    /// Covariance of the coefficients of independent cases, k x k.
     pub covariance: DMatrix<f64>,
-    /// Covariance that allows for dependence within clusters; none of too few clusters.
+    /// Cluster-robust covariance, k x k; none of too few clusters.
     pub clustered: Option<DMatrix<f64>>,
-    /// Number of clusters; 0 where none were given.
+    /// Number of clusters; 0 if none were given.
     pub clusters: usize,
-    /// Degrees of freedom of the model's limits: n - k of least squares, infinite of a likelihood.
+    /// Degrees of freedom of the limits without clusters: n - k of least squares, infinite of a likelihood.
     pub degrees: f64,
     /// Number of cases.
     pub n: usize,
-    /// Probability of what squares and products of the predictors add by chance; none where it was not
-    /// tested, or they do not vary.
+    /// p-value of the squares and products of the predictors; none if not tested, or degenerate.
     pub misfit_p: Option<f64>,
-    /// [`FitStatus::Ok`], or what speaks against the fit.
+    /// [`FitStatus::Ok`] or [`FitStatus::PoorFit`].
     pub status: FitStatus,
 }
 
 impl Fit {
-    /// Adds the covariance that allows for dependence within clusters. `scores` are the derivatives of the
-    /// log-likelihood with respect to z of each case, `bread` the inverse information.
-    pub(super) fn allow_for_clusters(
-        &mut self,
-        x: &[&[f64]],
-        scores: &[f64],
-        bread: &DMatrix<f64>,
-        clusters: &[u32],
-    ) {
-        (self.clustered, self.clusters) = sandwich(x, scores, bread, clusters);
+    /// Makes a fit of `n` cases, without clusters or test of the form.
+    pub(super) fn new(
+        (coefficients, covariance): (DVector<f64>, DMatrix<f64>),
+        degrees: f64,
+        n: usize,
+    ) -> Fit {
+        let (clustered, clusters, misfit_p, status) = (None, 0, None, FitStatus::Ok);
+        Fit { coefficients, covariance, clustered, clusters, degrees, n, misfit_p, status }
     }
 
-    /// Notes the outcome of the test of the form.
+    /// Stores the p-value of the test of the form.
     pub(super) fn note_misfit(&mut self, p: Option<f64>) {
         self.misfit_p = p;
         if p.is_some_and(|p| p < POOR_FIT) {
@@ -119,8 +114,7 @@ impl Fit {
         }
     }
 
-    /// Returns the covariance that limits rest on, the clustered one if there is one, and its degrees of
-    /// freedom.
+    /// Returns the covariance of the limits, cluster-robust if there is one, and its degrees of freedom.
     pub fn limiting_covariance(&self) -> (&DMatrix<f64>, f64) {
         match &self.clustered {
             Some(clustered) => (clustered, self.clusters as f64 - 1.0),
@@ -138,13 +132,12 @@ pub fn predict(coefficients: &[f64], x: &[&[f64]]) -> Vec<f64> {
     z
 }
 
-/// Computes the sum of products of two vectors.
+/// Computes the dot product.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Computes g' C g, the variance of a function with the gradient `g` by the delta method; `covariance` is row
-/// by row.
+/// Computes g' C g, the variance of a function of gradient g (k) by the delta method; C is k x k, by row.
 pub fn variance(covariance: &[f64], gradient: &[f64]) -> f64 {
     let rows = covariance.chunks_exact(gradient.len());
     rows.zip(gradient).map(|(row, g)| g * dot(row, gradient)).sum()

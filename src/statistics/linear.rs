@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::clusters::sandwich;
 use super::design::{Design, mean_and_sd, with_squares};
 use super::distributions::f_upper_tail;
 use super::fit::{Fit, FitStatus, predict};
@@ -17,18 +18,18 @@ pub struct LinearFit {
 }
 
 impl LinearFit {
-    /// Coefficient of determination.
+    /// Computes the coefficient of determination R2.
     pub fn r2(&self) -> f64 {
         1.0 - self.rss / self.tss
     }
 
-    /// Residual standard deviation, with n - k degrees of freedom.
+    /// Computes the residual standard deviation, with n - k degrees of freedom.
     pub fn residual_sd(&self) -> f64 {
         (self.rss / self.fit.degrees).sqrt()
     }
 }
 
-/// Fits `y` on an intercept and the columns of `x`, each as long as `y`, by least squares.
+/// Fits `y`, of length n, on an intercept and the columns of `x`, each of length n, by least squares.
 ///
 /// # Errors
 /// [`FitStatus::Degenerate`] where the cases do not determine the coefficients, or `y` does not vary.
@@ -38,41 +39,27 @@ pub fn least_squares(x: &[&[f64]], y: &[f64]) -> Result<LinearFit, FitStatus> {
     let y = DVector::from_column_slice(y);
     let inverse = design.x.tr_mul(&design.x).cholesky().ok_or(FitStatus::Degenerate)?.inverse();
     let mut b = &inverse * design.x.tr_mul(&y);
-    // The second time takes away the rounding of the first.
+    // One step of iterative refinement removes rounding errors.
     b += &inverse * design.x.tr_mul(&(&y - &design.x * &b));
     let rss = (&y - &design.x * &b).norm_squared();
     let degrees = (y.len() - b.len()) as f64;
-    let (coefficients, covariance) = design.of_given(&b, &(inverse * (rss / degrees)));
-    let fit = Fit {
-        coefficients,
-        covariance,
-        clustered: None,
-        clusters: 0,
-        degrees,
-        n: y.len(),
-        misfit_p: None,
-        status: FitStatus::Ok,
-    };
+    let fit = Fit::new(design.of_given(&b, &(inverse * (rss / degrees))), degrees, y.len());
     Ok(LinearFit { fit, rss, tss: y.add_scalar(-mean).norm_squared() })
 }
 
 /// Fits as [`least_squares`], adds the clustered covariance, and tests the form: F test of the squares and
-/// products of the predictors.
-///
-/// # Errors
-/// As [`least_squares`].
+/// products of the predictors. `clusters` has the cluster of each case.
 pub fn tested_least_squares(x: &[&[f64]], y: &[f64], clusters: &[u32]) -> Result<LinearFit, FitStatus> {
     let mut linear = least_squares(x, y)?;
     let fitted = predict(linear.fit.coefficients.as_slice(), x);
     let residuals: Vec<f64> = y.iter().zip(fitted).map(|(y, fitted)| y - fitted).collect();
     let bread = &linear.fit.covariance * (linear.fit.degrees / linear.rss);
-    linear.fit.allow_for_clusters(x, &residuals, &bread, clusters);
+    (linear.fit.clustered, linear.fit.clusters) = sandwich(x, &residuals, &bread, clusters);
     linear.fit.note_misfit(misfit(&linear, x, y));
     Ok(linear)
 }
 
-/// Computes the probability of what squares and products add by chance; none where they do not vary on their
-/// own.
+/// Computes the p-value of the squares and products of the predictors; none where these are degenerate.
 fn misfit(linear: &LinearFit, x: &[&[f64]], y: &[f64]) -> Option<f64> {
     let columns = with_squares(x)?;
     let wider = least_squares(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), y).ok()?;

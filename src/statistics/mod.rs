@@ -1,11 +1,16 @@
-//! Statistics that know nothing of rocking.
+//! Statistics, independent of rocking.
 //!
 //! ```text
-//! linear         least squares; binary: probit regression by maximum likelihood (Eqs. 21 and 22)
-//! fit            coefficients, covariance and status of either; design: the matrix; newton: the maximiser
-//! clusters       errors where cases of one cluster depend on each other; folds: whole clusters left out
+//! linear         least squares (Eqs. 16 and 17)
+//! binary         probit regression by maximum likelihood (Eqs. 19 to 24)
+//! fit            coefficients, covariance and status of a regression
+//! design         design matrix
+//! newton         maximum of a log-likelihood
+//! clusters       standard errors for dependent cases
+//! folds          cross-validation by cluster
 //! scores         AUC, Brier and log score of probabilities
-//! normal         the standard normal distribution; distributions: t, F, chi squared
+//! normal         standard normal distribution
+//! distributions  t, F and chi squared
 //! ```
 
 mod binary;

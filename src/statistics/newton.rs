@@ -1,31 +1,30 @@
-//! The maximum of a log-likelihood, by Newton's method. argmin's has no rule to stop by, and takes 2.8 times
-//! as long for the 28 curves of the paper's run; its BFGS and trust region take 6 times as long and are less
-//! exact.
+//! Maximum of a log-likelihood by Newton's method. argmin's Newton has no stopping rule and takes 2.8 times
+//! as long for the 28 curves of the paper's run; its BFGS and trust region take 6 times as long.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// The most steps.
+/// Largest number of steps.
 const MOST_STEPS: usize = 100;
-/// The search ends where a step promises to gain less than this.
+/// The iterations end when the expected gain of a step is smaller.
 const LEAST_GAIN: f64 = 1e-12;
-/// What a value may lose in a step, as a share of it: its rounding.
+/// Relative loss of a value in a step that is rounding.
 const ROUNDING: f64 = 1e-12;
-/// Cases that are summed in one piece.
+/// Cases in a partial sum.
 const CHUNK: usize = 8192;
 
-/// A function to be maximised, with its derivatives.
+/// The value of a function to maximise, with its derivatives at k coefficients.
 #[derive(Debug, Clone)]
 pub struct Objective {
     pub value: f64,
     pub gradient: DVector<f64>,
-    /// The negative of the second derivatives.
+    /// Negative of the second derivatives, k x k.
     pub information: DMatrix<f64>,
 }
 
 impl Objective {
-    /// Sums what cases contribute: chunks of cases in parallel, the chunks in order, so that the sum is the
-    /// same on any number of threads. `add` is called for each case with the sum so far.
+    /// Sums the contributions of cases: chunks in parallel, then the chunks in order, so that the result does
+    /// not depend on the number of threads. `add` adds a case to the sum.
     pub fn sum(cases: usize, coefficients: usize, add: impl Fn(usize, &mut Objective) + Sync) -> Objective {
         let zero = || Objective {
             value: 0.0,
@@ -46,16 +45,16 @@ impl Objective {
     }
 }
 
-/// Where a search ended.
+/// The end of the iterations.
 #[derive(Debug, Clone)]
 pub struct Maximum {
     pub at: DVector<f64>,
     pub objective: Objective,
-    /// Whether it is a maximum; else the search was given up.
+    /// Whether it is a maximum.
     pub converged: bool,
 }
 
-/// Maximises a concave function from `start` by Newton's method, halving steps that lead down.
+/// Maximises a concave function from `start` by Newton's method, with step halving.
 pub fn maximise(objective: impl Fn(&DVector<f64>) -> Objective, start: DVector<f64>) -> Maximum {
     let mut here = Maximum { objective: objective(&start), at: start, converged: false };
     for _ in 0..MOST_STEPS {

@@ -2,12 +2,12 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-/// Below it the lower tail is computed by a continued fraction.
+/// The lower tail below this uses a continued fraction.
 const TAIL: f64 = -5.0;
-/// Levels of the continued fraction; at [`TAIL`] more change nothing.
+/// Levels of the continued fraction; at [`TAIL`] more have no effect.
 const LEVELS: u32 = 40;
 
-/// Computes the cumulative probability at `x`, with full relative precision in the lower tail.
+/// Computes the cumulative probability Phi(x), with full relative precision in the lower tail.
 pub fn cdf(x: f64) -> f64 {
     0.5 * libm::erfc(-x * FRAC_1_SQRT_2)
 }
@@ -28,12 +28,12 @@ pub fn ln_cdf_and_slope(x: f64) -> (f64, f64) {
     }
 }
 
-/// Computes the logarithm of the cumulative probability at `x`, precise in both tails.
+/// Computes ln Phi(x), precise in both tails.
 pub fn ln_cdf(x: f64) -> f64 {
     ln_cdf_and_slope(x).0
 }
 
-/// Finds the `x` whose cumulative probability is `p`; infinite at 0 and 1, NaN outside.
+/// Computes the `p` quantile; infinite at 0 and 1, NaN outside.
 pub fn quantile(p: f64) -> f64 {
     if p > 0.5 {
         return -quantile(1.0 - p);

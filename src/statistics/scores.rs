@@ -1,7 +1,7 @@
-//! How well probabilities foretell events.
+//! Scores of predicted probabilities.
 
 /// Computes the area under the receiver operating characteristic: the probability that an event has a higher
-/// score than another case, ties counted half. NaN without both.
+/// score than another case, ties counted half. NaN without events or without other cases.
 pub fn auc(scores: &[f64], events: &[bool]) -> f64 {
     let mut order: Vec<usize> = (0..scores.len()).collect();
     order.sort_by(|&a, &b| scores[a].total_cmp(&scores[b]));
@@ -22,7 +22,7 @@ pub fn brier_score(probabilities: &[f64], events: &[bool]) -> f64 {
     probabilities.iter().zip(events).map(square).sum::<f64>() / events.len() as f64
 }
 
-/// Computes the logarithmic score: the mean logarithm of the probability of what happened, 0 at best.
+/// Computes the logarithmic score: the mean log probability of the outcomes, at most 0.
 pub fn log_score(probabilities: &[f64], events: &[bool]) -> f64 {
     let term = |(p, &event): (&f64, &bool)| if event { p.ln() } else { (-p).ln_1p() };
     probabilities.iter().zip(events).map(term).sum::<f64>() / events.len() as f64

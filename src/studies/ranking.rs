@@ -1,7 +1,7 @@
-//! Which measures predict best, alone, in pairs and in triples: by Akaike's criterion, and by the log score
-//! of magnitudes and distances (or earthquakes) that were left out. The dispersion beta of a hybrid measure
-//! shrinks with its units, a log score does not (Gneiting & Raftery 2007, J. American Statistical Association
-//! 102, 359-378).
+//! Ranking of measures, alone, in pairs and in triples, by Akaike's criterion and by the cross-validated log
+//! score, with whole clusters (cells of magnitude and distance, or earthquakes) left out. The dispersion beta
+//! of a hybrid measure depends on its units, a log score does not (Gneiting & Raftery 2007, J. American
+//! Statistical Association 102, 359-378).
 
 use std::f64::consts::PI;
 
@@ -13,41 +13,40 @@ use crate::keyword::{Keyword, keywords};
 use crate::statistics::clusters::clustered_mean;
 use crate::statistics::{FitStatus, Folds, LinearFit, ProbitFit, least_squares, normal, predict, probit};
 
-/// What is predicted.
+/// Target of the prediction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Target {
-    /// ln EDP in safe rocking, from which P_ex follows.
+    /// ln EDP in safe rocking: P_ex.
     Demand,
-    /// Overturning given rocking.
+    /// Overturning given rocking: P_ro.
     Overturning,
 }
 
 keywords!(Target { Demand = "p_ex", Overturning = "p_ro" });
 
-/// How the measures of a set enter. Linear in their logarithms is a power law of their product, each to a
-/// power of its own.
+/// Form of a set of measures: linear in their logarithms, and so a power law of their product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     /// One power law.
     Single,
-    /// One below the transition in IM4 and one from there on, as the two planes of Eq. 18; of demands only.
+    /// One below the transition in IM4 and one above, as the two planes of Eq. 18; demand only.
     Biplanar,
 }
 
 keywords!(Form { Single = "single", Biplanar = "biplanar" });
 
-/// What competes.
+/// Options of a ranking.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RankingRules {
-    /// The most measures in a set.
+    /// Largest number of measures in a set.
     pub terms: usize,
-    /// The most folds of clusters that are left out in turn.
+    /// Largest number of folds.
     pub folds: usize,
-    /// The IM4 at which biplanar forms part.
+    /// IM4 at the transition of biplanar forms.
     pub transition: f64,
 }
 
-/// A set of measures and how it does: a row of ranking.parquet.
+/// Scores of a set of measures: a row of ranking.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RankedSet {
     pub suite: Option<String>,
@@ -58,50 +57,49 @@ pub struct RankedSet {
     pub measures: String,
     pub terms: i64,
     pub n: i64,
-    /// Place by log score, from 1; by AIC where nothing can be left out.
+    /// Rank by log score, from 1; by AIC without cross-validation.
     pub rank: i64,
-    /// Log-likelihood of the fit to all cases; of a demand with normal residuals of ln EDP.
+    /// Log-likelihood of the fit to all cases; for demand, with normal residuals of ln EDP.
     pub log_likelihood: Option<f64>,
     /// Akaike's criterion; residual variances and the transition count as parameters.
     pub aic: Option<f64>,
-    /// Mean log-likelihood of cases whose cluster was left out of the fit.
+    /// Mean log-likelihood of cases left out of the fit.
     pub log_score: Option<f64>,
-    /// `log_score` less that of the best set, and its standard error between clusters.
+    /// `log_score` minus that of the best set, and its standard error between clusters.
     pub loss: Option<f64>,
     pub loss_error: Option<f64>,
     pub status: FitStatus,
 }
 
-/// All sets of measures of a structure and suite, the best first.
+/// All sets of measures of a structure and suite, best first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
     pub sets: Vec<RankedSet>,
-    /// Measures that do not compete, since some cases lack them, and how many.
+    /// Measures missing in some cases, and in how many; they are not ranked.
     pub incomplete: Vec<(String, usize)>,
 }
 
-/// The cases that count for a target, with all measures that each of them has: only on the same cases are
-/// likelihoods comparable.
+/// The cases of a target, with the measures known in all of them: only then are likelihoods comparable.
 struct Contest {
     target: Target,
     names: Vec<String>,
     ln_im: Vec<Vec<f64>>,
     /// ln EDP.
     y: Vec<f64>,
-    /// Whether it overturned.
+    /// Whether the structure overturned.
     events: Vec<bool>,
     is_low: Vec<bool>,
     clusters: Vec<u32>,
 }
 
-/// A fit to some of the cases.
+/// A fit of a set of measures.
 enum Model {
-    /// Below the transition and from there on; both are the same of a single form.
+    /// Below the transition and above it; the same for a single form.
     Demand([LinearFit; 2]),
     Overturning(ProbitFit),
 }
 
-/// Ranks all sets of up to `rules.terms` measures of Eq. 13 and candidates.
+/// Ranks all sets of up to `rules.terms` measures, those of Eq. 13 and candidates.
 pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ranking {
     let (contest, incomplete) = Contest::new(cases, target, rules.transition);
     let folds = Folds::new(&contest.clusters, rules.folds);
@@ -119,7 +117,7 @@ pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ran
             (contest.rate(cases, &set, form, scores.as_deref()), scores)
         })
         .collect();
-    // Rounded, so that of sets that are the same power law (IM4 = IM3 IM5) the first stays first.
+    // Rounded, so that of equal power laws (IM4 = IM3 IM5) the first stays first.
     let rounded = |value: Option<f64>, worst: f64| value.map_or(worst, |value| (value * 1e9).round());
     rated.sort_by(|(a, _), (b, _)| {
         let score = |set: &RankedSet| rounded(set.log_score, f64::NEG_INFINITY);
@@ -138,7 +136,7 @@ pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ran
     Ranking { sets: rated.into_iter().map(|(set, _)| set).collect(), incomplete }
 }
 
-/// All sets of up to `most` numbers below `count`, in order of their size.
+/// Returns all sets of up to `most` numbers below `count`, by size.
 fn subsets(count: usize, most: usize) -> Vec<Vec<usize>> {
     let mut all: Vec<Vec<usize>> = Vec::new();
     let mut last = vec![Vec::new()];
@@ -208,7 +206,7 @@ impl Contest {
         }
     }
 
-    /// Computes the log-likelihood of each of all cases by a fit, with these standard deviations of ln EDP.
+    /// Computes the log-likelihood of each case; `sd` is the standard deviation of ln EDP.
     fn log_likelihoods(&self, set: &[usize], model: &Model, sd: impl Fn(&LinearFit) -> f64) -> Vec<f64> {
         let x: Vec<&[f64]> = set.iter().map(|&k| self.ln_im[k].as_slice()).collect();
         match model {
@@ -231,7 +229,7 @@ impl Contest {
         }
     }
 
-    /// Scores each case by the fit without its fold; none where a fold leaves no fit.
+    /// Computes the log-likelihood of each case by the fit without its fold; none if a fold has no fit.
     fn left_out(&self, set: &[usize], form: Form, folds: &Folds) -> Option<Vec<f64>> {
         let mut scores = vec![0.0; self.y.len()];
         for fold in 0..folds.count {

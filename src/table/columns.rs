@@ -1,4 +1,4 @@
-//! The columns of a batch by name, as numbers, texts or samples, whatever program wrote them.
+//! Columns of a batch by name, as numbers, texts or lists, from any program.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use arrow_schema::DataType;
 use super::TableError;
 use super::dictionary;
 
-/// Some rows of the table at `path`, the first of which is `first_row` of its file.
+/// A batch of the table at `path`, whose first row is row `first_row` of the file.
 #[derive(Debug, Clone)]
 pub struct Columns<'a> {
     pub path: &'a Path,
@@ -22,12 +22,12 @@ pub struct Columns<'a> {
 }
 
 impl<'a> Columns<'a> {
-    /// How many rows there are.
+    /// Returns the number of rows.
     pub fn rows(&self) -> usize {
         self.batch.num_rows()
     }
 
-    /// The numbers of a column, NaN where it has none or is missing.
+    /// Returns the numbers of a column, NaN for null or if it is missing.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, TableError> {
         match self.batch.column_by_name(name) {
             None => Ok(vec![f64::NAN; self.rows()]),
@@ -35,7 +35,7 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// The numbers of a column that every row must have.
+    /// Returns the numbers of a column without nulls.
     pub fn required_numbers(&self, name: &'static str) -> Result<Vec<f64>, TableError> {
         self.expect(name)?;
         let numbers = self.numbers(name)?;
@@ -45,7 +45,7 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// The texts of a column (whole numbers as texts), `None` where it has none or is missing.
+    /// Returns the texts of a column (integers as texts), `None` for null or if it is missing.
     pub fn texts(&self, name: &str) -> Result<Vec<Option<String>>, TableError> {
         let Some(column) = self.batch.column_by_name(name) else { return Ok(vec![None; self.rows()]) };
         if let Some(texts) = column.as_string_opt::<i32>() {
@@ -56,7 +56,7 @@ impl<'a> Columns<'a> {
         Ok(whole.iter().map(|number| (!number.is_nan()).then(|| number.to_string())).collect())
     }
 
-    /// The texts of a column that every row must have.
+    /// Returns the texts of a column without nulls.
     pub fn required_texts(&self, name: &'static str) -> Result<Vec<String>, TableError> {
         self.expect(name)?;
         let text = |(row, text): (usize, Option<String>)| {
@@ -65,7 +65,7 @@ impl<'a> Columns<'a> {
         self.texts(name)?.into_iter().enumerate().map(text).collect()
     }
 
-    /// The lists of numbers of a column that every row must have.
+    /// Returns the lists of numbers of a column without nulls.
     pub fn lists(&self, name: &'static str) -> Result<Vec<Vec<f64>>, TableError> {
         let column = self.expect(name)?;
         let list = |row: usize| {
@@ -83,7 +83,7 @@ impl<'a> Columns<'a> {
         (0..self.rows()).map(list).collect()
     }
 
-    /// An error about the value in a row of this batch.
+    /// Makes the error of a value in a row of this batch.
     pub fn value_error(&self, row: usize, column: &'static str, problem: impl Into<String>) -> TableError {
         let row = self.first_row + row as u64;
         TableError::Value { path: self.path.to_path_buf(), row, column, problem: problem.into() }
@@ -103,7 +103,7 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// Any column of numbers as f64, NaN for null; `None` of other types.
+/// Converts a column of numbers to f64, NaN for null; `None` for other types.
 pub fn numbers(column: &ArrayRef) -> Option<Vec<f64>> {
     macro_rules! cast {
         ($type:ty) => {{

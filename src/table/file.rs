@@ -1,4 +1,4 @@
-//! A table on disk: a Parquet file, or a folder of them whose rows follow each other in the order of their names.
+//! A table on disk: a Parquet file, or a folder of them in the order of their names.
 
 use std::cell::Cell;
 use std::fmt;
@@ -21,9 +21,9 @@ use super::TableError;
 use super::columns::Columns;
 use super::provenance::Provenance;
 
-/// The most bytes that the wanted columns of a row group may announce: what is more is damage, or does not fit into memory.
+/// Largest size of the wanted columns of a row group: larger ones are damaged, or exceed the memory.
 const MOST_BYTES: i64 = 4 << 30;
-/// Rows of a narrow table that are read at once.
+/// Rows per batch of a narrow table.
 const NARROW_BATCH: usize = 8192;
 
 /// One of `of` equal parts of a table, counted from 0.
@@ -53,22 +53,30 @@ impl fmt::Display for Partition {
 }
 
 impl Partition {
-    /// The name of its file in a folder.
+    /// Returns the name of its file in a folder.
     pub fn file_name(self) -> String {
         format!("part-{:05}.parquet", self.index)
     }
 
-    /// Its share of so many rows.
+    /// Returns its file in a folder: the one of that name, or else the one of that number among as many.
+    pub fn file_of(self, folder: &Path) -> Result<PathBuf, TableError> {
+        let named = folder.join(self.file_name());
+        let files = if named.exists() { Vec::new() } else { tables(folder)? };
+        let numbered = files.get(self.index as usize).filter(|_| files.len() as u64 == self.of);
+        Ok(numbered.cloned().unwrap_or(named))
+    }
+
+    /// Returns its range of `total` rows.
     pub fn rows(self, total: usize) -> Range<usize> {
         let at = |index: u64| (total as u128 * u128::from(index) / u128::from(self.of)) as usize;
         at(self.index)..at(self.index + 1)
     }
 }
 
-/// A table that is open for reading, by several threads if need be.
+/// A table open for reading, by several threads if needed.
 pub struct Table {
     files: Vec<TableFile>,
-    /// The rows that are read; all, but of a partition.
+    /// Rows to read; all of them without a partition.
     rows: Range<u64>,
 }
 
@@ -82,40 +90,40 @@ struct TableFile {
 pub struct RowGroup {
     file: usize,
     group: usize,
-    /// Within the row group.
+    /// Rows within the row group.
     rows: Range<u64>,
-    /// The first of them, counted in its file.
+    /// First row, counted in the file.
     pub first_row: u64,
 }
 
 impl RowGroup {
-    /// How many rows there are.
+    /// Returns the number of rows.
     pub fn len(&self) -> usize {
         (self.rows.end - self.rows.start) as usize
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 }
 
-/// Neighbouring rows of a table.
+/// Consecutive rows of a table.
 #[derive(Debug, Clone)]
 pub struct Batch {
     pub path: Arc<Path>,
-    /// The first of them, counted in its file.
+    /// First row, counted in the file.
     pub first_row: u64,
     pub rows: RecordBatch,
 }
 
 impl Batch {
-    /// Its columns by name.
+    /// Returns its columns by name.
     pub fn columns(&self) -> Columns<'_> {
         Columns { path: &self.path, first_row: self.first_row, batch: &self.rows }
     }
 
-    /// So many of its rows.
+    /// Returns a range of its rows.
     pub fn slice(&self, rows: Range<usize>) -> Batch {
         let first_row = self.first_row + rows.start as u64;
         Batch { path: self.path.clone(), first_row, rows: self.rows.slice(rows.start, rows.len()) }
@@ -123,7 +131,7 @@ impl Batch {
 }
 
 impl Table {
-    /// Opens a file, or a folder of the parts of one table.
+    /// Opens a file, or a folder with the parts of one table.
     pub fn open(path: &Path) -> Result<Table, TableError> {
         let open = |path: PathBuf| Ok(TableFile { metadata: metadata(&path)?, path: path.into() });
         let files = files(path)?.into_iter().map(open).collect::<Result<Vec<_>, TableError>>()?;
@@ -131,21 +139,16 @@ impl Table {
         Ok(Table { files, rows: 0..total })
     }
 
-    /// Opens one partition: of a file a range of rows, of a folder the file of that number.
+    /// Opens one partition: a range of rows of a file, or one file of a folder.
     pub fn open_partition(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
         let Some(partition) = partition else { return Table::open(path) };
         if path.is_dir() {
-            let files = files(path)?;
-            return match files.get(partition.index as usize) {
-                Some(file) if files.len() as u64 == partition.of => Table::open(file),
-                _ => Err(TableError::table(
-                    path,
-                    format!(
-                        "a folder of {} files; expected {}, as in partition {partition}",
-                        files.len(),
-                        partition.of
-                    ),
-                )),
+            let file = partition.file_of(path)?;
+            return match partition_of(&file)?.filter(|made| made.of != partition.of) {
+                Some(made) => {
+                    Err(TableError::table(&file, format!("partition {made}; expected {partition}")))
+                }
+                None => Table::open(&file),
             };
         }
         let table = Table::open(path)?;
@@ -153,17 +156,17 @@ impl Table {
         Ok(Table { rows: rows.start as u64..rows.end as u64, ..table })
     }
 
-    /// How many rows there are.
+    /// Returns the number of rows.
     pub fn rows(&self) -> u64 {
         self.rows.end - self.rows.start
     }
 
-    /// The schema of the first file.
+    /// Returns the schema of the first file.
     pub fn schema(&self) -> &SchemaRef {
         self.files[0].metadata.schema()
     }
 
-    /// The row groups, in order.
+    /// Returns the row groups, in order.
     pub fn row_groups(&self) -> Vec<RowGroup> {
         let mut groups = Vec::new();
         let mut before = 0;
@@ -182,7 +185,7 @@ impl Table {
         groups
     }
 
-    /// Reads the columns that `wanted` picks of a row group, so many rows at a time.
+    /// Reads the `wanted` columns of a row group in batches of `batch_size` rows.
     pub fn read(
         &self,
         group: &RowGroup,
@@ -217,7 +220,7 @@ impl Table {
         }))
     }
 
-    /// Reads the columns that `wanted` picks, batch by batch.
+    /// Reads the `wanted` columns of the table in batches.
     pub fn batches<'a>(
         &'a self,
         wanted: &'a dyn Fn(&str) -> bool,
@@ -238,7 +241,7 @@ impl TableFile {
     }
 }
 
-/// The footer of a Parquet file. Texts, lists and numbers have the plain types of Parquet, whatever wrote them.
+/// Reads the footer of a Parquet file, with plain Parquet types: the Arrow schema is ignored.
 pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
     let file = File::open(path).map_err(|source| TableError::io(path, source))?;
     if path.is_dir() {
@@ -252,7 +255,7 @@ pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
     }
 }
 
-/// The files of a table: the file itself, or those of a folder in the order of their names.
+/// Returns the files of a table: the file itself, or those of a folder in the order of their names.
 pub fn files(path: &Path) -> Result<Vec<PathBuf>, TableError> {
     if !path.is_dir() {
         return Ok(vec![path.to_path_buf()]);
@@ -265,7 +268,7 @@ pub fn files(path: &Path) -> Result<Vec<PathBuf>, TableError> {
     Ok(files)
 }
 
-/// The Parquet files of a folder, in the order of their names.
+/// Returns the Parquet files of a folder, in the order of their names.
 pub fn tables(path: &Path) -> Result<Vec<PathBuf>, TableError> {
     let entries = std::fs::read_dir(path).map_err(|source| TableError::io(path, source))?;
     let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
@@ -277,14 +280,16 @@ pub fn tables(path: &Path) -> Result<Vec<PathBuf>, TableError> {
     Ok(files)
 }
 
-/// Of partitions all must be there: rows are sorted by magnitude, so that a part that lacks distorts every fit.
+/// Returns which partition a file is; none if it is a whole table.
+fn partition_of(file: &Path) -> Result<Option<Partition>, TableError> {
+    let made = Provenance::of_file(file)?;
+    Ok(made.and_then(|made| made.arguments.get("partition")?.first()?.parse().ok()))
+}
+
+/// Checks that no partition is missing: rows are sorted by magnitude, so that a gap would bias fits.
 fn expect_all_parts(folder: &Path, files: &[PathBuf]) -> Result<(), TableError> {
-    let partition = |file: &PathBuf| -> Result<Option<Partition>, TableError> {
-        let made = Provenance::of_file(file)?;
-        Ok(made.and_then(|made| made.arguments.get("partition")?.first()?.parse().ok()))
-    };
-    let parts: Vec<Partition> =
-        files.iter().map(partition).collect::<Result<Option<_>, _>>()?.unwrap_or_default();
+    let parts = files.iter().map(|file| partition_of(file)).collect::<Result<Option<Vec<_>>, _>>()?;
+    let parts = parts.unwrap_or_default();
     let Some(of) = parts.first().map(|part| part.of) else { return Ok(()) };
     let missing = (0..of).map(|index| Partition { index, of }).find(|part| !parts.contains(part));
     match missing {
@@ -325,7 +330,7 @@ thread_local! {
     static GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Reads a file that may be damaged: where the decoder panics, that is an error of the file.
+/// Calls `read`; a panic of the decoder is an error of a damaged file.
 fn guarded<T, E: ToString>(path: &Path, read: impl FnOnce() -> Result<T, E>) -> Result<T, TableError> {
     let before = GUARDED.replace(true);
     let read = catch_unwind(AssertUnwindSafe(read));
@@ -336,7 +341,7 @@ fn guarded<T, E: ToString>(path: &Path, read: impl FnOnce() -> Result<T, E>) -> 
     }
 }
 
-/// Keeps the panics of decoders, which are told as errors, off the terminal.
+/// Silences the panics of decoders, which are reported as errors.
 pub fn quiet_damage() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {

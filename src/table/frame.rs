@@ -1,4 +1,4 @@
-//! Narrow tables as polars frames: joined, filtered and sorted there, and shown as text, CSV or JSON.
+//! Narrow tables as polars frames, and their text, CSV and JSON.
 
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
@@ -10,7 +10,7 @@ use super::columns::numbers;
 use super::file::Table;
 use crate::keyword::keywords;
 
-/// How a table is printed.
+/// Format of a printed table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     Text,
@@ -20,7 +20,7 @@ pub enum Format {
 
 keywords!(Format { Text = "text", Csv = "csv", Json = "json" });
 
-/// The first rows of a table; a list is shown by its length.
+/// Reads the first rows of a table; a list is shown by its length.
 pub fn head(table: &Table, rows: usize) -> anyhow::Result<DataFrame> {
     let mut left = rows;
     let mut frame: Option<DataFrame> = None;
@@ -42,7 +42,7 @@ pub fn head(table: &Table, rows: usize) -> anyhow::Result<DataFrame> {
     Ok(frame.unwrap_or_default())
 }
 
-/// A narrow table whole.
+/// Reads a narrow table.
 pub fn read(table: &Table) -> Result<DataFrame, TableError> {
     let mut whole: Option<DataFrame> = None;
     for batch in table.batches(&|_| true) {
@@ -57,7 +57,7 @@ pub fn read(table: &Table) -> Result<DataFrame, TableError> {
     Ok(whole.unwrap_or_default())
 }
 
-/// The rows of a batch.
+/// Converts a batch to a frame.
 pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
     let schema = rows.schema();
     let columns =
@@ -91,7 +91,7 @@ fn column(name: &str, array: &ArrayRef) -> Column {
     series.into_column()
 }
 
-/// A frame as text with aligned columns, as CSV, or as a list of JSON objects.
+/// Formats a frame as text with aligned columns, as CSV, or as a list of JSON objects.
 pub fn show(frame: &DataFrame, format: Format) -> anyhow::Result<String> {
     match format {
         Format::Text => Ok(text(frame)),
@@ -125,30 +125,30 @@ fn json(value: &AnyValue) -> Value {
     }
 }
 
-/// Comma-separated values: numbers in full, nothing where there is none.
+fn cell(value: &AnyValue, null: &str) -> String {
+    match json(value) {
+        Value::Null => null.to_string(),
+        Value::String(text) => text,
+        other => other.to_string(),
+    }
+}
+
+/// Formats a frame as CSV: numbers in full, null as an empty cell.
 fn csv(frame: &DataFrame) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(frame.columns().iter().map(|column| column.name().as_str()))?;
     for row in 0..frame.height() {
-        writer.write_record(frame.columns().iter().map(|column| match json(&value(column, row)) {
-            Value::Null => String::new(),
-            Value::String(text) => text,
-            other => other.to_string(),
-        }))?;
+        writer.write_record(frame.columns().iter().map(|column| cell(&value(column, row), "")))?;
     }
     Ok(String::from_utf8(writer.into_inner()?)?)
 }
 
-/// Columns under their names: numbers to the right with four significant digits, "-" where there is none.
+/// Formats a frame as text: numbers right-aligned with four significant digits, "-" for null.
 pub fn text(frame: &DataFrame) -> String {
     let cells = |column: &Column| -> Vec<String> {
         let cells = (0..column.len()).map(|row| match value(column, row) {
             AnyValue::Float64(number) => short(number),
-            other => match json(&other) {
-                Value::Null => "-".to_string(),
-                Value::String(text) => text,
-                other => other.to_string(),
-            },
+            other => cell(&other, "-"),
         });
         let cells: Vec<String> = std::iter::once(column.name().to_string()).chain(cells).collect();
         let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0);
@@ -166,7 +166,7 @@ pub fn text(frame: &DataFrame) -> String {
     (0..=frame.height()).map(line).collect()
 }
 
-/// A number with four significant digits.
+/// Formats a number with four significant digits.
 pub fn short(number: f64) -> String {
     if number == 0.0 {
         return "0".to_string();

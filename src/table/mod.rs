@@ -1,14 +1,15 @@
-//! The files: Parquet tables whose columns carry their unit and meaning, and whose footer says how they were made.
+//! Parquet tables with unit and meaning of each column, and provenance in the footer.
 //!
 //! ```text
-//! dictionary  every column once: name, unit, meaning
+//! dictionary  name, unit and meaning of every column
 //! rows        structs as rows of a table (serde)
 //! file        a table on disk: a file, or a folder of files
-//! columns     columns of a batch by name, whatever program wrote them
-//! writer      writes beside the name and renames when whole
-//! provenance  what made a file, and the key by which a stage knows that it is up to date
-//! motions     one row a ground motion      responses  one row a motion and structure
-//! frame       narrow tables as polars frames, and how they are shown      sheet  CSV of people as frames
+//! columns     columns of a batch by name, from any program
+//! writer      atomic writing
+//! provenance  stage, arguments and inputs of a file, and its key
+//! motions     motions, one per row
+//! responses   responses, one row for each motion and structure
+//! frame       tables as polars frames, and their text, CSV and JSON
 //! ```
 
 pub mod columns;
@@ -43,7 +44,7 @@ pub enum TableError {
 }
 
 impl TableError {
-    /// What the operating system says about `path`.
+    /// Makes the error of the operating system for `path`.
     pub fn io(path: &Path, source: std::io::Error) -> TableError {
         match source.kind() {
             std::io::ErrorKind::NotFound => TableError::Missing(path.to_path_buf()),
@@ -51,12 +52,12 @@ impl TableError {
         }
     }
 
-    /// What the Parquet library says about `path`.
+    /// Makes the error of the Parquet library for `path`.
     pub fn parquet(path: &Path, cause: impl ToString) -> TableError {
         TableError::Parquet { path: path.to_path_buf(), cause: cause.to_string() }
     }
 
-    /// A problem of a table as a whole.
+    /// Makes the error of a table as a whole.
     pub fn table(path: &Path, problem: impl Into<String>) -> TableError {
         TableError::Table { path: path.to_path_buf(), problem: problem.into() }
     }

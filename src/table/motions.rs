@@ -1,5 +1,5 @@
-//! The motions file: one row a ground motion, its samples as a list. What `simulate` needs of one that another program wrote is
-//! motion_id, dt_s and acceleration_m_s2.
+//! The motions file: one motion per row, its samples as a list. The required columns are motion_id, dt_s and
+//! acceleration_m_s2.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -11,10 +11,11 @@ use arrow_schema::{DataType, Field, Schema};
 use super::TableError;
 use super::dictionary;
 use super::file::{Batch, Partition, RowGroup, Table};
+use super::rows::side_by_side;
 
-/// The column of the samples.
+/// Column of the samples.
 pub const ACCELERATION: &str = "acceleration_m_s2";
-/// What is read of a motion.
+/// Columns to read.
 const COLUMNS: [&str; 11] = [
     "motion_id",
     "suite",
@@ -28,10 +29,10 @@ const COLUMNS: [&str; 11] = [
     "tp_s",
     ACCELERATION,
 ];
-/// Row groups of more motions than this are read in parts, one after the other.
+/// Row groups of more motions are read in parts of this size.
 const LARGEST_PART: usize = 128;
 
-/// A motion as `simulate` needs it; measures that its file lacks are NaN.
+/// A motion; missing measures are NaN.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     pub motion_id: String,
@@ -45,23 +46,26 @@ pub struct Motion {
     pub tm_s: f64,
     pub tp_s: f64,
     pub acceleration_m_s2: Vec<f64>,
-    /// Its row in the file.
+    /// Row in the file.
     pub row: u64,
 }
 
-/// A motions table that several threads read.
+/// Motions, and the file they are in.
+type MotionsOfFile = (Arc<Path>, Vec<Motion>);
+
+/// A motions table open for reading by several threads.
 pub struct Motions(Table);
 
-/// Some motions, in order.
+/// A part of a motions table.
 pub enum Part {
-    /// A row group that any thread may read.
+    /// A row group, not yet read.
     Unread(RowGroup),
-    /// Motions of a row group that is too large to be read at once.
+    /// Motions of a row group too large to read at once.
     Read(Batch),
 }
 
 impl Motions {
-    /// Opens a table of motions, or a partition of it.
+    /// Opens a motions table, or a partition of it.
     pub fn open(path: &Path, partition: Option<Partition>) -> Result<Motions, TableError> {
         let table = Table::open_partition(path, partition)?;
         for column in ["motion_id", "dt_s", ACCELERATION] {
@@ -76,12 +80,12 @@ impl Motions {
         }
     }
 
-    /// How many motions there are.
+    /// Returns the number of motions.
     pub fn rows(&self) -> u64 {
         self.0.rows()
     }
 
-    /// All motions in parts.
+    /// Returns all motions in parts.
     pub fn parts(&self) -> impl Iterator<Item = Result<Part, TableError>> + Send {
         self.0.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
             if group.len() <= LARGEST_PART {
@@ -94,12 +98,12 @@ impl Motions {
         })
     }
 
-    /// The motions of a part, `at_once` at a time.
+    /// Reads the motions of a part, `at_once` at a time.
     pub fn read(
         &self,
         part: Part,
         at_once: usize,
-    ) -> Result<impl Iterator<Item = Result<(Arc<Path>, Vec<Motion>), TableError>> + use<>, TableError> {
+    ) -> Result<impl Iterator<Item = Result<MotionsOfFile, TableError>> + use<>, TableError> {
         let batches: Box<dyn Iterator<Item = Result<Batch, TableError>>> = match part {
             Part::Unread(group) => Box::new(self.0.read(&group, &is_column, at_once)?),
             Part::Read(batch) => {
@@ -118,7 +122,7 @@ fn is_column(name: &str) -> bool {
     COLUMNS.contains(&name)
 }
 
-/// The motions of a batch.
+/// Converts a batch to motions.
 fn motions(batch: &Batch) -> Result<Vec<Motion>, TableError> {
     let columns = batch.columns();
     let [mw, re_km, pga, pgv, tm, tp] =
@@ -145,22 +149,18 @@ fn motions(batch: &Batch) -> Result<Vec<Motion>, TableError> {
     Ok(rows.map(motion).collect())
 }
 
-/// Puts columns side by side: what is known of the motions, their spectral accelerations at `periods_s`, and their samples.
+/// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples.
 pub fn batch<'a>(
     known: &[RecordBatch],
     periods_s: &[f64],
     sa_m_s2: &[&[f64]],
     samples: impl Iterator<Item = &'a [f32]>,
 ) -> anyhow::Result<RecordBatch> {
-    let mut fields: Vec<Arc<Field>> = Vec::new();
+    let mut fields: Vec<Field> = Vec::new();
     let mut columns: Vec<ArrayRef> = Vec::new();
-    for batch in known {
-        fields.extend(batch.schema().fields().iter().cloned());
-        columns.extend(batch.columns().iter().cloned());
-    }
     for (place, period) in periods_s.iter().enumerate() {
         let field = Field::new(spectral_column(*period), DataType::Float64, true);
-        fields.push(Arc::new(dictionary::with_meaning(field)));
+        fields.push(dictionary::with_meaning(field));
         columns.push(Arc::new(Float64Array::from_iter(sa_m_s2.iter().map(|sa| sa[place]))));
     }
     let item = Arc::new(Field::new("item", DataType::Float32, false));
@@ -169,12 +169,13 @@ pub fn batch<'a>(
         lists.values().append_slice(motion);
         lists.append(true);
     }
-    fields.push(Arc::new(dictionary::with_meaning(Field::new(ACCELERATION, DataType::List(item), false))));
+    fields.push(dictionary::with_meaning(Field::new(ACCELERATION, DataType::List(item), false)));
     columns.push(Arc::new(lists.finish()));
-    Ok(RecordBatch::try_new(Arc::new(Schema::new(fields)), columns)?)
+    let made = RecordBatch::try_new(Arc::new(Schema::new(fields)), columns)?;
+    side_by_side(&[known, &[made]].concat())
 }
 
-/// The column of the spectral acceleration at a period, s: `sa_0p50_m_s2`.
+/// Returns the column name of the spectral acceleration at a period (s): `sa_0p50_m_s2`.
 pub fn spectral_column(period_s: f64) -> String {
     format!("sa_{}_m_s2", format!("{period_s:.2}").replace('.', "p"))
 }

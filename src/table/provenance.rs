@@ -1,7 +1,9 @@
-//! What made a file, and the key by which a stage knows that it is up to date: one JSON in the footer.
+//! Provenance of a file, and the key that shows whether it is up to date: JSON in the footer of a table, or in
+//! the first lines of a page or figure.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use parquet::file::metadata::{KeyValue, ParquetMetaData};
@@ -10,40 +12,54 @@ use serde::{Deserialize, Serialize};
 use super::TableError;
 use super::file;
 
-/// The key of the JSON among the key-value metadata.
+/// Key of the JSON among the key-value metadata.
 const KEY: &str = "rockfrag";
-/// Who wrote the file; another program that rewrites it puts its own name here.
+/// The text before the JSON in a page or figure, and the bytes that are searched for it.
+const META: &str = "name=\"rockfrag\" content=\"";
+const HEAD: u64 = 8192;
+/// Writer of the file; another program that rewrites it puts its own name here.
 pub const CREATED_BY: &str = concat!("rockfrag ", env!("CARGO_PKG_VERSION"));
 
-/// What made a file.
+/// The provenance of a file.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     pub stage: String,
-    /// The version of rockfrag.
+    /// Version of rockfrag.
     pub version: String,
-    /// All arguments as they were resolved, defaults included, but for files.
+    /// All arguments except files, defaults included.
     pub arguments: BTreeMap<String, Vec<String>>,
-    /// The keys of its inputs.
+    /// Keys of its inputs.
     pub inputs: BTreeMap<String, String>,
-    /// What the stage printed.
+    /// Text printed by the stage.
     pub summary: String,
-    /// What speaks against its results.
+    /// Doubts about the results.
     pub doubts: Vec<String>,
 }
 
 impl Provenance {
-    /// The hash of stage, version, arguments and the keys of the inputs.
+    /// Computes the hash of stage, version, arguments and keys of the inputs.
     pub fn key(&self) -> String {
         let text = serde_json::json!([self.stage, self.version, self.arguments, self.inputs]).to_string();
         blake3::hash(text.as_bytes()).to_hex().to_string()
     }
 
-    /// Reads it from a Parquet file; `None` where another program wrote the file.
+    /// Reads the provenance of a table, page or figure; `None` if another program wrote it.
     pub fn of_file(path: &Path) -> Result<Option<Provenance>, TableError> {
-        Ok(Provenance::of_footer(file::metadata(path)?.metadata()))
+        let is_text = path.extension().is_some_and(|ending| ending == "html" || ending == "svg");
+        match is_text {
+            true => Ok(Provenance::of_text(&head(path)?)),
+            false => Ok(Provenance::of_footer(file::metadata(path)?.metadata())),
+        }
     }
 
-    /// Reads it from a footer; `None` where another program wrote it.
+    /// Reads it from the beginning of a page or figure.
+    fn of_text(text: &str) -> Option<Provenance> {
+        let (_, rest) = text.split_once(META)?;
+        let json = rest.split_once('"')?.0.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">");
+        serde_json::from_str(&json.replace("&amp;", "&")).ok()
+    }
+
+    /// Reads the provenance in a footer; `None` if another program wrote it.
     pub fn of_footer(metadata: &ParquetMetaData) -> Option<Provenance> {
         let footer = metadata.file_metadata();
         footer.created_by().filter(|program| program.starts_with("rockfrag "))?;
@@ -51,12 +67,17 @@ impl Provenance {
         serde_json::from_str(pair.value.as_ref()?).ok()
     }
 
-    /// As it stands in the footer.
+    /// Returns the entry of the footer.
     pub fn key_value(&self) -> KeyValue {
-        KeyValue::new(KEY.to_string(), serde_json::json!(self).to_string())
+        KeyValue::new(KEY.to_string(), self.json())
     }
 
-    /// What differs in what made a file before and would make it now, in words.
+    /// As text.
+    pub fn json(&self) -> String {
+        serde_json::json!(self).to_string()
+    }
+
+    /// Describes the first difference from the planned provenance.
     pub fn difference(&self, now: &Provenance) -> Option<String> {
         if self.stage != now.stage {
             return Some(format!("the file is of {}", self.stage));
@@ -78,7 +99,7 @@ impl Provenance {
     }
 }
 
-/// All files, those in folders and below them included, in the order of their names; hidden ones are none.
+/// Returns all files, those in folders included, in the order of their names, without hidden files.
 pub fn files_below(paths: &[PathBuf]) -> Result<Vec<PathBuf>, TableError> {
     let mut files = Vec::new();
     for path in paths {
@@ -95,18 +116,38 @@ pub fn files_below(paths: &[PathBuf]) -> Result<Vec<PathBuf>, TableError> {
     Ok(files)
 }
 
-/// The key of an input: that in its footer if rockfrag wrote it, the hash of its bytes if another program did; of a folder
-/// the hash of the keys of its tables, or of all files where there is none.
+/// Reads the beginning of a file as text.
+pub fn head(path: &Path) -> Result<String, TableError> {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    read.map_err(|source| TableError::io(path, source))?;
+    Ok(String::from_utf8_lossy(&head).into_owned())
+}
+
+/// Computes the key of an input: the one in the file if rockfrag wrote it, otherwise the hash of its bytes;
+/// for a folder, the hash of the keys of its tables, or of all files if there is no table.
 pub fn key_of(path: &Path) -> Result<String, TableError> {
+    key_with(path, &HashMap::new())
+}
+
+/// Computes the same with the keys of files that are not made yet.
+pub fn key_with(path: &Path, planned: &HashMap<PathBuf, String>) -> Result<String, TableError> {
+    if let Some(key) = planned.get(path) {
+        return Ok(key.clone());
+    }
+    let is_table = |path: &Path| path.extension().is_some_and(|extension| extension == "parquet");
     if path.is_dir() {
-        let files = match file::tables(path)? {
-            tables if tables.is_empty() => files_below(&[path.to_path_buf()])?,
-            tables => tables,
-        };
-        let keys = files.iter().map(|file| key_of(file)).collect::<Result<Vec<_>, _>>()?;
+        let mut files = files_below(&[path.to_path_buf()])?;
+        let to_come = planned.keys().filter(|file| file.starts_with(path) && !file.exists());
+        files.extend(to_come.cloned());
+        files.sort_unstable();
+        if files.iter().any(|file| is_table(file)) {
+            files.retain(|file| is_table(file));
+        }
+        let keys = files.iter().map(|file| key_with(file, planned)).collect::<Result<Vec<_>, _>>()?;
         return Ok(blake3::hash(keys.join(" ").as_bytes()).to_hex().to_string());
     }
-    if path.extension().is_some_and(|extension| extension == "parquet")
+    if is_table(path)
         && let Ok(Some(made)) = Provenance::of_file(path)
     {
         return Ok(made.key());

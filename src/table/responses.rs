@@ -1,4 +1,4 @@
-//! The files of simulate: one row a motion and structure, and one a moment of a traced response.
+//! The outputs of simulate: responses, one row for each motion and structure, and traces.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ pub struct ResponseRow {
     pub alpha_rad: f64,
     pub eta: f64,
     pub outcome: Outcome,
-    /// None where it overturns: how far it leans when it is down is no demand.
+    /// None after overturning: the final rotation is not a demand.
     pub edp: Option<f64>,
     pub impacts: Option<i32>,
     pub mw: Option<f64>,
@@ -32,7 +32,7 @@ pub struct ResponseRow {
     pub im6: Option<f64>,
 }
 
-/// A moment of a traced response.
+/// A point of a traced response.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TraceRow {
     pub motion_id: String,

@@ -1,4 +1,4 @@
-//! Structs as rows of a table: the struct is the schema, the dictionary adds unit and meaning.
+//! Structs as rows of a table: the struct is the schema, the dictionary has unit and meaning.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,12 +13,12 @@ use super::TableError;
 use super::dictionary;
 use super::file::Table;
 
-/// A struct of numbers, texts, options of them and lists, each field a column.
+/// A struct of numbers, texts, options of them and lists; each field is a column.
 pub trait Row: Serialize + DeserializeOwned {}
 
 impl<T: Serialize + DeserializeOwned> Row for T {}
 
-/// The columns of a row, with unit and meaning.
+/// Returns the schema of a row, with unit and meaning.
 pub fn schema<R: Row>() -> SchemaRef {
     let options = TracingOptions::default()
         .strings_as_large_utf8(false)
@@ -29,19 +29,19 @@ pub fn schema<R: Row>() -> SchemaRef {
     Arc::new(Schema::new(fields.iter().map(with_meaning).collect::<Vec<_>>()))
 }
 
-/// Rows as a batch of columns.
+/// Converts rows to a batch.
 pub fn batch<R: Row>(rows: &[R]) -> anyhow::Result<RecordBatch> {
     batch_of::<R, R>(rows)
 }
 
-/// Rows, or references to them, as a batch of columns.
+/// Converts rows, or references to them, to a batch.
 pub fn batch_of<R: Row, S: Serialize>(rows: &[S]) -> anyhow::Result<RecordBatch> {
     let schema = schema::<R>();
     let batch = serde_arrow::to_record_batch(schema.fields(), &rows)?;
     Ok(batch.with_schema(schema)?)
 }
 
-/// Reads all rows of a table. A column that no row needs may be missing.
+/// Reads all rows of a table. A column of optional values may be missing.
 pub fn read<R: Row>(path: &Path) -> Result<Vec<R>, TableError> {
     let (table, schema) = (Table::open(path)?, schema::<R>());
     let found = table.schema();
@@ -61,7 +61,7 @@ pub fn read<R: Row>(path: &Path) -> Result<Vec<R>, TableError> {
     Ok(rows)
 }
 
-/// Batches of as many rows, side by side.
+/// Joins the columns of batches of equal length.
 pub fn side_by_side(batches: &[RecordBatch]) -> anyhow::Result<RecordBatch> {
     let schemas: Vec<SchemaRef> = batches.iter().map(RecordBatch::schema).collect();
     let fields: Vec<FieldRef> = schemas.iter().flat_map(|schema| schema.fields().iter().cloned()).collect();

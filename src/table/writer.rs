@@ -1,4 +1,4 @@
-//! Writes a table beside its name and renames it when it is whole: a reader never sees half a file.
+//! Writes a table under a temporary name and renames it: readers never see part of a file.
 
 use std::fs::File;
 use std::io::Write;
@@ -15,13 +15,13 @@ use tempfile::NamedTempFile;
 use super::TableError;
 use super::provenance::{CREATED_BY, Provenance};
 
-/// Rows of a row group of a narrow table, and of one with samples.
+/// Rows per row group: of a narrow table, and of one with samples.
 const ROWS_IN_GROUP: usize = 32_768;
 const MOTIONS_IN_GROUP: usize = 64;
-/// How the names of files end that are not yet whole.
+/// Suffix of files being written.
 const PARTIAL: &str = ".partial";
 
-/// A table that is being written.
+/// A table being written.
 pub struct TableWriter {
     path: PathBuf,
     partial: NamedTempFile,
@@ -29,7 +29,7 @@ pub struct TableWriter {
 }
 
 impl TableWriter {
-    /// Begins the table that is to stand at `path`.
+    /// Begins a table at `path`.
     pub fn create(path: &Path, schema: &SchemaRef) -> Result<TableWriter, TableError> {
         let partial = partial_beside(path)?;
         let file = partial.as_file().try_clone().map_err(|source| TableError::io(path, source))?;
@@ -43,7 +43,7 @@ impl TableWriter {
         self.writer.write(rows).map_err(|cause| cannot_write(&self.path, cause))
     }
 
-    /// Ends the table and gives it its name.
+    /// Ends the table and renames it.
     pub fn finish(mut self, made: &Provenance) -> Result<(), TableError> {
         self.writer.append_key_value_metadata(made.key_value());
         self.writer.finish().map_err(|cause| cannot_write(&self.path, cause))?;
@@ -51,7 +51,7 @@ impl TableWriter {
     }
 }
 
-/// Writes a text or other small file, whole or not at all.
+/// Writes a small file atomically.
 pub fn write_file(path: &Path, content: &[u8]) -> Result<(), TableError> {
     let mut partial = partial_beside(path)?;
     partial.write_all(content).map_err(|source| cannot_write(path, source))?;
@@ -68,7 +68,7 @@ fn cannot_write(path: &Path, cause: impl ToString) -> TableError {
     TableError::table(path, format!("cannot write: {}", cause.to_string()))
 }
 
-/// A new file beside `path`, locked as long as it is being written, so that others can tell it from a stray.
+/// Creates a temporary file beside `path`, locked while it is written, so that other runs do not remove it.
 fn partial_beside(path: &Path) -> Result<NamedTempFile, TableError> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = path.file_name().ok_or_else(|| cannot_write(path, "that is not a file name"))?;
@@ -77,7 +77,7 @@ fn partial_beside(path: &Path) -> Result<NamedTempFile, TableError> {
     remove_strays(folder, &prefix);
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(PARTIAL);
-    // The permissions that any new file gets, not the private ones of a temporary file.
+    // Default permissions, in place of the private ones of a temporary file.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let partial = builder.tempfile_in(folder).map_err(|source| cannot_write(path, source))?;
@@ -85,7 +85,7 @@ fn partial_beside(path: &Path) -> Result<NamedTempFile, TableError> {
     Ok(partial)
 }
 
-/// Removes what a killed run left. A stray that cannot be removed does no harm.
+/// Removes files of killed runs. One that cannot be removed does no harm.
 fn remove_strays(folder: &Path, prefix: &str) {
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
@@ -96,7 +96,8 @@ fn remove_strays(folder: &Path, prefix: &str) {
     }
 }
 
-/// How columns are compressed. Few numbers occur twice, so that a dictionary of them only costs time; samples compress by their bytes.
+/// Returns the compression of the columns: no dictionary of numbers, which rarely repeat; samples split by
+/// bytes.
 fn properties(schema: &SchemaRef) -> WriterProperties {
     let zstd = Compression::ZSTD(ZstdLevel::try_new(1).unwrap_or_default());
     let samples = |field: &Field| match field.data_type() {

@@ -1,17 +1,17 @@
 //! What the tests of the command share.
 
 use std::path::Path;
+use std::process::Command;
 use std::sync::Arc;
 
 use arrow_array::builder::{Float64Builder, ListBuilder};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch};
-use assert_cmd::Command;
 use parquet::arrow::ArrowWriter;
 use rockfrag::table::provenance::Provenance;
 
 /// The command, called in `folder`.
 pub fn rockfrag(folder: &Path, arguments: &str) -> Command {
-    let mut command = Command::cargo_bin("rockfrag").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rockfrag"));
     command.current_dir(folder).args(arguments.split_whitespace());
     command
 }

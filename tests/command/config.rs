@@ -10,7 +10,6 @@ fn mistakes_in_a_pipeline_file_are_named() {
         ("fit-pro: { confidence: 2 }", vec!["fit-pro", "confidence", "2"]),
         ("fit-pro: 3", vec!["pipeline.yaml", "fit-pro", "3"]),
         ("simulate: { structure: [{ name: a, q: 1 }] }", vec!["simulate", "'q'"]),
-        ("simulate: { structures: none.csv }", vec!["none.csv"]),
         ("a: [", vec!["pipeline.yaml"]),
         ("{}", vec!["pipeline.yaml", "no stage"]),
         ("seed: x\nfit-pro: {}\nsample-scenarios: {}", vec!["seed", "x"]),
@@ -20,6 +19,7 @@ fn mistakes_in_a_pipeline_file_are_named() {
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "{wrong}: nothing is written");
     }
     fail(tempfile::tempdir().unwrap().path(), "run", 2, &["pipeline.yaml", "rockfrag init"]);
+    fail(folder_with("simulate: { structures: none.csv }").path(), "run", 1, &["none.csv"]);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use arrow_array::types::Float32Type;
 use arrow_array::{ArrayRef, Float32Array, Float64Array, Int32Array, ListArray, StringArray};
 
-use crate::common::{SMALL, bytes, fail, folder_with, succeed, write, write_motions};
+use crate::common::{SMALL, bytes, fail, folder_with, made, succeed, write, write_motions};
 
 const STRUCTURE: &str = "--p 2.5 --alpha 0.2 --eta 0.92";
 
@@ -43,9 +43,9 @@ fn columns_that_are_missing_or_of_another_type_are_named() {
         }
     };
     for (columns, named) in [
-        (["number", "number", ""], vec!["acceleration_m_s2", "m/s2"]),
-        (["number", "text", "list"], vec!["dt_s"]),
-        (["number", "number", "text"], vec!["acceleration_m_s2"]),
+        (["text", "number", ""], vec!["acceleration_m_s2", "m/s2"]),
+        (["text", "text", "list"], vec!["dt_s"]),
+        (["text", "number", "text"], vec!["acceleration_m_s2"]),
         (["list", "number", "list"], vec!["motion_id"]),
     ] {
         let names = ["motion_id", "dt_s", "acceleration_m_s2"];
@@ -145,6 +145,13 @@ fn a_file_that_another_program_rewrote_is_not_taken_for_ours() {
     rows.iter().for_each(|batch| writer.write(batch).unwrap());
     writer.close().unwrap();
     let (plan, _) = succeed(folder.path(), "run --dry-run");
-    assert!(plan.contains("simulate: run"), "{plan}");
+    assert!(plan.contains("synthesize-motions: run"), "{plan}");
     fail(folder.path(), "run", 1, &["motions.parquet", "--force"]);
+    let before = made(&folder.path().join("out/responses.parquet"));
+    succeed(
+        folder.path(),
+        "simulate --config pipeline.yaml --in out/motions.parquet --out out/responses.parquet",
+    );
+    let after = made(&folder.path().join("out/responses.parquet"));
+    assert!(before.key() != after.key() && before.arguments == after.arguments);
 }

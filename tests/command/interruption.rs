@@ -9,7 +9,7 @@ use rockfrag::table::provenance::Provenance;
 use crate::common::{FILES, SMALL, bytes, folder_with, succeed};
 
 fn start(folder: &Path, arguments: &str) -> Child {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin("rockfrag"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rockfrag"));
     command.args(arguments.split_whitespace()).current_dir(folder).stdout(Stdio::null());
     command.stderr(Stdio::piped()).spawn().unwrap()
 }

@@ -4,4 +4,5 @@ mod common;
 mod config;
 mod files;
 mod interruption;
+mod paper;
 mod pipeline;

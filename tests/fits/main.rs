@@ -6,13 +6,13 @@ mod common;
 mod counted_rates;
 mod coverage;
 mod demand;
-#[cfg(feature = "pipeline")]
-mod export;
 mod hazard;
+mod model;
 mod normal;
 mod overturning;
 mod paper;
 mod ranking;
 mod regression;
+mod stored;
 mod tree;
 mod validation;

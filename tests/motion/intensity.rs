@@ -41,7 +41,7 @@ fn constant_acceleration_has_its_closed_forms() {
 
 #[test]
 fn significant_durations_are_those_of_lines_between_the_samples() {
-    // Of a(t) = t - 2 the share ((t - 2)^3 + 8) / 16 has come by t, whatever the samples between.
+    // For a(t) = t - 2 the share at t is ((t - 2)^3 + 8) / 16, independent of the samples between.
     let moment = |share: f64| 2.0 + (16.0 * share - 8.0).cbrt();
     for steps in [1, 2, 5, 64] {
         let dt = 4.0 / f64::from(steps);
@@ -62,12 +62,12 @@ fn an_oscillator_follows_its_closed_forms() {
     let z: f64 = 0.05;
     let overshoot = (-PI * z / (1.0 - z * z).sqrt()).exp();
     close(spectral_acceleration(&step, 0.001, 1.0, z), 1.0 + overshoot, 1e-5, "step, damped");
-    // Long resonance builds up to 1/(2 z).
+    // Steady resonance: 1/(2 z).
     let resonance = sine(1.0, 1.0, 60.0, 0.005);
     close(spectral_acceleration(&resonance, 0.005, 1.0, z), 1.0 / (2.0 * z), 5e-3, "resonance");
-    // A very stiff oscillator moves with the ground, exactly linear between samples as the record is.
+    // A very stiff oscillator moves with the ground, which is linear between samples.
     close(spectral_acceleration(&sine(2.0, 1.0, 5.0, 0.01), 0.01, 0.005, z), 2.0, 5e-3, "stiff");
-    // The recursion is exact for a record that is linear between samples: a finer sampling of it changes nothing.
+    // The recursion is exact for a record linear between samples: finer sampling changes nothing.
     let coarse = sine(1.0, 3.0, 4.0, 0.04);
     let fine: Vec<f64> = coarse
         .windows(2)
@@ -79,8 +79,8 @@ fn an_oscillator_follows_its_closed_forms() {
 
 #[test]
 fn the_housner_intensity_of_a_short_pulse_is_its_impulse() {
-    // A pulse far shorter than any period gives every undamped oscillator the pseudo-velocity of its impulse; 5 % of
-    // damping lowers it to exp(-z/sqrt(1-z^2) atan(sqrt(1-z^2)/z)).
+    // A pulse far shorter than any period gives every undamped oscillator the pseudo-velocity of its impulse;
+    // 5 % damping reduces it to exp(-z/sqrt(1-z^2) atan(sqrt(1-z^2)/z)).
     let dt = 0.0005;
     let mut samples = vec![0.0; 6001];
     samples[1] = 10.0;
@@ -93,7 +93,7 @@ fn the_housner_intensity_of_a_short_pulse_is_its_impulse() {
 
 #[test]
 fn dimensionless_measures_do_not_depend_on_the_units() {
-    // Times s-fold and lengths l-fold, of the motion and of the structure.
+    // Times scaled by s and lengths by l, of the motion and of the structure.
     let (s, l) = (1.7, 0.6);
     let structure = Structure::new("one", 2.0, 0.2, 0.9).unwrap();
     let steepness = 0.2_f64.tan() * l / (s * s);
@@ -109,7 +109,8 @@ fn dimensionless_measures_do_not_depend_on_the_units() {
             (quantity.dimensionless(3.0, &structure), quantity.dimensionless(3.0 * factor, &other));
         assert!((here - there).abs() < 1e-12 * here, "{quantity:?}: {here}, {there}");
     }
-    // PGA is an acceleration and PGV a velocity, as in IM4 and IM5; two seconds of constant acceleration a have p 2 a^2.
+    // PGA is an acceleration and PGV a velocity, as in IM4 and IM5; for two seconds of constant acceleration
+    // a, the Arias measure is p 2 a^2.
     let (pga, pgv) = (3.0, 0.5);
     let measures = IntensityMeasures::new(&structure, pga, pgv, None, None);
     assert_eq!(Quantity::Acceleration.dimensionless(pga, &structure), measures.im4);

@@ -1,4 +1,4 @@
-//! Ground motions (sections 2.1.2 and 2.1.3) against published values and closed forms.
+//! Synthetic motions (sections 2.1.2 and 2.1.3) against published values and closed forms.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
@@ -16,7 +16,7 @@ use rockfrag::motion::{
 
 const EPOCHS: [Epoch; 3] = [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv];
 
-/// The scenarios of one magnitude and distance.
+/// Scenarios of one magnitude and distance.
 fn cell(mw: f64, re_km: f64, samples: usize, seed: u64) -> Vec<Scenario> {
     Grid { mw: vec![mw], re_km: vec![re_km], samples, design: Design::Lhs, seed }.scenarios_of_cell(0)
 }
@@ -31,7 +31,8 @@ fn a_latin_hypercube_has_a_sample_in_each_stratum() {
             let mut hit = [false; 1024];
             points.iter().for_each(|point| hit[(point[dimension] * 1024.0) as usize] = true);
             let share = hit.iter().filter(|hit| **hit).count() as f64 / 1024.0;
-            // Independent samples miss a stratum with probability 1/e; the share that is hit has a deviation of 0.0097.
+            // Independent samples miss a stratum with probability 1/e; the standard deviation of the share
+            // hit is 0.0097.
             let expected = if is_stratified { 1.0 } else { 1.0 - (-1.0_f64).exp() };
             assert!(
                 (share - expected).abs() < if is_stratified { 1e-9 } else { 0.05 },
@@ -62,12 +63,13 @@ fn median(mut values: Vec<f64>) -> f64 {
     0.5 * (values[(values.len() - 1) / 2] + values[values.len() / 2])
 }
 
-/// Seeds whose medians are averaged. One hundred motions leave a standard error of 1 to 2.6 % in a median.
+/// Seeds whose medians are averaged. The standard error of a median of 100 motions is 1 to 2.6 %.
 const SEEDS: u64 = 6;
-/// The published medians come from 100 motions: 2.6 % of their own, 1 % of ours, and half a unit of their last digit.
+/// The published medians are of 100 motions: 2.6 % for theirs, 1 % for ours, and half a unit of the last
+/// digit.
 const SAMPLING: f64 = 0.06;
 
-/// Medians of PGA (g), PGV (cm/s) and Tm (s) of 100 motions, the mean over all seeds.
+/// Medians of PGA (g), PGV (cm/s) and Tm (s) of 100 motions, averaged over the seeds.
 fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) -> &Vec<f64>) -> [f64; 3] {
     let mut mean = [0.0; 3];
     for seed in 0..SEEDS {
@@ -89,7 +91,7 @@ fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) 
     mean
 }
 
-/// The Fourier coefficients of accelerations, as the discrete transform gives them.
+/// Fourier coefficients of an acceleration, by the discrete transform.
 fn spectrum(samples: &[f64]) -> Vec<Complex64> {
     let fft = RealFftPlanner::<f64>::new().plan_fft_forward(samples.len());
     let mut spectrum = fft.make_output_vec();
@@ -97,7 +99,8 @@ fn spectrum(samples: &[f64]) -> Vec<Complex64> {
     spectrum
 }
 
-/// Fourier amplitude of the high frequencies over that of the model, at each frequency (Hz) but the first and last.
+/// Fourier amplitude of the high frequencies over that of the model, at each frequency (Hz) except the first
+/// and the last.
 fn relative_amplitudes(motion: &Synthetic, model: &StochasticModel, source: &Source) -> Vec<(f64, f64)> {
     let step_hz = 1.0 / (motion.high_frequency.len() as f64 * motion.dt_s);
     let coefficients = spectrum(&motion.high_frequency);
@@ -116,7 +119,7 @@ fn the_largest_velocity_of_a_pulse_has_its_published_values() {
         assert!((f - expected).abs() < 5e-5, "gamma = {gamma}: {f}");
         assert!((largest_velocity(gamma, 0.0) - 1.0).abs() < 1e-12);
     }
-    // Of (1 + cos x) sin x / 2, in closed form.
+    // The largest (1 + cos x) sin x / 2, in closed form.
     assert!((largest_velocity(1.0, FRAC_PI_2) - 3.0 * 3f64.sqrt() / 8.0).abs() < 1e-14);
 }
 
@@ -145,7 +148,8 @@ fn fourier_amplitudes_have_their_published_values() {
 #[test]
 fn amplitudes_fall_with_distance_and_filters_as_their_equations_say() {
     let near = StochasticModel::default();
-    // Spreading is 1/R to 40 km and 1/sqrt(40 R) beyond: at 0.01 Hz nothing else depends on the distance but Q.
+    // Spreading is 1/R up to 40 km and 1/sqrt(40 R) beyond: at 0.01 Hz only Q depends on the distance
+    // besides.
     let spread = |re_km: f64| {
         let source = Source::new(6.0, re_km);
         let attenuation = PI * source.distance_km * 0.01_f64.powf(0.55) / (180.0 * 3.5);
@@ -198,8 +202,8 @@ fn the_source_lasts_as_long_as_its_equation_says() {
 fn two_hundred_motions_have_the_amplitude_of_the_model_in_every_band() {
     let model = MotionModel::default();
     let source = Source::new(6.5, 10.0);
-    // The last is all of them. A band has 200 motions x its width x 5 s independent values: a standard error of 1.3 % in the
-    // first.
+    // The last band has all frequencies. A band has 200 motions x its width x 5 s independent values: a
+    // standard error of 1.3 % in the first.
     let bands = [(0.5, 2.0), (2.0, 5.0), (5.0, 10.0), (10.0, 20.0), (0.5, 20.0)];
     let mut sums = [(0.0, 0.0); 5];
     for motion in synthesize(&model, &cell(6.5, 10.0, 200, 3)) {
@@ -243,7 +247,7 @@ fn high_frequencies_rise_and_decay_with_the_window() {
     }
     for ((from, to), share) in shares.into_iter().zip(ours) {
         let expected = energy(from, to) / total;
-        // The first and last parts lose a little to the quiet beyond the window.
+        // The first and last parts lose a little to the zeros outside the window.
         assert!((share - expected).abs() < 0.02, "{from}-{to}: {share:.4}, expected {expected:.4}");
     }
 }
@@ -281,8 +285,8 @@ fn combined_motions_have_their_published_medians() {
                 "M {mw} R {re_km}: {clamp}, published {expected}"
             );
         }
-        // What |D| leaves where the pulse is the stronger lengthens the mean period if it falls into its band: by 12 % at
-        // M 6.5 (an independent program in numpy says the same), less elsewhere. The peaks hardly change.
+        // Where the pulse is larger, |D| lengthens the mean period if it is in its band: by 12 % at M 6.5
+        // (confirmed by an independent program in numpy), less elsewhere. The peaks hardly change.
         let tm_tolerance = if mw == 6.5 { 0.20 } else { 0.10 };
         for (k, tolerance) in [0.10, 0.10, tm_tolerance].into_iter().enumerate() {
             let ratio = absolute[k] / clamp[k];
@@ -333,15 +337,15 @@ fn the_pulse_is_whole_at_its_epoch_and_ends_at_rest() {
             assert_eq!((motion.pulse[0], *motion.pulse.last().unwrap()), (0.0, 0.0));
             for (k, a) in motion.pulse.iter().enumerate() {
                 let from_epoch_s = k as f64 * motion.dt_s - motion.epoch_s;
-                // Times of some 20 s, of which wp makes angles, carry their own rounding.
+                // Times of about 20 s, multiplied by wp, have rounding errors of their own.
                 let largest = pulse.amplitude_m_s * 2.0 * PI / pulse.tp_s;
                 assert!((a - pulse.acceleration_m_s2(from_epoch_s)).abs() < 1e-12 * largest);
                 assert!(*a == 0.0 || from_epoch_s.abs() <= half + 1e-9);
             }
             let velocity = intensity::velocity(&motion.pulse, motion.dt_s);
             let pgv = intensity::peak(&velocity);
-            // The highest frequency in the pulse is wp (1 + 1/gamma). A peak between samples is missed by up to an
-            // eighth of its square, trapezoids miss a twelfth of it.
+            // The highest frequency w of the pulse is wp (1 + 1/gamma). The relative error of a peak between
+            // samples is at most (w dt)^2 / 8, that of trapezoids (w dt)^2 / 12.
             let x = 2.0 * PI / scenario.tp_s * (1.0 + 1.0 / scenario.gamma) * motion.dt_s;
             let sampling = x * x * (1.0 / 8.0 + 1.0 / 12.0);
             assert!((pgv / scenario.vp_m_s - 1.0).abs() < sampling, "{epoch:?} {scenario:?}: {pgv}");
@@ -365,7 +369,8 @@ fn the_epoch_is_where_the_option_says() {
             };
             let half_s = 0.5 * Pulse::of(scenario).duration_s();
             let peak_s = PEAK_SHARE * window.duration_s;
-            // Two seconds of quiet, then whichever of pulse and window begins first; the window begins at a sample.
+            // Two seconds of zeros before the pulse or the window, whichever begins first; the window begins
+            // at a sample.
             let expected = match epoch {
                 Epoch::EnvelopePeak => {
                     let onset = (2.0 + (half_s - peak_s).max(0.0)) / motion.dt_s;

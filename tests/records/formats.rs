@@ -1,4 +1,4 @@
-//! Each format of the agencies: what is written is what is read, and no damage does harm.
+//! Formats of the agencies: reading returns what was written, and damage causes no harm.
 
 use proptest::prelude::*;
 use rockfrag::keyword::Keyword;
@@ -11,7 +11,7 @@ fn read(text: &str) -> Result<Vec<RecordedMotion>, RecordFileError> {
     read_records(text.as_bytes(), &ReadOptions { pga_tolerance: 1e-4, ..ReadOptions::default() })
 }
 
-/// A file of 1000 samples, half of their last digit (m/s2), and its labels.
+/// A file of 1000 samples, half a unit of their last digit (m/s2), and its labels.
 struct Written {
     format: Format,
     text: String,
@@ -93,7 +93,7 @@ fn what_is_cut_off_or_overwritten_is_refused() {
     }
 }
 
-/// Files of each format with some bytes changed, inserted or cut off.
+/// Files of each format with bytes changed, inserted or cut off.
 fn damaged() -> impl Strategy<Value = Vec<u8>> {
     let samples = motion(40);
     let csv = "t;a (g)\n0;1\n0.1;2\n".to_string();

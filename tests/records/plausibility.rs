@@ -1,4 +1,4 @@
-//! What can be a record, and what was never recorded.
+//! Plausible and implausible records.
 
 use rockfrag::records::plausibility::{Doubt, doubt};
 
@@ -10,9 +10,9 @@ fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
     let mut half_pulses = 0;
     for motion in reference_motions().into_values() {
         match doubt(&motion.acceleration_m_s2, motion.dt_s) {
-            // The strongest synthetic ones are of a strength that few records have.
+            // The strongest synthetic motions are as strong as few records.
             None | Some(Doubt::RarePga { .. } | Doubt::RarePgv { .. }) => {}
-            // Half-sine and rectangular pulses leave the ground moving.
+            // Half-sine and rectangular pulses end with a velocity.
             Some(Doubt::Drift { .. }) => half_pulses += 1,
             Some(other) => panic!("{}: {other}", motion.motion_id),
         }

@@ -1,4 +1,4 @@
-//! What is done to records, against closed forms.
+//! Processing of records against closed forms.
 
 use std::f64::consts::PI;
 
@@ -44,10 +44,10 @@ fn the_high_pass_has_its_gain_and_no_phase() {
         let expected = sine(f, n, dt).into_iter().map(|a| gain * a);
         near(&filter(sine(f, n, dt), 0.5)[n / 4..3 * n / 4], expected.skip(n / 4), 2e-4);
     }
-    // What comes symmetrical in time goes symmetrical.
+    // A symmetric motion stays symmetric.
     let symmetric: Vec<f64> = (0..2001).map(|k| (-((k as f64 - 1000.0) * 0.02).powi(2)).exp()).collect();
     near(&filter(symmetric.clone(), 0.5), filter(symmetric, 0.5).into_iter().rev(), 1e-9);
-    // A corner below anything that the record resolves asks for no more memory than that.
+    // A corner below all resolved frequencies needs no more memory.
     near(&filter(motion(100), 1e-12), motion(100), 0.2);
 }
 
@@ -60,13 +60,13 @@ fn resampling_keeps_what_both_steps_can_hold() {
         let quarter = resampled.len() / 4;
         near(&resampled[quarter..3 * quarter], sine(3.0, n * 4, new_dt).into_iter().skip(quarter), 2e-4);
     }
-    // 40 Hz does not fit into steps of 0.02 s, and is not folded into them.
+    // 40 Hz is above the Nyquist frequency of 0.02 s, and is not aliased.
     assert!(peak(&resample(&sine(40.0, n, dt), dt, 0.02)[500..1500]) < 1e-3);
 }
 
 #[test]
 fn a_pair_turns_as_a_vector() {
-    // Acceleration along N60E seen from azimuths 20 and 290.
+    // Acceleration along N60E, in components of azimuths 20 and 290.
     let along = motion(1000);
     let seen =
         |azimuth: f64| along.iter().map(|a| a * (60.0 - azimuth).to_radians().cos()).collect::<Vec<_>>();
@@ -76,7 +76,8 @@ fn a_pair_turns_as_a_vector() {
     }
     let azimuth = pair.azimuth_of([40.0, 60.0 - 290.0].map(|turn: f64| turn.to_radians().cos()));
     assert!((azimuth - 60.0).abs() < 1e-9, "{azimuth}");
-    // Of a motion along one line, the peak goes with the cosine of the direction; of a circle, it is the same in all.
+    // For a motion along one line, the peak varies with the cosine of the direction; for a circle it is
+    // constant.
     let rotd = pair.rotd();
     assert!((rotd.pga100_m_s2 / peak(&along) - 1.0).abs() < 1e-12);
     assert!((rotd.pga50_m_s2 / (peak(&along) * 45.0_f64.to_radians().cos()) - 1.0).abs() < 0.01);

@@ -1,4 +1,4 @@
-//! Pulses in records: found where they are, and fitted as they were made.
+//! Pulses in records: detection and fit.
 
 use std::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use rockfrag::records::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_
 const DT: f64 = 0.01;
 const PULSE: Pulse = Pulse { amplitude_m_s: 0.8, tp_s: 3.0, gamma: 1.9, nu_rad: 0.7 };
 
-/// A pulse at 8 s of 40, and a steady shaking of this velocity over all of it.
+/// A pulse at 8 s of 40, with a steady shaking of this velocity.
 fn velocity(pulse: &Pulse, shaking_m_s: f64) -> Vec<f64> {
     let shaking = |t: f64| [1.3, 2.1, 3.7, 5.9].iter().map(|f| (2.0 * PI * f * t + f).sin() / f).sum::<f64>();
     let times = (0..4000).map(|k| k as f64 * DT);
@@ -61,7 +61,7 @@ fn a_pulse_is_found_and_shaking_is_none() {
     );
     let shaking = velocity(&Pulse { amplitude_m_s: 0.0, ..PULSE }, 1.0);
     assert_eq!(indicator_of(&shaking).verdict, Verdict::NoPulse);
-    // The indicator does not depend on the scale; whether the pulse is strong enough does.
+    // The indicator does not depend on the scale; the limit of peak velocity does.
     let weak = indicator_of(&pulse.iter().map(|v| 0.2 * v).collect::<Vec<f64>>());
     assert_eq!(weak.verdict, Verdict::Weak);
     assert!((weak.indicator - found.indicator).abs() < 1e-9);
@@ -72,8 +72,8 @@ fn a_pulse_is_found_and_shaking_is_none() {
     assert!((0..9).all(|short| PulseIndicator::of(&vec![1.0; short], DT).is_some() == (short > 0)));
 }
 
-/// Two wavelets far apart in period and time, of which the second is stronger by so little that only the refined
-/// periods show it: the first lies on a period of the scan, the second between two.
+/// Two wavelets far apart in period and time. The second is stronger by so little that only refined periods
+/// show it: the first is at a period of the scan, the second between two.
 #[test]
 fn the_period_is_that_of_the_stronger_of_two_equal_peaks() {
     let period = |place: f64| 0.25 * 60.0_f64.powf(place / 59.0);
@@ -90,7 +90,7 @@ fn the_period_is_that_of_the_stronger_of_two_equal_peaks() {
 fn a_fitted_pulse_is_the_one_that_was_made() {
     let short = Pulse { tp_s: 0.9, gamma: 1.2, nu_rad: -2.0, ..PULSE };
     let long = Pulse { tp_s: 6.5, gamma: 2.8, nu_rad: 1.6, ..PULSE };
-    // Under shaking it stays near.
+    // With shaking it stays near.
     for (pulse, shaking, near) in
         [(PULSE, 0.0, 0.01), (short, 0.0, 0.01), (long, 0.0, 0.01), (PULSE, 0.06, 0.05)]
     {

@@ -21,7 +21,7 @@ pub fn motions(path: &Path) -> Vec<Motion> {
     parts.flat_map(|part| part.unwrap().1).collect()
 }
 
-/// The motions of the references, by name.
+/// Motions of the references, by name.
 pub fn reference_motions() -> HashMap<String, Motion> {
     let motions = motions(&reference("rocking/motions.parquet")).into_iter();
     motions.map(|motion| (motion.motion_id.clone(), motion)).collect()
@@ -31,18 +31,18 @@ fn rows<T: serde::de::DeserializeOwned>(name: &str) -> Vec<T> {
     csv::Reader::from_path(reference(name)).unwrap().into_deserialize().map(Result::unwrap).collect()
 }
 
-/// Our value, and by how much it may differ from the reference: a share of it, and an amount.
+/// Our value, with its relative and absolute tolerance.
 fn ours(measured: &Measured, measure: &str, dt_s: f64) -> (f64, f64, f64) {
     let Measured { measures: m, housner_m, sa_m_s2 } = measured;
     match measure {
         "pga_m_s2" => (m.pga_m_s2, 1e-8, 0.0),
         "pgv_m_s" => (m.pgv_m_s, 1e-8, 0.0),
         "pgd_m" => (m.pgd_m, 1e-8, 0.0),
-        // Of records padded to the same length, as these are.
+        // For records padded to the same length, as these are.
         "tm_s" => (m.tm_s.unwrap(), 1e-8, 0.0),
         "arias_m_s" => (m.arias_m_s, 1e-8, 0.0),
         "cav_m_s" => (m.cav_m_s, 1e-8, 0.0),
-        // The reference has 64 parts of a step.
+        // The reference has 64 substeps.
         "d5_75_s" => (m.d5_75_s, 0.0, 0.02 * dt_s),
         "d5_95_s" => (m.d5_95_s, 0.0, 0.02 * dt_s),
         "housner_m" => (housner_m.unwrap(), 1e-6, 0.0),
@@ -98,6 +98,6 @@ fn pulses_are_those_of_full_resolution_and_global_search() {
         assert!(fitted.r2 > r2 - 0.002, "motion {motion_id}: {fitted:?} for {r2}");
         same_period += usize::from((fitted.pulse.tp_s / tp_s - 1.0).abs() < 0.02);
     }
-    // Where two pulses fit equally well, either may be found.
+    // If two pulses fit equally well, either is right.
     assert!(same_period >= answers.len() - 1, "{same_period} of {}", answers.len());
 }

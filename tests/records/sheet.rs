@@ -1,8 +1,9 @@
-//! Tables as people and agencies write them, and what is read of them.
+//! Tables as people and agencies write them.
 
 use rockfrag::sheet::{Heading, Sheet, SheetError};
 
-/// A text, the names of its columns with their units, the line of its first row, and its rows (words where no number is).
+/// A text, the names of its columns with their units, the line of its first row, and its rows (text if not a
+/// number).
 type Case = (&'static str, &'static str, usize, &'static str);
 
 const CASES: &[Case] = &[

@@ -1,12 +1,11 @@
-//! Files of records as people have them, with what is easily wrong: each is read as it is meant, or refused for
-//! the right reason.
+//! Files of records with common mistakes: each is read as intended, or refused for the right reason.
 
 use rockfrag::records::{ReadOptions, RecordFileError, read_records};
 use rockfrag::units::Unit;
 
 use crate::writers::*;
 
-/// Lines of the fields that `row` makes of sample number and acceleration, in units of so many m/s2.
+/// Lines of the fields that `row` makes of sample number and acceleration, in units of `unit` m/s2.
 fn lines(heading: &str, unit: f64, row: impl Fn(usize, f64) -> String) -> String {
     let rows = motion(1600).into_iter().enumerate().map(|(k, a)| row(k, a / unit) + "\n");
     heading.to_string() + "\n" + &rows.collect::<String>()
@@ -16,7 +15,7 @@ fn time(k: usize) -> f64 {
     k as f64 * DT
 }
 
-/// A CSV file of times and samples under this heading.
+/// A CSV file of times and samples with this heading.
 fn csv(heading: &str, unit: f64) -> String {
     lines(heading, unit, |k, a| format!("{:.2},{a:.6}", time(k)))
 }
@@ -68,7 +67,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
     let at2 = |unit: &str, counts: &str| at2(&motion(103), unit, counts);
     let gap = lines("time,acc_g", G, |k, a| format!("{:.2},{a:.6}", time(k + usize::from(k > 200))));
     for (text, options, kind) in [
-        // Units that contradict, are unknown, or are of something else.
+        // Contradictory units, unknown units, and units of other quantities.
         (csv("time,acc_cm_s2", 0.01), "unit=g", "Contradiction { line: 2, field: \"unit\""),
         (csv("time,acc (counts)", 1e-4), "unit=g", "Value { line: 2, field: \"unit\""),
         (csv("time,acc", G), "", "Missing { line: 2, field: \"unit\""),
@@ -102,7 +101,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (at2(IN_G, "NPTS= 104, DT= .01"), "", "Count { announced: 104, found: 103 }"),
         (nga_at2(&motion(103)).replace("E-", "X-"), "", "Value { line: "),
         (knet(&motion(100)).replace("/8388608", "/0"), "", "Value { line: 8"),
-        // What is no record.
+        // Not a record.
         ("Dear colleague,\nplease find attached\n".to_string(), "", "Unrecognised"),
         ("PK\u{3}\u{4}\u{14}\0\u{6}\0".to_string(), "", "Sheet(Binary"),
     ] {
@@ -112,7 +111,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         };
         assert!(found.starts_with(kind), "{kind}: {found}: {}", text.get(..60).unwrap_or(&text));
     }
-    // The last line may be filled up.
+    // Padding of the last line.
     assert_eq!(read(&at2(IN_G, "NPTS= 101, DT= .01"), "").unwrap().1.len(), 101);
     assert!(Unit::of_acceleration("furlong").is_err() && Unit::of_acceleration("cm").is_err());
 }

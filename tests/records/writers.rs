@@ -1,4 +1,4 @@
-//! Files as the networks write them, from known samples.
+//! Writers of files in the formats of the networks.
 
 use std::f64::consts::PI;
 

@@ -47,9 +47,7 @@ fn figures(count: usize) -> Vec<Figure> {
     let frame =
         StructureCurves { name: "frame".to_string(), curves: vec![curve; 2], shares: vec![share; count] };
     let panel = ProbabilityPanel { structures: vec![frame; count.min(2)], ..Default::default() };
-    let bars = vec![("overturns".to_string(), vec![[0.1, 0.3, 0.6]; count])];
-    let site = SiteRates { hazard: vec![[0.1, 1e-2]; count], contributions: bars, ..Default::default() };
-    let object = ObjectRate { name: "rack ".repeat(30), rate: 1e-3, low: f64::NAN, high: 2e-3 };
+    let object = AnnualRate { name: "rack ".repeat(30), rate: 1e-3, low: f64::NAN, high: 2e-3 };
     let analysis = Ida { capacities: vec![0.3; count], motions: count, ..Default::default() };
     let named =
         NamedEstimates { series: vec![("im4".to_string(), vec![share]); count], ..Default::default() };
@@ -65,7 +63,7 @@ fn figures(count: usize) -> Vec<Figure> {
         overturning(&[panel.clone(), panel.clone()]),
         hybrids(from_ref(&panel)),
         calibrated(&[panel]),
-        rates(&site),
+        rates(&vec![object.clone(); count]),
         list(&vec![object; count]),
         ida(&[analysis]),
         validation(from_ref(&named)),
@@ -76,7 +74,7 @@ fn figures(count: usize) -> Vec<Figure> {
 #[test]
 fn each_figure_is_drawn_and_its_table_has_the_numbers() {
     for figure in [figures(100), figures(1), figures(0)].concat() {
-        let text = svg(&figure);
+        let text = svg(&figure, "{\"stage\": \"report\"}");
         assert!(!text.contains("NaN") && !text.contains("inf"), "{}", figure.name);
         let tree = usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
         let image =
@@ -104,7 +102,7 @@ fn values_stand_where_the_axes_say() {
     let panel =
         Panel { x, y, layers: vec![Layer::points("", Ink::Data(0), [[5.0, 10.0]])], ..Default::default() };
     let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
-    assert!(svg(&figure).contains("M230.6 50h0"), "half of 510.2 - 40 - 9 points, and of 100");
+    assert!(svg(&figure, "").contains("M230.6 50h0"), "half of 510.2 - 40 - 9 points, and of 100");
 }
 
 #[test]

@@ -1,10 +1,11 @@
-//! An answer is the same to the last bit in any company, order and number of threads.
+//! A response is the same to the last bit, whatever the other problems, their order and the number of
+//! threads.
 
 use crate::noise::synthetic_motion;
 use rayon::prelude::*;
 use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, simulate, simulate_all};
 
-/// Structures from hardly rocking to overturning.
+/// Structures from little rocking to overturning.
 fn structures() -> Vec<Structure> {
     let grid = [0.5, 1.0, 2.5, 4.0].into_iter().flat_map(|p| {
         [0.02, 0.1, 0.2, 0.35].into_iter().flat_map(move |alpha| [0.6, 0.92, 1.0].map(|eta| (p, alpha, eta)))
@@ -18,7 +19,7 @@ fn bits(responses: &[Response]) -> Vec<(Outcome, u64, u32)> {
 
 #[test]
 fn an_answer_does_not_depend_on_company_order_or_threads() {
-    // Of different lengths, so that lanes come free at different times.
+    // Different lengths free the lanes at different times.
     let motions: Vec<Vec<f64>> =
         (1..=12).map(|seed| synthetic_motion(seed, 100 + (seed as usize * 37) % 300)).collect();
     let structures = structures();

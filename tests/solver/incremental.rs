@@ -11,7 +11,7 @@ use rockfrag::units::G_M_S2;
 /// So slender that the equation of motion is linear.
 const ALPHA: f64 = 1e-5;
 
-/// The capacity over PGA/(g tan alpha) of a block under samples whose largest is 1.
+/// Capacity, as PGA/(g tan alpha), of a block under samples whose largest is 1.
 fn capacity(scan: &Scan, structure: &Structure, samples: &[f64], dt: f64) -> Capacity {
     let unit = G_M_S2 * structure.alpha_rad.tan();
     let respond = |points: &[ScanPoint]| -> Result<Vec<Response>, std::convert::Infallible> {
@@ -31,8 +31,9 @@ fn close(value: f64, expected: f64, tolerance: f64) {
 
 #[test]
 fn a_rectangular_pulse_overturns_from_the_amplitude_of_the_linear_equation_on() {
-    // In time over 1/p the unstable mode u = (theta + theta'/p)/alpha - 1 of a block that moves to one side obeys u' = u + A(t)
-    // from u = -1: it overturns where the integral of A(t) exp(-t) is above 1. The end of the pulse is a ramp of one step.
+    // With time in 1/p, the unstable mode u = (theta + theta'/p)/alpha - 1 of a block that moves to one side
+    // obeys u' = u + A(t) from u = -1: it overturns where the integral of A(t) exp(-t) exceeds 1. The pulse
+    // ends with a ramp of one step.
     let block = Structure::new("block", 2.0, ALPHA, 0.9).unwrap();
     let scan = Scan::new(0.5, 20.0, 20);
     for duration in [0.3, 0.8, 2.0] {
@@ -53,8 +54,9 @@ fn a_rectangular_pulse_overturns_from_the_amplitude_of_the_linear_equation_on() 
     }
 }
 
-/// Whether a block overturns under one period of A sin(w t), and after how many impacts: the linear equation y'' = y - s + F in
-/// y = theta/alpha and time over 1/p, piece by piece in closed form, where s is the side to which it leans.
+/// Whether a block overturns under one period of A sin(w t), and after how many impacts: closed form of the
+/// linear equation y'' = y - s + F, piece by piece, with y = theta/alpha, time in 1/p, and s the side to
+/// which it leans.
 fn overturns_under_sine(amplitude: f64, w: f64, eta: f64) -> Option<u32> {
     let end = 2.0 * PI / w;
     let forced = -amplitude / (1.0 + w * w);
@@ -78,7 +80,7 @@ fn overturns_under_sine(amplitude: f64, w: f64, eta: f64) -> Option<u32> {
         }
         (y, v, t, side, impacts) = (0.0, eta * velocity(after), after, -side, impacts + 1);
     }
-    // Then it is free: (y - s)^2 - v^2 stays, and an impact takes from v.
+    // Free rocking: (y - s)^2 - v^2 is constant, and an impact reduces v.
     loop {
         if side * (y - side + v) > 0.0 {
             return Some(impacts);
@@ -128,7 +130,7 @@ fn similar_blocks_have_the_same_capacity() {
     assert_eq!(slow, fast);
 }
 
-/// A scan of a structure that overturns in these ranges, after as many impacts.
+/// A scan of a structure that overturns in these ranges, after this many impacts.
 fn scan_of(scan: &Scan, ranges: &[(f64, f64, u32)]) -> Capacity {
     let respond = |points: &[ScanPoint]| -> Result<Vec<Response>, std::convert::Infallible> {
         let of = |point: &ScanPoint| {
@@ -151,7 +153,7 @@ fn all_windows_that_are_wide_enough_are_found() {
     close(scan.ratio(), 100.0_f64.powf(1.0 / 8.0), 1e-12);
     close(scan.finest_ratio(), 100.0_f64.powf(1.0 / 128.0), 1e-12);
     assert_eq!((scan.levels().len(), scan.lowest(), scan.highest()), (9, 1.0, 100.0));
-    // A narrow overturning range, a window between two modes, and one that the scan ends in.
+    // A narrow overturning range, a window between two modes, and a window at the end of the scan.
     let found = scan_of(&scan, &[(2.0, 2.1, 1), (3.0, 5.0, 1), (5.2, 50.0, 0)]);
     close(found.overturning.unwrap(), 2.0, 1e-3);
     close(found.safe_below.unwrap(), 2.0, 1e-3);
@@ -180,21 +182,22 @@ fn a_scan_looks_closer_only_where_it_must() {
         assert_eq!(found[0], found[1]);
         found[0].len()
     };
-    // Without rocking the levels alone; wherever it rocks each step is halved four times.
+    // Without rocking, only the levels; with rocking, each step is halved four times.
     assert_eq!(simulated(|_| (Outcome::NoRocking, 0.0)), 5);
     assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.1)), 4 * 16 + 1);
     assert_eq!(simulated(|_| (Outcome::Overturning, 7.0)), 4 * 16 + 1);
-    // Beyond the tipping point each step is halved four times more; at its foot only where the demand grows so fast.
+    // Beyond the tipping point each step is halved four times more; below it only where the demand rises
+    // fast.
     assert_eq!(simulated(|_| (Outcome::SafeRocking, 1.1)), 4 * 16 * 16 + 1);
     assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.99)), 4 * 16 + 1);
-    // Where overturning begins, halvings of ln 2 / 16 until it is known to a thousandth: ln 2 / 1e-3 < 2^10.
+    // At the first overturning intensity, halvings of ln 2 / 16 to one thousandth: ln 2 / 1e-3 < 2^10.
     assert_eq!(
         simulated(|at| (if at > 3.0 { Outcome::Overturning } else { Outcome::SafeRocking }, 0.1)),
         4 * 16 + 1 + 6
     );
 }
 
-/// A scan of a demand that is a function of the intensity, overturning from 1 on.
+/// A scan with a demand that is a function of the intensity, overturning from 1.
 fn scan_of_demand(scan: &Scan, demand: impl Fn(f64) -> f64) -> Vec<ScanResponse> {
     let respond = |points: &[ScanPoint]| {
         let response = |point: &ScanPoint| {

@@ -1,8 +1,8 @@
-//! Ground motions that need no model: noise that rises and decays.
+//! Ground motions without a model: noise that rises and decays.
 
 use std::f64::consts::PI;
 
-/// `length` samples of up to 6 m/s2, the same for the same seed.
+/// Returns `length` samples of up to 6 m/s2, reproducible by seed.
 pub fn synthetic_motion(seed: u64, length: usize) -> Vec<f64> {
     let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
     let mut next = || {

@@ -1,4 +1,4 @@
-//! Records and structures at the edge of what is possible.
+//! Extreme records and structures.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -6,8 +6,8 @@ use proptest::prelude::*;
 use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, simulate, simulate_all, trace};
 use rockfrag::units::G_M_S2;
 
-/// Records of steps, spikes and plateaus: below, exactly at and just above the threshold of uplift (`1.0`), nothing, numbers
-/// that are hardly there, 10 g and the largest that is simulated.
+/// Records of steps, spikes and plateaus: below, exactly at and just above the uplift threshold (`1.0`),
+/// zeros, tiny numbers, 10 g, and the largest accepted.
 fn shapes() -> impl Strategy<Value = Vec<(f64, usize)>> {
     let level = prop_oneof![
         Just(0.0),
@@ -26,7 +26,7 @@ fn shapes() -> impl Strategy<Value = Vec<(f64, usize)>> {
     prop::collection::vec((level, length), 1..16)
 }
 
-/// Samples of a shape for a structure; what is infinite becomes `largest`.
+/// Samples of a shape for a structure; infinity becomes `largest`.
 fn samples(shape: &[(f64, usize)], structure: &Structure, largest: f64) -> Vec<f64> {
     let uplift = structure.uplift_acceleration_m_s2();
     let level = |level: f64| (level * uplift).clamp(-largest, largest);
@@ -59,7 +59,7 @@ proptest! {
         let response = simulate(&structure, &record);
         prop_assert!(response.edp.is_finite() && response.edp >= 0.0, "{response:?}");
         let rests = response.outcome == Outcome::NoRocking;
-        // At the threshold itself rounding decides.
+        // Exactly at the threshold, rounding decides.
         prop_assert!(!rests || record.peak_m_s2() <= uplift * (1.0 + 1e-12), "{response:?}");
         prop_assert!(rests || record.peak_m_s2() >= uplift * (1.0 - 1e-12), "{response:?}");
     }
@@ -68,7 +68,8 @@ proptest! {
     fn time_counts_by_p_alone(
         shape in shapes(), p in 0.05..10.0f64, alpha in 0.01..1.2f64, eta in 0.05..0.99f64,
     ) {
-        // Eq. 10: with dt p the same, so is all else. A power of two leaves no rounding.
+        // Orientationless dimensionless groups (Eq. 10): with equal dt p the response is equal. Powers of two
+        // are exact.
         let [slow, fast] = [p, 4.0 * p].map(|p| Structure::new("s", p, alpha, eta).unwrap());
         let samples = samples(&shape, &slow, 98.1);
         let [of_slow, of_fast] =
@@ -81,8 +82,9 @@ proptest! {
         push in prop::collection::vec((1.0..3.0f64, 0.0..1.0f64), 1..40), longer in 0..20usize,
         p in 0.2..8.0f64, alpha in 0.02..0.6f64, eta in 0.05..0.99f64, dt_s in 0.001..0.05f64,
     ) {
-        // Under a push that always lifts, and nothing after it, the equation preserves order until the first peak, which
-        // is the largest: theta'' grows with theta and with the push as long as theta < alpha, and beyond it overturns.
+        // Under a push that always lifts, and then rest, the equation preserves order until the first peak,
+        // which is the largest: theta'' increases with theta and with the push as long as theta < alpha;
+        // beyond it overturns.
         let structure = Structure::new("s", p, alpha, eta).unwrap();
         let uplift = structure.uplift_acceleration_m_s2();
         let samples = |scale: &dyn Fn(&(f64, f64)) -> f64, more: usize| -> Vec<f64> {
@@ -95,7 +97,10 @@ proptest! {
             samples(&|(level, more)| level + more, 0),
             samples(&|(level, more)| level + more, longer),
         ];
-        let problems = rising.each_ref().map(|samples| Problem { structure: &structure, record: Record::new(samples, dt_s).unwrap() });
+        let problems = rising.each_ref().map(|samples| {
+            let record = Record::new(samples, dt_s).unwrap();
+            Problem { structure: &structure, record }
+        });
         for pair in simulate_all(&problems).windows(2) {
             let overturn = |response: &Response| response.outcome == Outcome::Overturning;
             prop_assert!(overturn(&pair[1]) || !overturn(&pair[0]), "{pair:?}");
@@ -108,9 +113,10 @@ proptest! {
         levels in prop::collection::vec(-4.0..4.0f64, 2..60),
         p in 0.2..8.0f64, alpha in 0.02..0.6f64, eta in 0.05..0.99f64, dt_s in 0.001..0.1f64,
     ) {
-        // The ground acceleration is linear between samples, so that those in the middle say nothing new.
+        // The ground acceleration is linear between samples, so that samples in the middle have no effect.
         let structure = Structure::new("s", p, alpha, eta).unwrap();
-        let coarse: Vec<f64> = levels.iter().map(|level| level * structure.uplift_acceleration_m_s2()).collect();
+        let uplift_m_s2 = structure.uplift_acceleration_m_s2();
+        let coarse: Vec<f64> = levels.iter().map(|level| level * uplift_m_s2).collect();
         let middles = coarse.windows(2).flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
         let fine: Vec<f64> = middles.chain(coarse.last().copied()).collect();
         let of = |samples, dt_s| simulate(&structure, &Record::new(samples, dt_s).unwrap());
@@ -132,7 +138,7 @@ proptest! {
 
 #[test]
 fn an_uplift_a_rounding_before_a_sample_is_an_uplift() {
-    // The moment is the sample itself in floating-point numbers, and nothing is left of the time to it.
+    // In floating point, uplift is at the sample itself, with no time left before it.
     let structure = Structure::new("s", 0.05, 1.1906210325143882, 0.05).unwrap();
     let uplift = structure.uplift_acceleration_m_s2();
     for after in [vec![], vec![0.0], vec![0.0; 9]] {
@@ -146,7 +152,7 @@ fn an_uplift_a_rounding_before_a_sample_is_an_uplift() {
 
 #[test]
 fn a_perfect_bounce_on_a_plateau_comes_to_its_end() {
-    // Without loss, and pressed down by 10 g all the time after a jolt, the structure would bounce for ever and faster.
+    // Without loss, and pressed down by 10 g after a jolt, the structure would bounce forever, ever faster.
     for (p, eta) in [(2.0, 1.0), (100.0, 1.0), (2.0, 1.0 - f64::EPSILON)] {
         let structure = Structure::new("s", p, 0.2, eta).unwrap();
         let mut samples = vec![0.0, 2.1, -98.1];
@@ -161,7 +167,7 @@ fn a_perfect_bounce_on_a_plateau_comes_to_its_end() {
 
 #[test]
 fn a_trace_ends_where_the_ground_stays_at_the_threshold() {
-    // There rounding decides whether the structure leaves its base.
+    // There, rounding decides whether the structure uplifts.
     let structure = Structure::new("s", 2.5, 0.2, 0.92).unwrap();
     for ulps in 0..6 {
         let level = structure.uplift_acceleration_m_s2() * (1.0 + f64::from(ulps) * f64::EPSILON);

@@ -1,4 +1,4 @@
-//! The vector solver against the one that reads like Eqs. 4 to 6.
+//! The vector solver against the readable one (Eqs. 4 to 6: motion, uplift, impact).
 
 use rockfrag::motion::{Design, Grid, MotionModel, Suite, Synthesizer};
 use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, reference, simulate_all};
@@ -22,7 +22,7 @@ fn vectors_solve_the_equations_of_the_paper() {
     let of = |outcome| compared.iter().filter(|(vector, _)| vector.outcome == outcome).count();
     let (safe, overturning) = (of(Outcome::SafeRocking), of(Outcome::Overturning));
     assert!(safe > 80 && overturning > 40, "{safe} {overturning} of {}", compared.len());
-    // Rocking near its separatrices is chaotic: a few cases of a hundred amplify any difference between two methods.
+    // Rocking near separatrices is chaotic: a few cases in a hundred amplify any difference of methods.
     let outcomes = compared.iter().filter(|(vector, plain)| vector.outcome != plain.outcome).count();
     let impacts =
         compared.iter().filter(|(vector, plain)| vector.impacts.abs_diff(plain.impacts) > 1).count();

@@ -14,7 +14,7 @@ fn structure(p: f64, alpha: f64, eta: f64) -> Structure {
     Structure::new("s", p, alpha, eta).unwrap()
 }
 
-/// A rectangular pulse of `duration`, then quiet for `rest`; the switch takes one step.
+/// A rectangular pulse of `duration` with an end ramp of one step, then zeros for `rest`.
 fn rectangular_pulse(acceleration: f64, duration: f64, rest: f64, dt: f64) -> Vec<f64> {
     let on = (duration / dt).round() as usize;
     let mut samples = vec![acceleration; on + 1];
@@ -24,7 +24,8 @@ fn rectangular_pulse(acceleration: f64, duration: f64, rest: f64, dt: f64) -> Ve
 
 #[test]
 fn free_rocking_has_housners_period_and_decay() {
-    // Housner (1963): T = 4/p acosh(1/(1 - theta0/alpha)) of small angles, and impacts reduce the kinetic energy by eta^2.
+    // Housner (1963), small angles: T = 4/p acosh(1/(1 - theta0/alpha)), and an impact multiplies the kinetic
+    // energy by eta^2.
     let (p, alpha, eta) = (2.0, 0.02, 0.9);
     let s = structure(p, alpha, eta);
     let dt = 0.001;
@@ -45,7 +46,7 @@ fn free_rocking_has_housners_period_and_decay() {
         if peak < 1e-3 * alpha {
             break;
         }
-        // Half a period passes between two impacts.
+        // Half a period between two impacts.
         let half_period = 2.0 / p * (1.0 / (1.0 - peak / alpha)).acosh();
         let measured = pair[1] - pair[0];
         assert!((measured / half_period - 1.0).abs() < 2e-3, "{measured} for {half_period} at {peak}");
@@ -63,7 +64,8 @@ fn free_rocking_has_housners_period_and_decay() {
 
 #[test]
 fn similar_structures_have_the_same_response() {
-    // Eq. 10 and Figure 5: with equal wp/p and PGA/(g tan alpha) the response theta/alpha is the same, up to alpha.
+    // Orientationless dimensionless groups (Eq. 10, Figure 5): with equal wp/p and PGA/(g tan alpha) the
+    // response theta/alpha is equal, up to alpha.
     let pulse = |p: f64, alpha: f64| {
         let tp_s = 2.0 * PI / (5.0 * p);
         let pulse = Pulse { amplitude_m_s: 1.0, tp_s, gamma: 1.9, nu_rad: 0.8 };
@@ -80,7 +82,7 @@ fn similar_structures_have_the_same_response() {
     println!("deviation of theta/alpha at alpha 0.01, 0.05, 0.1, 0.2, 0.3: {deviations:?}");
     assert!(deviations[0] < 1e-3, "{deviations:?}");
     assert!(deviations.windows(2).all(|pair| pair[1] > pair[0]), "grows with alpha: {deviations:?}");
-    // At one slenderness the similarity is exact: only time and size change.
+    // At equal slenderness the similarity is exact: only time and size change.
     assert!((pulse(0.7, 0.2) / pulse(2.5, 0.2) - 1.0).abs() < 1e-9);
 }
 
@@ -98,7 +100,7 @@ fn a_block_below_the_uplift_acceleration_does_not_rock() {
 
 #[test]
 fn what_the_record_leaves_in_motion_is_decided_by_energy() {
-    // The same motion with quiet time appended must give the same answer as the closed form at its end.
+    // The same motion with zeros appended must give the result of the closed form.
     let s = structure(1.5, 0.2, 0.9);
     for seed in 1..200 {
         let mut samples = synthetic_motion(seed, 300);
@@ -129,8 +131,9 @@ fn perfectly_elastic_impacts_come_to_an_end() {
 
 #[test]
 fn structures_are_made_of_their_dimensions() {
-    // By hand, with tan(alpha) = 1/4: 2 R = sqrt(17) m, sin2(alpha) = 1/17, cos(2 alpha) = 15/17; p2 = 3 g / (4 R) and eta of
-    // Housner (1963), and those of Makris & Vassiliou (2014) for a beam of twice the mass of a column.
+    // By hand, with tan(alpha) = 1/4: 2 R = sqrt(17) m, sin2(alpha) = 1/17, cos(2 alpha) = 15/17;
+    // p2 = 3 g / (4 R) and eta of Housner (1963), and those of Makris & Vassiliou (2014) for a beam of twice
+    // the mass of a column.
     let close =
         |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-14, "{value} {expected}");
     let block = Structure::rectangular_block("b", 1.0, 4.0, None).unwrap();
@@ -205,7 +208,8 @@ fn the_ground_acceleration_is_linear_between_samples_and_nothing_after_them() {
 
 #[test]
 fn a_trace_tells_what_happens_when() {
-    // Eq. 5: under a push to the positive side the structure leaves its base towards the negative one, at the root of
+    // Uplift (Eq. 5): under a push to the positive side the structure rocks to the negative side, from the
+    // root of |a| = g tan(alpha), here half way to the first sample.
     // |a| = g tan(alpha), here half way to the first sample.
     let (alpha, eta, dt) = (0.2, 0.6, 0.01);
     let s = structure(2.5, alpha, eta);
@@ -225,7 +229,7 @@ fn a_trace_tells_what_happens_when() {
     let largest = points.iter().map(|point| point.theta_rad.abs()).fold(0.0, f64::max);
     assert!(largest <= response.edp * alpha && largest > 0.999 * response.edp * alpha);
 
-    // An impact takes the share 1 - eta of the velocity and goes on to the other side; the last one is followed by rest.
+    // An impact multiplies the velocity by eta, on the other side; after the last one the structure rests.
     assert_eq!(of(SolverEvent::Impact).count(), response.impacts as usize);
     for around in points.windows(3).filter(|around| around[1].solver_event == Some(SolverEvent::Impact)) {
         let [before, impact, after] = [around[0], around[1], around[2]];
@@ -254,7 +258,7 @@ fn a_trace_ends_where_the_structure_lies_flat() {
     let [.., before, last] = points[..] else { panic!("no points") };
     assert_eq!((last.solver_event, last.theta_rad), (Some(SolverEvent::Overturn), FRAC_PI_2));
     assert!(last.time_s > before.time_s && last.time_s <= before.time_s + dt && before.time_s > 0.61);
-    // The ground is still by then, and theta'^2 / (2 p^2) + cos(alpha - theta) stays what it is.
+    // On still ground, theta'^2 / (2 p^2) + cos(alpha - theta) is constant.
     let energy = |theta: f64, velocity: f64| 0.5 * (velocity / p).powi(2) + (alpha - theta).cos();
     let (here, there) =
         (energy(last.theta_rad, last.theta_dot_rad_s), energy(before.theta_rad, before.theta_dot_rad_s));

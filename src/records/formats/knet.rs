@@ -1,5 +1,5 @@
-//! K-NET and KiK-net ASCII: lines of a key and a value, then integers which the scale factor makes gal. Their
-//! zero means nothing, so the mean is removed; the header's peak is about the mean as well.
+//! K-NET and KiK-net ASCII: lines of key and value, then integers, times the scale factor in gal. Their zero
+//! is arbitrary, so the mean is removed; the peak in the header is about the mean, too.
 
 use super::error::RecordFileError;
 use super::header::{
@@ -7,9 +7,10 @@ use super::header::{
 };
 use crate::records::{ReadOptions, RecordedMotion};
 
-/// Lines in which the header must come to its end.
+/// Largest number of header lines.
 const HEADER: usize = 40;
-/// Tells whether it begins as all of them do.
+
+/// Returns whether the first line has the first key.
 pub fn recognises(lines: &[&str]) -> bool {
     value(lines.first().unwrap_or(&""), "Origin Time").is_some()
 }
@@ -39,7 +40,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let gal = counts.into_iter().map(|count| (count - mean) * scale).collect();
     let unit = unit_of("gal", line)?;
     let direction = find("Dir.").map_or("", |(_, direction)| direction);
-    // KiK-net counts three directions in the borehole, then those at the surface.
+    // KiK-net numbers the directions in the borehole 1 to 3, those at the surface 4 to 6.
     let number = direction.parse().ok().filter(|number: &usize| (1..=6).contains(number));
     let component = number.map_or(direction, |number| ["N-S", "E-W", "U-D"][(number - 1) % 3]);
     let place = number.map_or("", |number| if number <= 3 { "borehole" } else { "surface" });

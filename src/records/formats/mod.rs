@@ -1,13 +1,13 @@
-//! The formats in which networks and people publish records: from the bytes of a file to accelerations.
+//! File formats of records: from the bytes of a file to accelerations.
 //!
 //! ```text
 //! peer_at2  PEER's AT2, old and NGA
 //! cosmos    COSMOS V1 and V2
 //! esm       Engineering Strong Motion database
 //! knet      K-NET and KiK-net
-//! csv       columns of a table, with or without one of times
-//! header    what the headers of the agencies share, and blocks of numbers
-//! error     what can be wrong with a file
+//! csv       columns of a table, with or without times
+//! header    fields and blocks of numbers, common to several formats
+//! error     errors of a file
 //! ```
 
 mod cosmos;
@@ -25,7 +25,7 @@ use crate::keyword::{Keyword, keywords};
 use crate::motion::intensity::peak;
 use crate::sheet::decode;
 
-/// A format of text files, those with the surest signs first.
+/// A text format, in order of detection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     Cosmos,
@@ -38,7 +38,7 @@ pub enum Format {
 
 keywords!(Format { Cosmos = "cosmos", Knet = "knet", Esm = "esm", PeerAt2 = "at2", Csv = "csv" });
 
-/// Reads the motions in the bytes of a file, and holds them against the peaks that their header gives.
+/// Reads the motions in the bytes of a file, and compares them with the peaks in their headers.
 pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
     let text = decode(bytes)?;
     let lines: Vec<&str> = text.lines().map(|line| line.trim_end_matches(['\x1a', '\0'])).collect();
@@ -60,7 +60,7 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
     };
     for motion in &mut motions {
         motion.format = format.as_str();
-        // If the peaks differ, then the unit or the number of samples is another one.
+        // Different peaks show a wrong unit or a wrong number of samples.
         let found_m_s2 = peak(&motion.acceleration_m_s2);
         if let Some(HeaderPga { m_s2, rounding_m_s2 }) = motion.header_pga
             && (found_m_s2 - m_s2).abs() > options.pga_tolerance * m_s2 + rounding_m_s2

@@ -1,5 +1,5 @@
-//! PEER's AT2: three lines of text, one with NPTS and DT, then accelerations in g. Old files
-//! (`ACCELERATION TIME HISTORY IN UNITS OF G`) and those of NGA (`ACCELERATION TIME SERIES IN UNITS OF G`).
+//! PEER's AT2: three lines of text, one with NPTS and DT, then accelerations in g. Old files (`ACCELERATION
+//! TIME HISTORY IN UNITS OF G`) and NGA files (`ACCELERATION TIME SERIES IN UNITS OF G`).
 
 use super::error::RecordFileError;
 use super::header::{
@@ -9,10 +9,10 @@ use super::header::{
 use crate::records::{ReadOptions, RecordedMotion, UnitSource};
 use crate::units::Unit;
 
-/// Lines of the header in which the one with NPTS must come.
+/// Largest number of lines before the one with NPTS.
 const HEADER: usize = 8;
 
-/// Tells whether the header has the line of NPTS that all of PEER's files have.
+/// Returns whether the header has a line with NPTS.
 pub fn recognises(lines: &[&str]) -> bool {
     line_of_counts(lines).is_some()
 }
@@ -27,7 +27,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let at = line_of_counts(lines).ok_or(missing(4, "NPTS", "a line such as 'NPTS= 7818, DT= .0050 SEC'"))?;
     let (header, counts) = (&lines[..at], lines[at]);
     let unit = unit(header, options)?;
-    // By their names, or in the order of the oldest files (`4000 .0050 NPTS, DT`).
+    // By name, or in order in the oldest files (`4000 .0050 NPTS, DT`).
     let named = |key| first_number(after(counts, key)?.trim_start().strip_prefix('=')?);
     let mut unnamed = counts.split_ascii_whitespace().map_while(leading_number).fuse();
     let (first, second) = (unnamed.next(), unnamed.next());
@@ -36,7 +36,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let dt_s = dt_s.ok_or(missing(at + 1, "DT", "the time step, such as 'DT= .0050 SEC', or --dt"))?;
     let values = samples(lines, at + 1, announced, str::split_ascii_whitespace)?;
 
-    // Event, date, station and component, separated by commas, of which only the date is sure to have none.
+    // Event, date, station and component, separated by commas; only the date has none inside.
     let title: Vec<&str> = header.get(1).map_or("", |line| line).split(',').map(str::trim).collect();
     let (component, before) = match title[..] {
         [event] => ("", &[event][..]),
@@ -57,7 +57,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     })
 }
 
-/// Finds the unit in the header; the first two lines name the database and the record.
+/// Finds the unit in the header. The first two lines are the database and the record.
 fn unit(header: &[&str], options: &ReadOptions) -> Result<(Unit, UnitSource), RecordFileError> {
     let find = |key| header.iter().zip(1..).skip(2).find(|(line, _)| after(line, key).is_some());
     if let Some((text, line)) = find("VELOCITY").or(find("DISPLACEMENT")) {

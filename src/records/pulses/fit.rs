@@ -1,6 +1,6 @@
-//! The pulse of Mavroeidis & Papageorgiou (Eq. 1) that is nearest to a recorded velocity. Eq. 1 is linear in
-//! A cos nu and A sin nu, which are solved for (variable projection), so that only period, gamma and time are
-//! searched, by the simplex of Nelder and Mead.
+//! Fit of the pulse of Mavroeidis & Papageorgiou (Eq. 1) to a recorded velocity. The pulse is linear in A cos
+//! nu and A sin nu, which follow from normal equations (variable projection); period, gamma and time are
+//! searched by the Nelder-Mead simplex.
 
 use std::f64::consts::PI;
 
@@ -12,19 +12,19 @@ use nalgebra::Vector3;
 use super::indicator::PERIODS_S;
 use crate::motion::Pulse;
 
-/// Where searches may start: gammas; periods, and times from the centre, in periods of the wavelet.
+/// Candidate starts: gammas; periods and times from the centre, in periods of the wavelet.
 const START_GAMMAS: [f64; 3] = [1.2, 2.0, 3.2];
 const START_PERIODS: [f64; 5] = [0.6, 0.78, 1.0, 1.28, 1.65];
 const START_TIMES: [f64; 7] = [-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75];
-/// Searches from the best of these.
+/// Number of searches, from the best starts.
 const SEARCHES: usize = 3;
-/// Sides of the first simplex, in periods, gamma, and times in periods.
+/// Sides of the initial simplex, in periods, gamma, and times in periods.
 const SIDES: [f64; 3] = [0.1, 0.3, 0.1];
-/// The numbers of half cycles between which gamma lies. Eq. 1 needs more than 1.
+/// Range of gamma; the pulse (Eq. 1) needs more than 1.
 const GAMMA: (f64, f64) = (1.0, 5.0);
-/// Parts of a period over which the velocity is averaged: the pulse changes little within them.
+/// Averaging intervals per period: the pulse changes little within one.
 const PARTS_OF_PERIOD: f64 = 100.0;
-/// A search ends after so many steps, or at this spread over its simplex, as a share of what is explained.
+/// Largest number of steps of a search, and relative spread of the simplex at its end.
 const MOST_STEPS: u64 = 300;
 const TOLERANCE: f64 = 1e-10;
 
@@ -35,13 +35,13 @@ pub struct FittedPulse {
     pub pulse: Pulse,
     /// Time t0 of its middle from the first sample, s.
     pub t0_s: f64,
-    /// Share of the squared velocity that it explains.
+    /// Explained share of the squared velocity.
     pub r2: f64,
 }
 
 impl FittedPulse {
-    /// Finds the pulse nearest to a velocity (m/s) at steps of `dt_s`, searched from a period and a time (s)
-    /// about which a wavelet found it. None if the velocity is zero.
+    /// Fits a pulse to a velocity (m/s) at steps of `dt_s`, from period and time (s) of a wavelet. None of
+    /// zeros.
     pub fn fit(velocity: &[f64], dt_s: f64, period_s: f64, time_s: f64) -> Option<FittedPulse> {
         let series = Series::of(velocity, dt_s, period_s);
         let mut starts = Vec::new();
@@ -64,24 +64,24 @@ impl FittedPulse {
         r2.is_finite().then_some(FittedPulse { pulse, t0_s, r2 })
     }
 
-    /// Returns the pulse of the same record scaled by a factor.
+    /// Returns the pulse of the scaled record.
     pub fn scaled(&self, factor: f64) -> FittedPulse {
         let pulse = Pulse { amplitude_m_s: factor * self.pulse.amplitude_m_s, ..self.pulse };
         FittedPulse { pulse, ..*self }
     }
 }
 
-/// A velocity as means over equal parts of time, within which a pulse hardly changes.
+/// A velocity as means over equal intervals, within which a pulse hardly changes.
 struct Series {
     means: Vec<f64>,
-    /// Middle of the first part, s.
+    /// Middle of the first interval, s.
     first_s: f64,
-    /// Length of a part, s.
+    /// Length of an interval, s.
     step_s: f64,
 }
 
 impl Series {
-    /// Averages a velocity (m/s) at steps of `dt_s` for pulses of about this period (s).
+    /// Averages a velocity (m/s) at steps of `dt_s` for pulses of about `period_s`.
     fn of(velocity: &[f64], dt_s: f64, period_s: f64) -> Series {
         let samples = ((period_s / PARTS_OF_PERIOD / dt_s) as usize).max(1);
         let mean = |part: &[f64]| part.iter().sum::<f64>() / samples as f64;
@@ -89,9 +89,8 @@ impl Series {
         Series { means, first_s: 0.5 * (samples - 1) as f64 * dt_s, step_s: samples as f64 * dt_s }
     }
 
-    /// Finds the nearest pulse of a period, gamma and time of its middle (s, 1, s; within the bounds) by the
-    /// normal equations of A cos nu and A sin nu, and the part of the sum of squared velocities that it
-    /// explains.
+    /// Computes the pulse nearest to a period (s), gamma and time of its middle (s), clamped to their bounds,
+    /// by the normal equations of A cos nu and A sin nu, and its explained sum of squares.
     fn nearest(&self, Place(place): &Place) -> (Pulse, f64) {
         let (tp_s, gamma) = (place.x.clamp(PERIODS_S.0, PERIODS_S.1), place.y.clamp(GAMMA.0, GAMMA.1));
         let (t0_s, half) = (place.z, 0.5 * gamma * tp_s);
@@ -101,7 +100,7 @@ impl Series {
         for (k, v) in self.means.iter().enumerate().take(last).skip(part(t0_s - half)) {
             let x = 2.0 * PI * (self.first_s + k as f64 * self.step_s - t0_s) / tp_s;
             if x.abs() <= PI * gamma {
-                // Eq. 1 with cos(x + nu) expanded.
+                // The pulse (Eq. 1) with cos(x + nu) expanded.
                 let envelope = 0.5 * (1.0 + (x / gamma).cos());
                 let (c, s) = (envelope * x.cos(), -envelope * x.sin());
                 (cc, cs, ss) = (cc + c * c, cs + c * s, ss + s * s);
@@ -109,7 +108,7 @@ impl Series {
             }
         }
         let determinant = cc * ss - cs * cs;
-        // Both functions are alike where only a few samples lie within the pulse.
+        // With few samples in the pulse both functions are collinear.
         let is_sound = determinant > 1e-12 * cc * ss;
         let solved = ((ss * cv - cs * sv) / determinant, (cc * sv - cs * cv) / determinant);
         let (cosine, sine) = if is_sound { solved } else { (0.0, 0.0) };
@@ -117,7 +116,7 @@ impl Series {
         (pulse, cosine * cv + sine * sv)
     }
 
-    /// Searches for the place whose pulse explains most, from one whose pulse explains so much.
+    /// Maximises the explained sum of squares from a start, where it is `explained`.
     fn search(&self, Place(start): &Place, explained: f64) -> Option<Place> {
         let sides = Vector3::new(SIDES[0] * start.x, SIDES[1], SIDES[2] * start.x);
         let corners = (0..3).map(|axis| Place(start + sides.component_mul(&Vector3::ith(axis, 1.0))));
@@ -137,7 +136,7 @@ impl CostFunction for &Series {
     }
 }
 
-/// Period (s), gamma, and time of the middle (s) of a pulse, as argmin adds and stretches them.
+/// Period (s), gamma, and time of the middle (s) of a pulse, with the operations that argmin needs.
 #[derive(Clone)]
 struct Place(Vector3<f64>);
 

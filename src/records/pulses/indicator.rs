@@ -1,53 +1,50 @@
-//! Whether one component of a record holds a velocity pulse, after Baker (2007), "Quantitative classification
-//! of near-fault ground motions using wavelet analysis", BSSA 97(5).
+//! Pulse indicator of one component, after Baker (2007), "Quantitative classification of near-fault ground
+//! motions using wavelet analysis", BSSA 97(5).
 
 use super::wavelet::{Wavelet, WaveletTransform};
 use crate::keyword::keywords;
 use crate::motion::intensity::peak;
 
-/// Periods of pulses that are looked for, s.
+/// Range of pulse periods, s.
 pub const PERIODS_S: (f64, f64) = (0.25, 15.0);
-/// Periods at which all of the record is looked at, in equal ratios, and how many between two of them about a
-/// local maximum.
+/// Number of periods of the scan, in equal ratios, and subdivisions of an interval about a local maximum.
 const PERIODS: usize = 60;
 const REFINED: usize = 20;
-/// Local maxima whose square is at least this share of the largest are refined: the steps between the periods
-/// are so small that no other becomes the largest.
+/// Local maxima of at least this share of the largest square are refined; no other can become the largest.
 const LEAST_PEAK: f64 = 0.9;
-/// Wavelets that make up the extracted pulse.
+/// Wavelets of the extracted pulse.
 const WAVELETS: usize = 10;
-/// How far from the first wavelet the others may lie, as a share of its scale (their period times 5/7).
+/// Largest distance of the other wavelets from the first, as a share of its scale (period times 5/7).
 const REACH: f64 = 10.0 / 25.0 * 5.0 / 7.0;
-/// The velocity is looked at in steps of about this, s: no pulse needs finer ones.
+/// Largest time step of the search, s, unless the record is coarser.
 const STEP_S: f64 = 0.02;
-/// The indicator above which a record holds a pulse.
+/// Least indicator of a pulse.
 pub const THRESHOLD: f64 = 0.85;
-/// The least peak velocity of a record with a pulse, m/s.
+/// Least peak velocity of a pulse-like record, m/s.
 pub const LEAST_PGV_M_S: f64 = 0.3;
-/// A pulse comes early if this share of its squared velocity has passed before that share of the record's.
+/// A pulse is early if the first share of its squared velocity precedes the second share of the record's.
 const EARLY: (f64, f64) = (0.10, 0.20);
 
-/// The pulse indicator of one component, and what it rests on.
+/// Pulse indicator of one component, with the extracted pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PulseIndicator {
-    /// From 0 (no pulse) to 1 (a pulse): 1 / (1 + exp(-23.3 + 14.6 r + 20.5 e)) of the ratios r of peak
-    /// velocities and e of energies, of the record without the pulse to the record.
+    /// From 0 (no pulse) to 1 (a pulse); see [`indicator`].
     pub indicator: f64,
     /// Period of the extracted pulse, s.
     pub period_s: f64,
     /// Middle of its strongest wavelet, s.
     pub centre_s: f64,
-    /// Whether the record holds a pulse, and if not, why.
+    /// Whether the record has a pulse, and if not, why.
     pub verdict: Verdict,
 }
 
-/// Whether a record holds a pulse.
+/// Whether a record has a pulse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     Pulse,
     /// The indicator is too low.
     NoPulse,
-    /// The pulse comes late: it is no effect of directivity.
+    /// The pulse is late, and so no effect of directivity.
     Late,
     /// The peak velocity is below 0.3 m/s.
     Weak,
@@ -56,10 +53,10 @@ pub enum Verdict {
 keywords!(Verdict { Pulse = "pulse", NoPulse = "no_pulse", Late = "late", Weak = "weak" });
 
 impl PulseIndicator {
-    /// Judges a velocity (m/s) at steps of `dt_s`; none if it does not move.
+    /// Computes the indicator of a velocity (m/s) at steps of `dt_s`; none if it is zero.
     pub fn of(velocity: &[f64], dt_s: f64) -> Option<PulseIndicator> {
         let (period_s, centre) = strongest_wavelet(&[velocity], dt_s)?;
-        // Baker's predictors: what of peak velocity and energy remains without the pulse.
+        // Baker's predictors: ratios of peak velocity and energy without the pulse.
         let pulse = extract(velocity, dt_s, period_s, centre);
         let residual: Vec<f64> = velocity.iter().zip(&pulse).map(|(v, p)| v - p).collect();
         let pgv = peak(velocity);
@@ -75,22 +72,23 @@ impl PulseIndicator {
     }
 }
 
-/// Computes Baker's logistic regression.
+/// Computes Baker's logistic regression, 1 / (1 + exp(-23.3 + 14.6 r + 20.5 e)), of the ratios r of peak
+/// velocities and e of energies, of the record without the pulse to the record.
 pub fn indicator(pgv_ratio: f64, energy_ratio: f64) -> f64 {
     1.0 / (1.0 + (-23.3 + 14.6 * pgv_ratio + 20.5 * energy_ratio).exp())
 }
 
-/// Finds the direction in which two components (velocities, m/s) at right angles have the largest wavelet
-/// coefficient: its parts along both, after Shahi & Baker (2014). None if they do not move.
+/// Finds the direction in which two velocities (m/s) at right angles have the largest wavelet coefficient
+/// (Shahi & Baker 2014): its parts along both. None if they are zero.
 pub fn strongest_direction(velocities: [&[f64]; 2], dt_s: f64) -> Option<[f64; 2]> {
     let (period_s, centre) = strongest_wavelet(&velocities, dt_s)?;
     let wavelet = Wavelet::new(period_s, dt_s);
     Some(velocities.map(|velocity| wavelet.coefficient(velocity, centre)))
 }
 
-/// Finds the period (s) and the central sample of the wavelet whose coefficients in all velocities have the
-/// largest sum of squares, refined from each local maximum among the periods: two of nearly the same height
-/// may lie far apart. None if the velocities are zero.
+/// Finds the period (s) and central sample of the wavelet with the largest sum of squared coefficients over
+/// the velocities, refined from each local maximum over the periods, since two of nearly equal height may be
+/// far apart. None if the velocities are zero.
 fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64) -> Option<(f64, i64)> {
     let (shortest, longest) = PERIODS_S;
     let ratio = (longest / shortest).powf(1.0 / (PERIODS - 1) as f64);
@@ -100,7 +98,7 @@ fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64) -> Option<(f64, i64)> {
     let decimated = |velocity: &&[f64]| velocity.iter().step_by(every).copied().collect();
     let velocities: Vec<Vec<f64>> = velocities.iter().map(decimated).collect();
     let transform = WaveletTransform::new(&velocities, dt_s, longest);
-    // The largest sum of squares of each period, and its sample.
+    // Largest sum of squares at a period, and its sample.
     let strongest = |k: usize| {
         let squares = transform.squares(period_s(k as f64)).into_iter().zip(0..);
         squares.fold((0.0, 0), |best, (square, at)| if square > best.0 { (square, at) } else { best })
@@ -124,13 +122,12 @@ fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64) -> Option<(f64, i64)> {
     squares.max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, strongest)| strongest)
 }
 
-/// Counts the samples in a step at which the velocity is looked at.
+/// Computes the samples per time step of the search.
 fn samples_in_step(dt_s: f64) -> usize {
     ((STEP_S / dt_s) as usize).max(1)
 }
 
-/// Extracts the pulse: the strongest wavelet, and those of the same period near it that are the strongest in
-/// what remains, one after the other.
+/// Extracts the pulse: the strongest wavelet, then repeatedly the strongest near it in the remainder.
 fn extract(velocity: &[f64], dt_s: f64, period_s: f64, centre: i64) -> Vec<f64> {
     let every = samples_in_step(dt_s);
     let step_s = dt_s * every as f64;
@@ -152,7 +149,7 @@ fn energy(velocity: &[f64]) -> f64 {
     velocity.iter().map(|v| v * v).sum()
 }
 
-/// Finds the first sample at which this share of the squared velocity has passed.
+/// Finds the first sample at which a share of the squared velocity is reached.
 fn sample_of_share(velocity: &[f64], share: f64) -> usize {
     let target = share * energy(velocity);
     let mut sum = 0.0;

@@ -1,5 +1,4 @@
-//! Velocity pulses in records: whether there is one (Baker 2007; Shahi & Baker 2014), and the pulse of Eq. 1
-//! that is nearest to it.
+//! Velocity pulses in records: indicator (Baker 2007; Shahi & Baker 2014), and fit of the pulse of Eq. 1.
 
 pub mod fit;
 pub mod indicator;

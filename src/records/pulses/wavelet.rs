@@ -1,10 +1,10 @@
-//! The Daubechies wavelet of order 4, and the continuous wavelet transform with it.
+//! Daubechies wavelet of order 4, and its continuous wavelet transform.
 
 use std::sync::LazyLock;
 
 use crate::motion::fourier::{Complex64, Transform, even_smooth_at_least};
 
-/// Daubechies' scaling filter with four vanishing moments (Daubechies 1992, Table 6.1), of sum sqrt 2.
+/// Daubechies' scaling filter with four vanishing moments (Daubechies 1992, Table 6.1); its sum is sqrt 2.
 const FILTER: [f64; 8] = [
     0.230_377_813_308_855_23,
     0.714_846_570_552_541_5,
@@ -19,16 +19,16 @@ const FILTER: [f64; 8] = [
 const SUPPORT: usize = FILTER.len() - 1;
 /// Halvings of the step between tabulated values.
 const LEVELS: u32 = 9;
-/// Cycles of the wavelet per unit of its support: the frequency that dominates it.
+/// Dominant frequency of the wavelet: cycles per unit of its support.
 const CENTRE_FREQUENCY: f64 = 5.0 / 7.0;
 
 /// The wavelet at steps of 2^-[`LEVELS`] over its support.
 static TABLE: LazyLock<Vec<f64>> = LazyLock::new(tabulate);
 
-/// The wavelet of a period, of unit energy, at the samples of a series.
+/// The wavelet of a period, of unit energy, sampled like a series.
 pub struct Wavelet {
     dt_s: f64,
-    /// 1/sqrt(s), from `reach` samples before its centre to as many after it.
+    /// 1/sqrt(s), from `reach` samples before the centre to `reach` after it.
     values: Vec<f64>,
     reach: usize,
 }
@@ -43,8 +43,8 @@ impl Wavelet {
         Wavelet { dt_s, values: (0..=2 * reach).map(at).collect(), reach }
     }
 
-    /// Computes the coefficient of a series where the wavelet is centred at a sample, which may lie outside:
-    /// the integral of their product.
+    /// Computes the coefficient of a series, the integral of its product with the wavelet centred at a
+    /// sample, which may be outside the series.
     pub fn coefficient(&self, series: &[f64], centre: i64) -> f64 {
         let first = centre - self.reach as i64;
         let inside = series.iter().skip(first.max(0) as usize);
@@ -52,7 +52,7 @@ impl Wavelet {
         self.dt_s * inside.zip(values).map(|(sample, value)| sample * value).sum::<f64>()
     }
 
-    /// Adds it to a series, centred at a sample, times a factor.
+    /// Adds `factor` times the wavelet, centred at a sample, to a series.
     pub fn add_to(&self, series: &mut [f64], centre: i64, factor: f64) {
         let first = centre - self.reach as i64;
         let inside = series.iter_mut().skip(first.max(0) as usize);
@@ -61,7 +61,7 @@ impl Wavelet {
     }
 }
 
-/// Computes the wavelet on its support of 0 to 7, linear between tabulated values.
+/// Computes the wavelet at `x` in [0, 7], linear between tabulated values.
 fn mother(x: f64) -> f64 {
     let place = x * f64::from(1 << LEVELS);
     if place < 0.0 {
@@ -74,11 +74,10 @@ fn mother(x: f64) -> f64 {
     }
 }
 
-/// Tabulates the scaling function at the integers by its refinement equation, then at each finer level, and
-/// the wavelet from it.
+/// Tabulates the scaling function, at the integers and then at finer levels, and the wavelet from it.
 fn tabulate() -> Vec<f64> {
     let filter = |k: isize| usize::try_from(k).ok().and_then(|k| FILTER.get(k)).copied().unwrap_or(0.0);
-    // The refinement keeps the sum of the values at the integers, 1; its other eigenvalues are at most 1/2.
+    // Refinement keeps the sum of the values at the integers, 1; the other eigenvalues are at most 1/2.
     let mut scaling = vec![1.0 / (SUPPORT + 1) as f64; SUPPORT + 1];
     for _ in 0..60 {
         scaling = (0..=SUPPORT).map(|i| refine(&scaling, 2 * i, 1, filter)).collect();
@@ -87,21 +86,20 @@ fn tabulate() -> Vec<f64> {
         let per_unit = 1_usize << level;
         scaling = (0..=SUPPORT * per_unit * 2).map(|i| refine(&scaling, i, per_unit, filter)).collect();
     }
-    // The wavelet's filter is the scaling filter reversed with alternating signs.
+    // The filter of the wavelet is the scaling filter reversed, with alternating signs.
     let mirrored = |k: isize| if k % 2 == 0 { 1.0 } else { -1.0 } * filter(SUPPORT as isize - k);
     let per_unit = 1_usize << LEVELS;
     (0..=SUPPORT * per_unit).map(|i| refine(&scaling, 2 * i, per_unit, mirrored)).collect()
 }
 
-/// Computes sqrt 2 sum_k c_k phi(2 x - k), where `i` counts 2 x in steps of phi's table, which has `per_unit`
-/// of them to a unit.
+/// Computes sqrt 2 sum_k c_k phi(2 x - k). `i` is 2 x in steps of the table of phi, `per_unit` to a unit.
 fn refine(scaling: &[f64], i: usize, per_unit: usize, coefficient: impl Fn(isize) -> f64) -> f64 {
     let at = |k: usize| i.checked_sub(k * per_unit).and_then(|place| scaling.get(place)).copied();
     let term = |k: usize| coefficient(k as isize) * at(k).unwrap_or(0.0);
     std::f64::consts::SQRT_2 * (0..FILTER.len()).map(term).sum::<f64>()
 }
 
-/// The continuous wavelet transform of series of one length, at periods up to a longest one.
+/// Continuous wavelet transform of series of equal length, at periods up to a longest one.
 pub struct WaveletTransform {
     samples: usize,
     dt_s: f64,
@@ -126,9 +124,9 @@ impl WaveletTransform {
         WaveletTransform { samples, dt_s, length, transform, spectra }
     }
 
-    /// Computes, for a wavelet of one period at each sample, the sum of its squares of coefficients.
+    /// Computes the sum over the series of squared coefficients of a wavelet at each sample.
     pub fn squares(&self, period_s: f64) -> Vec<f64> {
-        // The wavelet about the first sample, with what lies before it at the end.
+        // The wavelet about the first sample; its first half wraps to the end.
         let Wavelet { values, reach, .. } = Wavelet::new(period_s, self.dt_s);
         let mut samples = vec![0.0; self.length];
         samples[..=reach].copy_from_slice(&values[reach..]);

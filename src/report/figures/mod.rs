@@ -16,7 +16,7 @@ pub use planes::{GroupPlanes, planes};
 pub use probability::{
     Curve, ProbabilityPanel, StructureCurves, calibrated, exceedance, hybrids, overturning,
 };
-pub use rates::{ObjectRate, SiteRates, list, rates};
+pub use rates::{AnnualRate, list, rates};
 pub use similarity::{History, similarity};
 pub use studies::{Ida, NamedEstimates, ida, ranking, validation};
 

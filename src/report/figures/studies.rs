@@ -86,7 +86,7 @@ pub fn validation(groups: &[NamedEstimates]) -> Figure {
     }
 }
 
-/// Ranking of sets of measures by gain in log score on held-out cases, with limits; each row has its name and one estimate.
+/// Ranking of sets of measures by log score on held-out cases less that of the best, with limits; each row has its name and one estimate.
 pub fn ranking(targets: &[NamedEstimates]) -> Figure {
     let panel = |NamedEstimates { title, series }: &NamedEstimates| {
         let last = series.len() as f64 - 0.5;
@@ -96,7 +96,7 @@ pub fn ranking(targets: &[NamedEstimates]) -> Figure {
         });
         Panel {
             title: title.clone(),
-            x: Axis::linear("gain in log score"),
+            x: Axis::linear("log score, less that of the best"),
             y: Axis::names(series.iter().map(|(name, _)| name.clone())),
             layers: vec![zero, Layer::estimates("", Ink::Data(0), rows.collect())],
             notes: Vec::new(),
@@ -104,8 +104,8 @@ pub fn ranking(targets: &[NamedEstimates]) -> Figure {
     };
     Figure {
         name: "ranking".to_string(),
-        title: "Other measures beside those of the paper".to_string(),
-        caption: "Gain in log score on held-out cases over the paper's measures, with 95 % limits: to the right of the line a set predicts better.".to_string(),
+        title: "Measures by how well they predict".to_string(),
+        caption: "Log score on held-out cases, less that of the best set, with 95 % limits.".to_string(),
         columns: 1,
         panels: targets.iter().map(panel).collect(),
         ..Figure::default()

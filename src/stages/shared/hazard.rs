@@ -79,6 +79,9 @@ enum Frequency {
     Occurrence,
 }
 
+/// More motions a year than any site has that a hazard counts.
+const MOST_FREQUENT: f64 = 1000.0;
+
 impl Frequency {
     fn of(heading: &Heading, investigation_years: Option<f64>) -> Option<Frequency> {
         let name = heading.name.as_str();
@@ -104,8 +107,10 @@ impl Frequency {
     /// The annual rate that a number says; none of a motion that is certain, whose rate nobody knows.
     fn annual_rate(self, number: f64) -> Result<Option<f64>, &'static str> {
         match self {
-            Frequency::Rate | Frequency::Occurrence if number >= 0.0 => Ok(Some(number)),
-            Frequency::Rate | Frequency::Occurrence => Err("a rate of 0 or more"),
+            Frequency::Rate | Frequency::Occurrence if (0.0..=MOST_FREQUENT).contains(&number) => {
+                Ok(Some(number))
+            }
+            Frequency::Rate | Frequency::Occurrence => Err("a rate a year from 0 to 1000"),
             Frequency::ReturnPeriod if number > 0.0 => Ok(Some(1.0 / number)),
             Frequency::ReturnPeriod => Err("years above 0"),
             Frequency::ProbabilityIn(years) if (0.0..1.0).contains(&number) => {

@@ -1,4 +1,4 @@
-//! What several stages have: the options of structures, and motions as simulate and ida take them.
+//! What several stages have: the options of structures and fits, and motions as simulate and ida take them.
 
 pub mod fits;
 pub mod hazard;

@@ -1,0 +1,368 @@
+//! The figures of what a folder holds.
+
+use std::f64::consts::TAU;
+
+use super::studies;
+use super::tables::Tables;
+use crate::fragility::{Calibration, Cases, DemandFit, DemandModel, Event, Measure, OverturningFit};
+use crate::fragility::{Probability, Scenarios, hybrid_measure, lambda};
+use crate::keyword::Keyword;
+use crate::motion::{IntensityMeasures, Suite, intensity};
+use crate::report::figures::{self as draw, MEASURES, MeasureFit, ProbabilityPanel, StructureCurves};
+use crate::report::text::number;
+use crate::report::{Estimate, Figure};
+use crate::rocking::{Outcome, Record, Structure, simulate, trace, with_tail};
+use crate::statistics::scores::log_score;
+use crate::table::motions::Motion;
+use crate::units::G_M_S2;
+
+/// The most pairs of suite and structure that are drawn, and structures in one panel.
+const MOST_GROUPS: usize = 4;
+const MOST_STRUCTURES: usize = 6;
+/// Number of points of a curve; the most bins of observed shares, and cases for each on average.
+const STEPS: usize = 120;
+const BINS: usize = 14;
+const CASES: usize = 8;
+/// Quantiles of IM3 at which P_ex is drawn.
+const SHARES: [f64; 3] = [0.1, 0.5, 0.9];
+const CONFIDENCE: f64 = 0.95;
+
+/// Draws all figures of the tables that are there, in the order of the page.
+pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
+    let rocking: Vec<&Cases> = tables.groups.iter().filter(|cases| rocked(cases).next().is_some()).collect();
+    let groups = &rocking[..rocking.len().min(MOST_GROUPS)];
+    let motions = tables.motions()?;
+    let fits: Vec<_> = groups.iter().map(|cases| (name(cases), measure_fits(tables, cases))).collect();
+    let fits: Vec<_> = fits.into_iter().filter(|(_, fits)| fits.iter().any(Option::is_some)).collect();
+    let suites = suites(&rocking);
+    let panels = |of: &dyn Fn(&[&Cases]) -> Option<ProbabilityPanel>| -> Vec<ProbabilityPanel> {
+        suites.iter().filter_map(|groups| of(groups)).collect()
+    };
+    let over = |im_x, im_y| panels(&|groups: &[&Cases]| over(tables, groups, im_x, im_y));
+    let single = [over(Measure::Im4, None), over(Measure::Im5, None)].concat();
+    let regressions =
+        groups.iter().zip(&fits).map(|(cases, (_, fits))| draw::regressions(&group(cases), fits));
+    let figures = [
+        drawn(draw::list, studies::objects(tables)),
+        drawn(draw::rates, studies::states(tables)),
+        drawn(draw::ida, studies::analyses(tables)?),
+        drawn(draw::hybrids, over(Measure::Im4, Some(Measure::Im3Inverse))),
+        drawn(draw::calibrated, panels(&|groups| over_pga(tables, groups))),
+        drawn(draw::validation, studies::tests(tables)?),
+        drawn(draw::ranking, studies::targets(tables)?),
+        a_motion(&motions),
+        similar(tables, &motions)?,
+        drawn(draw::planes, groups.iter().filter_map(|cases| planes(tables, cases)).collect()),
+        drawn(draw::exceedance, panels(&|groups| exceeding(tables, groups))),
+        drawn(draw::overturning, single),
+        drawn(draw::demand, groups.iter().map(|cases| group(cases)).collect()),
+        drawn(draw::quality, fits.clone()),
+    ];
+    Ok(figures.into_iter().flatten().chain(regressions).collect())
+}
+
+fn drawn<T>(draw: fn(&[T]) -> Figure, data: Vec<T>) -> Option<Figure> {
+    (!data.is_empty()).then(|| draw(&data))
+}
+
+/// Structure and suite.
+pub fn title(structure: &str, suite: Option<&str>) -> String {
+    suite.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
+}
+
+pub fn name(cases: &Cases) -> String {
+    title(&cases.structure.name, cases.suite.as_deref())
+}
+
+/// The responses of each suite.
+fn suites<'a>(all: &[&'a Cases]) -> Vec<Vec<&'a Cases>> {
+    let mut suites: Vec<Vec<&Cases>> = Vec::new();
+    for cases in all {
+        match suites.iter_mut().find(|groups| groups[0].suite == cases.suite) {
+            Some(groups) => groups.push(cases),
+            None => suites.push(vec![cases]),
+        }
+    }
+    suites.iter_mut().for_each(|groups| groups.truncate(MOST_STRUCTURES));
+    suites.truncate(MOST_GROUPS);
+    suites
+}
+
+/// The cases that rocked, and whether they overturned.
+fn rocked(cases: &Cases) -> impl Iterator<Item = (usize, bool)> {
+    (0..cases.len()).filter_map(|k| Some((k, cases.happened(k, Event::Overturning, f64::INFINITY)?)))
+}
+
+fn group(cases: &Cases) -> draw::Group {
+    let case = |(k, overturned): (usize, bool)| {
+        let measures = cases.measures(k);
+        draw::RockingCase {
+            pgv_m_s: cases.pgv_m_s[k],
+            tp_s: measures.im1.map(|im1| TAU / (im1 * cases.structure.p_rad_s)),
+            im: Measure::SCALAR.map(|measure| measure.among(&measures)),
+            edp: Some(cases.edp[k]).filter(|_| !overturned),
+        }
+    };
+    draw::Group { name: name(cases), cases: rocked(cases).map(case).collect() }
+}
+
+/// Figure 1: a combined motion that has its pulse beside it, else any.
+fn a_motion(motions: &[Motion]) -> Option<Figure> {
+    let is = |motion: &&Motion, suite: Suite| motion.suite.as_deref() == Some(suite.as_str());
+    let same = |a: &Motion, b: &Motion| (a.mw, a.re_km, a.tp_s) == (b.mw, b.re_km, b.tp_s);
+    let pulse = |whole: &Motion| motions.iter().find(|other| is(other, Suite::Pulse) && same(whole, other));
+    let mut combined = motions.iter().filter(|motion| is(motion, Suite::Csgm));
+    let whole = combined.find(|whole| pulse(whole).is_some()).or(motions.first())?;
+    let velocity = |motion: &Motion| intensity::velocity(&motion.acceleration_m_s2, motion.dt_s);
+    let padded = |mut values: Vec<f64>| {
+        values.resize(whole.acceleration_m_s2.len(), 0.0);
+        values
+    };
+    Some(draw::motion(&draw::Motion {
+        words: words(whole),
+        dt_s: whole.dt_s,
+        acceleration_m_s2: whole.acceleration_m_s2.clone(),
+        velocity_m_s: velocity(whole),
+        pulse: pulse(whole).map(|pulse| [pulse.acceleration_m_s2.clone(), velocity(pulse)].map(padded)),
+    }))
+}
+
+fn words(motion: &Motion) -> String {
+    match motion.mw.is_nan() || motion.re_km.is_nan() {
+        true => format!("motion {}", motion.motion_id),
+        false => format!("magnitude {}, distance {} km", motion.mw, motion.re_km),
+    }
+}
+
+/// Figure 5: of the first two structures, under the motion in which the first rocks furthest without overturning.
+fn similar(tables: &Tables, motions: &[Motion]) -> anyhow::Result<Option<Figure>> {
+    let mut structures = tables.groups.iter().map(|cases| &cases.structure);
+    let Some(first) = structures.next() else { return Ok(None) };
+    let Some(second) = structures.find(|other| other.p_rad_s != first.p_rad_s) else { return Ok(None) };
+    let demand = |motion: &Motion| {
+        let response = simulate(first, &Record::new(&motion.acceleration_m_s2, motion.dt_s).ok()?);
+        Some(response.edp).filter(|_| response.outcome == Outcome::SafeRocking)
+    };
+    let demands = motions.iter().filter_map(|motion| Some((demand(motion)?, motion)));
+    let Some((_, motion)) = demands.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(None) };
+    let faster = second.p_rad_s / first.p_rad_s;
+    let stronger = second.alpha_rad.tan() / first.alpha_rad.tan();
+    let scaled: Vec<f64> = motion.acceleration_m_s2.iter().map(|sample| stronger * sample).collect();
+    let second = Structure { eta: first.eta, ..second.clone() };
+    let histories = [
+        history(first, &motion.acceleration_m_s2, motion.dt_s)?,
+        history(&second, &scaled, motion.dt_s / faster)?,
+    ];
+    Ok(Some(draw::similarity(&histories, &format!("a motion ({})", words(motion)))))
+}
+
+/// The rotation over time.
+fn history(structure: &Structure, samples: &[f64], dt_s: f64) -> anyhow::Result<draw::History> {
+    /// Free rocking that is shown, in 1 / p.
+    const TAIL: f64 = 5.0;
+    let Structure { p_rad_s, alpha_rad, .. } = *structure;
+    let ended = with_tail(&Record::new(samples, dt_s)?, TAIL / p_rad_s);
+    let (_, points) = trace(structure, &Record::new(&ended, dt_s)?);
+    let samples = points.iter().filter(|point| point.solver_event.is_none());
+    Ok(draw::History { p_rad_s, alpha_rad, dt_s, theta_rad: samples.map(|point| point.theta_rad).collect() })
+}
+
+/// The regressions of the demand of some cases, of one form.
+fn regressions<'a>(
+    tables: &'a Tables,
+    cases: &'a Cases,
+    model: DemandModel,
+) -> impl Iterator<Item = &'a DemandFit> {
+    tables.demand.iter().filter(move |fit| {
+        (&fit.suite, &fit.structure, fit.model) == (&cases.suite, &cases.structure.name, model)
+            && !fit.coefficients.is_empty()
+    })
+}
+
+fn measure_fits(tables: &Tables, cases: &Cases) -> [Option<MeasureFit>; 6] {
+    Measure::SCALAR.map(|measure| {
+        let fit = regressions(tables, cases, DemandModel::Univariate).find(|fit| fit.im_x == measure)?;
+        Some(MeasureFit { ln_a: fit.coefficients[0], b: fit.coefficients[1], r2: fit.r2?, beta: fit.beta? })
+    })
+}
+
+fn planes(tables: &Tables, cases: &Cases) -> Option<draw::GroupPlanes> {
+    let planes: Vec<&DemandFit> = regressions(tables, cases, DemandModel::Biplanar).collect();
+    let [low, high] = planes[..] else { return None };
+    let plane = |fit: &DemandFit| [0, 1, 2].map(|k| fit.coefficients[k]);
+    let planes = [plane(low), plane(high)];
+    Some(draw::GroupPlanes { group: group(cases), transition: high.range_low?, planes })
+}
+
+/// Values in equal ratios from the first to the last.
+fn ratios([low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
+    (0..=STEPS).map(move |k| low * (high / low).powf(k as f64 / STEPS as f64))
+}
+
+/// A curve with its band, broken where it has no value.
+fn curve(label: &str, x: impl Iterator<Item = f64>, p: impl Fn(f64) -> Option<Probability>) -> draw::Curve {
+    let point = |x: f64| match p(x) {
+        Some(Probability { value, low, high }) => ([x, value], [low, high]),
+        None => ([f64::NAN; 2], [f64::NAN; 2]),
+    };
+    let (points, band) = x.map(point).unzip();
+    draw::Curve { label: label.to_string(), points, band }
+}
+
+/// Structures over a measure; none without a curve.
+fn panel(groups: &[&Cases], measure: &str, structures: Vec<StructureCurves>) -> Option<ProbabilityPanel> {
+    let title = groups[0].suite.clone().unwrap_or_default();
+    let has_curves = structures.iter().any(|structure| !structure.curves.is_empty());
+    has_curves.then(|| ProbabilityPanel {
+        title,
+        measure: measure.to_string(),
+        structures,
+        notes: Vec::new(),
+    })
+}
+
+/// The measures of a motion with these IM4 and IM3.
+fn measures(im4: f64, im3: f64) -> IntensityMeasures {
+    IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5: im4 / im3, im6: None }
+}
+
+fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
+    values.retain(|value| !value.is_nan());
+    values.sort_unstable_by(f64::total_cmp);
+    values.get((share * values.len() as f64) as usize).copied()
+}
+
+/// Figure 10: P_ex by the planes at quantiles of IM3, and by IM4 alone.
+fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
+    let safe = |cases: &&Cases, im: usize| -> Vec<f64> {
+        (0..cases.len()).filter(|&k| cases.ln_demand(k).is_some()).map(|k| cases.im[im][k]).collect()
+    };
+    let all = |im: usize| groups.iter().flat_map(|cases| safe(cases, im)).collect::<Vec<f64>>();
+    let (im3, most) = (all(2), all(3).into_iter().fold(1.5, f64::max));
+    let limit_state = tables.limit_state().ok()?;
+    let structure = |cases: &&Cases| {
+        let planes: Vec<&DemandFit> = regressions(tables, cases, DemandModel::Biplanar).collect();
+        let at_share = |share: f64| {
+            let (im3, transition) = (quantile(im3.clone(), share)?, planes.last()?.range_low?);
+            let below = ratios([1.0, transition * (1.0 - 1e-9)]).chain([f64::NAN]);
+            let p = |im4: f64| {
+                let plane = planes.iter().find(|fit| fit.holds_at(im4))?;
+                plane.p_exceeding(&measures(im4, im3), limit_state, CONFIDENCE)
+            };
+            let label = format!("IM3 at its {} % quantile", number::plain(100.0 * share));
+            Some(curve(&label, below.chain(ratios([transition, most])), p))
+        };
+        let alone = regressions(tables, cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
+        let p = |fit: &DemandFit, im4: f64| fit.p_exceeding(&measures(im4, 1.0), limit_state, CONFIDENCE);
+        let alone = alone.map(|fit| curve("IM4 alone", ratios([1.0, most]), |im4| p(fit, im4)));
+        let curves = SHARES.into_iter().filter_map(at_share).chain(alone).collect();
+        StructureCurves { name: cases.structure.name.clone(), curves, shares: Vec::new() }
+    };
+    panel(groups, MEASURES[3], groups.iter().map(structure).collect())
+}
+
+/// Figures 11 and 12: P_ro over a measure, or over a hybrid one at the median IM3, and how well the curves of two
+/// structures predict each other.
+fn over(
+    tables: &Tables,
+    groups: &[&Cases],
+    im_x: Measure,
+    im_y: Option<Measure>,
+) -> Option<ProbabilityPanel> {
+    let fit = |cases: &Cases| {
+        let is_its = |fit: &&OverturningFit| {
+            (&fit.suite, &fit.structure) == (&cases.suite, &cases.structure.name)
+                && (fit.im_x, fit.im_y) == (im_x, im_y)
+                && fit.coefficients[1..].iter().sum::<f64>() > 0.0
+        };
+        tables.curves.iter().find(is_its)
+    };
+    let structure = |cases: &&Cases| {
+        let name = cases.structure.name.clone();
+        let Some(fit) = fit(cases) else { return StructureCurves { name, ..StructureCurves::default() } };
+        let value = |k: usize| {
+            let (measures, b) = (cases.measures(k), &fit.coefficients);
+            let (x, y) = (im_x.among(&measures)?, im_y.map(|im_y| im_y.among(&measures)));
+            y.map_or(Some(x), |y| Some(hybrid_measure(x, y?, lambda(b).0)))
+        };
+        let shares: Vec<(f64, bool)> =
+            rocked(cases).filter_map(|(k, event)| Some((value(k)?, event))).collect();
+        let im3 = quantile(cases.im[2].clone(), 0.5).unwrap_or(1.0);
+        let p = |value: f64| fit.p_overturning(&measures(im4_at(fit, value, im3), im3), CONFIDENCE);
+        StructureCurves { name, curves: vec![curve("", ratios(ends(&shares)), p)], shares: binned(&shares) }
+    };
+    let place = Measure::SCALAR.iter().position(|measure| *measure == im_x)?;
+    let measure = if im_y.is_some() { "hybrid measure" } else { MEASURES[place] };
+    let mut panel = panel(groups, measure, groups.iter().map(structure).collect())?;
+    if let [a, b] = groups
+        && let (Some(of_a), Some(of_b)) = (fit(a), fit(b))
+    {
+        let row = |cases: &Cases, own: &OverturningFit, other: &OverturningFit| {
+            let [own, other] = [own, other].map(|fit| number::fixed(score(fit, cases), 2));
+            format!("{}: {own}, {other}", cases.structure.name)
+        };
+        let head = "log score by own curve, by the other's".to_string();
+        panel.notes = vec![head, row(a, of_a, of_b), row(b, of_b, of_a)];
+    }
+    Some(panel)
+}
+
+/// IM4 of a motion at which the measure of a curve has this value.
+fn im4_at(fit: &OverturningFit, value: f64, im3: f64) -> f64 {
+    match (fit.im_x, &fit.coefficients[..]) {
+        (_, [_, b1, b2]) => (((b1 + b2) * value.ln() + b2 * im3.ln()) / b1).exp(),
+        (Measure::Im5, _) => value * im3,
+        _ => value,
+    }
+}
+
+/// Mean log score of a curve on the cases of any structure.
+fn score(fit: &OverturningFit, cases: &Cases) -> f64 {
+    const LEAST: f64 = 1e-12;
+    let p =
+        |k: usize| Some(fit.p_overturning(&cases.measures(k), CONFIDENCE)?.value.clamp(LEAST, 1.0 - LEAST));
+    let (p, events): (Vec<f64>, Vec<bool>) =
+        rocked(cases).filter_map(|(k, event)| Some((p(k)?, event))).unzip();
+    log_score(&p, &events)
+}
+
+/// P_ro over PGA: the means over the motions in each bin of the calibrated curve, and of the surface as it is shipped.
+fn over_pga(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
+    let structure = |cases: &&Cases| {
+        let is_its = |row: &&Calibration| row.suite == cases.suite && row.structure == cases.structure.name;
+        let own = tables.calibrations.iter().find(is_its)?;
+        let shares: Vec<(f64, bool)> =
+            rocked(cases).map(|(k, event)| (cases.pga_m_s2[k] / G_M_S2, event)).collect();
+        let (ends, bins) = (ends(&shares), bins(&shares));
+        let bin = draw::equal_ratios(ends, bins);
+        let drawn = |label: &str, row: &Calibration| {
+            let mut sums = vec![[0.0; 5]; bins];
+            for (&(pga, _), (k, _)) in shares.iter().zip(rocked(cases)) {
+                let logit = row.logit(&cases.structure, &cases.measures(k));
+                let Some(p) = logit.map(|logit| row.probability(logit, Scenarios::Many)) else { continue };
+                let terms = [1.0, pga, p.value, p.low, p.high];
+                sums[bin(pga)].iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            }
+            let means = sums.iter().filter(|sum| sum[0] > 0.0).map(|sum| sum.map(|term| term / sum[0]));
+            let (points, band) = means.map(|[_, pga, p, low, high]| ([pga, p], [low, high])).unzip();
+            draw::Curve { label: label.to_string(), points, band }
+        };
+        let surface = drawn("surface", &Calibration::shipped(own.kind, &cases.structure, None));
+        let curves = vec![drawn("calibrated", own), draw::Curve { band: Vec::new(), ..surface }];
+        Some(StructureCurves { name: cases.structure.name.clone(), curves, shares: binned(&shares) })
+    };
+    panel(groups, "PGA (g)", groups.iter().filter_map(structure).collect())
+}
+
+fn ends(cases: &[(f64, bool)]) -> [f64; 2] {
+    cases.iter().fold([f64::INFINITY, 0.0], |[low, high], (value, _)| [low.min(*value), high.max(*value)])
+}
+
+fn bins(cases: &[(f64, bool)]) -> usize {
+    (cases.len() / CASES).clamp(4, BINS)
+}
+
+/// Shares of events in bins of equal ratio, with Wilson's limits.
+fn binned(cases: &[(f64, bool)]) -> Vec<Estimate> {
+    draw::observed_shares(cases, draw::equal_ratios(ends(cases), bins(cases)), studies::wilson)
+}

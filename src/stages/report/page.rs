@@ -1,0 +1,302 @@
+//! The page: one answer, one table, one figure; then further figures; then, folded, how it was made and tested.
+
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::figures::name;
+use super::studies;
+use super::tables::Tables;
+use crate::fragility::{Calibration, Cases, Measure, Parameter};
+use crate::report::text::number;
+use crate::report::{Column, Figure, Page, Section, Table};
+use crate::rocking::Outcome;
+use crate::stages::evaluate::{ObjectRow, RatesRow};
+use crate::stages::ida::CapacityFitRow;
+use crate::studies::Validation;
+use crate::studies::paper::Comparison;
+use crate::units::G_M_S2;
+
+/// Doubts under the table; the others are folded.
+const MOST_DOUBTS: usize = 3;
+/// Figures that are seen: of annual rates, of the paper, of other responses. The others are folded.
+const OF_RATES: &[&str] = &["list", "rates"];
+const OF_PAPER: &[&str] =
+    &["overturning-hybrid", "calibrated", "motion", "similarity", "planes", "exceedance"];
+const OF_RESPONSES: &[&str] = &["ida", "calibrated", "overturning", "validation", "ranking"];
+
+/// What is said of each stage that made a table.
+const METHOD: &str = "\
+synthesize-motions: Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), high frequencies of a \
+stochastic source, or both.
+import-motions: Ground motions are records, one component each.
+simulate: The rocking of each structure, a rigid block or frame that does not slide, follows from the equation of motion \
+with a loss of velocity at each impact (Eqs. 4 to 6). The demand is the largest rotation over the slenderness *α* \
+(Eq. 7); *p* is the frequency parameter.
+fit-pex: The demand in safe rocking is regressed on one measure or two, with two planes that meet at 1.3 times the peak \
+acceleration of uplift (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & Structural \
+Dynamics 44, 2015\u{2013}2033).
+fit-pro: The probability of overturning given rocking is the paper's lognormal curve of one measure or of a hybrid of two \
+(Eqs. 19 to 24), or the universal surface, which predicts it for any block from peak acceleration and velocity; the \
+responses calibrate level and slope of its logit.
+ida: Incremental dynamic analysis scales each motion until it overturns the structure; a lognormal distribution of these \
+intensities has the median.
+validate: Validation compares predicted probabilities with the outcomes of motions that were not fitted.
+evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal surface, \
+calibrated where there are responses. The limits do not have the error of the hazard.";
+
+/// Composes the page.
+pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
+    let (sentence, first, shown) = match (&tables.objects[..], &tables.compared[..]) {
+        ([], []) => (sentence_of_responses(&tables.groups), outcomes(tables)?, OF_RESPONSES),
+        ([], compared) => (sentence_of_paper(compared), planes(compared), OF_PAPER),
+        (objects, _) => (sentence_of_rates(objects), rates(objects), OF_RATES),
+    };
+    let (seen, more) = figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
+    let made = || tables.files.iter().filter_map(|(.., made)| made.as_ref());
+    let mut doubts: Vec<String> = made().flat_map(|made| made.doubts.clone()).collect();
+    doubts.sort_unstable();
+    doubts.dedup();
+    let others = doubts.split_off(doubts.len().min(MOST_DOUBTS));
+    let method = METHOD.lines().filter_map(|line| line.split_once(": "));
+    let method = method.filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
+    let section = |heading: &str, paragraphs, tables, figures| Section {
+        heading: heading.to_string(),
+        paragraphs,
+        tables,
+        figures,
+    };
+    let mut sections = vec![
+        section("More figures", Vec::new(), Vec::new(), more),
+        section("Method", method.collect(), Vec::new(), Vec::new()),
+        section("Tests and fits", others, tests(tables)?, Vec::new()),
+        section("Files", Vec::new(), vec![files(tables)], Vec::new()),
+    ];
+    sections.retain(|of| of.figures.len() + of.paragraphs.len() + of.tables.len() > 0);
+    Ok(Page { sentence, table: Some(first), notes: doubts, figures: seen, sections, key, ..Page::default() })
+}
+
+/// Some fields of rows, under their names.
+fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields: &str) -> Table {
+    let fields: Vec<&str> = fields.split('|').collect();
+    let rows: Vec<Value> = rows.into_iter().map(|row| json!(row)).collect();
+    let plain = |text: &str| if text.contains('{') { text.to_string() } else { text.replace('_', " ") };
+    let is_number = |value: &Value| match value {
+        Value::String(text) => {
+            text.starts_with(|sign: char| sign.is_ascii_digit() || "\u{2212}\u{2013}".contains(sign))
+        }
+        other => other.is_number(),
+    };
+    let cell = |value: &Value| match value {
+        Value::Number(count) if count.is_u64() => number::count(count.as_u64().unwrap_or(0) as usize),
+        Value::Number(value) => number::significant(value.as_f64().unwrap_or(f64::NAN), 3),
+        Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
+        Value::String(text) if text.starts_with("im") => text.to_uppercase(),
+        Value::String(text) => plain(text),
+        _ => String::new(),
+    };
+    let column = |field: &&str| Column {
+        head: plain(field),
+        is_number: rows.iter().any(|row| is_number(&row[*field])),
+    };
+    let cells = |row: &Value| fields.iter().map(|field| cell(&row[*field])).collect();
+    let columns = fields.iter().map(column).collect();
+    Table { caption: caption.to_string(), columns, rows: rows.iter().map(cells).collect() }
+}
+
+/// A value with its limits, or limits alone.
+fn limits([value, low, high]: [Option<f64>; 3], unit: f64) -> String {
+    let [x, a, b] = [value, low, high].map(|x| number::significant(unit * x.unwrap_or(f64::NAN), 2));
+    match (value, low) {
+        (Some(_), Some(_)) => format!("{x} ({a} to {b})"),
+        (None, Some(_)) => format!("{a} to {b}"),
+        _ => x,
+    }
+}
+
+/// Years to two digits.
+fn once_in(rate: f64) -> String {
+    let unit = 10_f64.powf((1.0 / rate).log10().floor() - 1.0).max(1.0);
+    number::count(((1.0 / rate / unit).round() * unit) as usize)
+}
+
+fn sentence_of_rates(objects: &[(ObjectRow, RatesRow)]) -> String {
+    let (object, row) = &objects[0];
+    let percent = limits([row.p_overturning, row.p_overturning_low, row.p_overturning_high], 100.0);
+    let often = row.overturning_per_year.filter(|rate| *rate > 0.0);
+    let often = often.map_or(String::new(), |rate| format!("once in {} years, ", once_in(rate)));
+    let most =
+        if objects.len() > 1 { format!("Of {} objects the worst is ", objects.len()) } else { String::new() };
+    let years = number::plain(row.years.unwrap_or(f64::NAN));
+    format!("{most}{}: it overturns {often}{percent} % in {years} years (95 % limits).", object.structure)
+}
+
+/// A row an object.
+fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
+    let years = objects.iter().find_map(|(_, row)| row.years).unwrap_or(f64::NAN);
+    let percent = format!("% in {} years (95 % limits)", number::plain(years));
+    let row = |(object, row): &(ObjectRow, RatesRow)| {
+        let size = object.width_m.zip(object.height_m);
+        let once = row.overturning_per_year.filter(|rate| *rate > 0.0).map(once_in);
+        json!({
+            "object": object.structure,
+            "size": size.map(|(width, height)| format!("{width:.2} \u{d7} {height:.2} m")),
+            "rocks a year": row.rocking_per_year.map(|rate| number::significant(rate, 2)),
+            "overturns a year": row.overturning_per_year.map(|rate| number::significant(rate, 2)),
+            "once in years": once,
+            (percent.as_str()): limits([row.p_overturning, row.p_overturning_low, row.p_overturning_high], 100.0),
+            "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
+            "doubt": row.doubts.as_ref().filter(|_| row.rocking_per_year.is_none()),
+        })
+    };
+    let fields =
+        format!("object|size|rocks a year|overturns a year|once in years|{percent}|friction needed|doubt");
+    table("", objects.iter().map(row), &fields)
+}
+
+fn sentence_of_paper(compared: &[Comparison]) -> String {
+    let z: Vec<f64> = compared.iter().filter_map(|number| number.z).collect();
+    let (all, near) = (z.len(), z.iter().filter(|z| z.abs() <= 2.0).count());
+    format!(
+        "Of {all} published numbers that vary between seeds, {near} lie within two standard deviations of ours."
+    )
+}
+
+/// Table II: published over ours.
+fn planes(compared: &[Comparison]) -> Table {
+    let row = |plane: &Comparison| {
+        let side = plane.quantity.trim_end_matches("_plane");
+        let cell = |coefficient: &str| {
+            let quantity = format!("{side}_{coefficient}");
+            let is_its = |number: &&Comparison| {
+                (&number.quantity, &number.suite, &number.structure)
+                    == (&quantity, &plane.suite, &plane.structure)
+            };
+            let both = compared.iter().find(is_its).map(|number| [number.published, number.ours]);
+            both.map(|both| both.map(|value| number::fixed(value.unwrap_or(f64::NAN), 2)).join(" / "))
+        };
+        json!({
+            "structure": plane.structure, "motions": plane.suite, "plane": if side == "low" { "below" } else { "above" },
+            "ln *a*": cell("ln_a"), "*b*_{1}": cell("b1"), "*b*_{2}": cell("b2"), "*R*^{2}": cell("r2"), "*p*": plane.t2_p,
+        })
+    };
+    let of_planes = compared.iter().filter(|number| number.quantity.ends_with("_plane"));
+    table(
+        "Table II, the planes of the demand below and above the transition, published / ours. *p* is the probability of so large a difference between seeds.",
+        of_planes.map(row),
+        "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}|*p*",
+    )
+}
+
+fn count(cases: &Cases, is: impl Fn(&Outcome) -> bool) -> usize {
+    cases.outcome.iter().filter(|outcome| is(outcome)).count()
+}
+
+fn overturned(cases: &Cases) -> usize {
+    count(cases, |outcome| *outcome == Outcome::Overturning)
+}
+
+fn sentence_of_responses(groups: &[Cases]) -> String {
+    let share = |cases: &&Cases| overturned(cases) as f64 / cases.len() as f64;
+    match groups.iter().max_by(|a, b| share(a).total_cmp(&share(b))) {
+        None => "There are no responses.".to_string(),
+        Some(cases) if overturned(cases) == 0 => "No motion overturns any structure.".to_string(),
+        Some(cases) => {
+            let [events, all] = [overturned(cases), cases.len()].map(number::count);
+            format!("{} overturns most often: in {events} of {all} motions.", name(cases))
+        }
+    }
+}
+
+/// What came of each structure and suite, and the median that overturns it: of its capacities, else of the paper's curve.
+fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
+    let capacities: Vec<CapacityFitRow> = tables.rows("ida.fragility")?;
+    let median = match capacities.first() {
+        Some(fit) => format!("half overturn it at {}", studies::words(fit.measure)),
+        None => "median PGV (m/s), lognormal curve".to_string(),
+    };
+    let row = |cases: &Cases| {
+        let is_its = |suite: &Option<String>, structure: &str| {
+            *suite == cases.suite && structure == cases.structure.name
+        };
+        let calibration =
+            tables.calibrations.iter().find(|row: &&Calibration| is_its(&row.suite, &row.structure));
+        let often = calibration.map(|row| row.n_events as f64 / row.expected);
+        let capacity = capacities.iter().find(|fit| is_its(&fit.suite, &fit.structure));
+        let of_capacity = capacity.map(|fit| {
+            [
+                limits([fit.theta, fit.theta_low, fit.theta_high], 1.0),
+                limits([fit.beta, fit.beta_low, fit.beta_high], 1.0),
+            ]
+        });
+        let mut curves = tables.curves.iter().filter(|fit| fit.im_x == Measure::Im5 && fit.im_y.is_none());
+        let curve = curves.find(|fit| is_its(&fit.suite, &fit.structure));
+        let of_curve = || {
+            let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
+            let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
+            [(Parameter::Theta, pgv), (Parameter::Beta, 1.0)].map(|(which, unit)| {
+                let row = parameters.iter().find(|row| row.parameter == which);
+                limits(row.map_or([None; 3], |row| [row.value, row.low, row.high].map(Some)), unit)
+            })
+        };
+        let [theta, beta] = of_capacity.unwrap_or_else(of_curve);
+        json!({
+            "structure": cases.structure.name, "motions": cases.suite, "number": cases.len(),
+            "rock": count(cases, |outcome| *outcome != Outcome::NoRocking), "overturn": overturned(cases),
+            "as often as the surface predicts": often.map(|often| format!("{} times", number::significant(often, 2))),
+            (median.as_str()): theta, "dispersion": beta,
+        })
+    };
+    let fields = format!(
+        "structure|motions|number|rock|overturn|as often as the surface predicts|{median}|dispersion"
+    );
+    Ok(table(
+        "Motions that rock and overturn each structure, with 95 % limits",
+        tables.groups.iter().map(row),
+        &fields,
+    ))
+}
+
+/// The tables that are folded.
+fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
+    let is_of_plane =
+        |number: &&Comparison| ["low_", "high_"].iter().any(|side| number.quantity.starts_with(side));
+    let published = tables.compared.iter().filter(|number| !is_of_plane(number));
+    let validations: Vec<Validation> = tables.rows("validation")?;
+    let mut all = vec![
+        table(
+            "Further numbers of the paper beside ours; *z* is (published \u{2212} mean) / sd over seeds",
+            published,
+            "quantity|structure|suite|published|ours|mean|sd|z",
+        ),
+        table(
+            "Lognormal curves of overturning",
+            &tables.curves,
+            "structure|suite|im_x|im_y|auc|n|n_events|status",
+        ),
+        table(
+            "Regressions of the demand",
+            &tables.demand,
+            "structure|suite|model|im_x|im_y|r2|beta|n|status",
+        ),
+        table(
+            "Validation: events observed and expected",
+            validations,
+            "structure|suite|event|model|n|observed|expected|expected_error|log_score|calibration_slope",
+        ),
+    ];
+    if !(tables.objects.is_empty() && tables.compared.is_empty()) {
+        all.insert(0, outcomes(tables)?);
+    }
+    all.retain(|table| !table.rows.is_empty());
+    Ok(all)
+}
+
+fn files(tables: &Tables) -> Table {
+    let rows = tables.files.iter().map(|(path, rows, made)| {
+        let by = made
+            .as_ref()
+            .map_or("another program".to_string(), |made| format!("{} {}", made.stage, made.version));
+        json!({ "file": path.file_name().map(|name| name.to_string_lossy()), "made by": by, "rows": rows })
+    });
+    table("", rows, "file|made by|rows")
+}

@@ -1,0 +1,132 @@
+//! The paper's run as it is shipped, without the report: its numbers, and the schemas of all files that the stages write.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use arrow_schema::{FieldRef, Schema};
+use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
+use rockfrag::fragility::{DemandFit, DemandModel, Event, Measure, OverturningFit, ParameterRow};
+use rockfrag::fragility::{lambda, mu};
+use rockfrag::keyword::Keyword;
+use rockfrag::studies::{ReliabilityBin, Validation};
+use rockfrag::table::rows;
+
+use crate::common::{folder_with, succeed};
+
+/// The folder of the run. It holds `out`.
+static RUN: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
+    let folder = folder_with(&include_str!("../../pipeline.yaml").replace("report: {}", ""));
+    succeed(folder.path(), "run");
+    folder
+});
+
+fn out(name: &str) -> std::path::PathBuf {
+    RUN.path().join("out").join(name)
+}
+
+/// A number of the fit of this suite and structure, by its name in paper_run.csv.
+fn number(name: &str, suite: &str, structure: &str) -> f64 {
+    let (of, column) = name.split_once('_').unwrap();
+    let its = |row_suite: &Option<String>, row_structure: &str| {
+        row_suite.as_deref() == Some(suite) && row_structure == structure
+    };
+    if let "low" | "high" = of {
+        let planes: Vec<DemandFit> = rows::read(&out("pex.parquet")).unwrap();
+        let is_it = |fit: &DemandFit| {
+            its(&fit.suite, &fit.structure)
+                && fit.model == DemandModel::Biplanar
+                && fit.range_high.is_some() == (of == "low")
+        };
+        let plane = planes.into_iter().find(is_it).unwrap();
+        return match column {
+            "ln_a" => plane.coefficients[0],
+            "b1" => plane.coefficients[1],
+            "b2" => plane.coefficients[2],
+            "r2" => plane.r2.unwrap(),
+            _ => plane.beta.unwrap(),
+        };
+    }
+    let measures = match of {
+        "im5" => (Measure::Im5, None),
+        _ => (Measure::Im4, Some(Measure::Im3Inverse)),
+    };
+    let curves: Vec<OverturningFit> = rows::read(&out("pro.parquet")).unwrap();
+    let is_it = |fit: &OverturningFit| {
+        its(&fit.suite, &fit.structure) && fit.event == Event::Overturning && (fit.im_x, fit.im_y) == measures
+    };
+    let curve = curves.into_iter().find(is_it).unwrap();
+    match column {
+        "mu" => mu(&curve.coefficients).0,
+        "lambda" => lambda(&curve.coefficients).0,
+        "log_likelihood" => curve.log_likelihood.unwrap(),
+        "auc" => curve.auc.unwrap(),
+        "brier" => curve.brier.unwrap(),
+        other => {
+            let parameters: Vec<ParameterRow> = rows::read(&out("pro.parameters.parquet")).unwrap();
+            let is_it = |row: &ParameterRow| {
+                its(&row.suite, &row.structure)
+                    && (row.im_x, row.im_y) == measures
+                    && other.contains(row.parameter.as_str())
+            };
+            let row = parameters.into_iter().find(is_it).unwrap();
+            if other.starts_with("se_") { row.standard_error } else { row.value }
+        }
+    }
+}
+
+#[test]
+fn the_papers_run_has_its_numbers() {
+    let table = include_str!("../reference/paper_run.csv");
+    let mut wrong = Vec::new();
+    for line in table.lines().skip(1) {
+        let [name, suite, structure, value]: [&str; 4] =
+            line.split(',').collect::<Vec<_>>().try_into().unwrap();
+        let (expected, ours): (f64, f64) = (value.parse().unwrap(), number(name, suite, structure));
+        if !((ours - expected).abs() <= 1e-6 * expected.abs().max(1.0)) {
+            wrong.push(format!("{name}, {suite}, {structure}: {ours}, not {expected}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Each column: name, type, unit.
+fn columns(schema: &Schema) -> String {
+    let column = |field: &FieldRef| {
+        let unit = field.metadata().get("unit").map_or("NOT IN THE DICTIONARY", String::as_str);
+        format!("  {} {} {unit}\n", field.name(), field.data_type())
+    };
+    schema.fields().iter().map(column).collect()
+}
+
+#[test]
+fn every_file_has_its_schema() {
+    let folder = RUN.path();
+    let record = "time (s),acceleration (g)\n".to_string()
+        + &(0..400)
+            .map(|k| format!("{},{}\n", f64::from(k) * 0.01, (f64::from(k) * 0.1).sin()))
+            .collect::<String>();
+    std::fs::write(folder.join("record.csv"), record).unwrap();
+    for call in [
+        "import-motions record.csv --out out/records.parquet --accept-implausible",
+        "simulate --in out/motions.parquet --p 2.5 --alpha 0.2 --eta 0.92 --trace 1 --out out/one.parquet",
+        "ida --in out/records.parquet --p 2.5 --alpha 0.2 --eta 0.92 --out out/ida.parquet",
+        "rank-ims --in out/responses.parquet --terms 1 --out out/ranking.parquet",
+    ] {
+        succeed(folder, call);
+    }
+    let mut files: Vec<_> =
+        folder.join("out").read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|ending| ending == "parquet"));
+    files.sort_unstable();
+    let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
+    let schema = |path: &Path| {
+        let file = std::fs::File::open(path).unwrap();
+        ArrowReaderMetadata::load(&file, ArrowReaderOptions::new()).unwrap().schema().clone()
+    };
+    let mut text: String =
+        files.iter().map(|path| format!("{}\n{}", name(path), columns(&schema(path)))).collect();
+    text += &format!("validation.parquet\n{}", columns(&rows::schema::<Validation>()));
+    text += &format!("validation.reliability.parquet\n{}", columns(&rows::schema::<ReliabilityBin>()));
+    assert!(!text.contains("NOT IN"), "{text}");
+    insta::assert_snapshot!(text);
+}

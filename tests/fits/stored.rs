@@ -1,0 +1,121 @@
+//! Fits in a folder: which row answers for a structure.
+
+use std::path::Path;
+
+use rockfrag::doubt::Doubt;
+use rockfrag::fragility::{
+    Calibration, Cases, CurveOptions, DemandFit, DemandOptions, Event, Kind, Measure, Model, OverturningFit,
+    Pair, ParameterRow, fit_curves, fit_demand,
+};
+use rockfrag::pipeline::context::Context;
+use rockfrag::rocking::Structure;
+use rockfrag::stages::shared::fits::{FitsArgs, ModelName};
+use rockfrag::table::dictionary;
+use rockfrag::table::rows::{self, Row};
+
+use crate::common::{equipment, rocking};
+
+/// Writes the fits of the equipment under these suites.
+fn folder(suites: &[&str]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let of_suite = |suite: &&str| Cases { suite: Some(suite.to_string()), ..rocking(600) };
+    let all: Vec<Cases> = suites.iter().map(of_suite).collect();
+    let curves = CurveOptions {
+        event: Event::Overturning,
+        pairs: vec![Pair(Measure::Im4, Measure::Im3Inverse)],
+        all: false,
+    };
+    let planes = DemandOptions { transition: Some(1.3), confidence: 0.95, all: true };
+    let write = |name: &str, write: &dyn Fn(&Path)| write(&folder.path().join(name));
+    fn put<R: Row>(path: &Path, rows: Vec<R>) {
+        Context::default().write(path, &rows, "").unwrap();
+    }
+    write("pro.calibration.parquet", &|path| {
+        put(path, all.iter().map(|of| Calibration::fit(of, None)).collect())
+    });
+    write("pex.calibration.parquet", &|path| {
+        put(path, all.iter().map(|of| Calibration::fit(of, Some(0.1))).collect());
+    });
+    write("pro.parquet", &|path| put(path, all.iter().flat_map(|of| fit_curves(of, &curves)).collect()));
+    write("pex.parquet", &|path| put(path, all.iter().flat_map(|of| fit_demand(of, &planes).0).collect()));
+    folder
+}
+
+fn args(folder: &tempfile::TempDir) -> FitsArgs {
+    FitsArgs {
+        fits: Some(folder.path().to_path_buf()),
+        name: None,
+        suite: None,
+        model: ModelName::Calibrated,
+        limit_state: 0.1,
+    }
+}
+
+fn error(args: &FitsArgs) -> String {
+    args.models().and_then(|models| models.model(&equipment())).unwrap_err().to_string()
+}
+
+#[test]
+fn the_row_of_the_same_structure_answers_by_either_model() {
+    let folder = folder(&["csgm"]);
+    let args = args(&folder);
+    let near = Structure::new("mine", 2.51, 0.201, 0.925).unwrap();
+    let (model, doubts) = args.models().unwrap().model(&near).unwrap();
+    let Model::Calibrated { overturning, exceeding, .. } = model else { panic!() };
+    assert_eq!((overturning, exceeding.limit_state), (Calibration::fit(&rocking(600), None), Some(0.1)));
+    assert_eq!(doubts, []);
+    let paper = FitsArgs { model: ModelName::Paper, ..args };
+    let (Model::Paper { demand, overturning, .. }, _) = paper.models().unwrap().model(&near).unwrap() else {
+        panic!()
+    };
+    assert_eq!((demand.len(), overturning.im_y), (2, Some(Measure::Im3Inverse)));
+}
+
+#[test]
+fn a_structure_that_is_not_there_gets_the_surface_unless_it_is_named() {
+    let folder = folder(&["csgm"]);
+    let other = Structure::new("other", 1.0, 0.15, 0.92).unwrap();
+    let (model, doubts) = args(&folder).models().unwrap().model(&other).unwrap();
+    assert_eq!((model, doubts), (Model::shipped(Kind::Csgm, &other, 0.1), vec![Doubt::NotFitted]));
+    let named = FitsArgs { name: Some("equipment".to_string()), ..args(&folder) };
+    let (Model::Calibrated { overturning, .. }, _) = named.models().unwrap().model(&other).unwrap() else {
+        panic!()
+    };
+    assert_eq!(overturning.structure, "equipment");
+    let unknown = FitsArgs { name: Some("shelf".to_string()), ..args(&folder) };
+    assert!(error(&unknown).contains("no structure 'shelf'; expected one of equipment"));
+    let without = FitsArgs { fits: None, ..args(&folder) };
+    let (model, doubts) = without.models().unwrap().model(&other).unwrap();
+    assert_eq!((model, doubts), (Model::shipped(Kind::Recorded, &other, 0.1), vec![]));
+}
+
+#[test]
+fn what_cannot_be_chosen_is_an_error_that_tells_what_to_do() {
+    let folder = folder(&["csgm", "pulse"]);
+    assert!(error(&args(&folder)).ends_with("fits of csgm, pulse; expected --suite with one of them"));
+    let pulses = FitsArgs { suite: Some(Kind::Pulse), ..args(&folder) };
+    let (Model::Calibrated { overturning, .. }, _) = pulses.models().unwrap().model(&equipment()).unwrap()
+    else {
+        panic!()
+    };
+    assert_eq!(overturning.kind, Kind::Pulse);
+    let recorded = FitsArgs { suite: Some(Kind::Recorded), ..pulses.clone() };
+    assert!(error(&recorded).ends_with("no fits of recorded, only of csgm, pulse"));
+    let limit = FitsArgs { limit_state: 0.3, ..pulses };
+    assert!(error(&limit).ends_with("run fit-pex --limit-state 0.1,0.3"), "{}", error(&limit));
+    let paper = FitsArgs { fits: None, model: ModelName::Paper, ..args(&folder) };
+    assert!(error(&paper).contains("--model paper needs --fits"));
+}
+
+#[test]
+fn every_column_of_fits_has_unit_and_meaning() {
+    let schemas = [
+        rows::schema::<Calibration>(),
+        rows::schema::<DemandFit>(),
+        rows::schema::<OverturningFit>(),
+        rows::schema::<ParameterRow>(),
+    ];
+    for field in schemas.iter().flat_map(|schema| schema.fields().iter()) {
+        assert!(dictionary::entry(field.name()).is_some(), "{}", field.name());
+    }
+}
