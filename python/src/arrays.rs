@@ -1,4 +1,4 @@
-//! One motion through one structure, and the lognormal curve of given outcomes. Arrays come and go as the bytes of f64.
+//! One motion through one structure, and the lognormal curve of given outcomes. Arrays are the bytes of f64.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -22,8 +22,9 @@ pub fn bytes<'py>(py: Python<'py>, numbers: impl Iterator<Item = f64>) -> Bound<
     PyBytes::new(py, &numbers.flat_map(f64::to_ne_bytes).collect::<Vec<u8>>())
 }
 
-/// The rotation over time at every sample (m/s2, every `dt_s` s, with `tail_s` s of quiet after them) and event, and what came of
-/// it. `structure` is written as on the command line: `p=1,alpha=0.15,eta=0.92`.
+/// Simulates a structure, written as on the command line (`p=1,alpha=0.15,eta=0.92`), under samples (m/s2)
+/// every `dt_s` s with `tail_s` s of quiet after them. Returns the rotation at every sample and event, and
+/// the outcome.
 #[pyfunction]
 pub fn simulate_motion<'py>(
     py: Python<'py>,
@@ -62,8 +63,9 @@ pub fn simulate_motion<'py>(
     Ok(result)
 }
 
-/// The lognormal curve of Eq. 20 by maximum likelihood (Eqs. 21 and 22): status, z = b0 + b1 ln IM with its covariance, and theta
-/// and beta, each with its limits. `outcomes` has a byte a case.
+/// Fits the lognormal curve of Eq. 20 by maximum likelihood (Eqs. 21 and 22). Returns the status, the
+/// coefficients of z = b0 + b1 ln IM with their covariance, and theta and beta with limits. `outcomes` has a
+/// byte a case.
 #[pyfunction]
 pub fn fit_curve<'py>(
     py: Python<'py>,

@@ -14,7 +14,7 @@ pyo3::create_exception!(
     "A stage failed; the message names the file and what was expected."
 );
 
-/// The exception for an error of the library: ValueError of a mistake in the call, FileNotFoundError, else [`Error`].
+/// The exception of an error: ValueError for a mistake in the call, FileNotFoundError, else [`Error`].
 pub fn to_python(error: &anyhow::Error) -> PyErr {
     let is_missing = |cause: &(dyn std::error::Error + 'static)| {
         matches!(cause.downcast_ref(), Some(TableError::Missing(_)))

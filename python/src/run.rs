@@ -1,4 +1,5 @@
-//! Work in the background of a Python call: the GIL is released, and whoever called hears of progress and can interrupt.
+//! Work in the background of a Python call: the GIL is released, and the caller hears of progress and can
+//! interrupt.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
@@ -34,18 +35,19 @@ impl Listener for Heard {
     }
 }
 
-/// The first process that uses rockfrag. A child made by fork has none of its threads, and would wait for them without end.
+/// The first process that uses rockfrag. A child made by fork lacks its threads and would wait for them.
 static OWNER: OnceLock<u32> = OnceLock::new();
 
 fn expect_own_threads() -> anyhow::Result<()> {
     anyhow::ensure!(
         *OWNER.get_or_init(std::process::id) == std::process::id(),
-        "this process was forked from one that had used rockfrag; expected multiprocessing.get_context('spawn')"
+        "forked from a process that had used rockfrag; expected multiprocessing.get_context('spawn')"
     );
     Ok(())
 }
 
-/// Runs `work` on a thread of its own, with `threads` threads (all processors if none), until it is done or Python interrupts it.
+/// Runs `work` on a thread of its own, with `threads` threads (all processors if none), until it is done or
+/// interrupted.
 pub fn run<T: Send>(
     py: Python,
     threads: Option<usize>,

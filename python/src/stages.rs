@@ -44,7 +44,8 @@ fn describe_stage(command: &Command) -> Value {
     };
     let options =
         command.get_arguments().filter(|arg| !["help", "progress", "quiet"].contains(&arg.get_id().as_str()));
-    json!({ "name": command.get_name(), "help": words(command.get_about()), "options": options.map(option).collect::<Vec<_>>() })
+    let options: Vec<Value> = options.map(option).collect();
+    json!({ "name": command.get_name(), "help": words(command.get_about()), "options": options })
 }
 
 /// Runs a stage, unless its files are up to date. Options are a JSON object by the flags of the command.

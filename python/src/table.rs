@@ -43,7 +43,7 @@ pub fn read_table(py: Python, path: PathBuf) -> PyResult<Bound<PyCapsule>> {
 #[pyfunction]
 pub fn write_table(py: Python, capsule: &Bound<PyCapsule>, path: PathBuf) -> PyResult<()> {
     let stream = capsule.pointer_checked(Some(c"arrow_array_stream"))?.as_ptr().cast();
-    // SAFETY: a capsule of this name holds a valid stream; it is moved out, and the capsule is left a released one.
+    // SAFETY: a capsule of this name holds a valid stream; it is moved out, and a released one is left.
     #[allow(unsafe_code)]
     let reader = unsafe { ArrowArrayStreamReader::from_raw(stream) };
     let written = reader.map_err(anyhow::Error::from).and_then(|reader| {

@@ -15,32 +15,22 @@ from rockfrag import _bridge
 
 
 def test_a_stage_writes_the_bytes_of_the_command(tmp_path, command):
-    for stage, options in [
-        ("sample-scenarios", {"samples": 3, "mw": "6:7:0.5"}),
-        ("synthesize-motions", {"suite": ["pulse", "csgm"], "in": "scenarios.parquet"}),
-        ("simulate", {"structure": [FRAME], "in": "motions.parquet"}),
-        ("fit-pro", {"in": "responses.parquet", "pairs": ["im4:im5"]}),
+    structure = "--structure=name=frame,p=1.5,alpha=0.15,eta=0.92"
+    before = None
+    for stage, flags, options, name in [
+        ("sample-scenarios", ["--samples=3", "--mw=6:7:0.5"], {"samples": 3, "mw": "6:7:0.5"}, "scenarios"),
+        ("synthesize-motions", ["--suite=pulse,csgm"], {"suite": ["pulse", "csgm"]}, "motions"),
+        ("simulate", [structure], {"structure": [FRAME]}, "responses"),
+        ("fit-pro", ["--pairs=im4:im5", "--all"], {"pairs": "im4:im5", "all": True}, "pro"),
     ]:
-        words = {
-            "structure": "name=frame,p=1.5,alpha=0.15,eta=0.92",
-            "suite": "pulse,csgm",
-            "pairs": "im4:im5",
-        }
-        flags = [f"--{name}={words.get(name, value)}" for name, value in options.items()]
         done = command(stage, *flags)
         assert done.returncode == 0, done.stderr
-        files = {path.name: path.read_bytes() for path in tmp_path.glob("*.parquet")}
-        given = tmp_path / options.pop("in") if "in" in options else None
-        call = getattr(rockfrag, stage.replace("-", "_"))
-        made = call(*[given][: given is not None], out=tmp_path / "python" / newest(tmp_path), **options)
-        assert made.path.read_bytes() == files[made.path.name]
-        assert made.summary == done.stdout
-
-
-def newest(folder: Path) -> str:
-    """The file that was written last; of a table with parts, the table."""
-    names = [path.name for path in folder.glob("*.parquet") if path.name.count(".") == 1]
-    return max(names, key=lambda name: (folder / name).stat().st_mtime_ns)
+        given = [before.path] if before else []
+        before = getattr(rockfrag, stage.replace("-", "_"))(
+            *given, out=tmp_path / f"py/{name}.parquet", **options
+        )
+        assert before.path.read_bytes() == (tmp_path / f"{name}.parquet").read_bytes()
+        assert before.summary == done.stdout
 
 
 def test_an_unknown_option_names_the_nearest(motions):

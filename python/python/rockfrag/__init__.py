@@ -6,8 +6,9 @@ Each stage of the command is a function with the command's options::
     responses = rockfrag.simulate(motions, structure=[dict(name="frame", p=1, alpha=0.15, eta=0.92)])
     rockfrag.fit_pro(responses).part("parameters").to_polars()
 
-A table is anything that speaks Arrow (polars, pandas, pyarrow, DuckDB, a :class:`Result`), or the path of a file. With ``out`` a
-result is that file, and is left as it is when up to date. ``rockfrag.ray`` runs partitions on a cluster.
+A table is anything that speaks Arrow (polars, pandas, pyarrow, DuckDB, a :class:`Result`), or the path of a
+file. With ``out`` a result is that file, and is left as it is when up to date. ``rockfrag.ray`` runs
+partitions on a cluster.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Arrays in and out: one motion through one structure, the curve of given outcomes, probabilities at intensities."""
+"""Arrays: one motion through one structure, the curve of given outcomes, probabilities at intensities."""
 
 from __future__ import annotations
 
@@ -56,7 +56,8 @@ def simulate_motion(
     tail : float
         Quiet time after it in which free rocking shows, s.
     **structure
-        ``p`` (rad/s), ``alpha`` (rad) and ``eta``; or ``width`` and ``height`` (m), with ``eta`` and ``beam_mass_ratio`` if known.
+        ``p`` (rad/s), ``alpha`` (rad) and ``eta``; or ``width`` and ``height`` (m), with ``eta`` and
+        ``beam_mass_ratio`` if known.
     """
     samples = np.asarray(acceleration, dtype=np.float64)
     if samples.ndim != 1:
@@ -69,7 +70,7 @@ def simulate_motion(
 
 @dataclass(frozen=True, eq=False)
 class FragilityCurve:
-    """A lognormal fragility curve P = Phi(ln(im / theta) / beta) (Eq. 20); numbers are NaN where ``status`` shows that there is no fit."""
+    """A lognormal fragility curve P = Phi(ln(im / theta) / beta) (Eq. 20); without a fit numbers are NaN."""
 
     #: ok, poor_fit, wrong_sign, separated, too_few_events, degenerate or not_converged.
     status: str
@@ -131,8 +132,11 @@ def fit_fragility(im: ArrayLike, outcome: ArrayLike, *, confidence: float = 0.95
 
 @dataclass(frozen=True, eq=False)
 class Probabilities:
-    """The probabilities of the tree (Eq. 12), with 95 % limits: of no rocking, and given rocking of exceeding the limit state and of
-    overturning; then of failure, given rocking and of all."""
+    """The probabilities of the tree (Eq. 12) with 95 % limits, of the shape of the intensities.
+
+    Of no rocking; given rocking, of exceeding the limit state (without overturning), of overturning, and of
+    failure (either); and of failure whether it rocks or not.
+    """
 
     p_nr: Floats
     p_ex: Floats
@@ -150,7 +154,7 @@ class Probabilities:
 
 
 def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities:
-    """Predicts probabilities for one structure at intensities, as :func:`rockfrag.evaluate` does for a table of them.
+    """Predicts probabilities for one structure at intensities, as :func:`rockfrag.evaluate` does for a table.
 
     Parameters
     ----------

@@ -1,10 +1,10 @@
 """Motions and responses in partitions on a Ray cluster: ``pip install rockfrag[ray]``.
 
-Each partition is a task, which writes its file under its own name once it is whole; a task whose file is up to date does nothing, so
-a job is resumed by running it again. The rows are those of one machine::
+Each partition is a task, which writes its file under its own name once it is whole; a task whose file is up
+to date does nothing, so a job is resumed by running it again. The rows are those of one machine::
 
-    rockfrag.ray.synthesize_motions("scenarios.parquet", "motions", partitions=100)
-    rockfrag.ray.simulate("motions", "responses", partitions=100, structures="structures.csv")
+    rockfrag.ray.synthesize("scenarios.parquet", "motions", partitions=100)
+    rockfrag.ray.simulate("motions", "responses", structures="structures.csv")
     rockfrag.fit_pro("responses")
 
 Paths are in a folder that all nodes see.
@@ -22,12 +22,12 @@ except ModuleNotFoundError as missing:
 
 from . import _bridge
 
-__all__ = ["simulate", "synthesize_motions"]
+__all__ = ["simulate", "synthesize"]
 
 PathLike = str | os.PathLike[str]
 
 
-def synthesize_motions(
+def synthesize(
     scenarios: PathLike, out: PathLike, *, partitions: int, num_cpus: int = 1, **options: object
 ) -> list[Path]:
     """Synthesizes motions in partitions, a task each.
@@ -52,14 +52,14 @@ def synthesize_motions(
 
 
 def simulate(
-    motions: PathLike, out: PathLike, *, partitions: int, num_cpus: int = 1, **options: object
+    motions: PathLike, out: PathLike, *, partitions: int | None = None, num_cpus: int = 1, **options: object
 ) -> list[Path]:
     """Simulates the response to motions in partitions, a task each.
 
     Parameters
     ----------
     motions : path
-        A file of motions, or the folder of as many partitions.
+        The folder of the partitions of motions, or a file, of which ``partitions`` are made.
     out : path
         Folder of the partitions of responses.
     num_cpus : int
@@ -72,23 +72,17 @@ def simulate(
     list of Path
         The files, in order.
     """
+    partitions = partitions or max(1, len(list(Path(motions).glob("*.parquet"))))
     return _each("simulate", motions, out, partitions, num_cpus, options)
 
 
 def _each(
     stage: str, source: PathLike, out: PathLike, partitions: int, num_cpus: int, options: dict[str, object]
 ) -> list[Path]:
-    source, out = Path(source).absolute(), Path(out).absolute()
+    source, call = Path(source).absolute(), {**options, "out": Path(out).absolute(), "threads": num_cpus}
     task = ray.remote(num_cpus=num_cpus)(_one)
-    call = {**options, "out": out, "threads": num_cpus}
-    return list(
-        ray.get(
-            [
-                task.remote(stage, source, {**call, "partition": f"{index}/{partitions}"})
-                for index in range(partitions)
-            ]
-        )
-    )
+    calls = [{**call, "partition": f"{index}/{partitions}"} for index in range(partitions)]
+    return list(ray.get([task.remote(stage, source, call) for call in calls]))
 
 
 def _one(stage: str, source: Path, call: dict[str, object]) -> Path | None:
