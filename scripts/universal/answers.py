@@ -18,15 +18,15 @@ from surface import KINDS, Surface, some
 
 N = 60
 CASES = "kind structure p_rad_s alpha_rad eta pga_m_s2 pgv_m_s im3 im4 im5 cluster".split()
-POINTS = {"p": "p_rad_s", "alpha": "alpha_rad", "eta": "eta", "im3": "im3", "im4": "im4", "limit": "limit_state"}
+NAMES = ["p_rad_s", "alpha_rad", "eta", "im3", "im4", "im5", "limit_state"]
 
 
 def points(surface):
     rng = np.random.default_rng(11)
     drawn = {"kind": np.array([("recorded", *KINDS)[k % 4] for k in range(N)])}
-    for name, column in POINTS.items():
-        low, high = np.log(surface.domain[name])
-        drawn[column] = np.exp(rng.uniform(low, high, N)).round(6) + 0.01 * (name == "im4")
+    for column in NAMES:
+        low, high = np.log(surface.domain[column.split("_")[0]])
+        drawn[column] = np.exp(rng.uniform(low, high, N)).round(6) + 0.01 * (column == "im4")
     drawn["im5"] = drawn["im4"] / drawn["im3"]
     for event in ("pro", "pex"):
         logit = lambda k: surface.logit(event, drawn["kind"][k], some(drawn, [k]), drawn["limit_state"][k])[0]
