@@ -3,10 +3,10 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::figures::name;
+use super::figures::{is_of, name};
 use super::studies;
 use super::tables::Tables;
-use crate::fragility::{Calibration, Cases, Measure, Parameter};
+use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::report::text::number;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::Outcome;
@@ -16,8 +16,9 @@ use crate::studies::Validation;
 use crate::studies::paper::Comparison;
 use crate::units::G_M_S2;
 
-/// Doubts under the table; the others are folded.
+/// Doubts under the table; the others are folded. Structures in the first sentence; the table has all.
 const MOST_DOUBTS: usize = 3;
+const MOST_NAMED: usize = 4;
 /// Figures that are seen: of annual rates, of the paper, of other responses. The others are folded.
 const OF_RATES: &[&str] = &["list", "rates"];
 const OF_PAPER: &[&str] =
@@ -47,9 +48,9 @@ calibrated where there are responses. The limits do not have the error of the ha
 /// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
     let (sentence, first, shown) = match (&tables.objects[..], &tables.compared[..]) {
-        ([], []) => (sentence_of_responses(&tables.groups), outcomes(tables)?, OF_RESPONSES),
-        ([], compared) => (sentence_of_paper(compared), planes(compared), OF_PAPER),
-        (objects, _) => (sentence_of_rates(objects), rates(objects), OF_RATES),
+        ([], []) => (overturned(&tables.groups), outcomes(tables)?, OF_RESPONSES),
+        ([], compared) => (compared_with_paper(compared), planes(compared), OF_PAPER),
+        (objects, _) => (tables.answer_of("evaluate"), rates(objects), OF_RATES),
     };
     let (seen, more) = figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
     let made = || tables.files.iter().filter_map(|(.., made)| made.as_ref());
@@ -59,26 +60,25 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     let others = doubts.split_off(doubts.len().min(MOST_DOUBTS));
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
-    let section = |heading: &str, paragraphs, tables, figures| Section {
-        heading: heading.to_string(),
-        paragraphs,
-        tables,
-        figures,
+    let section = |heading: &str, paragraphs: Vec<String>, tables: Vec<Table>, figures: Vec<Figure>| {
+        let is_there = figures.len() + paragraphs.len() + tables.len() > 0;
+        is_there.then(|| Section { heading: heading.to_string(), paragraphs, tables, figures })
     };
-    let mut sections = vec![
+    let sections = [
         section("More figures", Vec::new(), Vec::new(), more),
         section("Method", method.collect(), Vec::new(), Vec::new()),
         section("Tests and fits", others, tests(tables)?, Vec::new()),
         section("Files", Vec::new(), vec![files(tables)], Vec::new()),
     ];
-    sections.retain(|of| of.figures.len() + of.paragraphs.len() + of.tables.len() > 0);
+    let sections = sections.into_iter().flatten().collect();
     Ok(Page { sentence, table: Some(first), notes: doubts, figures: seen, sections, key, ..Page::default() })
 }
 
-/// Some fields of rows, under their names.
+/// Some fields of rows, under their names; those that no row has are left out.
 fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields: &str) -> Table {
-    let fields: Vec<&str> = fields.split('|').collect();
     let rows: Vec<Value> = rows.into_iter().map(|row| json!(row)).collect();
+    let has_any = |field: &&str| rows.iter().any(|row| !row[*field].is_null());
+    let fields: Vec<&str> = fields.split('|').filter(has_any).collect();
     let plain = |text: &str| if text.contains('{') { text.to_string() } else { text.replace('_', " ") };
     let is_number = |value: &Value| match value {
         Value::String(text) => {
@@ -104,8 +104,8 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
 }
 
 /// A value with its limits, or limits alone.
-fn limits([value, low, high]: [Option<f64>; 3], unit: f64) -> String {
-    let [x, a, b] = [value, low, high].map(|x| number::significant(unit * x.unwrap_or(f64::NAN), 2));
+fn limits([value, low, high]: [Option<f64>; 3]) -> String {
+    let [x, a, b] = [value, low, high].map(|x| number::significant(x.unwrap_or(f64::NAN), 2));
     match (value, low) {
         (Some(_), Some(_)) => format!("{x} ({a} to {b})"),
         (None, Some(_)) => format!("{a} to {b}"),
@@ -119,23 +119,13 @@ fn once_in(rate: f64) -> String {
     number::count(((1.0 / rate / unit).round() * unit) as usize)
 }
 
-fn sentence_of_rates(objects: &[(ObjectRow, RatesRow)]) -> String {
-    let (object, row) = &objects[0];
-    let percent = limits([row.p_overturning, row.p_overturning_low, row.p_overturning_high], 100.0);
-    let often = row.overturning_per_year.filter(|rate| *rate > 0.0);
-    let often = often.map_or(String::new(), |rate| format!("once in {} years, ", once_in(rate)));
-    let most =
-        if objects.len() > 1 { format!("Of {} objects the worst is ", objects.len()) } else { String::new() };
-    let years = number::plain(row.years.unwrap_or(f64::NAN));
-    format!("{most}{}: it overturns {often}{percent} % in {years} years (95 % limits).", object.structure)
-}
-
 /// A row an object.
 fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
     let years = objects.iter().find_map(|(_, row)| row.years).unwrap_or(f64::NAN);
     let percent = format!("% in {} years (95 % limits)", number::plain(years));
     let row = |(object, row): &(ObjectRow, RatesRow)| {
         let size = object.width_m.zip(object.height_m);
+        let p = [row.p_overturning, row.p_overturning_low, row.p_overturning_high];
         let once = row.overturning_per_year.filter(|rate| *rate > 0.0).map(once_in);
         json!({
             "object": object.structure,
@@ -143,7 +133,7 @@ fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
             "rocks a year": row.rocking_per_year.map(|rate| number::significant(rate, 2)),
             "overturns a year": row.overturning_per_year.map(|rate| number::significant(rate, 2)),
             "once in years": once,
-            (percent.as_str()): limits([row.p_overturning, row.p_overturning_low, row.p_overturning_high], 100.0),
+            (percent.as_str()): limits(p.map(|p| p.map(|p| 100.0 * p))),
             "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
             "doubt": row.doubts.as_ref().filter(|_| row.rocking_per_year.is_none()),
         })
@@ -153,11 +143,11 @@ fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
     table("", objects.iter().map(row), &fields)
 }
 
-fn sentence_of_paper(compared: &[Comparison]) -> String {
+fn compared_with_paper(compared: &[Comparison]) -> String {
     let z: Vec<f64> = compared.iter().filter_map(|number| number.z).collect();
     let (all, near) = (z.len(), z.iter().filter(|z| z.abs() <= 2.0).count());
     format!(
-        "Of {all} published numbers that vary between seeds, {near} lie within two standard deviations of ours."
+        "Of {all} published numbers that vary by seed, {near} lie within two standard deviations of ours."
     )
 }
 
@@ -187,24 +177,16 @@ fn planes(compared: &[Comparison]) -> Table {
     )
 }
 
-fn count(cases: &Cases, is: impl Fn(&Outcome) -> bool) -> usize {
-    cases.outcome.iter().filter(|outcome| is(outcome)).count()
+fn count(cases: &Cases, outcome: Outcome) -> usize {
+    cases.outcome.iter().filter(|other| **other == outcome).count()
 }
 
-fn overturned(cases: &Cases) -> usize {
-    count(cases, |outcome| *outcome == Outcome::Overturning)
-}
-
-fn sentence_of_responses(groups: &[Cases]) -> String {
-    let share = |cases: &&Cases| overturned(cases) as f64 / cases.len() as f64;
-    match groups.iter().max_by(|a, b| share(a).total_cmp(&share(b))) {
-        None => "There are no responses.".to_string(),
-        Some(cases) if overturned(cases) == 0 => "No motion overturns any structure.".to_string(),
-        Some(cases) => {
-            let [events, all] = [overturned(cases), cases.len()].map(number::count);
-            format!("{} overturns most often: in {events} of {all} motions.", name(cases))
-        }
-    }
+fn overturned(groups: &[Cases]) -> String {
+    let of = |cases: &Cases| {
+        let [events, all] = [count(cases, Outcome::Overturning), cases.len()].map(number::count);
+        format!("{events} of {all} motions overturn {}", name(cases))
+    };
+    groups.iter().take(MOST_NAMED).map(of).collect::<Vec<_>>().join("; ") + "."
 }
 
 /// What came of each structure and suite, and the median that overturns it: of its capacities, else of the paper's curve.
@@ -215,33 +197,26 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
-        let is_its = |suite: &Option<String>, structure: &str| {
-            *suite == cases.suite && structure == cases.structure.name
-        };
-        let calibration =
-            tables.calibrations.iter().find(|row: &&Calibration| is_its(&row.suite, &row.structure));
+        let calibration = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure));
         let often = calibration.map(|row| row.n_events as f64 / row.expected);
-        let capacity = capacities.iter().find(|fit| is_its(&fit.suite, &fit.structure));
-        let of_capacity = capacity.map(|fit| {
-            [
-                limits([fit.theta, fit.theta_low, fit.theta_high], 1.0),
-                limits([fit.beta, fit.beta_low, fit.beta_high], 1.0),
-            ]
-        });
-        let mut curves = tables.curves.iter().filter(|fit| fit.im_x == Measure::Im5 && fit.im_y.is_none());
-        let curve = curves.find(|fit| is_its(&fit.suite, &fit.structure));
+        let mut capacities = capacities.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
+        let of_capacity = capacities
+            .next()
+            .map(|fit| [[fit.theta, fit.theta_low, fit.theta_high], [fit.beta, fit.beta_low, fit.beta_high]]);
+        let mut curves = tables.curves.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
+        let curve = curves.find(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
+        let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
+        let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
         let of_curve = || {
-            let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
-            let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
             [(Parameter::Theta, pgv), (Parameter::Beta, 1.0)].map(|(which, unit)| {
                 let row = parameters.iter().find(|row| row.parameter == which);
-                limits(row.map_or([None; 3], |row| [row.value, row.low, row.high].map(Some)), unit)
+                row.map_or([None; 3], |row| [row.value, row.low, row.high].map(|value| Some(unit * value)))
             })
         };
-        let [theta, beta] = of_capacity.unwrap_or_else(of_curve);
+        let [theta, beta] = of_capacity.unwrap_or_else(of_curve).map(limits);
         json!({
             "structure": cases.structure.name, "motions": cases.suite, "number": cases.len(),
-            "rock": count(cases, |outcome| *outcome != Outcome::NoRocking), "overturn": overturned(cases),
+            "rock": cases.len() - count(cases, Outcome::NoRocking), "overturn": count(cases, Outcome::Overturning),
             "as often as the surface predicts": often.map(|often| format!("{} times", number::significant(often, 2))),
             (median.as_str()): theta, "dispersion": beta,
         })
@@ -261,6 +236,7 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let is_of_plane =
         |number: &&Comparison| ["low_", "high_"].iter().any(|side| number.quantity.starts_with(side));
     let published = tables.compared.iter().filter(|number| !is_of_plane(number));
+    let planes = tables.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
     let validations: Vec<Validation> = tables.rows("validation")?;
     let mut all = vec![
         table(
@@ -273,11 +249,7 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
             &tables.curves,
             "structure|suite|im_x|im_y|auc|n|n_events|status",
         ),
-        table(
-            "Regressions of the demand",
-            &tables.demand,
-            "structure|suite|model|im_x|im_y|r2|beta|n|status",
-        ),
+        table("Planes of the demand", planes, "structure|suite|range_low|range_high|r2|beta|n|status"),
         table(
             "Validation: events observed and expected",
             validations,

@@ -75,6 +75,13 @@ impl Tables {
         self.files.iter().any(|(.., made)| made.as_ref().is_some_and(|made| made.stage == stage))
     }
 
+    /// The first line that a stage has printed.
+    pub fn answer_of(&self, stage: &str) -> String {
+        let mut made = self.files.iter().filter_map(|(.., made)| made.as_ref());
+        let summary = made.find(|made| made.stage == stage).map_or("", |made| &made.summary);
+        summary.lines().next().unwrap_or_default().to_string()
+    }
+
     /// The demand whose exceedance was fitted.
     pub fn limit_state(&self) -> Result<f64, TableError> {
         let rows: Vec<Calibration> = self.rows("pex.calibration")?;
