@@ -16,13 +16,13 @@ if ! "$python/pelicun/bin/pip" download --quiet --no-deps --dest "$python" pelic
     exit 0
 fi
 
-"$python/pelicun/bin/pip" install --quiet pelicun==3.10.0 pyarrow
+"$python/pelicun/bin/pip" install --quiet pelicun==3.10.0
 "$python/pelicun/bin/python" scripts/check_pelicun.py "$rockfrag" "$out"
 
 # The engine alone, and what its reader and its fragility functions import: all it asks for includes GDAL, which pip would
 # have to compile.
 "$python/openquake/bin/pip" install --quiet --no-deps openquake.engine==3.26.2
-"$python/openquake/bin/pip" install --quiet 'numpy<2.3' pyarrow scipy pandas h5py psutil toml 'decorator~=5.1.1' 'numba~=0.61.2' \
+"$python/openquake/bin/pip" install --quiet 'numpy<2.3' scipy pandas h5py psutil toml 'decorator~=5.1.1' 'numba~=0.61.2' \
     shapely 'pyproj~=3.7.2' requests h3 'alpha_shapes~=1.1.0' 'pyzmq~=26.0' 'fiona~=1.10.1' 2> "$python/conflicts" ||
     { cat "$python/conflicts" >&2; exit 1; }
 "$python/openquake/bin/python" scripts/check_openquake.py "$rockfrag" "$out"
