@@ -78,7 +78,8 @@ impl RatioGiven {
 }
 
 impl JointPeaks {
-    /// That of these motions (m/s2 and m/s); none with fewer than three, or if a peak is not above 0 or the same in all.
+    /// That of these motions (m/s2 and m/s); none with fewer than three, or if a peak is not above 0 or the
+    /// same in all.
     pub fn of(pga_m_s2: &[f64], pgv_m_s: &[f64]) -> Option<JointPeaks> {
         let ln = |values: &[f64]| values.iter().map(|value| value.ln()).collect::<Vec<f64>>();
         let (ln_pga, ln_pgv) = (ln(pga_m_s2), ln(pgv_m_s));
@@ -90,7 +91,8 @@ impl JointPeaks {
         Some(JointPeaks { given_pga: given(&ln_pga)?, given_pgv: given(&ln_pgv)? })
     }
 
-    /// PGV / PGA (s) of motions with this intensity (m/s2 or m/s of the given peak), so many standard deviations above its median.
+    /// PGV / PGA (s) of motions with this intensity (m/s2 or m/s of the given peak), so many standard
+    /// deviations above its median.
     pub fn pgv_over_pga(&self, given: Peak, intensity: f64, deviations: f64) -> f64 {
         match given {
             Peak::Pga => self.given_pga.ratio(intensity, deviations),
