@@ -1,18 +1,16 @@
-"""What the checks of exports share: the structure, its fits, and what `evaluate` says of them. Called with ROCKFRAG OUT."""
+"""What the checks of exports share: the structure, its fits, and what `evaluate` has for them. Called with ROCKFRAG OUT."""
 
 import csv
 import pathlib
 import subprocess
 import sys
+import tempfile
 
-G = 9.81
-P, ALPHA = 2.5, 0.20
+ALPHA = 0.20
+HEADINGS = {"pga": "pga_g", "pgv": "pgv_m_s"}
 
 rockfrag, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
-fits = [
-    f"--pex={out / 'pex.parquet'}", f"--pro={out / 'pro.parquet'}", "--suite=csgm", "--structure=electrical-equipment",
-    f"--p={P}", f"--alpha={ALPHA}",
-]  # fmt: skip
+fits = [f"--fits={out}", "--suite=csgm", f"--structure=name=equipment,p=2.5,alpha={ALPHA},eta=0.92"]
 
 
 def run(subcommand, *arguments):
@@ -21,8 +19,11 @@ def run(subcommand, *arguments):
     return subprocess.run(call, check=True, capture_output=True, text=True).stdout
 
 
-def reached(pga_g, pgv, *more):
-    """The probability of reaching LS1, LS2 and LS3, as `evaluate` has it."""
-    rows = csv.DictReader(run("evaluate", f"--pga={pga_g!r}", f"--pgv={pgv!r}", "--format=csv", *more).splitlines())
-    answer = {row["quantity"]: float(row["value"] or 0) for row in rows}
-    return [1 - answer["p_nr"], answer["p_f"], answer["p_ro"]]
+def reached(im, intensity):
+    """The probability of reaching LS1, LS2 and LS3: the rates over a hazard of this intensity alone, once a year."""
+    with tempfile.NamedTemporaryFile("w", suffix=".csv") as hazard:
+        hazard.write(f"{HEADINGS[im]},annual_rate_of_exceedance\n")
+        hazard.writelines(f"{intensity * (1 + k * 1e-9)!r},{10.0 ** (-3 * k)!r}\n" for k in range(5))
+        hazard.flush()
+        (row,) = csv.DictReader(run("evaluate", f"--hazard={hazard.name}", "--format=csv").splitlines())
+    return [float(row[f"{state}_per_year"] or 0) for state in ["rocking", "failure", "overturning"]]

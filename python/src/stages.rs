@@ -1,79 +1,112 @@
-//! The stages, as the command line runs them: tables and paths in, a table (or the path that was written) out.
+//! Any stage by the parser of the command line: options as JSON in, the paths of what was written out.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
+use clap::{Arg, ArgAction, Args as _, Command, FromArgMatches};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use rockfrag::pipeline::UsageError;
-use rockfrag::pipeline::cache::{self, May};
-use rockfrag::stages::registry;
-use rockfrag::table::store::partition::Partition;
-use rockfrag::table::store::provenance::Provenance;
-use rockfrag::table::store::source::{MemoryTables, Source, Target};
+use rockfrag::cli::config::{Config, arguments};
+use rockfrag::cli::{calls_of, configured, stage_commands};
+use rockfrag::pipeline::cache::{self, Done};
+use rockfrag::pipeline::call::{Call, is_input};
+use rockfrag::pipeline::context::{COMMON, Common, Context};
+use rockfrag::stages::inspect::Inspect;
 use serde_json::{Value, json};
 
-use crate::error::to_python;
-use crate::run::{Settings, run};
-use crate::table::{PyTable, source};
+use crate::error::{in_python, to_python};
+use crate::run::run;
 
-/// The place among the tables in memory, of what a stage is for.
-const MAIN: &str = "";
+/// A stage that is done: its name, the files that it wrote, what it prints, what speaks against it.
+type Made = (String, Vec<PathBuf>, String, Vec<String>);
 
-/// All stages as JSON: names, inputs, options with types and defaults, outputs.
+/// All stages as JSON: names, meanings, options with their meanings and defaults.
 #[pyfunction]
-pub fn stages() -> String {
-    registry::descriptions().to_string()
+pub fn describe() -> String {
+    json!(stage_commands().iter().map(describe_stage).collect::<Vec<_>>()).to_string()
 }
 
-/// Runs a stage: into a file, unless that is up to date, or into memory.
+fn describe_stage(command: &Command) -> Value {
+    let words = |text: Option<&clap::builder::StyledStr>| text.map(|text| in_python(&text.to_string()));
+    let option = |arg: &Arg| {
+        let id = arg.get_id().as_str();
+        let default = arg.get_default_values().iter().map(|value| value.to_string_lossy());
+        json!({
+            "name": arg.get_long().unwrap_or(id).replace('-', "_"),
+            "help": words(arg.get_help()),
+            "default": default.collect::<Vec<_>>().join(","),
+            "flag": matches!(arg.get_action(), ArgAction::SetTrue),
+            "file": is_input(arg),
+            "positional": arg.is_positional(),
+            "common": arg.get_help_heading() == Some(COMMON),
+        })
+    };
+    let options =
+        command.get_arguments().filter(|arg| !["help", "progress", "quiet"].contains(&arg.get_id().as_str()));
+    let options: Vec<Value> = options.map(option).collect();
+    json!({ "name": command.get_name(), "help": words(command.get_about()), "options": options })
+}
+
+/// Runs a stage, unless its files are up to date. Options are a JSON object by the flags of the command.
 #[pyfunction]
 pub fn call(
     py: Python,
     stage: &str,
-    inputs: BTreeMap<String, Bound<PyAny>>,
     options: &str,
-    out: Option<PathBuf>,
-    settings: Settings,
-) -> PyResult<Py<PyAny>> {
-    let given = inputs.iter().map(|(role, given)| Ok((role.clone(), source(role, given)?)));
-    let inputs = given.collect::<PyResult<BTreeMap<String, Source>>>()?;
-    if let Some(out) = out {
-        let path = run(py, &settings, |console| {
-            let stages = registry::create(stage, options, &inputs, Some((&out).into()))?;
-            let may = May { force: settings.force, overwrite: settings.overwrite };
-            stages.iter().try_for_each(|stage| cache::run_alone(stage.as_ref(), may, console))?;
-            let written = if stages.len() == 1 { stages[0].outputs().pop() } else { None };
-            Ok(written.unwrap_or(out))
-        })?;
-        return Ok(path.into_pyobject(py)?.unbind());
-    }
-    let tables = MemoryTables::default();
-    let (parts, made) = run(py, &settings, |console| {
-        let stages = registry::create(stage, options, &inputs, Some(tables.place(MAIN)))?;
-        let (mut parts, mut made) = (Vec::new(), Value::Null);
-        for stage in stages {
-            // What stays in memory has no file to say how it was made.
-            let provenance = Provenance::new(stage.name(), stage.parameters(), BTreeMap::new());
-            cache::warn_of_partitions(stage.as_ref(), console);
-            stage.execute(&provenance, console)?;
-            let Provenance { stage: name, version, parameters, .. } = provenance;
-            let warnings = console.warnings.all();
-            made =
-                json!({ "stage": name, "version": version, "parameters": parameters, "warnings": warnings });
-            parts.extend(stage.targets().into_iter().filter_map(|target| match target {
-                Target::Memory(_, part) if part != MAIN => Some(part),
-                _ => None,
-            }));
-        }
-        Ok((parts, made))
-    })?;
-    Ok(PyTable::take(py, &tables, MAIN, &parts, &made.to_string())?.into_pyobject(py)?.unbind())
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Made> {
+    let commands = stage_commands();
+    let command = commands.iter().find(|command| command.get_name() == stage);
+    let command = command.ok_or_else(|| PyTypeError::new_err(format!("no stage {stage}")))?;
+    let options: BTreeMap<String, Value> =
+        serde_json::from_str(options).map_err(|error| PyTypeError::new_err(error.to_string()))?;
+    let words = arguments(command, options, Path::new(""))
+        .map_err(|error| PyTypeError::new_err(in_python(&error.to_string())))?;
+    run(py, threads, progress.as_ref(), move |mut context| {
+        let (call, matches) = configured(command, &words)?;
+        context.force = Common::from_arg_matches(&matches)?.force;
+        make(&call, &context)
+    })
 }
 
-/// What the file of a partition is called.
+fn make(call: &Call, context: &Context) -> anyhow::Result<Made> {
+    let Done { summary, doubts, .. } = cache::run(call, context)?;
+    Ok((call.name.clone(), call.stage.outputs(), summary, doubts))
+}
+
+/// Runs all stages of a pipeline file that are not up to date.
 #[pyfunction]
-pub fn partition_file(py: Python, partition: &str) -> PyResult<String> {
-    let partition: Result<Partition, String> = partition.parse();
-    let partition = partition.map_err(|wrong| to_python(py, &UsageError::because(wrong)))?;
-    Ok(partition.file_name())
+pub fn run_pipeline(
+    py: Python,
+    pipeline: PathBuf,
+    out: Option<PathBuf>,
+    seed: Option<u64>,
+    force: bool,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Vec<Made>> {
+    run(py, threads, progress.as_ref(), |mut context| {
+        let calls = calls_of(&Config::read(&pipeline)?.with_seed(seed), out, &pipeline)?;
+        calls.iter().try_for_each(|call| call.stage.check())?;
+        context.force = force;
+        calls.iter().map(|call| make(call, &context)).collect()
+    })
+}
+
+/// What `rockfrag inspect` prints of a file as JSON.
+#[pyfunction]
+pub fn inspect(path: PathBuf) -> PyResult<String> {
+    let words = ["inspect".into(), "--format=json".into(), path.into_os_string()];
+    let inspect = Inspect::augment_args(Command::new("inspect")).try_get_matches_from::<_, OsString>(words);
+    let inspect =
+        inspect.and_then(|matches| Inspect::from_arg_matches(&matches)).map_err(anyhow::Error::from);
+    inspect.and_then(|inspect| inspect.run()).map_err(|error| to_python(&error))
+}
+
+/// Runs the command line in this process, and gives the code to exit with.
+#[pyfunction]
+pub fn command(py: Python, arguments: Vec<OsString>) -> u8 {
+    py.detach(|| rockfrag::cli::main(arguments))
 }

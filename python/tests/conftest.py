@@ -1,44 +1,35 @@
-"""What the tests share: the command, and the small set of its files that both are compared on."""
+"""Small tables that the tests share."""
 
-import os
-import pathlib
 import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
-COMMAND = pathlib.Path(os.environ.get("ROCKFRAG", pathlib.Path(__file__).parents[2] / "target/release/rockfrag"))
+import rockfrag
 
-SCENARIOS = {"mw": "6.5,7.5", "re": "5,10", "samples": 10, "seed": 7}
-MOTIONS = {"dt": 0.01, "seed": 7}
-STRUCTURES = [
-    {"name": "frame", "p": 1.0, "alpha": 0.15, "eta": 0.92},
-    {"name": "electrical-equipment", "p": 2.5, "alpha": 0.20, "eta": 0.92},
-]
-PIPELINE = """\
-seed: 7
-out: out
-sample-scenarios: { mw: "6.5,7.5", re: "5,10", samples: 10 }
-synthesize-motions: { suite: [pulse, csgm], dt: 0.01 }
-simulate:
-  structures:
-    - { name: frame, p: 1.0, alpha: 0.15, eta: 0.92 }
-    - { name: electrical-equipment, p: 2.5, alpha: 0.20, eta: 0.92 }
-fit-pex: {}
-fit-pro: {}
-"""
-
-
-def command(folder, *arguments):
-    """Runs the command in a folder."""
-    subprocess.run([COMMAND, "--quiet", *map(str, arguments)], cwd=folder, check=True)
+FRAME = {"name": "frame", "p": 1.5, "alpha": 0.15, "eta": 0.92}
 
 
 @pytest.fixture(scope="session")
-def out(tmp_path_factory):
-    """The files that the command makes of the small pipeline."""
-    if not COMMAND.exists():
-        pytest.fail(f"{COMMAND} is not there: cargo build first, or name it in ROCKFRAG")
-    folder = tmp_path_factory.mktemp("command")
-    (folder / "pipeline.yaml").write_text(PIPELINE)
-    command(folder, "run")
-    return folder / "out"
+def motions() -> rockfrag.Result:
+    return rockfrag.synthesize_motions(rockfrag.sample_scenarios(samples=4, seed=7))
+
+
+@pytest.fixture(scope="session")
+def responses(motions: rockfrag.Result) -> rockfrag.Result:
+    return rockfrag.simulate(motions, structure=FRAME)
+
+
+@pytest.fixture
+def command(tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Runs the command of the wheel in the test's folder."""
+
+    def run(*words: object) -> subprocess.CompletedProcess[str]:
+        program = Path(sys.executable).with_name("rockfrag")
+        return subprocess.run(
+            [program, *map(str, words)], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+
+    return run

@@ -1,72 +1,149 @@
-"""No stage of the command is missing, and each is typed."""
+"""Every stage is a function that does what the command does, with the same options."""
 
 import inspect
-import pathlib
-import re
+import os
+import pydoc
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+from conftest import FRAME
+
 import rockfrag
-from rockfrag import _stages
-
-PACKAGE = pathlib.Path(rockfrag.__file__).parent
-#: The commands that are no stage and make or tell something.
-TOOLS = ["run", "inspect", "seed_spread"]
+from rockfrag import _bridge
 
 
-def names():
-    return [stage.name.replace("-", "_") for stage in _stages.STAGES]
+def test_a_stage_writes_the_bytes_of_the_command(tmp_path, command):
+    structure = "--structure=name=frame,p=1.5,alpha=0.15,eta=0.92"
+    before = None
+    for stage, flags, options, name in [
+        ("sample-scenarios", ["--samples=3", "--mw=6:7:0.5"], {"samples": 3, "mw": "6:7:0.5"}, "scenarios"),
+        ("synthesize-motions", ["--suite=pulse,csgm"], {"suite": ["pulse", "csgm"]}, "motions"),
+        ("simulate", [structure], {"structure": [FRAME]}, "responses"),
+        ("fit-pro", ["--pairs=im4:im5", "--all"], {"pairs": "im4:im5", "all": True}, "pro"),
+    ]:
+        done = command(stage, *flags)
+        assert done.returncode == 0, done.stderr
+        given = [before.path] if before else []
+        before = getattr(rockfrag, stage.replace("-", "_"))(
+            *given, out=tmp_path / f"py/{name}.parquet", **options
+        )
+        assert before.path.read_bytes() == (tmp_path / f"{name}.parquet").read_bytes()
+        assert before.summary == done.stdout
 
 
-def test_no_stage_of_the_command_is_missing():
-    assert names() and set(names()) | set(TOOLS) <= set(rockfrag.__all__)
-    assert set(_stages.__all__) == set(names())
-
-
-@pytest.mark.parametrize("stage", _stages.STAGES, ids=lambda stage: stage.name)
-def test_each_option_is_a_parameter_with_a_type(stage):
-    signature = inspect.signature(getattr(rockfrag, stage.name.replace("-", "_")))
-    options = {option["name"].replace("-", "_") for option in stage.options} | {table["role"] for table in stage.inputs}
-    common = {"out", "threads", "progress", "force", "overwrite"}
-    assert options | common == {name.rstrip("_") for name in signature.parameters}
-    for parameter in signature.parameters.values():
-        # Of an option that takes several kinds, rockfrag/_stages.py tells the type.
-        assert "Any" not in parameter.annotation and "object" not in parameter.annotation, parameter
-    assert signature.return_annotation in ("Table | Path", "Path")
-
-
-@pytest.mark.parametrize("file", sorted(PACKAGE.glob("*.py*")), ids=lambda file: file.name)
-def test_nothing_is_typed_as_any(file):
-    if file.suffix in (".py", ".pyi"):
-        assert not re.search(r"\bAny\b", file.read_text())
-
-
-@pytest.mark.parametrize("name", ["format", "unit", "rotate"])
-def test_words_that_types_name_are_those_of_the_command(name, tmp_path):
-    file = tmp_path / "record.csv"
-    file.write_text("0.0\n0.1\n0.0\n")
-    words = re.findall(r"'([^']*)'", _stages._OWN[name])
-    assert words
-    for word in words:
-        try:
-            rockfrag.import_motions(file, dt=0.01, **{"unit": "g", name: word})
-        except rockfrag.RockfragError as error:
-            assert not isinstance(error, rockfrag.OptionError), error
-    with pytest.raises(rockfrag.OptionError, match="furlong"):
-        rockfrag.import_motions(file, dt=0.01, **{"unit": "g", name: "furlong"})
+def test_an_unknown_option_names_the_nearest(motions):
+    with pytest.raises(TypeError, match="simulate: unknown option 'alpah'; did you mean 'alpha'?"):
+        rockfrag.simulate(motions, p=1.5, alpah=0.15, eta=0.92)
 
 
 @pytest.mark.parametrize(
-    "code, expected",
+    ("options", "error", "message"),
     [
-        ("print('ray' in sys.modules, 'ray' in dir(rockfrag))", "False True"),
-        ("sys.modules['ray'] = None\nprint(getattr(rockfrag, 'ray', 'none'))", "none"),
-        ("sys.modules['ray'] = None\ntry:\n    rockfrag.ray\nexcept AttributeError as error:\n    print(error)", "pip install 'rockfrag[ray]'"),
-        ("sys.modules['ray'] = None\ntry:\n    import rockfrag.ray\nexcept ImportError as error:\n    print(error)", "rockfrag.ray needs Ray, and"),
-        ("print({'matplotlib', 'polars', 'pandas', 'pyarrow', 'scipy'} & set(sys.modules))", "set()"),
+        ({}, ValueError, "no structure; expected width and height"),
+        ({"p": "x", "alpha": 0.15, "eta": 0.92}, ValueError, "invalid value 'x' for 'p"),
+        ({"p": 1.5, "alpha": 15, "eta": 0.92}, ValueError, "alpha is 15; .* is it in degrees"),
+        ({"structures": "none.csv"}, FileNotFoundError, "none.csv"),
+        ({**FRAME, "name": None, "threads": 0}, ValueError, "threads"),
+        ({"p": object(), "alpha": 0.15, "eta": 0.92}, TypeError, "is no value of an option"),
     ],
 )
-def test_what_is_not_needed_is_not_imported(code, expected):
-    done = subprocess.run([sys.executable, "-c", f"import sys, rockfrag\n{code}"], capture_output=True, text=True, check=True)
-    assert expected in done.stdout
+def test_a_wrong_option_is_told(motions, options, error, message):
+    with pytest.raises(error, match=message):
+        rockfrag.simulate(motions, **options)
+
+
+def test_a_missing_or_damaged_file_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError, match="none.parquet: no such file"):
+        rockfrag.simulate("none.parquet", structure=FRAME)
+    (tmp_path / "bad.parquet").write_bytes(b"PAR1 no Parquet")
+    with pytest.raises(rockfrag.Error, match="bad.parquet: not a readable Parquet file"):
+        rockfrag.simulate(tmp_path / "bad.parquet", structure=FRAME)
+
+
+@pytest.mark.parametrize("stage", _bridge.functions)
+def test_help_fits_on_a_screen(stage):
+    lines = pydoc.render_doc(getattr(rockfrag, stage), renderer=pydoc.plaintext).splitlines()
+    assert len(lines) <= 50
+    assert max(map(len, lines)) <= 115
+    described = next(each for each in _bridge.described() if each.name == stage)
+    for option in described.named:
+        assert sum(line.strip().startswith((f"{option.name}:", f"{option.name} = ")) for line in lines) == 1
+    assert "options" in inspect.signature(getattr(rockfrag, stage)).parameters
+
+
+def test_a_file_that_is_up_to_date_is_left_as_it_is(tmp_path, motions):
+    out = tmp_path / "responses.parquet"
+    first = rockfrag.simulate(motions, out=out, structure=FRAME)
+    before = out.stat().st_mtime_ns
+    again = rockfrag.simulate(motions, out=out, structure=FRAME)
+    assert (out.stat().st_mtime_ns, again.summary) == (before, first.summary)
+    rockfrag.simulate(motions, out=out, structure=FRAME, force=True)
+    assert out.stat().st_mtime_ns > before
+
+
+def test_a_run_is_that_of_the_command(tmp_path, command):
+    (tmp_path / "pipeline.yaml").write_text(
+        "sample-scenarios: { samples: 2, mw: '6.5' }\nsynthesize-motions: { suite: pulse }\n"
+        "simulate: { structure: [{ name: frame, p: 1, alpha: 0.15, eta: 0.92 }] }\n"
+    )
+    results = rockfrag.run(tmp_path / "pipeline.yaml", seed=3)
+    assert list(results) == ["sample_scenarios", "synthesize_motions", "simulate"]
+    assert command("run", "--seed=3", "--quiet", "--out=again").returncode == 0
+    for result in results.values():
+        assert result.path.read_bytes() == (tmp_path / "again" / result.path.name).read_bytes()
+    seen = rockfrag.inspect(results["simulate"].path)
+    assert (seen["rows"], seen["made"]["stage"]) == (14, "simulate")
+    section = rockfrag.simulate(results["synthesize_motions"], config=tmp_path / "pipeline.yaml")
+    assert section.to_polars().equals(results["simulate"].to_polars())
+
+
+def test_progress_is_told_and_an_interrupt_ends_the_call(tmp_path, motions):
+    steps: list[tuple[int, int]] = []
+    rockfrag.simulate(
+        motions, structure=FRAME, threads=1, progress=lambda done, total: steps.append((done, total))
+    )
+    assert steps[-1] == (280, 280)
+    script = f"""
+import os, signal, threading, rockfrag
+threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+try:
+    rockfrag.ida({str(motions.path)!r}, out="ida.parquet", p=1.5, alpha=0.15, eta=0.92, steps=10000)
+except KeyboardInterrupt:
+    print("interrupted", os.listdir("."))
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "interrupted []\n"
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_a_forked_process_is_refused(motions):
+    pid = os.fork()
+    if pid == 0:
+        try:
+            rockfrag.simulate(motions, structure=FRAME)
+        except rockfrag.Error as error:
+            os._exit(7 if "spawn" in str(error) else 1)
+        os._exit(2)
+    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 7
+
+
+def test_types_of_the_package_and_of_its_users(tmp_path):
+    def mypy(*words: str) -> str:
+        done = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), *words]
+        return subprocess.run(done, cwd=tmp_path, capture_output=True, text=True, check=False).stdout
+
+    package = Path(__file__).parents[1]
+    found = mypy("--config-file", str(package / "pyproject.toml"), str(package / "python" / "rockfrag"))
+    assert found.startswith("Success"), found
+    (tmp_path / "user.py").write_text(
+        "import rockfrag\n"
+        "made: rockfrag.Result = rockfrag.simulate('motions.parquet', p=1.5, alpha=0.15, eta=0.92)\n"
+        "rockfrag.simulate('motions.parquet', alpah=0.15)\n"
+    )
+    found = mypy("user.py")
+    assert 'user.py:3: error: Unexpected keyword argument "alpah" for "simulate"' in found
+    assert found.count("error:") == 1

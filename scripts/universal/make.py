@@ -1,4 +1,4 @@
-"""Makes data/universal.csv: python make.py OUT.csv MOTIONS RECORDS RECORDS_RESPONSES RESPONSES..."""
+"""Makes data/universal.csv: python make.py OUT.csv MOTIONS RECORDS_RESPONSES RESPONSES..."""
 
 import sys
 
@@ -12,16 +12,23 @@ from surface import KINDS, TERMS, Surface, some
 
 LIMIT = 0.1
 WIDE = (0.0, 0.0, 5.0, 5.0)
+KNOT, LEAST_TO_BEND = 0.9, 300
 HEAD = """\
-# The universal fragility surface: P_ro and P_ex of every rocking structure. Made by scripts/universal/make.sh.
-# From {structures} structures and {motions} synthetic motions on rock: {cases} cases of rocking; and {records} records.
-# logit P = sum of coefficients, each times a function. FUNCTION is 1 or a product of features, a feature^k is its power.
+# The universal fragility surface: P_ro and P_ex of any rocking structure, by scripts/universal/make.sh.
+# From {structures} structures, {motions} synthetic motions on rock ({cases} cases), {records} records.
+# logit P = sum of coefficients, each times a function: 1, or a product of features, a feature^k is its power.
 # Features: x = ln(ln IM4 + 0.2); w = ln IM5 in P_ro, ln IM5 - 0.4 limit in P_ex; r = ln IM3;
 # eta = (eta - 0.85)/0.1; p = ln(p/2), p in rad/s; limit = ln(limit state/0.2), in P_ex only.
 # domain,NAME,LOW,HIGH: 0.1 % and 99.9 % quantiles of the measures; ranges of the structures and limit states.
 # term,pro|pex,FUNCTION,csgm,pulse,hfc: coefficients for each kind of motion; recorded has those of hfc.
-# calibration,KIND,pro|pex,c,ln_s,sd_c,sd_ln_s,tau: logit = c + s L; priors; sd of the logit between cells or earthquakes.
-# peaks,KIND,pga|pgv,intercept,slope,sd: ln(PGV/PGA) = intercept + slope ln(peak), SI units, and the sd about it.
+# calibration,KIND,pro|pex,c,ln_s,sd_c,sd_ln_s,tau: logit = c + s L with its priors, P_ex at the limit 0.1; sd
+# of the logit between cells or earthquakes.
+# peaks,KIND,pga|pgv,intercept,slope,knot,bend,sd_below,sd_above: ln(PGV/PGA) = intercept + slope u
+# + bend max(u - knot, 0), u = ln(peak) in SI units; normal about it, with one sd below and one above.
+domain,p,0.4,8
+domain,eta,0.7,0.999
+domain,alpha,0.04,0.5
+domain,limit,0.02,0.5
 """
 
 
@@ -34,61 +41,72 @@ def chosen(event, cases):
 
 
 def groups(values, logit, happened):
-    return [(logit[values == value], happened[values == value]) for value in np.unique(values)]
+    return {value: (logit[values == value], happened[values == value]) for value in np.unique(values)}
 
 
-def priors(surface, kind, event, cases):
-    """c, ln s, their sds between structures (of records also between sets of motions) and tau."""
+def priors(surface, kind, event, cases, whole):
+    """c, ln s, their sds between structures (of records also between the three sets) and tau, which needs all
+    responses of some structures: `whole`."""
+    logits = lambda c: surface.logit(event, kind, c, LIMIT)
     cases, happened = chosen(event, some(cases, cases["kind"] == kind))
-    logit = surface.logit(event, kind, cases, LIMIT)
-    mean = calibrate(logit, happened, WIDE)[0] if kind == "recorded" else np.zeros(2)
-    of_structures = groups(cases["structure"], logit, happened)
-    sd = spread(of_structures, mean)
+    of_structures = groups(cases["structure"], logits(cases), happened)
     if kind == "recorded":
+        mean, _ = calibrate(logits(cases), happened, WIDE)
         sets = np.array([name.split()[0] for name in cases["motion_id"]])
-        sd = np.hypot(sd, spread(groups(sets, logit, happened), mean))
-        return [*mean, *sd, between(apply(mean, logit), happened, cases["cluster"])]
-    own = {k: calibrate(*group, (*mean, *sd))[0] for k, group in zip(np.unique(cases["structure"]), of_structures)}
-    b = np.array([own[k] for k in cases["structure"]])
-    calibrated = b[:, 0] + np.exp(b[:, 1]) * logit
-    both = np.char.add(cases["structure"].astype(str), np.char.add(" ", cases["cluster"].astype(str)))
-    return [*mean, *sd, between(calibrated, happened, both)]
+        of_sets = groups(sets, logits(cases), happened)
+        sd = np.hypot(*(spread(list(each.values()), mean) for each in (of_structures, of_sets)))
+        return *mean, *sd, between(apply(mean, logits(cases)), happened, cases["cluster"])
+    sd = spread(list(of_structures.values()), np.zeros(2))
+    cases, happened = chosen(event, some(whole, whole["kind"] == kind))
+    own = groups(cases["structure"], logits(cases), happened)
+    own = {number: calibrate(*each, (0, 0, *sd))[0] for number, each in own.items()}
+    b = np.stack([own[number] for number in cases["structure"]], axis=1)
+    clusters = np.char.add(cases["structure"].astype(str), np.char.add(" ", cases["cluster"].astype(str)))
+    return 0, 0, *sd, between(apply(b, logits(cases)), happened, clusters)
 
 
 def peak_lines(motions):
-    """ln(PGV/PGA) on the logarithm of either peak: a straight line and the standard deviation about it."""
+    """ln(PGV/PGA) on the logarithm of either peak: a line, with one bend where there are motions enough."""
     pga, pgv = (np.log(motions[name].to_numpy()) for name in ("pga_m_s2", "pgv_m_s"))
     for name, peak in (("pga", pga), ("pgv", pgv)):
-        slope, intercept = np.polyfit(peak, pgv - pga, 1)
-        yield name, intercept, slope, np.std(pgv - pga - intercept - slope * peak, ddof=2)
+        knot = np.quantile(peak, KNOT)
+        columns = [np.ones_like(peak), peak, np.maximum(peak - knot, 0)]
+        columns = np.stack(columns[: 3 if len(peak) >= LEAST_TO_BEND else 2], axis=1)
+        b, *_ = np.linalg.lstsq(columns, pgv - pga, rcond=None)
+        off = pgv - pga - columns @ b
+        yield (
+            name,
+            (*b[:2], knot, sum(b[2:]), *(np.sqrt(np.mean(off[side] ** 2)) for side in (off < 0, off > 0))),
+        )
 
 
 def main():
     out, motions, records_responses, *files = sys.argv[1:]
-    cases = of.read(files, 0.25)
-    recorded = of.read([records_responses])
-    number = lambda name: len(np.unique(cases[name]))
+    cases, whole, recorded = of.read(files, 0.15), of.read(files[:1]), of.read([records_responses])
+    n = lambda cases, name: len(np.unique(cases[name]))
+    numbers = lambda values, form: ",".join(format(value, form) for value in values) + "\n"
     with open(out, "w") as file:
-        file.write(HEAD.format(structures=number("structure"), motions=number("motion_id"), cases=len(cases["im4"]),
-                               records=len(np.unique(recorded["motion_id"]))))  # fmt: skip
+        file.write(HEAD.format(structures=n(cases, "structure"), motions=n(cases, "motion_id"),
+                               cases=len(cases["im4"]), records=n(recorded, "motion_id")))  # fmt: skip
         for name in ("im4", "im5", "im3"):
             low, high = np.quantile(cases[name], [0.001, 0.999])
             file.write(f"domain,{name},{1.0 if name == 'im4' else low:.4g},{high:.4g}\n")
-        file.write("domain,p,0.4,8\ndomain,eta,0.7,0.999\ndomain,alpha,0.04,0.5\ndomain,limit,0.02,0.5\n")
         for event in ("pro", "pex"):
             for term, b in zip(TERMS[event], fit.surface(event, cases)):
-                file.write(f"term,{event},{term}," + ",".join(f"{value:.6g}" for value in b) + "\n")
+                file.write(f"term,{event},{term}," + numbers(b, ".6g"))
     surface = Surface(out)
+    peaks = ["motion_id", "suite", "pga_m_s2", "pgv_m_s"]
+    synthetic, of_records = (pl.read_parquet(file, columns=peaks) for file in (motions, records_responses))
     with open(out, "a") as file:
         for kind in ("recorded", *KINDS):
             for event in ("pro", "pex"):
-                row = priors(surface, kind, event, recorded if kind == "recorded" else cases)
-                file.write(f"calibration,{kind},{event}," + ",".join(f"{value:.3f}" for value in row) + "\n")
-        synthetic = pl.read_parquet(motions, columns=["suite", "pga_m_s2", "pgv_m_s"])
-        of_records = pl.read_parquet(records_responses, columns=["motion_id", "pga_m_s2", "pgv_m_s"]).unique("motion_id")
-        for kind in ("recorded", *KINDS):
-            for name, *line in peak_lines(of_records if kind == "recorded" else synthetic.filter(pl.col("suite") == kind)):
-                file.write(f"peaks,{kind},{name}," + ",".join(f"{value:.4f}" for value in line) + "\n")
+                row = priors(surface, kind, event, recorded if kind == "recorded" else cases, whole)
+                file.write(f"calibration,{kind},{event}," + numbers(row, ".3f"))
+            own = (
+                synthetic.filter(pl.col("suite") == kind) if kind in KINDS else of_records.unique("motion_id")
+            )
+            for name, line in peak_lines(own):
+                file.write(f"peaks,{kind},{name}," + numbers(line, ".4f"))
 
 
 if __name__ == "__main__":

@@ -61,7 +61,10 @@ enum Tool {
 /// Returns the whole command line.
 pub fn command() -> Command {
     let stages = Stages::augment_subcommands(Command::new("stages"));
-    let with_common = |stage: &Command| Common::augment_args(stage.clone().args_override_self(true));
+    let with_common = |stage: &Command| {
+        let about = stage.get_about().cloned().unwrap_or_default();
+        Common::augment_args(stage.clone().args_override_self(true)).about(about)
+    };
     let stages: Vec<Command> = stages.get_subcommands().map(with_common).collect();
     <Tool as clap::CommandFactory>::command().subcommands(stages)
 }
@@ -115,13 +118,7 @@ fn obey(arguments: &[OsString]) -> anyhow::Result<()> {
 }
 
 fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
-    let known = lenient(command, user);
-    let config = known.and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());
-    let section = match &config {
-        Some(path) => Config::read(path)?.section(command, user)?,
-        None => Vec::new(),
-    };
-    let (call, matches) = parsed(command, [section, user.to_vec()].concat())?;
+    let (call, matches) = configured(command, user)?;
     let common = Common::from_arg_matches(&matches)?;
     set_threads(&common)?;
     let context = Context::new(&common);
@@ -134,6 +131,17 @@ fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
         run::warn(&done.doubts);
     }
     Ok(())
+}
+
+/// Returns the call of a stage with the user's arguments, and those of its section where `--config` names a file.
+pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<(Call, ArgMatches)> {
+    let known = lenient(command, user);
+    let config = known.and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());
+    let section = match &config {
+        Some(path) => Config::read(path)?.section(command, user)?,
+        None => Vec::new(),
+    };
+    parsed(command, [section, user.to_vec()].concat())
 }
 
 /// Parses the arguments of a stage. Without `--out`, the output is beside a given `--in`.
@@ -162,7 +170,7 @@ pub fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<(Ca
 }
 
 /// Returns the calls of a pipeline file, in the order of a run.
-fn calls_of(config: &Config, out: Option<PathBuf>, pipeline: &Path) -> anyhow::Result<Vec<Call>> {
+pub fn calls_of(config: &Config, out: Option<PathBuf>, pipeline: &Path) -> anyhow::Result<Vec<Call>> {
     let commands = stage_commands();
     config.check(&commands, pipeline)?;
     let folder = config.run_folder(out);

@@ -45,9 +45,9 @@ pub fn limit_states_at(
 /// Standard deviations from the median within which all ratios lie that count.
 const FARTHEST: f64 = 5.0;
 /// Step of the trapezoidal rule, in standard deviations: exact to 1e-6 for smooth functions under a normal density.
-const STEP: f64 = 0.625;
+const STEP: f64 = 0.4;
 /// Widest panel of the Gauss-Legendre rule of order 4, whose nodes and weights on (0, 1) these are.
-const PANEL: f64 = 1.25;
+const PANEL: f64 = 0.8;
 const GAUSS_LEGENDRE: [(f64, f64); 4] = [
     (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
     (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
@@ -126,7 +126,7 @@ impl<'a> Along<'a> {
         let density = |z: f64| libm::exp(-0.5 * z * z) / TAU.sqrt();
         match (self.ratio, self.peak) {
             (Ratio::Distributed, Peak::Pga) => {
-                let last = (FARTHEST / STEP) as i32;
+                let last = (FARTHEST / STEP).ceil() as i32;
                 (-last..=last).map(|k| STEP * f64::from(k)).map(|z| (z, STEP * density(z))).collect()
             }
             (Ratio::Distributed, Peak::Pgv) => {

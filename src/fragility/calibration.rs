@@ -1,5 +1,6 @@
-//! The universal surface, calibrated by two numbers: logit P = c + s logit P_surface. c and s are estimated from
-//! the responses of one structure to one suite of motions; without responses they are those of the kind of motion.
+//! The universal surface, calibrated by two numbers: logit P = c + s logit P_surface. c and s are estimated
+//! from the responses of one structure to one suite of motions; without responses they are those of the kind
+//! of motion.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -53,7 +54,7 @@ pub struct Calibration {
     pub pgv_high: Option<f64>,
     pub ratio_low: Option<f64>,
     pub ratio_high: Option<f64>,
-    /// ln(PGV/PGA) of all motions given ln PGA and ln PGV: intercept, slope, standard deviation.
+    /// ln(PGV/PGA) of all motions given ln PGA and ln PGV: the fields of RatioGiven.
     pub ratio_given_pga: Vec<f64>,
     pub ratio_given_pgv: Vec<f64>,
 }
@@ -64,7 +65,8 @@ const FEW_EVENTS: i64 = 10;
 const LIKE: f64 = 1.2;
 
 impl Calibration {
-    /// That of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, none of P_ro.
+    /// That of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, none of
+    /// P_ro.
     pub fn shipped(kind: Kind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
         let Prior { c, ln_s, sd_c, sd_ln_s, tau } = surface::prior(kind, curve(limit_state));
         let peaks = surface::peaks(kind);
@@ -95,7 +97,8 @@ impl Calibration {
         }
     }
 
-    /// Fits c and ln s to responses: the maximum of their posterior density, with the priors of the kind of motion.
+    /// Fits c and ln s to responses: the maximum of their posterior density, with the priors of the kind of
+    /// motion.
     pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
         let kind = Kind::of(cases.suite.as_deref().and_then(|suite| suite.parse().ok()));
         let prior = surface::prior(kind, curve(limit_state));
@@ -141,8 +144,8 @@ impl Calibration {
         }
     }
 
-    /// Computes the calibrated probability from the logit of the surface, with 95 % limits: those of c + s L by the delta
-    /// method, J V J', and of one scenario by tau too.
+    /// Computes the calibrated probability from the logit of the surface, with 95 % limits: those of c + s L
+    /// by the delta method, J V J', and of one scenario by tau too.
     pub fn probability(&self, logit: f64, scenarios: Scenarios) -> Probability {
         let slope = self.ln_s.exp() * logit;
         let between = if scenarios == Scenarios::One { self.tau * self.tau } else { 0.0 };
@@ -171,8 +174,8 @@ impl Calibration {
         of_events.into_iter().chain(of_clusters).filter(|_| is_own).collect()
     }
 
-    /// Returns whether some of the motions that it was fitted to had a like PGA and PGV; that of a kind of motion is
-    /// fitted to all that the surface covers.
+    /// Returns whether some of the motions that it was fitted to had a like PGA and PGV; that of a kind of
+    /// motion is fitted to all that the surface covers.
     pub fn has_like(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
         let unit = structure.uplift_acceleration_m_s2();
         let (pga, pgv) = (measures.im4 * unit, measures.im5 * unit / structure.p_rad_s);
@@ -218,7 +221,8 @@ impl Sample {
         let mut sample = Sample { cases: vec![], logits: vec![], events: vec![], clusters: vec![] };
         for case in 0..cases.len() {
             let happened = cases.happened(case, event, limit_state.unwrap_or(f64::INFINITY));
-            let Some((event, logit)) = happened.zip(logit(&cases.measures(case))) else { continue };
+            let logit = logit(&cases.measures(case)).filter(|logit| logit.is_finite());
+            let Some((event, logit)) = happened.zip(logit) else { continue };
             sample.cases.push(case);
             sample.logits.push(logit);
             sample.events.push(event);
@@ -231,9 +235,10 @@ impl Sample {
         self.cases.iter().map(|&case| column[case]).collect()
     }
 
-    /// Finds c and ln s of greatest posterior density, and their covariance V. With B the inverse of the information, prior
-    /// included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B, M the sum over clusters of the squares of their
-    /// scores and P the information of the prior, which counts as one more cluster.
+    /// Finds c and ln s of greatest posterior density, and their covariance V. With B the inverse of the
+    /// information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B, M the sum over
+    /// clusters of the squares of their scores and P the information of the prior, which counts as one more
+    /// cluster.
     fn maximum(&self, prior: &Prior) -> (DVector<f64>, DMatrix<f64>) {
         let start = DVector::from_vec(vec![prior.c, prior.ln_s]);
         let found = maximise(|at| self.log_posterior(prior, at), start);
@@ -249,8 +254,9 @@ impl Sample {
         (found.at, covariance.unwrap_or(bread))
     }
 
-    /// ln likelihood + ln prior with its derivatives by c and ln s: of z = c + s L and the slope m = s L = dz / d(ln s), the
-    /// sum of y z - ln(1 + e^z). Where the second derivatives are not those of a maximum, their expectation stands for them.
+    /// ln likelihood + ln prior with its derivatives by c and ln s: of z = c + s L and the slope m = s L = dz
+    /// / d(ln s), the sum of y z - ln(1 + e^z). Where the second derivatives are not those of a maximum,
+    /// their expectation stands for them.
     fn log_posterior(&self, prior: &Prior, at: &DVector<f64>) -> Objective {
         let (c, s) = (at[0], at[1].exp());
         let terms = |case: usize, sum: &mut Objective| {

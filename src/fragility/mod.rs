@@ -2,11 +2,12 @@
 //! (sections 2.3 and 3).
 //!
 //! ```text
-//! cases        the responses of one structure to one suite of motions; measure: the intensity measures of Eq. 13
+//! cases        the responses of one structure to one suite of motions; measure: the measures of Eq. 13
 //! demand       P_ex: regressions of the demand in safe rocking (Eqs. 14 to 18)
-//! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: the numbers of either, with limits
+//! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: the numbers of either
 //! tree         the tree that joins them (Eq. 12); paper_model: the tree by the paper's fits
-//! surface      P_ro and P_ex of any structure; calibration: the surface by one's own responses; peaks: PGA and PGV together
+//! surface      P_ro and P_ex of any structure; calibration: the surface by one's own responses
+//! peaks        PGA and PGV together
 //! model        what answers: the calibrated surface, or the paper's fits
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```

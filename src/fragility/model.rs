@@ -14,6 +14,7 @@ use crate::statistics::FitStatus;
 
 /// What answers for one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one a structure")]
 pub enum Model {
     /// The universal surface, calibrated.
     Calibrated { overturning: Calibration, exceeding: Calibration, peaks: JointPeaks },

@@ -21,39 +21,65 @@ pub struct JointPeaks {
     pub given_pgv: RatioGiven,
 }
 
-/// ln(PGV / PGA), s, is normal about intercept + slope ln(peak); m/s2 or m/s.
+/// ln(PGV / PGA), s, about intercept + slope u + bend max(u - knot, 0), u = ln(peak) of m/s2 or m/s: the strongest
+/// PGA are of small, near earthquakes, with less PGV than a line has. Normal about that, on each side with its sd.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RatioGiven {
     pub intercept: f64,
     pub slope: f64,
-    pub sd: f64,
+    pub knot: f64,
+    pub bend: f64,
+    pub sd_below: f64,
+    pub sd_above: f64,
 }
+
+/// The share of the motions below the knot.
+const KNOT: f64 = 0.9;
+/// With fewer motions there is no bend.
+const LEAST_TO_BEND: usize = 300;
 
 impl RatioGiven {
     fn fit(ln_peak: &[f64], ln_ratio: &[f64]) -> Option<RatioGiven> {
-        let line = least_squares(&[ln_peak], ln_ratio).ok()?;
-        let b = &line.fit.coefficients;
-        Some(RatioGiven { intercept: b[0], slope: b[1], sd: line.residual_sd() })
+        let mut sorted = ln_peak.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let knot = sorted[(KNOT * (sorted.len() - 1) as f64).round() as usize];
+        let beyond: Vec<f64> = ln_peak.iter().map(|u| (u - knot).max(0.0)).collect();
+        let columns: &[&[f64]] = if sorted.len() < LEAST_TO_BEND { &[ln_peak] } else { &[ln_peak, &beyond] };
+        let b = least_squares(columns, ln_ratio).ok()?.fit.coefficients;
+        let (intercept, slope, bend) = (b[0], b[1], b.get(2).copied().unwrap_or(0.0));
+        let line = RatioGiven { intercept, slope, knot, bend, sd_below: 0.0, sd_above: 0.0 };
+        let off: Vec<f64> = ln_peak.iter().zip(ln_ratio).map(|(&u, ratio)| ratio - line.mean(u)).collect();
+        let sd = |is_on_side: fn(&f64) -> bool| {
+            let squares: Vec<f64> = off.iter().copied().filter(is_on_side).map(|off| off * off).collect();
+            (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+        };
+        Some(RatioGiven { sd_below: sd(|off| *off < 0.0), sd_above: sd(|off| *off > 0.0), ..line })
     }
 
-    /// Returns intercept, slope and standard deviation.
+    /// Returns the fields in their order.
     pub fn to_numbers(self) -> Vec<f64> {
-        vec![self.intercept, self.slope, self.sd]
+        vec![self.intercept, self.slope, self.knot, self.bend, self.sd_below, self.sd_above]
     }
 
-    /// Of intercept, slope and standard deviation; none of another number of numbers.
+    /// Of the fields in their order; none of another number of numbers.
     pub fn of_numbers(numbers: &[f64]) -> Option<RatioGiven> {
-        let &[intercept, slope, sd] = numbers else { return None };
-        Some(RatioGiven { intercept, slope, sd })
+        let &[intercept, slope, knot, bend, sd_below, sd_above] = numbers else { return None };
+        Some(RatioGiven { intercept, slope, knot, bend, sd_below, sd_above })
+    }
+
+    fn mean(&self, ln_peak: f64) -> f64 {
+        self.intercept + self.slope * ln_peak + self.bend * (ln_peak - self.knot).max(0.0)
     }
 
     fn ratio(&self, intensity: f64, deviations: f64) -> f64 {
-        (self.intercept + self.slope * intensity.ln() + deviations * self.sd).exp()
+        let sd = if deviations > 0.0 { self.sd_above } else { self.sd_below };
+        (self.mean(intensity.ln()) + deviations * sd).exp()
     }
 }
 
 impl JointPeaks {
-    /// That of these motions (m/s2 and m/s); none with fewer than three, or if a peak is not above 0 or the same in all.
+    /// That of these motions (m/s2 and m/s); none with fewer than three, or if a peak is not above 0 or the
+    /// same in all.
     pub fn of(pga_m_s2: &[f64], pgv_m_s: &[f64]) -> Option<JointPeaks> {
         let ln = |values: &[f64]| values.iter().map(|value| value.ln()).collect::<Vec<f64>>();
         let (ln_pga, ln_pgv) = (ln(pga_m_s2), ln(pgv_m_s));
@@ -65,7 +91,8 @@ impl JointPeaks {
         Some(JointPeaks { given_pga: given(&ln_pga)?, given_pgv: given(&ln_pgv)? })
     }
 
-    /// PGV / PGA (s) of motions with this intensity (m/s2 or m/s of the given peak), so many standard deviations above its median.
+    /// PGV / PGA (s) of motions with this intensity (m/s2 or m/s of the given peak), so many standard
+    /// deviations above its median.
     pub fn pgv_over_pga(&self, given: Peak, intensity: f64, deviations: f64) -> f64 {
         match given {
             Peak::Pga => self.given_pga.ratio(intensity, deviations),

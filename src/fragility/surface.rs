@@ -1,4 +1,5 @@
-//! The universal surface: P_ro and P_ex of any structure. data/universal.csv holds it; scripts/universal makes it.
+//! The universal surface: P_ro and P_ex of any structure. data/universal.csv holds it; scripts/universal
+//! makes it.
 
 use std::sync::LazyLock;
 
@@ -67,7 +68,8 @@ pub fn has_like(structure: &Structure) -> bool {
     [("p", p_rad_s), ("alpha", alpha_rad), ("eta", eta)].iter().all(|(name, value)| is_inside(name, *value))
 }
 
-/// Returns whether the measures of a motion, and a limit state, are within those that the surface was fitted to.
+/// Returns whether the measures of a motion, and a limit state, are within those that the surface was fitted
+/// to.
 pub fn covers(measures: &IntensityMeasures, limit_state: f64) -> bool {
     let is_known =
         |measure: &Measure| measure.among(measures).is_none_or(|value| is_inside(measure.as_str(), value));
@@ -115,10 +117,13 @@ pub(super) fn peaks(kind: Kind) -> JointPeaks {
     JointPeaks { given_pga: of("pga"), given_pgv: of("pgv") }
 }
 
+/// No motion is stronger; from some 2000 on the cubes would let the probability fall.
+const MOST_IM5: f64 = 100.0;
+
 const FEATURES: [&str; 6] = ["x", "w", "r", "eta", "p", "limit"];
 
-/// Computes x = ln(ln IM4 + 0.2), w = ln IM5 - 0.4 l, r = ln IM3, (eta - 0.85)/0.1, ln(p/2) and l = ln(c/0.2) of a
-/// limit state c, 0 of P_ro. None where the ground has no velocity.
+/// Computes x = ln(ln IM4 + 0.2), w = ln IM5 - 0.4 l, r = ln IM3, (eta - 0.85)/0.1, ln(p/2) and l = ln(c/0.2)
+/// of a limit state c, 0 of P_ro. None where the ground has no velocity.
 fn features(
     structure: &Structure,
     measures: &IntensityMeasures,
@@ -127,7 +132,7 @@ fn features(
     let limit = limit_state.map_or(0.0, |limit_state| (limit_state / 0.2).ln());
     Some([
         (measures.im4.max(1.0).ln() + 0.2).ln(),
-        Measure::Im5.among(measures)?.ln() - 0.4 * limit,
+        Measure::Im5.among(measures)?.min(MOST_IM5).ln() - 0.4 * limit,
         Measure::Im3.among(measures)?.ln(),
         (structure.eta - 0.85) / 0.1,
         (structure.p_rad_s / 2.0).ln(),
@@ -156,7 +161,8 @@ static SURFACE: LazyLock<Surface> =
     LazyLock::new(|| Surface::parse(include_str!("../../data/universal.csv")));
 
 impl Surface {
-    /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which tests find.
+    /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which
+    /// tests find.
     fn parse(text: &'static str) -> Surface {
         let mut surface = Surface { domain: vec![], terms: vec![], priors: vec![], peaks: vec![] };
         for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
@@ -171,8 +177,8 @@ impl Surface {
                     surface.priors.push((kind(), curve(2), Prior { c, ln_s, sd_c, sd_ln_s, tau }));
                 }
                 "peaks" => {
-                    let [intercept, slope, sd] = [3, 4, 5].map(number);
-                    surface.peaks.push((kind(), cells[2], RatioGiven { intercept, slope, sd }));
+                    let numbers = [3, 4, 5, 6, 7, 8].map(number);
+                    surface.peaks.push((kind(), cells[2], RatioGiven::of_numbers(&numbers).expect(line)));
                 }
                 _ => surface.terms.push(Term {
                     curve: curve(1),

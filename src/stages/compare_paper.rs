@@ -51,11 +51,11 @@ impl Stage for ComparePaper {
 #[derive(Serialize, Deserialize)]
 struct PlaneLine {
     plane: String,
-    z_ln_a: Option<f64>,
-    z_b1: Option<f64>,
-    z_b2: Option<f64>,
-    z_r2: Option<f64>,
-    p: Option<f64>,
+    z_ln_a: Option<String>,
+    z_b1: Option<String>,
+    z_b2: Option<String>,
+    z_r2: Option<String>,
+    p: Option<String>,
 }
 
 /// Within so many standard deviations of ours a published number agrees.
@@ -71,7 +71,7 @@ fn summary(compared: &[Comparison]) -> anyhow::Result<String> {
                 (&row.quantity, &row.suite, &row.structure) == (&quantity, &of.suite, &of.structure)
             };
             let z = compared.iter().find(is_it)?.z?;
-            Some((10.0 * z).round() / 10.0)
+            Some(format!("{z:+.1}"))
         };
         PlaneLine {
             plane: format!("{}, {}, {side}", of.suite, of.structure),
@@ -79,7 +79,7 @@ fn summary(compared: &[Comparison]) -> anyhow::Result<String> {
             z_b1: z("b1"),
             z_b2: z("b2"),
             z_r2: z("r2"),
-            p: of.t2_p,
+            p: of.t2_p.map(|p| if p < 0.001 { format!("{p:.0e}") } else { format!("{p:.2}") }),
         }
     };
     let planes: Vec<PlaneLine> = planes.map(line).collect();

@@ -1,4 +1,5 @@
-//! fit-pex: the probability of a demand above the limit state in safe rocking, by the paper's lines and planes (Eqs. 14 to 18).
+//! fit-pex: the probability of a demand above the limit state in safe rocking, by the paper's lines and
+//! planes (Eqs. 14 to 18).
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -6,23 +7,21 @@ use std::str::FromStr;
 use clap::{Args, ValueHint};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fits::{doubts, suite_name, words};
+use super::shared::fitted::{calibrations_text, doubts, suite_name, text, verdict};
 use super::shared::responses;
 use crate::fragility::{Calibration, DemandFit, DemandModel, DemandOptions, fit_demand};
-use crate::keyword::Keyword;
 use crate::paper;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::{Stage, part};
 use crate::statistics::FitStatus;
-use crate::table::frame;
-use crate::table::rows;
 
 /// Fit the probability of exceeding a demand in safe rocking: P_ex
 #[derive(Debug, Args)]
 pub struct FitPex {
     /// Responses to read
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "responses.parquet")]
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath,
+          default_value = "responses.parquet")]
     input: PathBuf,
     /// Fits to write; NAME.parameters.parquet and NAME.calibration.parquet are written beside it
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "pex.parquet")]
@@ -35,10 +34,12 @@ pub struct FitPex {
     #[arg(long, value_name = "IM4", default_value = "1.3")]
     transition: Transition,
     /// Raise smaller demands in safe rocking to this one, as a solver of finite tolerance does
-    #[arg(long, value_name = "DEMAND", default_value = "0", value_parser = number(0.0..=1.0, "a demand from 0 to 1"))]
+    #[arg(long, value_name = "DEMAND", default_value = "0",
+          value_parser = number(0.0..=1.0, "a demand from 0 to 1"))]
     demand_floor: f64,
     /// Confidence level of the limits
-    #[arg(long, value_name = "P", default_value = "0.95", value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
+    #[arg(long, value_name = "P", default_value = "0.95",
+          value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
     confidence: f64,
     /// Fit all six measures of Eq. 13 and both planes, not only IM4, IM5 and the planes
     #[arg(long)]
@@ -80,7 +81,11 @@ impl Stage for FitPex {
             bar.advance(1)?;
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
-        let summary = format!("{}\n{}", calibrations_text(&calibrations)?, planes_text(&fits)?);
+        let summary = format!(
+            "{}\n{}",
+            calibrations_text(&calibrations, ["rock safely", "exceed"])?,
+            planes_text(&fits)?
+        );
         context.doubt(doubts(&calibrations));
         context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
         context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
@@ -89,44 +94,16 @@ impl Stage for FitPex {
     }
 }
 
-/// A printed row: the surface beside what was observed.
-#[derive(Serialize, Deserialize)]
-struct CalibrationLine {
-    suite: String,
-    structure: String,
-    limit: f64,
-    #[serde(rename = "rock safely")]
-    rock_safely: i64,
-    exceed: i64,
-    calibration: String,
-}
-
-fn calibrations_text(rows: &[Calibration]) -> anyhow::Result<String> {
-    let line = |row: &Calibration| CalibrationLine {
-        suite: suite_name(&row.suite),
-        structure: row.structure.clone(),
-        limit: row.limit_state.unwrap_or(f64::NAN),
-        rock_safely: row.n,
-        exceed: row.n_events,
-        calibration: words(row),
-    };
-    let lines: Vec<CalibrationLine> = rows.iter().map(line).collect();
-    Ok(frame::text(&frame::of_batch(&rows::batch(&lines)?)?))
-}
-
 /// A printed row: the two planes.
 #[derive(Serialize, Deserialize)]
 struct PlanesLine {
     suite: String,
     structure: String,
+    transition: Option<f64>,
     #[serde(rename = "R2 below")]
     r2_below: Option<f64>,
     #[serde(rename = "R2 above")]
     r2_above: Option<f64>,
-    #[serde(rename = "sigma below")]
-    sigma_below: Option<f64>,
-    #[serde(rename = "sigma above")]
-    sigma_above: Option<f64>,
     verdict: String,
 }
 
@@ -134,24 +111,15 @@ fn planes_text(fits: &[DemandFit]) -> anyhow::Result<String> {
     let planes: Vec<&DemandFit> = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar).collect();
     let line = |pair: &[&DemandFit]| {
         let (below, above) = (pair[0], pair[1]);
-        let worse = if below.status == FitStatus::Ok { above.status } else { below.status };
         PlanesLine {
             suite: suite_name(&below.suite),
             structure: below.structure.clone(),
+            transition: below.range_high,
             r2_below: below.r2,
             r2_above: above.r2,
-            sigma_below: below.beta,
-            sigma_above: above.beta,
-            verdict: worse.as_str().replace('_', " "),
+            verdict: verdict(if below.status == FitStatus::Ok { above.status } else { below.status }),
         }
     };
     let lines: Vec<PlanesLine> = planes.chunks_exact(2).map(line).collect();
-    let transition = planes.first().and_then(|plane| plane.range_high);
-    let title = match transition
-        .filter(|im4| planes.iter().all(|p| [p.range_low, p.range_high].contains(&Some(*im4))))
-    {
-        Some(im4) => format!("planes (paper) of ln demand, below and above IM4 {im4}"),
-        None => "planes (paper) of ln demand, below and above their transition".to_string(),
-    };
-    Ok(format!("{title}\n{}", frame::text(&frame::of_batch(&rows::batch(&lines)?)?)))
+    Ok(format!("planes (paper), below and above the transition\n{}", text(&lines)?))
 }

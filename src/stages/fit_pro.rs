@@ -5,24 +5,22 @@ use std::path::PathBuf;
 use clap::{Args, ValueHint};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fits::{doubts, suite_name, with_limits, words};
+use super::shared::fitted::{calibrations_text, doubts, suite_name, text, verdict, with_limits};
 use super::shared::responses;
 use crate::fragility::{
     Calibration, CurveOptions, Event, Measure, OverturningFit, Pair, Parameter, fit_curves,
 };
-use crate::keyword::Keyword;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::{Stage, part};
-use crate::table::frame;
-use crate::table::rows;
 
 /// Fit the probability of overturning: P_ro
 #[derive(Debug, Args)]
 pub struct FitPro {
     /// Responses to read
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "responses.parquet")]
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath,
+          default_value = "responses.parquet")]
     input: PathBuf,
     /// Fits to write; NAME.parameters.parquet and NAME.calibration.parquet are written beside it
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "pro.parquet")]
@@ -34,7 +32,8 @@ pub struct FitPro {
     #[arg(long, value_name = "IM:IM,...", value_delimiter = ',', default_value = "im4:im3_inv")]
     pairs: Vec<Pair>,
     /// Confidence level of the limits
-    #[arg(long, value_name = "P", default_value = "0.95", value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
+    #[arg(long, value_name = "P", default_value = "0.95",
+          value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
     confidence: f64,
     /// Fit all six measures of Eq. 13, not only IM4 and IM5
     #[arg(long)]
@@ -70,7 +69,7 @@ impl Stage for FitPro {
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let curves = curves_text(&fits, self.confidence)?;
         let summary = match self.calibrates() {
-            true => format!("{}\n{curves}", calibrations_text(&calibrations)?),
+            true => format!("{}\n{curves}", calibrations_text(&calibrations, ["rock", "overturn"])?),
             false => curves,
         };
         context.doubt(doubts(&calibrations));
@@ -88,28 +87,6 @@ impl FitPro {
     fn calibrates(&self) -> bool {
         self.event == Event::Overturning
     }
-}
-
-/// A printed row: the surface beside what was observed.
-#[derive(Serialize, Deserialize)]
-struct CalibrationLine {
-    suite: String,
-    structure: String,
-    rock: i64,
-    overturn: i64,
-    calibration: String,
-}
-
-fn calibrations_text(rows: &[Calibration]) -> anyhow::Result<String> {
-    let line = |row: &Calibration| CalibrationLine {
-        suite: suite_name(&row.suite),
-        structure: row.structure.clone(),
-        rock: row.n,
-        overturn: row.n_events,
-        calibration: words(row),
-    };
-    let lines: Vec<CalibrationLine> = rows.iter().map(line).collect();
-    Ok(frame::text(&frame::of_batch(&rows::batch(&lines)?)?))
 }
 
 /// A printed row: the curve of IM5.
@@ -134,11 +111,11 @@ fn curves_text(fits: &[OverturningFit], confidence: f64) -> anyhow::Result<Strin
             structure: fit.structure.clone(),
             median: of(Parameter::Theta),
             dispersion: of(Parameter::Beta),
-            verdict: fit.status.as_str().replace('_', " "),
+            verdict: verdict(fit.status),
         }
     };
     let of_im5 = fits.iter().filter(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
     let lines: Vec<CurveLine> = of_im5.map(line).collect();
-    let table = frame::text(&frame::of_batch(&rows::batch(&lines)?)?);
-    Ok(format!("lognormal curve (paper), over IM5, with {} % limits\n{table}", 100.0 * confidence))
+    let limits = 100.0 * confidence;
+    Ok(format!("lognormal curve (paper) of IM5, with {limits} % limits\n{}", text(&lines)?))
 }

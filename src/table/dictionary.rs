@@ -93,7 +93,7 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     (
         "ratio_given_pga",
         "1",
-        "ln(PGV/PGA), s, of the motions given ln PGA, m/s2: intercept, slope and standard deviation",
+        "ln(PGV/PGA), s, of the motions given ln PGA, m/s2: intercept, slope, knot, bend, sd below and above",
     ),
     ("ratio_given_pgv", "1", "the same given ln PGV, m/s"),
     ("kind", "1", "kind of motion: recorded, csgm, pulse or hfc"),

@@ -2,6 +2,7 @@
 
 mod common;
 mod config;
+mod evaluate;
 mod files;
 mod interruption;
 mod paper;

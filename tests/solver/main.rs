@@ -1,12 +1,13 @@
 //! The rocking solver against closed forms, quadruple precision, the printed equations, and extreme input.
 
 mod company;
-mod dense_scan;
+#[cfg(feature = "pipeline")]
 mod incremental;
 mod noise;
 mod numbers;
 mod reference;
 mod rocking;
+#[cfg(feature = "pipeline")]
 mod truth;
 
 /// All motions of a file.

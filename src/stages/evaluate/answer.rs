@@ -2,208 +2,180 @@
 
 use std::fmt::Write;
 
-use super::object::{ObjectRow, TreeRow, words_of_kind};
+use super::object::{Answer, ObjectRow, TreeRow, words_of_kind};
 use super::site::{RatesRow, Site};
 use super::unit;
 use crate::doubt::Doubt;
 use crate::fragility::{Calibration, Kind, Model, Ratio, Scenarios};
+use crate::hazard::probability_in_years;
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::rocking::{Structure, rectangular_p};
 use crate::stages::shared::hazard::Hazard;
 use crate::units::G_M_S2;
 
-/// Objects with what is predicted, and what explains it.
-type All<R> = [(ObjectRow, R, String)];
+/// Value and limits; there may be limits alone.
+type Limited = [Option<f64>; 3];
 
 /// Probabilities at one PGA and PGV.
-pub fn of_points(all: &All<TreeRow>, sentence: bool) -> String {
-    let mut text = match all {
-        [(object, tree, _)] => point(object, tree),
+pub fn of_points(all: &[Answer<TreeRow>], sentence: bool) -> String {
+    let text = match all {
+        [Answer { object, row, .. }] => point(object, row),
         all => points(all),
     };
-    if sentence {
-        let known = all.iter().filter(|(object, ..)| object.p_rad_s.is_some());
-        known.for_each(|(object, tree, _)| text += &sentence_of_point(object, tree));
-    }
-    all.iter().for_each(|(.., more)| text += more);
-    text
+    let of_object = |object: &ObjectRow, tree: &TreeRow| {
+        let [overturning, _] = states(tree);
+        let how = match tree.p_nr {
+            Some(1.0) => "does not rock".to_string(),
+            _ => format!("overturns with a probability of {}", limited(overturning, "95 % confidence limits ")),
+        };
+        format!("{how} {}, by {}", words_of_peaks(tree), model(object))
+    };
+    with_more(text, all, |object, tree| sentence.then(|| of_object(object, tree)))
 }
 
 fn point(object: &ObjectRow, tree: &TreeRow) -> String {
-    let [overturning, failure] = states(tree);
-    let (im4, peaks) = (times_uplift(object, tree), words_of_peaks(tree));
-    let rocks = match tree.p_nr == Some(1.0) {
-        true => format!("does not rock: PGA is {im4} times what uplifts it\n"),
-        false => format!("rocks: PGA is {im4} times what uplifts it\n"),
-    };
-    let valid = format!("{} {peaks}, by {}. {}\n", title(object), model(object), validity(object));
+    let rocks = if tree.p_nr == Some(1.0) { "does not rock" } else { "rocks" };
+    let uplift = format!("{rocks}: PGA is {} times what uplifts it\n", times_uplift(object, tree));
+    let by = format!("{} {}, by {}. {}\n", title(object), words_of_peaks(tree), model(object), validity(object));
     if tree.p_nr == Some(1.0) {
-        return rocks + &valid;
+        return uplift + &by;
     }
+    let [overturning, failure] = states(tree);
+    let line = |name: &str, of: Limited, limits: &str| vec![name.to_string(), value(of), in_brackets(of, limits)];
     let too_far = format!("overturns, or {}", too_far(object));
-    let lines = [line("overturns", overturning, "95 % limits "), line(&too_far, failure, "")];
-    aligned(&lines) + &rocks + &valid
+    aligned(&[line("overturns", overturning, "95 % limits "), line(&too_far, failure, "")]) + &uplift + &by
 }
 
-fn points(all: &All<TreeRow>) -> String {
-    let Some((worst, tree, _)) = all.first() else { return String::new() };
-    let [overturning, _] = states(tree);
-    let limits = in_brackets(overturning, "95 % limits ");
-    let first = match overturning[0] {
-        None | Some(0.0) => "nothing overturns".to_string(),
-        Some(p) => format!("{} overturns most probably: {} {limits}", worst.structure, percent(p)),
+fn points(all: &[Answer<TreeRow>]) -> String {
+    let Some(Answer { object: worst, row: tree, .. }) = all.first() else { return String::new() };
+    let first = match states(tree)[0] {
+        [None | Some(0.0), ..] => "nothing overturns".to_string(),
+        of => format!("{} overturns most probably: {}", worst.structure, limited(of, "95 % limits ")),
     };
     let heading = ["object", "size", "rocks", "overturns", "", "or too far", "friction", "doubt"];
-    let row = |(object, tree, _): &(ObjectRow, TreeRow, String)| {
+    let row = |Answer { object, row: tree, .. }: &Answer<TreeRow>| {
         let [overturning, failure] = states(tree);
-        let rocks = tree.p_nr.map_or("-", |p_nr| if p_nr == 0.0 { "yes" } else { "no" });
-        let p = |p: Option<f64>| p.map_or("-".to_string(), percent);
-        let name = object.structure.clone();
-        let [size, friction] = [size(object), friction(object)];
-        let limits = in_brackets(overturning, "");
-        vec![name, size, rocks.to_string(), p(overturning[0]), limits, p(failure[0]), friction, brief(&tree.doubts, object)]
+        let rocks = tree.p_nr.map_or("-", |p_nr| if p_nr == 0.0 { "yes" } else { "no" }).to_string();
+        let [p, limits, too_far] = [value(overturning), in_brackets(overturning, ""), value(failure)];
+        let [name, size, friction] = [object.structure.clone(), size(object), friction(object)];
+        vec![name, size, rocks, p, limits, too_far, friction, brief(&tree.doubts, object)]
     };
-    let rows: Vec<_> = std::iter::once(heading.map(str::to_string).to_vec()).chain(all.iter().map(row)).collect();
-    format!("{first}\n{}All {}, by {}.\n", aligned(&rows), words_of_peaks(tree), model(worst))
+    let rows = std::iter::once(heading.map(str::to_string).to_vec()).chain(all.iter().map(row));
+    let table = aligned(&rows.collect::<Vec<_>>());
+    format!("{first}\n{table}All {}, by {}.\n", words_of_peaks(tree), model(worst))
 }
 
-/// Value and limits of overturning, and of failure, over the whole tree.
-fn states(tree: &TreeRow) -> [[Option<f64>; 3]; 2] {
+/// Overturning, and failure, over the whole tree.
+fn states(tree: &TreeRow) -> [Limited; 2] {
     match tree.p_nr {
         Some(1.0) => [[Some(0.0); 3]; 2],
         _ => [[tree.p_ro, tree.p_ro_low, tree.p_ro_high], [tree.p_f_r, tree.p_f_r_low, tree.p_f_r_high]],
     }
 }
 
-fn sentence_of_point(object: &ObjectRow, tree: &TreeRow) -> String {
-    let [[p, low, high], _] = states(tree).map(|state| state.map(|p| p.unwrap_or(f64::NAN)));
-    let (title, peaks, model, friction) = (title(object), words_of_peaks(tree), model(object), friction(object));
-    let comma = if title.contains(", ") { "," } else { "" };
-    match tree.p_nr {
-        Some(1.0) => format!("\n{title}{comma} does not rock {peaks}: PGA is below what uplifts it.\n"),
-        _ => format!(
-            "\n{title}{comma} overturns with a probability of {} (95 % confidence limits {} to {}) {peaks}, by {model}, if its friction is above {friction}.\n",
-            percent(p), number(low), percent(high)
-        ),
-    }
-}
-
 /// Annual rates, and probabilities in the time of exposure.
-pub fn of_rates(all: &All<RatesRow>, site: &Site, sentence: bool) -> String {
-    let mut text = match all {
-        [(object, rates, _)] => rate(object, rates, site),
+pub fn of_rates(all: &[Answer<RatesRow>], site: &Site, sentence: bool) -> String {
+    let text = match all {
+        [Answer { object, row, .. }] => rate(object, row, site),
         all => rates_of_list(all, site),
     };
-    if sentence {
-        let known = all.iter().filter(|(object, ..)| object.p_rad_s.is_some());
-        known.for_each(|(object, rates, _)| {
-            let (title, model, friction) = (title(object), model(object), friction(object));
-            let comma = if title.contains(", ") { "," } else { "" };
-            let how_often = how_often(rates, site, "95 % confidence limits ");
-            let _ = writeln!(
-                text,
-                "\n{title}{comma} {how_often}, by {model} and a hazard whose own error is not included, if its friction is above {friction}."
-            );
-        });
+    let of_object = |object: &ObjectRow, rates: &RatesRow| {
+        let how_often = how_often(rates, site, "95 % confidence limits ");
+        format!("{how_often}, by {} and a hazard whose own error is not included", model(object))
+    };
+    with_more(text, all, |object, rates| sentence.then(|| of_object(object, rates)))
+}
+
+/// Adds a sentence for a report and what explains the answer, if these are asked for.
+fn with_more<R>(
+    mut text: String,
+    all: &[Answer<R>],
+    sentence: impl Fn(&ObjectRow, &R) -> Option<String>,
+) -> String {
+    for Answer { object, row, .. } in all.iter().filter(|answer| answer.object.p_rad_s.is_some()) {
+        let title = title(object);
+        let comma = if title.contains(", ") { "," } else { "" };
+        if let Some(sentence) = sentence(object, row) {
+            text += &format!("\n{title}{comma} {sentence}, if its friction is above {}.\n", friction(object));
+        }
     }
-    all.iter().for_each(|(.., more)| text += more);
-    text
+    all.iter().fold(text, |text, answer| text + &answer.explained)
 }
 
 fn rate(object: &ObjectRow, rates: &RatesRow, site: &Site) -> String {
-    let years = whole(site.years);
-    let p = |p: Option<f64>| p.map_or("-".to_string(), percent);
-    let row = |name: String, rate: [Option<f64>; 3], of: [Option<f64>; 3]| match rate[0] {
-        Some(_) => vec![name, per_year(rate[0]), p(of[0]), in_brackets(of, "")],
-        None => vec![name, between(rate, |rate| per_year(Some(rate))), between(of, percent)],
+    let heading = ["", "a year", &format!("in {} years", significant(site.years, 6))].map(str::to_string);
+    let in_years = |rates: Limited| rates.map(|rate| rate.map(|rate| probability_in_years(rate, site.years)));
+    let row = |name: String, of: Limited| {
+        vec![name, per_year(of), value(in_years(of)), of[0].map_or(String::new(), |_| in_brackets(in_years(of), ""))]
     };
-    let limited = |value: Option<f64>, low: Option<f64>, high: Option<f64>| [value, low, high];
     let mut lines = vec![
-        vec![String::new(), "a year".to_string(), format!("in {years} years")],
-        vec!["rocks".to_string(), per_year(rates.rocking_per_year), p(rates.p_rocking)],
-        row(
-            format!("{}, or more", too_far(object)),
-            limited(rates.failure_per_year, rates.failure_per_year_low, rates.failure_per_year_high),
-            limited(rates.p_failure, rates.p_failure_low, rates.p_failure_high),
-        ),
-        row(
-            "overturns".to_string(),
-            limited(rates.overturning_per_year, rates.overturning_per_year_low, rates.overturning_per_year_high),
-            limited(rates.p_overturning, rates.p_overturning_low, rates.p_overturning_high),
-        ),
+        heading.to_vec(),
+        row("rocks".to_string(), [rates.rocking_per_year, None, None]),
+        row(format!("{}, or more", too_far(object)), rates.failure()),
+        row("overturns".to_string(), rates.overturning()),
     ];
-    if let (Some(motions), Some(_)) = (rates.counted_motions, rates.counted_per_year) {
+    if let Some(motions) = rates.counted_motions {
         let of = [rates.counted_per_year, rates.counted_per_year_low, rates.counted_per_year_high];
-        let in_years = of.map(|rate| rate.map(|rate| crate::hazard::probability_in_years(rate, site.years)));
-        lines.push(row(format!("overturns, counted among {} motions", grouped(motions as f64)), of, in_years));
+        lines.push(row(format!("overturns, counted among {} motions", grouped(motions as f64)), of));
     }
-    let least_known = match (site.ratio, rates.overturning_per_year_less_velocity, rates.overturning_per_year_more_velocity) {
-        (Ratio::Distributed, Some(less), Some(more)) if rates.overturning_per_year.is_some() => {
-            format!(" Least known: PGV/PGA (one standard deviation: {} to {}).", per_year(Some(less)), per_year(Some(more)))
-        }
-        _ => String::new(),
-    };
-    format!(
-        "{}: {}\n{}Not in the limits: the error of the hazard.{least_known}\nBy {}. {}\n",
-        title(object), how_often(rates, site, "95 % limits "), aligned(&lines), model(object), validity(object)
-    )
+    let spread = rates.overturning_per_year_less_velocity.zip(rates.overturning_per_year_more_velocity);
+    let least_known = spread.filter(|_| rates.overturning_per_year.is_some()).map_or(String::new(), |(less, more)| {
+        format!(" Least known: PGV/PGA (one standard deviation: {less:.1e} to {more:.1e}).")
+    });
+    let (title, how_often) = (title(object), how_often(rates, site, "95 % limits "));
+    let (table, model, validity) = (aligned(&lines), model(object), validity(object));
+    format!("{title}: {how_often}\n{table}Not in the limits: the error of the hazard.{least_known}\nBy {model}. {validity}\n")
 }
 
-fn rates_of_list(all: &All<RatesRow>, site: &Site) -> String {
-    let Some((worst, rates, _)) = all.first() else { return String::new() };
-    let years = whole(site.years);
-    let heading = ["object", "size", "rocks", "overturns", "once in years", &format!("in {years} years"), "", "friction", "doubt"];
-    let row = |(object, rates, _): &(ObjectRow, RatesRow, String)| {
+fn rates_of_list(all: &[Answer<RatesRow>], site: &Site) -> String {
+    let Some(Answer { object: worst, row: rates, .. }) = all.first() else { return String::new() };
+    let years = format!("in {} years", significant(site.years, 6));
+    let heading = ["object", "size", "rocks", "overturns", "once in years", &years, "", "friction", "doubt"];
+    let row = |Answer { object, row: rates, .. }: &Answer<RatesRow>| {
         let of = [rates.p_overturning, rates.p_overturning_low, rates.p_overturning_high];
-        let rate = [rates.overturning_per_year, rates.overturning_per_year_low, rates.overturning_per_year_high];
-        let (a_year, in_years) = match (rate[0], rate[1]) {
-            (None, Some(_)) => (between(rate, |rate| per_year(Some(rate))), between(of, percent)),
-            _ => (per_year(rate[0]), of[0].map_or("-".to_string(), percent)),
-        };
         vec![
             object.structure.clone(),
             size(object),
-            per_year(rates.rocking_per_year),
-            a_year,
+            per_year([rates.rocking_per_year, None, None]),
+            per_year(rates.overturning()),
             rates.return_period_years.map_or("-".to_string(), period),
-            in_years,
-            if rate[0].is_some() { in_brackets(of, "") } else { String::new() },
+            value(of),
+            of[0].map_or(String::new(), |_| in_brackets(of, "")),
             friction(object),
             brief(&rates.doubts, object),
         ]
     };
-    let rows: Vec<_> = std::iter::once(heading.map(str::to_string).to_vec()).chain(all.iter().map(row)).collect();
-    let error = match site.ratio {
-        Ratio::Distributed => "the errors of the hazard and of PGV/PGA",
-        _ => "the error of the hazard",
-    };
+    let rows = std::iter::once(heading.map(str::to_string).to_vec()).chain(all.iter().map(row));
+    let table = aligned(&rows.collect::<Vec<_>>());
+    let error = if site.ratio == Ratio::Distributed { "the errors of the hazard and of PGV/PGA" } else { "the error of the hazard" };
+    let how_often = how_often(rates, site, "95 % limits ");
+    let (worst, most, model) = (&worst.structure, how_often.trim_start_matches("overturns "), model(worst));
     format!(
-        "{} overturns most often: {}\n{}Rates a year, by {}. Not in the limits: {error}. Below its friction an object slides instead.\n",
-        worst.structure,
-        how_often(rates, site, "95 % limits ").trim_start_matches("overturns "),
-        aligned(&rows), model(worst)
+        "{worst} overturns most often: {most}\n{table}Rates a year, by {model}.\n\
+         Not in the limits: {error}. Below its friction an object slides instead.\n"
     )
 }
 
 /// How often it overturns, with limits or bounds.
 fn how_often(rates: &RatesRow, site: &Site, limits: &str) -> String {
-    let of = [rates.p_overturning, rates.p_overturning_low, rates.p_overturning_high];
-    match (rates.overturning_per_year, rates.overturning_per_year_low, rates.overturning_per_year_high) {
-        (Some(0.0), ..) => "does not overturn: nothing of the hazard uplifts it".to_string(),
-        (Some(rate), ..) => format!(
-            "overturns once in {} years; {} in {} years {}",
-            period(1.0 / rate), percent(of[0].unwrap_or(f64::NAN)), whole(site.years), in_brackets(of, limits)
-        ),
-        (None, Some(low), Some(high)) => {
+    match rates.overturning() {
+        [Some(0.0), ..] => "does not overturn: nothing of the hazard uplifts it".to_string(),
+        [Some(rate), ..] => {
+            let of = [rates.p_overturning, rates.p_overturning_low, rates.p_overturning_high];
+            let (period, years) = (period(1.0 / rate), significant(site.years, 6));
+            format!("overturns once in {period} years; {} in {years} years {}", value(of), in_brackets(of, limits))
+        }
+        [None, Some(low), Some(high)] => {
             let end = match &site.hazard {
                 Hazard::Curve(peak, curve) => {
                     let ([_, (last, rate)], (name, size)) = (curve.ends(), unit(*peak));
-                    format!(": the curve ends at {} {name} (once in {} years)", significant(last / size, 3), grouped((1.0 / rate).round()))
+                    let (last, years) = (significant(last / size, 3), grouped((1.0 / rate).round()));
+                    format!(": the curve ends at {last} {name} (once in {years} years)")
                 }
                 Hazard::Joint(_) => String::new(),
             };
-            format!("overturns between {} and {} times a year{end}", per_year(Some(low)), per_year(Some(high)))
+            format!("overturns between {low:.1e} and {high:.1e} times a year{end}")
         }
         _ => "has no rate of overturning".to_string(),
     }
@@ -211,7 +183,7 @@ fn how_often(rates: &RatesRow, site: &Site, limits: &str) -> String {
 
 /// What predicts, the measures of the motion, and what other kinds of motion would give.
 pub fn explained(model: &Model, structure: &Structure, measures: &IntensityMeasures) -> String {
-    let mut text = "\n".to_string();
+    let mut text = format!("\n{}\n", structure.name);
     let calibration = |of: &Calibration| {
         format!(
             "logit P = {:.2} + {:.2} logit P of the surface ({}); tau {:.2}; {} events in {} responses of {} clusters",
@@ -311,20 +283,31 @@ fn times_uplift(object: &ObjectRow, tree: &TreeRow) -> String {
     if times > 10.0 { format!("{times:.0}") } else { format!("{times:.1}") }
 }
 
-fn line(name: &str, [value, low, high]: [Option<f64>; 3], limits: &str) -> Vec<String> {
-    let value_text = value.map_or("unknown".to_string(), percent);
-    vec![name.to_string(), value_text, in_brackets([value, low, high], limits)]
+fn in_brackets([_, low, high]: Limited, limits: &str) -> String {
+    low.zip(high).map_or(String::new(), |(low, high)| format!("({limits}{} to {})", number(low), percent(high)))
 }
 
-fn in_brackets([_, low, high]: [Option<f64>; 3], limits: &str) -> String {
-    match (low, high) {
-        (Some(low), Some(high)) => format!("({limits}{} to {})", number(low), percent(high)),
-        _ => String::new(),
+/// A probability, or its bounds.
+fn value([value, low, high]: Limited) -> String {
+    match (value, low, high) {
+        (Some(value), ..) => percent(value),
+        (None, Some(low), Some(high)) => format!("{} to {}", number(low), percent(high)),
+        _ => "-".to_string(),
     }
 }
 
-fn between([_, low, high]: [Option<f64>; 3], text: impl Fn(f64) -> String) -> String {
-    low.zip(high).map_or("-".to_string(), |(low, high)| format!("{} to {}", text(low).trim_end_matches(" %"), text(high)))
+fn limited(of: Limited, limits: &str) -> String {
+    format!("{} {}", value(of), in_brackets(of, limits))
+}
+
+/// An annual rate, or its bounds.
+fn per_year([value, low, high]: Limited) -> String {
+    let text = |rate: f64| if rate == 0.0 { "0".to_string() } else { format!("{rate:.1e}") };
+    match (value, low, high) {
+        (Some(value), ..) => text(value),
+        (None, Some(low), Some(high)) => format!("{} to {}", text(low), text(high)),
+        _ => "-".to_string(),
+    }
 }
 
 /// The doubts of a row in a few words; what is wrong with one that cannot be right in full.
@@ -363,14 +346,6 @@ fn significant(number: f64, digits: i32) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }
 
-fn per_year(rate: Option<f64>) -> String {
-    match rate {
-        None => "-".to_string(),
-        Some(0.0) => "0".to_string(),
-        Some(rate) => format!("{rate:.1e}"),
-    }
-}
-
 /// A return period in years, with two digits.
 fn period(years: f64) -> String {
     if years >= 1e9 {
@@ -378,10 +353,6 @@ fn period(years: f64) -> String {
     }
     let size = 10f64.powf((years.log10().floor() - 1.0).max(0.0));
     if years < 10.0 { significant(years, 2) } else { grouped((years / size).round() * size) }
-}
-
-fn whole(years: f64) -> String {
-    significant(years, 6)
 }
 
 /// A whole number with commas between thousands.

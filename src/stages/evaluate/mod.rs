@@ -13,22 +13,26 @@ use rayon::prelude::*;
 
 use super::shared::fits::FitsArgs;
 use super::shared::hazard::{self, Renamed};
+use super::shared::responses;
 use super::shared::structures::{Object, StructureArgs, doubts_of};
-use crate::doubt::{Doubt, Doubts};
-use crate::fragility::{Peak, Ratio, Scenarios};
+use crate::doubt::Doubt;
+use crate::fragility::{Model, Peak, Ratio, Scenarios};
 use crate::keyword;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::Stage;
+use crate::rocking::Structure;
 use crate::table::frame::{self, Format};
 use crate::table::rows;
 use crate::table::writer::write_file;
 use crate::units::G_M_S2;
 
-pub use self::object::{ObjectRow, TreeRow, words_of};
+use self::object::{Answer, texts};
+pub use self::object::{ObjectRow, Predicted, TreeRow, words_of};
 pub use self::site::RatesRow;
+use self::site::Site;
 
 /// Predict how probable rocking and overturning are: at a PGA and PGV, at each of a table, or a year at a site
 ///
@@ -63,8 +67,8 @@ pub struct Evaluate {
     #[arg(long, value_name = "S", requires = "hazard",
           value_parser = number(0.005..=1.0, "PGV/PGA in s, from 0.005 to 1, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
-    /// Responses whose overturning is counted beside the rate, weighted to the hazard
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "hazard")]
+    /// Responses whose overturning is counted beside the rate over a hazard, to which they are weighted
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     responses: Option<PathBuf>,
     /// Continue a hazard curve beyond its end with its last slope
     #[arg(long, requires = "hazard")]
@@ -151,109 +155,104 @@ impl Evaluate {
     }
 
     fn at_point(&self, pga_g: f64, pgv_m_s: f64, context: &Context) -> anyhow::Result<String> {
-        let models = self.fits.models()?;
-        let of_object = |object: Object| -> anyhow::Result<(ObjectRow, TreeRow, String)> {
-            let structure = match &object.structure {
-                Ok(structure) => structure,
-                Err(reason) => {
-                    let row = TreeRow { doubts: Some(reason.clone()), ..TreeRow::default() };
-                    return Ok((ObjectRow::refused(&object), row, String::new()));
-                }
-            };
-            let (model, mut doubts) = models.model(structure)?;
-            let measures = IntensityMeasures::new(structure, pga_g * G_M_S2, pgv_m_s, None, None);
-            doubts.extend(doubts_of(structure));
-            doubts.extend(model.doubts(structure, &measures));
-            let probabilities = model.probabilities(structure, &measures, Scenarios::One);
-            let row = TreeRow::new([pga_g * G_M_S2, pgv_m_s], &probabilities, &doubts);
-            context.doubt(doubts.into_iter().map(|doubt| (doubt, object.name.clone())).collect());
-            let object = ObjectRow::new(&object, structure, &model, self.fits.limit_state);
-            let more = if self.explain { answer::explained(&model, structure, &measures) } else { String::new() };
-            Ok((object, row, more))
+        let peaks = [pga_g * G_M_S2, pgv_m_s];
+        let predict = |structure: &Structure, model: &Model, _: &mut Vec<Doubt>| {
+            let measures = IntensityMeasures::new(structure, peaks[0], peaks[1], None, None);
+            (TreeRow::new(peaks, &model.probabilities(structure, &measures, Scenarios::One)), measures)
         };
-        let objects = self.objects()?;
-        let mut all = objects.into_par_iter().map(of_object).collect::<anyhow::Result<Vec<_>>>()?;
-        all.sort_by(|a, b| b.1.severity().total_cmp(&a.1.severity()));
-        context.doubt(refused(all.iter().map(|(object, row, _)| (object, &row.doubts))));
-        let text = || answer::of_points(&all, self.sentence);
-        let (objects, trees): (Vec<&ObjectRow>, Vec<&TreeRow>) =
-            all.iter().map(|(object, tree, _)| (object, tree)).unzip();
-        let columns = [rows::batch_of::<ObjectRow, _>(&objects)?, rows::batch_of::<TreeRow, _>(&trees)?];
-        self.finish(&rows::side_by_side(&columns)?, text, context)
+        self.answer(predict, |all| answer::of_points(all, self.sentence), context)
     }
 
     fn over_hazard(&self, path: &Path, context: &Context) -> anyhow::Result<String> {
-        let site = site::Site {
+        let site = Site {
             hazard: hazard::read(path, &self.columns)?,
             years: self.years,
             ratio: self.ratio.map_or(Ratio::Distributed, Ratio::Seconds),
             extrapolate: self.extrapolate,
             limit_state: self.fits.limit_state,
-            responses: self.responses.as_deref().map(super::shared::responses::read).transpose()?,
+            responses: self.responses.as_deref().map(responses::read).transpose()?,
         };
         site.check(self.ratio)?;
         if site.is_implausible() {
             context.doubt([(Doubt::ImplausibleHazard, path.display().to_string())].into_iter().collect());
         }
+        let predict = |structure: &Structure, model: &Model, doubts: &mut Vec<Doubt>| {
+            site.rates(structure, model, doubts)
+        };
+        self.answer(predict, |all| answer::of_rates(all, &site, self.sentence), context)
+    }
+
+    /// Predicts for all objects, the worst first. `predict` gives a row, and the measures of the motion that matters.
+    fn answer<R: Predicted>(
+        &self,
+        predict: impl Fn(&Structure, &Model, &mut Vec<Doubt>) -> (R, IntensityMeasures) + Sync,
+        text: impl Fn(&[Answer<R>]) -> String,
+        context: &Context,
+    ) -> anyhow::Result<String> {
         let models = self.fits.models()?;
-        let of_object = |object: Object| -> anyhow::Result<(ObjectRow, RatesRow, String)> {
+        let of_object = |object: Object| -> anyhow::Result<(Answer<R>, Vec<Doubt>)> {
             let structure = match &object.structure {
                 Ok(structure) => structure,
                 Err(reason) => {
-                    let row = RatesRow { doubts: Some(reason.clone()), ..RatesRow::default() };
-                    return Ok((ObjectRow::refused(&object), row, String::new()));
+                    let row = R::default().with_doubts(Some(reason.clone()));
+                    let answer = Answer { object: ObjectRow::refused(&object), row, explained: String::new() };
+                    return Ok((answer, vec![Doubt::ImplausibleRow]));
                 }
             };
             let (model, mut doubts) = models.model(structure)?;
+            let (row, measures) = predict(structure, &model, &mut doubts);
             doubts.extend(doubts_of(structure));
-            let (row, measures) = site.rates(structure, &model, &mut doubts);
-            context.doubt(doubts.into_iter().map(|doubt| (doubt, object.name.clone())).collect());
-            let object = ObjectRow::new(&object, structure, &model, self.fits.limit_state);
-            let more = if self.explain { answer::explained(&model, structure, &measures) } else { String::new() };
-            Ok((object, row, more))
+            doubts.extend(model.doubts(structure, &measures));
+            doubts.sort();
+            doubts.dedup();
+            let explained = || answer::explained(&model, structure, &measures);
+            let answer = Answer {
+                object: ObjectRow::new(&object, structure, &model, self.fits.limit_state),
+                row: row.with_doubts(texts(&doubts)),
+                explained: if self.explain { explained() } else { String::new() },
+            };
+            Ok((answer, doubts))
         };
-        let objects = self.objects()?;
-        let mut all = objects.into_par_iter().map(of_object).collect::<anyhow::Result<Vec<_>>>()?;
-        all.sort_by(|a, b| b.1.severity().total_cmp(&a.1.severity()));
-        context.doubt(refused(all.iter().map(|(object, row, _)| (object, &row.doubts))));
-        let text = || answer::of_rates(&all, &site, self.sentence);
-        let (objects, rates): (Vec<&ObjectRow>, Vec<&RatesRow>) =
-            all.iter().map(|(object, rates, _)| (object, rates)).unzip();
-        let columns = [rows::batch_of::<ObjectRow, _>(&objects)?, rows::batch_of::<RatesRow, _>(&rates)?];
-        self.finish(&rows::side_by_side(&columns)?, text, context)
+        let answers = self.objects()?.into_par_iter().map(of_object).collect::<anyhow::Result<Vec<_>>>()?;
+        for (answer, doubts) in &answers {
+            let name = &answer.object.structure;
+            context.doubt(doubts.iter().map(|&doubt| (doubt, name.clone())).collect());
+        }
+        let mut all: Vec<Answer<R>> = answers.into_iter().map(|(answer, _)| answer).collect();
+        all.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
+        let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
+        let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();
+        let columns = [rows::batch_of::<ObjectRow, _>(&objects)?, rows::batch_of::<R, _>(&predicted)?];
+        let rows = rows::side_by_side(&columns)?;
+        self.write(&[rows], || text(&all), context)
     }
 
-    /// Writes the rows, if they go to a file, and returns what to print.
-    fn finish(
+    /// Writes rows of one schema, if they go to a file, and returns what to print.
+    fn write(
         &self,
-        rows: &RecordBatch,
+        rows: &[RecordBatch],
         text: impl Fn() -> String,
         context: &Context,
     ) -> anyhow::Result<String> {
-        let frame = frame::of_batch(rows)?;
-        let printed = match self.format {
-            Format::Text => text(),
-            format => frame::show(&frame, format)?,
+        let show = |format: Format| -> anyhow::Result<String> {
+            let mut whole = frame::of_batch(&rows[0])?;
+            for more in &rows[1..] {
+                whole.vstack_mut(&frame::of_batch(more)?)?;
+            }
+            frame::show(&whole, format)
         };
-        match self.out().map(|out| (file_format(&out), out)) {
-            None => {}
-            Some((format, out)) => match format? {
-                None => {
-                    let mut writer = context.create(&out, &rows.schema())?;
-                    writer.append(rows)?;
-                    context.finish(writer, &printed)?;
-                }
-                Some(format) => write_file(&out, frame::show(&frame, format)?.as_bytes())?,
-            },
+        let printed = if self.format == Format::Text { text() } else { show(self.format)? };
+        let Some(out) = self.out() else { return Ok(printed) };
+        match file_format(&out)? {
+            Some(format) => write_file(&out, show(format)?.as_bytes())?,
+            None => {
+                let mut writer = context.create(&out, &rows[0].schema())?;
+                rows.iter().try_for_each(|rows| writer.append(rows))?;
+                context.finish(writer, &printed)?;
+            }
         }
         Ok(printed)
     }
-}
-
-/// The rows that cannot be right.
-fn refused<'a>(rows: impl Iterator<Item = (&'a ObjectRow, &'a Option<String>)>) -> Doubts {
-    let refused = rows.filter(|(object, _)| object.p_rad_s.is_none());
-    refused.map(|(object, _)| (Doubt::ImplausibleRow, object.structure.clone())).collect()
 }
 
 /// How a file is written, by how its name ends; none as Parquet.

@@ -6,6 +6,23 @@ use crate::doubt::Doubt;
 use crate::fragility::{GivenRocking, Kind, Model, Probabilities, Probability};
 use crate::rocking::Structure;
 use crate::stages::shared::structures::Object;
+use crate::table::rows::Row;
+
+/// What is predicted for an object.
+pub struct Answer<R> {
+    pub object: ObjectRow,
+    pub row: R,
+    /// The model and the measures of the motion, if that is asked for.
+    pub explained: String,
+}
+
+/// A row of predictions; the default one is that of an object whose row cannot be right.
+pub trait Predicted: Row + Default + Send + Sync {
+    fn with_doubts(self, doubts: Option<String>) -> Self;
+
+    /// By which objects are sorted, the worst first.
+    fn severity(&self) -> f64;
+}
 
 /// An object and the model that predicts for it; without parameters where its row cannot be right.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -95,7 +112,7 @@ pub struct TreeRow {
 
 impl TreeRow {
     /// At a PGA and PGV (m/s2 and m/s).
-    pub fn new(peaks: [f64; 2], probabilities: &Probabilities, doubts: &[Doubt]) -> TreeRow {
+    pub fn new(peaks: [f64; 2], probabilities: &Probabilities) -> TreeRow {
         let given = probabilities.given_rocking;
         let of = |p: fn(&GivenRocking) -> Probability| {
             let known = given.as_ref().map(p).filter(|p| !p.value.is_nan());
@@ -118,12 +135,17 @@ impl TreeRow {
             p_f_r_low,
             p_f_r_high,
             p_f: probabilities.limit_states().map(|states| states[1].value).filter(|p| !p.is_nan()),
-            doubts: texts(doubts),
+            doubts: None,
         }
     }
+}
 
-    /// By which objects are sorted, the worst first.
-    pub fn severity(&self) -> f64 {
+impl Predicted for TreeRow {
+    fn with_doubts(self, doubts: Option<String>) -> TreeRow {
+        TreeRow { doubts, ..self }
+    }
+
+    fn severity(&self) -> f64 {
         self.p_ro.or(self.p_nr.map(|p_nr| -p_nr)).unwrap_or(f64::NEG_INFINITY)
     }
 }

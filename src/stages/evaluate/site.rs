@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::object::texts;
+use super::object::Predicted;
 use crate::doubt::Doubt;
 use crate::fragility::{Along, Cases, Event, Kind, Model, Peak, Ratio};
 use crate::hazard::{CountedMotion, CountedRate, HazardCurve, Rate};
@@ -108,11 +108,7 @@ impl Site {
                 (RatesRow::new(rates_over_pairs(model, structure, joint), self.years, false), peaks)
             }
         };
-        let measures = IntensityMeasures::new(structure, peaks[0], peaks[1], None, None);
-        doubts.extend(model.doubts(structure, &measures));
-        doubts.sort();
-        doubts.dedup();
-        (RatesRow { doubts: texts(doubts), ..row }, measures)
+        (row, IntensityMeasures::new(structure, peaks[0], peaks[1], None, None))
     }
 
     fn over_curve(&self, along: &Along, curve: &HazardCurve, doubts: &mut Vec<Doubt>) -> (RatesRow, [f64; 2]) {
@@ -208,8 +204,23 @@ impl RatesRow {
         }
     }
 
-    /// By which objects are sorted, the worst first.
-    pub fn severity(&self) -> f64 {
+    /// Rate of overturning with limits; limits alone are bounds.
+    pub fn overturning(&self) -> [Option<f64>; 3] {
+        [self.overturning_per_year, self.overturning_per_year_low, self.overturning_per_year_high]
+    }
+
+    /// The same of failure.
+    pub fn failure(&self) -> [Option<f64>; 3] {
+        [self.failure_per_year, self.failure_per_year_low, self.failure_per_year_high]
+    }
+}
+
+impl Predicted for RatesRow {
+    fn with_doubts(self, doubts: Option<String>) -> RatesRow {
+        RatesRow { doubts, ..self }
+    }
+
+    fn severity(&self) -> f64 {
         self.overturning_per_year.or(self.overturning_per_year_high).unwrap_or(f64::NEG_INFINITY)
     }
 }

@@ -6,11 +6,10 @@ use std::sync::Arc;
 
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::{Field, Schema};
-use polars::prelude::DataFrame;
 use rayon::prelude::*;
 
-use super::object::TreeRow;
-use super::{Evaluate, file_format};
+use super::Evaluate;
+use super::object::{Predicted, TreeRow, texts};
 use crate::doubt::{Doubt, Doubts};
 use crate::fragility::{Model, Peak, Scenarios};
 use crate::motion::IntensityMeasures;
@@ -24,9 +23,7 @@ use crate::stages::shared::structures::doubts_of;
 use crate::table::TableError;
 use crate::table::columns::Columns;
 use crate::table::file::Table;
-use crate::table::frame::{self, Format};
 use crate::table::rows;
-use crate::table::writer::write_file;
 
 /// The model of each structure by its parameters.
 type Models = HashMap<[u64; 3], (Structure, Model, Vec<Doubt>)>;
@@ -49,29 +46,9 @@ pub fn run(options: &Evaluate, path: &Path, context: &Context) -> anyhow::Result
         evaluated.push(evaluate(options, &columns, given.first(), &mut models, context)?);
         first_row += batch.num_rows() as u64;
     }
-    let summary = format!("{first_row} intensities evaluated\n");
-    let (Some(out), Some(schema)) = (options.out(), evaluated.first().map(RecordBatch::schema)) else {
-        return Err(TableError::table(path, "no rows; expected intensities").into());
-    };
-    let whole = || -> anyhow::Result<DataFrame> {
-        let mut whole = DataFrame::default();
-        for rows in &evaluated {
-            let frame = frame::of_batch(rows)?;
-            whole = if whole.width() == 0 { frame } else { whole.vstack(&frame)? };
-        }
-        Ok(whole)
-    };
-    match file_format(&out)? {
-        Some(format) => write_file(&out, frame::show(&whole()?, format)?.as_bytes())?,
-        None => {
-            let mut writer = context.create(&out, &schema)?;
-            evaluated.iter().try_for_each(|rows| writer.append(rows))?;
-            context.finish(writer, &summary)?;
-        }
-    }
-    match options.format {
-        Format::Text => Ok(summary),
-        format => frame::show(&whole()?, format),
+    match first_row {
+        0 => Err(TableError::table(path, "no rows; expected intensities").into()),
+        rows => options.write(&evaluated, || format!("{rows} intensities evaluated\n"), context),
     }
 }
 
@@ -103,8 +80,8 @@ fn evaluate(
         let measures = IntensityMeasures::new(structure, pga[row], pgv[row], known(tp[row]), known(tm[row]));
         let mut doubts = of_structure.clone();
         doubts.extend(model.doubts(structure, &measures));
-        let tree = TreeRow::new([pga[row], pgv[row]], &model.probabilities(structure, &measures, Scenarios::One), &doubts);
-        (tree, doubts)
+        let tree = TreeRow::new([pga[row], pgv[row]], &model.probabilities(structure, &measures, Scenarios::One));
+        (tree.with_doubts(texts(&doubts)), doubts)
     };
     let (trees, doubts): (Vec<TreeRow>, Vec<Vec<Doubt>>) = (0..columns.rows()).into_par_iter().map(of_row).unzip();
     let place = |row: usize| format!("row {}", columns.first_row + row as u64);

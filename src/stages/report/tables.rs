@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::fragility::{Calibration, Cases, DemandFit, Event, OverturningFit};
 use crate::paper;
-use crate::stages::evaluate::{ObjectRow, RatesRow};
+use crate::stages::evaluate::{ObjectRow, Predicted, RatesRow};
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;

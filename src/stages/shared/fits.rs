@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 
-use crate::doubt::{Doubt, Doubts};
+use crate::doubt::Doubt;
 use crate::fragility::{Calibration, DemandFit, DemandModel, Event, Kind, Measure, Model, OverturningFit};
 use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
@@ -83,8 +83,8 @@ pub struct FittedModels {
 const SAME: f64 = 0.01;
 
 impl FittedModels {
-    /// The model for a structure: that of the fitted structure of the same p, alpha and eta, or of the one named; without
-    /// one, the surface, with a doubt if there are fits.
+    /// The model for a structure: that of the fitted structure of the same p, alpha and eta, or of the one
+    /// named; without one, the surface, with a doubt if there are fits.
     pub fn model(&self, structure: &Structure) -> anyhow::Result<(Model, Vec<Doubt>)> {
         let limit_state = self.args.limit_state;
         if self.args.fits.is_none() {
@@ -221,7 +221,7 @@ impl FittedModels {
         let found = if fitted.is_empty() { "none".to_string() } else { listed(&fitted, 8) };
         fitted.push(limit_state);
         anyhow::bail!(
-            "{}: P_ex of '{}' is fitted for limit states {found}, not for {limit_state}; run fit-pex --limit-state {}",
+            "{}: P_ex of '{}' has limit states {found}, not {limit_state}; run fit-pex --limit-state {}",
             self.folder(),
             overturning.structure,
             fitted.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
@@ -256,37 +256,4 @@ impl FittedModels {
             )
         })
     }
-}
-
-/// How often an event was observed, beside what the surface predicts.
-pub fn words(row: &Calibration) -> String {
-    match (row.n_events as f64 / row.expected, row.n_events) {
-        _ if row.n == 0 => "no case".to_string(),
-        (_, 0) => format!("none of {} predicted", short(row.expected, 2)),
-        (ratio, _) => format!("{} times the predicted", short(ratio, 2)),
-    }
-}
-
-/// A number with its limits, to three digits.
-pub fn with_limits(value: f64, low: f64, high: f64) -> String {
-    format!("{} ({} to {})", short(value, 3), short(low, 3), short(high, 3))
-}
-
-fn short(number: f64, digits: i32) -> String {
-    let decimals = (digits - 1 - number.abs().log10().floor() as i32).clamp(0, 6);
-    format!("{number:.*}", decimals as usize)
-}
-
-/// The name of a suite, for a table.
-pub fn suite_name(suite: &Option<String>) -> String {
-    suite.clone().unwrap_or_else(|| "-".to_string())
-}
-
-/// What speaks against calibrations, each with its structure and suite.
-pub fn doubts(rows: &[Calibration]) -> Doubts {
-    let about = |row: &Calibration| match &row.suite {
-        Some(suite) => format!("{} ({suite})", row.structure),
-        None => row.structure.clone(),
-    };
-    rows.iter().flat_map(|row| row.doubts().into_iter().map(move |doubt| (doubt, about(row)))).collect()
 }

@@ -1,0 +1,174 @@
+"""Arrays: one motion through one structure, the curve of given outcomes, probabilities at intensities."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _bridge, _rockfrag
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """The rocking response of a structure to a motion (section 2.2 of the paper)."""
+
+    #: Moments, s: every sample, and every event between them.
+    time: Floats
+    #: Rotation, rad, and angular velocity, rad/s, at these moments.
+    theta: Floats
+    theta_dot: Floats
+    #: Times (s) of uplift, impact, rest and overturn.
+    events: list[tuple[float, str]]
+    #: no_rocking, safe_rocking or overturning.
+    outcome: str
+    #: |theta|max / alpha (Eq. 7); none where it overturns.
+    demand: float | None
+    impacts: int
+    #: Parameters of the structure: rad/s, rad, and the ratio of velocities at impact.
+    p: float
+    alpha: float
+    eta: float
+
+    @property
+    def theta_over_alpha(self) -> Floats:
+        return self.theta / self.alpha
+
+
+def simulate_motion(
+    acceleration: ArrayLike, dt: float, *, tail: float = 10.0, **structure: float | str
+) -> Response:
+    """Simulates one structure under one motion.
+
+    Parameters
+    ----------
+    acceleration : array of shape (n,)
+        Ground acceleration, m/s2, every ``dt`` seconds.
+    tail : float
+        Quiet time after it in which free rocking shows, s.
+    **structure
+        ``p`` (rad/s), ``alpha`` (rad) and ``eta``; or ``width`` and ``height`` (m), with ``eta`` and
+        ``beam_mass_ratio`` if known.
+    """
+    samples = np.asarray(acceleration, dtype=np.float64)
+    if samples.ndim != 1:
+        raise ValueError(f"acceleration has {samples.ndim} dimensions; expected 1")
+    words = ",".join(["name=structure", *(f"{name}={value}" for name, value in structure.items())])
+    solved = _rockfrag.simulate_motion(samples.tobytes(), dt, words, tail)
+    solved.update({name: np.frombuffer(solved[name]) for name in ("time", "theta", "theta_dot")})
+    return Response(**solved)
+
+
+@dataclass(frozen=True, eq=False)
+class FragilityCurve:
+    """A lognormal fragility curve P = Phi(ln(im / theta) / beta) (Eq. 20); without a fit numbers are NaN."""
+
+    #: ok, poor_fit, wrong_sign, separated, too_few_events, degenerate or not_converged.
+    status: str
+    #: Cases, and those with the event.
+    n: int
+    n_events: int
+    #: Median and dispersion, each with its limits of confidence.
+    theta: float = np.nan
+    theta_low: float = np.nan
+    theta_high: float = np.nan
+    beta: float = np.nan
+    beta_low: float = np.nan
+    beta_high: float = np.nan
+    #: z = b0 + b1 ln im, and its covariance, row by row.
+    coefficients: Sequence[float] = (np.nan, np.nan)
+    covariance: Sequence[float] = (np.nan,) * 4
+    #: Standard errors from a number to its limits.
+    quantile: float = np.nan
+
+    def probability(self, im: ArrayLike) -> Floats:
+        """The probability at intensities, of their shape."""
+        return self._at(im, 0.0)
+
+    def limits(self, im: ArrayLike) -> tuple[Floats, Floats]:
+        """The limits of the probability at intensities, by the delta method on z."""
+        return self._at(im, -self.quantile), self._at(im, self.quantile)
+
+    def _at(self, im: ArrayLike, errors: float) -> Floats:
+        ln_im = np.log(np.asarray(im, dtype=np.float64))
+        variance = self.covariance[0] + ln_im * (2 * self.covariance[1] + ln_im * self.covariance[3])
+        z = self.coefficients[0] + self.coefficients[1] * ln_im
+        z = z + errors * np.sqrt(variance) if errors else z
+        return np.frombuffer(_rockfrag.normal_cdf(z.tobytes())).reshape(z.shape)
+
+
+def fit_fragility(im: ArrayLike, outcome: ArrayLike, *, confidence: float = 0.95) -> FragilityCurve:
+    """Fits the lognormal curve of Eq. 20 by maximum likelihood (Eqs. 21 and 22).
+
+    Parameters
+    ----------
+    im : array of shape (n,)
+        Intensities, above 0.
+    outcome : array of shape (n,)
+        Whether the event happened: true or false, 1 or 0.
+    confidence : float
+        Level of the limits.
+    """
+    happened = np.asarray(outcome)
+    if not np.isin(happened, (0, 1)).all():
+        raise ValueError("outcome has other values than true and false, 1 and 0")
+    fit = _rockfrag.fit_curve(
+        np.asarray(im, dtype=np.float64).tobytes(), happened.astype(bool).tobytes(), confidence
+    )
+    for name in ("theta", "beta"):
+        if name in fit:
+            fit[name], fit[f"{name}_low"], fit[f"{name}_high"] = fit[name]
+    return FragilityCurve(**fit)
+
+
+@dataclass(frozen=True, eq=False)
+class Probabilities:
+    """The probabilities of the tree (Eq. 12) with 95 % limits, of the shape of the intensities.
+
+    Of no rocking; given rocking, of exceeding the limit state (without overturning), of overturning, and of
+    failure (either); and of failure whether it rocks or not.
+    """
+
+    p_nr: Floats
+    p_ex: Floats
+    p_ex_low: Floats
+    p_ex_high: Floats
+    p_ro: Floats
+    p_ro_low: Floats
+    p_ro_high: Floats
+    p_f_r: Floats
+    p_f_r_low: Floats
+    p_f_r_high: Floats
+    p_f: Floats
+    #: What speaks against them.
+    doubts: list[str]
+
+
+def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities:
+    """Predicts probabilities for one structure at intensities, as :func:`rockfrag.evaluate` does for a table.
+
+    Parameters
+    ----------
+    pga, pgv : arrays that broadcast to one shape
+        Peak ground acceleration, g, and velocity, m/s.
+    **options
+        Of :func:`rockfrag.evaluate`: the structure, ``fits``, ``suite``, ``limit_state`` ...
+    """
+    given = np.broadcast_arrays(*(np.asarray(peak, dtype=np.float64) for peak in (pga, pgv)))
+    names = [field.name for field in fields(Probabilities) if field.name != "doubts"]
+    with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
+        path = Path(folder, "intensities.parquet")
+        _rockfrag.write_numbers({"pga_g": given[0].tobytes(), "pgv_m_s": given[1].tobytes()}, path)
+        evaluated = _bridge.functions["evaluate"](path, **options)
+        columns = _rockfrag.read_numbers(evaluated._table(), names)
+    arrays: dict[str, Any] = {name: np.frombuffer(columns[name]).reshape(given[0].shape) for name in names}
+    return Probabilities(**arrays, doubts=evaluated.doubts)

@@ -1,0 +1,82 @@
+"""What a stage makes."""
+
+from __future__ import annotations
+
+import shutil
+import weakref
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from . import _rockfrag
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+    import pyarrow
+
+
+class Result:
+    """A table that a stage has written: any library that speaks Arrow takes it, row group by row group.
+
+    Attributes
+    ----------
+    path : Path or None
+        Its file. Without ``out`` it is a temporary one, which goes when the result does.
+    summary : str
+        What the command prints.
+    doubts : list of str
+        What speaks against it.
+    """
+
+    def __init__(
+        self, stage: str, path: Path | None, summary: str, doubts: list[str], folder: Path | None = None
+    ) -> None:
+        self.stage, self.path, self.summary, self.doubts = stage, path, summary, doubts
+        self._owner: Result | None = None
+        if folder is not None:
+            weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+
+    def part(self, name: str) -> Result:
+        """Another table of the stage: ``fit_pro(...).part("parameters")`` is ``pro.parameters.parquet``."""
+        part = Result(self.stage, self._table().with_suffix(f".{name}.parquet"), self.summary, self.doubts)
+        if not part._table().exists():
+            raise ValueError(f"{self.stage} has no part '{name}'; expected one of {', '.join(self.parts)}")
+        part._owner = self
+        return part
+
+    @property
+    def parts(self) -> list[str]:
+        """The names of its other tables."""
+        path = self._table()
+        found = sorted(path.parent.glob(f"{path.stem}.*.parquet"))
+        return [part.stem.removeprefix(f"{path.stem}.") for part in found]
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        return _rockfrag.read_table(self._table())
+
+    def to_polars(self) -> polars.DataFrame:
+        import polars
+
+        return polars.DataFrame(self)
+
+    def to_pyarrow(self) -> pyarrow.Table:
+        try:
+            import pyarrow
+        except ImportError as missing:
+            raise ImportError("pyarrow is not installed: pip install pyarrow") from missing
+        return pyarrow.table(self)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        return self.to_pyarrow().to_pandas()
+
+    def _table(self) -> Path:
+        if self.path is None or self.path.suffix != ".parquet":
+            raise ValueError(f"{self.stage} wrote no table; .summary has what it prints")
+        return self.path
+
+    def __repr__(self) -> str:
+        doubts = [f"doubt: {doubt}" for doubt in self.doubts]
+        return "\n".join([self.summary.rstrip() or f"{self.stage}: {self.path}", *doubts])
+
+
+Result.__module__ = "rockfrag"

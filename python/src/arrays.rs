@@ -1,0 +1,127 @@
+//! One motion through one structure, and the lognormal curve of given outcomes. Arrays are the bytes of f64.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use rockfrag::fragility::{beta, mu};
+use rockfrag::keyword::Keyword;
+use rockfrag::pipeline::UsageError;
+use rockfrag::rocking::{Outcome, Record, TracePoint, simulate, trace, with_tail};
+use rockfrag::stages::shared::structures::Spec;
+use rockfrag::statistics::distributions::t_quantile;
+use rockfrag::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
+
+use crate::error::to_python;
+
+/// Numbers from their bytes.
+pub fn numbers(bytes: &[u8]) -> Vec<f64> {
+    bytes.as_chunks::<8>().0.iter().map(|number| f64::from_ne_bytes(*number)).collect()
+}
+
+/// The bytes of numbers.
+pub fn bytes<'py>(py: Python<'py>, numbers: impl Iterator<Item = f64>) -> Bound<'py, PyBytes> {
+    PyBytes::new(py, &numbers.flat_map(f64::to_ne_bytes).collect::<Vec<u8>>())
+}
+
+/// Simulates a structure, written as on the command line (`p=1,alpha=0.15,eta=0.92`), under samples (m/s2)
+/// every `dt_s` s with `tail_s` s of quiet after them. Returns the rotation at every sample and event, and
+/// the outcome.
+#[pyfunction]
+pub fn simulate_motion<'py>(
+    py: Python<'py>,
+    acceleration: &[u8],
+    dt_s: f64,
+    structure: &str,
+    tail_s: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let solve = || -> anyhow::Result<_> {
+        let usage = |error: &dyn ToString| UsageError::because(error.to_string());
+        let structure =
+            structure.parse().and_then(|spec: Spec| spec.structure()).map_err(|error| usage(&error))?;
+        if !(0.0..=1000.0).contains(&tail_s) {
+            return Err(usage(&format!("tail is {tail_s}; expected 0 to 1000 s")));
+        }
+        let acceleration = numbers(acceleration);
+        let record = Record::new(&acceleration, dt_s).map_err(|error| usage(&error))?;
+        let ended = with_tail(&record, tail_s);
+        let points = trace(&structure, &Record::new(&ended, dt_s)?).1;
+        Ok((simulate(&structure, &record), points, structure))
+    };
+    let (response, points, structure) = py.detach(solve).map_err(|error| to_python(&error))?;
+    let result = PyDict::new(py);
+    let column = |value: fn(&TracePoint) -> f64| bytes(py, points.iter().map(value));
+    result.set_item("time", column(|point| point.time_s))?;
+    result.set_item("theta", column(|point| point.theta_rad))?;
+    result.set_item("theta_dot", column(|point| point.theta_dot_rad_s))?;
+    let events = points.iter().filter_map(|point| Some((point.time_s, point.solver_event?.as_str())));
+    result.set_item("events", events.collect::<Vec<_>>())?;
+    result.set_item("outcome", response.outcome.as_str())?;
+    result.set_item("demand", (response.outcome != Outcome::Overturning).then_some(response.edp))?;
+    result.set_item("impacts", response.impacts)?;
+    result.set_item("p", structure.p_rad_s)?;
+    result.set_item("alpha", structure.alpha_rad)?;
+    result.set_item("eta", structure.eta)?;
+    Ok(result)
+}
+
+/// Fits the lognormal curve of Eq. 20 by maximum likelihood (Eqs. 21 and 22). Returns the status, the
+/// coefficients of z = b0 + b1 ln IM with their covariance, and theta and beta with limits. `outcomes` has a
+/// byte a case.
+#[pyfunction]
+pub fn fit_curve<'py>(
+    py: Python<'py>,
+    im: &[u8],
+    outcomes: &[u8],
+    confidence: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let fit = || -> anyhow::Result<_> {
+        let im = numbers(im);
+        let refuse = |problem: String| Err(UsageError::because(problem));
+        if im.len() != outcomes.len() {
+            return refuse(format!(
+                "{} intensities and {} outcomes; expected as many",
+                im.len(),
+                outcomes.len()
+            ));
+        }
+        if let Some(at) = im.iter().position(|im| !(im.is_finite() && *im > 0.0)) {
+            return refuse(format!("im[{at}] is {}; expected a finite number above 0", im[at]));
+        }
+        if !(0.5..1.0).contains(&confidence) {
+            return refuse(format!("confidence is {confidence}; expected a level from 0.5 to 1"));
+        }
+        let ln_im: Vec<f64> = im.iter().map(|im| im.ln()).collect();
+        let happened: Vec<bool> = outcomes.iter().map(|outcome| *outcome != 0).collect();
+        Ok((tested_probit(&[&ln_im], &happened, &[]), happened))
+    };
+    let (probit, happened) = py.detach(fit).map_err(|error| to_python(&error))?;
+    let result = PyDict::new(py);
+    result.set_item("n", happened.len())?;
+    result.set_item("n_events", happened.iter().filter(|happened| **happened).count())?;
+    let probit = match probit {
+        Ok(probit) => probit,
+        Err(status) => {
+            result.set_item("status", status.as_str())?;
+            return Ok(result);
+        }
+    };
+    let (b, covariance) = (probit.fit.coefficients.as_slice(), probit.fit.covariance.as_slice());
+    let quantile = t_quantile(0.5 * (1.0 + confidence), f64::INFINITY);
+    let estimate = |(value, gradient): (f64, Vec<f64>)| {
+        Estimate::new(value, variance(covariance, &gradient).sqrt(), quantile)
+    };
+    let three = |Estimate { value, low, high, .. }: Estimate| [value, low, high];
+    let status = if b[1] <= 0.0 { FitStatus::WrongSign } else { probit.fit.status };
+    result.set_item("status", status.as_str())?;
+    result.set_item("theta", three(estimate(mu(b)).exp()))?;
+    result.set_item("beta", three(estimate(beta(b))))?;
+    result.set_item("coefficients", b)?;
+    result.set_item("covariance", covariance)?;
+    result.set_item("quantile", quantile)?;
+    Ok(result)
+}
+
+/// The standard normal distribution.
+#[pyfunction]
+pub fn normal_cdf<'py>(py: Python<'py>, z: &[u8]) -> Bound<'py, PyBytes> {
+    bytes(py, numbers(z).into_iter().map(normal::cdf))
+}

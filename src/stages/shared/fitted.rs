@@ -1,0 +1,82 @@
+//! What a stage that fits prints, and what speaks against its fits.
+
+use serde::{Deserialize, Serialize};
+
+use crate::doubt::Doubts;
+use crate::fragility::Calibration;
+use crate::keyword::Keyword;
+use crate::statistics::FitStatus;
+use crate::table::frame;
+use crate::table::rows::{self, Row};
+
+/// A printed row: the surface beside what was observed.
+#[derive(Serialize, Deserialize)]
+struct CalibrationLine {
+    suite: String,
+    structure: String,
+    limit: Option<String>,
+    cases: i64,
+    events: i64,
+    calibration: String,
+}
+
+/// Calibrations as a table, with these headings of cases and events.
+pub fn calibrations_text(rows: &[Calibration], [cases, events]: [&str; 2]) -> anyhow::Result<String> {
+    let line = |row: &Calibration| CalibrationLine {
+        suite: suite_name(&row.suite),
+        structure: row.structure.clone(),
+        limit: row.limit_state.map(|limit_state| limit_state.to_string()),
+        cases: row.n,
+        events: row.n_events,
+        calibration: calibration_in_words(row),
+    };
+    let lines: Vec<CalibrationLine> = rows.iter().map(line).collect();
+    let mut frame = frame::of_batch(&rows::batch(&lines)?)?;
+    frame.rename("cases", cases.into())?.rename("events", events.into())?;
+    if rows.iter().all(|row| row.limit_state.is_none()) {
+        frame = frame.drop("limit")?;
+    }
+    Ok(frame::text(&frame))
+}
+
+fn calibration_in_words(row: &Calibration) -> String {
+    match (row.n, row.n_events) {
+        (0, _) => "no case".to_string(),
+        (_, 0) => format!("none of {} predicted", short(row.expected, 2)),
+        (_, events) => format!("{:.2} times the predicted", events as f64 / row.expected),
+    }
+}
+
+/// Rows as a table.
+pub fn text<R: Row>(lines: &[R]) -> anyhow::Result<String> {
+    Ok(frame::text(&frame::of_batch(&rows::batch(lines)?)?))
+}
+
+/// A number with its limits, to three digits.
+pub fn with_limits(value: f64, low: f64, high: f64) -> String {
+    format!("{} ({}-{})", short(value, 3), short(low, 3), short(high, 3))
+}
+
+fn short(number: f64, digits: i32) -> String {
+    let decimals = (digits - 1 - number.abs().log10().floor() as i32).clamp(0, 6);
+    format!("{number:.*}", decimals as usize)
+}
+
+/// The name of a suite.
+pub fn suite_name(suite: &Option<String>) -> String {
+    suite.clone().unwrap_or_else(|| "-".to_string())
+}
+
+/// A status in plain words.
+pub fn verdict(status: FitStatus) -> String {
+    status.as_str().replace('_', " ")
+}
+
+/// What speaks against calibrations, each with its structure and suite.
+pub fn doubts(rows: &[Calibration]) -> Doubts {
+    let about = |row: &Calibration| match &row.suite {
+        Some(suite) => format!("{} ({suite})", row.structure),
+        None => row.structure.clone(),
+    };
+    rows.iter().flat_map(|row| row.doubts().into_iter().map(move |doubt| (doubt, about(row)))).collect()
+}

@@ -1,0 +1,219 @@
+//! evaluate, export and validate as users run them: numbers against closed forms, lists, hazards that end early, slips.
+
+use std::path::Path;
+
+use rockfrag::doubt::Doubt;
+use rockfrag::rocking::Structure;
+use rockfrag::units::G_M_S2;
+use serde_json::Value;
+
+use crate::common::{fail, folder_with, succeed};
+
+const BLOCK: &str = "--width 0.5 --height 2.0";
+/// 1e-3 (PGA / 1 g)^-2 a year.
+const CURVE: &str = "pga_g,annual_rate_of_exceedance\n0.05,0.4\n4.5,4.938271604938e-5\n";
+
+/// The rows that a call of evaluate prints as JSON.
+fn rows(folder: &Path, arguments: &str) -> Vec<Value> {
+    let (printed, _) = succeed(folder, &format!("evaluate {arguments} --format json"));
+    serde_json::from_str(&printed).unwrap()
+}
+
+fn number(row: &Value, column: &str) -> f64 {
+    row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"))
+}
+
+fn has(row: &Value, doubt: Doubt) -> bool {
+    row["doubts"].as_str().is_some_and(|doubts| doubts.contains(doubt.text()))
+}
+
+fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    files.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());
+    folder
+}
+
+fn near(a: f64, b: f64, tolerance: f64) -> bool {
+    (a / b - 1.0).abs() <= tolerance
+}
+
+#[test]
+fn nothing_rocks_below_uplift_and_probabilities_are_ordered_above() {
+    let folder = folder(&[]);
+    let below = &rows(folder.path(), &format!("{BLOCK} --pga 0.24 --pgv 0.5"))[0];
+    assert_eq!(number(below, "p_nr"), 1.0);
+    assert!(below["p_ro"].is_null() && number(below, "p_f") == 0.0);
+    let above = &rows(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"))[0];
+    let structure = Structure::rectangular_block("block", 0.5, 2.0, None).unwrap();
+    for (column, expected) in [
+        ("p_nr", 0.0),
+        ("p_rad_s", structure.p_rad_s),
+        ("eta", structure.eta),
+        ("friction", 0.25),
+        ("pga_m_s2", 0.5 * G_M_S2),
+    ] {
+        assert!((number(above, column) - expected).abs() < 1e-12, "{column}");
+    }
+    let [low, p_ro, high] = ["p_ro_low", "p_ro", "p_ro_high"].map(|column| number(above, column));
+    assert!(0.0 < low && low < p_ro && p_ro < high && high < 1.0);
+    let p_f_r = p_ro + (1.0 - p_ro) * number(above, "p_ex");
+    assert!((number(above, "p_f_r") - p_f_r).abs() < 1e-12, "Eq. 12");
+}
+
+#[test]
+fn rates_over_a_power_law_are_those_of_closed_forms() {
+    let folder = folder(&[("hazard.csv", CURVE)]);
+    let row = &rows(folder.path(), &format!("{BLOCK} --hazard hazard.csv --ratio 0.12 --years 100"))[0];
+    // Rocking: the curve at g tan(alpha) = 0.25 g.
+    let rocking = 1e-3 / 0.25_f64.powi(2);
+    assert!(near(number(row, "rocking_per_year"), rocking, 1e-9));
+    assert!(near(number(row, "p_rocking"), -(-rocking * 100.0).exp_m1(), 1e-9));
+    // Overturning: the sum of P_ro at the middles of narrow bins times their rates; beyond 4.5 g as at 4.5 g.
+    let edges: Vec<f64> = (0..=400).map(|k| 0.25 * 18_f64.powf(f64::from(k) / 400.0)).collect();
+    let middles = edges.windows(2).map(|edge| (edge[0] * edge[1]).sqrt()).chain([4.5]);
+    let lines = middles.map(|pga| format!("{pga},{}\n", 0.12 * pga * G_M_S2));
+    let table = format!("pga_g,pgv_m_s\n{}", lines.collect::<String>());
+    std::fs::write(folder.path().join("table.csv"), table).unwrap();
+    let p: Vec<f64> = rows(folder.path(), &format!("{BLOCK} --in table.csv --out t.csv"))
+        .iter()
+        .map(|row| number(row, "p_ro"))
+        .collect();
+    let h = |pga: f64| 1e-3 / (pga * pga);
+    let bins = edges.windows(2).zip(&p).map(|(edge, p)| p * (h(edge[0]) - h(edge[1]))).sum::<f64>();
+    let expected = bins + p[400] * h(4.5);
+    assert!(near(number(row, "overturning_per_year"), expected, 1e-4), "{row}: {expected}");
+    assert!(near(number(row, "return_period_years"), 1.0 / expected, 1e-4));
+    assert!(near(number(row, "p_overturning"), -(-expected * 100.0).exp_m1(), 1e-4));
+    // Averaged over PGV/PGA it lies between the rates a standard deviation lower and higher.
+    let all = &rows(folder.path(), &format!("{BLOCK} --hazard hazard.csv"))[0];
+    let less = number(all, "overturning_per_year_less_velocity");
+    let more = number(all, "overturning_per_year_more_velocity");
+    assert!(less < number(all, "overturning_per_year") && number(all, "overturning_per_year") < more);
+}
+
+#[test]
+fn the_rate_of_one_bin_is_its_rate_times_the_probability_in_it() {
+    let joint = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n0.1,0.1,0.5\n";
+    let folder = folder(&[("joint.csv", joint)]);
+    let row = &rows(folder.path(), &format!("{BLOCK} --hazard joint.csv"))[0];
+    let point = &rows(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"))[0];
+    assert!(near(number(row, "rocking_per_year"), 0.002, 1e-12));
+    assert!(near(number(row, "overturning_per_year"), 0.002 * number(point, "p_ro"), 1e-9));
+    assert!(near(number(row, "failure_per_year"), 0.002 * number(point, "p_f_r"), 1e-9));
+    fail(folder.path(), &format!("evaluate {BLOCK} --hazard joint.csv --ratio 0.1"), 2, &["ratio"]);
+}
+
+#[test]
+fn a_hazard_that_ends_early_gives_bounds_which_hold_what_a_longer_one_gives() {
+    let folder = folder(&[
+        ("long.csv", CURVE),
+        ("short.csv", "pga_g,annual_rate_of_exceedance\n0.05,0.4\n0.5,4e-3\n"),
+        ("far.csv", "pga_g,annual_rate_of_exceedance\n0.05,0.4\n5,4e-5\n"),
+    ]);
+    let evaluate = |arguments: &str| rows(folder.path(), &format!("{BLOCK} {arguments}")).remove(0);
+    let (long, short) = (evaluate("--hazard long.csv"), evaluate("--hazard short.csv"));
+    assert!(has(&short, Doubt::HazardEndsEarly) && short["overturning_per_year"].is_null());
+    let truth = number(&long, "overturning_per_year");
+    assert!(number(&short, "overturning_per_year_low") < truth);
+    assert!(number(&short, "overturning_per_year_high") > truth);
+    let extrapolated = evaluate("--hazard short.csv --extrapolate");
+    assert!(has(&extrapolated, Doubt::HazardExtrapolated) && !has(&extrapolated, Doubt::HazardEndsEarly));
+    assert!(near(number(&extrapolated, "overturning_per_year"), truth, 0.01), "the slope is the same");
+    let far = evaluate("--hazard far.csv");
+    assert!(!has(&far, Doubt::HazardEndsEarly), "no site has 5 g");
+}
+
+#[test]
+fn a_list_keeps_its_bad_rows_and_fails_only_if_all_are_bad() {
+    let list = "name,width (cm),depth (cm),height (cm)\nrack,60,100,200\nwrong,800,900,200\nshelf,300,30,210\nno height,40,40,\n";
+    let folder =
+        folder(&[("list.csv", list), ("hazard.csv", CURVE), ("bad.csv", "name,width,height\nwrong,3,2\n")]);
+    for question in ["--hazard hazard.csv", "--pga 0.5 --pgv 0.5"] {
+        let all = rows(folder.path(), &format!("--structures list.csv {question}"));
+        let names: Vec<&str> = all.iter().map(|row| row["structure"].as_str().unwrap()).collect();
+        assert_eq!(names, ["shelf", "rack", "wrong", "no height"], "worst first, {question}");
+        assert!((number(&all[0], "width_m") - 0.3).abs() < 1e-12, "the smaller of width and depth");
+        assert!((number(&all[1], "height_m") - 2.0).abs() < 1e-12);
+        assert!(all[2]["doubts"].is_string() && all[2]["p_rad_s"].is_null());
+        let (_, warned) = succeed(folder.path(), &format!("evaluate --structures list.csv {question}"));
+        assert_eq!(warned.lines().count(), 1, "both bad rows are one line: {warned}");
+    }
+    fail(folder.path(), "evaluate --structures bad.csv --hazard hazard.csv", 1, &["bad.csv", "line 2"]);
+}
+
+#[test]
+fn slips_are_refused_or_doubted() {
+    let curve = |factor: f64| {
+        let points = [(0.05, 0.1), (0.1, 0.04), (0.5, 1e-3), (1.0, 2e-4), (3.0, 4e-6)];
+        let line = |(pga, rate): (f64, f64)| format!("{pga},{}\n", rate * factor);
+        format!("pga_g,annual_rate_of_exceedance\n{}", points.map(line).concat())
+    };
+    let folder = folder(&[
+        ("hazard.csv", &curve(1.0)),
+        ("percent.csv", &curve(100.0)),
+        ("impossible.csv", &curve(1e300)),
+        ("sign.csv", "pga_g,annual rate (%)\n0.1,1.8\n1,0.02\n"),
+    ]);
+    for (arguments, code, named) in [
+        (&format!("{BLOCK} --pga 4.9 --pgv 0.6") as &str, 2, vec!["--pga", "4.9", "m/s2"]),
+        (&format!("{BLOCK} --pga 0.5 --pgv 60"), 2, vec!["--pgv", "60", "cm/s"]),
+        (&format!("{BLOCK} --pga 0.5"), 2, vec!["--pgv"]),
+        ("--p 0.2 --alpha 2.5 --eta 0.9 --pga 0.5 --pgv 0.6", 2, vec!["alpha", "2.5", "p"]),
+        ("--p 2.5 --alpha 0.2 --eta 92 --pga 0.5 --pgv 0.6", 2, vec!["eta", "92"]),
+        (&format!("{BLOCK} --hazard impossible.csv"), 1, vec!["impossible.csv", "1000"]),
+        (&format!("{BLOCK} --hazard sign.csv"), 1, vec!["sign.csv", "1.8"]),
+        (&format!("{BLOCK} --hazard hazard.csv --ratio 12"), 2, vec!["--ratio", "12"]),
+        (&format!("{BLOCK} --hazard hazard.csv --pga 0.5 --pgv 0.6"), 2, vec!["--hazard", "--pga"]),
+        (&format!("{BLOCK} --pga 0.5 --pgv 0.6 --out answer.txt"), 2, vec!["answer.txt"]),
+        ("--pga 0.5 --pgv 0.6", 2, vec!["--width"]),
+        (BLOCK, 2, vec!["--pga", "--hazard"]),
+    ] {
+        fail(folder.path(), &format!("evaluate {arguments}"), code, &named);
+    }
+    let doubted = |arguments: &str| succeed(folder.path(), &format!("evaluate {arguments}")).1;
+    let plausible = format!("{BLOCK} --hazard hazard.csv");
+    assert_eq!(doubted(&plausible), "");
+    assert!(doubted(&format!("{BLOCK} --hazard percent.csv")).contains(Doubt::ImplausibleHazard.text()));
+    let low = "--p 2.5 --alpha 0.2 --eta 0.09 --pga 0.5 --pgv 0.6";
+    assert!(doubted(low).contains(Doubt::LowRestitution.text()));
+    assert_eq!(doubted(&format!("{low} --quiet")), "");
+    let exchanged = "--p 0.25 --alpha 0.3 --eta 0.9 --pga 0.5 --pgv 0.6";
+    assert!(doubted(exchanged).contains(Doubt::ImplausibleSize.text()));
+}
+
+#[test]
+fn a_run_ends_with_the_rate_and_its_fits_answer_validate_and_export() {
+    let folder = folder_with(
+        "seed: 3\nsample-scenarios: { mw: \"6.5,7.5\", re: \"5,10\", samples: 15 }\n\
+         synthesize-motions: { suite: [csgm], dt: 0.02 }\n\
+         simulate: { structure: [{ name: cabinet, width: 0.8, height: 2.2 }] }\n\
+         fit-pex: {}\nfit-pro: {}\n\
+         evaluate: { hazard: hazard.csv, structure: [{ name: cabinet, width: 0.8, height: 2.2 }] }\n\
+         validate: {}\n",
+    );
+    std::fs::write(folder.path().join("hazard.csv"), CURVE).unwrap();
+    let (printed, _) = succeed(folder.path(), "run");
+    assert!(printed.starts_with("cabinet"), "{printed}");
+    let again = succeed(folder.path(), "run");
+    assert_eq!(again.0, printed, "what is up to date is printed as before");
+    assert!(again.1.lines().all(|line| !line.ends_with(" s")), "nothing runs again: {}", again.1);
+    let cabinet = "--structure name=cabinet,width=0.8,height=2.2";
+    let row = &rows(
+        folder.path(),
+        &format!("--fits out {cabinet} --hazard hazard.csv --responses out/responses.parquet"),
+    )[0];
+    let [low, value, high] = ["counted_per_year_low", "counted_per_year", "counted_per_year_high"]
+        .map(|column| number(row, column));
+    assert!(low <= value && value <= high);
+    assert!(
+        row["model"].as_str().unwrap().contains("60 responses") || number(row, "counted_motions") <= 60.0
+    );
+    let all = rows(folder.path(), "--fits out --hazard hazard.csv");
+    assert_eq!(all.len(), 1, "without a structure, all that are fitted");
+    assert!(near(number(&all[0], "overturning_per_year"), number(row, "overturning_per_year"), 1e-12));
+    let limit_state = format!("evaluate --fits out {cabinet} --hazard hazard.csv --limit-state 0.3");
+    fail(folder.path(), &limit_state, 1, &["0.3", "fit-pex"]);
+    succeed(folder.path(), &format!("export --to pelicun --im pgv --fits out {cabinet} --out curve.csv"));
+    assert!(folder.path().join("curve.json").exists() && folder.path().join("curve.csv").exists());
+    succeed(folder.path(), "validate --fits out --in out/responses.parquet");
+}
