@@ -162,7 +162,7 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
     let folder = tempfile::tempdir().unwrap();
     let at = |path: &str| folder.path().join(path);
     let call = |arguments: &str| {
-        let mut command = assert_cmd::Command::cargo_bin("rockfrag").unwrap();
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_rockfrag"));
         let output = command.current_dir(folder.path()).args(arguments.split(' ')).output().unwrap();
         (output.status.success(), String::from_utf8(output.stderr).unwrap())
     };
