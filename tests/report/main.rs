@@ -151,7 +151,7 @@ const RUN: &str = "\
 seed: 7
 sample-scenarios: { mw: \"6.5,7.5\", re: \"5,10\", samples: 10 }
 synthesize-motions: { suite: [pulse, csgm], dt: 0.01 }
-simulate: { structure: [{ name: a, p: 1.0, alpha: 0.15, eta: 0.92 }, { name: b, p: 2.5, alpha: 0.2, eta: 0.92 }] }
+simulate: { structure: [\"name=a,p=1,alpha=0.15,eta=0.92\", \"name=b,p=2.5,alpha=0.2,eta=0.92\"] }
 fit-pex: { all: true }
 fit-pro: {}
 report: {}
@@ -162,7 +162,7 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
     let folder = tempfile::tempdir().unwrap();
     let at = |path: &str| folder.path().join(path);
     let call = |arguments: &str| {
-        let mut command = assert_cmd::Command::cargo_bin("rockfrag").unwrap();
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_rockfrag"));
         let output = command.current_dir(folder.path()).args(arguments.split(' ')).output().unwrap();
         (output.status.success(), String::from_utf8(output.stderr).unwrap())
     };
