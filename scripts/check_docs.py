@@ -65,7 +65,7 @@ def main():
     parser.add_argument("--python", type=pathlib.Path)
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
     options = parser.parse_args()
-    path = f"{options.rockfrag.resolve().parent}:{os.environ['PATH']}"
+    path = f"{options.rockfrag.absolute().parent}:{os.environ['PATH']}"
     environment = {**os.environ, "PATH": path, "MPLBACKEND": "Agg"}
     pages = options.pages or [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
     python = options.python and options.python.absolute()

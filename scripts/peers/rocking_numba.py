@@ -1,32 +1,21 @@
 """The rocking problem by numba: RK4 at the record's time step, bisection on impacts, all in machine code.
 
-    python rocking_numba.py MOTIONS.parquet --out responses.parquet
+    python rocking_numba.py MOTIONS.parquet
 
 One thread, strict floating-point arithmetic (no fastmath); the time is that of the solver alone, once it is
 compiled.
 """
 
 import math
+import sys
 
 import numba
 import numpy as np
 
-from common import (
-    HALF_PI,
-    REST_VELOCITY,
-    Response,
-    Structure,
-    free_rocking,
-    peak_between,
-    read_motions,
-    report_rocking,
-    rocking_arguments,
-    timed,
-)
+from common import ALPHA, ETA, HALF_PI, P, REST_VELOCITY, free_rocking, peak_between, read_motions, report
 
 HALVINGS = 34  # of the step in which an impact lies: to 6e-11 of it
 OUTCOMES = ("no_rocking", "safe_rocking", "overturning")
-NO_ROCKING, SAFE_ROCKING, OVERTURNING = range(3)
 
 free_rocking = numba.njit(free_rocking)
 peak_between = numba.njit(peak_between)
@@ -67,10 +56,10 @@ def impact_time(r, v, w, slope, h, alpha):
 
 @numba.njit
 def respond(ground, step, alpha, eta):
-    """Outcome, |theta|max and impacts; `ground` is the acceleration over g at samples `step` = p dt apart."""
+    """Number of the outcome and |theta|max; `ground` is the acceleration over g at samples `step` = p dt apart."""
     tan = math.tan(alpha)
     r, v, side = 0.0, 0.0, 0.0
-    peak, impacts, rocked = 0.0, 0, False
+    peak, rocked = 0.0, False
     for index in range(ground.size - 1):
         start, end = ground[index], ground[index + 1]
         if side == 0.0 and abs(start) < tan and abs(end) < tan:
@@ -99,49 +88,26 @@ def respond(ground, step, alpha, eta):
             peak = max(peak, peak_between(r, v, r1, v1, h))
             r, v = r1, v1
             if r >= HALF_PI:
-                return OVERTURNING, HALF_PI, impacts
+                return 2, HALF_PI
             if struck:
-                impacts += 1
                 r, v, side = 0.0, -eta * v, -side
                 if v < REST_VELOCITY:
                     side = 0.0
     if not rocked:
-        return NO_ROCKING, 0.0, 0
+        return 0, 0.0
     if side != 0.0:
         overturns, later = free_rocking(r, v, alpha, eta)
         if overturns:
-            return OVERTURNING, HALF_PI, impacts
+            return 2, HALF_PI
         peak = max(peak, later)
-    return SAFE_ROCKING, peak, impacts
+    return 1, peak
 
 
-def main():
-    parser = rocking_arguments(__doc__.splitlines()[0])
-    parser.add_argument(
-        "--repeat", type=int, default=5, help="runs over all motions, of which the median counts"
-    )
-    options = parser.parse_args()
-    structure = Structure(options.p, options.alpha, options.eta)
-    motions = read_motions(options.motions, options.ids, options.count)
-
-    def run(motions):
-        return [respond(m.ground, structure.p * m.dt, structure.alpha, structure.eta) for m in motions]
-
-    _, (compilation, _) = timed(lambda: run(motions[:1]))
-    answers, times = zip(*(timed(lambda: run(motions)) for _ in range(options.repeat)))
-    responses = [
-        Response(OUTCOMES[outcome], peak / structure.alpha, impacts) for outcome, peak, impacts in answers[0]
-    ]
-    report_rocking(
-        "numba RK4",
-        options,
-        structure,
-        motions,
-        responses,
-        np.median(times, axis=0),
-        compilation_s=compilation,
-    )
+def answer(dt, ground):
+    outcome, peak = respond(ground, P * dt, ALPHA, ETA)
+    return OUTCOMES[outcome], peak / ALPHA
 
 
-if __name__ == "__main__":
-    main()
+motions = read_motions(sys.argv[1])
+answer(*motions[0])  # compiles
+report(answer, motions)

@@ -1,6 +1,6 @@
 """The rocking problem by scipy: solve_ivp, RK45, with impacts and overturning as events.
 
-    python rocking_scipy.py MOTIONS.parquet --count 50 --out responses.parquet
+    python rocking_scipy.py MOTIONS.parquet COUNT
 
 One call of solve_ivp from event to event. What makes it as fast as it gets: the right-hand side works on
 Python floats, not on arrays of two; no step is longer than a sample, because the steps that fail at the kinks
@@ -9,34 +9,27 @@ of the ground acceleration cost more; peaks come from the steps themselves, not 
 
 import bisect
 import math
+import sys
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from common import (
-    HALF_PI,
-    REST_VELOCITY,
-    Response,
-    Structure,
-    free_rocking,
-    peak_between,
-    read_motions,
-    report_rocking,
-    rocking_arguments,
-    timed,
-)
+from common import ALPHA, ETA, HALF_PI, P, REST_VELOCITY, free_rocking, peak_between, read_motions, report
 
 
-def respond(structure, motion, rtol, atol, longest_step):
-    """The response of a structure, in x = p t and r = |theta| on the side to which it leans."""
-    alpha, eta = structure.alpha, structure.eta
+RTOL, ATOL = 1e-6, 1e-10  # of r (rad) and of dr/d(p t)
+
+
+def respond(dt, acceleration_over_g):
+    """Outcome and demand, in x = p t and r = |theta| on the side to which the structure leans."""
+    alpha, eta = ALPHA, ETA
     tan, sin, cos = math.tan(alpha), math.sin, math.cos
-    step = structure.p * motion.dt
-    ground = motion.ground.tolist()
+    step = P * dt
+    ground = acceleration_over_g.tolist()
     last = len(ground) - 1
     end = last * step
     # The intervals in which a structure at rest uplifts.
-    above = np.abs(motion.ground) >= tan
+    above = np.abs(acceleration_over_g) >= tan
     lifting = np.flatnonzero(above[:-1] | above[1:]).tolist()
 
     def acceleration(x):
@@ -72,23 +65,15 @@ def respond(structure, motion, rtol, atol, longest_step):
         return None
 
     x, r, v, side = 0.0, 0.0, 0.0, 0.0
-    peak, impacts, rocked = 0.0, 0, False
+    peak, rocked = 0.0, False
     while x < end:
         if side == 0.0:
             lifted = uplift(x)
             if lifted is None:
                 break
             (x, side), r, v, rocked = lifted, 0.0, 0.0, True
-        flight = solve_ivp(
-            derivative,
-            (x, end),
-            (r, v),
-            "RK45",
-            events=(impact, overturning),
-            rtol=rtol,
-            atol=atol,
-            max_step=longest_step * step,
-        )
+        options = {"events": (impact, overturning), "rtol": RTOL, "atol": ATOL, "max_step": step}
+        flight = solve_ivp(derivative, (x, end), (r, v), "RK45", **options)
         times, rotations, velocities = flight.t.tolist(), *flight.y.tolist()
         for k in np.flatnonzero((flight.y[1, :-1] > 0.0) & (flight.y[1, 1:] < 0.0)).tolist():
             ends = rotations[k], velocities[k], rotations[k + 1], velocities[k + 1]
@@ -96,35 +81,19 @@ def respond(structure, motion, rtol, atol, longest_step):
         x, r, v = times[-1], rotations[-1], velocities[-1]
         peak = max(peak, r)
         if flight.t_events[1].size:
-            return Response("overturning", HALF_PI / alpha, impacts)
+            return "overturning", HALF_PI / alpha
         if flight.t_events[0].size:
-            impacts += 1
             r, v, side = 0.0, -eta * v, -side
             if v < REST_VELOCITY:
                 side = 0.0
     if not rocked:
-        return Response("no_rocking", 0.0, 0)
+        return "no_rocking", 0.0
     if side != 0.0:
         overturns, later = free_rocking(r, v, alpha, eta)
         if overturns:
-            return Response("overturning", HALF_PI / alpha, impacts)
+            return "overturning", HALF_PI / alpha
         peak = max(peak, later)
-    return Response("safe_rocking", peak / alpha, impacts)
+    return "safe_rocking", peak / alpha
 
 
-def main():
-    parser = rocking_arguments(__doc__.splitlines()[0])
-    parser.add_argument("--rtol", type=float, default=1e-6)
-    parser.add_argument("--atol", type=float, default=1e-10, help="of r (rad) and of dr/d(p t)")
-    parser.add_argument("--longest-step", type=float, default=1.0, help="in samples of the record")
-    options = parser.parse_args()
-    structure = Structure(options.p, options.alpha, options.eta)
-    motions = read_motions(options.motions, options.ids, options.count)
-    tolerances = options.rtol, options.atol, options.longest_step
-    responses, seconds = timed(lambda: [respond(structure, motion, *tolerances) for motion in motions])
-    used = dict(zip(("rtol", "atol", "longest_step_samples"), tolerances))
-    report_rocking("scipy solve_ivp RK45", options, structure, motions, responses, seconds, **used)
-
-
-if __name__ == "__main__":
-    main()
+report(respond, read_motions(sys.argv[1], int(sys.argv[2])))

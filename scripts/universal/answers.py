@@ -17,35 +17,16 @@ from make import LIMIT, chosen
 from surface import KINDS, Surface, some
 
 N = 60
-CASES = [
-    "kind",
-    "structure",
-    "p_rad_s",
-    "alpha_rad",
-    "eta",
-    "pga_m_s2",
-    "pgv_m_s",
-    "im3",
-    "im4",
-    "im5",
-    "cluster",
-]
+CASES = "kind structure p_rad_s alpha_rad eta pga_m_s2 pgv_m_s im3 im4 im5 cluster".split()
+NAMES = ["p_rad_s", "alpha_rad", "eta", "im3", "im4", "im5", "limit_state"]
 
 
 def points(surface):
     rng = np.random.default_rng(11)
     drawn = {"kind": np.array([("recorded", *KINDS)[k % 4] for k in range(N)])}
-    names = {
-        "p": "p_rad_s",
-        "alpha": "alpha_rad",
-        "eta": "eta",
-        "im3": "im3",
-        "im4": "im4",
-        "limit": "limit_state",
-    }
-    for name, column in names.items():
-        low, high = np.log(surface.domain[name])
-        drawn[column] = np.exp(rng.uniform(low, high, N)).round(6) + 0.01 * (name == "im4")
+    for column in NAMES:
+        low, high = np.log(surface.domain[column.split("_")[0]])
+        drawn[column] = np.exp(rng.uniform(low, high, N)).round(6) + 0.01 * (column == "im4")
     drawn["im5"] = drawn["im4"] / drawn["im3"]
     for event in ("pro", "pex"):
         logit = lambda k: surface.logit(event, drawn["kind"][k], some(drawn, [k]), drawn["limit_state"][k])[0]
@@ -60,19 +41,12 @@ def calibrations(surface, cases):
         prior = surface.calibration[kind, event][:4]
         (c, ln_s), plain = calibrate(logit, happened, prior)
         _, clustered = calibrate(logit, happened, prior, counted["cluster"])
-        out = {
-            "kind": kind,
-            "structure": int(cases["structure"][0]),
-            "event": event,
-            "n": len(logit),
-            "n_events": int(happened.sum()),
-            "n_clusters": len(np.unique(counted["cluster"])),
-            "c": c,
-            "ln_s": ln_s,
-        }
+        out = {"kind": kind, "structure": int(cases["structure"][0]), "event": event, "n": len(logit)}
+        out |= {"n_events": int(happened.sum()), "n_clusters": len(np.unique(counted["cluster"]))}
+        out |= {"c": c, "ln_s": ln_s}
         for name, v in (("v", plain), ("clustered", clustered)):
             out |= {f"{name}_cc": v[0, 0], f"{name}_cs": v[0, 1], f"{name}_ss": v[1, 1]}
-        yield out  # fmt: skip
+        yield out
 
 
 path, study, records, folder = sys.argv[1:]

@@ -79,9 +79,3 @@ def between(logit, happened, clusters):
         return -(largest[:, 0] + np.log(np.exp(each - largest).sum(axis=1))).sum()
 
     return minimize_scalar(loss, bounds=(0.0, 3.0), method="bounded").x
-
-
-def standard_error(b, covariance, logit):
-    """Of the calibrated logit, without tau."""
-    tangent = np.stack([np.ones_like(logit), np.exp(b[1]) * logit], axis=1)
-    return np.sqrt(np.einsum("ni,ij,nj->n", tangent, covariance, tangent))

@@ -40,23 +40,29 @@ def chosen(event, cases):
     return safe, safe["edp"] > LIMIT
 
 
-def priors(surface, kind, event, cases):
-    """c, ln s, their sds between structures (of records also between the three sets) and tau."""
+def groups(values, logit, happened):
+    return {value: (logit[values == value], happened[values == value]) for value in np.unique(values)}
+
+
+def priors(surface, kind, event, cases, whole):
+    """c, ln s, their sds between structures (of records also between the three sets) and tau, which needs all
+    responses of some structures: `whole`."""
+    logits = lambda c: surface.logit(event, kind, c, LIMIT)
     cases, happened = chosen(event, some(cases, cases["kind"] == kind))
-    logit = surface.logit(event, kind, cases, LIMIT)
-    groups = lambda of: [(logit[of == value], happened[of == value]) for value in np.unique(of)]
-    structure = cases["structure"]
+    of_structures = groups(cases["structure"], logits(cases), happened)
     if kind == "recorded":
-        mean, _ = calibrate(logit, happened, WIDE)
+        mean, _ = calibrate(logits(cases), happened, WIDE)
         sets = np.array([name.split()[0] for name in cases["motion_id"]])
-        sd = np.hypot(spread(groups(structure), mean), spread(groups(sets), mean))
-        return *mean, *sd, between(apply(mean, logit), happened, cases["cluster"])
-    sd, calibrated = spread(groups(structure), np.zeros(2)), np.empty_like(logit)
-    for number in np.unique(structure):
-        own = structure == number
-        calibrated[own] = apply(calibrate(logit[own], happened[own], (0, 0, *sd))[0], logit[own])
-    both = np.char.add(structure.astype(str), np.char.add(" ", cases["cluster"].astype(str)))
-    return 0, 0, *sd, between(calibrated, happened, both)
+        of_sets = groups(sets, logits(cases), happened)
+        sd = np.hypot(*(spread(list(each.values()), mean) for each in (of_structures, of_sets)))
+        return *mean, *sd, between(apply(mean, logits(cases)), happened, cases["cluster"])
+    sd = spread(list(of_structures.values()), np.zeros(2))
+    cases, happened = chosen(event, some(whole, whole["kind"] == kind))
+    own = groups(cases["structure"], logits(cases), happened)
+    own = {number: calibrate(*each, (0, 0, *sd))[0] for number, each in own.items()}
+    b = np.stack([own[number] for number in cases["structure"]], axis=1)
+    clusters = np.char.add(cases["structure"].astype(str), np.char.add(" ", cases["cluster"].astype(str)))
+    return 0, 0, *sd, between(apply(b, logits(cases)), happened, clusters)
 
 
 def peak_lines(motions):
@@ -76,7 +82,7 @@ def peak_lines(motions):
 
 def main():
     out, motions, records_responses, *files = sys.argv[1:]
-    cases, recorded = of.read(files, 0.15), of.read([records_responses])
+    cases, whole, recorded = of.read(files, 0.15), of.read(files[:1]), of.read([records_responses])
     n = lambda cases, name: len(np.unique(cases[name]))
     numbers = lambda values, form: ",".join(format(value, form) for value in values) + "\n"
     with open(out, "w") as file:
@@ -94,7 +100,7 @@ def main():
     with open(out, "a") as file:
         for kind in ("recorded", *KINDS):
             for event in ("pro", "pex"):
-                row = priors(surface, kind, event, recorded if kind == "recorded" else cases)
+                row = priors(surface, kind, event, recorded if kind == "recorded" else cases, whole)
                 file.write(f"calibration,{kind},{event}," + numbers(row, ".3f"))
             own = (
                 synthetic.filter(pl.col("suite") == kind) if kind in KINDS else of_records.unique("motion_id")

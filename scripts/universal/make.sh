@@ -29,4 +29,4 @@ call simulate --in records.parquet --structures blocks.csv --out blocks.parquet
 python3 "$here/make.py" "$root/data/universal.csv" training.motions.parquet blocks.parquet training_?.parquet
 answers="$root/tests/reference/fits"
 python3 "$here/answers.py" "$root/data/universal.csv" study_101.parquet blocks.parquet "$answers"
-python3 "$here/judge.py" "$root/data/universal.csv" "$root/data/hazard.csv" .
+python3 "$here/judge.py" "$root/data/universal.csv" .

@@ -122,7 +122,8 @@ impl Config {
                 .first()
                 .filter(names_file)
                 .filter(|_| is_input(arg) || flag == "out");
-            let in_run = IN_RUN.iter().find(|(other, _, maker)| *other == flag && self.has(maker));
+            let is_it = |maker: &str| self.has(maker) && (flag != "out" || maker == command.get_name());
+            let in_run = IN_RUN.iter().find(|(other, _, maker)| *other == flag && is_it(maker));
             let file = default.map(PathBuf::from).or(in_run.map(|(_, file, _)| PathBuf::from(file)));
             if let Some(file) = file.filter(|_| flag != "config") {
                 arguments.push(assigned(flag, folder.join(file).as_os_str()));

@@ -18,7 +18,7 @@ use crate::table::writer::TableWriter;
 /// Help heading of the common options.
 pub const COMMON: &str = "Common options";
 
-/// Options of all stages.
+// Options of all stages. A doc comment would replace the description of every stage.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = COMMON)]
 pub struct Common {

@@ -104,7 +104,7 @@ impl Bound {
 /// Checks the parameters of a structure as a user gives them, by name.
 ///
 /// # Errors
-/// If one is out of range, or the width exceeds the height.
+/// If one is out of range, p and alpha are exchanged, or the width exceeds the height.
 pub fn judge(structure: &str, given: &[(&'static str, f64)]) -> Result<(), StructureError> {
     let value =
         |wanted: &str| given.iter().find(|(parameter, _)| *parameter == wanted).map(|&(_, value)| value);
@@ -116,12 +116,8 @@ pub fn judge(structure: &str, given: &[(&'static str, f64)]) -> Result<(), Struc
         && can_be("alpha", p)
         && can_be("p", alpha)
     {
-        return refuse(
-            structure,
-            "alpha",
-            alpha,
-            "a slenderness up to 0.7854 rad; were p and alpha exchanged?",
-        );
+        let expected = "a slenderness up to 0.7854 rad; were p and alpha exchanged?";
+        return refuse(structure, "alpha", alpha, expected);
     }
     for &(parameter, value) in given {
         if let Some(expected) = Bound::of(parameter).and_then(|bound| bound.refusal(value)) {

@@ -58,3 +58,11 @@ fn every_start_is_a_pipeline_that_can_be_planned() {
         fail(folder.path(), &format!("init {start}"), 2, &["pipeline.yaml"]);
     }
 }
+
+#[test]
+fn every_stage_has_a_description_of_its_own() {
+    let commands = rockfrag::cli::stage_commands();
+    let descriptions: std::collections::BTreeSet<String> =
+        commands.iter().map(|command| command.get_about().unwrap().to_string()).collect();
+    assert_eq!(descriptions.len(), commands.len());
+}

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use arrow_array::types::Float32Type;
-use arrow_array::{ArrayRef, Float32Array, Float64Array, Int32Array, ListArray, StringArray};
+use arrow_array::{ArrayRef, Float64Array, ListArray, StringArray};
 
 use crate::common::{SMALL, bytes, fail, folder_with, made, succeed, write, write_motions};
 
@@ -61,27 +61,24 @@ fn columns_that_are_missing_or_of_another_type_are_named() {
 }
 
 #[test]
-fn narrower_numbers_of_other_programs_are_read() {
+fn a_file_of_pandas_is_read() {
     let folder = tempfile::tempdir().unwrap();
-    let samples = [0.0, 3.0, -4.0, 0.0];
-    write_motions(&folder.path().join("wide.parquet"), 0.0625, &[&samples]);
-    let list = ListArray::from_iter_primitive::<Float32Type, _, _>([Some(
-        samples.map(|sample| Some(sample as f32)),
-    )]);
-    let narrow: Vec<(&str, ArrayRef)> = vec![
-        ("motion_id", Arc::new(Int32Array::from(vec![0]))),
-        ("dt_s", Arc::new(Float32Array::from(vec![0.0625]))),
-        ("acceleration_m_s2", Arc::new(list)),
-    ];
-    write(&folder.path().join("narrow.parquet"), narrow);
-    let rows = |name: &str| {
-        succeed(
-            folder.path(),
-            &format!("simulate --in {name}.parquet --out {name}.responses.parquet {STRUCTURE}"),
-        );
-        succeed(folder.path(), &format!("inspect --head 5 --format csv {name}.responses.parquet")).0
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/files/pandas.parquet");
+    let (own, foreign) = (folder.path().join("own.parquet"), folder.path().join("pandas.parquet"));
+    std::fs::copy(path, foreign).unwrap();
+    write_motions(
+        &own,
+        0.0625,
+        &[1.0, 3.0, 5.0].map(|k| [0.0, k, -k, 0.0]).each_ref().map(|motion| &motion[..]),
+    );
+    let edp = |name: &str| {
+        let call = format!("simulate --in {name}.parquet --out {name}.responses.parquet {STRUCTURE}");
+        succeed(folder.path(), &call);
+        let rows =
+            succeed(folder.path(), &format!("inspect --head 5 --format csv {name}.responses.parquet")).0;
+        rows.lines().map(|line| line.split_once(',').unwrap().1.to_string()).collect::<Vec<_>>()
     };
-    assert_eq!(rows("narrow"), rows("wide"));
+    assert_eq!(edp("pandas"), edp("own"));
 }
 
 #[test]

@@ -4,14 +4,13 @@ use std::path::Path;
 
 use rockfrag::doubt::Doubt;
 use rockfrag::fragility::{
-    Calibration, Cases, CurveOptions, DemandFit, DemandOptions, Event, Kind, Measure, Model, OverturningFit,
-    Pair, ParameterRow, fit_curves, fit_demand,
+    Calibration, Cases, CurveOptions, DemandOptions, Event, Kind, Measure, Model, Pair, fit_curves,
+    fit_demand,
 };
 use rockfrag::pipeline::context::Context;
 use rockfrag::rocking::Structure;
 use rockfrag::stages::shared::fits::{FitsArgs, ModelName};
-use rockfrag::table::dictionary;
-use rockfrag::table::rows::{self, Row};
+use rockfrag::table::rows::Row;
 
 use crate::common::{equipment, rocking};
 
@@ -105,17 +104,4 @@ fn what_cannot_be_chosen_is_an_error_that_tells_what_to_do() {
     assert!(error(&limit).ends_with("run fit-pex --limit-state 0.1,0.3"), "{}", error(&limit));
     let paper = FitsArgs { fits: None, model: ModelName::Paper, ..args(&folder) };
     assert!(error(&paper).contains("--model paper needs --fits"));
-}
-
-#[test]
-fn every_column_of_fits_has_unit_and_meaning() {
-    let schemas = [
-        rows::schema::<Calibration>(),
-        rows::schema::<DemandFit>(),
-        rows::schema::<OverturningFit>(),
-        rows::schema::<ParameterRow>(),
-    ];
-    for field in schemas.iter().flat_map(|schema| schema.fields().iter()) {
-        assert!(dictionary::entry(field.name()).is_some(), "{}", field.name());
-    }
 }

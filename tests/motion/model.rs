@@ -474,7 +474,9 @@ proptest! {
     fn a_pulse_has_its_amplitude_and_its_acceleration_is_the_slope(
         vp in 0.1..3.0f64, tp in 0.3..8.0f64, gamma in 1.0..4.0f64, nu in -3.0..6.0f64,
     ) {
-        let scenario = Scenario { scenario_id: 0, cell: 0, sample: 0, mw: 6.0, re_km: 5.0, vp_m_s: vp, tp_s: tp, gamma, nu_rad: nu };
+        let (vp_m_s, tp_s, nu_rad) = (vp, tp, nu);
+        let scenario =
+            Scenario { scenario_id: 0, cell: 0, sample: 0, mw: 6.0, re_km: 5.0, vp_m_s, tp_s, gamma, nu_rad };
         let pulse = Pulse::of(&scenario);
         prop_assert!((pulse.duration_s() - gamma * tp).abs() < 1e-14);
         let half = 0.5 * pulse.duration_s();

@@ -134,7 +134,8 @@ proptest! {
         column in prop::option::of(prop::sample::select(vec!["all", "2", "0", "a"])),
     ) {
         let (dt_s, unit) = (Some(0.01).filter(|_| is_given), Unit::parse("g").filter(|_| is_given));
-        let options = ReadOptions { format, dt_s, unit, column: column.map(str::to_string), pga_tolerance: 1e9 };
+        let column = column.map(str::to_string);
+        let options = ReadOptions { format, dt_s, unit, column, pga_tolerance: 1e9 };
         for motion in read_records(&bytes, &options).into_iter().flatten() {
             prop_assert!(motion.acceleration_m_s2.iter().all(|a| a.is_finite()));
             prop_assert!(motion.dt_s > 0.0 && (2..=bytes.len()).contains(&motion.acceleration_m_s2.len()));

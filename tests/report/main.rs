@@ -146,3 +146,49 @@ fn numbers_are_as_short_as_a_reader_needs() {
     assert_eq!(written, ["0", "0.12", "8.3e-5", "2.9e-3", "12346", "\u{2212}0.50", "\u{2013}"]);
     assert_eq!([9999, 10_000, 1_234_567].map(number::count), ["9999", "10\u{a0}000", "1\u{a0}234\u{a0}567"]);
 }
+
+const RUN: &str = "\
+seed: 7
+sample-scenarios: { mw: \"6.5,7.5\", re: \"5,10\", samples: 10 }
+synthesize-motions: { suite: [pulse, csgm], dt: 0.01 }
+simulate: { structure: [\"name=a,p=1,alpha=0.15,eta=0.92\", \"name=b,p=2.5,alpha=0.2,eta=0.92\"] }
+fit-pex: { all: true }
+fit-pro: {}
+report: {}
+";
+
+#[test]
+fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |path: &str| folder.path().join(path);
+    let call = |arguments: &str| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_rockfrag"));
+        let output = command.current_dir(folder.path()).args(arguments.split(' ')).output().unwrap();
+        (output.status.success(), String::from_utf8(output.stderr).unwrap())
+    };
+    std::fs::write(at("pipeline.yaml"), RUN).unwrap();
+    assert!(call("run").0 && call("run").1.contains("report               up to date"));
+    let endings = |ending: &str| {
+        let files = std::fs::read_dir(at("out/report")).unwrap().map(|file| file.unwrap().path());
+        files.filter(|file| file.extension().is_some_and(|of| of == ending)).collect::<Vec<_>>()
+    };
+    let names = ["motion", "similarity", "demand", "regressions-a-csgm", "quality", "planes", "exceedance"];
+    assert!(names.iter().all(|name| at(&format!("out/report/{name}.svg")).exists()), "{:?}", endings("svg"));
+    assert!(endings("svg").len() == endings("png").len() && endings("svg").len() == endings("csv").len());
+    for svg in endings("svg") {
+        let text = std::fs::read_to_string(&svg).unwrap();
+        usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
+        let rows = csv::Reader::from_path(svg.with_extension("csv")).unwrap().into_records().count();
+        let is_of_dots = svg.ends_with("demand.svg");
+        assert!(
+            rows > 0 && (!is_of_dots || text.matches("h0").count() == rows + 2),
+            "each row, two in the legend"
+        );
+    }
+    std::fs::write(at("out/report/planes.svg"), "another's").unwrap();
+    std::fs::write(at("pipeline.yaml"), RUN.replace("report: {}", "report: { title: Again }")).unwrap();
+    let (is_done, error) = call("run");
+    assert!(!is_done && error.contains("planes.svg") && error.contains("--force"), "{error}");
+    assert!(call("report --in out --title Again --force").0);
+    assert!(std::fs::read_to_string(at("out/report.html")).unwrap().contains("<h1>Again</h1>"));
+}

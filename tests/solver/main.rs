@@ -2,7 +2,6 @@
 
 mod company;
 #[cfg(feature = "pipeline")]
-mod dense_scan;
 mod incremental;
 mod noise;
 mod numbers;

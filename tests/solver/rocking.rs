@@ -269,7 +269,11 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(150))]
 
     #[test]
-    fn mirrored_motions_have_mirrored_responses(seed in 1u64..10_000, p in 0.5..4.0f64, alpha in 0.05..0.35f64) {
+    fn mirrored_motions_have_mirrored_responses(
+        seed in 1u64..10_000,
+        p in 0.5..4.0f64,
+        alpha in 0.05..0.35f64,
+    ) {
         let s = structure(p, alpha, 0.92);
         let samples = synthetic_motion(seed, 200);
         let mirrored: Vec<f64> = samples.iter().map(|a| -a).collect();

@@ -67,11 +67,11 @@ pub fn hybrids(panels: &[ProbabilityPanel]) -> Figure {
     )
 }
 
-/// The calibrated curves: over PGA along the motions' median PGV/PGA, and over a dimensionless measure.
+/// The calibrated curves over PGA, means over the motions in bins.
 pub fn calibrated(panels: &[ProbabilityPanel]) -> Figure {
     figure(
         ["calibrated", "Overturning: calibrated curves", "*P*_{ro}"],
-        "Along the motions' median PGV/PGA: the universal surface, calibrated with these responses (95 % band) and as it is, and observed shares with 95 % limits.".to_string(),
+        "Means over the motions in bins of PGA: the universal surface, calibrated with these responses (95 % band) and as it is shipped, and observed shares with 95 % limits.".to_string(),
         panels,
     )
 }

@@ -32,7 +32,7 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
     let rocking: Vec<&Cases> = tables.groups.iter().filter(|cases| rocked(cases).next().is_some()).collect();
     let groups = &rocking[..rocking.len().min(MOST_GROUPS)];
     let motions = tables.motions()?;
-    let fits: Vec<_> = groups.iter().map(|cases| (name(cases), measure_fits(tables, cases))).collect();
+    let fits: Vec<_> = groups.iter().map(|cases| (*cases, measure_fits(tables, cases))).collect();
     let fits: Vec<_> = fits.into_iter().filter(|(_, fits)| fits.iter().any(Option::is_some)).collect();
     let suites = suites(&rocking);
     let panels = |of: &dyn Fn(&[&Cases]) -> Option<ProbabilityPanel>| -> Vec<ProbabilityPanel> {
@@ -40,8 +40,7 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
     };
     let over = |im_x, im_y| panels(&|groups: &[&Cases]| over(tables, groups, im_x, im_y));
     let single = [over(Measure::Im4, None), over(Measure::Im5, None)].concat();
-    let regressions =
-        groups.iter().zip(&fits).map(|(cases, (_, fits))| draw::regressions(&group(cases), fits));
+    let regressions = fits.iter().map(|(cases, fits)| draw::regressions(&group(cases), fits));
     let figures = [
         drawn(draw::list, studies::objects(tables)),
         drawn(draw::rates, studies::states(tables)),
@@ -56,7 +55,7 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
         drawn(draw::exceedance, panels(&|groups| exceeding(tables, groups))),
         drawn(draw::overturning, single),
         drawn(draw::demand, groups.iter().map(|cases| group(cases)).collect()),
-        drawn(draw::quality, fits.clone()),
+        drawn(draw::quality, fits.iter().map(|(cases, fits)| (name(cases), *fits)).collect()),
     ];
     Ok(figures.into_iter().flatten().chain(regressions).collect())
 }
@@ -65,9 +64,15 @@ fn drawn<T>(draw: fn(&[T]) -> Figure, data: Vec<T>) -> Option<Figure> {
     (!data.is_empty()).then(|| draw(&data))
 }
 
-/// Structure and suite.
+/// Structure and, of synthetic motions, suite.
 pub fn title(structure: &str, suite: Option<&str>) -> String {
-    suite.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
+    let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
+    synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
+}
+
+/// Whether a row of this suite and structure is of some cases.
+pub fn is_of(cases: &Cases, suite: &Option<String>, structure: &str) -> bool {
+    *suite == cases.suite && structure == cases.structure.name
 }
 
 pub fn name(cases: &Cases) -> String {
@@ -76,16 +81,10 @@ pub fn name(cases: &Cases) -> String {
 
 /// The responses of each suite.
 fn suites<'a>(all: &[&'a Cases]) -> Vec<Vec<&'a Cases>> {
-    let mut suites: Vec<Vec<&Cases>> = Vec::new();
-    for cases in all {
-        match suites.iter_mut().find(|groups| groups[0].suite == cases.suite) {
-            Some(groups) => groups.push(cases),
-            None => suites.push(vec![cases]),
-        }
-    }
-    suites.iter_mut().for_each(|groups| groups.truncate(MOST_STRUCTURES));
-    suites.truncate(MOST_GROUPS);
-    suites
+    let is_first = |place: usize| all[..place].iter().all(|other| other.suite != all[place].suite);
+    let firsts = (0..all.len()).filter(|&place| is_first(place)).take(MOST_GROUPS);
+    let same = |place: usize| all.iter().copied().filter(move |other| other.suite == all[place].suite);
+    firsts.map(|place| same(place).take(MOST_STRUCTURES).collect()).collect()
 }
 
 /// The cases that rocked, and whether they overturned.
@@ -114,16 +113,12 @@ fn a_motion(motions: &[Motion]) -> Option<Figure> {
     let mut combined = motions.iter().filter(|motion| is(motion, Suite::Csgm));
     let whole = combined.find(|whole| pulse(whole).is_some()).or(motions.first())?;
     let velocity = |motion: &Motion| intensity::velocity(&motion.acceleration_m_s2, motion.dt_s);
-    let padded = |mut values: Vec<f64>| {
-        values.resize(whole.acceleration_m_s2.len(), 0.0);
-        values
-    };
     Some(draw::motion(&draw::Motion {
         words: words(whole),
         dt_s: whole.dt_s,
         acceleration_m_s2: whole.acceleration_m_s2.clone(),
         velocity_m_s: velocity(whole),
-        pulse: pulse(whole).map(|pulse| [pulse.acceleration_m_s2.clone(), velocity(pulse)].map(padded)),
+        pulse: pulse(whole).map(|pulse| [pulse.acceleration_m_s2.clone(), velocity(pulse)]),
     }))
 }
 
@@ -134,7 +129,7 @@ fn words(motion: &Motion) -> String {
     }
 }
 
-/// Figure 5: of the first two structures, under the motion in which the first rocks furthest without overturning.
+/// Figure 5: of two structures, under the motion in which the first rocks furthest without overturning.
 fn similar(tables: &Tables, motions: &[Motion]) -> anyhow::Result<Option<Figure>> {
     let mut structures = tables.groups.iter().map(|cases| &cases.structure);
     let Some(first) = structures.next() else { return Ok(None) };
@@ -169,14 +164,12 @@ fn history(structure: &Structure, samples: &[f64], dt_s: f64) -> anyhow::Result<
 
 /// The regressions of the demand of some cases, of one form.
 fn regressions<'a>(
-    tables: &'a Tables,
-    cases: &'a Cases,
+    all: &'a Tables,
+    of: &'a Cases,
     model: DemandModel,
 ) -> impl Iterator<Item = &'a DemandFit> {
-    tables.demand.iter().filter(move |fit| {
-        (&fit.suite, &fit.structure, fit.model) == (&cases.suite, &cases.structure.name, model)
-            && !fit.coefficients.is_empty()
-    })
+    let its = all.demand.iter().filter(|fit| is_of(of, &fit.suite, &fit.structure));
+    its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
 }
 
 fn measure_fits(tables: &Tables, cases: &Cases) -> [Option<MeasureFit>; 6] {
@@ -239,7 +232,7 @@ fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
     };
     let all = |im: usize| groups.iter().flat_map(|cases| safe(cases, im)).collect::<Vec<f64>>();
     let (im3, most) = (all(2), all(3).into_iter().fold(1.5, f64::max));
-    let limit_state = tables.limit_state().ok()?;
+    let limit_state = tables.limit_state;
     let structure = |cases: &&Cases| {
         let planes: Vec<&DemandFit> = regressions(tables, cases, DemandModel::Biplanar).collect();
         let at_share = |share: f64| {
@@ -261,8 +254,8 @@ fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
     panel(groups, MEASURES[3], groups.iter().map(structure).collect())
 }
 
-/// Figures 11 and 12: P_ro over a measure, or over a hybrid one at the median IM3, and how well the curves of two
-/// structures predict each other.
+/// Figures 11 and 12: P_ro over a measure, or over a hybrid one at the median IM3, and how well the curves of
+/// two structures predict each other.
 fn over(
     tables: &Tables,
     groups: &[&Cases],
@@ -271,7 +264,7 @@ fn over(
 ) -> Option<ProbabilityPanel> {
     let fit = |cases: &Cases| {
         let is_its = |fit: &&OverturningFit| {
-            (&fit.suite, &fit.structure) == (&cases.suite, &cases.structure.name)
+            is_of(cases, &fit.suite, &fit.structure)
                 && (fit.im_x, fit.im_y) == (im_x, im_y)
                 && fit.coefficients[1..].iter().sum::<f64>() > 0.0
         };
@@ -326,11 +319,10 @@ fn score(fit: &OverturningFit, cases: &Cases) -> f64 {
     log_score(&p, &events)
 }
 
-/// P_ro over PGA: the means over the motions in each bin of the calibrated curve, and of the surface as it is shipped.
+/// P_ro over PGA: means over the motions in each bin, of the calibrated curve and of the surface as shipped.
 fn over_pga(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
     let structure = |cases: &&Cases| {
-        let is_its = |row: &&Calibration| row.suite == cases.suite && row.structure == cases.structure.name;
-        let own = tables.calibrations.iter().find(is_its)?;
+        let own = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure))?;
         let shares: Vec<(f64, bool)> =
             rocked(cases).map(|(k, event)| (cases.pga_m_s2[k] / G_M_S2, event)).collect();
         let (ends, bins) = (ends(&shares), bins(&shares));

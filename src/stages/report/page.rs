@@ -1,12 +1,12 @@
-//! The page: one answer, one table, one figure; then further figures; then, folded, how it was made and tested.
+//! The page: one answer, one table, one figure; then further figures; folded, how it was made and tested.
 
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::figures::name;
+use super::figures::{is_of, name};
 use super::studies;
 use super::tables::Tables;
-use crate::fragility::{Calibration, Cases, Measure, Parameter};
+use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::report::text::number;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::Outcome;
@@ -16,40 +16,41 @@ use crate::studies::Validation;
 use crate::studies::paper::Comparison;
 use crate::units::G_M_S2;
 
-/// Doubts under the table; the others are folded.
+/// Doubts under the table; the others are folded. Structures in the first sentence; the table has all.
 const MOST_DOUBTS: usize = 3;
+const MOST_NAMED: usize = 4;
 /// Figures that are seen: of annual rates, of the paper, of other responses. The others are folded.
 const OF_RATES: &[&str] = &["list", "rates"];
 const OF_PAPER: &[&str] =
     &["overturning-hybrid", "calibrated", "motion", "similarity", "planes", "exceedance"];
-const OF_RESPONSES: &[&str] = &["ida", "calibrated", "overturning", "validation", "ranking"];
+const OF_RESPONSES: &[&str] = &["ida", "calibrated", "overturning", "validation"];
 
 /// What is said of each stage that made a table.
 const METHOD: &str = "\
-synthesize-motions: Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), high frequencies of a \
-stochastic source, or both.
+synthesize-motions: Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), high \
+frequencies of a stochastic source, or both.
 import-motions: Ground motions are records, one component each.
-simulate: The rocking of each structure, a rigid block or frame that does not slide, follows from the equation of motion \
-with a loss of velocity at each impact (Eqs. 4 to 6). The demand is the largest rotation over the slenderness *α* \
-(Eq. 7); *p* is the frequency parameter.
-fit-pex: The demand in safe rocking is regressed on one measure or two, with two planes that meet at 1.3 times the peak \
-acceleration of uplift (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & Structural \
-Dynamics 44, 2015\u{2013}2033).
-fit-pro: The probability of overturning given rocking is the paper's lognormal curve of one measure or of a hybrid of two \
-(Eqs. 19 to 24), or the universal surface, which predicts it for any block from peak acceleration and velocity; the \
-responses calibrate level and slope of its logit.
-ida: Incremental dynamic analysis scales each motion until it overturns the structure; a lognormal distribution of these \
-intensities has the median.
+simulate: The rocking of each structure, a rigid block or frame that does not slide, follows from the \
+equation of motion with a loss of velocity at each impact (Eqs. 4 to 6). The demand is the largest \
+rotation over the slenderness *α* (Eq. 7); *p* is the frequency parameter.
+fit-pex: The demand in safe rocking is regressed on one measure or two, with one plane for weak motions \
+and one for strong ones (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & \
+Structural Dynamics 44, 2015\u{2013}2033).
+fit-pro: The probability of overturning given rocking is the paper's lognormal curve of one measure or of \
+a hybrid of two (Eqs. 19 to 24), or the universal surface, which predicts it for any block from peak \
+acceleration and velocity; the responses calibrate level and slope of its logit.
+ida: Incremental dynamic analysis scales each motion until it overturns the structure; a lognormal \
+distribution of these intensities has the median.
 validate: Validation compares predicted probabilities with the outcomes of motions that were not fitted.
-evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal surface, \
-calibrated where there are responses. The limits do not have the error of the hazard.";
+evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
+surface, calibrated where there are responses. The limits do not have the error of the hazard.";
 
 /// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
     let (sentence, first, shown) = match (&tables.objects[..], &tables.compared[..]) {
-        ([], []) => (sentence_of_responses(&tables.groups), outcomes(tables)?, OF_RESPONSES),
-        ([], compared) => (sentence_of_paper(compared), planes(compared), OF_PAPER),
-        (objects, _) => (sentence_of_rates(objects), rates(objects), OF_RATES),
+        ([], []) => (overturned(&tables.groups), outcomes(tables)?, OF_RESPONSES),
+        ([], compared) => (tables.answer_of("compare-paper"), planes(compared), OF_PAPER),
+        (objects, _) => (tables.answer_of("evaluate"), rates(objects), OF_RATES),
     };
     let (seen, more) = figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
     let made = || tables.files.iter().filter_map(|(.., made)| made.as_ref());
@@ -59,26 +60,25 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     let others = doubts.split_off(doubts.len().min(MOST_DOUBTS));
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
-    let section = |heading: &str, paragraphs, tables, figures| Section {
-        heading: heading.to_string(),
-        paragraphs,
-        tables,
-        figures,
+    let section = |heading: &str, paragraphs: Vec<String>, tables: Vec<Table>, figures: Vec<Figure>| {
+        let is_there = figures.len() + paragraphs.len() + tables.len() > 0;
+        is_there.then(|| Section { heading: heading.to_string(), paragraphs, tables, figures })
     };
-    let mut sections = vec![
+    let sections = [
         section("More figures", Vec::new(), Vec::new(), more),
         section("Method", method.collect(), Vec::new(), Vec::new()),
         section("Tests and fits", others, tests(tables)?, Vec::new()),
         section("Files", Vec::new(), vec![files(tables)], Vec::new()),
     ];
-    sections.retain(|of| of.figures.len() + of.paragraphs.len() + of.tables.len() > 0);
+    let sections = sections.into_iter().flatten().collect();
     Ok(Page { sentence, table: Some(first), notes: doubts, figures: seen, sections, key, ..Page::default() })
 }
 
-/// Some fields of rows, under their names.
+/// Some fields of rows, under their names; those that no row has are left out.
 fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields: &str) -> Table {
-    let fields: Vec<&str> = fields.split('|').collect();
     let rows: Vec<Value> = rows.into_iter().map(|row| json!(row)).collect();
+    let has_any = |field: &&str| rows.iter().any(|row| !row[*field].is_null());
+    let fields: Vec<&str> = fields.split('|').filter(has_any).collect();
     let plain = |text: &str| if text.contains('{') { text.to_string() } else { text.replace('_', " ") };
     let is_number = |value: &Value| match value {
         Value::String(text) => {
@@ -104,8 +104,8 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
 }
 
 /// A value with its limits, or limits alone.
-fn limits([value, low, high]: [Option<f64>; 3], unit: f64) -> String {
-    let [x, a, b] = [value, low, high].map(|x| number::significant(unit * x.unwrap_or(f64::NAN), 2));
+fn limits([value, low, high]: [Option<f64>; 3]) -> String {
+    let [x, a, b] = [value, low, high].map(|x| number::significant(x.unwrap_or(f64::NAN), 2));
     match (value, low) {
         (Some(_), Some(_)) => format!("{x} ({a} to {b})"),
         (None, Some(_)) => format!("{a} to {b}"),
@@ -119,23 +119,13 @@ fn once_in(rate: f64) -> String {
     number::count(((1.0 / rate / unit).round() * unit) as usize)
 }
 
-fn sentence_of_rates(objects: &[(ObjectRow, RatesRow)]) -> String {
-    let (object, row) = &objects[0];
-    let percent = limits([row.p_overturning, row.p_overturning_low, row.p_overturning_high], 100.0);
-    let often = row.overturning_per_year.filter(|rate| *rate > 0.0);
-    let often = often.map_or(String::new(), |rate| format!("once in {} years, ", once_in(rate)));
-    let most =
-        if objects.len() > 1 { format!("Of {} objects the worst is ", objects.len()) } else { String::new() };
-    let years = number::plain(row.years.unwrap_or(f64::NAN));
-    format!("{most}{}: it overturns {often}{percent} % in {years} years (95 % limits).", object.structure)
-}
-
 /// A row an object.
 fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
     let years = objects.iter().find_map(|(_, row)| row.years).unwrap_or(f64::NAN);
     let percent = format!("% in {} years (95 % limits)", number::plain(years));
     let row = |(object, row): &(ObjectRow, RatesRow)| {
         let size = object.width_m.zip(object.height_m);
+        let p = [row.p_overturning, row.p_overturning_low, row.p_overturning_high];
         let once = row.overturning_per_year.filter(|rate| *rate > 0.0).map(once_in);
         json!({
             "object": object.structure,
@@ -143,22 +133,14 @@ fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
             "rocks a year": row.rocking_per_year.map(|rate| number::significant(rate, 2)),
             "overturns a year": row.overturning_per_year.map(|rate| number::significant(rate, 2)),
             "once in years": once,
-            (percent.as_str()): limits([row.p_overturning, row.p_overturning_low, row.p_overturning_high], 100.0),
+            (percent.as_str()): limits(p.map(|p| p.map(|p| 100.0 * p))),
             "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
             "doubt": row.doubts.as_ref().filter(|_| row.rocking_per_year.is_none()),
         })
     };
     let fields =
-        format!("object|size|rocks a year|overturns a year|once in years|{percent}|friction needed|doubt");
+        format!("object|once in years|{percent}|overturns a year|rocks a year|size|friction needed|doubt");
     table("", objects.iter().map(row), &fields)
-}
-
-fn sentence_of_paper(compared: &[Comparison]) -> String {
-    let z: Vec<f64> = compared.iter().filter_map(|number| number.z).collect();
-    let (all, near) = (z.len(), z.iter().filter(|z| z.abs() <= 2.0).count());
-    format!(
-        "Of {all} published numbers that vary between seeds, {near} lie within two standard deviations of ours."
-    )
 }
 
 /// Table II: published over ours.
@@ -175,39 +157,35 @@ fn planes(compared: &[Comparison]) -> Table {
             both.map(|both| both.map(|value| number::fixed(value.unwrap_or(f64::NAN), 2)).join(" / "))
         };
         json!({
-            "structure": plane.structure, "motions": plane.suite, "plane": if side == "low" { "below" } else { "above" },
-            "ln *a*": cell("ln_a"), "*b*_{1}": cell("b1"), "*b*_{2}": cell("b2"), "*R*^{2}": cell("r2"), "*p*": plane.t2_p,
+            "structure": plane.structure, "motions": plane.suite,
+            "plane": if side == "low" { "below" } else { "above" },
+            "ln *a*": cell("ln_a"), "*b*_{1}": cell("b1"), "*b*_{2}": cell("b2"), "*R*^{2}": cell("r2"),
+            "*p*": plane.t2_p,
         })
     };
     let of_planes = compared.iter().filter(|number| number.quantity.ends_with("_plane"));
     table(
-        "Table II, the planes of the demand below and above the transition, published / ours. *p* is the probability of so large a difference between seeds.",
+        "Table II, the planes of the demand below and above the transition, published / ours. *p* is the \
+         probability of so large a difference between seeds.",
         of_planes.map(row),
         "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}|*p*",
     )
 }
 
-fn count(cases: &Cases, is: impl Fn(&Outcome) -> bool) -> usize {
-    cases.outcome.iter().filter(|outcome| is(outcome)).count()
+fn count(cases: &Cases, outcome: Outcome) -> usize {
+    cases.outcome.iter().filter(|other| **other == outcome).count()
 }
 
-fn overturned(cases: &Cases) -> usize {
-    count(cases, |outcome| *outcome == Outcome::Overturning)
+fn overturned(groups: &[Cases]) -> String {
+    let of = |cases: &Cases| {
+        let [events, all] = [count(cases, Outcome::Overturning), cases.len()].map(number::count);
+        format!("{events} of {all} motions overturn {}", name(cases))
+    };
+    groups.iter().take(MOST_NAMED).map(of).collect::<Vec<_>>().join("; ") + "."
 }
 
-fn sentence_of_responses(groups: &[Cases]) -> String {
-    let share = |cases: &&Cases| overturned(cases) as f64 / cases.len() as f64;
-    match groups.iter().max_by(|a, b| share(a).total_cmp(&share(b))) {
-        None => "There are no responses.".to_string(),
-        Some(cases) if overturned(cases) == 0 => "No motion overturns any structure.".to_string(),
-        Some(cases) => {
-            let [events, all] = [overturned(cases), cases.len()].map(number::count);
-            format!("{} overturns most often: in {events} of {all} motions.", name(cases))
-        }
-    }
-}
-
-/// What came of each structure and suite, and the median that overturns it: of its capacities, else of the paper's curve.
+/// What came of each structure and suite, and the median that overturns it: of its capacities, else of the
+/// paper's curve.
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let capacities: Vec<CapacityFitRow> = tables.rows("ida.fragility")?;
     let median = match capacities.first() {
@@ -215,34 +193,29 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
-        let is_its = |suite: &Option<String>, structure: &str| {
-            *suite == cases.suite && structure == cases.structure.name
-        };
-        let calibration =
-            tables.calibrations.iter().find(|row: &&Calibration| is_its(&row.suite, &row.structure));
+        let calibration = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure));
         let often = calibration.map(|row| row.n_events as f64 / row.expected);
-        let capacity = capacities.iter().find(|fit| is_its(&fit.suite, &fit.structure));
-        let of_capacity = capacity.map(|fit| {
-            [
-                limits([fit.theta, fit.theta_low, fit.theta_high], 1.0),
-                limits([fit.beta, fit.beta_low, fit.beta_high], 1.0),
-            ]
-        });
-        let mut curves = tables.curves.iter().filter(|fit| fit.im_x == Measure::Im5 && fit.im_y.is_none());
-        let curve = curves.find(|fit| is_its(&fit.suite, &fit.structure));
+        let often = often.map(|often| format!("{} times", number::significant(often, 2)));
+        let mut capacities = capacities.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
+        let of_capacity = capacities
+            .next()
+            .map(|fit| [[fit.theta, fit.theta_low, fit.theta_high], [fit.beta, fit.beta_low, fit.beta_high]]);
+        let mut curves = tables.curves.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
+        let curve = curves.find(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
+        let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
+        let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
         let of_curve = || {
-            let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
-            let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
             [(Parameter::Theta, pgv), (Parameter::Beta, 1.0)].map(|(which, unit)| {
                 let row = parameters.iter().find(|row| row.parameter == which);
-                limits(row.map_or([None; 3], |row| [row.value, row.low, row.high].map(Some)), unit)
+                row.map_or([None; 3], |row| [row.value, row.low, row.high].map(|value| Some(unit * value)))
             })
         };
-        let [theta, beta] = of_capacity.unwrap_or_else(of_curve);
+        let [theta, beta] = of_capacity.unwrap_or_else(of_curve).map(limits);
         json!({
             "structure": cases.structure.name, "motions": cases.suite, "number": cases.len(),
-            "rock": count(cases, |outcome| *outcome != Outcome::NoRocking), "overturn": overturned(cases),
-            "as often as the surface predicts": often.map(|often| format!("{} times", number::significant(often, 2))),
+            "rock": cases.len() - count(cases, Outcome::NoRocking),
+            "overturn": count(cases, Outcome::Overturning),
+            "as often as the surface predicts": often,
             (median.as_str()): theta, "dispersion": beta,
         })
     };
@@ -261,6 +234,7 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let is_of_plane =
         |number: &&Comparison| ["low_", "high_"].iter().any(|side| number.quantity.starts_with(side));
     let published = tables.compared.iter().filter(|number| !is_of_plane(number));
+    let planes = tables.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
     let validations: Vec<Validation> = tables.rows("validation")?;
     let mut all = vec![
         table(
@@ -273,11 +247,7 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
             &tables.curves,
             "structure|suite|im_x|im_y|auc|n|n_events|status",
         ),
-        table(
-            "Regressions of the demand",
-            &tables.demand,
-            "structure|suite|model|im_x|im_y|r2|beta|n|status",
-        ),
+        table("Planes of the demand", planes, "structure|suite|range_low|range_high|r2|beta|n|status"),
         table(
             "Validation: events observed and expected",
             validations,
