@@ -90,7 +90,8 @@ impl Stage for Export {
         }
         let most = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
         let file = files[files.len() - 1].display();
-        Ok(format!("{file}: {} over {}, up to {most} levels\n", structures.len(), self.im))
+        let number = functions.len();
+        Ok(format!("{file}: {number} structure(s) over {}, up to {most} levels each\n", self.im))
     }
 }
 

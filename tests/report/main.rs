@@ -151,7 +151,7 @@ const RUN: &str = "\
 seed: 7
 sample-scenarios: { mw: \"6.5,7.5\", re: \"5,10\", samples: 10 }
 synthesize-motions: { suite: [pulse, csgm], dt: 0.01 }
-simulate: { structure: [{ name: a, p: 1.0, alpha: 0.15, eta: 0.92 }, { name: b, p: 2.5, alpha: 0.2, eta: 0.92 }] }
+simulate: { structure: [\"name=a,p=1,alpha=0.15,eta=0.92\", \"name=b,p=2.5,alpha=0.2,eta=0.92\"] }
 fit-pex: { all: true }
 fit-pro: {}
 report: {}

@@ -175,7 +175,7 @@ fn how_often(rates: &RatesRow, site: &Site, limits: &str) -> String {
                 }
                 Hazard::Joint(_) => String::new(),
             };
-            format!("overturns between {low:.1e} and {high:.1e} times a year{end}")
+            format!("overturns between {} and {} times a year{end}", a_year(low), a_year(high))
         }
         _ => "has no rate of overturning".to_string(),
     }
@@ -300,12 +300,15 @@ fn limited(of: Limited, limits: &str) -> String {
     format!("{} {}", value(of), in_brackets(of, limits))
 }
 
+fn a_year(rate: f64) -> String {
+    if rate == 0.0 { "0".to_string() } else { format!("{rate:.1e}") }
+}
+
 /// An annual rate, or its bounds.
 fn per_year([value, low, high]: Limited) -> String {
-    let text = |rate: f64| if rate == 0.0 { "0".to_string() } else { format!("{rate:.1e}") };
     match (value, low, high) {
-        (Some(value), ..) => text(value),
-        (None, Some(low), Some(high)) => format!("{} to {}", text(low), text(high)),
+        (Some(value), ..) => a_year(value),
+        (None, Some(low), Some(high)) => format!("{} to {}", a_year(low), a_year(high)),
         _ => "-".to_string(),
     }
 }

@@ -129,7 +129,7 @@ fn words(motion: &Motion) -> String {
     }
 }
 
-/// Figure 5: of the first two structures, under the motion in which the first rocks furthest without overturning.
+/// Figure 5: of two structures, under the motion in which the first rocks furthest without overturning.
 fn similar(tables: &Tables, motions: &[Motion]) -> anyhow::Result<Option<Figure>> {
     let mut structures = tables.groups.iter().map(|cases| &cases.structure);
     let Some(first) = structures.next() else { return Ok(None) };
@@ -232,7 +232,7 @@ fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
     };
     let all = |im: usize| groups.iter().flat_map(|cases| safe(cases, im)).collect::<Vec<f64>>();
     let (im3, most) = (all(2), all(3).into_iter().fold(1.5, f64::max));
-    let limit_state = tables.limit_state().ok()?;
+    let limit_state = tables.limit_state;
     let structure = |cases: &&Cases| {
         let planes: Vec<&DemandFit> = regressions(tables, cases, DemandModel::Biplanar).collect();
         let at_share = |share: f64| {
@@ -254,8 +254,8 @@ fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
     panel(groups, MEASURES[3], groups.iter().map(structure).collect())
 }
 
-/// Figures 11 and 12: P_ro over a measure, or over a hybrid one at the median IM3, and how well the curves of two
-/// structures predict each other.
+/// Figures 11 and 12: P_ro over a measure, or over a hybrid one at the median IM3, and how well the curves of
+/// two structures predict each other.
 fn over(
     tables: &Tables,
     groups: &[&Cases],
@@ -319,7 +319,7 @@ fn score(fit: &OverturningFit, cases: &Cases) -> f64 {
     log_score(&p, &events)
 }
 
-/// P_ro over PGA: the means over the motions in each bin of the calibrated curve, and of the surface as it is shipped.
+/// P_ro over PGA: means over the motions in each bin, of the calibrated curve and of the surface as shipped.
 fn over_pga(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
     let structure = |cases: &&Cases| {
         let own = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure))?;

@@ -28,7 +28,7 @@ pub struct Report {
     /// Folder of the tables of other commands
     #[arg(long = "in", id = "in", value_name = "DIR", value_hint = ValueHint::FilePath, default_value = ".")]
     input: PathBuf,
-    /// Page to write, with its figures as SVG, PNG and CSV in a folder of its name [default: report.html in DIR]
+    /// Page to write; its figures go into a folder of its name [default: report.html in DIR]
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
     out: Option<PathBuf>,
     /// Title of the page

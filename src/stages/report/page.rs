@@ -1,4 +1,4 @@
-//! The page: one answer, one table, one figure; then further figures; then, folded, how it was made and tested.
+//! The page: one answer, one table, one figure; then further figures; folded, how it was made and tested.
 
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -23,33 +23,33 @@ const MOST_NAMED: usize = 4;
 const OF_RATES: &[&str] = &["list", "rates"];
 const OF_PAPER: &[&str] =
     &["overturning-hybrid", "calibrated", "motion", "similarity", "planes", "exceedance"];
-const OF_RESPONSES: &[&str] = &["ida", "calibrated", "overturning", "validation", "ranking"];
+const OF_RESPONSES: &[&str] = &["ida", "calibrated", "overturning", "validation"];
 
 /// What is said of each stage that made a table.
 const METHOD: &str = "\
-synthesize-motions: Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), high frequencies of a \
-stochastic source, or both.
+synthesize-motions: Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), high \
+frequencies of a stochastic source, or both.
 import-motions: Ground motions are records, one component each.
-simulate: The rocking of each structure, a rigid block or frame that does not slide, follows from the equation of motion \
-with a loss of velocity at each impact (Eqs. 4 to 6). The demand is the largest rotation over the slenderness *α* \
-(Eq. 7); *p* is the frequency parameter.
-fit-pex: The demand in safe rocking is regressed on one measure or two, with two planes that meet at 1.3 times the peak \
-acceleration of uplift (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & Structural \
-Dynamics 44, 2015\u{2013}2033).
-fit-pro: The probability of overturning given rocking is the paper's lognormal curve of one measure or of a hybrid of two \
-(Eqs. 19 to 24), or the universal surface, which predicts it for any block from peak acceleration and velocity; the \
-responses calibrate level and slope of its logit.
-ida: Incremental dynamic analysis scales each motion until it overturns the structure; a lognormal distribution of these \
-intensities has the median.
+simulate: The rocking of each structure, a rigid block or frame that does not slide, follows from the \
+equation of motion with a loss of velocity at each impact (Eqs. 4 to 6). The demand is the largest \
+rotation over the slenderness *α* (Eq. 7); *p* is the frequency parameter.
+fit-pex: The demand in safe rocking is regressed on one measure or two, with one plane for weak motions \
+and one for strong ones (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & \
+Structural Dynamics 44, 2015\u{2013}2033).
+fit-pro: The probability of overturning given rocking is the paper's lognormal curve of one measure or of \
+a hybrid of two (Eqs. 19 to 24), or the universal surface, which predicts it for any block from peak \
+acceleration and velocity; the responses calibrate level and slope of its logit.
+ida: Incremental dynamic analysis scales each motion until it overturns the structure; a lognormal \
+distribution of these intensities has the median.
 validate: Validation compares predicted probabilities with the outcomes of motions that were not fitted.
-evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal surface, \
-calibrated where there are responses. The limits do not have the error of the hazard.";
+evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
+surface, calibrated where there are responses. The limits do not have the error of the hazard.";
 
 /// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
     let (sentence, first, shown) = match (&tables.objects[..], &tables.compared[..]) {
         ([], []) => (overturned(&tables.groups), outcomes(tables)?, OF_RESPONSES),
-        ([], compared) => (compared_with_paper(compared), planes(compared), OF_PAPER),
+        ([], compared) => (tables.answer_of("compare-paper"), planes(compared), OF_PAPER),
         (objects, _) => (tables.answer_of("evaluate"), rates(objects), OF_RATES),
     };
     let (seen, more) = figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
@@ -139,16 +139,8 @@ fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
         })
     };
     let fields =
-        format!("object|size|rocks a year|overturns a year|once in years|{percent}|friction needed|doubt");
+        format!("object|once in years|{percent}|overturns a year|rocks a year|size|friction needed|doubt");
     table("", objects.iter().map(row), &fields)
-}
-
-fn compared_with_paper(compared: &[Comparison]) -> String {
-    let z: Vec<f64> = compared.iter().filter_map(|number| number.z).collect();
-    let (all, near) = (z.len(), z.iter().filter(|z| z.abs() <= 2.0).count());
-    format!(
-        "Of {all} published numbers that vary by seed, {near} lie within two standard deviations of ours."
-    )
 }
 
 /// Table II: published over ours.
@@ -165,13 +157,16 @@ fn planes(compared: &[Comparison]) -> Table {
             both.map(|both| both.map(|value| number::fixed(value.unwrap_or(f64::NAN), 2)).join(" / "))
         };
         json!({
-            "structure": plane.structure, "motions": plane.suite, "plane": if side == "low" { "below" } else { "above" },
-            "ln *a*": cell("ln_a"), "*b*_{1}": cell("b1"), "*b*_{2}": cell("b2"), "*R*^{2}": cell("r2"), "*p*": plane.t2_p,
+            "structure": plane.structure, "motions": plane.suite,
+            "plane": if side == "low" { "below" } else { "above" },
+            "ln *a*": cell("ln_a"), "*b*_{1}": cell("b1"), "*b*_{2}": cell("b2"), "*R*^{2}": cell("r2"),
+            "*p*": plane.t2_p,
         })
     };
     let of_planes = compared.iter().filter(|number| number.quantity.ends_with("_plane"));
     table(
-        "Table II, the planes of the demand below and above the transition, published / ours. *p* is the probability of so large a difference between seeds.",
+        "Table II, the planes of the demand below and above the transition, published / ours. *p* is the \
+         probability of so large a difference between seeds.",
         of_planes.map(row),
         "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}|*p*",
     )
@@ -189,7 +184,8 @@ fn overturned(groups: &[Cases]) -> String {
     groups.iter().take(MOST_NAMED).map(of).collect::<Vec<_>>().join("; ") + "."
 }
 
-/// What came of each structure and suite, and the median that overturns it: of its capacities, else of the paper's curve.
+/// What came of each structure and suite, and the median that overturns it: of its capacities, else of the
+/// paper's curve.
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let capacities: Vec<CapacityFitRow> = tables.rows("ida.fragility")?;
     let median = match capacities.first() {
@@ -199,6 +195,7 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let row = |cases: &Cases| {
         let calibration = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure));
         let often = calibration.map(|row| row.n_events as f64 / row.expected);
+        let often = often.map(|often| format!("{} times", number::significant(often, 2)));
         let mut capacities = capacities.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
         let of_capacity = capacities
             .next()
@@ -216,8 +213,9 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         let [theta, beta] = of_capacity.unwrap_or_else(of_curve).map(limits);
         json!({
             "structure": cases.structure.name, "motions": cases.suite, "number": cases.len(),
-            "rock": cases.len() - count(cases, Outcome::NoRocking), "overturn": count(cases, Outcome::Overturning),
-            "as often as the surface predicts": often.map(|often| format!("{} times", number::significant(often, 2))),
+            "rock": cases.len() - count(cases, Outcome::NoRocking),
+            "overturn": count(cases, Outcome::Overturning),
+            "as often as the surface predicts": often,
             (median.as_str()): theta, "dispersion": beta,
         })
     };

@@ -10,7 +10,7 @@ use crate::report::figures::{AnnualRate, Curve, Ida, MEASURES, NamedEstimates, o
 use crate::rocking::{CapacityStatus, Outcome};
 use crate::stages::evaluate::RatesRow;
 use crate::stages::ida::{CapacityFitRow, CapacityRow, ScaledMeasure};
-use crate::studies::{RankedSet, ReliabilityBin, Target, wilson_limits};
+use crate::studies::{Form, RankedSet, ReliabilityBin, Target, wilson_limits};
 use crate::table::TableError;
 
 /// The most objects, panels, levels of an analysis, and points of its curve.
@@ -146,7 +146,8 @@ pub fn targets(tables: &Tables) -> Result<Vec<NamedEstimates>, TableError> {
         let (Some(x), Some(error), true) = (set.loss, set.loss_error, is_shown) else { continue };
         let target = if set.target == Target::Demand { "demand" } else { "overturning" };
         let title = format!("{}: {target}", title(&set.structure, set.suite.as_deref()));
-        let name = format!("{} ({})", set.measures.to_uppercase().replace(':', ", "), set.form);
+        let planes = if set.form == Form::Biplanar { ", two planes" } else { "" };
+        let name = format!("{}{planes}", set.measures.to_uppercase().replace(':', ", "));
         let [low, high] = [x - Z_95 * error, x + Z_95 * error];
         add(&mut panels, title, name, Estimate { x, y: 0.0, low, high, n: f64::NAN });
     }

@@ -23,6 +23,8 @@ pub struct Tables {
     /// Of overturning, as the next.
     pub curves: Vec<OverturningFit>,
     pub calibrations: Vec<Calibration>,
+    /// Demand whose exceedance was fitted.
+    pub limit_state: f64,
     pub compared: Vec<Comparison>,
     /// Objects with annual rates, the worst first.
     pub objects: Vec<(ObjectRow, RatesRow)>,
@@ -46,6 +48,8 @@ impl Tables {
         tables.curves = tables.rows("pro")?;
         tables.curves.retain(|fit| fit.event == Event::Overturning && !fit.coefficients.is_empty());
         tables.calibrations = tables.rows("pro.calibration")?;
+        let exceeding: Vec<Calibration> = tables.rows("pex.calibration")?;
+        tables.limit_state = exceeding.first().and_then(|row| row.limit_state).unwrap_or(paper::LIMIT_STATE);
         tables.compared = tables.rows("paper")?;
         for path in file::tables(folder)? {
             let table = Table::open(&path)?;
@@ -80,12 +84,6 @@ impl Tables {
         let mut made = self.files.iter().filter_map(|(.., made)| made.as_ref());
         let summary = made.find(|made| made.stage == stage).map_or("", |made| &made.summary);
         summary.lines().next().unwrap_or_default().to_string()
-    }
-
-    /// The demand whose exceedance was fitted.
-    pub fn limit_state(&self) -> Result<f64, TableError> {
-        let rows: Vec<Calibration> = self.rows("pex.calibration")?;
-        Ok(rows.first().and_then(|row| row.limit_state).unwrap_or(paper::LIMIT_STATE))
     }
 
     /// The motions of a row group in the middle of the file.
