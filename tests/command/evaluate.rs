@@ -1,4 +1,5 @@
-//! evaluate, export and validate as users run them: numbers against closed forms, lists, hazards that end early, slips.
+//! evaluate, export and validate as users run them: numbers against closed forms, lists, hazards that end
+//! early, slips.
 
 use std::path::Path;
 

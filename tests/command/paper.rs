@@ -1,4 +1,5 @@
-//! The paper's run as it is shipped, without the report: its numbers, and the schemas of all files that the stages write.
+//! The paper's run as it is shipped, without the report: its numbers, and the schemas of all files that the
+//! stages write.
 
 use std::f64::consts::PI;
 use std::path::Path;

@@ -34,7 +34,8 @@ pub use self::object::{ObjectRow, Predicted, TreeRow, words_of};
 pub use self::site::RatesRow;
 use self::site::Site;
 
-/// Predict how probable rocking and overturning are: at a PGA and PGV, at each of a table, or a year at a site
+/// Predict how probable rocking and overturning are: at a PGA and PGV, at each of a table, or a year at a
+/// site
 ///
 /// Without --fits, the universal surface for recorded motions predicts them.
 #[derive(Debug, Args)]
@@ -49,12 +50,12 @@ pub struct Evaluate {
     #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "hazard"],
           value_parser = number(0.0..=5.0, "m/s, up to 5, more than was ever recorded: is it in cm/s?"))]
     pgv: Option<f64>,
-    /// Table of intensities, Parquet or CSV: PGA (pga_m_s2, or in g) and PGV (pgv_m_s), and p_rad_s, alpha_rad and eta
-    /// where they vary; other columns are copied
+    /// Table of intensities, Parquet or CSV: PGA (pga_m_s2, or in g) and PGV (pgv_m_s), and p_rad_s,
+    /// alpha_rad and eta where they vary; other columns are copied
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "hazard")]
     input: Option<PathBuf>,
-    /// Hazard of the site, CSV: PGA or PGV with annual rates, probabilities or return periods, or both with rates of
-    /// occurrence
+    /// Hazard of the site, CSV: PGA or PGV with annual rates, probabilities or return periods, or both with
+    /// rates of occurrence
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     hazard: Option<PathBuf>,
     /// Which headings of --hazard or --in stand for which columns
@@ -182,7 +183,8 @@ impl Evaluate {
         self.answer(predict, |all| answer::of_rates(all, &site, self.sentence), context)
     }
 
-    /// Predicts for all objects, the worst first. `predict` gives a row, and the measures of the motion that matters.
+    /// Predicts for all objects, the worst first. `predict` gives a row, and the measures of the motion that
+    /// matters.
     fn answer<R: Predicted>(
         &self,
         predict: impl Fn(&Structure, &Model, &mut Vec<Doubt>) -> (R, IntensityMeasures) + Sync,
@@ -195,8 +197,12 @@ impl Evaluate {
                 Ok(structure) => structure,
                 Err(reason) => {
                     let row = R::default().with_doubts(Some(reason.clone()));
-                    let answer = Answer { object: ObjectRow::refused(&object), row, explained: String::new() };
-                    return Ok((answer, [(Doubt::ImplausibleRow, object.name.clone())].into_iter().collect()));
+                    let answer =
+                        Answer { object: ObjectRow::refused(&object), row, explained: String::new() };
+                    return Ok((
+                        answer,
+                        [(Doubt::ImplausibleRow, object.name.clone())].into_iter().collect(),
+                    ));
                 }
             };
             let (model, mut doubts) = models.model(structure)?;
@@ -266,7 +272,9 @@ fn file_format(out: &Path) -> anyhow::Result<Option<Format>> {
         Some(ending @ ("csv" | "json")) => Ok(Some(keyword::parse(ending)?)),
         _ => {
             let out = out.display();
-            Err(UsageError::because(format!("out is {out}; expected a name that ends in .parquet, .csv or .json")))
+            Err(UsageError::because(format!(
+                "out is {out}; expected a name that ends in .parquet, .csv or .json"
+            )))
         }
     }
 }
