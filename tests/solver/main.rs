@@ -1,13 +1,11 @@
 //! The rocking solver against closed forms, quadruple precision, the printed equations, and extreme input.
 
 mod company;
-#[cfg(feature = "pipeline")]
 mod incremental;
 mod noise;
 mod numbers;
 mod reference;
 mod rocking;
-#[cfg(feature = "pipeline")]
 mod truth;
 
 /// All motions of a file.
