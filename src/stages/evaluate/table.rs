@@ -1,6 +1,7 @@
 //! Probabilities at each intensity of a table.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -74,10 +75,10 @@ fn evaluate(
     let key =
         |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits);
     for structure in &structures {
-        if !models.contains_key(&key(structure)) {
+        if let Entry::Vacant(place) = models.entry(key(structure)) {
             let (model, mut doubts) = fitted.model(structure)?;
             doubts.extend(doubts_of(structure));
-            models.insert(key(structure), (structure.clone(), model, doubts));
+            place.insert((structure.clone(), model, doubts));
         }
     }
     let of_row = |row: usize| {
