@@ -29,7 +29,7 @@
 //!
 //! These know no files, threads or command line, nor do [`export`], which words fragility for other programs,
 //! and [`report`], which draws it. [`table`] reads and writes the files, [`pipeline`] decides what must run,
-//! [`stages`] joins them: a file or folder a subcommand. `docs/architecture.md` has the picture.
+//! [`stages`] joins them: a file or folder a subcommand. `docs/review/architecture.md` has the picture.
 
 pub mod cli;
 pub mod doubt;

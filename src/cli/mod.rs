@@ -65,7 +65,9 @@ pub fn command() -> Command {
         let about = stage.get_about().cloned().unwrap_or_default();
         Common::augment_args(stage.clone().args_override_self(true)).about(about)
     };
-    let stages: Vec<Command> = stages.get_subcommands().map(with_common).collect();
+    let in_order = |(place, stage): (usize, Command)| stage.display_order(10 + place);
+    let stages = stages.get_subcommands().map(with_common).enumerate().map(in_order);
+    let stages: Vec<Command> = stages.collect();
     <Tool as clap::CommandFactory>::command().subcommands(stages)
 }
 

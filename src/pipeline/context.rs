@@ -22,20 +22,21 @@ pub const COMMON: &str = "Common options";
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = COMMON)]
 pub struct Common {
-    /// Take options from the section of this command in a pipeline file
+    /// Pipeline file whose section gives further options
     #[arg(long, value_name = "FILE")]
     pub config: Option<PathBuf>,
-    /// Run even if up to date, and replace files that rockfrag did not write
+    /// Run even if up to date; replace files of other programs
     #[arg(long)]
     pub force: bool,
-    /// Number of threads [default: all processors]
+    /// Threads [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=4096))]
     pub threads: Option<u64>,
     /// Print only the result
     #[arg(long)]
     pub quiet: bool,
-    /// Progress bars: auto (where stderr is a terminal) or never
-    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = ["auto", "never"])]
+    /// Progress bars: auto or never
+    #[arg(long, value_name = "WHEN", default_value = "auto", hide_possible_values = true,
+          value_parser = ["auto", "never"])]
     pub progress: String,
 }
 
@@ -51,7 +52,7 @@ pub trait Listener: Send + Sync {
 /// The context of a running stage.
 #[derive(Clone, Default)]
 pub struct Context {
-    /// Run even if up to date, and replace files that rockfrag did not write.
+    /// Run even if up to date; replace files of other programs.
     pub force: bool,
     /// Print only the result.
     pub quiet: bool,

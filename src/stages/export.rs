@@ -17,10 +17,10 @@ use crate::rocking::Structure;
 use crate::table::writer::write_file;
 use crate::units::G_M_S2;
 
-/// Write the fragility of structures over PGA or PGV for OpenQuake or pelicun, averaged over PGV/PGA
+/// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
 #[derive(Debug, Args)]
 pub struct Export {
-    /// Program that reads it: openquake (NRML) or pelicun (CSV, and JSON beside it)
+    /// openquake (NRML) or pelicun (CSV, and JSON beside it)
     #[arg(long, value_name = "PROGRAM")]
     to: Program,
     /// Intensity: pga or pgv

@@ -23,17 +23,17 @@ pub struct FitPex {
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath,
           default_value = "responses.parquet")]
     input: PathBuf,
-    /// Fits to write; NAME.parameters.parquet and NAME.calibration.parquet are written beside it
+    /// Fits to write, with NAME.parameters.parquet and NAME.calibration.parquet beside
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "pex.parquet")]
     out: PathBuf,
     /// Limit states: demands |theta|max / alpha
     #[arg(long, value_name = "DEMAND,...", value_delimiter = ',', default_value = "0.1",
           value_parser = number(1e-6..=10.0, "a demand |theta|max / alpha above 0, such as 0.1"))]
     limit_state: Vec<f64>,
-    /// IM4 at which the two planes meet: a number (the paper's is 1.3), or found (that of the least residual)
+    /// IM4 at which the planes meet: a number, or found (least residual)
     #[arg(long, value_name = "IM4", default_value = "1.3")]
     transition: Transition,
-    /// Raise smaller demands in safe rocking to this one, as a solver of finite tolerance does
+    /// Raise smaller demands to this one, as a solver of finite tolerance does
     #[arg(long, value_name = "DEMAND", default_value = "0",
           value_parser = number(0.0..=1.0, "a demand from 0 to 1"))]
     demand_floor: f64,
@@ -41,7 +41,7 @@ pub struct FitPex {
     #[arg(long, value_name = "P", default_value = "0.95",
           value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
     confidence: f64,
-    /// Fit all six measures of Eq. 13 and both planes, not only IM4, IM5 and the planes
+    /// Fit all six measures, not only IM4, IM5 and the planes
     #[arg(long)]
     all: bool,
 }

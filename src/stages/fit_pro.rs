@@ -22,7 +22,7 @@ pub struct FitPro {
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath,
           default_value = "responses.parquet")]
     input: PathBuf,
-    /// Fits to write; NAME.parameters.parquet and NAME.calibration.parquet are written beside it
+    /// Fits to write, with NAME.parameters.parquet and NAME.calibration.parquet beside
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "pro.parquet")]
     out: PathBuf,
     /// Event of the probability: overturning (given rocking) or rocking (of all motions)
@@ -35,7 +35,7 @@ pub struct FitPro {
     #[arg(long, value_name = "P", default_value = "0.95",
           value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
     confidence: f64,
-    /// Fit all six measures of Eq. 13, not only IM4 and IM5
+    /// Fit all six measures, not only IM4 and IM5
     #[arg(long)]
     all: bool,
 }

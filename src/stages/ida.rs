@@ -35,18 +35,16 @@ const CHUNK: usize = 8;
 /// Scaled samples that are held at once, or those of one motion.
 const MOST_SAMPLES: usize = 1 << 20;
 
-/// Run incremental dynamic analysis: find the lowest intensity at which each motion overturns each structure
+/// Scale motions up until they overturn each structure (incremental dynamic analysis)
 #[derive(Debug, Args)]
 pub struct Ida {
     /// Motions to read, as in simulate
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "motions.parquet")]
     input: PathBuf,
-    /// Overturning intensities to write; NAME.stripes.parquet and NAME.fragility.parquet are written beside
-    /// it
+    /// Overturning intensities to write, with NAME.stripes.parquet and NAME.fragility.parquet beside
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "ida.parquet")]
     out: PathBuf,
-    /// Intensity to scan: scale (the factor on the motion), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, for
-    /// each structure)
+    /// What to scale: scale (a factor), pga (g), pgv (m/s), im4, im5 or im6
     #[arg(long, default_value = "scale")]
     measure: ScaledMeasure,
     /// Smallest intensity, in the unit of --measure
@@ -55,7 +53,7 @@ pub struct Ida {
     /// Largest intensity, in the unit of --measure
     #[arg(long, default_value = "10", value_name = "IM", value_parser = number(1e-9..=1e9, "an intensity above 0"))]
     to: f64,
-    /// Steps between them, in equal ratios; their ends are the stripes
+    /// Number of steps, in equal ratios
     #[arg(long, default_value = "60", value_name = "N", value_parser = number(1..=10_000_usize, "1 to 10,000"))]
     steps: usize,
     #[command(flatten)]

@@ -46,33 +46,33 @@ pub struct ImportMotions {
     /// Format: at2, cosmos, esm, knet or csv [default: by content]
     #[arg(long)]
     format: Option<Format>,
-    /// Time between samples, s, for files that do not state it, or only to few decimals
+    /// Time step, s, where files do not state it
     #[arg(long, value_name = "S", value_parser = number(1e-6..=10.0, "a time step above 0 s and up to 10 s"))]
     dt: Option<f64>,
-    /// Unit of the acceleration, for files that do not state it: g, m/s2, cm/s2 (gal), mm/s2, mg, %g, ft/s2
+    /// Unit of acceleration, where files do not state it: g, m/s2, cm/s2 (gal), mm/s2, mg, %g, ft/s2
     /// or in/s2
     #[arg(long, value_parser = acceleration_unit)]
     unit: Option<Unit>,
-    /// Column of the acceleration in CSV: its number, its heading, or all where one series wraps over lines
+    /// Column of acceleration in CSV: number, heading, or all where one series wraps over lines
     #[arg(long, value_name = "N|NAME|all")]
     column: Option<String>,
-    /// How far the peak of the samples may be from the peak in the header, as a share of it
+    /// Tolerated difference from the peak in the header, as a share
     #[arg(long, default_value = "0.05", value_name = "SHARE", value_parser = number(0.0..=1e9, "a share of 0 or more"))]
     pga_tolerance: f64,
-    /// What to remove from the acceleration: none, mean, or linear (the line of least squares)
+    /// Remove from acceleration: none, mean or linear
     #[arg(long, default_value = "none")]
     baseline: Baseline,
-    /// Corner of a zero-phase Butterworth high-pass of order 4, Hz [default: none]
+    /// Corner of a zero-phase high-pass filter of order 4, Hz
     #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1e3, "a frequency above 0 Hz"))]
     high_pass: Option<f64>,
-    /// Resample to this time step, s, band-limited [default: as in the file]
+    /// Resample to this time step, s
     #[arg(long, value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
     resample: Option<f64>,
-    /// Rotate each pair of horizontal components towards an azimuth (degrees) or the strongest-pulse, and add
+    /// Rotate pairs of horizontal components to an azimuth (degrees) or the strongest-pulse; add
     /// RotD50 and RotD100
     #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
     rotate: Option<Direction>,
-    /// Scale by these factors; each makes a motion of each record
+    /// Scale by these factors, each to a motion of its own
     #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"])]
     scale: Option<Steps>,
     /// Scale each motion to this PGA, g
@@ -81,24 +81,22 @@ pub struct ImportMotions {
     /// Scale each motion to this PGV, m/s
     #[arg(long, value_name = "M/S", value_parser = number(1e-9..=100.0, "a PGV above 0 m/s"))]
     scale_pgv: Option<f64>,
-    /// Whether to look for velocity pulses: find (indicator of Baker 2007, then a fit of Eq. 1 for tp_s), or
-    /// skip
+    /// Velocity pulses: find (Baker 2007, then a fit of Eq. 1, the velocity) or skip
     #[arg(long, default_value = "find")]
     pulses: PulseSearch,
-    /// Also write each motion with a pulse without that pulse, as suite residual
+    /// Also write motions without their pulse, as suite residual
     #[arg(long)]
     residual: bool,
-    /// Add spectral accelerations (5 % damping) at these periods, s; the column sa_0p20_m_s2 is for 0.2 s
+    /// Add spectral accelerations (5 % damping) at these periods, s, as sa_0p20_m_s2
     #[arg(long, value_name = "S,...")]
     sa: Option<Steps>,
-    /// Also compute the Housner intensity, which takes 15 times as long or more
+    /// Also compute the Housner intensity (15 times as slow)
     #[arg(long)]
     housner: bool,
-    /// Import motions that no earthquake is likely to have made (by length, PGA, PGV, time step, spikes or
-    /// drift)
+    /// Import motions that no earthquake is likely to have made
     #[arg(long)]
     accept_implausible: bool,
-    /// Import the rest where files cannot be read
+    /// Import the others where a file cannot be read
     #[arg(long)]
     keep_going: bool,
 }

@@ -31,12 +31,8 @@ const UNITS: [(&str, Quantity); 4] = [
 /// Sets that are printed of each target.
 const SHOWN: usize = 5;
 
-/// Rank intensity measures, alone, in pairs and triples, by how well they predict cells or earthquakes that
-/// were left out
-///
-/// Besides im1 to im6 of the paper, the measures of --motions, made dimensionless with p and g tan alpha: p D
-/// of the significant durations, p^2 PGD / (g tan alpha), p CAV / (g tan alpha), Sa / (g tan alpha) and so
-/// on. Measures enter as a product, each to a power that the fit finds.
+/// Rank intensity measures, alone, in pairs and triples, by how well they predict cells or earthquakes
+/// left out
 #[derive(Debug, Args)]
 pub struct RankIms {
     /// Responses to read
@@ -45,16 +41,16 @@ pub struct RankIms {
     /// Ranking to write
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "ranking.parquet")]
     out: PathBuf,
-    /// Motions of these responses, for further measures
+    /// Motions of these responses, whose measures are made dimensionless with p and g tan alpha
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     motions: Option<PathBuf>,
-    /// Further columns of --motions; the unit at the end of a name (_m_s2, _m_s, _m or _s) tells what it is
+    /// Further columns of --motions, with their unit at the end of the name (_m_s2, _m_s, _m, _s)
     #[arg(long, value_name = "COLUMN", value_delimiter = ',', requires = "motions")]
     candidate: Vec<String>,
-    /// The most measures in a set
+    /// Largest set of measures
     #[arg(long, value_name = "N", default_value = "2", value_parser = number(1..=3_usize, "1, 2 or 3"))]
     terms: usize,
-    /// The most parts of which each is left out in turn
+    /// Number of folds
     #[arg(long, value_name = "N", default_value = "10", value_parser = number(2..=1000_usize, "2 to 1000"))]
     folds: usize,
     /// IM4 at which the two planes of demands meet

@@ -36,8 +36,7 @@ const NAMED: usize = 8;
 /// Simulate the rocking response of structures to motions
 #[derive(Debug, Args)]
 pub struct Simulate {
-    /// Motions to read: a file or a folder; those of other programs need motion_id, dt_s and
-    /// acceleration_m_s2
+    /// Motions to read: motion_id, dt_s and acceleration_m_s2
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "motions.parquet")]
     input: PathBuf,
     /// Responses to write
@@ -45,10 +44,10 @@ pub struct Simulate {
     out: PathBuf,
     #[command(flatten)]
     structures: StructureArgs,
-    /// Also write the rotation over time for these motions, to NAME.trace.parquet beside the output
+    /// Also write the rotation of these motions over time, to NAME.trace.parquet
     #[arg(long, value_name = "ID,...", value_delimiter = ',', help_heading = None::<&str>)]
     trace: Vec<String>,
-    /// Simulate only part i of n (from 0 to n - 1): rows of a file, or a file of a folder; --out is a folder
+    /// Only part i of n (0 to n - 1), into the folder --out
     #[arg(long, value_name = "I/N", conflicts_with = "trace", help_heading = None::<&str>)]
     partition: Option<Partition>,
 }

@@ -35,21 +35,20 @@ pub struct SynthesizeMotions {
     /// Seed of the noise
     #[arg(long, default_value = "42")]
     seed: u64,
-    /// Suites: pulse (the pulse alone), csgm (pulse and high frequencies), hfc (high frequencies alone)
+    /// Suites: pulse (alone), hfc (high frequencies alone), csgm (both)
     #[arg(long, default_value = "pulse,csgm", value_delimiter = ',')]
     suite: Vec<Suite>,
     /// Time between samples, s
     #[arg(long, default_value = "0.005", value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
     dt: f64,
-    /// How to subtract the pulse from the spectrum of the high frequencies where the pulse is stronger:
-    /// absolute, signed, clamp or none (plain sum)
+    /// Spectrum where the pulse is stronger than the high frequencies: absolute, signed or clamp
+    /// difference, or none (plain sum)
     #[arg(long, default_value = "absolute")]
     difference: Difference,
-    /// When the pulse peaks: envelope-peak (at the peak of the envelope), pga or pgv (at the peak
-    /// acceleration or velocity of the high frequencies)
+    /// Where the pulse peaks: envelope-peak, pga or pgv of the high frequencies
     #[arg(long, default_value = "envelope-peak")]
     epoch: Epoch,
-    /// Site amplification: rock, soil, none, or a CSV file of frequencies (Hz) and factors
+    /// Site: rock, soil, none, or a CSV file of frequencies (Hz) and factors
     #[arg(long, default_value = "rock", value_hint = ValueHint::FilePath)]
     site: PathBuf,
     /// Near-surface attenuation kappa, s
@@ -64,13 +63,13 @@ pub struct SynthesizeMotions {
     /// Order n of the high-pass filter
     #[arg(long, default_value = "4", value_name = "N", value_parser = number(1..=20_u32, "1 to 20"))]
     low_cut_order: u32,
-    /// Also compute the Housner intensity, which takes 15 times as long or more
+    /// Also compute the Housner intensity (15 times as slow)
     #[arg(long)]
     housner: bool,
-    /// Add spectral accelerations (5 % damping) at these periods, s; the column sa_0p20_m_s2 is for 0.2 s
+    /// Add spectral accelerations (5 % damping) at these periods, s, as sa_0p20_m_s2
     #[arg(long, value_name = "S,...")]
     sa: Option<Steps>,
-    /// Make only part i of n (from 0 to n - 1) of the scenarios, as a file of the folder --out
+    /// Only part i of n (0 to n - 1), into the folder --out
     #[arg(long, value_name = "I/N")]
     partition: Option<Partition>,
 }

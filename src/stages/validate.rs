@@ -21,7 +21,7 @@ pub struct Validate {
     /// Responses to test on
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "responses.parquet")]
     input: PathBuf,
-    /// Scores to write; NAME.reliability.parquet is written beside it
+    /// Scores to write, with NAME.reliability.parquet beside
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "validation.parquet")]
     out: PathBuf,
     #[command(flatten)]

@@ -34,10 +34,8 @@ pub use self::object::{ObjectRow, Predicted, TreeRow, words_of};
 pub use self::site::RatesRow;
 use self::site::Site;
 
-/// Predict how probable rocking and overturning are: at a PGA and PGV, at each of a table, or a year at a
-/// site
-///
-/// Without --fits, the universal surface for recorded motions predicts them.
+/// Predict how probable rocking and overturning are: under a motion, under each of a table, or a year at
+/// a site
 #[derive(Debug, Args)]
 #[command(after_help = "rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6\n\
     rockfrag evaluate --structures objects.csv --hazard hazard.csv")]
@@ -50,31 +48,31 @@ pub struct Evaluate {
     #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "hazard"],
           value_parser = number(0.0..=5.0, "m/s, up to 5, more than was ever recorded: is it in cm/s?"))]
     pgv: Option<f64>,
-    /// Table of intensities, Parquet or CSV: PGA (pga_m_s2, or in g) and PGV (pgv_m_s), and p_rad_s,
-    /// alpha_rad and eta where they vary; other columns are copied
+    /// Table of PGA and PGV (pga_m_s2 or pga_g, pgv_m_s), Parquet or CSV, with p_rad_s, alpha_rad and
+    /// eta where they vary
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "hazard")]
     input: Option<PathBuf>,
-    /// Hazard of the site, CSV: PGA or PGV with annual rates, probabilities or return periods, or both with
+    /// Hazard curve, CSV: PGA or PGV with annual rates, probabilities or return periods; or both with
     /// rates of occurrence
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     hazard: Option<PathBuf>,
-    /// Which headings of --hazard or --in stand for which columns
+    /// Headings of --hazard or --in that stand for columns
     #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
     columns: Vec<Renamed>,
     /// Time of exposure, years
     #[arg(long, value_name = "YEARS", default_value = "50", value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
-    /// PGV/PGA of all motions, s [default: as motions of the same strength have it]
+    /// PGV/PGA of all motions, s [default: as in motions of that strength]
     #[arg(long, value_name = "S", requires = "hazard",
           value_parser = number(0.005..=1.0, "PGV/PGA in s, from 0.005 to 1, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
-    /// Responses whose overturning is counted beside the rate over a hazard, to which they are weighted
+    /// Responses to count overturning in, beside the rate
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     responses: Option<PathBuf>,
-    /// Continue a hazard curve beyond its end with its last slope
+    /// Continue the hazard curve with its last slope
     #[arg(long, requires = "hazard")]
     extrapolate: bool,
-    /// Also print the model, the measures of the motion and what other models predict
+    /// Also print model, measures and other predictions
     #[arg(long)]
     explain: bool,
     /// Also print a sentence for a report
@@ -83,7 +81,7 @@ pub struct Evaluate {
     /// text, csv or json
     #[arg(long, default_value = "text")]
     format: Format,
-    /// File to write, .parquet, .csv or .json [default: none; with --in, evaluated.parquet beside it]
+    /// File to write: .parquet, .csv or .json [default: none; with --in, evaluated.parquet beside it]
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
     out: Option<PathBuf>,
     #[command(flatten)]

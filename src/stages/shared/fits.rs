@@ -27,16 +27,16 @@ keywords!(ModelName { Calibrated = "calibrated", Paper = "paper" });
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Model")]
 pub struct FitsArgs {
-    /// Folder of the files of fit-pex and fit-pro [default: the universal surface as it is shipped]
+    /// Folder of fits, from fit-pex and fit-pro [default: the universal surface as shipped]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub fits: Option<PathBuf>,
-    /// Fitted structure whose fits are used [default: the one with the same p, alpha and eta]
+    /// Structure of the fits [default: the one with the same p, alpha and eta]
     #[arg(long, value_name = "NAME", requires = "fits")]
     pub name: Option<String>,
-    /// Kind of motion: recorded, csgm, pulse or hfc [default: that of the fits; without fits recorded]
+    /// Kind of motion: recorded, csgm, pulse or hfc [default: that of the fits, or recorded]
     #[arg(long, value_name = "KIND")]
     pub suite: Option<Kind>,
-    /// calibrated: the universal surface, calibrated by the fits; paper: its planes and its hybrid curve
+    /// calibrated (the surface, by the fits) or paper (its planes and hybrid curve)
     #[arg(long, default_value = "calibrated")]
     pub model: ModelName,
     /// Limit state: a demand |theta|max / alpha
