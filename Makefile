@@ -45,7 +45,7 @@ check-docs: | $(ROCKFRAG)
 	python3 scripts/check_docs.py $(ROCKFRAG)
 
 check-exports: $(OUT)/pex.parquet $(OUT)/pro.parquet
-	scripts/check_exports.sh $(ROCKFRAG) $(OUT)
+	scripts/check_exports.sh $(ROCKFRAG)
 
 spread: | $(ROCKFRAG)
 	python3 scripts/seed_spread.py $(ROCKFRAG) && python3 scripts/paper_planes.py

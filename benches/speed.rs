@@ -1,4 +1,5 @@
-//! Times the solver and the motions of the paper's grid on one core: cargo bench --bench speed. Prints medians as JSON.
+//! Times the solver and the motions of the paper's grid on one core: cargo bench --bench speed. Prints
+//! medians as JSON.
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Holds the exports against OpenQuake and pelicun themselves: scripts/check_exports.sh ROCKFRAG OUT
-# ROCKFRAG is the binary and OUT the folder of a run. Each program is installed from PyPI into an environment of its own,
+# Holds the exports against OpenQuake and pelicun themselves: scripts/check_exports.sh ROCKFRAG
+# ROCKFRAG is the binary. Each program is installed from PyPI into an environment of its own,
 # which is removed afterwards; without a registry the check is skipped, and says so.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-rockfrag=$(realpath "$1") out=$(realpath "$2")
+rockfrag=$(realpath "$1")
 
 python=$(mktemp -d)
 trap 'rm -rf "$python"' EXIT
@@ -17,7 +17,7 @@ if ! "$python/pelicun/bin/pip" download --quiet --no-deps --dest "$python" pelic
 fi
 
 "$python/pelicun/bin/pip" install --quiet pelicun==3.10.0
-"$python/pelicun/bin/python" scripts/check_pelicun.py "$rockfrag" "$out"
+"$python/pelicun/bin/python" scripts/check_pelicun.py "$rockfrag"
 
 # The engine alone, and what its reader and its fragility functions import: all it asks for includes GDAL, which pip would
 # have to compile.
@@ -25,5 +25,5 @@ fi
 "$python/openquake/bin/pip" install --quiet 'numpy<2.3' scipy pandas h5py psutil toml 'decorator~=5.1.1' 'numba~=0.61.2' \
     shapely 'pyproj~=3.7.2' requests h3 'alpha_shapes~=1.1.0' 'pyzmq~=26.0' 'fiona~=1.10.1' 2> "$python/conflicts" ||
     { cat "$python/conflicts" >&2; exit 1; }
-"$python/openquake/bin/python" scripts/check_openquake.py "$rockfrag" "$out"
+"$python/openquake/bin/python" scripts/check_openquake.py "$rockfrag"
 du -sm "$python/openquake" "$python/pelicun" | awk '{ split($2, part, "/"); print "check_exports:", part[length(part)], $1, "MB" }'

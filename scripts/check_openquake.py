@@ -1,6 +1,6 @@
-"""Holds exports for OpenQuake against `evaluate`: python check_openquake.py ROCKFRAG OUT
+"""Holds exports for OpenQuake against `evaluate`: python check_openquake.py ROCKFRAG
 
-ROCKFRAG is the binary and OUT the folder of a run. OpenQuake's own reader takes the NRML, its own fragility functions give
+ROCKFRAG is the binary. OpenQuake's own reader takes the NRML, its own fragility functions give
 the probabilities, and these must equal those of `evaluate`, averaged over PGV/PGA, to 1e-5 at 20 intensities of PGA and of
 PGV, and be exactly 0 below uplift. Needs openquake.engine (scripts/check_exports.sh makes a place for it).
 """

@@ -1,6 +1,6 @@
-"""Runs pelicun on an export and holds its damage states against `evaluate`: python check_pelicun.py ROCKFRAG OUT
+"""Runs pelicun on an export and holds its damage states against `evaluate`: python check_pelicun.py ROCKFRAG
 
-ROCKFRAG is the binary and OUT the folder of a run. At each of 8 intensities, of PGA and of PGV, pelicun draws 100,000
+ROCKFRAG is the binary. At each of 8 intensities, of PGA and of PGV, pelicun draws 100,000
 capacities; the shares of the damage states must equal our probabilities within five standard errors of such a sample.
 Needs pelicun (scripts/check_exports.sh makes a place for it).
 """

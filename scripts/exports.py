@@ -1,4 +1,4 @@
-"""What the checks of exports share: the structure, its fits, and what `evaluate` has for them. Called with ROCKFRAG OUT."""
+"""What the checks of exports share: the structure, and what `evaluate` has for it. Called with ROCKFRAG."""
 
 import csv
 import pathlib
@@ -9,13 +9,13 @@ import tempfile
 ALPHA = 0.20
 HEADINGS = {"pga": "pga_g", "pgv": "pgv_m_s"}
 
-rockfrag, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
-fits = [f"--fits={out}", "--suite=csgm", f"--structure=name=equipment,p=2.5,alpha={ALPHA},eta=0.92"]
+rockfrag = pathlib.Path(sys.argv[1]).resolve()
+structure = f"--structure=name=equipment,p=2.5,alpha={ALPHA},eta=0.92"
 
 
 def run(subcommand, *arguments):
     """What rockfrag prints."""
-    call = [rockfrag, subcommand, *fits, *map(str, arguments)]
+    call = [rockfrag, subcommand, structure, *map(str, arguments)]
     return subprocess.run(call, check=True, capture_output=True, text=True).stdout
 
 

@@ -1,9 +1,10 @@
 //! Dimensionless fragility curves for rocking structures in near-fault earthquakes.
 //!
-//! Begin with [`rocking::reference`]: Eqs. 4 to 6 as they are printed, the equation of motion, uplift and impact.
+//! Begin with [`rocking::reference`]: Eqs. 4 to 6 as they are printed, the equation of motion, uplift and
+//! impact.
 //!
-//! rockfrag implements the system of Dimitrakopoulos & Paraskeva (2015), "Dimensionless fragility curves for rocking
-//! response to near-fault excitations", as a pipeline of stages over Parquet files:
+//! rockfrag implements the system of Dimitrakopoulos & Paraskeva (2015), "Dimensionless fragility curves for
+//! rocking response to near-fault excitations", as a pipeline of stages over Parquet files:
 //!
 //! ```text
 //! sample-scenarios -> scenarios -> synthesize-motions -> motions -> simulate -> responses
@@ -26,9 +27,9 @@
 //! | beyond it: ranking of measures, validation | [`studies`] |
 //! | what the fits rest on | [`statistics`] |
 //!
-//! These know no files, threads or command line, nor do [`export`], which words fragility for other programs, and
-//! [`report`], which draws it. [`table`] reads and writes the files, [`pipeline`] decides what must run, [`stages`] joins
-//! them: a file or folder a subcommand. `docs/architecture.md` has the picture.
+//! These know no files, threads or command line, nor do [`export`], which words fragility for other programs,
+//! and [`report`], which draws it. [`table`] reads and writes the files, [`pipeline`] decides what must run,
+//! [`stages`] joins them: a file or folder a subcommand. `docs/architecture.md` has the picture.
 
 pub mod cli;
 pub mod doubt;

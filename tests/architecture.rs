@@ -1,4 +1,5 @@
-//! Imports run downwards between the rooms of the house: the science knows no files, and no two rooms import each other.
+//! Imports run downwards between the rooms of the house: the science knows no files, and no two rooms import
+//! each other.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

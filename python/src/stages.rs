@@ -1,6 +1,6 @@
 //! Any stage by the parser of the command line: options as JSON in, the paths of what was written out.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -67,13 +67,16 @@ pub fn call(
     run(py, threads, progress.as_ref(), move |mut context| {
         let (call, matches) = configured(command, &words)?;
         context.force = Common::from_arg_matches(&matches)?.force;
-        make(&call, &context)
+        make(&call, &context, &mut HashMap::new())
     })
 }
 
-fn make(call: &Call, context: &Context) -> anyhow::Result<Made> {
-    let Done { summary, doubts, .. } = cache::run(call, context)?;
-    Ok((call.name.clone(), call.stage.outputs(), summary, doubts))
+/// Runs a call unless its files are up to date. `made` gathers the keys of the files of a run.
+fn make(call: &Call, context: &Context, made: &mut HashMap<PathBuf, String>) -> anyhow::Result<Made> {
+    let Done { summary, doubts, key, .. } = cache::run(call, context, made)?;
+    let outputs = call.stage.outputs();
+    made.extend(outputs.iter().map(|path| (path.clone(), key.clone())));
+    Ok((call.name.clone(), outputs, summary, doubts))
 }
 
 /// Runs all stages of a pipeline file that are not up to date.
@@ -91,7 +94,8 @@ pub fn run_pipeline(
         let calls = calls_of(&Config::read(&pipeline)?.with_seed(seed), out, &pipeline)?;
         calls.iter().try_for_each(|call| call.stage.check())?;
         context.force = force;
-        calls.iter().map(|call| make(call, &context)).collect()
+        let mut made = HashMap::new();
+        calls.iter().map(|call| make(call, &context, &mut made)).collect()
     })
 }
 

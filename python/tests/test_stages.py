@@ -109,7 +109,7 @@ def test_progress_is_told_and_an_interrupt_ends_the_call(tmp_path, motions):
 import os, signal, threading, rockfrag
 threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
 try:
-    rockfrag.ida({str(motions.path)!r}, out="ida.parquet", p=1.5, alpha=0.15, eta=0.92, steps=10000)
+    rockfrag.ida({str(motions.path)!r}, out="ida.parquet", p=1.5, alpha=0.15, eta=0.92, steps=600)
 except KeyboardInterrupt:
     print("interrupted", os.listdir("."))
 """

@@ -34,12 +34,12 @@ def monotone_logistic(columns, happened, rises, ridge=0.5):
 
 def rises(event, cases, n=20_000):
     """What a logit gains as a motion becomes 1.1 times as strong, and P_ex as the limit falls by as much:
-    of cases of training, 0.2 to 5 times as strong, with another eta, half of them with another p."""
+    of cases of training, 0.2 to 5 or 10,000 times as strong, with another eta, half of them with another p."""
     rng = np.random.default_rng(5)
     log_uniform = lambda low, high, n: np.exp(rng.uniform(np.log(low), np.log(high), n))
     drawn = some(cases, rng.integers(0, len(cases["im4"]), n)) | {"eta": rng.uniform(0.7, 0.999, n)}
     drawn["p_rad_s"] = np.where(rng.random(n) < 0.5, log_uniform(0.4, 8.0, n), drawn["p_rad_s"])
-    drawn = scaled(drawn, log_uniform(0.2, 5.0, n))
+    drawn = scaled(drawn, log_uniform(0.2, np.where(rng.random(n) < 0.5, 5.0, 1e4), n))
     drawn = some(drawn, drawn["im4"] > 1.0)
     limit = log_uniform(0.02, 0.5, len(drawn["im4"]))
     here = design(event, drawn, limit)

@@ -133,7 +133,8 @@ fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns the call of a stage with the user's arguments, and those of its section where `--config` names a file.
+/// Returns the call of a stage with the user's arguments, and those of its section where `--config` names a
+/// file.
 pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<(Call, ArgMatches)> {
     let known = lenient(command, user);
     let config = known.and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());

@@ -2,13 +2,15 @@
 
 use super::GAP;
 
-/// Number of steps, equal in logarithm, with which every interval between two edges begins, so that no bend hides in one.
+/// Number of steps, equal in logarithm, with which every interval between two edges begins, so that no bend
+/// hides in one.
 const FIRST_STEPS: i32 = 16;
 /// Upper bound of the halvings of a step.
 const MOST_HALVINGS: u32 = 20;
 
-/// Chooses intensities between the first edge and the last at which to tabulate `f`, so that straight lines between them
-/// err by no more than about `tolerance`. `f` may jump at the inner edges: each is a level, and has one just below.
+/// Chooses intensities between the first edge and the last at which to tabulate `f`, so that straight lines
+/// between them err by no more than about `tolerance`. `f` may jump at the inner edges: each is a level, and
+/// has one just below.
 pub fn levels<const N: usize>(edges: &[f64], tolerance: f64, f: impl Fn(f64) -> [f64; N]) -> Vec<f64> {
     let mut levels = Vec::new();
     for (index, interval) in edges.windows(2).enumerate() {
@@ -52,8 +54,8 @@ fn refine<const N: usize>(
     refine(middle, high, tolerance, halvings - 1, f, levels);
 }
 
-/// Finds the least intensity above `from` at which all of `f`, which rise to 1, are within `tolerance` of it. By bisection: the
-/// condition is on several curves at once, and its answer is a yes or no.
+/// Finds the least intensity above `from` at which all of `f`, which rise to 1, are within `tolerance` of it.
+/// By bisection: the condition is on several curves at once, and its answer is a yes or no.
 pub fn whole_curve_end<const N: usize>(from: f64, tolerance: f64, f: impl Fn(f64) -> [f64; N]) -> f64 {
     let is_whole = |intensity: f64| f(intensity).iter().all(|&p| p >= 1.0 - tolerance);
     let mut high = from;

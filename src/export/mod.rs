@@ -16,8 +16,8 @@ pub use pelicun::{LEAST_TOLERANCE as PELICUN_TOLERANCE, metadata, parameters};
 
 use crate::fragility::Peak;
 
-/// Distance below a jump of the last level before it, relative to the intensity of the jump: far enough for pelicun, which keeps
-/// six digits where it converts units.
+/// Distance below a jump of the last level before it, relative to the intensity of the jump: far enough for
+/// pelicun, which keeps six digits where it converts units.
 pub const GAP: f64 = 2e-5;
 
 /// How the name of a model begins.

@@ -15,8 +15,8 @@ fn measure(peak: Peak) -> (&'static str, f64) {
     }
 }
 
-/// Writes all limit states as tables, between whose levels OpenQuake draws straight lines. Below the first level, uplift, the
-/// no-damage limit makes each probability 0; above the last OpenQuake keeps it.
+/// Writes all limit states as tables, between whose levels OpenQuake draws straight lines. Below the first
+/// level, uplift, the no-damage limit makes each probability 0; above the last OpenQuake keeps it.
 pub fn discrete(model: &Model, functions: &[Function]) -> String {
     let states = LimitState::ALL;
     document(model, functions, |function| {

@@ -1,5 +1,6 @@
-//! The fragility parameters of pelicun: a row of CSV for each function, and JSON with what the rows mean. PGA is in g, PGV in
-//! m/s. pelicun draws one uniform number for all limit states of a component, which keeps each within the one before.
+//! The fragility parameters of pelicun: a row of CSV for each function, and JSON with what the rows mean. PGA
+//! is in g, PGV in m/s. pelicun draws one uniform number for all limit states of a component, which keeps
+//! each within the one before.
 
 use serde_json::{Map, Value, json};
 
@@ -14,7 +15,8 @@ const COMMON: [&str; 6] =
 
 /// Least rise of a probability from one level to the next: pelicun keeps six digits.
 const LEAST_RISE: f64 = 2e-6;
-/// Least error that a table can be held to: levels between which the probability rises by less than [`LEAST_RISE`] are left out.
+/// Least error that a table can be held to: levels between which the probability rises by less than
+/// [`LEAST_RISE`] are left out.
 pub const LEAST_TOLERANCE: f64 = 1e-5;
 
 /// Returns the name of a peak in pelicun, its unit there, and the size of that unit in m/s2 or m/s.
@@ -25,8 +27,8 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
     }
 }
 
-/// Writes the rows: rocking has a PGA that is known, uplift; else they have tables of their cumulative distribution, which
-/// must rise from 0 (just below uplift) to 1 (just above the last level).
+/// Writes the rows: rocking has a PGA that is known, uplift; else they have tables of their cumulative
+/// distribution, which must rise from 0 (just below uplift) to 1 (just above the last level).
 pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let of_state = ["Family", "Theta_0", "Theta_1", "DamageStateWeights"];
@@ -37,7 +39,8 @@ pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
     for function in functions {
         let (name, unit_name, unit) = demand(function.peak);
         let uplift = (function.range_of_data[0] / unit).to_string();
-        // Directional: the peaks are those of one component of motion, which pelicun must not enlarge to that of two.
+        // Directional: the peaks are those of one component of motion, which pelicun must not enlarge to that
+        // of two.
         let mut row = [&function.id, "0", name, unit_name, "0", "1"].map(str::to_string).to_vec();
         // PGA alone decides on uplift.
         let tables = match function.peak {
@@ -67,6 +70,10 @@ fn cumulative_distribution(function: &Function, state: usize, unit: f64) -> Stri
             points.push((level, p));
         }
     }
+    let (last_level, last) = points[points.len() - 1];
+    let flat =
+        function.levels.last().filter(|&&end| end >= last_level * (1.0 + GAP) && 1.0 - last > LEAST_RISE);
+    points.extend(flat.map(|&end| (end, last + LEAST_RISE)));
     // pelicun knows a whole distribution or none: what is left stands just beyond the last level.
     points.extend(function.levels.last().map(|&end| (end * (1.0 + GAP), 1.0)));
     let join = |part: fn(&(f64, f64)) -> f64, unit: f64| {

@@ -29,7 +29,8 @@ pub struct Along<'a> {
     pub ratio: Ratio,
 }
 
-/// Probabilities of LS1, LS2 and LS3 under motions of a PGA and PGV (m/s2 and m/s); NaN where the model has none.
+/// Probabilities of LS1, LS2 and LS3 under motions of a PGA and PGV (m/s2 and m/s); NaN where the model has
+/// none.
 pub fn limit_states_at(
     model: &Model,
     structure: &Structure,
@@ -44,7 +45,8 @@ pub fn limit_states_at(
 
 /// Standard deviations from the median within which all ratios lie that count.
 const FARTHEST: f64 = 5.0;
-/// Step of the trapezoidal rule, in standard deviations: exact to 1e-6 for smooth functions under a normal density.
+/// Step of the trapezoidal rule, in standard deviations: exact to 1e-6 for smooth functions under a normal
+/// density.
 const STEP: f64 = 0.4;
 /// Widest panel of the Gauss-Legendre rule of order 4, whose nodes and weights on (0, 1) these are.
 const PANEL: f64 = 0.8;
@@ -107,8 +109,8 @@ impl<'a> Along<'a> {
         levels.map(|im4| im4 * uplift).collect()
     }
 
-    /// The intensity at which motions so many standard deviations from the median have a PGA (m/s2): by bisection,
-    /// since the median bends.
+    /// The intensity at which motions so many standard deviations from the median have a PGA (m/s2): by
+    /// bisection, since the median bends.
     fn intensity_of(&self, pga_m_s2: f64, node: f64) -> f64 {
         if self.peak == Peak::Pga {
             return pga_m_s2;

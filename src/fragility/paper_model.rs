@@ -6,7 +6,8 @@ use super::tree::{GivenRocking, Probabilities, Probability, p_no_rocking};
 use crate::motion::IntensityMeasures;
 
 /// Computes the probabilities of the tree (Eq. 12) from the demand fit that holds at the IM4 and a curve of
-/// overturning, NaN of P_ex without such a fit; `demand` are the two planes, or one regression that holds everywhere.
+/// overturning, NaN of P_ex without such a fit; `demand` are the two planes, or one regression that holds
+/// everywhere.
 pub fn paper_probabilities(
     demand: &[DemandFit],
     overturning: &OverturningFit,

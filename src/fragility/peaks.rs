@@ -21,8 +21,9 @@ pub struct JointPeaks {
     pub given_pgv: RatioGiven,
 }
 
-/// ln(PGV / PGA), s, about intercept + slope u + bend max(u - knot, 0), u = ln(peak) of m/s2 or m/s: the strongest
-/// PGA are of small, near earthquakes, with less PGV than a line has. Normal about that, on each side with its sd.
+/// ln(PGV / PGA), s, about intercept + slope u + bend max(u - knot, 0), u = ln(peak) of m/s2 or m/s: the
+/// strongest PGA are of small, near earthquakes, with less PGV than a line has. Normal about that, on each
+/// side with its sd.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RatioGiven {
     pub intercept: f64,

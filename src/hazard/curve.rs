@@ -1,6 +1,7 @@
 //! Hazard curve of one intensity, and its convolution with a fragility.
 
-/// The widest step of the quadrature, in ln IM: less than the narrowest dispersion of a fragility that we know, the zeta of
+/// The widest step of the quadrature, in ln IM: less than the narrowest dispersion of a fragility that we
+/// know, the zeta of
 /// 0.03 of the lower plane under pulses.
 const WIDEST_PANEL: f64 = 0.02;
 
@@ -16,7 +17,8 @@ const GAUSS_LEGENDRE: [(f64, f64); 8] = [
     (0.980_144_928_248_768_1, 0.050_614_268_145_188_13),
 ];
 
-/// A rate a year that the largest intensity of a hazard curve hardly has: a column with intensities in it has.
+/// A rate a year that the largest intensity of a hazard curve hardly has: a column with intensities in it
+/// has.
 const FREQUENT: f64 = 0.02;
 
 /// Annual rates at which intensities are exceeded; between its points ln rate is linear in ln IM.
@@ -45,7 +47,8 @@ impl HazardCurve {
     /// Checks intensities and their annual rates of exceedance, from frequent to rare or the other way.
     ///
     /// # Errors
-    /// If there are fewer than two points, or one is not positive or not in order: as intensities rise, rates do not.
+    /// If there are fewer than two points, or one is not positive or not in order: as intensities rise, rates
+    /// do not.
     pub fn new(mut points: Vec<(f64, f64)>) -> Result<HazardCurve, HazardError> {
         if points.len() < 2 {
             return Err(HazardError::TooFewPoints(points.len()));
@@ -99,10 +102,12 @@ impl HazardCurve {
         rate * libm::exp(libm::log(rate_at_high / rate) * libm::log(im / low) / libm::log(high / low))
     }
 
-    /// Integrates the mean annual rates of events that have these probabilities at an intensity: P(im) |dH(im)|.
+    /// Integrates the mean annual rates of events that have these probabilities at an intensity: P(im)
+    /// |dH(im)|.
     ///
-    /// Gauss-Legendre on short panels in ln IM, none across a point of the curve or one of `breaks`, where a probability
-    /// jumps. Motions above the last intensity count with the probability at it; those below the first are not counted.
+    /// Gauss-Legendre on short panels in ln IM, none across a point of the curve or one of `breaks`, where a
+    /// probability jumps. Motions above the last intensity count with the probability at it; those below the
+    /// first are not counted.
     pub fn mean_annual_rates<const N: usize>(
         &self,
         breaks: &[f64],

@@ -34,8 +34,8 @@ impl JointHazard {
         values
     }
 
-    /// Sums the mean annual rates of events that have these probabilities at a PGA and PGV: the sum over the bins of rate times
-    /// probability.
+    /// Sums the mean annual rates of events that have these probabilities at a PGA and PGV: the sum over the
+    /// bins of rate times probability.
     pub fn mean_annual_rates<const N: usize>(
         &self,
         probabilities: impl Fn(&PairOfPeaks) -> [f64; N],

@@ -17,8 +17,8 @@ pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
 pub use rates::{Rate, Rates, median_intensity, rates_along, rates_over_pairs};
 
-/// Computes the probability of one or more events in `years`, of events that come at this annual rate independently of each other
-/// (Poisson): 1 - exp(-rate years).
+/// Computes the probability of one or more events in `years`, of events that come at this annual rate
+/// independently of each other (Poisson): 1 - exp(-rate years).
 pub fn probability_in_years(annual_rate: f64, years: f64) -> f64 {
     -libm::expm1(-annual_rate * years)
 }

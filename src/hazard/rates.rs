@@ -18,8 +18,8 @@ pub struct Rate {
 /// Annual rates of LS1 to LS3; NaN where the model has no probability.
 pub type Rates = [Rate; 3];
 
-/// Integrates the probabilities along a peak over its hazard curve. Limits are those of the probabilities at all
-/// intensities at once.
+/// Integrates the probabilities along a peak over its hazard curve. Limits are those of the probabilities at
+/// all intensities at once.
 pub fn rates_along(along: &Along, curve: &HazardCurve) -> Rates {
     let states = |intensity| terms(along.limit_states(intensity, Scenarios::Many));
     let sums = curve.mean_annual_rates(&along.jumps(), states);
@@ -38,7 +38,8 @@ pub fn rates_over_pairs(model: &Model, structure: &Structure, joint: &JointHazar
     rates(joint.mean_annual_rates(states), [0.0; 3])
 }
 
-/// The intensity above which half of the annual rate of overturning comes from, to a hundredth of the curve's range.
+/// The intensity above which half of the annual rate of overturning comes from, to a hundredth of the curve's
+/// range.
 pub fn median_intensity(along: &Along, curve: &HazardCurve) -> f64 {
     const STEPS: i32 = 100;
     let [(first, _), (last, rate_beyond)] = curve.ends();

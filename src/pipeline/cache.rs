@@ -47,8 +47,8 @@ pub fn freshness(call: &Call, planned: &Provenance) -> Freshness {
     last.map_or(Freshness::Stale("it only prints".to_string()), Freshness::UpToDate)
 }
 
-/// Runs a call unless its files are up to date. `made` has the keys of files that the same run made before: its inputs must
-/// still be these.
+/// Runs a call unless its files are up to date. `made` has the keys of files that the same run made before:
+/// its inputs must still be these.
 pub fn run(call: &Call, context: &Context, made: &HashMap<PathBuf, String>) -> anyhow::Result<Done> {
     call.stage.check()?;
     let planned = call.provenance(made)?;

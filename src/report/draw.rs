@@ -13,7 +13,8 @@ const LETTERS: f64 = 8.0;
 const SMALL_LETTERS: f64 = 7.0;
 /// Mean width of a letter, of its height.
 const LETTER_WIDTH: f64 = 0.52;
-/// Room around the area of the data of a panel: for ticks and label, at the right, for the title, for ticks and label.
+/// Room around the area of the data of a panel: for ticks and label, at the right, for the title, for ticks
+/// and label.
 const LEFT: f64 = 40.0;
 const RIGHT: f64 = 9.0;
 const TITLE: f64 = 17.0;
@@ -34,7 +35,8 @@ const FEW_POINTS: usize = 400;
 const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif";
 
 impl Ink {
-    /// The colours in a file and the names of those on the page. Data: Okabe & Ito's palette without its yellow, too faint on white.
+    /// The colours in a file and the names of those on the page. Data: Okabe & Ito's palette without its
+    /// yellow, too faint on white.
     const COLOURS: [(&'static str, &'static str); 9] = [
         ("#1a1a1a", "--ink"),
         ("#5c5c5c", "--muted"),

@@ -134,7 +134,8 @@ impl Layer {
 }
 
 impl Figure {
-    /// Writes what is drawn as comma-separated values: a row a mark, numbers that it does not have left empty.
+    /// Writes what is drawn as comma-separated values: a row a mark, numbers that it does not have left
+    /// empty.
     pub fn csv(&self) -> Result<String, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(["panel", "layer", "x_is", "x", "y_is", "y", "low", "high", "n"])?;
@@ -157,7 +158,8 @@ impl Figure {
 }
 
 impl Marks {
-    /// Rows of x, y, low, high and n; NaN where a kind of marks has no such number. `low` and `high` of a bar are its ends.
+    /// Rows of x, y, low, high and n; NaN where a kind of marks has no such number. `low` and `high` of a bar
+    /// are its ends.
     pub fn numbers(&self) -> Vec<[f64; 5]> {
         const NONE: f64 = f64::NAN;
         match self {

@@ -1,10 +1,12 @@
-//! One static HTML page that needs nothing else: the answer, a table and a figure first; then figures; then what is folded.
+//! One static HTML page that needs nothing else: the answer, a table and a figure first; then figures; then
+//! what is folded.
 
 use super::draw::svg_in_page;
 use super::figure::Figure;
 use super::text::{escape, html};
 
-/// A page from top to bottom. Title, byline and names are plain text; sentences, heads and cells are marked text, see [`super::text`].
+/// A page from top to bottom. Title, byline and names are plain text; sentences, heads and cells are marked
+/// text, see [`super::text`].
 #[derive(Debug, Clone, Default)]
 pub struct Page {
     pub title: String,

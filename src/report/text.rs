@@ -1,4 +1,5 @@
-//! Text of figures and pages. Marked text has italics and small letters below or above the line: `*P*_{ro}`, `10^{-3}`.
+//! Text of figures and pages. Marked text has italics and small letters below or above the line: `*P*_{ro}`,
+//! `10^{-3}`.
 
 /// Words in one style.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,7 +77,8 @@ pub mod number {
         fixed(value, 6).trim_end_matches('0').trim_end_matches('.').to_string()
     }
 
-    /// Writes a number with so many significant digits, very small and very large ones with a power of ten; a dash if it is none.
+    /// Writes a number with so many significant digits, very small and very large ones with a power of ten; a
+    /// dash if it is none.
     pub fn significant(value: f64, digits: usize) -> String {
         match value.abs().log10().floor() {
             _ if value == 0.0 => "0".to_string(),

@@ -46,8 +46,8 @@ impl Stage for ComparePaper {
     }
 }
 
-/// One of the eight planes of Table II: z of each of its numbers over our seeds, and the probability that all four are
-/// one more draw of ours.
+/// One of the eight planes of Table II: z of each of its numbers over our seeds, and the probability that all
+/// four are one more draw of ours.
 #[derive(Serialize, Deserialize)]
 struct PlaneLine {
     plane: String,
@@ -61,7 +61,8 @@ struct PlaneLine {
 /// Within so many standard deviations of ours a published number agrees.
 const AGREES: f64 = 2.0;
 
-/// The eight planes, the worked example, how many numbers agree, and what the surface predicts in their place.
+/// The eight planes, the worked example, how many numbers agree, and what the surface predicts in their
+/// place.
 fn summary(compared: &[Comparison]) -> anyhow::Result<String> {
     let planes = compared.iter().filter_map(|row| Some((row, row.quantity.strip_suffix("_plane")?)));
     let line = |(of, side): (&Comparison, &str)| {
@@ -83,16 +84,22 @@ fn summary(compared: &[Comparison]) -> anyhow::Result<String> {
         }
     };
     let planes: Vec<PlaneLine> = planes.map(line).collect();
-    let known: Vec<&Comparison> = compared.iter().filter(|row| row.sd.is_some() && row.published.is_some()).collect();
+    let known: Vec<&Comparison> =
+        compared.iter().filter(|row| row.sd.is_some() && row.published.is_some()).collect();
     let agree = known.iter().filter(|row| row.z.is_none_or(|z| z.abs() < AGREES)).count();
     let example = |row: &&Comparison| row.quantity == "example_p_ro";
-    let example: Vec<String> = compared.iter().filter(example).map(|row| {
-        let number = |value: Option<f64>| value.map_or("none".to_string(), |value| format!("{value:.2}"));
-        format!("{} {} ({} here)", row.structure, number(row.published), number(row.ours))
-    }).collect();
+    let example: Vec<String> = compared
+        .iter()
+        .filter(example)
+        .map(|row| {
+            let number = |value: Option<f64>| value.map_or("none".to_string(), |value| format!("{value:.2}"));
+            format!("{} {} ({} here)", row.structure, number(row.published), number(row.ours))
+        })
+        .collect();
     let surface = paper::structures().into_iter().filter_map(|structure| {
         let model = Model::shipped(Kind::Csgm, &structure, paper::LIMIT_STATE);
-        let given = model.probabilities(&structure, &paper::example(&structure), Scenarios::One).given_rocking?;
+        let given =
+            model.probabilities(&structure, &paper::example(&structure), Scenarios::One).given_rocking?;
         let p = given.p_ro;
         Some(format!("{} {:.2} ({:.2} to {:.2})", structure.name, p.value, p.low, p.high))
     });

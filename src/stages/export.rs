@@ -96,7 +96,8 @@ impl Stage for Export {
 }
 
 impl Export {
-    /// The probabilities of a structure as a table, from uplift to where all are 1 or nothing was ever recorded.
+    /// The probabilities of a structure as a table, from uplift to where all are 1 or nothing was ever
+    /// recorded.
     fn function(&self, structure: &Structure, along: &Along) -> Function {
         let reaching = |intensity: f64| {
             along.limit_states(intensity, Scenarios::One).map(|state| state.value.clamp(0.0, 1.0))
@@ -111,10 +112,17 @@ impl Export {
         let jumps = along.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
         let edges: Vec<f64> = std::iter::once(uplift).chain(jumps).chain([end]).collect();
         let levels = levels(&edges, tolerance, reaching);
+        // Strong synthetic PGA have little PGV, by which a probability may fall: it is held where it has
+        // been.
+        let mut most = [0.0_f64; 3];
+        let held = |&level: &f64| {
+            most.iter_mut().zip(reaching(level)).for_each(|(most, p)| *most = most.max(p));
+            most
+        };
         Function {
             id: format!("{OWN_ID}{}_{}", plain_id(&structure.name), self.im),
             peak: self.im,
-            probabilities: levels.iter().map(|&level| reaching(level)).collect(),
+            probabilities: levels.iter().map(held).collect(),
             range_of_data: [uplift, end],
             levels,
         }

@@ -21,14 +21,16 @@ use crate::pipeline::options::number;
 use crate::pipeline::stage::{Stage, part};
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{
-    Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure, simulate_all,
+    Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
+    simulate_all,
 };
 use crate::table::TableError;
 use crate::table::motions::{ACCELERATION, Motion, Motions, Part};
 use crate::table::rows;
 use crate::units::G_M_S2;
 
-/// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are bisected.
+/// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are
+/// bisected.
 const CHUNK: usize = 8;
 /// Scaled samples that are held at once, or those of one motion.
 const MOST_SAMPLES: usize = 1 << 20;
@@ -39,10 +41,12 @@ pub struct Ida {
     /// Motions to read, as in simulate
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "motions.parquet")]
     input: PathBuf,
-    /// Overturning intensities to write; NAME.stripes.parquet and NAME.fragility.parquet are written beside it
+    /// Overturning intensities to write; NAME.stripes.parquet and NAME.fragility.parquet are written beside
+    /// it
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "ida.parquet")]
     out: PathBuf,
-    /// Intensity to scan: scale (the factor on the motion), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, for each structure)
+    /// Intensity to scan: scale (the factor on the motion), pga (g), pgv (m/s), im4, im5 or im6 (Eq. 13, for
+    /// each structure)
     #[arg(long, default_value = "scale")]
     measure: ScaledMeasure,
     /// Smallest intensity, in the unit of --measure
@@ -91,7 +95,8 @@ pub struct CapacityRow {
     pub safe_up_to: Option<f64>,
 }
 
-/// What a stripe has besides the response: the intensity, and the share of those up to the next that overturn.
+/// What a stripe has besides the response: the intensity, and the share of those up to the next that
+/// overturn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct StripeRow {
     measure: ScaledMeasure,
@@ -143,7 +148,10 @@ impl Stage for Ida {
 
     fn check(&self) -> anyhow::Result<()> {
         if self.to <= self.from {
-            return Err(UsageError::because(format!("to is {}; expected an intensity above {}", self.to, self.from)));
+            return Err(UsageError::because(format!(
+                "to is {}; expected an intensity above {}",
+                self.to, self.from
+            )));
         }
         self.structures.resolve().map(|_| ())
     }
@@ -206,7 +214,13 @@ impl Ida {
             for structure in structures {
                 let unscaled = self.measure.unscaled(&measures, structure).ok_or_else(|| {
                     let measure = self.measure;
-                    value_error(path, motion, format!("no {measure} above 0 to scale; leave the motion out, or take --measure scale"))
+                    value_error(
+                        path,
+                        motion,
+                        format!(
+                            "no {measure} above 0 to scale; leave the motion out, or take --measure scale"
+                        ),
+                    )
                 })?;
                 cases.push(Case { path, motion, measures, structure, unscaled });
             }
@@ -215,14 +229,26 @@ impl Ida {
         let (mut responses, mut stripes) = (Vec::new(), Vec::new());
         for (case, scanned) in cases.iter().zip(&scans) {
             let shares = scan.overturning_shares(scanned).into_iter().map(Some).chain([None]);
-            let is_level = |at: &&ScanResponse| scan.levels().binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok();
+            let is_level = |at: &&ScanResponse| {
+                scan.levels().binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok()
+            };
             for (at, overturning_above) in scanned.iter().filter(is_level).zip(shares) {
                 let scale = at.intensity / case.unscaled;
-                responses.push(case.measures.scaled(scale).response_row(case.motion, case.structure, at.response));
-                stripes.push(StripeRow { measure: self.measure, intensity: at.intensity, scale, overturning_above });
+                responses.push(case.measures.scaled(scale).response_row(
+                    case.motion,
+                    case.structure,
+                    at.response,
+                ));
+                stripes.push(StripeRow {
+                    measure: self.measure,
+                    intensity: at.intensity,
+                    scale,
+                    overturning_above,
+                });
             }
         }
-        let capacities = cases.iter().zip(&scans).map(|(case, scanned)| self.capacity(case, &scan.capacity(scanned)));
+        let capacities =
+            cases.iter().zip(&scans).map(|(case, scanned)| self.capacity(case, &scan.capacity(scanned)));
         Ok(Analysed {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             stripes: stripes_of(&responses, &stripes)?,
@@ -263,7 +289,10 @@ impl ScaledMeasure {
 }
 
 /// Responses and what stripes have besides, side by side.
-fn stripes_of(responses: &[crate::table::responses::ResponseRow], stripes: &[StripeRow]) -> anyhow::Result<arrow_array::RecordBatch> {
+fn stripes_of(
+    responses: &[crate::table::responses::ResponseRow],
+    stripes: &[StripeRow],
+) -> anyhow::Result<arrow_array::RecordBatch> {
     rows::side_by_side(&[rows::batch(responses)?, rows::batch(stripes)?])
 }
 
@@ -279,11 +308,14 @@ fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableE
             held <= MOST_SAMPLES
         };
         let (block, later) = rest.split_at(rest.iter().take_while(fits).count().max(1));
-        let scaled: Vec<Vec<f64>> = block.iter().map(|point| cases[point.case].scaled(point.intensity)).collect();
+        let scaled: Vec<Vec<f64>> =
+            block.iter().map(|point| cases[point.case].scaled(point.intensity)).collect();
         let problems = block.iter().zip(&scaled).map(|(point, samples)| {
             let Case { path, motion, structure, .. } = cases[point.case];
             let record = Record::new(samples, motion.dt_s);
-            let record = record.map_err(|problem| value_error(path, motion, format!("{problem}; scale less by a lower --to")))?;
+            let record = record.map_err(|problem| {
+                value_error(path, motion, format!("{problem}; scale less by a lower --to"))
+            })?;
             Ok(Problem { structure, record })
         });
         responses.extend(simulate_all(&problems.collect::<Result<Vec<_>, TableError>>()?));
@@ -314,12 +346,19 @@ fn fits(capacities: &[CapacityRow], scan: &Scan, context: &Context) -> Vec<Capac
             _ => KnownCapacity::Above(scan.highest()),
         };
         let name = (row.suite.as_deref(), row.structure.as_str());
-        groups.entry(name).or_insert_with(|| { order.push(name); Vec::new() }).push(known);
+        groups
+            .entry(name)
+            .or_insert_with(|| {
+                order.push(name);
+                Vec::new()
+            })
+            .push(known);
     }
     let measure = capacities.first().map_or(ScaledMeasure::Scale, |row| row.measure);
     let fit = |name: (Option<&str>, &str)| {
         let known = &groups[&name];
-        let count = |is: fn(&KnownCapacity) -> bool| known.iter().filter(|capacity| is(capacity)).count() as i64;
+        let count =
+            |is: fn(&KnownCapacity) -> bool| known.iter().filter(|capacity| is(capacity)).count() as i64;
         let (fit, status) = match fit_capacities(known) {
             Ok(fit) => (Some(fit), "ok".to_string()),
             Err(status) => (None, status.to_string()),
@@ -359,7 +398,11 @@ fn summary(fits: &[CapacityFitRow]) -> String {
                 "{}{suite}: half of the motions overturn it at {} {theta:.3} (95 % limits {low:.3} to {high:.3}), dispersion {beta:.2}",
                 row.structure, row.measure
             ),
-            _ => writeln!(text, "{}{suite}: no median; {} of {} motions do not overturn it", row.structure, row.n_safe, row.n),
+            _ => writeln!(
+                text,
+                "{}{suite}: no median; {} of {} motions do not overturn it",
+                row.structure, row.n_safe, row.n
+            ),
         };
     }
     text

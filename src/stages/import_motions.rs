@@ -1,4 +1,5 @@
-//! import-motions: recorded ground motions from the files of strong-motion networks and people, as motions that simulate reads.
+//! import-motions: recorded ground motions from the files of strong-motion networks and people, as motions
+//! that simulate reads.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -17,7 +18,9 @@ use crate::pipeline::options::{Steps, listed, number};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::pipelined;
 use crate::records::pairs::{Pairs, pairs};
-use crate::records::processing::{Implausible, ImportedMotion, NamedRecord, Processing, PulseSearch, SourceFile};
+use crate::records::processing::{
+    Implausible, ImportedMotion, NamedRecord, Processing, PulseSearch, SourceFile,
+};
 use crate::records::pulses::Verdict;
 use crate::records::rotation::{Direction, RotD};
 use crate::records::signal::{Baseline, HighPass, Scaling};
@@ -46,7 +49,8 @@ pub struct ImportMotions {
     /// Time between samples, s, for files that do not state it, or only to few decimals
     #[arg(long, value_name = "S", value_parser = number(1e-6..=10.0, "a time step above 0 s and up to 10 s"))]
     dt: Option<f64>,
-    /// Unit of the acceleration, for files that do not state it: g, m/s2, cm/s2 (gal), mm/s2, mg, %g, ft/s2 or in/s2
+    /// Unit of the acceleration, for files that do not state it: g, m/s2, cm/s2 (gal), mm/s2, mg, %g, ft/s2
+    /// or in/s2
     #[arg(long, value_parser = acceleration_unit)]
     unit: Option<Unit>,
     /// Column of the acceleration in CSV: its number, its heading, or all where one series wraps over lines
@@ -64,7 +68,8 @@ pub struct ImportMotions {
     /// Resample to this time step, s, band-limited [default: as in the file]
     #[arg(long, value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
     resample: Option<f64>,
-    /// Rotate each pair of horizontal components towards an azimuth (degrees) or the strongest-pulse, and add RotD50 and RotD100
+    /// Rotate each pair of horizontal components towards an azimuth (degrees) or the strongest-pulse, and add
+    /// RotD50 and RotD100
     #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
     rotate: Option<Direction>,
     /// Scale by these factors; each makes a motion of each record
@@ -76,7 +81,8 @@ pub struct ImportMotions {
     /// Scale each motion to this PGV, m/s
     #[arg(long, value_name = "M/S", value_parser = number(1e-9..=100.0, "a PGV above 0 m/s"))]
     scale_pgv: Option<f64>,
-    /// Whether to look for velocity pulses: find (indicator of Baker 2007, then a fit of Eq. 1 for tp_s), or skip
+    /// Whether to look for velocity pulses: find (indicator of Baker 2007, then a fit of Eq. 1 for tp_s), or
+    /// skip
     #[arg(long, default_value = "find")]
     pulses: PulseSearch,
     /// Also write each motion with a pulse without that pulse, as suite residual
@@ -88,7 +94,8 @@ pub struct ImportMotions {
     /// Also compute the Housner intensity, which takes 15 times as long or more
     #[arg(long)]
     housner: bool,
-    /// Import motions that no earthquake is likely to have made (by length, PGA, PGV, time step, spikes or drift)
+    /// Import motions that no earthquake is likely to have made (by length, PGA, PGV, time step, spikes or
+    /// drift)
     #[arg(long)]
     accept_implausible: bool,
     /// Import the rest where files cannot be read
@@ -169,8 +176,13 @@ impl Stage for ImportMotions {
                             continue;
                         }
                     };
-                    if let Some(twice) = imported.iter().find(|motion| !ids.insert(motion.motion_id.clone())) {
-                        anyhow::bail!("{}: two motions are called '{}'; rename the file", twice.source.path, twice.motion_id);
+                    if let Some(twice) = imported.iter().find(|motion| !ids.insert(motion.motion_id.clone()))
+                    {
+                        anyhow::bail!(
+                            "{}: two motions are called '{}'; rename the file",
+                            twice.source.path,
+                            twice.motion_id
+                        );
                     }
                     context.doubt(imported.iter().filter_map(doubt).collect());
                     summary.add(&imported);
@@ -181,7 +193,12 @@ impl Stage for ImportMotions {
         )?;
         if ids.is_empty() || !refused.is_empty() && !self.keep_going {
             let others = if ids.is_empty() { "" } else { "\n--keep-going imports the others" };
-            anyhow::bail!("{} of {} files cannot be imported:\n{}{others}", refused.len(), importer.files.len(), refused.join("\n"));
+            anyhow::bail!(
+                "{} of {} files cannot be imported:\n{}{others}",
+                refused.len(),
+                importer.files.len(),
+                refused.join("\n")
+            );
         }
         context.doubt(refused.into_iter().map(|refusal| (Doubt::UnreadableFile, refusal)).collect());
         let summary = summary.text();
@@ -244,7 +261,11 @@ impl Importer {
                 scaling,
                 pulses: options.pulses,
                 residual: options.residual,
-                implausible: if options.accept_implausible { Implausible::Accept } else { Implausible::Refuse },
+                implausible: if options.accept_implausible {
+                    Implausible::Accept
+                } else {
+                    Implausible::Refuse
+                },
                 plan: MeasurePlan { housner: options.housner, sa_periods_s },
             },
         })
@@ -258,7 +279,8 @@ impl Importer {
         let (mut components, mut refused) = (Vec::new(), Vec::new());
         for (file, read) in self.files.par_iter().map(|file| (file, self.read(file))).collect::<Vec<_>>() {
             match read {
-                // Samples are read again once a pair is found: that takes less memory than keeping all of them.
+                // Samples are read again once a pair is found: that takes less memory than keeping all of
+                // them.
                 Ok(records) => components.extend(records.into_iter().enumerate().map(|(index, record)| {
                     let motion = RecordedMotion { acceleration_m_s2: Vec::new(), ..record.motion };
                     (motion, (file.clone(), index))
@@ -276,7 +298,8 @@ impl Importer {
         match work {
             Work::File(file) => match self.read(file) {
                 Ok(records) => {
-                    let import = |record| self.processing.import(record).map_err(|error| refusal(file, &error));
+                    let import =
+                        |record| self.processing.import(record).map_err(|error| refusal(file, &error));
                     records.into_iter().map(import).collect()
                 }
                 Err(refusal) => vec![Err(refusal)],
@@ -287,7 +310,8 @@ impl Importer {
                     record.ok_or_else(|| refusal(file, &"changed while it was read; run again"))
                 };
                 let both = || Ok([component(&pair[0])?, component(&pair[1])?]);
-                let import = |both| self.processing.import_pair(both).map_err(|error| refusal(&pair[0].0, &error));
+                let import =
+                    |both| self.processing.import_pair(both).map_err(|error| refusal(&pair[0].0, &error));
                 vec![both().and_then(import)]
             }
         }
@@ -296,7 +320,10 @@ impl Importer {
     /// Reads the records of a file, in words what is wrong with it.
     fn read(&self, file: &Path) -> Result<Vec<NamedRecord>, String> {
         let bytes = std::fs::read(file).map_err(|error| refusal(file, &error))?;
-        let source = SourceFile { path: file.display().to_string(), blake3: blake3::hash(&bytes).to_hex().to_string() };
+        let source = SourceFile {
+            path: file.display().to_string(),
+            blake3: blake3::hash(&bytes).to_hex().to_string(),
+        };
         let motions = read_records(&bytes, &self.reading).map_err(|error| refusal(file, &error))?;
         let several = motions.len() > 1;
         let named = |(index, motion): (usize, RecordedMotion)| {
@@ -312,8 +339,8 @@ impl Importer {
         motions.into_iter().enumerate().map(named).collect()
     }
 
-    /// The name of a file without its ending where no other file has the same, else with it (K-NET tells components by the ending),
-    /// else its path.
+    /// The name of a file without its ending where no other file has the same, else with it (K-NET tells
+    /// components by the ending), else its path.
     fn name(&self, file: &Path) -> String {
         let names = [file.file_stem(), file.file_name()].map(text);
         let unique = names.into_iter().find(|name| self.names.get(name) == Some(&1));
@@ -406,7 +433,10 @@ impl Summary {
         for motion in imported {
             self.motions += 1;
             self.pulses += usize::from(motion.pulse.is_some());
-            *self.kinds.entry(format!("{} in {}", motion.record.format, motion.record.unit.name)).or_default() += 1;
+            *self
+                .kinds
+                .entry(format!("{} in {}", motion.record.format, motion.record.unit.name))
+                .or_default() += 1;
             let Measures { pga_m_s2, pgv_m_s, .. } = motion.measured.measures;
             self.peaks.push([pga_m_s2 / G_M_S2, pgv_m_s]);
         }

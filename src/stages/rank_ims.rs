@@ -23,16 +23,20 @@ use crate::table::rows;
 const FURTHER: [&str; 6] = ["pgd_m", "arias_m_s", "cav_m_s", "d5_75_s", "d5_95_s", "housner_m"];
 /// The units at the end of the names of columns, the longer ones first.
 const UNITS: [(&str, Quantity); 4] = [
-    ("_m_s2", Quantity::Acceleration), ("_m_s", Quantity::Velocity), ("_m", Quantity::Length), ("_s", Quantity::Duration),
+    ("_m_s2", Quantity::Acceleration),
+    ("_m_s", Quantity::Velocity),
+    ("_m", Quantity::Length),
+    ("_s", Quantity::Duration),
 ];
 /// Sets that are printed of each target.
 const SHOWN: usize = 5;
 
-/// Rank intensity measures, alone, in pairs and triples, by how well they predict cells or earthquakes that were left out
+/// Rank intensity measures, alone, in pairs and triples, by how well they predict cells or earthquakes that
+/// were left out
 ///
-/// Besides im1 to im6 of the paper, the measures of --motions, made dimensionless with p and g tan alpha: p D of the significant
-/// durations, p^2 PGD / (g tan alpha), p CAV / (g tan alpha), Sa / (g tan alpha) and so on. Measures enter as a product, each to a
-/// power that the fit finds.
+/// Besides im1 to im6 of the paper, the measures of --motions, made dimensionless with p and g tan alpha: p D
+/// of the significant durations, p^2 PGD / (g tan alpha), p CAV / (g tan alpha), Sa / (g tan alpha) and so
+/// on. Measures enter as a product, each to a power that the fit finds.
 #[derive(Debug, Args)]
 pub struct RankIms {
     /// Responses to read
@@ -65,7 +69,9 @@ impl Stage for RankIms {
 
     fn check(&self) -> anyhow::Result<()> {
         match self.candidate.iter().find(|name| quantity(name).is_none()) {
-            Some(name) => Err(UsageError::because(format!("candidate {name}: expected a unit at its end: _m_s2, _m_s, _m or _s"))),
+            Some(name) => Err(UsageError::because(format!(
+                "candidate {name}: expected a unit at its end: _m_s2, _m_s, _m or _s"
+            ))),
             None => Ok(()),
         }
     }
@@ -75,7 +81,9 @@ impl Stage for RankIms {
             Some(path) => Further::read(path, &self.candidate)?,
             None => Further::default(),
         };
-        let groups = responses::read_with(&self.input, &further.names(), |motion, structure| further.of(motion, structure))?;
+        let groups = responses::read_with(&self.input, &further.names(), |motion, structure| {
+            further.of(motion, structure)
+        })?;
         let rules = RankingRules { terms: self.terms, folds: self.folds, transition: self.transition };
         let bar = context.bar(2 * groups.len() as u64);
         let mut sets: Vec<RankedSet> = Vec::new();
@@ -94,10 +102,28 @@ impl Stage for RankIms {
 /// The first sets of each suite, structure and target.
 fn best(sets: &[RankedSet]) -> anyhow::Result<String> {
     let frame = frame::of_batch(&rows::batch(sets)?)?;
-    let is_shown = frame.column("rank")?.i64()?.iter().map(|rank| rank.is_some_and(|rank| rank <= SHOWN as i64)).collect();
-    let columns = ["suite", "structure", "target", "rank", "measures", "form", "log_score", "loss", "loss_error", "aic", "status"];
+    let is_shown = frame
+        .column("rank")?
+        .i64()?
+        .iter()
+        .map(|rank| rank.is_some_and(|rank| rank <= SHOWN as i64))
+        .collect();
+    let columns = [
+        "suite",
+        "structure",
+        "target",
+        "rank",
+        "measures",
+        "form",
+        "log_score",
+        "loss",
+        "loss_error",
+        "aic",
+        "status",
+    ];
     let order = SortMultipleOptions::default().with_maintain_order(true);
-    let shown = frame.filter(&is_shown)?.select(columns)?.sort(["suite", "structure", "target", "rank"], order)?;
+    let shown =
+        frame.filter(&is_shown)?.select(columns)?.sort(["suite", "structure", "target", "rank"], order)?;
     Ok(frame::text(&shown))
 }
 
@@ -115,16 +141,29 @@ impl Further {
         let names: Vec<&str> = table.schema().fields().iter().map(|field| field.name().as_str()).collect();
         if let Some(missing) = candidates.iter().find(|name| !names.contains(&name.as_str())) {
             let file = path.display();
-            return Err(UsageError::because(format!("{file}: no column '{missing}'; expected one of {}", names.join(", "))));
+            return Err(UsageError::because(format!(
+                "{file}: no column '{missing}'; expected one of {}",
+                names.join(", ")
+            )));
         }
-        let is_wanted = |name: &&&str| FURTHER.contains(*name) || name.starts_with("sa_") || candidates.iter().any(|other| other == **name);
-        let columns: Vec<(String, Quantity)> =
-            names.iter().filter(is_wanted).filter_map(|name| Some((name.to_string(), quantity(name)?))).collect();
+        let is_wanted = |name: &&&str| {
+            FURTHER.contains(*name)
+                || name.starts_with("sa_")
+                || candidates.iter().any(|other| other == **name)
+        };
+        let columns: Vec<(String, Quantity)> = names
+            .iter()
+            .filter(is_wanted)
+            .filter_map(|name| Some((name.to_string(), quantity(name)?)))
+            .collect();
         let mut values = HashMap::new();
-        for batch in table.batches(&|name| name == "motion_id" || columns.iter().any(|(column, _)| column == name)) {
+        for batch in
+            table.batches(&|name| name == "motion_id" || columns.iter().any(|(column, _)| column == name))
+        {
             let batch = batch?;
             let all = batch.columns();
-            let of_columns = columns.iter().map(|(name, _)| all.numbers(name)).collect::<Result<Vec<_>, _>>()?;
+            let of_columns =
+                columns.iter().map(|(name, _)| all.numbers(name)).collect::<Result<Vec<_>, _>>()?;
             for (row, id) in all.required_texts("motion_id")?.into_iter().enumerate() {
                 values.insert(id, of_columns.iter().map(|column| column[row]).collect());
             }
@@ -139,7 +178,9 @@ impl Further {
 
     /// The names of the measures, without units.
     fn names(&self) -> Vec<String> {
-        let plain = |name: &String| UNITS.iter().find_map(|(unit, _)| name.strip_suffix(unit)).unwrap_or(name).to_string();
+        let plain = |name: &String| {
+            UNITS.iter().find_map(|(unit, _)| name.strip_suffix(unit)).unwrap_or(name).to_string()
+        };
         self.columns.iter().map(|(name, _)| plain(name)).collect()
     }
 
@@ -149,7 +190,10 @@ impl Further {
             return Ok(Vec::new());
         }
         let values = self.values.get(motion).ok_or_else(|| {
-            anyhow::anyhow!("{}: no motion '{motion}'; expected the motions of the responses", self.path.display())
+            anyhow::anyhow!(
+                "{}: no motion '{motion}'; expected the motions of the responses",
+                self.path.display()
+            )
         })?;
         let pairs = values.iter().zip(&self.columns);
         Ok(pairs.map(|(value, (_, quantity))| quantity.dimensionless(*value, structure)).collect())

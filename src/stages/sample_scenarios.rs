@@ -52,8 +52,10 @@ impl Stage for SampleScenarios {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let SampleScenarios { mw, re, samples, design, seed, .. } = self;
-        let grid = Grid { mw: mw.0.clone(), re_km: re.0.clone(), samples: *samples, design: *design, seed: *seed };
-        let cells: Vec<_> = (0..grid.cells()).into_par_iter().map(|cell| grid.scenarios_of_cell(cell)).collect();
+        let grid =
+            Grid { mw: mw.0.clone(), re_km: re.0.clone(), samples: *samples, design: *design, seed: *seed };
+        let cells: Vec<_> =
+            (0..grid.cells()).into_par_iter().map(|cell| grid.scenarios_of_cell(cell)).collect();
         let scenarios = cells.concat();
         let summary = format!("{} scenarios in {} cells\n", scenarios.len(), grid.cells());
         context.write(&self.out, &scenarios, &summary)?;

@@ -25,7 +25,8 @@ use crate::table::rows;
 
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;
-/// Motions that a thread takes at once: enough to keep the lanes of its registers busy, and few enough for its caches.
+/// Motions that a thread takes at once: enough to keep the lanes of its registers busy, and few enough for
+/// its caches.
 const CHUNK: usize = 32;
 /// Quiet time after a traced record in which free rocking shows, s.
 const TRACE_TAIL_S: f64 = 10.0;
@@ -35,7 +36,8 @@ const NAMED: usize = 8;
 /// Simulate the rocking response of structures to motions
 #[derive(Debug, Args)]
 pub struct Simulate {
-    /// Motions to read: a file or a folder; those of other programs need motion_id, dt_s and acceleration_m_s2
+    /// Motions to read: a file or a folder; those of other programs need motion_id, dt_s and
+    /// acceleration_m_s2
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "motions.parquet")]
     input: PathBuf,
     /// Responses to write
@@ -67,7 +69,8 @@ impl Stage for Simulate {
         let motions = Motions::open(&self.input, self.partition)?;
         let out = out_of_partition(&self.out, self.partition);
         let mut writer = context.create(&out, &rows::schema::<ResponseRow>())?;
-        let (mut ids, mut overturned, mut traces) = (DistinctIds::default(), Overturned::default(), Vec::new());
+        let (mut ids, mut overturned, mut traces) =
+            (DistinctIds::default(), Overturned::default(), Vec::new());
         let pool = Pool::new(IntensityScratch::default);
         let bar = context.bar(motions.rows());
         let simulate_part = |part: Part| -> anyhow::Result<Vec<Responded>> {
@@ -93,8 +96,13 @@ impl Stage for Simulate {
             },
         )?;
         let summary = overturned.text(&structures, motions.rows());
-        if let Some(id) = self.trace.iter().find(|id| traces.iter().all(|row: &TraceRow| row.motion_id != **id)) {
-            anyhow::bail!("{}: no motion '{id}' to trace; expected one of its motion_id", self.input.display());
+        if let Some(id) =
+            self.trace.iter().find(|id| traces.iter().all(|row: &TraceRow| row.motion_id != **id))
+        {
+            anyhow::bail!(
+                "{}: no motion '{id}' to trace; expected one of its motion_id",
+                self.input.display()
+            );
         }
         if !self.trace.is_empty() {
             context.write(&part(&self.out, "trace"), &traces, &summary)?;
@@ -125,8 +133,13 @@ fn respond(
     let of_record = |&record| structures.iter().map(move |structure| Problem { structure, record });
     let problems: Vec<Problem> = records.iter().flat_map(of_record).collect();
     let mut responses = simulate_all(&problems).into_iter();
-    let mut responded =
-        Responded { motion_ids: Vec::new(), rows: rows::batch::<ResponseRow>(&[])?, traces: Vec::new(), doubts: Doubts::default(), overturned: Overturned::default() };
+    let mut responded = Responded {
+        motion_ids: Vec::new(),
+        rows: rows::batch::<ResponseRow>(&[])?,
+        traces: Vec::new(),
+        doubts: Doubts::default(),
+        overturned: Overturned::default(),
+    };
     let mut all = Vec::with_capacity(problems.len());
     for (motion, record) in motions.iter().zip(&records) {
         let measures = Measures::new(motion, record, scratch);
@@ -188,7 +201,11 @@ impl Overturned {
     fn text(&self, structures: &[Structure], motions: u64) -> String {
         let line = |structure: &Structure| {
             let (count, named) = self.0.get(&structure.name).cloned().unwrap_or_default();
-            let named = if (1..=NAMED as u64).contains(&count) { format!(" ({})", listed(&named, NAMED)) } else { String::new() };
+            let named = if (1..=NAMED as u64).contains(&count) {
+                format!(" ({})", listed(&named, NAMED))
+            } else {
+                String::new()
+            };
             format!("{}: {count} of {motions} motions overturn it{named}\n", structure.name)
         };
         structures.iter().map(line).collect()

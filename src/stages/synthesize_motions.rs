@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::{
-    Difference, Epoch, IntensityScratch, LowCut, MeasurePlan, Measured, MotionModel, Scenario, Site, StochasticModel, Suite,
-    Synthesizer,
+    Difference, Epoch, IntensityScratch, LowCut, MeasurePlan, Measured, MotionModel, Scenario, Site,
+    StochasticModel, Suite, Synthesizer,
 };
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
@@ -41,12 +41,12 @@ pub struct SynthesizeMotions {
     /// Time between samples, s
     #[arg(long, default_value = "0.005", value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
     dt: f64,
-    /// How to subtract the pulse from the spectrum of the high frequencies where the pulse is stronger: absolute, signed, clamp or none
-    /// (plain sum)
+    /// How to subtract the pulse from the spectrum of the high frequencies where the pulse is stronger:
+    /// absolute, signed, clamp or none (plain sum)
     #[arg(long, default_value = "absolute")]
     difference: Difference,
-    /// When the pulse peaks: envelope-peak (at the peak of the envelope), pga or pgv (at the peak acceleration or velocity of the
-    /// high frequencies)
+    /// When the pulse peaks: envelope-peak (at the peak of the envelope), pga or pgv (at the peak
+    /// acceleration or velocity of the high frequencies)
     #[arg(long, default_value = "envelope-peak")]
     epoch: Epoch,
     /// Site amplification: rock, soil, none, or a CSV file of frequencies (Hz) and factors
@@ -113,7 +113,8 @@ impl Stage for SynthesizeMotions {
         let plan = MeasurePlan { housner: self.housner, sa_periods_s: periods.clone() };
         let model = self.model()?;
         let of_thread = suites.clone();
-        let pool = Pool::new(move || (Synthesizer::new(model.clone(), &of_thread), IntensityScratch::default()));
+        let pool =
+            Pool::new(move || (Synthesizer::new(model.clone(), &of_thread), IntensityScratch::default()));
         let motions = |scenario: &Scenario| pool.lend(|scratch| synthesize(scenario, suites, &plan, scratch));
         let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
         let bar = context.bar(scenarios.len() as u64);
@@ -126,7 +127,8 @@ impl Stage for SynthesizeMotions {
             },
             |batch| Ok(writer.append(&batch)?),
         )?;
-        let summary = format!("{} motions of {} scenarios\n", scenarios.len() * suites.len(), scenarios.len());
+        let summary =
+            format!("{} motions of {} scenarios\n", scenarios.len() * suites.len(), scenarios.len());
         context.finish(writer, &summary)?;
         Ok(summary)
     }
@@ -154,7 +156,12 @@ fn site(name: &Path) -> anyhow::Result<Site> {
         Some("none") => return Ok(Site::None),
         _ => {}
     }
-    let place = || format!("{}: expected rock, soil, none, or a CSV file of frequencies (Hz) and factors", name.display());
+    let place = || {
+        format!(
+            "{}: expected rock, soil, none, or a CSV file of frequencies (Hz) and factors",
+            name.display()
+        )
+    };
     let sheet = Sheet::parse(&std::fs::read(name).with_context(place)?).with_context(place)?;
     let pairs = (0..sheet.lines.len()).map(|row| Ok((sheet.number(row, 0)?, sheet.number(row, 1)?)));
     Site::table(pairs.collect::<anyhow::Result<_>>().with_context(place)?).with_context(place)
@@ -174,13 +181,19 @@ fn synthesize(
         let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
         let measured = plan.measure(&written, dt_s, scratch);
         let motion_id = suite.motion_id(scenario.scenario_id).to_string();
-        Motion { name: MotionName { motion_id, suite, dt_s }, scenario: *scenario, acceleration_m_s2, measured }
+        Motion {
+            name: MotionName { motion_id, suite, dt_s },
+            scenario: *scenario,
+            acceleration_m_s2,
+            measured,
+        }
     };
     suites.iter().map(motion).collect()
 }
 
 fn batch(some: &[Motion], periods_s: &[f64]) -> anyhow::Result<arrow_array::RecordBatch> {
-    let (names, scenarios): (Vec<&MotionName>, Vec<Scenario>) = some.iter().map(|motion| (&motion.name, motion.scenario)).unzip();
+    let (names, scenarios): (Vec<&MotionName>, Vec<Scenario>) =
+        some.iter().map(|motion| (&motion.name, motion.scenario)).unzip();
     let measures: Vec<_> = some.iter().map(|motion| motion.measured.measures).collect();
     let sa: Vec<&[f64]> = some.iter().map(|motion| motion.measured.sa_m_s2.as_slice()).collect();
     let known = [rows::batch_of::<MotionName, _>(&names)?, rows::batch(&scenarios)?, rows::batch(&measures)?];

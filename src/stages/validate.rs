@@ -56,7 +56,8 @@ impl Stage for Validate {
         if scores.is_empty() {
             anyhow::bail!("{}: no structure rocks; expected responses with rocking", self.input.display());
         }
-        let summary = summary(&scores)? + if self.are_own()? { "These are the responses that were fitted.\n" } else { "" };
+        let summary = summary(&scores)?
+            + if self.are_own()? { "These are the responses that were fitted.\n" } else { "" };
         context.write::<ReliabilityBin>(&part(&self.out, "reliability"), &bins, &summary)?;
         context.write::<Validation>(&self.out, &scores, &summary)?;
         Ok(summary)
@@ -67,7 +68,9 @@ impl Validate {
     /// Whether the fits were made from these responses.
     fn are_own(&self) -> anyhow::Result<bool> {
         let Some(folder) = &self.fits.fits else { return Ok(false) };
-        let Some(made) = Provenance::of_file(&folder.join("pro.calibration.parquet"))? else { return Ok(false) };
+        let Some(made) = Provenance::of_file(&folder.join("pro.calibration.parquet"))? else {
+            return Ok(false);
+        };
         Ok(made.inputs.get("in") == Some(&key_of(&self.input)?))
     }
 }
@@ -112,13 +115,25 @@ fn validate(
         happened: &happened,
         clusters: &clusters,
     };
-    let doubt = (outside && event == Event::Failure).then(|| (Doubt::Extrapolated, cases.structure.name.clone()));
+    let doubt =
+        (outside && event == Event::Failure).then(|| (Doubt::Extrapolated, cases.structure.name.clone()));
     (forecasts.validate(), forecasts.reliability(), doubt.into_iter().collect())
 }
 
 /// A line a suite, structure and event.
 fn summary(scores: &[Validation]) -> anyhow::Result<String> {
     let frame = frame::of_batch(&rows::batch(scores)?)?;
-    let columns = ["suite", "structure", "event", "model", "n", "observed", "expected", "expected_error", "log_score", "brier"];
+    let columns = [
+        "suite",
+        "structure",
+        "event",
+        "model",
+        "n",
+        "observed",
+        "expected",
+        "expected_error",
+        "log_score",
+        "brier",
+    ];
     Ok(frame::text(&frame.select(columns)?))
 }

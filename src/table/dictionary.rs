@@ -78,7 +78,7 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     ("ground_m_s2", "m/s2", "ground acceleration at this moment"),
     ("solver_event", "1", "uplift, impact, rest or overturn; null at a mere sample"),
     // Regressions of the demand in safe rocking.
-    ("model", "1", "univariate, plane or biplanar; of a curve its event"),
+    ("model", "1", "what predicts; of a regression univariate, plane or biplanar; of a curve its event"),
     ("im_x", "1", "first intensity measure"),
     ("im_y", "1", "second intensity measure"),
     ("range_low", "1", "im_x from which the fit holds"),

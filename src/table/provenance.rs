@@ -1,5 +1,5 @@
-//! Provenance of a file, and the key that shows whether it is up to date: JSON in the footer of a table, or in
-//! the first lines of a page or figure.
+//! Provenance of a file, and the key that shows whether it is up to date: JSON in the footer of a table, or
+//! in the first lines of a page or figure.
 
 use std::collections::{BTreeMap, HashMap};
 use std::fs::File;

@@ -1,4 +1,5 @@
-//! evaluate, export and validate as users run them: numbers against closed forms, lists, hazards that end early, slips.
+//! evaluate, export and validate as users run them: numbers against closed forms, lists, hazards that end
+//! early, slips.
 
 use std::path::Path;
 
@@ -216,4 +217,26 @@ fn a_run_ends_with_the_rate_and_its_fits_answer_validate_and_export() {
     succeed(folder.path(), &format!("export --to pelicun --im pgv --fits out {cabinet} --out curve.csv"));
     assert!(folder.path().join("curve.json").exists() && folder.path().join("curve.csv").exists());
     succeed(folder.path(), "validate --fits out --in out/responses.parquet");
+}
+
+#[test]
+fn an_exported_curve_is_that_of_evaluate_and_rises() {
+    let folder = folder(&[]);
+    succeed(folder.path(), &format!("export --to openquake {BLOCK}"));
+    let xml = std::fs::read_to_string(folder.path().join("fragility.xml")).unwrap();
+    let numbers = |opening: &str| -> Vec<f64> {
+        let text = xml.split_once(opening).unwrap().1.split_once('>').unwrap().1.split_once('<').unwrap().0;
+        text.split(' ').map(|number| number.parse().unwrap()).collect()
+    };
+    let (levels, p) = (numbers("<imls"), numbers("<poes ls=\"LS3\""));
+    assert!((levels[0] - 0.25).abs() < 1e-9 && levels.is_sorted() && p.is_sorted());
+    for at in [levels.len() / 4, levels.len() / 2] {
+        // A hazard of this PGA alone, once a year.
+        let line = |k: i32| format!("{},{}\n", levels[at] * (1.0 + 1e-9 * f64::from(k)), 10f64.powi(-3 * k));
+        let curve = (0..5).map(line).collect::<String>();
+        let curve = format!("pga_g,annual_rate_of_exceedance\n{curve}");
+        std::fs::write(folder.path().join("one.csv"), curve).unwrap();
+        let row = &rows(folder.path(), &format!("{BLOCK} --hazard one.csv"))[0];
+        assert!((number(row, "overturning_per_year") - p[at]).abs() < 1e-5, "at {} g", levels[at]);
+    }
 }

@@ -267,3 +267,18 @@ fn what_lies_outside_is_doubted_once() {
     let own = calibrated(&rocking(400));
     assert!(own.doubts(&equipment(), &inside).contains(&Doubt::Extrapolated));
 }
+
+#[test]
+fn limits_at_one_motion_are_1_96_standard_errors_of_the_logit() {
+    let structure = Structure::new("any", 2.5, 0.2, 0.92).unwrap();
+    let shipped = Calibration::shipped(Kind::Recorded, &structure, None);
+    let slope = 0.7 * shipped.ln_s.exp();
+    let variance = shipped.covariance[0] + slope * slope * shipped.covariance[3];
+    let logit = |p: f64| (p / (1.0 - p)).ln();
+    for (scenarios, tau) in [(Scenarios::One, shipped.tau), (Scenarios::Many, 0.0)] {
+        let p = shipped.probability(0.7, scenarios);
+        let half_width = 1.959_963_984_540_054 * (variance + tau * tau).sqrt();
+        assert!((logit(p.high) - logit(p.value) - half_width).abs() < 1e-9);
+        assert!((logit(p.value) - logit(p.low) - half_width).abs() < 1e-9);
+    }
+}

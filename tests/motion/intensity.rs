@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use rockfrag::motion::intensity::{housner_intensity, spectral_acceleration};
+use rockfrag::motion::intensity::{housner_intensity, spectral_acceleration, velocity};
 use rockfrag::motion::{IntensityMeasures, IntensityScratch, Quantity, measures};
 use rockfrag::rocking::Structure;
 
@@ -20,6 +20,8 @@ fn a_sine_has_its_closed_forms() {
     let m = measures(&sine(a, f, duration, dt), dt, &mut IntensityScratch::default());
     close(m.pga_m_s2, a, 1e-6, "PGA");
     close(m.pgv_m_s, 2.0 * a / (2.0 * PI * f), 1e-5, "PGV from rest");
+    let coarse = velocity(&sine(a, f, duration, 0.05), 0.05);
+    close(coarse[5], m.pgv_m_s / 2.0 * 0.05 * PI / (0.05 * PI).tan(), 1e-5, "velocity by trapezoids");
     close(m.pgd_m, a / (2.0 * PI * f) * duration, 1e-5, "PGD of the drift");
     close(m.arias_m_s, PI / (2.0 * 9.81) * 0.5 * a * a * duration, 1e-5, "Arias");
     close(m.cav_m_s, 2.0 / PI * a * duration, 1e-5, "CAV");

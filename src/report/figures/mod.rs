@@ -1,4 +1,5 @@
-//! One function a figure, numbered as in the paper where it is one of the paper's; what they draw comes in plain numbers.
+//! One function a figure, numbered as in the paper where it is one of the paper's; what they draw comes in
+//! plain numbers.
 
 mod demand;
 mod motion;
@@ -73,8 +74,8 @@ fn file_words(name: &str) -> String {
     words.collect::<Vec<_>>().join("-").to_lowercase()
 }
 
-/// Gathers cases (value, whether the event happened) into bins: mean value, observed share with limits by `limits` of events and
-/// cases (Wilson's), number of cases. Empty bins are left out.
+/// Gathers cases (value, whether the event happened) into bins: mean value, observed share with limits by
+/// `limits` of events and cases (Wilson's), number of cases. Empty bins are left out.
 pub fn observed_shares(
     cases: &[(f64, bool)],
     bin: impl Fn(f64) -> usize,
@@ -100,7 +101,8 @@ pub fn equal_ratios([low, high]: [f64; 2], count: usize) -> impl Fn(f64) -> usiz
     move |value| (((value / low).ln() / ratio * count as f64) as usize).min(count - 1)
 }
 
-/// Cuts a series down to `most` values or fewer: to the least and the largest value of each of `most` / 2 steps, in their order.
+/// Cuts a series down to `most` values or fewer: to the least and the largest value of each of `most` / 2
+/// steps, in their order.
 fn envelope(values: &[f64], step: f64, most: usize) -> Vec<[f64; 2]> {
     let each = values.len().div_ceil(most).max(1);
     let ends = values.chunks(2 * each).enumerate().flat_map(|(k, bucket)| {

@@ -16,7 +16,8 @@ pub struct Curve {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StructureCurves {
     pub name: String,
-    /// Up to four, told apart by dashes: curves of the same place must have the same label for all structures.
+    /// Up to four, told apart by dashes: curves of the same place must have the same label for all
+    /// structures.
     pub curves: Vec<Curve>,
     pub shares: Vec<Estimate>,
 }

@@ -17,7 +17,8 @@ pub struct History {
 /// Number of values that a line is drawn with.
 const VALUES: usize = 450;
 
-/// Figure 5: two histories in their own units and in dimensionless ones; `motion` names the motion of the first.
+/// Figure 5: two histories in their own units and in dimensionless ones; `motion` names the motion of the
+/// first.
 pub fn similarity(histories: &[History; 2], motion: &str) -> Figure {
     let [first, second] = histories;
     let panel = |title: &str, x: &str, y: &str, is_dimensionless: bool| {

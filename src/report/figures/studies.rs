@@ -26,7 +26,8 @@ pub struct NamedEstimates {
     pub series: Vec<(String, Vec<Estimate>)>,
 }
 
-/// Incremental dynamic analyses: the distribution of the lowest overturning intensities, and the share that overturns at each level.
+/// Incremental dynamic analyses: the distribution of the lowest overturning intensities, and the share that
+/// overturns at each level.
 pub fn ida(analyses: &[Ida]) -> Figure {
     let panel = |of: &Ida| {
         let share = |k: usize| k as f64 / of.motions.max(1) as f64;
@@ -54,7 +55,8 @@ pub fn ida(analyses: &[Ida]) -> Figure {
     }
 }
 
-/// Validation: mean predicted probabilities against observed shares in bins, a series of estimates each probability.
+/// Validation: mean predicted probabilities against observed shares in bins, a series of estimates each
+/// probability.
 pub fn validation(groups: &[NamedEstimates]) -> Figure {
     let panel = |NamedEstimates { title, series }: &NamedEstimates| {
         let equal = Layer::curve(
@@ -86,7 +88,8 @@ pub fn validation(groups: &[NamedEstimates]) -> Figure {
     }
 }
 
-/// Ranking of sets of measures by log score on held-out cases less that of the best, with limits; each row has its name and one estimate.
+/// Ranking of sets of measures by log score on held-out cases less that of the best, with limits; each row
+/// has its name and one estimate.
 pub fn ranking(targets: &[NamedEstimates]) -> Figure {
     let panel = |NamedEstimates { title, series }: &NamedEstimates| {
         let last = series.len() as f64 - 0.5;

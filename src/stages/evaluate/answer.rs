@@ -27,7 +27,9 @@ pub fn of_points(all: &[Answer<TreeRow>], sentence: bool) -> String {
         let [overturning, _] = states(tree);
         let how = match tree.p_nr {
             Some(1.0) => "does not rock".to_string(),
-            _ => format!("overturns with a probability of {}", limited(overturning, "95 % confidence limits ")),
+            _ => {
+                format!("overturns with a probability of {}", limited(overturning, "95 % confidence limits "))
+            }
         };
         format!("{how} {}, by {}", words_of_peaks(tree), model(object))
     };
@@ -37,12 +39,14 @@ pub fn of_points(all: &[Answer<TreeRow>], sentence: bool) -> String {
 fn point(object: &ObjectRow, tree: &TreeRow) -> String {
     let rocks = if tree.p_nr == Some(1.0) { "does not rock" } else { "rocks" };
     let uplift = format!("{rocks}: PGA is {} times what uplifts it\n", times_uplift(object, tree));
-    let by = format!("{} {}, by {}. {}\n", title(object), words_of_peaks(tree), model(object), validity(object));
+    let by =
+        format!("{} {}, by {}. {}\n", title(object), words_of_peaks(tree), model(object), validity(object));
     if tree.p_nr == Some(1.0) {
         return uplift + &by;
     }
     let [overturning, failure] = states(tree);
-    let line = |name: &str, of: Limited, limits: &str| vec![name.to_string(), value(of), in_brackets(of, limits)];
+    let line =
+        |name: &str, of: Limited, limits: &str| vec![name.to_string(), value(of), in_brackets(of, limits)];
     let too_far = format!("overturns, or {}", too_far(object));
     aligned(&[line("overturns", overturning, "95 % limits "), line(&too_far, failure, "")]) + &uplift + &by
 }
@@ -107,7 +111,12 @@ fn rate(object: &ObjectRow, rates: &RatesRow, site: &Site) -> String {
     let heading = ["", "a year", &format!("in {} years", significant(site.years, 6))].map(str::to_string);
     let in_years = |rates: Limited| rates.map(|rate| rate.map(|rate| probability_in_years(rate, site.years)));
     let row = |name: String, of: Limited| {
-        vec![name, per_year(of), value(in_years(of)), of[0].map_or(String::new(), |_| in_brackets(in_years(of), ""))]
+        vec![
+            name,
+            per_year(of),
+            value(in_years(of)),
+            of[0].map_or(String::new(), |_| in_brackets(in_years(of), "")),
+        ]
     };
     let mut lines = vec![
         heading.to_vec(),
@@ -120,12 +129,15 @@ fn rate(object: &ObjectRow, rates: &RatesRow, site: &Site) -> String {
         lines.push(row(format!("overturns, counted among {} motions", grouped(motions as f64)), of));
     }
     let spread = rates.overturning_per_year_less_velocity.zip(rates.overturning_per_year_more_velocity);
-    let least_known = spread.filter(|_| rates.overturning_per_year.is_some()).map_or(String::new(), |(less, more)| {
-        format!(" Least known: PGV/PGA (one standard deviation: {less:.1e} to {more:.1e}).")
-    });
+    let least_known =
+        spread.filter(|_| rates.overturning_per_year.is_some()).map_or(String::new(), |(less, more)| {
+            format!(" Least known: PGV/PGA (one standard deviation: {less:.1e} to {more:.1e}).")
+        });
     let (title, how_often) = (title(object), how_often(rates, site, "95 % limits "));
     let (table, model, validity) = (aligned(&lines), model(object), validity(object));
-    format!("{title}: {how_often}\n{table}Not in the limits: the error of the hazard.{least_known}\nBy {model}. {validity}\n")
+    format!(
+        "{title}: {how_often}\n{table}Not in the limits: the error of the hazard.{least_known}\nBy {model}. {validity}\n"
+    )
 }
 
 fn rates_of_list(all: &[Answer<RatesRow>], site: &Site) -> String {
@@ -148,7 +160,11 @@ fn rates_of_list(all: &[Answer<RatesRow>], site: &Site) -> String {
     };
     let rows = std::iter::once(heading.map(str::to_string).to_vec()).chain(all.iter().map(row));
     let table = aligned(&rows.collect::<Vec<_>>());
-    let error = if site.ratio == Ratio::Distributed { "the errors of the hazard and of PGV/PGA" } else { "the error of the hazard" };
+    let error = if site.ratio == Ratio::Distributed {
+        "the errors of the hazard and of PGV/PGA"
+    } else {
+        "the error of the hazard"
+    };
     let how_often = how_often(rates, site, "95 % limits ");
     let (worst, most, model) = (&worst.structure, how_often.trim_start_matches("overturns "), model(worst));
     format!(
@@ -164,7 +180,11 @@ fn how_often(rates: &RatesRow, site: &Site, limits: &str) -> String {
         [Some(rate), ..] => {
             let of = [rates.p_overturning, rates.p_overturning_low, rates.p_overturning_high];
             let (period, years) = (period(1.0 / rate), significant(site.years, 6));
-            format!("overturns once in {period} years; {} in {years} years {}", value(of), in_brackets(of, limits))
+            format!(
+                "overturns once in {period} years; {} in {years} years {}",
+                value(of),
+                in_brackets(of, limits)
+            )
         }
         [None, Some(low), Some(high)] => {
             let end = match &site.hazard {
@@ -187,7 +207,13 @@ pub fn explained(model: &Model, structure: &Structure, measures: &IntensityMeasu
     let calibration = |of: &Calibration| {
         format!(
             "logit P = {:.2} + {:.2} logit P of the surface ({}); tau {:.2}; {} events in {} responses of {} clusters",
-            of.c, of.ln_s.exp(), words_of_kind(of.kind), of.tau, of.n_events, of.n, of.n_clusters
+            of.c,
+            of.ln_s.exp(),
+            words_of_kind(of.kind),
+            of.tau,
+            of.n_events,
+            of.n,
+            of.n_clusters
         )
     };
     match model {
@@ -199,17 +225,26 @@ pub fn explained(model: &Model, structure: &Structure, measures: &IntensityMeasu
             {
                 let [low, high] = [low, high].map(|pga| significant(pga / G_M_S2, 3));
                 let [least, most] = [least, most].map(|ratio| significant(ratio, 3));
-                let _ = writeln!(text, "fitted to:   PGA of {low} to {high} g, PGV/PGA of {least} to {most} s");
+                let _ =
+                    writeln!(text, "fitted to:   PGA of {low} to {high} g, PGV/PGA of {least} to {most} s");
             }
         }
         Model::Paper { demand, overturning, .. } => {
             let measures: Vec<String> = demand.iter().map(|fit| fit.model.to_string()).collect();
-            let _ = writeln!(text, "overturning: {} over {}; too far: {}", overturning.status, overturning.im_x, measures.join(", "));
+            let _ = writeln!(
+                text,
+                "overturning: {} over {}; too far: {}",
+                overturning.status,
+                overturning.im_x,
+                measures.join(", ")
+            );
         }
     }
     let IntensityMeasures { im1, im2, im3, im4, im5, im6 } = *measures;
-    let known = [("IM1", im1), ("IM2", im2), ("IM3", im3), ("IM4", Some(im4)), ("IM5", Some(im5)), ("IM6", im6)];
-    let known = known.iter().filter_map(|(name, value)| Some(format!("{name} {}", significant((*value)?, 3))));
+    let known =
+        [("IM1", im1), ("IM2", im2), ("IM3", im3), ("IM4", Some(im4)), ("IM5", Some(im5)), ("IM6", im6)];
+    let known =
+        known.iter().filter_map(|(name, value)| Some(format!("{name} {}", significant((*value)?, 3))));
     let _ = writeln!(text, "measures:    {}", known.collect::<Vec<_>>().join(", "));
     let other = |&kind: &Kind| {
         let limit_state = match model {
@@ -243,7 +278,9 @@ fn title(object: &ObjectRow) -> String {
 fn size(object: &ObjectRow) -> String {
     match (object.width_m, object.height_m, object.p_rad_s, object.alpha_rad) {
         (Some(width), Some(height), ..) => format!("{} x {} m", plain(width), plain(height)),
-        (.., Some(p), Some(alpha)) => format!("p {} rad/s, alpha {}", significant(p, 3), significant(alpha, 3)),
+        (.., Some(p), Some(alpha)) => {
+            format!("p {} rad/s, alpha {}", significant(p, 3), significant(alpha, 3))
+        }
         _ => "-".to_string(),
     }
 }
@@ -284,7 +321,8 @@ fn times_uplift(object: &ObjectRow, tree: &TreeRow) -> String {
 }
 
 fn in_brackets([_, low, high]: Limited, limits: &str) -> String {
-    low.zip(high).map_or(String::new(), |(low, high)| format!("({limits}{} to {})", number(low), percent(high)))
+    low.zip(high)
+        .map_or(String::new(), |(low, high)| format!("({limits}{} to {})", number(low), percent(high)))
 }
 
 /// A probability, or its bounds.
@@ -361,7 +399,8 @@ fn period(years: f64) -> String {
 /// A whole number with commas between thousands.
 fn grouped(number: f64) -> String {
     let digits = format!("{number:.0}");
-    let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|part| std::str::from_utf8(part).ok()).collect();
+    let groups: Vec<&str> =
+        digits.as_bytes().rchunks(3).rev().filter_map(|part| std::str::from_utf8(part).ok()).collect();
     groups.join(",")
 }
 

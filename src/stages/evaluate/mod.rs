@@ -15,8 +15,8 @@ use super::shared::fits::FitsArgs;
 use super::shared::hazard::{self, Renamed};
 use super::shared::responses;
 use super::shared::structures::{Object, StructureArgs, doubts_of};
-use crate::doubt::Doubt;
-use crate::fragility::{Model, Peak, Ratio, Scenarios};
+use crate::doubt::{Doubt, Doubts};
+use crate::fragility::{Calibration, Model, Peak, Ratio, Scenarios};
 use crate::keyword;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
@@ -34,7 +34,8 @@ pub use self::object::{ObjectRow, Predicted, TreeRow, words_of};
 pub use self::site::RatesRow;
 use self::site::Site;
 
-/// Predict how probable rocking and overturning are: at a PGA and PGV, at each of a table, or a year at a site
+/// Predict how probable rocking and overturning are: at a PGA and PGV, at each of a table, or a year at a
+/// site
 ///
 /// Without --fits, the universal surface for recorded motions predicts them.
 #[derive(Debug, Args)]
@@ -49,12 +50,12 @@ pub struct Evaluate {
     #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "hazard"],
           value_parser = number(0.0..=5.0, "m/s, up to 5, more than was ever recorded: is it in cm/s?"))]
     pgv: Option<f64>,
-    /// Table of intensities, Parquet or CSV: PGA (pga_m_s2, or in g) and PGV (pgv_m_s), and p_rad_s, alpha_rad and eta
-    /// where they vary; other columns are copied
+    /// Table of intensities, Parquet or CSV: PGA (pga_m_s2, or in g) and PGV (pgv_m_s), and p_rad_s,
+    /// alpha_rad and eta where they vary; other columns are copied
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "hazard")]
     input: Option<PathBuf>,
-    /// Hazard of the site, CSV: PGA or PGV with annual rates, probabilities or return periods, or both with rates of
-    /// occurrence
+    /// Hazard of the site, CSV: PGA or PGV with annual rates, probabilities or return periods, or both with
+    /// rates of occurrence
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     hazard: Option<PathBuf>,
     /// Which headings of --hazard or --in stand for which columns
@@ -182,7 +183,8 @@ impl Evaluate {
         self.answer(predict, |all| answer::of_rates(all, &site, self.sentence), context)
     }
 
-    /// Predicts for all objects, the worst first. `predict` gives a row, and the measures of the motion that matters.
+    /// Predicts for all objects, the worst first. `predict` gives a row, and the measures of the motion that
+    /// matters.
     fn answer<R: Predicted>(
         &self,
         predict: impl Fn(&Structure, &Model, &mut Vec<Doubt>) -> (R, IntensityMeasures) + Sync,
@@ -190,13 +192,17 @@ impl Evaluate {
         context: &Context,
     ) -> anyhow::Result<String> {
         let models = self.fits.models()?;
-        let of_object = |object: Object| -> anyhow::Result<(Answer<R>, Vec<Doubt>)> {
+        let of_object = |object: Object| -> anyhow::Result<(Answer<R>, Doubts)> {
             let structure = match &object.structure {
                 Ok(structure) => structure,
                 Err(reason) => {
                     let row = R::default().with_doubts(Some(reason.clone()));
-                    let answer = Answer { object: ObjectRow::refused(&object), row, explained: String::new() };
-                    return Ok((answer, vec![Doubt::ImplausibleRow]));
+                    let answer =
+                        Answer { object: ObjectRow::refused(&object), row, explained: String::new() };
+                    return Ok((
+                        answer,
+                        [(Doubt::ImplausibleRow, object.name.clone())].into_iter().collect(),
+                    ));
                 }
             };
             let (model, mut doubts) = models.model(structure)?;
@@ -211,14 +217,18 @@ impl Evaluate {
                 row: row.with_doubts(texts(&doubts)),
                 explained: if self.explain { explained() } else { String::new() },
             };
-            Ok((answer, doubts))
+            // Under the name that the fits have in their doubts.
+            let about = match &model {
+                Model::Calibrated { overturning: Calibration { suite: Some(suite), .. }, .. } => {
+                    format!("{} ({suite})", object.name)
+                }
+                _ => object.name.clone(),
+            };
+            Ok((answer, doubts.into_iter().map(|doubt| (doubt, about.clone())).collect()))
         };
         let answers = self.objects()?.into_par_iter().map(of_object).collect::<anyhow::Result<Vec<_>>>()?;
-        for (answer, doubts) in &answers {
-            let name = &answer.object.structure;
-            context.doubt(doubts.iter().map(|&doubt| (doubt, name.clone())).collect());
-        }
-        let mut all: Vec<Answer<R>> = answers.into_iter().map(|(answer, _)| answer).collect();
+        let (mut all, doubts): (Vec<Answer<R>>, Vec<Doubts>) = answers.into_iter().unzip();
+        doubts.into_iter().for_each(|doubts| context.doubt(doubts));
         all.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
         let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
         let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();
@@ -262,7 +272,9 @@ fn file_format(out: &Path) -> anyhow::Result<Option<Format>> {
         Some(ending @ ("csv" | "json")) => Ok(Some(keyword::parse(ending)?)),
         _ => {
             let out = out.display();
-            Err(UsageError::because(format!("out is {out}; expected a name that ends in .parquet, .csv or .json")))
+            Err(UsageError::because(format!(
+                "out is {out}; expected a name that ends in .parquet, .csv or .json"
+            )))
         }
     }
 }

@@ -76,7 +76,10 @@ pub fn words_of(model: &Model) -> String {
         Model::Paper { overturning, .. } => {
             let suite = overturning.suite.as_deref().and_then(|suite| suite.parse().ok());
             let motions = words_of_kind(Kind::of(suite));
-            format!("rockfrag's fit of the paper's curve and planes to {} responses to {motions}", overturning.n)
+            format!(
+                "rockfrag's fit of the paper's curve and planes to {} responses to {motions}",
+                overturning.n
+            )
         }
     }
 }

@@ -25,8 +25,8 @@ pub struct Site {
     pub responses: Option<Vec<Cases>>,
 }
 
-/// Annual rates of an object, and probabilities in the time of exposure. Where the hazard ends too early for a value
-/// there are bounds alone, in the columns of limits.
+/// Annual rates of an object, and probabilities in the time of exposure. Where the hazard ends too early for
+/// a value there are bounds alone, in the columns of limits.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct RatesRow {
     pub rocking_per_year: Option<f64>,
@@ -59,7 +59,8 @@ pub struct RatesRow {
 const STRONGEST: [f64; 2] = [4.5 * G_M_S2, 5.0];
 /// Share of a rate that stronger motions than the last may add before it is no value.
 const NEGLIGIBLE: f64 = 0.1;
-/// Rate a year at which no site has 1 g or 1 m/s, and by which power of the peak it falls: a hundred times less than
+/// Rate a year at which no site has 1 g or 1 m/s, and by which power of the peak it falls: a hundred times
+/// less than
 /// 0.1 g once a year.
 const IMPLAUSIBLE: (f64, f64) = (0.02, 1.7);
 /// The seed of the resamples of a count.
@@ -69,8 +70,12 @@ impl Site {
     /// Refuses options that a joint hazard has no use for.
     pub fn check(&self, ratio: Option<f64>) -> anyhow::Result<()> {
         match (&self.hazard, ratio, self.extrapolate) {
-            (Hazard::Joint(_), Some(_), _) => Err(UsageError::because("ratio: the hazard has PGA and PGV of each motion")),
-            (Hazard::Joint(_), _, true) => Err(UsageError::because("extrapolate: expected a hazard curve of one peak")),
+            (Hazard::Joint(_), Some(_), _) => {
+                Err(UsageError::because("ratio: the hazard has PGA and PGV of each motion"))
+            }
+            (Hazard::Joint(_), _, true) => {
+                Err(UsageError::because("extrapolate: expected a hazard curve of one peak"))
+            }
             _ => Ok(()),
         }
     }
@@ -111,7 +116,12 @@ impl Site {
         (row, IntensityMeasures::new(structure, peaks[0], peaks[1], None, None))
     }
 
-    fn over_curve(&self, along: &Along, curve: &HazardCurve, doubts: &mut Vec<Doubt>) -> (RatesRow, [f64; 2]) {
+    fn over_curve(
+        &self,
+        along: &Along,
+        curve: &HazardCurve,
+        doubts: &mut Vec<Doubt>,
+    ) -> (RatesRow, [f64; 2]) {
         let [(first, _), (last, _)] = curve.ends();
         let mut rates = rates_along(along, curve);
         let is_short = last < STRONGEST[usize::from(along.peak == Peak::Pgv)]
@@ -144,7 +154,8 @@ impl Site {
 
     /// The rate of overturning, counted among the responses of this structure to this kind of motion.
     fn count(&self, along: &Along, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
-        let kind_of = |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
+        let kind_of =
+            |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
         let kind = match along.model {
             Model::Calibrated { overturning, .. } => overturning.kind,
             Model::Paper { overturning, .. } => kind_of(&overturning.suite),
@@ -181,7 +192,8 @@ impl RatesRow {
             true => [None, known(rate.low), known(rate.high.max(rate.value + rate.beyond))],
             false => [known(rate.value), known(rate.low), known(rate.high)],
         };
-        let ([failure, failure_low, failure_high], [value, low, high]) = (values(failure), values(overturning));
+        let ([failure, failure_low, failure_high], [value, low, high]) =
+            (values(failure), values(overturning));
         let p = |rate: Option<f64>| rate.map(|rate| probability_in_years(rate, years));
         RatesRow {
             rocking_per_year: rocking,

@@ -1,6 +1,7 @@
 //! Probabilities at each intensity of a table.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -33,12 +34,16 @@ pub fn run(options: &Evaluate, path: &Path, context: &Context) -> anyhow::Result
     let is_csv = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     let table = if is_csv { None } else { Some(Table::open(path)?) };
     let batches: Vec<RecordBatch> = match &table {
-        Some(table) => table.batches(&|_| true).map(|batch| Ok(batch?.rows)).collect::<Result<_, TableError>>()?,
+        Some(table) => {
+            table.batches(&|_| true).map(|batch| Ok(batch?.rows)).collect::<Result<_, TableError>>()?
+        }
         None => vec![read_csv(options, path)?],
     };
     let given = if options.structures.is_given() { options.structures.resolve()? } else { Vec::new() };
     if given.len() > 1 {
-        return Err(UsageError::because("a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table"));
+        return Err(UsageError::because(
+            "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
+        ));
     }
     let (mut models, mut evaluated, mut first_row) = (Models::new(), Vec::new(), 0);
     for batch in batches {
@@ -67,12 +72,13 @@ fn evaluate(
         None => structures(columns)?,
     };
     let fitted = options.fits.models()?;
-    let key = |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits);
+    let key =
+        |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits);
     for structure in &structures {
-        if !models.contains_key(&key(structure)) {
+        if let Entry::Vacant(place) = models.entry(key(structure)) {
             let (model, mut doubts) = fitted.model(structure)?;
             doubts.extend(doubts_of(structure));
-            models.insert(key(structure), (structure.clone(), model, doubts));
+            place.insert((structure.clone(), model, doubts));
         }
     }
     let of_row = |row: usize| {
@@ -80,10 +86,12 @@ fn evaluate(
         let measures = IntensityMeasures::new(structure, pga[row], pgv[row], known(tp[row]), known(tm[row]));
         let mut doubts = of_structure.clone();
         doubts.extend(model.doubts(structure, &measures));
-        let tree = TreeRow::new([pga[row], pgv[row]], &model.probabilities(structure, &measures, Scenarios::One));
+        let tree =
+            TreeRow::new([pga[row], pgv[row]], &model.probabilities(structure, &measures, Scenarios::One));
         (tree.with_doubts(texts(&doubts)), doubts)
     };
-    let (trees, doubts): (Vec<TreeRow>, Vec<Vec<Doubt>>) = (0..columns.rows()).into_par_iter().map(of_row).unzip();
+    let (trees, doubts): (Vec<TreeRow>, Vec<Vec<Doubt>>) =
+        (0..columns.rows()).into_par_iter().map(of_row).unzip();
     let place = |row: usize| format!("row {}", columns.first_row + row as u64);
     let doubts = doubts.into_iter().enumerate().flat_map(|(row, doubts)| {
         let place = place(row);
@@ -92,8 +100,9 @@ fn evaluate(
     context.doubt(doubts.collect::<Doubts>());
     let own = rows::batch(&trees)?;
     let schema = columns.batch.schema();
-    let kept: Vec<usize> =
-        (0..schema.fields().len()).filter(|&at| own.schema().index_of(schema.field(at).name()).is_err()).collect();
+    let kept: Vec<usize> = (0..schema.fields().len())
+        .filter(|&at| own.schema().index_of(schema.field(at).name()).is_err())
+        .collect();
     rows::side_by_side(&[own, columns.batch.project(&kept)?])
 }
 
@@ -109,7 +118,9 @@ fn peaks(columns: &Columns, wanted: Peak) -> anyhow::Result<Vec<f64>> {
         let names: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
         return Err(UsageError::because(format!(
             "{}: columns {}; expected {expected}; --columns {}=HEADING renames one",
-            columns.path.display(), names.join(", "), expected.split(' ').next().unwrap_or_default()
+            columns.path.display(),
+            names.join(", "),
+            expected.split(' ').next().unwrap_or_default()
         )));
     };
     let values = columns.numbers(&name)?;
@@ -135,7 +146,11 @@ fn read_csv(options: &Evaluate, path: &Path) -> anyhow::Result<RecordBatch> {
         .map_err(|error| TableError::table(path, error.to_string()))?;
     rename(&mut sheet, &options.columns)?;
     if sheet.lines.is_empty() {
-        return Err(TableError::table(path, format!("no rows under {}; expected intensities", headings(&sheet))).into());
+        return Err(TableError::table(
+            path,
+            format!("no rows under {}; expected intensities", headings(&sheet)),
+        )
+        .into());
     }
     let column = |at: usize| -> (Field, ArrayRef) {
         let rows = 0..sheet.lines.len();

@@ -1,5 +1,5 @@
-//! Hazard as people and agencies give it: a column for each peak and one of rates, probabilities or return periods, or the curves
-//! that OpenQuake exports.
+//! Hazard as people and agencies give it: a column for each peak and one of rates, probabilities or return
+//! periods, or the curves that OpenQuake exports.
 
 use std::path::Path;
 use std::str::FromStr;
@@ -178,7 +178,8 @@ fn annual_rate(
     frequency.annual_rate(number).map_err(|expected| sheet.refusal(row, column, expected).into())
 }
 
-/// Tables often begin with motions that are certain to come, and end with some that never do: these tell nothing.
+/// Tables often begin with motions that are certain to come, and end with some that never do: these tell
+/// nothing.
 fn curve(mut points: Vec<(f64, Option<f64>)>) -> anyhow::Result<HazardCurve> {
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let known = points.into_iter().filter_map(|(intensity, rate)| Some((intensity, rate?)));
@@ -205,7 +206,8 @@ fn joint(
     }
 }
 
-/// The curve of one site as OpenQuake exports it: a column for each intensity, in g or cm/s, with the probability of exceedance.
+/// The curve of one site as OpenQuake exports it: a column for each intensity, in g or cm/s, with the
+/// probability of exceedance.
 fn openquake(sheet: &Sheet, investigation_years: Option<f64>) -> anyhow::Result<Hazard> {
     let (peak, unit) = match note(sheet, "imt=").unwrap_or("PGA").trim_matches('\'') {
         "PGA" => (Peak::Pga, G_M_S2),

@@ -35,12 +35,14 @@ const COLUMNS: [&str; 19] = [
     "im6",
 ];
 
-/// Reads the responses in a file or folder, grouped by suite and structure in the order in which these first come.
+/// Reads the responses in a file or folder, grouped by suite and structure in the order in which these first
+/// come.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
     read_with(path, &[], |_, _| Ok(Vec::new()))
 }
 
-/// The same with candidate measures: `candidates` gives their values for the motion of this name and a structure.
+/// The same with candidate measures: `candidates` gives their values for the motion of this name and a
+/// structure.
 pub fn read_with(
     path: &Path,
     names: &[String],

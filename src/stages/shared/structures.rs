@@ -24,7 +24,8 @@ pub struct StructureArgs {
     /// Slenderness, rad
     #[arg(long, value_name = "RAD")]
     pub alpha: Option<f64>,
-    /// Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions]
+    /// Coefficient of restitution: a number, or housner for 1 - 1.5 sin^2(alpha) [default: from the
+    /// dimensions]
     #[arg(long)]
     pub eta: Option<Restitution>,
     /// Width of the block or column, m
@@ -39,8 +40,8 @@ pub struct StructureArgs {
     /// A structure of several: name=frame,p=1.0,alpha=0.15,eta=0.92 or name=cabinet,width=0.8,height=2.2
     #[arg(long, value_name = "NAME=VALUE,...", conflicts_with_all = ["p", "alpha", "eta", "width", "height", "beam_mass_ratio"])]
     pub structure: Vec<Spec>,
-    /// CSV list of structures: name; width, depth and height (m, cm or mm by the heading), or p, alpha and eta. The word paper stands for
-    /// the two of the paper
+    /// CSV list of structures: name; width, depth and height (m, cm or mm by the heading), or p, alpha and
+    /// eta. The word paper stands for the two of the paper
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
           conflicts_with_all = ["p", "alpha", "eta", "width", "height", "beam_mass_ratio", "structure"])]
     pub structures: Option<PathBuf>,

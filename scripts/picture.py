@@ -1,0 +1,60 @@
+"""Draws docs/surface.png: picture.py FILE. Needs the Python package, polars and matplotlib."""
+
+import sys
+
+import matplotlib.pyplot as plt
+import numpy as np
+import polars as pl
+
+import rockfrag
+
+EQUIPMENT = {"p": 2.5, "alpha": 0.20, "eta": 0.92}
+BLUE, ORANGE = "#0072b2", "#d55e00"
+
+
+def responses(seed):
+    """Responses to the paper's combined motions of a seed."""
+    motions = rockfrag.synthesize_motions(rockfrag.sample_scenarios(seed=seed), suite="csgm", seed=seed)
+    return rockfrag.simulate(motions, **EQUIPMENT)
+
+
+def predicted(cases, **options):
+    """P_ro of cases that rock."""
+    pga, pgv = cases["pga_m_s2"].to_numpy() / 9.81, cases["pgv_m_s"].to_numpy()
+    return rockfrag.probability(pga, pgv, **EQUIPMENT, **options).p_ro
+
+
+def reliability(axes, cases, p, colour, marker, label):
+    """Shares that overturned in bins of the predicted probability, with their standard errors."""
+    fell = (cases["outcome"] == "overturning").to_numpy()
+    edges = [0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
+    bins = [(p > low) & (p <= high) for low, high in zip(edges, edges[1:])]
+    bins = [inside for inside in bins if inside.sum() >= 10]
+    share = np.array([fell[inside].mean() for inside in bins])
+    error = np.sqrt([max(s * (1 - s), 0.01) / inside.sum() for s, inside in zip(share, bins)])
+    axes.errorbar([p[inside].mean() for inside in bins], share, error, fmt=marker, color=colour, label=label)
+
+
+fitted, unseen = responses(42), responses(7).to_polars().filter(pl.col("outcome") != "no_rocking")
+folder = fitted.path.parent
+rockfrag.fit_pex(fitted, out=folder / "pex.parquet"), rockfrag.fit_pro(fitted, out=folder / "pro.parquet")
+plt.rcParams.update({"font.size": 10, "axes.spines.top": False, "axes.spines.right": False})
+left, right = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")[1]
+for outcome, colour, label in [("safe_rocking", BLUE, "rocks"), ("overturning", ORANGE, "overturns")]:
+    some = unseen.filter(pl.col("outcome") == outcome)
+    left.plot(some["pga_m_s2"] / 9.81, some["pgv_m_s"], "o", ms=2.5, mew=0, alpha=0.5, color=colour, label=label)
+pga, pgv = np.meshgrid(np.geomspace(0.204, 2.0, 120), np.geomspace(0.05, 2.5, 120))
+p_ro = rockfrag.probability(pga, pgv, **EQUIPMENT, fits=folder).p_ro
+lines = left.contour(pga, pgv, p_ro, [0.02, 0.1, 0.5, 0.9], colors="black", linewidths=1)
+left.clabel(lines, fmt="%g")
+left.set(xscale="log", yscale="log", xlabel="PGA (g)", ylabel="PGV (m/s)", xlim=(0.2, 2), ylim=(0.05, 2.5))
+for axis in (left.xaxis, left.yaxis):
+    axis.set_major_formatter("{x:g}"), axis.set_minor_formatter("")
+left.set_xticks([0.2, 0.5, 1, 2]), left.set_yticks([0.05, 0.1, 0.2, 0.5, 1, 2])
+left.legend(frameon=False, loc="lower right")
+right.plot([0, 1], [0, 1], color="grey", lw=1)
+reliability(right, unseen, predicted(unseen, suite="csgm"), BLUE, "s", "surface")
+reliability(right, unseen, predicted(unseen, fits=folder), ORANGE, "o", "surface, calibrated")
+right.set(xlabel="predicted probability of overturning", ylabel="share that overturned")
+right.legend(frameon=False)
+plt.savefig(sys.argv[1], dpi=130)
