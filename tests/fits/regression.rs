@@ -181,14 +181,4 @@ proptest! {
         prop_assert_eq!(probit(&[&x, &y], &events).unwrap_err(), FitStatus::Separated);
     }
 
-    #[test]
-    fn the_area_is_a_share_and_turns_with_the_scores(cases in prop::collection::vec((0u8..6, any::<bool>()), 4..60)) {
-        let events: Vec<bool> = cases.iter().map(|case| case.1).collect();
-        prop_assume!(events.contains(&true) && events.contains(&false));
-        let scores: Vec<f64> = cases.iter().map(|case| f64::from(case.0)).collect();
-        let turned: Vec<f64> = scores.iter().map(|score| -score).collect();
-        let area = auc(&scores, &events);
-        prop_assert!((0.0..=1.0).contains(&area));
-        prop_assert!((area + auc(&turned, &events) - 1.0).abs() < 1e-12);
-    }
 }

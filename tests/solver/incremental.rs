@@ -166,37 +166,6 @@ fn all_windows_that_are_wide_enough_are_found() {
     }
 }
 
-#[test]
-fn a_scan_looks_closer_only_where_it_must() {
-    let scan = Scan::new(1.0, 16.0, 4);
-    assert_eq!(scan.levels(), [1.0, 2.0, 4.0, 8.0, 16.0]);
-    let simulated = |respond: fn(f64) -> (Outcome, f64)| {
-        let response = |point: &ScanPoint| {
-            let (outcome, edp) = respond(point.intensity);
-            Response { outcome, edp, impacts: 2 }
-        };
-        let respond =
-            |points: &[ScanPoint]| Ok::<_, std::convert::Infallible>(points.iter().map(response).collect());
-        let found = scan.run(2, respond).unwrap();
-        assert!(found.iter().all(|case| case.windows(2).all(|pair| pair[0].intensity < pair[1].intensity)));
-        assert_eq!(found[0], found[1]);
-        found[0].len()
-    };
-    // Without rocking, only the levels; with rocking, each step is halved four times.
-    assert_eq!(simulated(|_| (Outcome::NoRocking, 0.0)), 5);
-    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.1)), 4 * 16 + 1);
-    assert_eq!(simulated(|_| (Outcome::Overturning, 7.0)), 4 * 16 + 1);
-    // Beyond the tipping point each step is halved four times more; below it only where the demand rises
-    // fast.
-    assert_eq!(simulated(|_| (Outcome::SafeRocking, 1.1)), 4 * 16 * 16 + 1);
-    assert_eq!(simulated(|_| (Outcome::SafeRocking, 0.99)), 4 * 16 + 1);
-    // At the first overturning intensity, halvings of ln 2 / 16 to one thousandth: ln 2 / 1e-3 < 2^10.
-    assert_eq!(
-        simulated(|at| (if at > 3.0 { Outcome::Overturning } else { Outcome::SafeRocking }, 0.1)),
-        4 * 16 + 1 + 6
-    );
-}
-
 /// A scan with a demand that is a function of the intensity, overturning from 1.
 fn scan_of_demand(scan: &Scan, demand: impl Fn(f64) -> f64) -> Vec<ScanResponse> {
     let respond = |points: &[ScanPoint]| {
@@ -223,18 +192,4 @@ fn shares_are_those_of_the_logarithm_of_the_intensity() {
         assert!((share - expected).abs() < 4e-3, "{shares:?}");
     }
     assert_eq!(shares.len(), 4);
-}
-
-#[test]
-fn the_ends_of_a_scan_are_told_apart() {
-    let scan = Scan::new(0.5, 2.0, 6);
-    assert_eq!((scan.lowest(), scan.highest()), (0.5, 2.0));
-    let safe = scan_of(&scan, &[]);
-    assert_eq!((safe.status, safe.overturning, safe.safe_below), (CapacityStatus::Safe, None, Some(2.0)));
-    let below = scan_of(&scan, &[(0.0, 9.0, 0)]);
-    assert_eq!((below.status, below.overturning), (CapacityStatus::Below, Some(0.5)));
-    assert_eq!((below.safe_below, below.windows), (None, vec![]));
-    let ends_safe = scan_of(&scan, &[(0.0, 1.0, 0)]);
-    assert_eq!(ends_safe.windows, [SafeWindow { low: ends_safe.windows[0].low, high: None }]);
-    assert_eq!(scan_of(&scan, &[(2.0, 9.0, 0)]).status, CapacityStatus::Overturns);
 }
