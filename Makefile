@@ -44,7 +44,7 @@ check:
 check-docs: | $(ROCKFRAG)
 	python3 scripts/check_docs.py $(ROCKFRAG)
 
-check-exports: $(OUT)/pex.parquet $(OUT)/pro.parquet
+check-exports: | $(ROCKFRAG)
 	scripts/check_exports.sh $(ROCKFRAG)
 
 spread: | $(ROCKFRAG)

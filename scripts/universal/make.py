@@ -45,16 +45,17 @@ def groups(values, logit, happened):
 
 
 def priors(surface, kind, event, cases, whole):
-    """c, ln s, their sds between structures (of records also between the three sets) and tau, which needs all
-    responses of some structures: `whole`."""
+    """c, ln s, their sds between structures (of records also between the three sets, and of the estimates
+    themselves) and tau, which needs all responses of some structures: `whole`."""
     logits = lambda c: surface.logit(event, kind, c, LIMIT)
     cases, happened = chosen(event, some(cases, cases["kind"] == kind))
     of_structures = groups(cases["structure"], logits(cases), happened)
     if kind == "recorded":
-        mean, _ = calibrate(logits(cases), happened, WIDE)
+        mean, covariance = calibrate(logits(cases), happened, WIDE, cases["cluster"])
         sets = np.array([name.split()[0] for name in cases["motion_id"]])
         of_sets = groups(sets, logits(cases), happened)
         sd = np.hypot(*(spread(list(each.values()), mean) for each in (of_structures, of_sets)))
+        sd = np.hypot(sd, np.sqrt(np.diag(covariance)))
         return *mean, *sd, between(apply(mean, logits(cases)), happened, cases["cluster"])
     sd = spread(list(of_structures.values()), np.zeros(2))
     cases, happened = chosen(event, some(whole, whole["kind"] == kind))

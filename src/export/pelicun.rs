@@ -71,8 +71,10 @@ fn cumulative_distribution(function: &Function, state: usize, unit: f64) -> Stri
         }
     }
     let (last_level, last) = points[points.len() - 1];
-    let flat =
-        function.levels.last().filter(|&&end| end >= last_level * (1.0 + GAP) && 1.0 - last > LEAST_RISE);
+    let flat = function
+        .levels
+        .last()
+        .filter(|&&end| end >= last_level * (1.0 + GAP) && 1.0 - last > 2.0 * LEAST_RISE);
     points.extend(flat.map(|&end| (end, last + LEAST_RISE)));
     // pelicun knows a whole distribution or none: what is left stands just beyond the last level.
     points.extend(function.levels.last().map(|&end| (end * (1.0 + GAP), 1.0)));

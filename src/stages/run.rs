@@ -7,6 +7,8 @@ use std::time::Instant;
 
 use anyhow::Context as _;
 
+use crate::doubt::Doubt;
+use crate::keyword::Keyword;
 use crate::pipeline::cache::{self, Freshness};
 use crate::pipeline::call::Call;
 use crate::pipeline::context::Context;
@@ -46,12 +48,20 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     Ok(printed)
 }
 
-/// Prints the weightiest doubts.
+/// Prints the weightiest doubts, of each kind the line about the most.
 pub fn warn(doubts: &[String]) {
-    doubts.iter().take(SHOWN).for_each(|doubt| eprintln!("warning: {doubt}"));
-    match doubts.len().saturating_sub(SHOWN) {
-        0 => {}
-        more => eprintln!("{more} more: rockfrag inspect shows the doubts of a file"),
+    let about = |line: &&String| {
+        let more = line.split(" and ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());
+        line.matches(", ").count() + more.unwrap_or(0_usize)
+    };
+    let of_kind = |doubt: &Doubt| doubts.iter().filter(|line| line.ends_with(doubt.text())).max_by_key(about);
+    let lines: Vec<&String> = Doubt::ALL.iter().filter_map(of_kind).collect();
+    let more = match lines.len().saturating_sub(SHOWN) {
+        0 => String::new(),
+        more => format!(" ({more} more: rockfrag inspect)"),
+    };
+    for (place, line) in lines.iter().take(SHOWN).enumerate() {
+        eprintln!("warning: {line}{}", if place + 1 == SHOWN { &more } else { "" });
     }
 }
 

@@ -168,7 +168,7 @@ fn rates_of_list(all: &[Answer<RatesRow>], site: &Site) -> String {
     let how_often = how_often(rates, site, "95 % limits ");
     let (worst, most, model) = (&worst.structure, how_often.trim_start_matches("overturns "), model(worst));
     format!(
-        "{worst} overturns most often: {most}\n{table}Rates a year, by {model}.\n\
+        "{worst} overturns most often: {most}\n{table}Rates a year, by {model}. \
          Not in the limits: {error}. Below its friction an object slides instead.\n"
     )
 }
