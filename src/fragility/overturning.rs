@@ -16,8 +16,8 @@ use crate::statistics::scores::{auc, brier_score};
 use crate::statistics::{Estimate, FitStatus};
 use crate::statistics::{dot, normal, predict, tested_probit, variance};
 
-/// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta) (Eq.
-/// 20; of a hybrid Eq. 24).
+/// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta)
+/// (Eq. 20; Eq. 24 with the hybrid measure).
 pub fn p_overturning(im: f64, mu: f64, beta: f64) -> f64 {
     normal::cdf((im.ln() - mu) / beta)
 }
