@@ -95,6 +95,13 @@ pub fn observed_shares(
     bins.iter().filter(|(_, n, _)| *n > 0).map(share).collect()
 }
 
+/// Bins of equal numbers of values, for [`observed_shares`].
+pub fn equal_numbers(mut values: Vec<f64>, count: usize) -> impl Fn(f64) -> usize {
+    values.sort_by(f64::total_cmp);
+    let edges: Vec<f64> = (1..count).map(|k| values[k * values.len() / count]).collect();
+    move |value| edges.partition_point(|edge| *edge <= value)
+}
+
 /// Bins of equal ratio between two values, for [`observed_shares`].
 pub fn equal_ratios([low, high]: [f64; 2], count: usize) -> impl Fn(f64) -> usize {
     let ratio = (high / low).ln().max(f64::MIN_POSITIVE);

@@ -325,8 +325,8 @@ fn over_pga(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
         let own = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure))?;
         let shares: Vec<(f64, bool)> =
             rocked(cases).map(|(k, event)| (cases.pga_m_s2[k] / G_M_S2, event)).collect();
-        let (ends, bins) = (ends(&shares), bins(&shares));
-        let bin = draw::equal_ratios(ends, bins);
+        let bins = bins(&shares);
+        let bin = draw::equal_numbers(shares.iter().map(|(pga, _)| *pga).collect(), bins);
         let drawn = |label: &str, row: &Calibration| {
             let mut sums = vec![[0.0; 5]; bins];
             for (&(pga, _), (k, _)) in shares.iter().zip(rocked(cases)) {
@@ -341,7 +341,8 @@ fn over_pga(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
         };
         let surface = drawn("surface", &Calibration::shipped(own.kind, &cases.structure, None));
         let curves = vec![drawn("calibrated", own), draw::Curve { band: Vec::new(), ..surface }];
-        Some(StructureCurves { name: cases.structure.name.clone(), curves, shares: binned(&shares) })
+        let observed = draw::observed_shares(&shares, &bin, studies::wilson);
+        Some(StructureCurves { name: cases.structure.name.clone(), curves, shares: observed })
     };
     panel(groups, "PGA (g)", groups.iter().filter_map(structure).collect())
 }
