@@ -172,10 +172,9 @@ impl Evaluate {
             responses: self.responses.as_deref().map(responses::read).transpose()?,
         };
         site.check(self.ratio)?;
-        if site.is_implausible() {
-            context.doubt([(Doubt::ImplausibleHazard, path.display().to_string())].into_iter().collect());
-        }
+        let implausible = site.is_implausible().then_some(Doubt::ImplausibleHazard);
         let predict = |structure: &Structure, model: &Model, doubts: &mut Vec<Doubt>| {
+            doubts.extend(implausible);
             site.rates(structure, model, doubts)
         };
         self.answer(predict, |all| answer::of_rates(all, &site, self.sentence), context)

@@ -60,8 +60,7 @@ const STRONGEST: [f64; 2] = [4.5 * G_M_S2, 5.0];
 /// Share of a rate that stronger motions than the last may add before it is no value.
 const NEGLIGIBLE: f64 = 0.1;
 /// Rate a year at which no site has 1 g or 1 m/s, and by which power of the peak it falls: a hundred times
-/// less than
-/// 0.1 g once a year.
+/// less than 0.1 g once a year.
 const IMPLAUSIBLE: (f64, f64) = (0.02, 1.7);
 /// The seed of the resamples of a count.
 const SEED: u64 = 1;

@@ -10,6 +10,7 @@ use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{listed, number};
 use crate::rocking::Structure;
+use crate::stages::shared::fitted::verdict;
 use crate::table::rows;
 
 /// What answers.
@@ -248,9 +249,10 @@ impl FittedModels {
         let curves = [of(Measure::Im4, Some(Measure::Im3Inverse)), of(Measure::Im5, None)];
         let mut usable = curves.into_iter().flatten().filter(|fit| fit.status.is_usable());
         usable.next().cloned().ok_or_else(|| {
-            let status = curves.into_iter().flatten().next().map_or("missing", |fit| fit.status.as_str());
+            let first = curves.into_iter().flatten().next();
+            let status = first.map_or("missing".to_string(), |fit| verdict(fit.status));
             anyhow::anyhow!(
-                "{}: the paper's curve of '{}' is {status}; use --model calibrated",
+                "{}: the paper's curve of '{}' has the status '{status}'; use --model calibrated",
                 self.folder(),
                 row.structure
             )
