@@ -7,10 +7,10 @@ use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::rocking::{Outcome, Structure};
 
-/// More cases of one structure and suite than this answer no further question.
+/// The most cases of one structure and suite.
 pub const MOST_CASES: usize = 20_000_000;
 
-/// The event whose probability is asked for.
+/// The event whose probability is fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Event {
     /// Overturning given rocking: P_ro.

@@ -145,8 +145,8 @@ pub struct DemandOptions {
     pub all: bool,
 }
 
-/// Fits the demand of a structure under a suite: the two planes, then all other regressions if they are asked
-/// for.
+/// Fits the demand of a structure under a suite: the two planes, then all other regressions if they are
+/// requested for.
 pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> (Vec<DemandFit>, Vec<ScanPoint>) {
     let scan = scan_transition(cases);
     let found = transition(&scan, options.confidence);

@@ -8,7 +8,7 @@
 //! tree         the tree that joins them (Eq. 12); paper_model: the tree by the paper's fits
 //! surface      P_ro and P_ex of any structure; calibration: the surface by one's own responses
 //! peaks        PGA and PGV together
-//! model        what answers: the calibrated surface, or the paper's fits
+//! model        the model that predicts: the calibrated surface, or the paper's fits
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
 

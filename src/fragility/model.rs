@@ -1,4 +1,4 @@
-//! What answers: the calibrated surface, or the curve and planes of the paper.
+//! The model that predicts: the calibrated surface, or the curve and planes of the paper.
 
 use super::calibration::{Calibration, Scenarios};
 use super::demand::DemandFit;
@@ -12,7 +12,7 @@ use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
 
-/// What answers for one structure and limit state.
+/// The model of one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "there is one a structure")]
 pub enum Model {
@@ -72,7 +72,7 @@ impl Model {
         }
     }
 
-    /// What speaks against its answer at an intensity.
+    /// Returns what speaks against its prediction at an intensity.
     pub fn doubts(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Doubt> {
         let rocks = p_no_rocking(measures.im4) == 0.0;
         let mut doubts = match self {

@@ -1,4 +1,4 @@
-//! The tree as the paper answers it: P_ex of its planes, P_ro of its curves.
+//! The tree by the models of the paper: P_ex by its planes, P_ro by its curves.
 
 use super::demand::DemandFit;
 use super::overturning::OverturningFit;

@@ -104,7 +104,10 @@ impl Context {
         writer.finish(&self.provenance(summary)?)
     }
 
-    /// What a file that is ready says of how it was made, unless what was read has changed meanwhile.
+    /// Returns the provenance of a finished file.
+    ///
+    /// # Errors
+    /// If an input has changed since it was read.
     pub fn provenance(&self, summary: &str) -> Result<Provenance, TableError> {
         for (path, key) in &self.inputs {
             if key_of(path)? != *key {

@@ -1,4 +1,4 @@
-//! One static HTML page that needs nothing else: the answer, a table and a figure first; then figures; then
+//! One static HTML page that needs nothing else: the result, a table and a figure first; then figures; then
 //! what is folded.
 
 use super::draw::svg_in_page;
@@ -12,7 +12,7 @@ pub struct Page {
     pub title: String,
     /// Author and date, as far as given.
     pub byline: String,
-    /// The answer.
+    /// The result, in a sentence.
     pub sentence: String,
     pub table: Option<Table>,
     /// Doubts that change a decision, under the table.
@@ -21,7 +21,7 @@ pub struct Page {
     pub figures: Vec<Figure>,
     /// Folded: method, tests, files.
     pub sections: Vec<Section>,
-    /// Key of what made the page, which tells whether it is up to date.
+    /// Provenance of the page, which shows whether it is up to date.
     pub key: String,
 }
 

@@ -101,7 +101,7 @@ pub struct ImportMotions {
     keep_going: bool,
 }
 
-/// What the file says of a motion, besides its measures.
+/// What the file has of a motion, besides its measures.
 #[derive(Serialize, Deserialize)]
 struct SourceRow {
     motion_id: String,

@@ -13,12 +13,12 @@ use crate::pipeline::cache::{self, Freshness};
 use crate::pipeline::call::Call;
 use crate::pipeline::context::Context;
 
-/// The stages that answer what a folder is for, the first of which is printed at the end of a run.
+/// Stages whose result is the purpose of a folder; the first one that runs is printed at the end.
 const ANSWERS: [&str; 4] = ["evaluate", "compare-paper", "ida", "fit-pro"];
 /// Doubts that are printed.
 const SHOWN: usize = 3;
 
-/// Runs what must run. Returns what the stage prints that answers; of none, what the last one does.
+/// Runs the stages that are not up to date. Returns the text of the stage above, or of the last stage.
 pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     calls.iter().try_for_each(|call| call.stage.check())?;
     let (mut printed, mut doubts, mut made) = (String::new(), Vec::new(), HashMap::new());

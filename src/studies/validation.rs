@@ -46,7 +46,7 @@ pub struct Validation {
     /// Area under the receiver operating characteristic; none where all or none happened.
     pub auc: Option<f64>,
     /// Intercept and slope of the probit regression of the events on Phi^-1 of their probability, 0 and 1 at
-    /// best: a slope below 1 says that probabilities are too sure (Cox 1958, Biometrika 45, 562-565). None
+    /// best: with a slope below 1, probabilities are too extreme (Cox 1958, Biometrika 45, 562-565). None
     /// where there is no such fit.
     pub calibration_intercept: Option<f64>,
     pub calibration_slope: Option<f64>,

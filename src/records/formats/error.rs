@@ -20,7 +20,7 @@ pub enum RecordFileError {
     #[error("PGA {header_m_s2:.5} m/s2 in the header, {found_m_s2:.5} m/s2 in the samples; check the unit")]
     Peak { header_m_s2: f64, found_m_s2: f64 },
     #[error(
-        "line {line}: a step of {found_s:.6} s among {expected_s:.6} s; fill gaps, or say --dt if rounded"
+        "line {line}: a step of {found_s:.6} s among {expected_s:.6} s; fill gaps, or give --dt if rounded"
     )]
     UnevenTime { line: usize, found_s: f64, expected_s: f64 },
     #[error("{columns}; expected one of acceleration: choose with --column, or --column all if lines wrap")]

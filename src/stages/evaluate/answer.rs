@@ -1,4 +1,4 @@
-//! The answers in words: the first line is the answer, then one small table, then what else matters.
+//! The results in words: the first line has the result, then one small table, then notes.
 
 use std::fmt::Write;
 
@@ -91,7 +91,7 @@ pub fn of_rates(all: &[Answer<RatesRow>], site: &Site, sentence: bool) -> String
     with_more(text, all, |object, rates| sentence.then(|| of_object(object, rates)))
 }
 
-/// Adds a sentence for a report and what explains the answer, if these are asked for.
+/// Adds the sentence for a report and the explanation, if requested.
 fn with_more<R>(
     mut text: String,
     all: &[Answer<R>],

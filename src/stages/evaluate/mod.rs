@@ -136,7 +136,7 @@ impl Evaluate {
         }
     }
 
-    /// The structures that are asked for, or all that are fitted.
+    /// Returns the given structures, or all fitted ones.
     fn objects(&self) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.fits.fits.is_some() {
             return Ok(self.fits.models()?.structures().into_iter().map(Object::from).collect());

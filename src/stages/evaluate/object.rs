@@ -12,7 +12,7 @@ use crate::table::rows::Row;
 pub struct Answer<R> {
     pub object: ObjectRow,
     pub row: R,
-    /// The model and the measures of the motion, if that is asked for.
+    /// The model and the measures of the motion, if requested.
     pub explained: String,
 }
 

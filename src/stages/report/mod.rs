@@ -89,7 +89,7 @@ impl Stage for Report {
     }
 }
 
-/// Its files are ours if the SVG says so.
+/// Its files are ours if the SVG has our provenance.
 fn foreign(stem: &Path) -> Option<PathBuf> {
     let files = ["svg", "png", "csv"].map(|ending| stem.with_added_extension(ending));
     let there = files.iter().find(|file| file.exists())?;

@@ -1,4 +1,4 @@
-//! The page: one answer, one table, one figure; then further figures; folded, how it was made and tested.
+//! The page: one sentence, one table, one figure; then further figures; folded, method, tests and files.
 
 use serde::Serialize;
 use serde_json::{Value, json};

@@ -1,4 +1,4 @@
-//! The options by which stages take a model, and the fits that answer for a structure.
+//! The options that select a model, and the fits of a structure.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use crate::rocking::Structure;
 use crate::stages::shared::fitted::verdict;
 use crate::table::rows;
 
-/// What answers.
+/// The model that predicts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModelName {
     /// The universal surface, calibrated where there are fits.
@@ -181,7 +181,7 @@ impl FittedModels {
         Ok(same.into_iter().filter(|row| Some(&row.structure) == name.as_ref()).collect())
     }
 
-    /// Of these rows that of the suite asked for, or of the only one; none of none.
+    /// Returns the row of the requested suite, or the only row; none if there is no row.
     fn of_suite<'a>(&self, rows: Vec<&'a Calibration>) -> anyhow::Result<Option<&'a Calibration>> {
         let wanted = self.args.suite;
         let mut suites: Vec<&str> = rows.iter().map(|row| row.kind.as_str()).collect();

@@ -36,7 +36,7 @@ impl FromStr for Renamed {
     }
 }
 
-/// Gives columns the names that a user says.
+/// Renames columns as the user requests.
 pub fn rename(sheet: &mut Sheet, renamed: &[Renamed]) -> anyhow::Result<()> {
     for Renamed { column, heading } in renamed {
         let Some(found) = sheet.headings.iter_mut().find(|found| found.text == *heading) else {
@@ -66,7 +66,7 @@ pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
     }
 }
 
-/// What a column says of how often.
+/// How a column expresses frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Frequency {
     /// Annual rate of exceedance.
@@ -104,7 +104,7 @@ impl Frequency {
         }
     }
 
-    /// The annual rate that a number says; none of a motion that is certain, whose rate nobody knows.
+    /// Converts a number to an annual rate; none if the motion is certain, whose rate is unknown.
     fn annual_rate(self, number: f64) -> Result<Option<f64>, &'static str> {
         match self {
             Frequency::Rate | Frequency::Occurrence if (0.0..=MOST_FREQUENT).contains(&number) => {

@@ -261,7 +261,7 @@ fn read_list(path: &Path) -> anyhow::Result<Vec<Object>> {
     Ok((0..sheet.lines.len()).map(|row| object(&sheet, row, &place(row))).collect())
 }
 
-/// The object of a row; `place` says where it stands.
+/// The object of a row; `place` is its line in the file.
 fn object(sheet: &Sheet, row: usize, place: &str) -> Object {
     let name = sheet.column(&["name"]).map_or("", |column| sheet.cell(row, column));
     let name = if name.is_empty() { format!("line {}", sheet.lines[row]) } else { name.to_string() };
