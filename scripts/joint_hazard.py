@@ -1,8 +1,6 @@
 """Makes the example of a joint hazard from that of a hazard curve: python joint_hazard.py data/hazard.csv > data/hazard_joint.csv
 
-The PGA of the curve in bins, and in each PGV/PGA lognormal with a median of 0.10 s and a standard deviation of ln of 0.5. A
-bin stands at the middle of its edges in logarithm.
-"""
+PGA in bins, in each PGV/PGA lognormal: median 0.10 s, standard deviation of ln 0.5. A bin is at its geometric mean."""
 
 import math
 import sys

@@ -60,7 +60,7 @@ impl Doubt {
             Doubt::ImplausibleSize => "no solid block is as high: are its dimensions in cm?",
             Doubt::LowRestitution => "eta is below 0.5: a typing error?",
             Doubt::ImplausibleHazard => "such strong motion is never so frequent: wrong unit or column?",
-            Doubt::HazardEndsEarly => "the hazard curve ends too early for one value: bounds are given",
+            Doubt::HazardEndsEarly => "the hazard curve ends too early: bounds in place of a value",
             Doubt::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
             Doubt::HazardStartsLate => {
                 "the hazard curve starts above the intensity that uplifts it: rates are too low"
@@ -72,7 +72,7 @@ impl Doubt {
             Doubt::NoEvents => {
                 "no response or every response overturned: the level comes from other structures"
             }
-            Doubt::FewEvents => "fewer than ten responses differ from the others: the level is uncertain",
+            Doubt::FewEvents => "fewer than ten responses with the event, or without: the level is uncertain",
             Doubt::FewClusters => {
                 "fewer than ten earthquakes or cells: limits assume the usual differences between them"
             }
@@ -89,6 +89,8 @@ pub struct Doubts(BTreeMap<Doubt, Vec<String>>);
 
 /// Subjects that a line names.
 const NAMED: usize = 3;
+/// The name of a structure that has none.
+const UNNAMED: &str = "structure";
 
 impl Doubts {
     /// A line a doubt, with the first of what it is about.
@@ -96,6 +98,7 @@ impl Doubts {
         let line = |(doubt, about): (&Doubt, &Vec<String>)| {
             let named = about.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
             match about.len().saturating_sub(NAMED) {
+                0 if named == UNNAMED => doubt.text().to_string(),
                 0 => format!("{named}: {}", doubt.text()),
                 more => format!("{named} and {more} more: {}", doubt.text()),
             }

@@ -86,7 +86,10 @@ pub fn of_rates(all: &[Answer<RatesRow>], site: &Site, sentence: bool) -> String
     };
     let of_object = |object: &ObjectRow, rates: &RatesRow| {
         let how_often = how_often(rates, site, "95 % confidence limits ");
-        format!("{how_often}, by {} and a hazard whose own error is not included", model(object))
+        let model = model(object);
+        let model = model.trim_end_matches(" (not fitted to it)");
+        let extended = if site.extrapolate { ", with the hazard curve extrapolated" } else { "" };
+        format!("{how_often}, by {model}{extended}, without {}", errors(site))
     };
     with_more(text, all, |object, rates| sentence.then(|| of_object(object, rates)))
 }
@@ -131,13 +134,12 @@ fn rate(object: &ObjectRow, rates: &RatesRow, site: &Site) -> String {
     let spread = rates.overturning_per_year_less_velocity.zip(rates.overturning_per_year_more_velocity);
     let least_known =
         spread.filter(|_| rates.overturning_per_year.is_some()).map_or(String::new(), |(less, more)| {
-            format!(" Least known: PGV/PGA (one standard deviation: {less:.1e} to {more:.1e}).")
+            format!(" Least known: PGV/PGA (one standard deviation: {less:.1e} to {more:.1e} a year).")
         });
     let (title, how_often) = (title(object), how_often(rates, site, "95 % limits "));
-    let (table, model, validity) = (aligned(&lines), model(object), validity(object));
-    format!(
-        "{title}: {how_often}\n{table}Not in the limits: the error of the hazard.{least_known}\nBy {model}. {validity}\n"
-    )
+    let (table, error, model) = (aligned(&lines), errors(site), model(object));
+    let validity = validity(object);
+    format!("{title}: {how_often}\n{table}Not in the limits: {error}.{least_known}\nBy {model}. {validity}\n")
 }
 
 fn rates_of_list(all: &[Answer<RatesRow>], site: &Site) -> String {
@@ -160,17 +162,21 @@ fn rates_of_list(all: &[Answer<RatesRow>], site: &Site) -> String {
     };
     let rows = std::iter::once(heading.map(str::to_string).to_vec()).chain(all.iter().map(row));
     let table = aligned(&rows.collect::<Vec<_>>());
-    let error = if site.ratio == Ratio::Distributed {
-        "the errors of the hazard and of PGV/PGA"
-    } else {
-        "the error of the hazard"
-    };
+    let error = errors(site);
     let how_often = how_often(rates, site, "95 % limits ");
     let (worst, most, model) = (&worst.structure, how_often.trim_start_matches("overturns "), model(worst));
     format!(
         "{worst} overturns most often: {most}\n{table}Rates a year, by {model}. \
          Not in the limits: {error}. Below its friction an object slides instead.\n"
     )
+}
+
+/// The errors that the limits of rates do not contain.
+fn errors(site: &Site) -> &'static str {
+    match site.ratio {
+        Ratio::Distributed => "the errors of the hazard and of PGV/PGA",
+        _ => "the error of the hazard",
+    }
 }
 
 /// How often it overturns, with limits or bounds.
@@ -205,6 +211,15 @@ fn how_often(rates: &RatesRow, site: &Site, limits: &str) -> String {
 pub fn explained(model: &Model, structure: &Structure, measures: &IntensityMeasures) -> String {
     let mut text = format!("\n{}\n", structure.name);
     let calibration = |of: &Calibration| {
+        if of.n == 0 {
+            return format!(
+                "logit P = {:.2} + {:.2} logit P of the surface ({}); tau {:.2}",
+                of.c,
+                of.ln_s.exp(),
+                words_of_kind(of.kind),
+                of.tau
+            );
+        }
         format!(
             "logit P = {:.2} + {:.2} logit P of the surface ({}); tau {:.2}; {} events in {} responses of {} clusters",
             of.c,

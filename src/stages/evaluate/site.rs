@@ -137,7 +137,7 @@ impl Site {
             doubts.push(Doubt::HazardStartsLate);
         }
         let mut row = RatesRow::new(rates, self.years, is_short && extrapolated.is_none());
-        if self.ratio == Ratio::Distributed {
+        if self.ratio == Ratio::Distributed && row.overturning_per_year.is_some() {
             let overturning = |z| rates_along(&along.with(Ratio::Deviations(z)), curve)[2].value;
             row.overturning_per_year_less_velocity = Some(overturning(-1.0));
             row.overturning_per_year_more_velocity = Some(overturning(1.0));

@@ -18,6 +18,12 @@ use crate::units::Quantity;
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Structure")]
 pub struct StructureArgs {
+    /// Width of the block or column, m
+    #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
+    pub width: Option<f64>,
+    /// Height of the block or column, m
+    #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
+    pub height: Option<f64>,
     /// Frequency parameter, rad/s
     #[arg(long, value_name = "RAD/S")]
     pub p: Option<f64>,
@@ -27,12 +33,6 @@ pub struct StructureArgs {
     /// Coefficient of restitution, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions]
     #[arg(long)]
     pub eta: Option<Restitution>,
-    /// Width of the block or column, m
-    #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
-    pub width: Option<f64>,
-    /// Height of the block or column, m
-    #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
-    pub height: Option<f64>,
     /// Of a frame: mass of the beam over that of all columns
     #[arg(long, value_name = "RATIO", conflicts_with_all = ["p", "alpha"])]
     pub beam_mass_ratio: Option<f64>,
