@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use crate::keyword::keywords;
 
 /// A doubt that changes what one would decide, the weightiest first.
@@ -84,8 +86,17 @@ impl Doubt {
 }
 
 /// Doubts, each with what it is about.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Doubts(BTreeMap<Doubt, Vec<String>>);
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Doubts(BTreeMap<Doubt, Subjects>);
+
+/// What a doubt is about.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+struct Subjects {
+    /// The names of the first ones.
+    named: Vec<String>,
+    /// The number of all.
+    count: usize,
+}
 
 /// Subjects that a line names.
 const NAMED: usize = 3;
@@ -93,11 +104,11 @@ const NAMED: usize = 3;
 const UNNAMED: &str = "structure";
 
 impl Doubts {
-    /// A line a doubt, with the first of what it is about.
+    /// Returns a line a doubt, the weightiest first, with the first of what it is about.
     pub fn lines(&self) -> Vec<String> {
-        let line = |(doubt, about): (&Doubt, &Vec<String>)| {
-            let named = about.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
-            match about.len().saturating_sub(NAMED) {
+        let line = |(doubt, Subjects { named, count }): (&Doubt, &Subjects)| {
+            let named = named.join(", ");
+            match count.saturating_sub(NAMED) {
                 0 if named == UNNAMED => doubt.text().to_string(),
                 0 => format!("{named}: {}", doubt.text()),
                 more => format!("{named} and {more} more: {}", doubt.text()),
@@ -106,10 +117,23 @@ impl Doubts {
         self.0.iter().map(line).collect()
     }
 
-    /// Adds others.
+    /// Adds doubts about other subjects.
     pub fn extend(&mut self, others: Doubts) {
-        for (doubt, about) in others.0 {
-            self.0.entry(doubt).or_default().extend(about);
+        for (doubt, others) in others.0 {
+            let subjects = self.0.entry(doubt).or_default();
+            subjects.count += others.count;
+            subjects.named.extend(others.named);
+            subjects.named.truncate(NAMED);
+        }
+    }
+
+    /// Joins the doubts of another stage about the same subjects: the one about more of them stays.
+    pub fn join(&mut self, others: &Doubts) {
+        for (doubt, others) in &others.0 {
+            let subjects = self.0.entry(*doubt).or_default();
+            if others.count >= subjects.count {
+                *subjects = others.clone();
+            }
         }
     }
 }
@@ -117,7 +141,9 @@ impl Doubts {
 impl FromIterator<(Doubt, String)> for Doubts {
     fn from_iter<I: IntoIterator<Item = (Doubt, String)>>(doubts: I) -> Doubts {
         let mut all = Doubts::default();
-        doubts.into_iter().for_each(|(doubt, about)| all.0.entry(doubt).or_default().push(about));
+        for (doubt, about) in doubts {
+            all.extend(Doubts([(doubt, Subjects { named: vec![about], count: 1 })].into()));
+        }
         all
     }
 }

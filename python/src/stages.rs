@@ -76,7 +76,7 @@ fn make(call: &Call, context: &Context, made: &mut HashMap<PathBuf, String>) -> 
     let Done { summary, doubts, key, .. } = cache::run(call, context, made)?;
     let outputs = call.stage.outputs();
     made.extend(outputs.iter().map(|path| (path.clone(), key.clone())));
-    Ok((call.name.clone(), outputs, summary, doubts))
+    Ok((call.name.clone(), outputs, summary, doubts.lines()))
 }
 
 /// Runs all stages of a pipeline file that are not up to date.

@@ -146,7 +146,7 @@ pub struct DemandOptions {
 }
 
 /// Fits the demand of a structure under a suite: the two planes, then all other regressions if they are
-/// requested for.
+/// requested.
 pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> (Vec<DemandFit>, Vec<ScanPoint>) {
     let scan = scan_transition(cases);
     let found = transition(&scan, options.confidence);

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::UsageError;
 use super::call::Call;
 use super::context::Context;
+use crate::doubt::Doubts;
 use crate::table::TableError;
 use crate::table::provenance::{Provenance, head};
 
@@ -23,8 +24,8 @@ pub enum Freshness {
 pub struct Done {
     /// Text printed by the stage.
     pub summary: String,
-    /// Doubts about the results, one per line.
-    pub doubts: Vec<String>,
+    /// Doubts about the results.
+    pub doubts: Doubts,
     /// Whether the stage ran; otherwise its files were up to date.
     pub ran: bool,
     /// The key of its files.
@@ -63,7 +64,7 @@ pub fn run(call: &Call, context: &Context, made: &HashMap<PathBuf, String>) -> a
     }
     let context = context.of_call(call, planned);
     let summary = call.stage.run(&context)?;
-    Ok(Done { summary, doubts: context.doubts().lines(), ran: true, key })
+    Ok(Done { summary, doubts: context.doubts(), ran: true, key })
 }
 
 /// Checks that an output is not an input, nor, unless forced, a file of another program.

@@ -114,8 +114,7 @@ impl Context {
                 return Err(TableError::table(path, "changed by another run; run again"));
             }
         }
-        let doubts = self.doubts().lines();
-        Ok(Provenance { summary: summary.to_string(), doubts, ..self.made.clone() })
+        Ok(Provenance { summary: summary.to_string(), doubts: self.doubts(), ..self.made.clone() })
     }
 
     /// Writes a table of rows.

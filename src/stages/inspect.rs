@@ -73,7 +73,7 @@ impl Inspect {
                 for (name, values) in &made.arguments {
                     writeln!(text, "  --{name} {}", values.join(","))?;
                 }
-                made.doubts.iter().try_for_each(|doubt| writeln!(text, "  doubt: {doubt}"))?;
+                made.doubts.lines().iter().try_for_each(|doubt| writeln!(text, "  doubt: {doubt}"))?;
             }
         }
         Ok(cut(&format!("{text}\n{shown}")))

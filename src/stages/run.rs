@@ -7,8 +7,7 @@ use std::time::Instant;
 
 use anyhow::Context as _;
 
-use crate::doubt::Doubt;
-use crate::keyword::Keyword;
+use crate::doubt::Doubts;
 use crate::pipeline::cache::{self, Freshness};
 use crate::pipeline::call::Call;
 use crate::pipeline::context::Context;
@@ -21,7 +20,7 @@ const SHOWN: usize = 3;
 /// Runs the stages that are not up to date. Returns the text of the stage above, or of the last stage.
 pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     calls.iter().try_for_each(|call| call.stage.check())?;
-    let (mut printed, mut doubts, mut made) = (String::new(), Vec::new(), HashMap::new());
+    let (mut printed, mut doubts, mut made) = (String::new(), Doubts::default(), HashMap::new());
     let place_of = |name: &&str| calls.iter().position(|call| call.name == *name);
     let answer = ANSWERS.iter().find_map(place_of).unwrap_or(calls.len() - 1);
     for (place, call) in calls.iter().enumerate() {
@@ -36,8 +35,7 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
             eprintln!("{:20} {took}", call.name);
         }
         made.extend(call.stage.outputs().into_iter().map(|path| (path, done.key.clone())));
-        let new: Vec<String> = done.doubts.into_iter().filter(|doubt| !doubts.contains(doubt)).collect();
-        doubts.extend(new);
+        doubts.join(&done.doubts);
         if place == answer {
             printed = done.summary;
         }
@@ -48,14 +46,9 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     Ok(printed)
 }
 
-/// Prints the weightiest doubts, of each kind the line about the most.
-pub fn warn(doubts: &[String]) {
-    let about = |line: &&String| {
-        let more = line.split(" and ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());
-        line.matches(", ").count() + more.unwrap_or(0_usize)
-    };
-    let of_kind = |doubt: &Doubt| doubts.iter().filter(|line| line.ends_with(doubt.text())).max_by_key(about);
-    let lines: Vec<&String> = Doubt::ALL.iter().filter_map(of_kind).collect();
+/// Prints the weightiest doubts.
+pub fn warn(doubts: &Doubts) {
+    let lines = doubts.lines();
     let more = match lines.len().saturating_sub(SHOWN) {
         0 => String::new(),
         more => format!(" ({more} more: rockfrag inspect)"),
@@ -65,7 +58,7 @@ pub fn warn(doubts: &[String]) {
     }
 }
 
-/// Tells what each stage would do, with which options, and why.
+/// Lists what each stage would do, with its options, and why.
 pub fn dry_run(calls: &[Call]) -> anyhow::Result<String> {
     let mut text = String::new();
     let mut planned: HashMap<PathBuf, String> = HashMap::new();

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::TableError;
 use super::file;
+use crate::doubt::Doubts;
 
 /// Key of the JSON among the key-value metadata.
 const KEY: &str = "rockfrag";
@@ -33,7 +34,7 @@ pub struct Provenance {
     /// Text printed by the stage.
     pub summary: String,
     /// Doubts about the results.
-    pub doubts: Vec<String>,
+    pub doubts: Doubts,
 }
 
 impl Provenance {

@@ -58,12 +58,12 @@ fn points(all: &[Answer<TreeRow>]) -> String {
         of => format!("{} overturns most probably: {}", worst.structure, limited(of, "95 % limits ")),
     };
     let heading = ["object", "size", "rocks", "overturns", "", "or too far", "friction", "doubt"];
-    let row = |Answer { object, row: tree, .. }: &Answer<TreeRow>| {
+    let row = |Answer { object, row: tree, doubts, .. }: &Answer<TreeRow>| {
         let [overturning, failure] = states(tree);
         let rocks = tree.p_nr.map_or("-", |p_nr| if p_nr == 0.0 { "yes" } else { "no" }).to_string();
         let [p, limits, too_far] = [value(overturning), in_brackets(overturning, ""), value(failure)];
         let [name, size, friction] = [object.structure.clone(), size(object), friction(object)];
-        vec![name, size, rocks, p, limits, too_far, friction, brief(&tree.doubts, object)]
+        vec![name, size, rocks, p, limits, too_far, friction, brief(doubts, &tree.doubts, object)]
     };
     let rows = std::iter::once(heading.map(str::to_string).to_vec()).chain(all.iter().map(row));
     let table = aligned(&rows.collect::<Vec<_>>());
@@ -87,7 +87,6 @@ pub fn of_rates(all: &[Answer<RatesRow>], site: &Site, sentence: bool) -> String
     let of_object = |object: &ObjectRow, rates: &RatesRow| {
         let how_often = how_often(rates, site, "95 % confidence limits ");
         let model = model(object);
-        let model = model.trim_end_matches(" (not fitted to it)");
         let extended = if site.extrapolate { ", with the hazard curve extrapolated" } else { "" };
         format!("{how_often}, by {model}{extended}, without {}", errors(site))
     };
@@ -146,7 +145,7 @@ fn rates_of_list(all: &[Answer<RatesRow>], site: &Site) -> String {
     let Some(Answer { object: worst, row: rates, .. }) = all.first() else { return String::new() };
     let years = format!("in {} years", significant(site.years, 6));
     let heading = ["object", "size", "rocks", "overturns", "once in years", &years, "", "friction", "doubt"];
-    let row = |Answer { object, row: rates, .. }: &Answer<RatesRow>| {
+    let row = |Answer { object, row: rates, doubts, .. }: &Answer<RatesRow>| {
         let of = [rates.p_overturning, rates.p_overturning_low, rates.p_overturning_high];
         vec![
             object.structure.clone(),
@@ -157,7 +156,7 @@ fn rates_of_list(all: &[Answer<RatesRow>], site: &Site) -> String {
             value(of),
             of[0].map_or(String::new(), |_| in_brackets(of, "")),
             friction(object),
-            brief(&rates.doubts, object),
+            brief(doubts, &rates.doubts, object),
         ]
     };
     let rows = std::iter::once(heading.map(str::to_string).to_vec()).chain(all.iter().map(row));
@@ -366,15 +365,17 @@ fn per_year([value, low, high]: Limited) -> String {
     }
 }
 
-/// The doubts of a row in a few words; what is wrong with one that cannot be right in full.
-fn brief(doubts: &Option<String>, object: &ObjectRow) -> String {
-    let Some(doubts) = doubts else { return String::new() };
-    if object.p_rad_s.is_none() {
-        return doubts.rsplit("': ").next().unwrap_or_default().to_string();
+/// The doubts of a row in a few words; the reason in full if the row cannot be right.
+fn brief(doubts: &[Doubt], reason: &Option<String>, object: &ObjectRow) -> String {
+    match reason {
+        Some(reason) if object.p_rad_s.is_none() => {
+            reason.rsplit("': ").next().unwrap_or_default().to_string()
+        }
+        _ => {
+            let words = doubts.iter().map(|doubt| doubt.to_string().replace('_', " "));
+            words.collect::<Vec<_>>().join(", ")
+        }
     }
-    let is_in = |doubt: &&Doubt| doubts.contains(doubt.text());
-    let words = Doubt::ALL.iter().filter(is_in).map(|doubt| doubt.to_string().replace('_', " "));
-    words.collect::<Vec<_>>().join(", ")
 }
 
 /// A probability in percent, with the digits that it deserves.

@@ -15,8 +15,8 @@ use super::shared::fits::FitsArgs;
 use super::shared::hazard::{self, Renamed};
 use super::shared::responses;
 use super::shared::structures::{Object, StructureArgs, doubts_of};
-use crate::doubt::{Doubt, Doubts};
-use crate::fragility::{Calibration, Model, Peak, Ratio, Scenarios};
+use crate::doubt::Doubt;
+use crate::fragility::{Model, Peak, Ratio, Scenarios};
 use crate::keyword;
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
@@ -189,17 +189,17 @@ impl Evaluate {
         context: &Context,
     ) -> anyhow::Result<String> {
         let models = self.fits.models()?;
-        let of_object = |object: Object| -> anyhow::Result<(Answer<R>, Doubts)> {
+        let of_object = |object: Object| -> anyhow::Result<Answer<R>> {
             let structure = match &object.structure {
                 Ok(structure) => structure,
                 Err(reason) => {
-                    let row = R::default().with_doubts(Some(reason.clone()));
-                    let answer =
-                        Answer { object: ObjectRow::refused(&object), row, explained: String::new() };
-                    return Ok((
-                        answer,
-                        [(Doubt::ImplausibleRow, object.name.clone())].into_iter().collect(),
-                    ));
+                    let refused = Answer {
+                        object: ObjectRow::refused(&object),
+                        row: R::default().with_doubts(Some(reason.clone())),
+                        doubts: vec![Doubt::ImplausibleRow],
+                        explained: String::new(),
+                    };
+                    return Ok(refused);
                 }
             };
             let (model, mut doubts) = models.model(structure)?;
@@ -209,23 +209,20 @@ impl Evaluate {
             doubts.sort();
             doubts.dedup();
             let explained = || answer::explained(&model, structure, &measures);
-            let answer = Answer {
+            Ok(Answer {
                 object: ObjectRow::new(&object, structure, &model, self.fits.limit_state),
                 row: row.with_doubts(texts(&doubts)),
+                doubts,
                 explained: if self.explain { explained() } else { String::new() },
-            };
-            // Under the name that the fits have in their doubts.
-            let about = match &model {
-                Model::Calibrated { overturning: Calibration { suite: Some(suite), .. }, .. } => {
-                    format!("{} ({suite})", object.name)
-                }
-                _ => object.name.clone(),
-            };
-            Ok((answer, doubts.into_iter().map(|doubt| (doubt, about.clone())).collect()))
+            })
         };
-        let answers = self.objects()?.into_par_iter().map(of_object).collect::<anyhow::Result<Vec<_>>>()?;
-        let (mut all, doubts): (Vec<Answer<R>>, Vec<Doubts>) = answers.into_iter().unzip();
-        doubts.into_iter().for_each(|doubts| context.doubt(doubts));
+        let all = self.objects()?.into_par_iter().map(of_object).collect::<anyhow::Result<Vec<_>>>();
+        let mut all = all?;
+        let doubts = |answer: &Answer<R>| {
+            let name = answer.object.structure.clone();
+            answer.doubts.clone().into_iter().map(move |doubt| (doubt, name.clone()))
+        };
+        context.doubt(all.iter().flat_map(doubts).collect());
         all.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
         let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
         let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();

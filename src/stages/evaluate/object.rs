@@ -12,6 +12,7 @@ use crate::table::rows::Row;
 pub struct Answer<R> {
     pub object: ObjectRow,
     pub row: R,
+    pub doubts: Vec<Doubt>,
     /// The model and the measures of the motion, if requested.
     pub explained: String,
 }
@@ -69,7 +70,7 @@ pub fn words_of(model: &Model) -> String {
         Model::Calibrated { overturning, .. } => {
             let motions = words_of_kind(overturning.kind);
             match overturning.n {
-                0 => format!("rockfrag's universal surface for {motions} (not fitted to it)"),
+                0 => format!("rockfrag's universal surface for {motions}"),
                 n => format!("rockfrag's universal surface, calibrated on {n} responses to {motions}"),
             }
         }

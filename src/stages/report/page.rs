@@ -6,9 +6,8 @@ use serde_json::{Value, json};
 use super::figures::{is_of, name};
 use super::studies;
 use super::tables::Tables;
-use crate::doubt::Doubt;
+use crate::doubt::Doubts;
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
-use crate::keyword::Keyword;
 use crate::report::text::number;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::Outcome;
@@ -56,12 +55,9 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     };
     let (seen, more) = figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
     let made = tables.files.iter().filter_map(|(.., made)| made.as_ref());
-    let lines: Vec<&String> = made.flat_map(|made| &made.doubts).collect();
-    // Each doubt once, with the most that it is about, the weightiest first.
-    let doubts = Doubt::ALL.iter().filter_map(|doubt| {
-        lines.iter().filter(|line| line.ends_with(doubt.text())).max_by_key(|line| line.len())
-    });
-    let mut doubts: Vec<String> = doubts.map(|line| line.to_string()).collect();
+    let mut joined = Doubts::default();
+    made.for_each(|made| joined.join(&made.doubts));
+    let mut doubts = joined.lines();
     let others = doubts.split_off(doubts.len().min(MOST_DOUBTS));
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
