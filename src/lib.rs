@@ -32,7 +32,6 @@
 //! [`stages`] joins them: a file or folder a subcommand. `docs/review/architecture.md` has the picture.
 
 pub mod cli;
-pub mod doubt;
 pub mod export;
 pub mod fragility;
 pub mod hazard;
@@ -50,3 +49,4 @@ pub mod statistics;
 pub mod studies;
 pub mod table;
 pub mod units;
+pub mod warning;

@@ -73,10 +73,10 @@ pub fn call(
 
 /// Runs a call unless its files are up to date. `made` gathers the keys of the files of a run.
 fn make(call: &Call, context: &Context, made: &mut HashMap<PathBuf, String>) -> anyhow::Result<Made> {
-    let Done { summary, doubts, key, .. } = cache::run(call, context, made)?;
+    let Done { summary, warnings, key, .. } = cache::run(call, context, made)?;
     let outputs = call.stage.outputs();
     made.extend(outputs.iter().map(|path| (path.clone(), key.clone())));
-    Ok((call.name.clone(), outputs, summary, doubts.lines()))
+    Ok((call.name.clone(), outputs, summary, warnings.lines()))
 }
 
 /// Runs all stages of a pipeline file that are not up to date.

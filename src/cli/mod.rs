@@ -130,7 +130,7 @@ fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
     }
     print(&done.summary)?;
     if !context.quiet {
-        run::warn(&done.doubts);
+        run::warn(&done.warnings);
     }
     Ok(())
 }

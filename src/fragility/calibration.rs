@@ -9,12 +9,12 @@ use super::cases::{Cases, Event};
 use super::peaks::{JointPeaks, RatioGiven};
 use super::surface::{self, Curve, Kind, Prior, logit_exceeding, logit_overturning};
 use super::tree::{Probability, Z_95};
-use crate::doubt::Doubt;
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
 use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::variance;
+use crate::warning::Warning;
 
 /// Over which magnitudes and distances a probability is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -162,14 +162,14 @@ impl Calibration {
     }
 
     /// What speaks against it as a whole; nothing where it is that of a kind of motion.
-    pub fn doubts(&self) -> Vec<Doubt> {
+    pub fn warnings(&self) -> Vec<Warning> {
         let rarer = self.n_events.min(self.n - self.n_events);
         let of_events = match (rarer, self.limit_state) {
-            (0, None) => Some(Doubt::NoEvents),
-            (0..FEW_EVENTS, _) => Some(Doubt::FewEvents),
+            (0, None) => Some(Warning::NoEvents),
+            (0..FEW_EVENTS, _) => Some(Warning::FewEvents),
             _ => None,
         };
-        let of_clusters = (self.n_clusters < MIN_CLUSTERS as i64).then_some(Doubt::FewClusters);
+        let of_clusters = (self.n_clusters < MIN_CLUSTERS as i64).then_some(Warning::FewClusters);
         let is_own = self.n > 0;
         of_events.into_iter().chain(of_clusters).filter(|_| is_own).collect()
     }

@@ -7,10 +7,10 @@ use super::paper_model::paper_probabilities;
 use super::peaks::JointPeaks;
 use super::surface::{self, Kind};
 use super::tree::{GivenRocking, Probabilities, Probability, p_failure_given_rocking, p_no_rocking};
-use crate::doubt::Doubt;
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
+use crate::warning::Warning;
 
 /// The model of one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,15 +73,15 @@ impl Model {
     }
 
     /// Returns what speaks against its prediction at an intensity.
-    pub fn doubts(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Doubt> {
+    pub fn warnings(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Warning> {
         let rocks = p_no_rocking(measures.im4) == 0.0;
-        let mut doubts = match self {
+        let mut warnings = match self {
             Model::Calibrated { overturning, exceeding, .. } => {
                 let covered = exceeding.limit_state.is_none_or(|limit| surface::covers(measures, limit))
                     && overturning.has_like(structure, measures);
-                let unusual = (!surface::has_like(structure)).then_some(Doubt::UnusualStructure);
-                let outside = (rocks && !covered).then_some(Doubt::Extrapolated);
-                let of_fits = [overturning.doubts(), exceeding.doubts()].concat();
+                let unusual = (!surface::has_like(structure)).then_some(Warning::UnusualStructure);
+                let outside = (rocks && !covered).then_some(Warning::Extrapolated);
+                let of_fits = [overturning.warnings(), exceeding.warnings()].concat();
                 outside.into_iter().chain(unusual).chain(of_fits).collect()
             }
             Model::Paper { demand, overturning, .. } => {
@@ -90,15 +90,15 @@ impl Model {
                     && demand.is_some_and(|demand| demand.status == FitStatus::Ok);
                 let outside = rocks && !overturning.has_like(measures);
                 let few = !overturning.is_clustered;
-                [(outside, Doubt::Extrapolated), (!is_ok, Doubt::PoorFit), (few, Doubt::FewClusters)]
+                [(outside, Warning::Extrapolated), (!is_ok, Warning::PoorFit), (few, Warning::FewClusters)]
                     .into_iter()
                     .filter(|(holds, _)| *holds)
-                    .map(|(_, doubt)| doubt)
-                    .collect::<Vec<Doubt>>()
+                    .map(|(_, warning)| warning)
+                    .collect::<Vec<Warning>>()
             }
         };
-        doubts.sort_unstable();
-        doubts.dedup();
-        doubts
+        warnings.sort_unstable();
+        warnings.dedup();
+        warnings
     }
 }

@@ -44,7 +44,7 @@ pub struct Probability {
 }
 
 impl Probability {
-    /// Makes a probability that is known without doubt.
+    /// Makes a probability that is known for certain.
     pub fn exact(value: f64) -> Probability {
         Probability { value, low: value, high: value }
     }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use super::UsageError;
 use super::call::Call;
 use super::context::Context;
-use crate::doubt::Doubts;
 use crate::table::TableError;
 use crate::table::provenance::{Provenance, head};
+use crate::warning::Warnings;
 
 /// Whether the files of a call are up to date.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,8 +24,8 @@ pub enum Freshness {
 pub struct Done {
     /// Text printed by the stage.
     pub summary: String,
-    /// Doubts about the results.
-    pub doubts: Doubts,
+    /// Warnings about the results.
+    pub warnings: Warnings,
     /// Whether the stage ran; otherwise its files were up to date.
     pub ran: bool,
     /// The key of its files.
@@ -57,14 +57,14 @@ pub fn run(call: &Call, context: &Context, made: &HashMap<PathBuf, String>) -> a
     if !context.force
         && let Freshness::UpToDate(made) = freshness(call, &planned)
     {
-        return Ok(Done { summary: made.summary, doubts: made.doubts, ran: false, key });
+        return Ok(Done { summary: made.summary, warnings: made.warnings, ran: false, key });
     }
     for path in call.stage.outputs() {
         expect_replaceable(&path, call, context.force)?;
     }
     let context = context.of_call(call, planned);
     let summary = call.stage.run(&context)?;
-    Ok(Done { summary, doubts: context.doubts(), ran: true, key })
+    Ok(Done { summary, warnings: context.warnings(), ran: true, key })
 }
 
 /// Checks that an output is not an input, nor, unless forced, a file of another program.

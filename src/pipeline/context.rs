@@ -1,4 +1,4 @@
-//! Output, progress and doubts of a running stage.
+//! Output, progress and warnings of a running stage.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -9,11 +9,11 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::call::Call;
-use crate::doubt::Doubts;
 use crate::table::TableError;
 use crate::table::provenance::{Provenance, key_of};
 use crate::table::rows::{self, Row};
 use crate::table::writer::TableWriter;
+use crate::warning::Warnings;
 
 /// Help heading of the common options.
 pub const COMMON: &str = "Common options";
@@ -64,7 +64,7 @@ pub struct Context {
     pub made: Provenance,
     /// Input files and their keys.
     inputs: Vec<(PathBuf, String)>,
-    doubts: Arc<Mutex<Doubts>>,
+    warnings: Arc<Mutex<Warnings>>,
 }
 
 impl Context {
@@ -79,19 +79,19 @@ impl Context {
         let keys = made.inputs.values().flat_map(|keys| keys.split(' '));
         let files = call.inputs.values().flatten().cloned().zip(keys.map(str::to_string));
         let inputs = files.filter(|(path, _)| path.exists()).collect();
-        Context { made, inputs, doubts: Arc::default(), ..self.clone() }
+        Context { made, inputs, warnings: Arc::default(), ..self.clone() }
     }
 
-    /// Adds doubts.
-    pub fn doubt(&self, doubts: Doubts) {
-        if let Ok(mut all) = self.doubts.lock() {
-            all.extend(doubts);
+    /// Adds warnings.
+    pub fn warn(&self, warnings: Warnings) {
+        if let Ok(mut all) = self.warnings.lock() {
+            all.extend(warnings);
         }
     }
 
-    /// Returns all doubts so far.
-    pub fn doubts(&self) -> Doubts {
-        self.doubts.lock().map(|all| all.clone()).unwrap_or_default()
+    /// Returns all warnings so far.
+    pub fn warnings(&self) -> Warnings {
+        self.warnings.lock().map(|all| all.clone()).unwrap_or_default()
     }
 
     /// Begins a table.
@@ -99,7 +99,7 @@ impl Context {
         TableWriter::create(path, schema)
     }
 
-    /// Ends a table with provenance, printed summary and doubts. A changed input is an error.
+    /// Ends a table with provenance, printed summary and warnings. A changed input is an error.
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
         writer.finish(&self.provenance(summary)?)
     }
@@ -114,7 +114,7 @@ impl Context {
                 return Err(TableError::table(path, "changed by another run; run again"));
             }
         }
-        Ok(Provenance { summary: summary.to_string(), doubts: self.doubts(), ..self.made.clone() })
+        Ok(Provenance { summary: summary.to_string(), warnings: self.warnings(), ..self.made.clone() })
     }
 
     /// Writes a table of rows.

@@ -4,7 +4,7 @@
 //! stage     a stage: a struct of options, and a function that runs it
 //! call      one call of a stage: its options, inputs and key
 //! cache     runs a call unless its files are up to date
-//! context   output, progress and doubts of a running stage
+//! context   output, progress and warnings of a running stage
 //! stream    concurrent reading, work and writing
 //! options   option types of several stages
 //! ```

@@ -35,7 +35,7 @@ const WEAKEST_PGA_G: f64 = 1e-3;
 
 /// Why a motion is implausible: value found, value expected, likely mistake.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum Doubt {
+pub enum Warning {
     #[error("dt {} s; expected 0.0001 to 0.1 s: milliseconds, or sample numbers?", rounded(*.dt_s))]
     TimeStep { dt_s: f64 },
     #[error("{samples} samples; expected 25 or more: a part of a record, or another table?")]
@@ -62,15 +62,15 @@ pub enum Doubt {
     RarePgv { pgv_m_s: f64 },
 }
 
-impl Doubt {
+impl Warning {
     /// Returns whether no record was ever like this; otherwise it is only rare.
     pub fn is_impossible(&self) -> bool {
-        !matches!(self, Doubt::WeakPga { .. } | Doubt::RarePga { .. } | Doubt::RarePgv { .. })
+        !matches!(self, Warning::WeakPga { .. } | Warning::RarePga { .. } | Warning::RarePgv { .. })
     }
 }
 
-/// Checks an acceleration (m/s2) at steps of `dt_s`. Returns the first doubt.
-pub fn doubt(acceleration: &[f64], dt_s: f64) -> Option<Doubt> {
+/// Checks an acceleration (m/s2) at steps of `dt_s`. Returns the first warning.
+pub fn warning(acceleration: &[f64], dt_s: f64) -> Option<Warning> {
     let samples = acceleration.len();
     let velocity = velocity(acceleration, dt_s);
     let (pga_m_s2, pgv_m_s) = (peak(acceleration), peak(&velocity));
@@ -78,21 +78,21 @@ pub fn doubt(acceleration: &[f64], dt_s: f64) -> Option<Doubt> {
     let velocity_m_s = velocity.last().map_or(0.0, |last| last.abs());
     let frequency_hz = mean_frequency_hz(acceleration, dt_s);
     let spike = spike(acceleration, pga_m_s2);
-    let doubts = [
-        (!(STEPS_S.0..=STEPS_S.1).contains(&dt_s), Doubt::TimeStep { dt_s }),
-        (samples < FEWEST_SAMPLES, Doubt::FewSamples { samples }),
-        (pga_m_s2 == 0.0, Doubt::Still),
-        (spike.is_some(), Doubt::Spike { sample: spike.map_or(0, |at| at + 1), pga_g }),
-        (pga_g > LARGEST_PGA_G, Doubt::Pga { pga_g }),
-        (velocity_m_s > DRIFT.0.max(DRIFT.1 * pgv_m_s), Doubt::Drift { velocity_m_s }),
-        (pgv_m_s > LARGEST_PGV_M_S, Doubt::Pgv { pgv_m_s }),
-        (ratio_s > PGV_PGA_S.1, Doubt::Slow { ratio_s }),
-        (frequency_hz > HIGHEST_FREQUENCY_HZ || ratio_s < PGV_PGA_S.0, Doubt::Fast { frequency_hz }),
-        (pga_g < WEAKEST_PGA_G, Doubt::WeakPga { pga_g }),
-        (pga_g > RARE_PGA_G, Doubt::RarePga { pga_g }),
-        (pgv_m_s > RARE_PGV_M_S, Doubt::RarePgv { pgv_m_s }),
+    let warnings = [
+        (!(STEPS_S.0..=STEPS_S.1).contains(&dt_s), Warning::TimeStep { dt_s }),
+        (samples < FEWEST_SAMPLES, Warning::FewSamples { samples }),
+        (pga_m_s2 == 0.0, Warning::Still),
+        (spike.is_some(), Warning::Spike { sample: spike.map_or(0, |at| at + 1), pga_g }),
+        (pga_g > LARGEST_PGA_G, Warning::Pga { pga_g }),
+        (velocity_m_s > DRIFT.0.max(DRIFT.1 * pgv_m_s), Warning::Drift { velocity_m_s }),
+        (pgv_m_s > LARGEST_PGV_M_S, Warning::Pgv { pgv_m_s }),
+        (ratio_s > PGV_PGA_S.1, Warning::Slow { ratio_s }),
+        (frequency_hz > HIGHEST_FREQUENCY_HZ || ratio_s < PGV_PGA_S.0, Warning::Fast { frequency_hz }),
+        (pga_g < WEAKEST_PGA_G, Warning::WeakPga { pga_g }),
+        (pga_g > RARE_PGA_G, Warning::RarePga { pga_g }),
+        (pgv_m_s > RARE_PGV_M_S, Warning::RarePgv { pgv_m_s }),
     ];
-    doubts.into_iter().find_map(|(is_so, doubt)| is_so.then_some(doubt))
+    warnings.into_iter().find_map(|(is_so, warning)| is_so.then_some(warning))
 }
 
 /// Returns the index of the largest sample if it is a spike.

@@ -1,7 +1,7 @@
 //! From records to imported motions: baseline, filter, time step, rotation, scale, measures, pulses.
 
 use super::RecordedMotion;
-use super::plausibility::{self, Doubt};
+use super::plausibility::{self, Warning};
 use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, RotD};
 use super::signal::{Baseline, HighPass, Scaling, resample, resampled_length};
@@ -30,7 +30,7 @@ pub struct NamedRecord {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ProcessingError {
     #[error("{0} (--accept-implausible imports it anyway)")]
-    Implausible(Doubt),
+    Implausible(Warning),
     #[error("{samples} samples at a time step of {dt_s} s; choose another for --resample")]
     Resampled { samples: f64, dt_s: f64 },
     #[error("the motion is zero throughout; it cannot be scaled to a peak")]
@@ -47,7 +47,7 @@ pub struct ImportedMotion {
     /// The record, without its samples.
     pub record: RecordedMotion,
     /// Why it is implausible, if accepted all the same.
-    pub doubt: Option<Doubt>,
+    pub warning: Option<Warning>,
     /// Scale factor.
     pub scale: f64,
     /// Samples as written, m/s2.
@@ -108,8 +108,8 @@ pub struct Processing {
 impl Processing {
     /// Processes a record.
     pub fn import(&self, record: NamedRecord) -> Result<Vec<ImportedMotion>, ProcessingError> {
-        let (record, doubt) = self.corrected(record)?;
-        self.scaled(record, doubt, None)
+        let (record, warning) = self.corrected(record)?;
+        self.scaled(record, warning, None)
     }
 
     /// Processes two components at right angles into one motion.
@@ -117,24 +117,24 @@ impl Processing {
         &self,
         [first, second]: [NamedRecord; 2],
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
-        let ((first, first_doubt), (second, second_doubt)) =
+        let ((first, first_warning), (second, second_warning)) =
             (self.corrected(first)?, self.corrected(second)?);
         let (record, rotd) = self.rotated(first, second);
-        self.scaled(record, first_doubt.or(second_doubt), Some(rotd))
+        self.scaled(record, first_warning.or(second_warning), Some(rotd))
     }
 
     /// Corrects the baseline, filters, checks and resamples.
-    fn corrected(&self, mut record: NamedRecord) -> Result<(NamedRecord, Option<Doubt>), ProcessingError> {
+    fn corrected(&self, mut record: NamedRecord) -> Result<(NamedRecord, Option<Warning>), ProcessingError> {
         let motion = &mut record.motion;
         self.baseline.remove_from(&mut motion.acceleration_m_s2);
         if let Some(high_pass) = self.high_pass {
             high_pass.apply(&mut motion.acceleration_m_s2, motion.dt_s);
         }
-        let doubt = plausibility::doubt(&motion.acceleration_m_s2, motion.dt_s);
-        if let Some(doubt) = doubt.filter(Doubt::is_impossible)
+        let warning = plausibility::warning(&motion.acceleration_m_s2, motion.dt_s);
+        if let Some(warning) = warning.filter(Warning::is_impossible)
             && self.implausible == Implausible::Refuse
         {
-            return Err(ProcessingError::Implausible(doubt));
+            return Err(ProcessingError::Implausible(warning));
         }
         if let Some(dt_s) = self.resample_s {
             let samples = resampled_length(motion.acceleration_m_s2.len(), motion.dt_s, dt_s);
@@ -144,7 +144,7 @@ impl Processing {
             motion.acceleration_m_s2 = resample(&motion.acceleration_m_s2, motion.dt_s, dt_s);
             motion.dt_s = dt_s;
         }
-        Ok((record, doubt))
+        Ok((record, warning))
     }
 
     /// Rotates two components to the chosen direction.
@@ -181,7 +181,7 @@ impl Processing {
     fn scaled(
         &self,
         record: NamedRecord,
-        doubt: Option<Doubt>,
+        warning: Option<Warning>,
         rotd: Option<RotD>,
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
         let NamedRecord { motion_id, source, motion } = record;
@@ -201,7 +201,7 @@ impl Processing {
                 suite: Suite::Record,
                 source: source.clone(),
                 record: motion.clone(),
-                doubt,
+                warning,
                 scale,
                 measured: self.measured(&acceleration_m_s2, dt_s),
                 acceleration_m_s2,
@@ -246,7 +246,7 @@ impl Processing {
             rotd: None,
             indicator: None,
             pulse: None,
-            doubt: None,
+            warning: None,
             ..motion.clone()
         }
     }

@@ -15,7 +15,7 @@ pub struct Page {
     /// The result, in a sentence.
     pub sentence: String,
     pub table: Option<Table>,
-    /// Doubts that change a decision, under the table.
+    /// Warnings that change a decision, under the table.
     pub notes: Vec<String>,
     /// The first one stands beside the table.
     pub figures: Vec<Figure>,

@@ -139,13 +139,13 @@ fn refuse(name: &str, parameter: &'static str, value: f64, expected: &str) -> Re
 }
 
 /// Solid blocks of a smaller p (rad/s) are higher than about 90 m.
-const DOUBTFUL_P: f64 = 0.4;
+const UNLIKELY_P: f64 = 0.4;
 
 impl Structure {
     /// Returns the likely mistake in a size that no solid block has; none of a plausible size.
-    pub fn doubt(&self) -> Option<String> {
+    pub fn warning(&self) -> Option<String> {
         let height = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s) * self.alpha_rad.cos();
-        (self.p_rad_s < DOUBTFUL_P).then(|| {
+        (self.p_rad_s < UNLIKELY_P).then(|| {
             format!(
                 "p {:.3} rad/s is that of a solid block {height:.0} m high: are its dimensions in cm?",
                 self.p_rad_s

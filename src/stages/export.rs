@@ -6,7 +6,7 @@ use clap::{Args, ValueHint};
 
 use super::evaluate::words_of;
 use super::shared::fits::FitsArgs;
-use super::shared::structures::{StructureArgs, doubts_of};
+use super::shared::structures::{StructureArgs, warnings_of};
 use crate::export::{Function, Model, OWN_ID, PELICUN_TOLERANCE};
 use crate::export::{discrete, levels, metadata, parameters, plain_id, whole_curve_end};
 use crate::fragility::{Along, Peak, Ratio, Scenarios};
@@ -66,9 +66,9 @@ impl Stage for Export {
         let models = self.fits.models()?;
         let (mut functions, mut description) = (Vec::new(), String::new());
         for structure in &structures {
-            let (model, mut doubts) = models.model(structure)?;
-            doubts.extend(doubts_of(structure));
-            context.doubt(doubts.into_iter().map(|doubt| (doubt, structure.name.clone())).collect());
+            let (model, mut warnings) = models.model(structure)?;
+            warnings.extend(warnings_of(structure));
+            context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
             let along = Along { model: &model, structure, peak: self.im, ratio: Ratio::Distributed };
             functions.push(self.function(structure, &along));
             description = words_of(&model);

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use clap::{Args, ValueHint};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fitted::{calibrations_text, doubts, suite_name, text, verdict};
+use super::shared::fitted::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
 use crate::fragility::{Calibration, DemandFit, DemandModel, DemandOptions, fit_demand};
 use crate::paper;
@@ -86,7 +86,7 @@ impl Stage for FitPex {
             calibrations_text(&calibrations, ["rock safely", "exceed"])?,
             planes_text(&fits)?
         );
-        context.doubt(doubts(&calibrations));
+        context.warn(warnings(&calibrations));
         context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
         context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
         context.write(&self.out, &fits, &summary)?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueHint};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fitted::{calibrations_text, doubts, suite_name, text, verdict, with_limits};
+use super::shared::fitted::{calibrations_text, suite_name, text, verdict, warnings, with_limits};
 use super::shared::responses;
 use crate::fragility::{
     Calibration, CurveOptions, Event, Measure, OverturningFit, Pair, Parameter, fit_curves,
@@ -72,7 +72,7 @@ impl Stage for FitPro {
             true => format!("{}\n{curves}", calibrations_text(&calibrations, ["rock", "overturn"])?),
             false => curves,
         };
-        context.doubt(doubts(&calibrations));
+        context.warn(warnings(&calibrations));
         if self.calibrates() {
             context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
         }

@@ -9,9 +9,8 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::shared::motions::{DistinctIds, Measures, doubts, record};
-use super::shared::structures::{StructureArgs, doubts_of_all};
-use crate::doubt::{Doubt, Doubts};
+use super::shared::motions::{DistinctIds, Measures, record, warnings};
+use super::shared::structures::{StructureArgs, warnings_of_all};
 use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities};
 use crate::keyword::keywords;
 use crate::motion::IntensityScratch;
@@ -28,6 +27,7 @@ use crate::table::TableError;
 use crate::table::motions::{ACCELERATION, Motion, Motions, Part};
 use crate::table::rows;
 use crate::units::G_M_S2;
+use crate::warning::{Warning, Warnings};
 
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are
 /// bisected.
@@ -126,7 +126,7 @@ struct Analysed {
     motion_ids: Vec<String>,
     stripes: arrow_array::RecordBatch,
     capacities: Vec<CapacityRow>,
-    doubts: Doubts,
+    warnings: Warnings,
 }
 
 /// A structure under a motion.
@@ -156,7 +156,7 @@ impl Stage for Ida {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let structures = self.structures.resolve()?;
-        context.doubt(doubts_of_all(&structures));
+        context.warn(warnings_of_all(&structures));
         let scan = Scan::new(self.from, self.to, self.steps);
         let motions = Motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
@@ -180,7 +180,7 @@ impl Stage for Ida {
                     ids.add(&self.input, some.motion_ids)?;
                     stripes.append(&some.stripes)?;
                     capacities.extend(some.capacities);
-                    context.doubt(some.doubts);
+                    context.warn(some.warnings);
                 }
                 Ok(())
             },
@@ -204,11 +204,11 @@ impl Ida {
         motions: &[Motion],
         scratch: &mut IntensityScratch,
     ) -> anyhow::Result<Analysed> {
-        let (mut cases, mut doubted) = (Vec::new(), Doubts::default());
+        let (mut cases, mut warned) = (Vec::new(), Warnings::default());
         for motion in motions {
             let record = record(path, motion)?;
             let measures = Measures::new(motion, &record, scratch);
-            doubted.extend(doubts(motion, &record));
+            warned.extend(warnings(motion, &record));
             for structure in structures {
                 let unscaled = self.measure.unscaled(&measures, structure).ok_or_else(|| {
                     let measure = self.measure;
@@ -251,7 +251,7 @@ impl Ida {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             stripes: stripes_of(&responses, &stripes)?,
             capacities: capacities.collect(),
-            doubts: doubted,
+            warnings: warned,
         })
     }
 
@@ -378,7 +378,7 @@ fn fits(capacities: &[CapacityRow], scan: &Scan, context: &Context) -> Vec<Capac
             status,
         };
         if row.theta.is_none() && 2 * row.n_safe >= row.n {
-            context.doubt([(Doubt::ScanEndsEarly, row.structure.clone())].into_iter().collect());
+            context.warn([(Warning::ScanEndsEarly, row.structure.clone())].into_iter().collect());
         }
         row
     };

@@ -9,7 +9,6 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::doubt::Doubt;
 use crate::motion::pulse::largest_velocity;
 use crate::motion::{LONGEST_MOTION, MeasurePlan, Measures, Suite};
 use crate::pipeline::UsageError;
@@ -28,6 +27,7 @@ use crate::records::{Format, ReadOptions, RecordedMotion, read_records};
 use crate::rocking::Record;
 use crate::table::{motions, provenance, rows};
 use crate::units::{G_M_S2, Quantity, Unit};
+use crate::warning::Warning;
 
 /// Files, or pairs of components, that are processed at once.
 const AT_ONCE: usize = 32;
@@ -182,7 +182,7 @@ impl Stage for ImportMotions {
                             twice.motion_id
                         );
                     }
-                    context.doubt(imported.iter().filter_map(doubt).collect());
+                    context.warn(imported.iter().filter_map(warning).collect());
                     summary.add(&imported);
                     writer.append(&batch(&imported, &periods)?)?;
                 }
@@ -198,7 +198,7 @@ impl Stage for ImportMotions {
                 refused.join("\n")
             );
         }
-        context.doubt(refused.into_iter().map(|refusal| (Doubt::UnreadableFile, refusal)).collect());
+        context.warn(refused.into_iter().map(|refusal| (Warning::UnreadableFile, refusal)).collect());
         let summary = summary.text();
         context.finish(writer, &summary)?;
         Ok(summary)
@@ -287,8 +287,8 @@ impl Importer {
             }
         }
         let Pairs { pairs, left_out } = pairs(components);
-        let doubt = |(file, _): (PathBuf, usize)| (Doubt::NoPartner, text(file.file_name()));
-        context.doubt(left_out.into_iter().map(doubt).collect());
+        let warning = |(file, _): (PathBuf, usize)| (Warning::NoPartner, text(file.file_name()));
+        context.warn(left_out.into_iter().map(warning).collect());
         Ok((pairs.into_iter().map(Work::Pair).collect(), refused))
     }
 
@@ -360,8 +360,8 @@ fn acceleration_unit(text: &str) -> Result<Unit, String> {
     unit.ok_or_else(|| "expected g, m/s2, cm/s2, gal, mm/s2, mg, %g, ft/s2 or in/s2".to_string())
 }
 
-fn doubt(motion: &ImportedMotion) -> Option<(Doubt, String)> {
-    Some((Doubt::ImplausibleRecord, format!("{}: {}", motion.motion_id, motion.doubt?)))
+fn warning(motion: &ImportedMotion) -> Option<(Warning, String)> {
+    Some((Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, motion.warning?)))
 }
 
 fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<RecordBatch> {

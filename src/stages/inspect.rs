@@ -73,7 +73,10 @@ impl Inspect {
                 for (name, values) in &made.arguments {
                     writeln!(text, "  --{name} {}", values.join(","))?;
                 }
-                made.doubts.lines().iter().try_for_each(|doubt| writeln!(text, "  doubt: {doubt}"))?;
+                made.warnings
+                    .lines()
+                    .iter()
+                    .try_for_each(|warning| writeln!(text, "  warning: {warning}"))?;
             }
         }
         Ok(cut(&format!("{text}\n{shown}")))

@@ -7,20 +7,20 @@ use std::time::Instant;
 
 use anyhow::Context as _;
 
-use crate::doubt::Doubts;
 use crate::pipeline::cache::{self, Freshness};
 use crate::pipeline::call::Call;
 use crate::pipeline::context::Context;
+use crate::warning::Warnings;
 
 /// Stages whose result is the purpose of a folder; the first one that runs is printed at the end.
 const ANSWERS: [&str; 4] = ["evaluate", "compare-paper", "ida", "fit-pro"];
-/// Doubts that are printed.
+/// Warnings that are printed.
 const SHOWN: usize = 3;
 
 /// Runs the stages that are not up to date. Returns the text of the stage above, or of the last stage.
 pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     calls.iter().try_for_each(|call| call.stage.check())?;
-    let (mut printed, mut doubts, mut made) = (String::new(), Doubts::default(), HashMap::new());
+    let (mut printed, mut warnings, mut made) = (String::new(), Warnings::default(), HashMap::new());
     let place_of = |name: &&str| calls.iter().position(|call| call.name == *name);
     let answer = ANSWERS.iter().find_map(place_of).unwrap_or(calls.len() - 1);
     for (place, call) in calls.iter().enumerate() {
@@ -35,20 +35,20 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
             eprintln!("{:20} {took}", call.name);
         }
         made.extend(call.stage.outputs().into_iter().map(|path| (path, done.key.clone())));
-        doubts.join(&done.doubts);
+        warnings.join(&done.warnings);
         if place == answer {
             printed = done.summary;
         }
     }
     if !context.quiet {
-        warn(&doubts);
+        warn(&warnings);
     }
     Ok(printed)
 }
 
-/// Prints the weightiest doubts.
-pub fn warn(doubts: &Doubts) {
-    let lines = doubts.lines();
+/// Prints the weightiest warnings.
+pub fn warn(warnings: &Warnings) {
+    let lines = warnings.lines();
     let more = match lines.len().saturating_sub(SHOWN) {
         0 => String::new(),
         more => format!(" ({more} more: rockfrag inspect)"),

@@ -7,10 +7,9 @@ use arrow_array::RecordBatch;
 use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
-use super::shared::motions::{DistinctIds, Measures, doubts, record};
-use super::shared::structures::{StructureArgs, doubts_of_all};
+use super::shared::motions::{DistinctIds, Measures, record, warnings};
+use super::shared::structures::{StructureArgs, warnings_of_all};
 use super::synthesize_motions::out_of_partition;
-use crate::doubt::Doubts;
 use crate::motion::IntensityScratch;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::listed;
@@ -22,6 +21,7 @@ use crate::table::file::Partition;
 use crate::table::motions::{Motion, Motions, Part};
 use crate::table::responses::{ResponseRow, TraceRow};
 use crate::table::rows;
+use crate::warning::Warnings;
 
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;
@@ -64,7 +64,7 @@ impl Stage for Simulate {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let structures = self.structures.resolve()?;
-        context.doubt(doubts_of_all(&structures));
+        context.warn(warnings_of_all(&structures));
         let motions = Motions::open(&self.input, self.partition)?;
         let out = out_of_partition(&self.out, self.partition);
         let mut writer = context.create(&out, &rows::schema::<ResponseRow>())?;
@@ -87,7 +87,7 @@ impl Stage for Simulate {
                 for some in responded.into_iter().flatten() {
                     ids.add(&self.input, some.motion_ids)?;
                     overturned.extend(some.overturned);
-                    context.doubt(some.doubts);
+                    context.warn(some.warnings);
                     traces.extend(some.traces);
                     writer.append(&some.rows)?;
                 }
@@ -116,7 +116,7 @@ struct Responded {
     motion_ids: Vec<String>,
     rows: RecordBatch,
     traces: Vec<TraceRow>,
-    doubts: Doubts,
+    warnings: Warnings,
     overturned: Overturned,
 }
 
@@ -136,7 +136,7 @@ fn respond(
         motion_ids: Vec::new(),
         rows: rows::batch::<ResponseRow>(&[])?,
         traces: Vec::new(),
-        doubts: Doubts::default(),
+        warnings: Warnings::default(),
         overturned: Overturned::default(),
     };
     let mut all = Vec::with_capacity(problems.len());
@@ -151,7 +151,7 @@ fn respond(
         if traced.contains(&motion.motion_id) {
             responded.traces.extend(trace_rows(motion, record, structures)?);
         }
-        responded.doubts.extend(doubts(motion, record));
+        responded.warnings.extend(warnings(motion, record));
         responded.motion_ids.push(motion.motion_id.clone());
     }
     Ok(Responded { rows: rows::batch(&all)?, ..responded })

@@ -6,7 +6,6 @@ use clap::{Args, ValueHint};
 
 use super::shared::fits::FitsArgs;
 use super::shared::responses;
-use crate::doubt::{Doubt, Doubts};
 use crate::fragility::{Cases, Event, Kind, Model, Scenarios};
 use crate::pipeline::context::Context;
 use crate::pipeline::stage::{Stage, part};
@@ -14,6 +13,7 @@ use crate::studies::{Forecasts, ReliabilityBin, Validation};
 use crate::table::frame;
 use crate::table::provenance::{Provenance, key_of};
 use crate::table::rows;
+use crate::warning::{Warning, Warnings};
 
 /// Test predictions on responses that they were not fitted to: counts, scores and reliability
 #[derive(Debug, Args)]
@@ -43,13 +43,14 @@ impl Stage for Validate {
             // Without --suite the fits to the same kind of motion predict.
             let kind = Kind::of(cases.suite.as_deref().and_then(|suite| suite.parse().ok()));
             let fits = FitsArgs { suite: Some(self.fits.suite.unwrap_or(kind)), ..self.fits.clone() };
-            let (model, doubts) = fits.models()?.model(&cases.structure)?;
-            context.doubt(doubts.into_iter().map(|doubt| (doubt, cases.structure.name.clone())).collect());
+            let (model, warnings) = fits.models()?.model(&cases.structure)?;
+            context
+                .warn(warnings.into_iter().map(|warning| (warning, cases.structure.name.clone())).collect());
             for event in EVENTS {
                 let (of_event, of_bins, outside) = validate(cases, &model, event, self.fits.limit_state);
                 scores.extend(of_event);
                 bins.extend(of_bins);
-                context.doubt(outside);
+                context.warn(outside);
             }
             bar.advance(1)?;
         }
@@ -81,7 +82,7 @@ fn validate(
     model: &Model,
     event: Event,
     limit_state: f64,
-) -> (Option<Validation>, Vec<ReliabilityBin>, Doubts) {
+) -> (Option<Validation>, Vec<ReliabilityBin>, Warnings) {
     let (mut probabilities, mut happened, mut clusters) = (Vec::new(), Vec::new(), Vec::new());
     let mut outside = false;
     for case in 0..cases.len() {
@@ -97,7 +98,7 @@ fn validate(
         if p.value.is_nan() {
             continue;
         }
-        outside |= model.doubts(&cases.structure, &measures).contains(&Doubt::Extrapolated);
+        outside |= model.warnings(&cases.structure, &measures).contains(&Warning::Extrapolated);
         probabilities.push(p.value);
         happened.push(has_happened);
         clusters.push(cases.cluster[case]);
@@ -115,9 +116,9 @@ fn validate(
         happened: &happened,
         clusters: &clusters,
     };
-    let doubt =
-        (outside && event == Event::Failure).then(|| (Doubt::Extrapolated, cases.structure.name.clone()));
-    (forecasts.validate(), forecasts.reliability(), doubt.into_iter().collect())
+    let warning =
+        (outside && event == Event::Failure).then(|| (Warning::Extrapolated, cases.structure.name.clone()));
+    (forecasts.validate(), forecasts.reliability(), warning.into_iter().collect())
 }
 
 /// A line a suite, structure and event.

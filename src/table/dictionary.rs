@@ -162,7 +162,7 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     ("width_m", "m", "width of the base"),
     ("height_m", "m", "height"),
     ("friction", "1", "tan(alpha): with less friction it slides in place of rocking"),
-    ("doubts", "1", "what speaks against the row; of one that cannot be right, why"),
+    ("warnings", "1", "what speaks against the row; of one that cannot be right, why"),
     ("rocking_per_year", "1/a", "mean annual rate of rocking"),
     ("failure_per_year", "1/a", "mean annual rate of a demand above the limit state, or overturning"),
     ("failure_per_year_low", "1/a", "lower 95 % limit of failure_per_year, or lower bound"),

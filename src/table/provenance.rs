@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::TableError;
 use super::file;
-use crate::doubt::Doubts;
+use crate::warning::Warnings;
 
 /// Key of the JSON among the key-value metadata.
 const KEY: &str = "rockfrag";
@@ -33,8 +33,8 @@ pub struct Provenance {
     pub inputs: BTreeMap<String, String>,
     /// Text printed by the stage.
     pub summary: String,
-    /// Doubts about the results.
-    pub doubts: Doubts,
+    /// Warnings about the results.
+    pub warnings: Warnings,
 }
 
 impl Provenance {

@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use rockfrag::doubt::Doubt;
 use rockfrag::rocking::Structure;
 use rockfrag::units::G_M_S2;
+use rockfrag::warning::Warning;
 use serde_json::Value;
 
 use crate::common::{fail, folder_with, succeed};
@@ -24,8 +24,8 @@ fn number(row: &Value, column: &str) -> f64 {
     row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"))
 }
 
-fn has(row: &Value, doubt: Doubt) -> bool {
-    row["doubts"].as_str().is_some_and(|doubts| doubts.contains(doubt.text()))
+fn has(row: &Value, warning: Warning) -> bool {
+    row["warnings"].as_str().is_some_and(|warnings| warnings.contains(warning.text()))
 }
 
 fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
@@ -113,15 +113,15 @@ fn a_hazard_that_ends_early_gives_bounds_which_hold_what_a_longer_one_gives() {
     ]);
     let evaluate = |arguments: &str| rows(folder.path(), &format!("{BLOCK} {arguments}")).remove(0);
     let (long, short) = (evaluate("--hazard long.csv"), evaluate("--hazard short.csv"));
-    assert!(has(&short, Doubt::HazardEndsEarly) && short["overturning_per_year"].is_null());
+    assert!(has(&short, Warning::HazardEndsEarly) && short["overturning_per_year"].is_null());
     let truth = number(&long, "overturning_per_year");
     assert!(number(&short, "overturning_per_year_low") < truth);
     assert!(number(&short, "overturning_per_year_high") > truth);
     let extrapolated = evaluate("--hazard short.csv --extrapolate");
-    assert!(has(&extrapolated, Doubt::HazardExtrapolated) && !has(&extrapolated, Doubt::HazardEndsEarly));
+    assert!(has(&extrapolated, Warning::HazardExtrapolated) && !has(&extrapolated, Warning::HazardEndsEarly));
     assert!(near(number(&extrapolated, "overturning_per_year"), truth, 0.01), "the slope is the same");
     let far = evaluate("--hazard far.csv");
-    assert!(!has(&far, Doubt::HazardEndsEarly), "no site has 5 g");
+    assert!(!has(&far, Warning::HazardEndsEarly), "no site has 5 g");
 }
 
 #[test]
@@ -135,7 +135,7 @@ fn a_list_keeps_its_bad_rows_and_fails_only_if_all_are_bad() {
         assert_eq!(names, ["shelf", "rack", "wrong", "no height"], "worst first, {question}");
         assert!((number(&all[0], "width_m") - 0.3).abs() < 1e-12, "the smaller of width and depth");
         assert!((number(&all[1], "height_m") - 2.0).abs() < 1e-12);
-        assert!(all[2]["doubts"].is_string() && all[2]["p_rad_s"].is_null());
+        assert!(all[2]["warnings"].is_string() && all[2]["p_rad_s"].is_null());
         let (_, warned) = succeed(folder.path(), &format!("evaluate --structures list.csv {question}"));
         assert_eq!(warned.lines().count(), 1, "both bad rows are one line: {warned}");
     }
@@ -143,7 +143,7 @@ fn a_list_keeps_its_bad_rows_and_fails_only_if_all_are_bad() {
 }
 
 #[test]
-fn slips_are_refused_or_doubted() {
+fn slips_are_refused_or_warned() {
     let curve = |factor: f64| {
         let points = [(0.05, 0.1), (0.1, 0.04), (0.5, 1e-3), (1.0, 2e-4), (3.0, 4e-6)];
         let line = |(pga, rate): (f64, f64)| format!("{pga},{}\n", rate * factor);
@@ -171,15 +171,15 @@ fn slips_are_refused_or_doubted() {
     ] {
         fail(folder.path(), &format!("evaluate {arguments}"), code, &named);
     }
-    let doubted = |arguments: &str| succeed(folder.path(), &format!("evaluate {arguments}")).1;
+    let warned = |arguments: &str| succeed(folder.path(), &format!("evaluate {arguments}")).1;
     let plausible = format!("{BLOCK} --hazard hazard.csv");
-    assert_eq!(doubted(&plausible), "");
-    assert!(doubted(&format!("{BLOCK} --hazard percent.csv")).contains(Doubt::ImplausibleHazard.text()));
+    assert_eq!(warned(&plausible), "");
+    assert!(warned(&format!("{BLOCK} --hazard percent.csv")).contains(Warning::ImplausibleHazard.text()));
     let low = "--p 2.5 --alpha 0.2 --eta 0.09 --pga 0.5 --pgv 0.6";
-    assert!(doubted(low).contains(Doubt::LowRestitution.text()));
-    assert_eq!(doubted(&format!("{low} --quiet")), "");
+    assert!(warned(low).contains(Warning::LowRestitution.text()));
+    assert_eq!(warned(&format!("{low} --quiet")), "");
     let exchanged = "--p 0.25 --alpha 0.3 --eta 0.9 --pga 0.5 --pgv 0.6";
-    assert!(doubted(exchanged).contains(Doubt::ImplausibleSize.text()));
+    assert!(warned(exchanged).contains(Warning::ImplausibleSize.text()));
 }
 
 #[test]

@@ -2,7 +2,6 @@
 //! (scripts/universal).
 
 use rand::RngExt;
-use rockfrag::doubt::Doubt;
 use rockfrag::fragility::{
     Calibration, CaseRow, Cases, CasesBuilder, Event, Kind, Measure, Model, Probability, Scenarios,
     fit_curve, logit_exceeding, logit_overturning, p_failure_given_rocking,
@@ -10,6 +9,7 @@ use rockfrag::fragility::{
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::{Outcome, Structure};
+use rockfrag::warning::Warning;
 
 use crate::common::{cases, close, equipment, random, read, rocking};
 
@@ -191,8 +191,8 @@ fn limits_are_finite_without_events_with_nothing_else_and_of_eight_records() {
             ));
             let Model::Calibrated { overturning, .. } = &model else { panic!() };
             assert!(overturning.covariance.iter().all(|v| v.is_finite()) && overturning.covariance[0] > 1e-3);
-            assert!(overturning.doubts().contains(&Doubt::NoEvents));
-            assert_eq!(overturning.doubts().contains(&Doubt::FewClusters), n == 8);
+            assert!(overturning.warnings().contains(&Warning::NoEvents));
+            assert_eq!(overturning.warnings().contains(&Warning::FewClusters), n == 8);
             for im4 in [1.2, 2.0, 3.0] {
                 let probabilities = model.probabilities(&equipment(), &at(im4, im4 / 2.0), Scenarios::One);
                 let given = probabilities.given_rocking.unwrap();
@@ -251,21 +251,21 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
 }
 
 #[test]
-fn what_lies_outside_is_doubted_once() {
+fn what_lies_outside_is_warned_once() {
     let inside = measures(&equipment(), 5.0, 0.6);
     let shipped = Model::shipped(Kind::Csgm, &equipment(), 0.1);
-    assert_eq!(shipped.doubts(&equipment(), &inside), []);
-    assert_eq!(shipped.doubts(&equipment(), &measures(&equipment(), 500.0, 0.6)), [Doubt::Extrapolated]);
-    assert_eq!(shipped.doubts(&equipment(), &measures(&equipment(), 1.0, 0.001)), [], "it does not rock");
+    assert_eq!(shipped.warnings(&equipment(), &inside), []);
+    assert_eq!(shipped.warnings(&equipment(), &measures(&equipment(), 500.0, 0.6)), [Warning::Extrapolated]);
+    assert_eq!(shipped.warnings(&equipment(), &measures(&equipment(), 1.0, 0.001)), [], "it does not rock");
     assert_eq!(
-        Model::shipped(Kind::Csgm, &equipment(), 2.0).doubts(&equipment(), &inside),
-        [Doubt::Extrapolated]
+        Model::shipped(Kind::Csgm, &equipment(), 2.0).warnings(&equipment(), &inside),
+        [Warning::Extrapolated]
     );
     let large = Structure::new("large", 20.0, 0.2, 0.92).unwrap();
-    assert!(shipped.doubts(&large, &measures(&large, 5.0, 0.1)).contains(&Doubt::UnusualStructure));
+    assert!(shipped.warnings(&large, &measures(&large, 5.0, 0.1)).contains(&Warning::UnusualStructure));
     // All motions of these cases have a PGA of 1 m/s2 and a PGV of 1 m/s.
     let own = calibrated(&rocking(400));
-    assert!(own.doubts(&equipment(), &inside).contains(&Doubt::Extrapolated));
+    assert!(own.warnings(&equipment(), &inside).contains(&Warning::Extrapolated));
 }
 
 #[test]

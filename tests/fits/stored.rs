@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use rockfrag::doubt::Doubt;
 use rockfrag::fragility::{
     Calibration, Cases, CurveOptions, DemandOptions, Event, Kind, Measure, Model, Pair, fit_curves,
     fit_demand,
@@ -11,6 +10,7 @@ use rockfrag::pipeline::context::Context;
 use rockfrag::rocking::Structure;
 use rockfrag::stages::shared::fits::{FitsArgs, ModelName};
 use rockfrag::table::rows::Row;
+use rockfrag::warning::Warning;
 
 use crate::common::{equipment, rocking};
 
@@ -59,10 +59,10 @@ fn the_row_of_the_same_structure_answers_by_either_model() {
     let folder = folder(&["csgm"]);
     let args = args(&folder);
     let near = Structure::new("mine", 2.51, 0.201, 0.925).unwrap();
-    let (model, doubts) = args.models().unwrap().model(&near).unwrap();
+    let (model, warnings) = args.models().unwrap().model(&near).unwrap();
     let Model::Calibrated { overturning, exceeding, .. } = model else { panic!() };
     assert_eq!((overturning, exceeding.limit_state), (Calibration::fit(&rocking(600), None), Some(0.1)));
-    assert_eq!(doubts, []);
+    assert_eq!(warnings, []);
     let paper = FitsArgs { model: ModelName::Paper, ..args };
     let (Model::Paper { demand, overturning, .. }, _) = paper.models().unwrap().model(&near).unwrap() else {
         panic!()
@@ -74,8 +74,8 @@ fn the_row_of_the_same_structure_answers_by_either_model() {
 fn a_structure_that_is_not_there_gets_the_surface_unless_it_is_named() {
     let folder = folder(&["csgm"]);
     let other = Structure::new("other", 1.0, 0.15, 0.92).unwrap();
-    let (model, doubts) = args(&folder).models().unwrap().model(&other).unwrap();
-    assert_eq!((model, doubts), (Model::shipped(Kind::Csgm, &other, 0.1), vec![Doubt::NotFitted]));
+    let (model, warnings) = args(&folder).models().unwrap().model(&other).unwrap();
+    assert_eq!((model, warnings), (Model::shipped(Kind::Csgm, &other, 0.1), vec![Warning::NotFitted]));
     let named = FitsArgs { name: Some("equipment".to_string()), ..args(&folder) };
     let (Model::Calibrated { overturning, .. }, _) = named.models().unwrap().model(&other).unwrap() else {
         panic!()
@@ -84,8 +84,8 @@ fn a_structure_that_is_not_there_gets_the_surface_unless_it_is_named() {
     let unknown = FitsArgs { name: Some("shelf".to_string()), ..args(&folder) };
     assert!(error(&unknown).contains("no structure 'shelf'; expected one of equipment"));
     let without = FitsArgs { fits: None, ..args(&folder) };
-    let (model, doubts) = without.models().unwrap().model(&other).unwrap();
-    assert_eq!((model, doubts), (Model::shipped(Kind::Recorded, &other, 0.1), vec![]));
+    let (model, warnings) = without.models().unwrap().model(&other).unwrap();
+    assert_eq!((model, warnings), (Model::shipped(Kind::Recorded, &other, 0.1), vec![]));
 }
 
 #[test]

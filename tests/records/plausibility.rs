@@ -1,6 +1,6 @@
 //! Plausible and implausible records.
 
-use rockfrag::records::plausibility::{Doubt, doubt};
+use rockfrag::records::plausibility::{Warning, warning};
 
 use crate::references::reference_motions;
 use crate::writers::{DT, G, motion};
@@ -9,11 +9,11 @@ use crate::writers::{DT, G, motion};
 fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
     let mut half_pulses = 0;
     for motion in reference_motions().into_values() {
-        match doubt(&motion.acceleration_m_s2, motion.dt_s) {
+        match warning(&motion.acceleration_m_s2, motion.dt_s) {
             // The strongest synthetic motions are as strong as few records.
-            None | Some(Doubt::RarePga { .. } | Doubt::RarePgv { .. }) => {}
+            None | Some(Warning::RarePga { .. } | Warning::RarePgv { .. }) => {}
             // Half-sine and rectangular pulses end with a velocity.
-            Some(Doubt::Drift { .. }) => half_pulses += 1,
+            Some(Warning::Drift { .. }) => half_pulses += 1,
             Some(other) => panic!("{}: {other}", motion.motion_id),
         }
     }
@@ -25,7 +25,7 @@ fn every_limit_is_kept() {
     let slow = |k: usize| (2.0 * std::f64::consts::PI * k as f64 / 1000.0).sin();
     let kind = |dt_s: f64, change: &dyn Fn(usize, f64) -> f64| {
         let samples: Vec<f64> = motion(1000).into_iter().enumerate().map(|(k, a)| change(k, a)).collect();
-        format!("{:?}", doubt(&samples, dt_s))
+        format!("{:?}", warning(&samples, dt_s))
     };
     for (found, expected) in [
         (kind(DT, &|_, a| a), "None"),
@@ -39,10 +39,12 @@ fn every_limit_is_kept() {
         (kind(DT, &|_, _| 0.0), "Some(Still"),
         (kind(DT, &|k, _| slow(k)), "Some(Slow { ratio_s: 3.18"),
         (kind(DT, &|k, _| 4.0 * slow(k)), "Some(Pgv { pgv_m_s: 12.7"),
-        (format!("{:?}", doubt(&motion(1000)[..20], DT)), "Some(FewSamples { samples: 20"),
+        (format!("{:?}", warning(&motion(1000)[..20], DT)), "Some(FewSamples { samples: 20"),
     ] {
         assert!(found.starts_with(expected), "{expected}: {found}");
     }
-    let impossible = [Doubt::Still, Doubt::Pga { pga_g: 30.0 }, Doubt::TimeStep { dt_s: 1.0 }];
-    assert!(impossible.iter().all(Doubt::is_impossible) && !Doubt::RarePga { pga_g: 3.0 }.is_impossible());
+    let impossible = [Warning::Still, Warning::Pga { pga_g: 30.0 }, Warning::TimeStep { dt_s: 1.0 }];
+    assert!(
+        impossible.iter().all(Warning::is_impossible) && !Warning::RarePga { pga_g: 3.0 }.is_impossible()
+    );
 }

@@ -150,7 +150,7 @@ class Probabilities:
     p_f_r_high: Floats
     p_f: Floats
     #: What speaks against them.
-    doubts: list[str]
+    warnings: list[str]
 
 
 def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities:
@@ -164,11 +164,11 @@ def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities
         Of :func:`rockfrag.evaluate`: the structure, ``fits``, ``suite``, ``limit_state`` ...
     """
     given = np.broadcast_arrays(*(np.asarray(peak, dtype=np.float64) for peak in (pga, pgv)))
-    names = [field.name for field in fields(Probabilities) if field.name != "doubts"]
+    names = [field.name for field in fields(Probabilities) if field.name != "warnings"]
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
         path = Path(folder, "intensities.parquet")
         _rockfrag.write_numbers({"pga_g": given[0].tobytes(), "pgv_m_s": given[1].tobytes()}, path)
         evaluated = _bridge.functions["evaluate"](path, **options)
         columns = _rockfrag.read_numbers(evaluated._table(), names)
     arrays: dict[str, Any] = {name: np.frombuffer(columns[name]).reshape(given[0].shape) for name in names}
-    return Probabilities(**arrays, doubts=evaluated.doubts)
+    return Probabilities(**arrays, warnings=evaluated.warnings)

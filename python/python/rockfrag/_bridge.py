@@ -117,8 +117,8 @@ def flag(name: str) -> str:
 
 def result(made: tuple[str, list[Path], str, list[str]], folder: Path | None = None) -> Result:
     """What came of a stage that is done."""
-    stage, paths, summary, doubts = made
-    return Result(stage, paths[-1] if paths else None, summary, doubts, folder)
+    stage, paths, summary, warnings = made
+    return Result(stage, paths[-1] if paths else None, summary, warnings, folder)
 
 
 def written(table: Any, path: Path, option: Option) -> Path:

@@ -24,21 +24,21 @@ class Result:
         Its file. Without ``out`` it is a temporary one, which goes when the result does.
     summary : str
         What the command prints.
-    doubts : list of str
+    warnings : list of str
         What speaks against it.
     """
 
     def __init__(
-        self, stage: str, path: Path | None, summary: str, doubts: list[str], folder: Path | None = None
+        self, stage: str, path: Path | None, summary: str, warnings: list[str], folder: Path | None = None
     ) -> None:
-        self.stage, self.path, self.summary, self.doubts = stage, path, summary, doubts
+        self.stage, self.path, self.summary, self.warnings = stage, path, summary, warnings
         self._owner: Result | None = None
         if folder is not None:
             weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
 
     def part(self, name: str) -> Result:
         """Another table of the stage: ``fit_pro(...).part("parameters")`` is ``pro.parameters.parquet``."""
-        part = Result(self.stage, self._table().with_suffix(f".{name}.parquet"), self.summary, self.doubts)
+        part = Result(self.stage, self._table().with_suffix(f".{name}.parquet"), self.summary, self.warnings)
         if not part._table().exists():
             raise ValueError(f"{self.stage} has no part '{name}'; expected one of {', '.join(self.parts)}")
         part._owner = self
@@ -75,8 +75,8 @@ class Result:
         return self.path
 
     def __repr__(self) -> str:
-        doubts = [f"doubt: {doubt}" for doubt in self.doubts]
-        return "\n".join([self.summary.rstrip() or f"{self.stage}: {self.path}", *doubts])
+        warnings = [f"warning: {warning}" for warning in self.warnings]
+        return "\n".join([self.summary.rstrip() or f"{self.stage}: {self.path}", *warnings])
 
 
 Result.__module__ = "rockfrag"

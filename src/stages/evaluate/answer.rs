@@ -5,7 +5,6 @@ use std::fmt::Write;
 use super::object::{Answer, ObjectRow, TreeRow, words_of_kind};
 use super::site::{RatesRow, Site};
 use super::unit;
-use crate::doubt::Doubt;
 use crate::fragility::{Calibration, Kind, Model, Ratio, Scenarios};
 use crate::hazard::probability_in_years;
 use crate::keyword::Keyword;
@@ -13,6 +12,7 @@ use crate::motion::IntensityMeasures;
 use crate::rocking::{Structure, rectangular_p};
 use crate::stages::shared::hazard::Hazard;
 use crate::units::G_M_S2;
+use crate::warning::Warning;
 
 /// Value and limits; there may be limits alone.
 type Limited = [Option<f64>; 3];
@@ -57,13 +57,13 @@ fn points(all: &[Answer<TreeRow>]) -> String {
         [None | Some(0.0), ..] => "nothing overturns".to_string(),
         of => format!("{} overturns most probably: {}", worst.structure, limited(of, "95 % limits ")),
     };
-    let heading = ["object", "size", "rocks", "overturns", "", "or too far", "friction", "doubt"];
-    let row = |Answer { object, row: tree, doubts, .. }: &Answer<TreeRow>| {
+    let heading = ["object", "size", "rocks", "overturns", "", "or too far", "friction", "warning"];
+    let row = |Answer { object, row: tree, warnings, .. }: &Answer<TreeRow>| {
         let [overturning, failure] = states(tree);
         let rocks = tree.p_nr.map_or("-", |p_nr| if p_nr == 0.0 { "yes" } else { "no" }).to_string();
         let [p, limits, too_far] = [value(overturning), in_brackets(overturning, ""), value(failure)];
         let [name, size, friction] = [object.structure.clone(), size(object), friction(object)];
-        vec![name, size, rocks, p, limits, too_far, friction, brief(doubts, &tree.doubts, object)]
+        vec![name, size, rocks, p, limits, too_far, friction, brief(warnings, &tree.warnings, object)]
     };
     let rows = std::iter::once(heading.map(str::to_string).to_vec()).chain(all.iter().map(row));
     let table = aligned(&rows.collect::<Vec<_>>());
@@ -144,8 +144,9 @@ fn rate(object: &ObjectRow, rates: &RatesRow, site: &Site) -> String {
 fn rates_of_list(all: &[Answer<RatesRow>], site: &Site) -> String {
     let Some(Answer { object: worst, row: rates, .. }) = all.first() else { return String::new() };
     let years = format!("in {} years", significant(site.years, 6));
-    let heading = ["object", "size", "rocks", "overturns", "once in years", &years, "", "friction", "doubt"];
-    let row = |Answer { object, row: rates, doubts, .. }: &Answer<RatesRow>| {
+    let heading =
+        ["object", "size", "rocks", "overturns", "once in years", &years, "", "friction", "warning"];
+    let row = |Answer { object, row: rates, warnings, .. }: &Answer<RatesRow>| {
         let of = [rates.p_overturning, rates.p_overturning_low, rates.p_overturning_high];
         vec![
             object.structure.clone(),
@@ -156,7 +157,7 @@ fn rates_of_list(all: &[Answer<RatesRow>], site: &Site) -> String {
             value(of),
             of[0].map_or(String::new(), |_| in_brackets(of, "")),
             friction(object),
-            brief(doubts, &rates.doubts, object),
+            brief(warnings, &rates.warnings, object),
         ]
     };
     let rows = std::iter::once(heading.map(str::to_string).to_vec()).chain(all.iter().map(row));
@@ -365,14 +366,14 @@ fn per_year([value, low, high]: Limited) -> String {
     }
 }
 
-/// The doubts of a row in a few words; the reason in full if the row cannot be right.
-fn brief(doubts: &[Doubt], reason: &Option<String>, object: &ObjectRow) -> String {
+/// The warnings of a row in a few words; the reason in full if the row cannot be right.
+fn brief(warnings: &[Warning], reason: &Option<String>, object: &ObjectRow) -> String {
     match reason {
         Some(reason) if object.p_rad_s.is_none() => {
             reason.rsplit("': ").next().unwrap_or_default().to_string()
         }
         _ => {
-            let words = doubts.iter().map(|doubt| doubt.to_string().replace('_', " "));
+            let words = warnings.iter().map(|warning| warning.to_string().replace('_', " "));
             words.collect::<Vec<_>>().join(", ")
         }
     }

@@ -14,8 +14,7 @@ use rayon::prelude::*;
 use super::shared::fits::FitsArgs;
 use super::shared::hazard::{self, Renamed};
 use super::shared::responses;
-use super::shared::structures::{Object, StructureArgs, doubts_of};
-use crate::doubt::Doubt;
+use super::shared::structures::{Object, StructureArgs, warnings_of};
 use crate::fragility::{Model, Peak, Ratio, Scenarios};
 use crate::keyword;
 use crate::motion::IntensityMeasures;
@@ -28,6 +27,7 @@ use crate::table::frame::{self, Format};
 use crate::table::rows;
 use crate::table::writer::write_file;
 use crate::units::G_M_S2;
+use crate::warning::Warning;
 
 use self::object::{Answer, texts};
 pub use self::object::{ObjectRow, Predicted, TreeRow, words_of};
@@ -155,7 +155,7 @@ impl Evaluate {
 
     fn at_point(&self, pga_g: f64, pgv_m_s: f64, context: &Context) -> anyhow::Result<String> {
         let peaks = [pga_g * G_M_S2, pgv_m_s];
-        let predict = |structure: &Structure, model: &Model, _: &mut Vec<Doubt>| {
+        let predict = |structure: &Structure, model: &Model, _: &mut Vec<Warning>| {
             let measures = IntensityMeasures::new(structure, peaks[0], peaks[1], None, None);
             (TreeRow::new(peaks, &model.probabilities(structure, &measures, Scenarios::One)), measures)
         };
@@ -172,10 +172,10 @@ impl Evaluate {
             responses: self.responses.as_deref().map(responses::read).transpose()?,
         };
         site.check(self.ratio)?;
-        let implausible = site.is_implausible().then_some(Doubt::ImplausibleHazard);
-        let predict = |structure: &Structure, model: &Model, doubts: &mut Vec<Doubt>| {
-            doubts.extend(implausible);
-            site.rates(structure, model, doubts)
+        let implausible = site.is_implausible().then_some(Warning::ImplausibleHazard);
+        let predict = |structure: &Structure, model: &Model, warnings: &mut Vec<Warning>| {
+            warnings.extend(implausible);
+            site.rates(structure, model, warnings)
         };
         self.answer(predict, |all| answer::of_rates(all, &site, self.sentence), context)
     }
@@ -184,7 +184,7 @@ impl Evaluate {
     /// matters.
     fn answer<R: Predicted>(
         &self,
-        predict: impl Fn(&Structure, &Model, &mut Vec<Doubt>) -> (R, IntensityMeasures) + Sync,
+        predict: impl Fn(&Structure, &Model, &mut Vec<Warning>) -> (R, IntensityMeasures) + Sync,
         text: impl Fn(&[Answer<R>]) -> String,
         context: &Context,
     ) -> anyhow::Result<String> {
@@ -195,34 +195,34 @@ impl Evaluate {
                 Err(reason) => {
                     let refused = Answer {
                         object: ObjectRow::refused(&object),
-                        row: R::default().with_doubts(Some(reason.clone())),
-                        doubts: vec![Doubt::ImplausibleRow],
+                        row: R::default().with_warnings(Some(reason.clone())),
+                        warnings: vec![Warning::ImplausibleRow],
                         explained: String::new(),
                     };
                     return Ok(refused);
                 }
             };
-            let (model, mut doubts) = models.model(structure)?;
-            let (row, measures) = predict(structure, &model, &mut doubts);
-            doubts.extend(doubts_of(structure));
-            doubts.extend(model.doubts(structure, &measures));
-            doubts.sort();
-            doubts.dedup();
+            let (model, mut warnings) = models.model(structure)?;
+            let (row, measures) = predict(structure, &model, &mut warnings);
+            warnings.extend(warnings_of(structure));
+            warnings.extend(model.warnings(structure, &measures));
+            warnings.sort();
+            warnings.dedup();
             let explained = || answer::explained(&model, structure, &measures);
             Ok(Answer {
                 object: ObjectRow::new(&object, structure, &model, self.fits.limit_state),
-                row: row.with_doubts(texts(&doubts)),
-                doubts,
+                row: row.with_warnings(texts(&warnings)),
+                warnings,
                 explained: if self.explain { explained() } else { String::new() },
             })
         };
         let all = self.objects()?.into_par_iter().map(of_object).collect::<anyhow::Result<Vec<_>>>();
         let mut all = all?;
-        let doubts = |answer: &Answer<R>| {
+        let warnings = |answer: &Answer<R>| {
             let name = answer.object.structure.clone();
-            answer.doubts.clone().into_iter().map(move |doubt| (doubt, name.clone()))
+            answer.warnings.clone().into_iter().map(move |warning| (warning, name.clone()))
         };
-        context.doubt(all.iter().flat_map(doubts).collect());
+        context.warn(all.iter().flat_map(warnings).collect());
         all.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
         let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
         let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();

@@ -2,24 +2,24 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::doubt::Doubt;
 use crate::fragility::{GivenRocking, Kind, Model, Probabilities, Probability};
 use crate::rocking::Structure;
 use crate::stages::shared::structures::Object;
 use crate::table::rows::Row;
+use crate::warning::Warning;
 
 /// What is predicted for an object.
 pub struct Answer<R> {
     pub object: ObjectRow,
     pub row: R,
-    pub doubts: Vec<Doubt>,
+    pub warnings: Vec<Warning>,
     /// The model and the measures of the motion, if requested.
     pub explained: String,
 }
 
 /// A row of predictions; the default one is that of an object whose row cannot be right.
 pub trait Predicted: Row + Default + Send + Sync {
-    fn with_doubts(self, doubts: Option<String>) -> Self;
+    fn with_warnings(self, warnings: Option<String>) -> Self;
 
     /// By which objects are sorted, the worst first.
     fn severity(&self) -> f64;
@@ -111,7 +111,7 @@ pub struct TreeRow {
     pub p_f_r_low: Option<f64>,
     pub p_f_r_high: Option<f64>,
     pub p_f: Option<f64>,
-    pub doubts: Option<String>,
+    pub warnings: Option<String>,
 }
 
 impl TreeRow {
@@ -139,14 +139,14 @@ impl TreeRow {
             p_f_r_low,
             p_f_r_high,
             p_f: probabilities.limit_states().map(|states| states[1].value).filter(|p| !p.is_nan()),
-            doubts: None,
+            warnings: None,
         }
     }
 }
 
 impl Predicted for TreeRow {
-    fn with_doubts(self, doubts: Option<String>) -> TreeRow {
-        TreeRow { doubts, ..self }
+    fn with_warnings(self, warnings: Option<String>) -> TreeRow {
+        TreeRow { warnings, ..self }
     }
 
     fn severity(&self) -> f64 {
@@ -154,8 +154,8 @@ impl Predicted for TreeRow {
     }
 }
 
-/// Doubts as they stand in a file.
-pub fn texts(doubts: &[Doubt]) -> Option<String> {
-    let texts: Vec<&str> = doubts.iter().map(|doubt| doubt.text()).collect();
+/// Warnings as they stand in a file.
+pub fn texts(warnings: &[Warning]) -> Option<String> {
+    let texts: Vec<&str> = warnings.iter().map(|warning| warning.text()).collect();
     (!texts.is_empty()).then(|| texts.join("; "))
 }

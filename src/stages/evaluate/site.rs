@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::object::Predicted;
-use crate::doubt::Doubt;
 use crate::fragility::{Along, Cases, Event, Kind, Model, Peak, Ratio};
 use crate::hazard::{CountedMotion, CountedRate, HazardCurve, Rate};
 use crate::hazard::{counted_rates, median_intensity, probability_in_years, rates_along, rates_over_pairs};
@@ -12,6 +11,7 @@ use crate::pipeline::UsageError;
 use crate::rocking::Structure;
 use crate::stages::shared::hazard::Hazard;
 use crate::units::G_M_S2;
+use crate::warning::Warning;
 
 /// The hazard, and how rates over it are computed.
 pub struct Site {
@@ -52,7 +52,7 @@ pub struct RatesRow {
     pub counted_per_year: Option<f64>,
     pub counted_per_year_low: Option<f64>,
     pub counted_per_year_high: Option<f64>,
-    pub doubts: Option<String>,
+    pub warnings: Option<String>,
 }
 
 /// PGA of a curve (m/s2) and PGV (m/s) beyond which nothing was ever recorded: it cannot end too early.
@@ -99,12 +99,12 @@ impl Site {
         &self,
         structure: &Structure,
         model: &Model,
-        doubts: &mut Vec<Doubt>,
+        warnings: &mut Vec<Warning>,
     ) -> (RatesRow, IntensityMeasures) {
         let (row, peaks) = match &self.hazard {
             Hazard::Curve(peak, curve) => {
                 let along = Along { model, structure, peak: *peak, ratio: self.ratio };
-                self.over_curve(&along, curve, doubts)
+                self.over_curve(&along, curve, warnings)
             }
             Hazard::Joint(joint) => {
                 let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
@@ -119,7 +119,7 @@ impl Site {
         &self,
         along: &Along,
         curve: &HazardCurve,
-        doubts: &mut Vec<Doubt>,
+        warnings: &mut Vec<Warning>,
     ) -> (RatesRow, [f64; 2]) {
         let [(first, _), (last, _)] = curve.ends();
         let mut rates = rates_along(along, curve);
@@ -128,13 +128,13 @@ impl Site {
         let extrapolated = (is_short && self.extrapolate).then(|| curve.extrapolated());
         if let Some(curve) = &extrapolated {
             rates = rates_along(along, curve);
-            doubts.push(Doubt::HazardExtrapolated);
+            warnings.push(Warning::HazardExtrapolated);
         } else if is_short {
-            doubts.push(Doubt::HazardEndsEarly);
+            warnings.push(Warning::HazardEndsEarly);
         }
         let curve = extrapolated.as_ref().unwrap_or(curve);
         if first > along.uplift()[1] {
-            doubts.push(Doubt::HazardStartsLate);
+            warnings.push(Warning::HazardStartsLate);
         }
         let mut row = RatesRow::new(rates, self.years, is_short && extrapolated.is_none());
         if self.ratio == Ratio::Distributed && row.overturning_per_year.is_some() {
@@ -227,8 +227,8 @@ impl RatesRow {
 }
 
 impl Predicted for RatesRow {
-    fn with_doubts(self, doubts: Option<String>) -> RatesRow {
-        RatesRow { doubts, ..self }
+    fn with_warnings(self, warnings: Option<String>) -> RatesRow {
+        RatesRow { warnings, ..self }
     }
 
     fn severity(&self) -> f64 {

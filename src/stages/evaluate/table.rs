@@ -11,7 +11,6 @@ use rayon::prelude::*;
 
 use super::Evaluate;
 use super::object::{Predicted, TreeRow, texts};
-use crate::doubt::{Doubt, Doubts};
 use crate::fragility::{Model, Peak, Scenarios};
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
@@ -20,14 +19,15 @@ use crate::rocking::Structure;
 use crate::sheet::{Heading, Sheet};
 use crate::stages::shared::hazard::{headings, peak, rename};
 use crate::stages::shared::motions::known;
-use crate::stages::shared::structures::doubts_of;
+use crate::stages::shared::structures::warnings_of;
 use crate::table::TableError;
 use crate::table::columns::Columns;
 use crate::table::file::Table;
 use crate::table::rows;
+use crate::warning::{Warning, Warnings};
 
 /// The model of each structure by its parameters.
-type Models = HashMap<[u64; 3], (Structure, Model, Vec<Doubt>)>;
+type Models = HashMap<[u64; 3], (Structure, Model, Vec<Warning>)>;
 
 /// Reads intensities, and writes them with their probabilities.
 pub fn run(options: &Evaluate, path: &Path, context: &Context) -> anyhow::Result<String> {
@@ -76,28 +76,28 @@ fn evaluate(
         |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits);
     for structure in &structures {
         if let Entry::Vacant(place) = models.entry(key(structure)) {
-            let (model, mut doubts) = fitted.model(structure)?;
-            doubts.extend(doubts_of(structure));
-            place.insert((structure.clone(), model, doubts));
+            let (model, mut warnings) = fitted.model(structure)?;
+            warnings.extend(warnings_of(structure));
+            place.insert((structure.clone(), model, warnings));
         }
     }
     let of_row = |row: usize| {
         let (structure, model, of_structure) = &models[&key(&structures[row])];
         let measures = IntensityMeasures::new(structure, pga[row], pgv[row], known(tp[row]), known(tm[row]));
-        let mut doubts = of_structure.clone();
-        doubts.extend(model.doubts(structure, &measures));
+        let mut warnings = of_structure.clone();
+        warnings.extend(model.warnings(structure, &measures));
         let tree =
             TreeRow::new([pga[row], pgv[row]], &model.probabilities(structure, &measures, Scenarios::One));
-        (tree.with_doubts(texts(&doubts)), doubts)
+        (tree.with_warnings(texts(&warnings)), warnings)
     };
-    let (trees, doubts): (Vec<TreeRow>, Vec<Vec<Doubt>>) =
+    let (trees, warnings): (Vec<TreeRow>, Vec<Vec<Warning>>) =
         (0..columns.rows()).into_par_iter().map(of_row).unzip();
     let place = |row: usize| format!("row {}", columns.first_row + row as u64);
-    let doubts = doubts.into_iter().enumerate().flat_map(|(row, doubts)| {
+    let warnings = warnings.into_iter().enumerate().flat_map(|(row, warnings)| {
         let place = place(row);
-        doubts.into_iter().map(move |doubt| (doubt, place.clone()))
+        warnings.into_iter().map(move |warning| (warning, place.clone()))
     });
-    context.doubt(doubts.collect::<Doubts>());
+    context.warn(warnings.collect::<Warnings>());
     let own = rows::batch(&trees)?;
     let schema = columns.batch.schema();
     let kept: Vec<usize> = (0..schema.fields().len())

@@ -6,7 +6,6 @@ use serde_json::{Value, json};
 use super::figures::{is_of, name};
 use super::studies;
 use super::tables::Tables;
-use crate::doubt::Doubts;
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::report::text::number;
 use crate::report::{Column, Figure, Page, Section, Table};
@@ -16,9 +15,10 @@ use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
 use crate::units::G_M_S2;
+use crate::warning::Warnings;
 
-/// Doubts under the table; the others are folded. Structures in the first sentence; the table has all.
-const MOST_DOUBTS: usize = 3;
+/// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
+const MOST_WARNINGS: usize = 3;
 const MOST_NAMED: usize = 4;
 /// Figures that are seen: of annual rates, of the paper, of other responses. The others are folded.
 const OF_RATES: &[&str] = &["list", "rates"];
@@ -55,10 +55,10 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     };
     let (seen, more) = figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
     let made = tables.files.iter().filter_map(|(.., made)| made.as_ref());
-    let mut joined = Doubts::default();
-    made.for_each(|made| joined.join(&made.doubts));
-    let mut doubts = joined.lines();
-    let others = doubts.split_off(doubts.len().min(MOST_DOUBTS));
+    let mut joined = Warnings::default();
+    made.for_each(|made| joined.join(&made.warnings));
+    let mut warnings = joined.lines();
+    let others = warnings.split_off(warnings.len().min(MOST_WARNINGS));
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
     let section = |heading: &str, paragraphs: Vec<String>, tables: Vec<Table>, figures: Vec<Figure>| {
@@ -72,7 +72,15 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
         section("Files", Vec::new(), vec![files(tables)], Vec::new()),
     ];
     let sections = sections.into_iter().flatten().collect();
-    Ok(Page { sentence, table: Some(first), notes: doubts, figures: seen, sections, key, ..Page::default() })
+    Ok(Page {
+        sentence,
+        table: Some(first),
+        notes: warnings,
+        figures: seen,
+        sections,
+        key,
+        ..Page::default()
+    })
 }
 
 /// Some fields of rows, under their names; those that no row has are left out.
@@ -136,11 +144,11 @@ fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
             "once in years": once,
             (percent.as_str()): limits(p.map(|p| p.map(|p| 100.0 * p))),
             "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
-            "doubt": row.doubts.as_ref().filter(|_| row.rocking_per_year.is_none()),
+            "warning": row.warnings.as_ref().filter(|_| row.rocking_per_year.is_none()),
         })
     };
     let fields =
-        format!("object|once in years|{percent}|overturns a year|rocks a year|size|friction needed|doubt");
+        format!("object|once in years|{percent}|overturns a year|rocks a year|size|friction needed|warning");
     table("", objects.iter().map(row), &fields)
 }
 

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 
-use crate::doubt::Doubt;
 use crate::fragility::{Calibration, DemandFit, DemandModel, Event, Kind, Measure, Model, OverturningFit};
 use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
@@ -12,6 +11,7 @@ use crate::pipeline::options::{listed, number};
 use crate::rocking::Structure;
 use crate::stages::shared::fitted::verdict;
 use crate::table::rows;
+use crate::warning::Warning;
 
 /// The model that predicts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,8 +85,8 @@ const SAME: f64 = 0.01;
 
 impl FittedModels {
     /// The model for a structure: that of the fitted structure of the same p, alpha and eta, or of the one
-    /// named; without one, the surface, with a doubt if there are fits.
-    pub fn model(&self, structure: &Structure) -> anyhow::Result<(Model, Vec<Doubt>)> {
+    /// named; without one, the surface, with a warning if there are fits.
+    pub fn model(&self, structure: &Structure) -> anyhow::Result<(Model, Vec<Warning>)> {
         let limit_state = self.args.limit_state;
         if self.args.fits.is_none() {
             let kind = self.args.suite.unwrap_or(Kind::Recorded);
@@ -108,7 +108,7 @@ impl FittedModels {
                     self.of_suite(self.overturning.iter().collect())?.map_or(Kind::Recorded, |row| row.kind)
                 }
             };
-            return Ok((Model::shipped(kind, structure, limit_state), vec![Doubt::NotFitted]));
+            return Ok((Model::shipped(kind, structure, limit_state), vec![Warning::NotFitted]));
         };
         let exceeding = self.exceeding(overturning)?;
         let peaks =
@@ -124,7 +124,7 @@ impl FittedModels {
                 peaks,
             },
         };
-        Ok((model, (overturning.n == 0).then_some(Doubt::NotFitted).into_iter().collect()))
+        Ok((model, (overturning.n == 0).then_some(Warning::NotFitted).into_iter().collect()))
     }
 
     /// All fitted structures, or the one named.

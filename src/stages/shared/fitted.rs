@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::doubt::Doubts;
 use crate::fragility::Calibration;
 use crate::keyword::Keyword;
 use crate::statistics::FitStatus;
 use crate::table::frame;
 use crate::table::rows::{self, Row};
+use crate::warning::Warnings;
 
 /// A printed row: the surface beside what was observed.
 #[derive(Serialize, Deserialize)]
@@ -73,10 +73,10 @@ pub fn verdict(status: FitStatus) -> String {
 }
 
 /// What speaks against calibrations, each with its structure and suite.
-pub fn doubts(rows: &[Calibration]) -> Doubts {
+pub fn warnings(rows: &[Calibration]) -> Warnings {
     let about = |row: &Calibration| match &row.suite {
         Some(suite) => format!("{} ({suite})", row.structure),
         None => row.structure.clone(),
     };
-    rows.iter().flat_map(|row| row.doubts().into_iter().map(move |doubt| (doubt, about(row)))).collect()
+    rows.iter().flat_map(|row| row.warnings().into_iter().map(move |warning| (warning, about(row)))).collect()
 }

@@ -3,7 +3,6 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use crate::doubt::{Doubt, Doubts};
 use crate::keyword;
 use crate::motion::{IntensityMeasures, IntensityScratch, Suite, intensity};
 use crate::records::plausibility;
@@ -11,6 +10,7 @@ use crate::rocking::{Outcome, Record, RecordError, Response, Structure};
 use crate::table::TableError;
 use crate::table::motions::{ACCELERATION, Motion};
 use crate::table::responses::ResponseRow;
+use crate::warning::{Warning, Warnings};
 
 /// The record of a motion of the file at `path`.
 pub fn record<'a>(path: &Path, motion: &'a Motion) -> Result<Record<'a>, TableError> {
@@ -90,17 +90,17 @@ pub fn known(number: f64) -> Option<f64> {
 /// By which share the PGA that a file gives may miss that of the samples.
 const PEAK_TOLERANCE: f64 = 0.1;
 
-/// What is doubtful about a motion that is not synthetic.
-pub fn doubts(motion: &Motion, record: &Record) -> Doubts {
+/// What speaks against a motion that is not synthetic.
+pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
     let suite = motion.suite.as_deref().and_then(|word| keyword::parse::<Suite>(word).ok());
     if suite.is_some_and(|suite| Suite::SYNTHETIC.contains(&suite)) {
-        return Doubts::default();
+        return Warnings::default();
     }
     let (peak, samples) = (record.peak_m_s2(), record.acceleration_m_s2());
     let is_other = known(motion.pga_m_s2).is_some_and(|pga| (pga - peak).abs() > PEAK_TOLERANCE * peak);
-    let implausible = plausibility::doubt(samples, record.dt_s())
-        .map(|doubt| (Doubt::ImplausibleRecord, format!("{}: {}", motion.motion_id, doubt)));
-    let other_peak = is_other.then(|| (Doubt::OtherPeak, motion.motion_id.clone()));
+    let implausible = plausibility::warning(samples, record.dt_s())
+        .map(|warning| (Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, warning)));
+    let other_peak = is_other.then(|| (Warning::OtherPeak, motion.motion_id.clone()));
     implausible.into_iter().chain(other_peak).collect()
 }
 

@@ -6,13 +6,13 @@ use std::str::FromStr;
 use anyhow::Context;
 use clap::{Args, ValueHint};
 
-use crate::doubt::{Doubt, Doubts};
 use crate::keyword::nearest;
 use crate::paper;
 use crate::pipeline::UsageError;
 use crate::rocking::{Structure, housner_eta, judge};
 use crate::sheet::Sheet;
 use crate::units::Quantity;
+use crate::warning::{Warning, Warnings};
 
 /// The structures of a call.
 #[derive(Debug, Clone, Default, Args)]
@@ -204,16 +204,19 @@ impl StructureArgs {
 /// Below this a coefficient of restitution is more likely a typing error.
 const LOW_ETA: f64 = 0.5;
 
-/// What is doubtful about the parameters of a structure.
-pub fn doubts_of(structure: &Structure) -> Vec<Doubt> {
-    let size = structure.doubt().map(|_| Doubt::ImplausibleSize);
-    size.into_iter().chain((structure.eta < LOW_ETA).then_some(Doubt::LowRestitution)).collect()
+/// What speaks against the parameters of a structure.
+pub fn warnings_of(structure: &Structure) -> Vec<Warning> {
+    let size = structure.warning().map(|_| Warning::ImplausibleSize);
+    size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()
 }
 
 /// The same of several structures.
-pub fn doubts_of_all(structures: &[Structure]) -> Doubts {
+pub fn warnings_of_all(structures: &[Structure]) -> Warnings {
     let of = |structure: &Structure| {
-        doubts_of(structure).into_iter().map(|doubt| (doubt, structure.name.clone())).collect::<Vec<_>>()
+        warnings_of(structure)
+            .into_iter()
+            .map(|warning| (warning, structure.name.clone()))
+            .collect::<Vec<_>>()
     };
     structures.iter().flat_map(of).collect()
 }

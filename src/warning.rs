@@ -1,0 +1,151 @@
+//! What speaks against a result: a warning is a value, worded once.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::keyword::keywords;
+
+/// A warning that changes what one would decide, the weightiest first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Warning {
+    ImplausibleRow,
+    ImplausibleRecord,
+    OtherPeak,
+    ImplausibleSize,
+    LowRestitution,
+    ImplausibleHazard,
+    HazardEndsEarly,
+    HazardExtrapolated,
+    HazardStartsLate,
+    NotFitted,
+    Extrapolated,
+    UnusualStructure,
+    PoorFit,
+    NoEvents,
+    FewEvents,
+    FewClusters,
+    ScanEndsEarly,
+    UnreadableFile,
+    NoPartner,
+}
+
+keywords!(Warning {
+    ImplausibleRow = "implausible_row",
+    ImplausibleRecord = "implausible_record",
+    OtherPeak = "other_peak",
+    ImplausibleSize = "implausible_size",
+    LowRestitution = "low_restitution",
+    ImplausibleHazard = "implausible_hazard",
+    HazardEndsEarly = "hazard_ends_early",
+    HazardExtrapolated = "hazard_extrapolated",
+    HazardStartsLate = "hazard_starts_late",
+    NotFitted = "not_fitted",
+    Extrapolated = "extrapolated",
+    UnusualStructure = "unusual_structure",
+    PoorFit = "poor_fit",
+    NoEvents = "no_events",
+    FewEvents = "few_events",
+    FewClusters = "few_clusters",
+    ScanEndsEarly = "scan_ends_early",
+    UnreadableFile = "unreadable_file",
+    NoPartner = "no_partner",
+});
+
+impl Warning {
+    /// In at most 15 words.
+    pub fn text(self) -> &'static str {
+        match self {
+            Warning::ImplausibleRow => "this row cannot be right; it has no result",
+            Warning::ImplausibleRecord => "this is no plausible record of an earthquake",
+            Warning::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",
+            Warning::ImplausibleSize => "no solid block is as high: are its dimensions in cm?",
+            Warning::LowRestitution => "eta is below 0.5: a typing error?",
+            Warning::ImplausibleHazard => "such strong motion is never so frequent: wrong unit or column?",
+            Warning::HazardEndsEarly => "the hazard curve ends too early: bounds in place of a value",
+            Warning::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
+            Warning::HazardStartsLate => {
+                "the hazard curve starts above the intensity that uplifts it: rates are too low"
+            }
+            Warning::NotFitted => "not among the fitted structures: the universal surface is used",
+            Warning::Extrapolated => "outside of the motions that the model was fitted to",
+            Warning::UnusualStructure => "outside of the structures that the universal surface was fitted to",
+            Warning::PoorFit => "the paper's curve or planes do not fit these responses",
+            Warning::NoEvents => {
+                "no response or every response overturned: the level comes from other structures"
+            }
+            Warning::FewEvents => {
+                "fewer than ten responses with the event, or without: the level is uncertain"
+            }
+            Warning::FewClusters => {
+                "fewer than ten earthquakes or cells: limits assume the usual differences between them"
+            }
+            Warning::ScanEndsEarly => "too few motions overturn it for a median; raise --to",
+            Warning::UnreadableFile => "not imported",
+            Warning::NoPartner => "vertical, or no partner at right angles: left out",
+        }
+    }
+}
+
+/// Warnings, each with what it is about.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Warnings(BTreeMap<Warning, Subjects>);
+
+/// What a warning is about.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+struct Subjects {
+    /// The names of the first ones.
+    named: Vec<String>,
+    /// The number of all.
+    count: usize,
+}
+
+/// Subjects that a line names.
+const NAMED: usize = 3;
+/// The name of a structure that has none.
+const UNNAMED: &str = "structure";
+
+impl Warnings {
+    /// Returns a line a warning, the weightiest first, with the first of what it is about.
+    pub fn lines(&self) -> Vec<String> {
+        let line = |(warning, Subjects { named, count }): (&Warning, &Subjects)| {
+            let named = named.join(", ");
+            match count.saturating_sub(NAMED) {
+                0 if named == UNNAMED => warning.text().to_string(),
+                0 => format!("{named}: {}", warning.text()),
+                more => format!("{named} and {more} more: {}", warning.text()),
+            }
+        };
+        self.0.iter().map(line).collect()
+    }
+
+    /// Adds warnings about other subjects.
+    pub fn extend(&mut self, others: Warnings) {
+        for (warning, others) in others.0 {
+            let subjects = self.0.entry(warning).or_default();
+            subjects.count += others.count;
+            subjects.named.extend(others.named);
+            subjects.named.truncate(NAMED);
+        }
+    }
+
+    /// Joins the warnings of another stage about the same subjects: the one about more of them stays.
+    pub fn join(&mut self, others: &Warnings) {
+        for (warning, others) in &others.0 {
+            let subjects = self.0.entry(*warning).or_default();
+            if others.count >= subjects.count {
+                *subjects = others.clone();
+            }
+        }
+    }
+}
+
+impl FromIterator<(Warning, String)> for Warnings {
+    fn from_iter<I: IntoIterator<Item = (Warning, String)>>(warnings: I) -> Warnings {
+        let mut all = Warnings::default();
+        for (warning, about) in warnings {
+            all.extend(Warnings([(warning, Subjects { named: vec![about], count: 1 })].into()));
+        }
+        all
+    }
+}
