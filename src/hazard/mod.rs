@@ -15,7 +15,7 @@ mod rates;
 pub use count::{Count, CountedMotion, CountedRate, counted_rates};
 pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
-pub use rates::{Rate, Rates, median_intensity, rates_along, rates_over_pairs};
+pub use rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate
 /// independently of each other (Poisson): 1 - exp(-rate years).

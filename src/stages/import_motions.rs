@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::pulse::largest_velocity;
-use crate::motion::{LONGEST_MOTION, MeasurePlan, Measures, Suite};
+use crate::motion::{LONGEST_MOTION, MeasurePlan, MotionMeasures, Suite};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, listed, number};
@@ -366,7 +366,7 @@ fn warning(motion: &ImportedMotion) -> Option<(Warning, String)> {
 
 fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<RecordBatch> {
     let sources: Vec<SourceRow> = some.iter().map(SourceRow::from).collect();
-    let measures: Vec<Measures> = some.iter().map(|motion| motion.measured.measures).collect();
+    let measures: Vec<MotionMeasures> = some.iter().map(|motion| motion.measured.measures).collect();
     let pulses: Vec<PulseRow> = some.iter().map(PulseRow::from).collect();
     let sa: Vec<&[f64]> = some.iter().map(|motion| motion.measured.sa_m_s2.as_slice()).collect();
     let known = [rows::batch(&sources)?, rows::batch(&measures)?, rows::batch(&pulses)?];
@@ -435,7 +435,7 @@ impl Summary {
                 .kinds
                 .entry(format!("{} in {}", motion.record.format, motion.record.unit.name))
                 .or_default() += 1;
-            let Measures { pga_m_s2, pgv_m_s, .. } = motion.measured.measures;
+            let MotionMeasures { pga_m_s2, pgv_m_s, .. } = motion.measured.measures;
             self.peaks.push([pga_m_s2 / G_M_S2, pgv_m_s]);
         }
     }

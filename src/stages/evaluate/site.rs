@@ -3,9 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::object::Predicted;
-use crate::fragility::{Along, Cases, Event, Kind, Model, Peak, Ratio};
+use crate::fragility::{Cases, Event, GivenPeak, Kind, Model, Peak, Ratio};
 use crate::hazard::{CountedMotion, CountedRate, HazardCurve, Rate};
-use crate::hazard::{counted_rates, median_intensity, probability_in_years, rates_along, rates_over_pairs};
+use crate::hazard::{
+    counted_rates, median_intensity, probability_in_years, rates_over_curve, rates_over_pairs,
+};
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
 use crate::rocking::Structure;
@@ -103,8 +105,8 @@ impl Site {
     ) -> (RatesRow, IntensityMeasures) {
         let (row, peaks) = match &self.hazard {
             Hazard::Curve(peak, curve) => {
-                let along = Along { model, structure, peak: *peak, ratio: self.ratio };
-                self.over_curve(&along, curve, warnings)
+                let given_peak = GivenPeak { model, structure, peak: *peak, ratio: self.ratio };
+                self.over_curve(&given_peak, curve, warnings)
             }
             Hazard::Joint(joint) => {
                 let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
@@ -117,64 +119,64 @@ impl Site {
 
     fn over_curve(
         &self,
-        along: &Along,
+        given_peak: &GivenPeak,
         curve: &HazardCurve,
         warnings: &mut Vec<Warning>,
     ) -> (RatesRow, [f64; 2]) {
         let [(first, _), (last, _)] = curve.ends();
-        let mut rates = rates_along(along, curve);
-        let is_short = last < STRONGEST[usize::from(along.peak == Peak::Pgv)]
+        let mut rates = rates_over_curve(given_peak, curve);
+        let is_short = last < STRONGEST[usize::from(given_peak.peak == Peak::Pgv)]
             && rates[2].beyond > NEGLIGIBLE * rates[2].value;
         let extrapolated = (is_short && self.extrapolate).then(|| curve.extrapolated());
         if let Some(curve) = &extrapolated {
-            rates = rates_along(along, curve);
+            rates = rates_over_curve(given_peak, curve);
             warnings.push(Warning::HazardExtrapolated);
         } else if is_short {
             warnings.push(Warning::HazardEndsEarly);
         }
         let curve = extrapolated.as_ref().unwrap_or(curve);
-        if first > along.uplift()[1] {
+        if first > given_peak.uplift()[1] {
             warnings.push(Warning::HazardStartsLate);
         }
         let mut row = RatesRow::new(rates, self.years, is_short && extrapolated.is_none());
         if self.ratio == Ratio::Distributed && row.overturning_per_year.is_some() {
-            let overturning = |z| rates_along(&along.with(Ratio::Deviations(z)), curve)[2].value;
+            let overturning = |z| rates_over_curve(&given_peak.with(Ratio::Deviations(z)), curve)[2].value;
             row.overturning_per_year_less_velocity = Some(overturning(-1.0));
             row.overturning_per_year_more_velocity = Some(overturning(1.0));
         }
-        if let Some((motions, count)) = self.count(along, curve) {
+        if let Some((motions, count)) = self.count(given_peak, curve) {
             row.counted_motions = Some(motions as i64);
             row.counted_per_year = Some(count.value);
             row.counted_per_year_low = Some(count.limits.low);
             row.counted_per_year_high = Some(count.limits.high);
         }
-        (row, along.median_motion(median_intensity(along, curve)))
+        (row, given_peak.median_motion(median_intensity(given_peak, curve)))
     }
 
     /// The rate of overturning, counted among the responses of this structure to this kind of motion.
-    fn count(&self, along: &Along, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
+    fn count(&self, given_peak: &GivenPeak, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
         let kind_of =
             |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
-        let kind = match along.model {
+        let kind = match given_peak.model {
             Model::Calibrated { overturning, .. } => overturning.kind,
             Model::Paper { overturning, .. } => kind_of(&overturning.suite),
         };
         let parameters = |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta];
         let is_same = |cases: &&Cases| {
-            let pairs = parameters(&cases.structure).into_iter().zip(parameters(along.structure));
+            let pairs = parameters(&cases.structure).into_iter().zip(parameters(given_peak.structure));
             kind_of(&cases.suite) == kind && pairs.into_iter().all(|(a, b)| (a / b - 1.0).abs() < 0.01)
         };
         let cases = self.responses.iter().flatten().find(is_same)?;
         let motion = |case: usize| CountedMotion {
-            intensity: if along.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
+            intensity: if given_peak.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
             events: [f64::from(cases.happened(case, Event::Overturning, self.limit_state) == Some(true))],
             cluster: cases.cluster[case],
         };
         let motions: Vec<CountedMotion<1>> = (0..cases.len()).map(motion).collect();
         // Weaker motions uplift nothing.
-        let least = match along.peak {
-            Peak::Pga => along.structure.uplift_acceleration_m_s2(),
-            Peak::Pgv => along.uplift()[0],
+        let least = match given_peak.peak {
+            Peak::Pga => given_peak.structure.uplift_acceleration_m_s2(),
+            Peak::Pgv => given_peak.uplift()[0],
         };
         let count = counted_rates(curve, least, motions, SEED)?;
         Some((count.motions, count.rates[0]))

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 
-use crate::fragility::{Calibration, DemandFit, DemandModel, Event, Kind, Measure, Model, OverturningFit};
+use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
 use crate::keyword::{Keyword, keywords};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{listed, number};
@@ -76,7 +76,7 @@ pub struct FittedModels {
     args: FitsArgs,
     overturning: Vec<Calibration>,
     exceeding: Vec<Calibration>,
-    curves: Vec<OverturningFit>,
+    curves: Vec<CurveFit>,
     demand: Vec<DemandFit>,
 }
 
@@ -238,12 +238,12 @@ impl FittedModels {
     }
 
     /// The paper's curve of the hybrid measure of its worked example; where that has no fit, of IM5.
-    fn curve(&self, row: &Calibration) -> anyhow::Result<OverturningFit> {
-        let is_its = |fit: &&OverturningFit| {
+    fn curve(&self, row: &Calibration) -> anyhow::Result<CurveFit> {
+        let is_its = |fit: &&CurveFit| {
             (&fit.suite, &fit.structure, fit.event) == (&row.suite, &row.structure, Event::Overturning)
         };
         let of = |im_x, im_y| {
-            let is_of = move |fit: &&OverturningFit| (fit.im_x, fit.im_y) == (im_x, im_y);
+            let is_of = move |fit: &&CurveFit| (fit.im_x, fit.im_y) == (im_x, im_y);
             self.curves.iter().filter(is_its).find(is_of)
         };
         let curves = [of(Measure::Im4, Some(Measure::Im3Inverse)), of(Measure::Im5, None)];
