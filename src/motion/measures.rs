@@ -67,41 +67,44 @@ impl MeasurePlan {
     pub fn measure(&self, acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> Measured {
         let sa = |period_s: &f64| spectral_acceleration(acceleration, dt_s, *period_s, DAMPING);
         Measured {
-            measures: measures(acceleration, dt_s, scratch),
+            measures: MotionMeasures::of(acceleration, dt_s, scratch),
             housner_m: self.housner.then(|| housner_intensity(acceleration, dt_s)),
             sa_m_s2: self.sa_periods_s.iter().map(sa).collect(),
         }
     }
 }
 
-/// Computes the measures of every motion from an acceleration (m/s2) at steps of `dt_s`. The squared
-/// acceleration is integrated exactly for lines between samples, everything else by trapezoids.
-pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> MotionMeasures {
-    let (mut velocity, mut displacement, mut squares, mut cav_m_s) = (0.0_f64, 0.0_f64, 0.0, 0.0);
-    let (mut pgv_m_s, mut pgd_m) = (0.0, 0.0);
-    // Running integral of the squared acceleration, m2/s3.
-    let mut energy = vec![0.0; acceleration.len()];
-    for k in 1..acceleration.len() {
-        let (left, right) = (acceleration[k - 1], acceleration[k]);
-        squares += squared(dt_s, left, right);
-        energy[k] = squares;
-        let next = velocity + trapezoid(dt_s, left, right);
-        displacement += trapezoid(dt_s, velocity, next);
-        velocity = next;
-        cav_m_s += trapezoid(dt_s, left.abs(), right.abs());
-        pgv_m_s = larger(pgv_m_s, velocity.abs());
-        pgd_m = larger(pgd_m, displacement.abs());
-    }
-    let [d5, d75, d95] = [0.05, 0.75, 0.95].map(|share| time_of_share(acceleration, &energy, dt_s, share));
-    MotionMeasures {
-        pga_m_s2: peak(acceleration),
-        pgv_m_s,
-        pgd_m,
-        tm_s: mean_period(acceleration, dt_s, scratch),
-        arias_m_s: 0.5 * PI / G_M_S2 * squares,
-        cav_m_s,
-        d5_75_s: d75 - d5,
-        d5_95_s: d95 - d5,
+impl MotionMeasures {
+    /// Computes the measures of every motion from an acceleration (m/s2) at steps of `dt_s`. The squared
+    /// acceleration is integrated exactly for lines between samples, everything else by trapezoids.
+    pub fn of(acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> MotionMeasures {
+        let (mut velocity, mut displacement, mut squares, mut cav_m_s) = (0.0_f64, 0.0_f64, 0.0, 0.0);
+        let (mut pgv_m_s, mut pgd_m) = (0.0, 0.0);
+        // Running integral of the squared acceleration, m2/s3.
+        let mut energy = vec![0.0; acceleration.len()];
+        for k in 1..acceleration.len() {
+            let (left, right) = (acceleration[k - 1], acceleration[k]);
+            squares += squared(dt_s, left, right);
+            energy[k] = squares;
+            let next = velocity + trapezoid(dt_s, left, right);
+            displacement += trapezoid(dt_s, velocity, next);
+            velocity = next;
+            cav_m_s += trapezoid(dt_s, left.abs(), right.abs());
+            pgv_m_s = larger(pgv_m_s, velocity.abs());
+            pgd_m = larger(pgd_m, displacement.abs());
+        }
+        let [d5, d75, d95] =
+            [0.05, 0.75, 0.95].map(|share| time_of_share(acceleration, &energy, dt_s, share));
+        MotionMeasures {
+            pga_m_s2: peak(acceleration),
+            pgv_m_s,
+            pgd_m,
+            tm_s: mean_period(acceleration, dt_s, scratch),
+            arias_m_s: 0.5 * PI / G_M_S2 * squares,
+            cav_m_s,
+            d5_75_s: d75 - d5,
+            d5_95_s: d95 - d5,
+        }
     }
 }
 

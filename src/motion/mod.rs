@@ -27,7 +27,7 @@ mod synthesis;
 pub use combine::{Difference, Epoch};
 pub use design::{Design, Grid};
 pub use intensity_measures::{Dimension, IntensityMeasures};
-pub use measures::{MeasurePlan, MeasureScratch, Measured, MotionMeasures, measures};
+pub use measures::{MeasurePlan, MeasureScratch, Measured, MotionMeasures};
 pub use pulse::Pulse;
 pub use scenario::{Scenario, Suite};
 pub use site::SiteAmplification;

@@ -10,8 +10,8 @@ use rockfrag::motion::pulse::largest_velocity;
 use rockfrag::motion::site::SiteTableError;
 use rockfrag::motion::stochastic::{CONSTANT, LowCut, PEAK_SHARE, Source, StochasticModel, Window};
 use rockfrag::motion::{
-    Design, Difference, Epoch, Grid, MeasureScratch, MotionModel, Pulse, Scenario, SiteAmplification, Suite,
-    Synthesizer, Synthetic, measures,
+    Design, Difference, Epoch, Grid, MeasureScratch, MotionMeasures, MotionModel, Pulse, Scenario,
+    SiteAmplification, Suite, Synthesizer, Synthetic, measures,
 };
 
 const EPOCHS: [Epoch; 3] = [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv];
@@ -78,7 +78,7 @@ fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) 
         let mut synthesizer = Synthesizer::new(model, &Suite::SYNTHETIC);
         let of = |scenario: &Scenario| {
             let motion = synthesizer.synthesize(scenario);
-            measures(samples(&motion), motion.dt_s, &mut scratch)
+            MotionMeasures::of(samples(&motion), motion.dt_s, &mut scratch)
         };
         let all: Vec<_> = cell(mw, re_km, 100, seed).iter().map(of).collect();
         let of_seed = [
