@@ -17,7 +17,7 @@ mod site;
 pub use count::{Count, CountedMotion, CountedRate, counted_rates};
 pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
-pub use rates::{Rate, Rates, median_intensity, rates_along, rates_over_pairs};
+pub use rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
 pub use site::{Hazard, Site, SiteRates, strongest};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate

@@ -4,8 +4,8 @@
 use super::count::{CountedMotion, CountedRate, counted_rates};
 use super::curve::HazardCurve;
 use super::joint::JointHazard;
-use super::rates::{Rate, Rates, median_intensity, rates_along, rates_over_pairs};
-use crate::fragility::{Along, Cases, Event, Kind, Model, Peak, Ratio};
+use super::rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
+use crate::fragility::{Cases, Event, GivenPeak, Kind, Model, Peak, Ratio};
 use crate::number::Limited;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::rocking::Structure;
@@ -89,7 +89,7 @@ impl Site {
     pub fn rates(&self, structure: &Structure, model: &Model) -> SiteRates {
         match &self.hazard {
             Hazard::Curve(peak, curve) => {
-                self.rates_of_curve(&Along { model, structure, peak: *peak, ratio: self.ratio }, curve)
+                self.rates_of_curve(&GivenPeak { model, structure, peak: *peak, ratio: self.ratio }, curve)
             }
             Hazard::Joint(joint) => {
                 let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
@@ -99,53 +99,55 @@ impl Site {
         }
     }
 
-    fn rates_of_curve(&self, along: &Along, curve: &HazardCurve) -> SiteRates {
+    fn rates_of_curve(&self, given_peak: &GivenPeak, curve: &HazardCurve) -> SiteRates {
         let [(first, _), (last, _)] = curve.ends();
         let mut warnings = Vec::new();
-        let mut rates = rates_along(along, curve);
-        let is_short = last < strongest(along.peak) && rates[2].beyond > NEGLIGIBLE * rates[2].value;
+        let mut rates = rates_over_curve(given_peak, curve);
+        let is_short = last < strongest(given_peak.peak) && rates[2].beyond > NEGLIGIBLE * rates[2].value;
         let extrapolated = (is_short && self.extrapolate).then(|| curve.extrapolated());
         if let Some(curve) = &extrapolated {
-            rates = rates_along(along, curve);
+            rates = rates_over_curve(given_peak, curve);
             warnings.push(Warning::HazardExtrapolated);
         } else if is_short {
             warnings.push(Warning::HazardEndsEarly);
         }
         let is_short = is_short && extrapolated.is_none();
         let curve = extrapolated.as_ref().unwrap_or(curve);
-        if first > along.uplift()[1] {
+        if first > given_peak.uplift()[1] {
             warnings.push(Warning::HazardStartsLate);
         }
-        let motion = along.median_motion(median_intensity(along, curve));
+        let motion = given_peak.median_motion(median_intensity(given_peak, curve));
         let mut rates = SiteRates { warnings, ..SiteRates::new(rates, is_short, motion) };
         if self.ratio == Ratio::Distributed && rates.overturning[0].is_some() {
-            let with = |deviations| rates_along(&along.with(Ratio::Deviations(deviations)), curve)[2].value;
+            let with = |deviations| {
+                rates_over_curve(&given_peak.with(Ratio::Deviations(deviations)), curve)[2].value
+            };
             rates.by_velocity = Some([-1.0, 1.0].map(with));
         }
-        SiteRates { counted: self.count(along, curve), ..rates }
+        SiteRates { counted: self.count(given_peak, curve), ..rates }
     }
 
     /// The rate of overturning, counted among the responses of this structure to this kind of motion.
-    fn count(&self, along: &Along, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
+    fn count(&self, given_peak: &GivenPeak, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
         let kind_of =
             |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
-        let kind = match along.model {
+        let kind = match given_peak.model {
             Model::Calibrated { overturning, .. } => overturning.kind,
             Model::Paper { overturning, .. } => kind_of(&overturning.suite),
         };
         let is_same =
-            |cases: &&Cases| kind_of(&cases.suite) == kind && along.structure.is_like(&cases.structure);
+            |cases: &&Cases| kind_of(&cases.suite) == kind && given_peak.structure.is_like(&cases.structure);
         let cases = self.responses.iter().find(is_same)?;
         let motion = |case: usize| CountedMotion {
-            intensity: if along.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
+            intensity: if given_peak.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
             events: [f64::from(cases.happened(case, Event::Overturning, self.limit_state) == Some(true))],
             cluster: cases.cluster[case],
         };
         let motions: Vec<CountedMotion<1>> = (0..cases.len()).map(motion).collect();
         // Weaker motions uplift nothing.
-        let least = match along.peak {
-            Peak::Pga => along.structure.uplift_acceleration_m_s2(),
-            Peak::Pgv => along.uplift()[0],
+        let least = match given_peak.peak {
+            Peak::Pga => given_peak.structure.uplift_acceleration_m_s2(),
+            Peak::Pgv => given_peak.uplift()[0],
         };
         let count = counted_rates(curve, least, motions, SEED)?;
         Some((count.motions, count.rates[0]))

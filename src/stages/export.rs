@@ -6,9 +6,9 @@ use clap::{Args, ValueHint};
 
 use super::shared::model_args::{ModelArgs, words_of};
 use super::shared::structures::{StructureArgs, warnings_of};
-use crate::export::{Function, Model, OWN_ID, PELICUN_TOLERANCE};
+use crate::export::{FragilityModel, Function, OWN_ID, PELICUN_TOLERANCE};
 use crate::export::{discrete, levels, metadata, parameters, plain_id, whole_curve_end};
-use crate::fragility::{Along, Peak, Ratio, Scenarios};
+use crate::fragility::{GivenPeak, Peak, Ratio, Scenarios};
 use crate::hazard::strongest;
 use crate::keyword::keywords;
 use crate::pipeline::context::Context;
@@ -66,12 +66,12 @@ impl Stage for Export {
             let (model, mut warnings) = models.model(structure)?;
             warnings.extend(warnings_of(structure));
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
-            let along = Along { model: &model, structure, peak: self.im, ratio: Ratio::Distributed };
-            functions.push(self.function(structure, &along));
+            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio: Ratio::Distributed };
+            functions.push(self.function(structure, &given_peak));
             description = words_of(&model);
         }
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
-        let model = Model {
+        let model = FragilityModel {
             id: format!("{OWN_ID}{}", plain_id(&structures[0].name)),
             description,
             limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],
@@ -95,18 +95,18 @@ impl Stage for Export {
 impl Export {
     /// The probabilities of a structure as a table, from uplift to where all are 1 or nothing was ever
     /// recorded.
-    fn function(&self, structure: &Structure, along: &Along) -> Function {
+    fn function(&self, structure: &Structure, given_peak: &GivenPeak) -> Function {
         let reaching = |intensity: f64| {
-            along.limit_states(intensity, Scenarios::One).map(|state| state.value.clamp(0.0, 1.0))
+            given_peak.limit_states(intensity, Scenarios::One).map(|state| state.value.clamp(0.0, 1.0))
         };
         let tolerance = match self.to {
             Program::OpenQuake => TOLERANCE,
             Program::Pelicun => PELICUN_TOLERANCE,
         };
-        let [uplift, _] = along.uplift();
+        let [uplift, _] = given_peak.uplift();
         let most = strongest(self.im).max(2.0 * uplift);
         let end = whole_curve_end(uplift, tolerance, reaching).min(most);
-        let jumps = along.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
+        let jumps = given_peak.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
         let edges: Vec<f64> = std::iter::once(uplift).chain(jumps).chain([end]).collect();
         let levels = levels(&edges, tolerance, reaching);
         // Strong synthetic PGA have little PGV, by which a probability may fall: it is held where it has

@@ -4,7 +4,7 @@ use arrow_array::RecordBatch;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::pulse::largest_velocity;
-use crate::motion::{Measures, Suite};
+use crate::motion::{MotionMeasures, Suite};
 use crate::records::processing::ImportedMotion;
 use crate::records::pulses::Verdict;
 use crate::records::rotation::RotD;
@@ -49,7 +49,7 @@ struct PulseRow {
 /// Motions as rows; `periods_s` are those of the spectral accelerations.
 pub fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<RecordBatch> {
     let sources: Vec<SourceRow> = some.iter().map(SourceRow::from).collect();
-    let measures: Vec<Measures> = some.iter().map(|motion| motion.measured.measures).collect();
+    let measures: Vec<MotionMeasures> = some.iter().map(|motion| motion.measured.measures).collect();
     let pulses: Vec<PulseRow> = some.iter().map(PulseRow::from).collect();
     let sa: Vec<&[f64]> = some.iter().map(|motion| motion.measured.sa_m_s2.as_slice()).collect();
     let known = [rows::batch(&sources)?, rows::batch(&measures)?, rows::batch(&pulses)?];

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::motion::Measures;
+use crate::motion::MotionMeasures;
 use crate::number::{count, counted, fixed};
 use crate::pipeline::options::listed;
 use crate::records::processing::ImportedMotion;
@@ -31,7 +31,7 @@ impl Summary {
                 .kinds
                 .entry(format!("{} in {}", motion.record.format, motion.record.unit.name))
                 .or_default() += 1;
-            let Measures { pga_m_s2, pgv_m_s, .. } = motion.measured.measures;
+            let MotionMeasures { pga_m_s2, pgv_m_s, .. } = motion.measured.measures;
             self.peaks.push([pga_m_s2 / G_M_S2, pgv_m_s]);
         }
     }

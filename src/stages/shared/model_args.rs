@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::bail;
 use clap::{Args, ValueHint};
 
-use crate::fragility::{Calibration, DemandFit, DemandModel, Event, Kind, Measure, Model, OverturningFit};
+use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
 use crate::keyword::{Keyword, keywords};
 use crate::number;
 use crate::pipeline::UsageError;
@@ -54,7 +54,7 @@ pub struct Models {
     args: ModelArgs,
     overturning: Vec<Calibration>,
     exceeding: Vec<Calibration>,
-    curves: Vec<OverturningFit>,
+    curves: Vec<CurveFit>,
     demand: Vec<DemandFit>,
 }
 
@@ -228,12 +228,12 @@ impl Models {
     }
 
     /// The paper's curve of the hybrid measure of its worked example; where that has no fit, of IM5.
-    fn curve(&self, row: &Calibration) -> anyhow::Result<OverturningFit> {
-        let is_its = |fit: &&OverturningFit| {
+    fn curve(&self, row: &Calibration) -> anyhow::Result<CurveFit> {
+        let is_its = |fit: &&CurveFit| {
             (&fit.suite, &fit.structure, fit.event) == (&row.suite, &row.structure, Event::Overturning)
         };
         let over = [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im5, None)];
-        let fits: Vec<&OverturningFit> = over
+        let fits: Vec<&CurveFit> = over
             .iter()
             .filter_map(|over| self.curves.iter().filter(is_its).find(|fit| (fit.im_x, fit.im_y) == *over))
             .collect();
