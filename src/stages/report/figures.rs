@@ -8,8 +8,8 @@ use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Eve
 use crate::fragility::{Probability, Scenarios, hybrid_measure, lambda};
 use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Suite, measures};
+use crate::number;
 use crate::report::figures::{self as draw, MEASURES, MeasureFit, ProbabilityPanel, StructureCurves};
-use crate::report::text::number;
 use crate::report::{Estimate, Figure};
 use crate::rocking::{Outcome, Record, Structure, simulate, trace, with_tail};
 use crate::statistics::scores::log_score;

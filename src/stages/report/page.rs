@@ -7,10 +7,11 @@ use super::figures::{is_of, name};
 use super::studies;
 use super::tables::Tables;
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
-use crate::report::text::number;
+use crate::number::{self, OF_HUNDRED, RATE, TWO_DIGITS};
+use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::Outcome;
-use crate::stages::evaluate::{ObjectRow, RatesRow};
+use crate::stages::evaluate::{ObjectRow, RatesRow, size};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
@@ -91,13 +92,13 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
     let plain = |text: &str| if text.contains('{') { text.to_string() } else { text.replace('_', " ") };
     let is_number = |value: &Value| match value {
         Value::String(text) => {
-            text.starts_with(|sign: char| sign.is_ascii_digit() || "\u{2212}\u{2013}".contains(sign))
+            text.starts_with(|sign: char| sign.is_ascii_digit() || "-\u{2212}".contains(sign))
         }
         other => other.is_number(),
     };
     let cell = |value: &Value| match value {
         Value::Number(count) if count.is_u64() => number::count(count.as_u64().unwrap_or(0) as usize),
-        Value::Number(value) => number::significant(value.as_f64().unwrap_or(f64::NAN), 3),
+        Value::Number(value) => minus(number::significant(value.as_f64().unwrap_or(f64::NAN), 3)),
         Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
         Value::String(text) if text.starts_with("im") => text.to_uppercase(),
         Value::String(text) => plain(text),
@@ -112,37 +113,18 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
     Table { caption: caption.to_string(), columns, rows: rows.iter().map(cells).collect() }
 }
 
-/// A value with its limits, or limits alone.
-fn limits([value, low, high]: [Option<f64>; 3]) -> String {
-    let [x, a, b] = [value, low, high].map(|x| number::significant(x.unwrap_or(f64::NAN), 2));
-    match (value, low) {
-        (Some(_), Some(_)) => format!("{x} ({a} to {b})"),
-        (None, Some(_)) => format!("{a} to {b}"),
-        _ => x,
-    }
-}
-
-/// Years to two digits.
-fn once_in(rate: f64) -> String {
-    let unit = 10_f64.powf((1.0 / rate).log10().floor() - 1.0).max(1.0);
-    number::count(((1.0 / rate / unit).round() * unit) as usize)
-}
-
-/// A row an object.
+/// One row per object.
 fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
     let years = objects.iter().find_map(|(_, row)| row.years).unwrap_or(f64::NAN);
     let percent = format!("% in {} years (95 % limits)", number::plain(years));
     let row = |(object, row): &(ObjectRow, RatesRow)| {
-        let size = object.width_m.zip(object.height_m);
-        let p = [row.p_overturning, row.p_overturning_low, row.p_overturning_high];
-        let once = row.overturning_per_year.filter(|rate| *rate > 0.0).map(once_in);
         json!({
             "object": object.structure,
-            "size": size.map(|(width, height)| format!("{width:.2} \u{d7} {height:.2} m")),
-            "rocks a year": row.rocking_per_year.map(|rate| number::significant(rate, 2)),
-            "overturns a year": row.overturning_per_year.map(|rate| number::significant(rate, 2)),
-            "once in years": once,
-            (percent.as_str()): limits(p.map(|p| p.map(|p| 100.0 * p))),
+            "size": object.p_rad_s.map(|_| size(object)),
+            "rocks a year": row.rocking_per_year.map(|rate| RATE.one(rate)),
+            "overturns a year": row.overturning_per_year.map(|rate| RATE.one(rate)),
+            "once in years": row.return_period_years.map(number::period),
+            (percent.as_str()): OF_HUNDRED.both(row.in_years(), ""),
             "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
             "warning": row.warnings.as_ref().filter(|_| row.rocking_per_year.is_none()),
         })
@@ -163,7 +145,7 @@ fn planes(compared: &[Comparison]) -> Table {
                     == (&quantity, &plane.suite, &plane.structure)
             };
             let both = compared.iter().find(is_its).map(|number| [number.published, number.ours]);
-            both.map(|both| both.map(|value| number::fixed(value.unwrap_or(f64::NAN), 2)).join(" / "))
+            both.map(|both| minus(both.map(|value| number::fixed(value.unwrap_or(f64::NAN), 2)).join(" / ")))
         };
         json!({
             "structure": plane.structure, "motions": plane.suite,
@@ -219,7 +201,7 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
                 row.map_or([None; 3], |row| [row.value, row.low, row.high].map(|value| Some(unit * value)))
             })
         };
-        let [theta, beta] = of_capacity.unwrap_or_else(of_curve).map(limits);
+        let [theta, beta] = of_capacity.unwrap_or_else(of_curve).map(|of| TWO_DIGITS.both(of, ""));
         json!({
             "structure": cases.structure.name, "motions": cases.suite, "number": cases.len(),
             "rock": cases.len() - count(cases, Outcome::NoRocking),
