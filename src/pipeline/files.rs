@@ -66,8 +66,10 @@ pub fn in_run(command: &str, arg: &Arg, has: impl Fn(&str) -> bool) -> Option<Pa
     }
     let is_made = |maker: &str| has(maker) && (role != Role::Output || maker == command);
     let known = IN_RUN.iter().find(|(flag, _, maker)| arg.get_long() == Some(flag) && is_made(maker));
-    let default = arg.get_default_values().first().map(PathBuf::from);
-    default.or(known.map(|(_, file, _)| PathBuf::from(file)))
+    // An input may be a word in place of a file, such as the site `rock`: files have a dot.
+    let is_file = |default: &&OsStr| default.to_string_lossy().contains('.');
+    let default = arg.get_default_values().first().map(|default| default.as_os_str()).filter(is_file);
+    default.map(PathBuf::from).or(known.map(|(_, file, _)| PathBuf::from(file)))
 }
 
 /// Returns `--out` beside a given `--in`, if the user gives no `--out`.
