@@ -3,16 +3,18 @@
 use std::f64::consts::TAU;
 
 use super::studies;
-use super::tables::Tables;
+use super::tables::{Tables, is_of, name};
 use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
-use crate::fragility::{Probability, Scenarios, hybrid_measure, lambda};
+use crate::fragility::{Probability, Scenarios};
 use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Suite, measures};
 use crate::number;
 use crate::report::figures::{self as draw, MEASURES, MeasureFit, ProbabilityPanel, StructureCurves};
+use crate::report::text::minus;
 use crate::report::{Estimate, Figure};
 use crate::rocking::{Outcome, Record, Structure, simulate, trace, with_tail};
-use crate::statistics::scores::log_score;
+use crate::statistics::scores::sample_quantile;
+use crate::studies::{log_score_on, measure_of, motion_at};
 use crate::table::motions::Motion;
 use crate::units::G_M_S2;
 
@@ -62,21 +64,6 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
 
 fn drawn<T>(draw: fn(&[T]) -> Figure, data: Vec<T>) -> Option<Figure> {
     (!data.is_empty()).then(|| draw(&data))
-}
-
-/// Structure and, of synthetic motions, suite.
-pub fn title(structure: &str, suite: Option<&str>) -> String {
-    let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
-    synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
-}
-
-/// Whether a row of this suite and structure is of some cases.
-pub fn is_of(cases: &Cases, suite: &Option<String>, structure: &str) -> bool {
-    *suite == cases.suite && structure == cases.structure.name
-}
-
-pub fn name(cases: &Cases) -> String {
-    title(&cases.structure.name, cases.suite.as_deref())
 }
 
 /// The responses of each suite.
@@ -219,12 +206,6 @@ fn measures(im4: f64, im3: f64) -> IntensityMeasures {
     IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5: im4 / im3, im6: None }
 }
 
-fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
-    values.retain(|value| !value.is_nan());
-    values.sort_unstable_by(f64::total_cmp);
-    values.get((share * values.len() as f64) as usize).copied()
-}
-
 /// Figure 10: P_ex by the planes at quantiles of IM3, and by IM4 alone.
 fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
     let safe = |cases: &&Cases, im: usize| -> Vec<f64> {
@@ -236,7 +217,7 @@ fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
     let structure = |cases: &&Cases| {
         let planes: Vec<&DemandFit> = regressions(tables, cases, DemandModel::Biplanar).collect();
         let at_share = |share: f64| {
-            let (im3, transition) = (quantile(im3.clone(), share)?, planes.last()?.range_low?);
+            let (im3, transition) = (sample_quantile(im3.clone(), share)?, planes.last()?.range_low?);
             let below = ratios([1.0, transition * (1.0 - 1e-9)]).chain([f64::NAN]);
             let p = |im4: f64| {
                 let plane = planes.iter().find(|fit| fit.holds_at(im4))?;
@@ -273,15 +254,11 @@ fn over(
     let structure = |cases: &&Cases| {
         let name = cases.structure.name.clone();
         let Some(fit) = fit(cases) else { return StructureCurves { name, ..StructureCurves::default() } };
-        let value = |k: usize| {
-            let (measures, b) = (cases.measures(k), &fit.coefficients);
-            let (x, y) = (im_x.value_of(&measures)?, im_y.map(|im_y| im_y.value_of(&measures)));
-            y.map_or(Some(x), |y| Some(hybrid_measure(x, y?, lambda(b).0)))
-        };
+        let value = |k: usize| measure_of(fit, &cases.measures(k));
         let shares: Vec<(f64, bool)> =
             rocked(cases).filter_map(|(k, event)| Some((value(k)?, event))).collect();
-        let im3 = quantile(cases.im[2].clone(), 0.5).unwrap_or(1.0);
-        let p = |value: f64| fit.probability(&measures(im4_at(fit, value, im3), im3), CONFIDENCE);
+        let im3 = sample_quantile(cases.im[2].clone(), 0.5).unwrap_or(1.0);
+        let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
         StructureCurves { name, curves: vec![curve("", ratios(ends(&shares)), p)], shares: binned(&shares) }
     };
     let place = Measure::SCALAR.iter().position(|measure| *measure == im_x)?;
@@ -291,31 +268,13 @@ fn over(
         && let (Some(of_a), Some(of_b)) = (fit(a), fit(b))
     {
         let row = |cases: &Cases, own: &CurveFit, other: &CurveFit| {
-            let [own, other] = [own, other].map(|fit| number::fixed(score(fit, cases), 2));
+            let [own, other] = [own, other].map(|fit| minus(number::fixed(log_score_on(fit, cases), 2)));
             format!("{}: {own}, {other}", cases.structure.name)
         };
         let head = "log score by own curve, by the other's".to_string();
         panel.notes = vec![head, row(a, of_a, of_b), row(b, of_b, of_a)];
     }
     Some(panel)
-}
-
-/// IM4 of a motion at which the measure of a curve has this value.
-fn im4_at(fit: &CurveFit, value: f64, im3: f64) -> f64 {
-    match (fit.im_x, &fit.coefficients[..]) {
-        (_, [_, b1, b2]) => (((b1 + b2) * value.ln() + b2 * im3.ln()) / b1).exp(),
-        (Measure::Im5, _) => value * im3,
-        _ => value,
-    }
-}
-
-/// Mean log score of a curve on the cases of any structure.
-fn score(fit: &CurveFit, cases: &Cases) -> f64 {
-    const LEAST: f64 = 1e-12;
-    let p = |k: usize| Some(fit.probability(&cases.measures(k), CONFIDENCE)?.value.clamp(LEAST, 1.0 - LEAST));
-    let (p, events): (Vec<f64>, Vec<bool>) =
-        rocked(cases).filter_map(|(k, event)| Some((p(k)?, event))).unzip();
-    log_score(&p, &events)
 }
 
 /// P_ro over PGA: means over the motions in each bin, of the calibrated curve and of the surface as shipped.

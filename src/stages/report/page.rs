@@ -3,9 +3,8 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::figures::{is_of, name};
 use super::studies;
-use super::tables::Tables;
+use super::tables::{Tables, is_of, name};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::number::{self, OF_HUNDRED, RATE, TWO_DIGITS};
 use crate::report::text::minus;

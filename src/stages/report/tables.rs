@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event};
+use crate::keyword::Keyword;
+use crate::motion::Suite;
 use crate::paper;
 use crate::stages::evaluate::{ObjectRow, Predicted, RatesRow};
 use crate::stages::shared::responses;
@@ -20,8 +22,9 @@ pub struct Tables {
     /// Responses by suite and structure.
     pub groups: Vec<Cases>,
     pub demand: Vec<DemandFit>,
-    /// Of overturning, as the next.
+    /// Of overturning.
     pub curves: Vec<CurveFit>,
+    /// Of overturning.
     pub calibrations: Vec<Calibration>,
     /// Demand whose exceedance was fitted.
     pub limit_state: f64,
@@ -36,6 +39,22 @@ pub struct Tables {
 const RATES: &str = "overturning_per_year";
 /// Motions of a row group that rockfrag wrote.
 const MOTIONS_IN_GROUP: u64 = 64;
+
+/// Structure and, of synthetic motions, suite.
+pub fn title(structure: &str, suite: Option<&str>) -> String {
+    let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
+    synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
+}
+
+/// Whether a row of this suite and structure is of some cases.
+pub fn is_of(cases: &Cases, suite: &Option<String>, structure: &str) -> bool {
+    *suite == cases.suite && structure == cases.structure.name
+}
+
+/// The same of some cases.
+pub fn name(cases: &Cases) -> String {
+    title(&cases.structure.name, cases.suite.as_deref())
+}
 
 impl Tables {
     /// Reads what there is in a folder.
