@@ -278,7 +278,7 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     (
         "z",
         "1",
-        "(published - mean) / standard deviation; null where the mean lies within the rounding of the print, and that is more than two of these",
+        "(published - ours) / standard deviation over seeds; null where ours lies within the rounding of the print, and that is more than two of these",
     ),
     (
         "t2",

@@ -10,6 +10,7 @@ use crate::number::{self, OF_HUNDRED, RATE, TWO_DIGITS};
 use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::Outcome;
+use crate::stages::compare_paper::both;
 use crate::stages::evaluate::{ObjectRow, RatesRow, size};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
@@ -143,22 +144,20 @@ fn planes(compared: &[Comparison]) -> Table {
                 (&number.quantity, &number.suite, &number.structure)
                     == (&quantity, &plane.suite, &plane.structure)
             };
-            let both = compared.iter().find(is_its).map(|number| [number.published, number.ours]);
-            both.map(|both| minus(both.map(|value| number::fixed(value.unwrap_or(f64::NAN), 2)).join(" / ")))
+            compared.iter().find(is_its).map(|number| minus(both(number)))
         };
         json!({
             "structure": plane.structure, "motions": plane.suite,
             "plane": if side == "low" { "below" } else { "above" },
             "ln *a*": cell("ln_a"), "*b*_{1}": cell("b1"), "*b*_{2}": cell("b2"), "*R*^{2}": cell("r2"),
-            "*p*": plane.t2_p,
         })
     };
     let of_planes = compared.iter().filter(|number| number.quantity.ends_with("_plane"));
     table(
-        "Table II, the planes of the demand below and above the transition, published / ours. *p* is the \
-         probability of so large a difference between seeds.",
+        "Table II, the planes of the demand below and above the transition: published / this run (*z*). *z* is their \
+         difference over the standard deviation between seeds.",
         of_planes.map(row),
-        "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}|*p*",
+        "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}",
     )
 }
 
@@ -228,7 +227,7 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let validations: Vec<Validation> = tables.rows("validation")?;
     let mut all = vec![
         table(
-            "Further numbers of the paper beside ours; *z* is (published \u{2212} mean) / sd over seeds",
+            "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd over seeds",
             published,
             "quantity|structure|suite|published|ours|mean|sd|z",
         ),
