@@ -1,4 +1,4 @@
-//! Figures 10, 11, 12 and the calibrated curves: probabilities over a measure, with the observed shares.
+//! Figures 10, 11 and 12: probabilities over a measure, with the observed shares.
 
 use super::compare;
 use crate::report::figure::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
@@ -64,15 +64,6 @@ pub fn hybrids(panels: &[ProbabilityPanel]) -> Figure {
             "As over single measures, over the hybrid measure of each structure (Eq. 23). {}",
             compare("Figure 12")
         ),
-        panels,
-    )
-}
-
-/// The calibrated curves over PGA, means over the motions in bins.
-pub fn calibrated(panels: &[ProbabilityPanel]) -> Figure {
-    figure(
-        ["calibrated", "Overturning: calibrated curves", "*P*_{ro}"],
-        "Means over the motions in bins of PGA: the universal surface, calibrated with these responses (95 % band) and as it is shipped, and observed shares with 95 % limits.".to_string(),
         panels,
     )
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::studies;
 use super::tables::{Tables, is_of, name};
-use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
+use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Event, Kind, Measure};
 use crate::fragility::{Probability, Scenarios};
 use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Suite, measures};
@@ -13,6 +13,7 @@ use crate::report::figures::{self as draw, MEASURES, MeasureFit, ProbabilityPane
 use crate::report::text::minus;
 use crate::report::{Estimate, Figure};
 use crate::rocking::{Outcome, Record, Structure, simulate, trace, with_tail};
+use crate::statistics::numerics::first;
 use crate::statistics::scores::sample_quantile;
 use crate::studies::{log_score_on, measure_of, motion_at};
 use crate::table::motions::Motion;
@@ -48,7 +49,7 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
         drawn(draw::rates, studies::states(tables)),
         drawn(draw::ida, studies::analyses(tables)?),
         drawn(draw::hybrids, over(Measure::Im4, Some(Measure::Im3Inverse))),
-        drawn(draw::calibrated, panels(&|groups| over_pga(tables, groups))),
+        drawn(draw::maps, suites.iter().filter_map(|groups| map(tables, groups)).collect()),
         drawn(draw::validation, studies::tests(tables)?),
         drawn(draw::ranking, studies::targets(tables)?),
         a_motion(&motions),
@@ -259,7 +260,7 @@ fn over(
             rocked(cases).filter_map(|(k, event)| Some((value(k)?, event))).collect();
         let im3 = sample_quantile(cases.im[2].clone(), 0.5).unwrap_or(1.0);
         let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
-        StructureCurves { name, curves: vec![curve("", ratios(ends(&shares)), p)], shares: binned(&shares) }
+        StructureCurves { name, curves: vec![curve("", ratios(ends(shares.iter().map(|share| share.0))), p)], shares: binned(&shares) }
     };
     let place = Measure::SCALAR.iter().position(|measure| *measure == im_x)?;
     let measure = if im_y.is_some() { "hybrid measure" } else { MEASURES[place] };
@@ -277,43 +278,54 @@ fn over(
     Some(panel)
 }
 
-/// P_ro over PGA: means over the motions in each bin, of the calibrated curve and of the surface as shipped.
-fn over_pga(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
-    let structure = |cases: &&Cases| {
-        let own = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure))?;
-        let shares: Vec<(f64, bool)> =
-            rocked(cases).map(|(k, event)| (cases.pga_m_s2[k] / G_M_S2, event)).collect();
-        let bins = bins(&shares);
-        let bin = draw::equal_numbers(shares.iter().map(|(pga, _)| *pga).collect(), bins);
-        let drawn = |label: &str, row: &Calibration| {
-            let mut sums = vec![[0.0; 5]; bins];
-            for (&(pga, _), (k, _)) in shares.iter().zip(rocked(cases)) {
-                let logit = row.logit(&cases.structure, &cases.measures(k));
-                let Some(p) = logit.map(|logit| row.probability(logit, Scenarios::Many)) else { continue };
-                let terms = [1.0, pga, p.value, p.low, p.high];
-                sums[bin(pga)].iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
-            }
-            let means = sums.iter().filter(|sum| sum[0] > 0.0).map(|sum| sum.map(|term| term / sum[0]));
-            let (points, band) = means.map(|[_, pga, p, low, high]| ([pga, p], [low, high])).unzip();
-            draw::Curve { label: label.to_string(), points, band }
-        };
-        let surface = drawn("surface", &Calibration::shipped(own.kind, &cases.structure, None));
-        let curves = vec![drawn("calibrated", own), draw::Curve { band: Vec::new(), ..surface }];
-        let observed = draw::observed_shares(&shares, &bin, studies::wilson);
-        Some(StructureCurves { name: cases.structure.name.clone(), curves, shares: observed })
+/// The map of the first structure of a suite, and the lines of the others.
+fn map(tables: &Tables, groups: &[&Cases]) -> Option<draw::Map> {
+    let (cases, others) = groups.split_first()?;
+    let mut map = draw::Map { title: name(cases), ..draw::Map::default() };
+    for (k, overturned) in rocked(cases) {
+        let point = [cases.pga_m_s2[k] / G_M_S2, cases.pgv_m_s[k]];
+        if overturned { map.overturns.push(point) } else { map.rocks.push(point) }
+    }
+    let [low, high] = ends(cases.pga_m_s2.iter().copied());
+    let pga = [low.max(0.5 * cases.structure.uplift_acceleration_m_s2()), high];
+    let pgv = ends(cases.pgv_m_s.iter().copied());
+    map.lines = draw::LEVELS.map(|level| line(tables, cases, level, pga, pgv));
+    map.others =
+        others.iter().map(|cases| (cases.structure.name.clone(), line(tables, cases, 0.5, pga, pgv))).collect();
+    Some(map)
+}
+
+/// The motions under which a structure overturns with this probability, between these PGA and PGV (m/s2 and
+/// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
+fn line(tables: &Tables, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f64; 2]) -> Vec<[f64; 2]> {
+    let structure = &cases.structure;
+    let fitted = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure));
+    let shipped = || Calibration::shipped(kind_of(cases), structure, None);
+    let calibration = fitted.cloned().unwrap_or_else(shipped);
+    let reaches = |pga: f64, ln_pgv: f64| {
+        let measures = IntensityMeasures::new(structure, pga, ln_pgv.exp(), None, None);
+        let logit = calibration.logit(structure, &measures).filter(|_| measures.im4 >= 1.0);
+        logit.is_some_and(|logit| calibration.probability(logit, Scenarios::One).value >= level)
     };
-    panel(groups, "PGA (g)", groups.iter().filter_map(structure).collect())
+    let mut points = Vec::new();
+    for pga in ratios(pga) {
+        let is_crossed = reaches(pga, most.ln()) && !reaches(pga, least.ln());
+        let ln_pgv = is_crossed.then(|| first(least.ln(), most.ln(), |ln_pgv| reaches(pga, ln_pgv)));
+        points.push([pga / G_M_S2, ln_pgv.map_or(f64::NAN, f64::exp)]);
+    }
+    points
 }
 
-fn ends(cases: &[(f64, bool)]) -> [f64; 2] {
-    cases.iter().fold([f64::INFINITY, 0.0], |[low, high], (value, _)| [low.min(*value), high.max(*value)])
+fn kind_of(cases: &Cases) -> Kind {
+    Kind::of(cases.suite.as_deref().and_then(|suite| suite.parse().ok()))
 }
 
-fn bins(cases: &[(f64, bool)]) -> usize {
-    (cases.len() / CASES).clamp(4, BINS)
+fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, 0.0], |[low, high], value| [low.min(value), high.max(value)])
 }
 
 /// Shares of events in bins of equal ratio, with Wilson's limits.
 fn binned(cases: &[(f64, bool)]) -> Vec<Estimate> {
-    draw::observed_shares(cases, draw::equal_ratios(ends(cases), bins(cases)), studies::wilson)
+    let bins = (cases.len() / CASES).clamp(4, BINS);
+    draw::observed_shares(cases, draw::equal_ratios(ends(cases.iter().map(|case| case.0)), bins), studies::wilson)
 }
