@@ -102,7 +102,7 @@ impl Channel<'_> {
         let dt_s = step.or(options.dt_s).ok_or(missing)?;
         let find = |key| self.header.iter().find_map(|text| after(text, key));
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
-        let peak = peak.map(|peak| peak.abs() * unit.0.si);
+        let peak = peak.map(|peak| peak.abs() * unit.si);
         let component = find("Sta Chan").and_then(|rest| words(after(rest, ":")?.split('(').next()?));
         // Codes above 360 are not azimuths; nor is 0, since north is 360.
         let azimuth = self.integers.get(AZIMUTH).copied().filter(|azimuth| (1.0..=360.0).contains(azimuth));

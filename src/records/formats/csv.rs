@@ -3,7 +3,7 @@
 
 use super::error::RecordFileError;
 use super::header::{first_number, given_unit, time_step};
-use crate::records::{ReadOptions, RecordedMotion, UnitSource};
+use crate::records::{ReadOptions, RecordedMotion};
 use crate::sheet::{Heading, Sheet};
 use crate::units::{Quantity, Unit};
 
@@ -124,7 +124,7 @@ fn unit(
     notes: &[Heading],
     options: &ReadOptions,
     line: usize,
-) -> Result<(Unit, UnitSource), RecordFileError> {
+) -> Result<Unit, RecordFileError> {
     let is_on_samples = |note: &str| ["acc", "unit", "vel", "dis"].iter().any(|word| note.contains(word));
     let note = || notes.iter().filter(|note| is_on_samples(&note.name)).find_map(|note| note.unit);
     let Some(found) = heading.and_then(|heading| heading.unit).or_else(note) else {
@@ -135,7 +135,7 @@ fn unit(
     }
     match options.unit.filter(|given| given.si != found.si) {
         Some(given) => Err(contradiction(line, "unit", found.to_string(), given.to_string())),
-        None => Ok((found, UnitSource::File)),
+        None => Ok(found),
     }
 }
 

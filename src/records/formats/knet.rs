@@ -49,7 +49,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
         station: find("Station Code").and_then(|(_, code)| words(&format!("{code} {place}"))),
         component: words(component),
         azimuth_deg: azimuth_of(component),
-        header_pga: find("Max. Acc. (gal)").and_then(|(_, peak)| header_pga(peak, unit.0)),
+        header_pga: find("Max. Acc. (gal)").and_then(|(_, peak)| header_pga(peak, unit)),
         ..RecordedMotion::new(dt_s, gal, unit)
     })
 }

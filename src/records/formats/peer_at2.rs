@@ -6,7 +6,7 @@ use super::header::{
     after, azimuth_of, first_number, given_unit, header_pga, leading_number, samples, time_step, unit_of,
     words,
 };
-use crate::records::{ReadOptions, RecordedMotion, UnitSource};
+use crate::records::{ReadOptions, RecordedMotion};
 use crate::units::Unit;
 
 /// Largest number of lines before the one with NPTS.
@@ -58,7 +58,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
 }
 
 /// Finds the unit in the header. The first two lines are the database and the record.
-fn unit(header: &[&str], options: &ReadOptions) -> Result<(Unit, UnitSource), RecordFileError> {
+fn unit(header: &[&str], options: &ReadOptions) -> Result<Unit, RecordFileError> {
     let find = |key| header.iter().zip(1..).skip(2).find(|(line, _)| after(line, key).is_some());
     if let Some((text, line)) = find("VELOCITY").or(find("DISPLACEMENT")) {
         return Err(RecordFileError::NotAcceleration { line, found: text.trim().to_string() });

@@ -6,7 +6,7 @@ use super::object::Predicted;
 use crate::fragility::{Cases, Event, GivenPeak, Kind, Model, Peak, Ratio};
 use crate::hazard::{CountedMotion, CountedRate, HazardCurve, Rate};
 use crate::hazard::{
-    counted_rates, median_intensity, probability_in_years, rates_over_curve, rates_over_pairs,
+    counted_rate, median_intensity, probability_in_years, rates_over_curve, rates_over_pairs,
 };
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
@@ -144,8 +144,8 @@ impl Site {
             row.overturning_per_year_less_velocity = Some(overturning(-1.0));
             row.overturning_per_year_more_velocity = Some(overturning(1.0));
         }
-        if let Some((motions, count)) = self.count(given_peak, curve) {
-            row.counted_motions = Some(motions as i64);
+        if let Some(count) = self.count(given_peak, curve) {
+            row.counted_motions = Some(count.motions as i64);
             row.counted_per_year = Some(count.value);
             row.counted_per_year_low = Some(count.limits.low);
             row.counted_per_year_high = Some(count.limits.high);
@@ -154,7 +154,7 @@ impl Site {
     }
 
     /// The rate of overturning, counted among the responses of this structure to this kind of motion.
-    fn count(&self, given_peak: &GivenPeak, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
+    fn count(&self, given_peak: &GivenPeak, curve: &HazardCurve) -> Option<CountedRate> {
         let kind_of =
             |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
         let kind = match given_peak.model {
@@ -169,17 +169,16 @@ impl Site {
         let cases = self.responses.iter().flatten().find(is_same)?;
         let motion = |case: usize| CountedMotion {
             intensity: if given_peak.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
-            events: [f64::from(cases.happened(case, Event::Overturning, self.limit_state) == Some(true))],
+            event: cases.happened(case, Event::Overturning, self.limit_state) == Some(true),
             cluster: cases.cluster[case],
         };
-        let motions: Vec<CountedMotion<1>> = (0..cases.len()).map(motion).collect();
+        let motions: Vec<CountedMotion> = (0..cases.len()).map(motion).collect();
         // Weaker motions uplift nothing.
         let least = match given_peak.peak {
             Peak::Pga => given_peak.structure.uplift_acceleration_m_s2(),
             Peak::Pgv => given_peak.uplift()[0],
         };
-        let count = counted_rates(curve, least, motions, SEED)?;
-        Some((count.motions, count.rates[0]))
+        counted_rate(curve, least, motions, SEED)
     }
 }
 
