@@ -40,12 +40,12 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<RecordedMotion, Reco
         }
         _ => notes.iter().find_map(step_of_note),
     };
-    let expected = "a column of times, or --dt, such as --dt 0.005";
+    let expected = "a column of times, or a comment such as dt = 0.005 s";
     let dt_s = match (found, options.dt_s) {
         (Some(found), Some(given)) if (found - given).abs() > SAME_STEP * given => {
             return Err(contradiction(line, "time step", format!("{found} s"), format!("{given} s")));
         }
-        (found, given) => given.or(found).ok_or(RecordFileError::missing(line, "time step", expected))?,
+        (found, given) => given.or(found).ok_or(RecordFileError::NoTimeStep { line, expected })?,
     };
     let component = heading.map(|heading| heading.text.clone());
     Ok(RecordedMotion { component, ..RecordedMotion::new(time_step(dt_s, line)?, samples, unit) })

@@ -22,10 +22,9 @@ pub fn unit_of(text: &str, line: usize) -> Result<Unit, RecordFileError> {
     unit.ok_or_else(refusal)
 }
 
-/// Returns the unit among the options, for a file without one.
+/// Returns the given unit, for a file without one.
 pub fn given_unit(options: &ReadOptions, line: usize) -> Result<Unit, RecordFileError> {
-    let missing = RecordFileError::missing(line, "unit", "one in the file, or --unit, such as --unit g");
-    options.unit.ok_or(missing)
+    options.unit.ok_or(RecordFileError::NoUnit { line })
 }
 
 /// Reads the peak acceleration at the start of a text.

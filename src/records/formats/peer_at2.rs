@@ -33,7 +33,8 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let (first, second) = (unnamed.next(), unnamed.next());
     let announced = named("NPTS").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
     let dt_s = named("DT").or(second).or(options.dt_s);
-    let dt_s = dt_s.ok_or(missing(at + 1, "DT", "the time step, such as 'DT= .0050 SEC', or --dt"))?;
+    let expected = "one such as 'DT= .0050 SEC'";
+    let dt_s = dt_s.ok_or(RecordFileError::NoTimeStep { line: at + 1, expected })?;
     let values = samples(lines, at + 1, announced, str::split_ascii_whitespace)?;
 
     // Event, date, station and component, separated by commas; only the date has none inside.
