@@ -12,6 +12,9 @@ use crate::table::TableError;
 use crate::table::file::Partition;
 use crate::table::provenance::{Provenance, key_with};
 
+/// Files of an input that are named in what is made of it.
+const MOST_NAMED: usize = 4;
+
 /// A call of a stage.
 pub struct Call {
     pub name: String,
@@ -63,7 +66,10 @@ impl Call {
             let keys = paths.iter().map(|path| key(path)).collect::<Result<Vec<_>, _>>()?;
             Ok((flag.clone(), keys.join(" ")))
         });
+        let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let names = |paths: &Vec<PathBuf>| paths.iter().take(MOST_NAMED).map(name).collect::<Vec<_>>().join(", ");
         Ok(Provenance {
+            files: self.inputs.iter().map(|(flag, paths)| (flag.clone(), names(paths))).collect(),
             stage: self.name.clone(),
             version: env!("CARGO_PKG_VERSION").to_string(),
             arguments: self.arguments.clone(),

@@ -7,9 +7,10 @@ use super::studies;
 use super::tables::{Tables, is_of, name};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::number::{self, OF_HUNDRED, RATE, TWO_DIGITS};
+use crate::pipeline::options::listed;
 use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
-use crate::rocking::Outcome;
+use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::both;
 use crate::stages::evaluate::{ObjectRow, RatesRow, size};
 use crate::stages::ida::CapacityFitRow;
@@ -21,11 +22,12 @@ use crate::warning::Warnings;
 /// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
 const MOST_WARNINGS: usize = 3;
 const MOST_NAMED: usize = 4;
-/// Figures that are seen: of annual rates, of the paper, of other responses. The others are folded.
-const OF_RATES: &[&str] = &["list", "rates"];
+/// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded; of
+/// a list there are only these.
+const OF_RATES: &[&str] = &["list", "rates", "map", "ida", "validation"];
 const OF_PAPER: &[&str] =
-    &["overturning-hybrid", "calibrated", "motion", "similarity", "planes", "exceedance"];
-const OF_RESPONSES: &[&str] = &["ida", "calibrated", "overturning", "validation"];
+    &["overturning-hybrid", "map", "motion", "similarity", "planes", "exceedance"];
+const OF_RESPONSES: &[&str] = &["ida", "map", "overturning", "validation"];
 
 /// What is said of each stage that made a table.
 const METHOD: &str = "\
@@ -45,7 +47,7 @@ ida: Incremental dynamic analysis scales each motion until it overturns the stru
 distribution of these intensities has the median.
 validate: Validation compares predicted probabilities with the outcomes of motions that were not fitted.
 evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
-surface, calibrated where there are responses. The limits do not have the error of the hazard.";
+surface, calibrated where there are responses.";
 
 /// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
@@ -54,12 +56,14 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
         ([], compared) => (tables.answer_of("compare-paper"), planes(compared), OF_PAPER),
         (objects, _) => (tables.answer_of("evaluate"), rates(objects), OF_RATES),
     };
-    let (seen, more) = figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
+    let (seen, more): (_, Vec<Figure>) =
+        figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
+    let more = if tables.objects.is_empty() { more } else { Vec::new() };
     let made = tables.files.iter().filter_map(|(.., made)| made.as_ref());
     let mut joined = Warnings::default();
     made.for_each(|made| joined.join(&made.warnings));
-    let mut warnings = joined.lines();
-    let others = warnings.split_off(warnings.len().min(MOST_WARNINGS));
+    let mut warnings = [tables.left_out.clone(), joined.lines()].concat();
+    let others = warnings.split_off(warnings.len().min(MOST_WARNINGS.max(tables.left_out.len())));
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
     let section = |heading: &str, paragraphs: Vec<String>, tables: Vec<Table>, figures: Vec<Figure>| {
@@ -75,6 +79,7 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     let sections = sections.into_iter().flatten().collect();
     Ok(Page {
         sentence,
+        facts: facts(tables),
         table: Some(first),
         notes: warnings,
         figures: seen,
@@ -82,6 +87,48 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
         key,
         ..Page::default()
     })
+}
+
+/// What was asked, of which objects, by which motions and hazard, and what the limits leave out.
+fn facts(tables: &Tables) -> Vec<String> {
+    let mut facts = Vec::new();
+    if let Some((_, rates)) = tables.objects.first() {
+        let made = tables.made_by("evaluate");
+        let hazard = made.and_then(|made| made.files.get("hazard")).map_or("a hazard", |name| name);
+        let years = number::plain(rates.years.unwrap_or(f64::NAN));
+        let objects = number::counted(tables.objects.len(), "object");
+        facts.push(format!(
+            "Asked: the annual rate of overturning of {objects}, and its probability in {years} years, over {hazard}."
+        ));
+        let mut models: Vec<&str> = tables.objects.iter().filter_map(|(object, _)| object.model.as_deref()).collect();
+        models.sort_unstable();
+        models.dedup();
+        facts.push(format!("By {}.", listed(&models, MOST_NAMED)));
+        let of_velocity = match rates.overturning_per_year_less_velocity {
+            Some(_) => " and of PGV/PGA at the site",
+            None => "",
+        };
+        facts.push(format!("The 95 % limits are those of the model, without the errors of the hazard{of_velocity}."));
+        return facts;
+    }
+    for stage in ["synthesize-motions", "import-motions"] {
+        let answer = tables.answer_of(stage);
+        if !answer.is_empty() {
+            facts.push(format!("Motions: {answer}."));
+        }
+    }
+    let mut structures: Vec<String> = Vec::new();
+    for Structure { name, p_rad_s, alpha_rad, eta } in tables.groups.iter().map(|cases| &cases.structure) {
+        let [p, alpha, eta] = [p_rad_s, alpha_rad, eta].map(|value| number::significant(*value, 3));
+        let structure = format!("{name} (*p* {p} rad/s, *α* {alpha}, *η* {eta})");
+        if !structures.contains(&structure) {
+            structures.push(structure);
+        }
+    }
+    if !structures.is_empty() {
+        facts.push(format!("Structures: {}.", listed(&structures, MOST_NAMED)));
+    }
+    facts
 }
 
 /// Some fields of rows, under their names; those that no row has are left out.

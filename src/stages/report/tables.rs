@@ -160,14 +160,17 @@ impl Tables {
 
     /// Whether a stage made one of them.
     pub fn are_of(&self, stage: &str) -> bool {
-        self.files.iter().any(|(.., made)| made.as_ref().is_some_and(|made| made.stage == stage))
+        self.made_by(stage).is_some()
+    }
+
+    /// What a stage has made.
+    pub fn made_by(&self, stage: &str) -> Option<&Provenance> {
+        self.files.iter().filter_map(|(.., made)| made.as_ref()).find(|made| made.stage == stage)
     }
 
     /// The first line that a stage has printed.
     pub fn answer_of(&self, stage: &str) -> String {
-        let mut made = self.files.iter().filter_map(|(.., made)| made.as_ref());
-        let summary = made.find(|made| made.stage == stage).map_or("", |made| &made.summary);
-        summary.lines().next().unwrap_or_default().to_string()
+        self.made_by(stage).map_or("", |made| &made.summary).lines().next().unwrap_or_default().to_string()
     }
 
     /// The motions of a row group in the middle of the file.
