@@ -67,7 +67,8 @@ impl Call {
             Ok((flag.clone(), keys.join(" ")))
         });
         let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let names = |paths: &Vec<PathBuf>| paths.iter().take(MOST_NAMED).map(name).collect::<Vec<_>>().join(", ");
+        let names =
+            |paths: &Vec<PathBuf>| paths.iter().take(MOST_NAMED).map(name).collect::<Vec<_>>().join(", ");
         Ok(Provenance {
             files: self.inputs.iter().map(|(flag, paths)| (flag.clone(), names(paths))).collect(),
             stage: self.name.clone(),

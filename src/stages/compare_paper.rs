@@ -112,7 +112,8 @@ fn other_options(fits: &Path) -> Vec<String> {
             let flag = arg.get_long().unwrap_or_default();
             let values = made.arguments.get(flag).map(|values| values.join(","));
             let Some(now) = values.or_else(|| made.inputs.get(flag).cloned()) else { continue };
-            let default: Vec<_> = arg.get_default_values().iter().map(|value| value.to_string_lossy()).collect();
+            let default: Vec<_> =
+                arg.get_default_values().iter().map(|value| value.to_string_lossy()).collect();
             let then = if default.is_empty() { "none".to_string() } else { default.join(",") };
             if flag != "in" && now != then && !NEUTRAL.contains(&flag) {
                 differences.push(format!("{} --{flag} {now}, not {then}", made.stage));

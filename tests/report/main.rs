@@ -62,7 +62,11 @@ fn figures(count: usize) -> Vec<Figure> {
         exceedance(from_ref(&panel)),
         overturning(&[panel.clone(), panel.clone()]),
         hybrids(from_ref(&panel)),
-        maps(&[Map { rocks: vec![[0.3, 0.2]; count], lines: [(); 4].map(|()| vec![[0.4, 0.5]; count]), ..Map::default() }]),
+        maps(&[Map {
+            rocks: vec![[0.3, 0.2]; count],
+            lines: [(); 4].map(|()| vec![[0.4, 0.5]; count]),
+            ..Map::default()
+        }]),
         rates(&vec![object.clone(); count]),
         list(&vec![object; count]),
         ida(&[analysis]),

@@ -16,9 +16,7 @@ pub use demand::{MeasureFit, demand, quality, regressions};
 pub use map::{LEVELS, Map, maps};
 pub use motion::{Motion, motion};
 pub use planes::{GroupPlanes, planes};
-pub use probability::{
-    Curve, ProbabilityPanel, StructureCurves, exceedance, hybrids, overturning,
-};
+pub use probability::{Curve, ProbabilityPanel, StructureCurves, exceedance, hybrids, overturning};
 pub use rates::{AnnualRate, list, rates};
 pub use similarity::{History, similarity};
 pub use studies::{Ida, NamedEstimates, ida, ranking, validation};

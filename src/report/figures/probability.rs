@@ -41,7 +41,10 @@ const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
 pub fn exceedance(panels: &[ProbabilityPanel]) -> Figure {
     figure(
         ["exceedance", "Exceeding the limit state in safe rocking", "*P*_{ex}"],
-        format!("Probability of exceeding the limit state by the two planes, at quantiles of IM3, and by IM4 alone. {}", compare("Figure 10")),
+        format!(
+            "Probability of exceeding the limit state by the two planes, at quantiles of IM3, and by IM4 alone. {}",
+            compare("Figure 10")
+        ),
         panels,
     )
 }

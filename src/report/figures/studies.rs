@@ -80,8 +80,9 @@ pub fn validation(groups: &[NamedEstimates]) -> Figure {
     Figure {
         name: "validation".to_string(),
         title: "Predicted and observed".to_string(),
-        caption: "Cases in bins of predicted probability: its mean, and the observed fraction with 95 % limits."
-            .to_string(),
+        caption:
+            "Cases in bins of predicted probability: its mean, and the observed fraction with 95 % limits."
+                .to_string(),
         columns: groups.len().min(2),
         height: 140.0,
         panels: groups.iter().map(panel).collect(),

@@ -260,7 +260,11 @@ fn over(
             rocked(cases).filter_map(|(k, event)| Some((value(k)?, event))).collect();
         let im3 = sample_quantile(cases.im[2].clone(), 0.5).unwrap_or(1.0);
         let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
-        StructureCurves { name, curves: vec![curve("", ratios(ends(shares.iter().map(|share| share.0))), p)], shares: binned(&shares) }
+        StructureCurves {
+            name,
+            curves: vec![curve("", ratios(ends(shares.iter().map(|share| share.0))), p)],
+            shares: binned(&shares),
+        }
     };
     let place = Measure::SCALAR.iter().position(|measure| *measure == im_x)?;
     let measure = if im_y.is_some() { "hybrid measure" } else { MEASURES[place] };
@@ -290,8 +294,10 @@ fn map(tables: &Tables, groups: &[&Cases]) -> Option<draw::Map> {
     let pga = [low.max(0.5 * cases.structure.uplift_acceleration_m_s2()), high];
     let pgv = ends(cases.pgv_m_s.iter().copied());
     map.lines = draw::LEVELS.map(|level| line(tables, cases, level, pga, pgv));
-    map.others =
-        others.iter().map(|cases| (cases.structure.name.clone(), line(tables, cases, 0.5, pga, pgv))).collect();
+    map.others = others
+        .iter()
+        .map(|cases| (cases.structure.name.clone(), line(tables, cases, 0.5, pga, pgv)))
+        .collect();
     Some(map)
 }
 
@@ -327,5 +333,9 @@ fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
 /// Shares of events in bins of equal ratio, with Wilson's limits.
 fn binned(cases: &[(f64, bool)]) -> Vec<Estimate> {
     let bins = (cases.len() / CASES).clamp(4, BINS);
-    draw::observed_shares(cases, draw::equal_ratios(ends(cases.iter().map(|case| case.0)), bins), studies::wilson)
+    draw::observed_shares(
+        cases,
+        draw::equal_ratios(ends(cases.iter().map(|case| case.0)), bins),
+        studies::wilson,
+    )
 }

@@ -25,8 +25,7 @@ const MOST_NAMED: usize = 4;
 /// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded; of
 /// a list there are only these.
 const OF_RATES: &[&str] = &["list", "rates", "map", "ida", "validation"];
-const OF_PAPER: &[&str] =
-    &["overturning-hybrid", "map", "motion", "similarity", "planes", "exceedance"];
+const OF_PAPER: &[&str] = &["overturning-hybrid", "map", "motion", "similarity", "planes", "exceedance"];
 const OF_RESPONSES: &[&str] = &["ida", "map", "overturning", "validation"];
 
 /// What is said of each stage that made a table.
@@ -100,7 +99,8 @@ fn facts(tables: &Tables) -> Vec<String> {
         facts.push(format!(
             "Asked: the annual rate of overturning of {objects}, and its probability in {years} years, over {hazard}."
         ));
-        let mut models: Vec<&str> = tables.objects.iter().filter_map(|(object, _)| object.model.as_deref()).collect();
+        let mut models: Vec<&str> =
+            tables.objects.iter().filter_map(|(object, _)| object.model.as_deref()).collect();
         models.sort_unstable();
         models.dedup();
         facts.push(format!("By {}.", listed(&models, MOST_NAMED)));
@@ -108,7 +108,9 @@ fn facts(tables: &Tables) -> Vec<String> {
             Some(_) => " and of PGV/PGA at the site",
             None => "",
         };
-        facts.push(format!("The 95 % limits are those of the model, without the errors of the hazard{of_velocity}."));
+        facts.push(format!(
+            "The 95 % limits are those of the model, without the errors of the hazard{of_velocity}."
+        ));
         return facts;
     }
     for stage in ["synthesize-motions", "import-motions"] {

@@ -93,8 +93,8 @@ impl Tables {
                 continue;
             }
             let made = made.as_ref();
-            let question = made
-                .map_or((None, None), |made| (made.inputs.get("hazard"), made.arguments.get("years")));
+            let question =
+                made.map_or((None, None), |made| (made.inputs.get("hazard"), made.arguments.get("years")));
             if *first.get_or_insert(question) != question {
                 let file = path.file_name().unwrap_or_default().to_string_lossy();
                 self.left_out.push(format!("{file} is not shown: it is of another hazard or time."));
