@@ -9,6 +9,7 @@
 //! combine        high frequencies and pulse into one motion (section 2.1.3)
 //! synthesis      all of these for one scenario, on one time axis
 //! intensity      intensity measures of any motion
+//! floor          motions of floors, and their peaks
 //! dimensionless  IM1 to IM6 (Eq. 13), and other measures without units
 //! fourier        transforms of real series
 //! ```
@@ -16,6 +17,7 @@
 mod combine;
 mod design;
 mod dimensionless;
+pub mod floor;
 pub mod fourier;
 pub mod intensity;
 pub mod pulse;
@@ -27,6 +29,7 @@ mod synthesis;
 pub use combine::{Difference, Epoch};
 pub use design::{Design, Grid};
 pub use dimensionless::{IntensityMeasures, Quantity};
+pub use floor::{Floor, FloorPeaks};
 pub use intensity::{IntensityScratch, MeasurePlan, Measured, Measures, measures};
 pub use pulse::Pulse;
 pub use scenario::{Scenario, Suite};
