@@ -268,7 +268,7 @@ impl Cases {
         for case in 0..self.len() {
             let Some(observed) = y(case) else { continue };
             let values = self.measures(case);
-            let values: Option<Vec<f64>> = measures.iter().map(|measure| measure.among(&values)).collect();
+            let values: Option<Vec<f64>> = measures.iter().map(|measure| measure.value_of(&values)).collect();
             let Some(values) = values else { continue };
             for (k, value) in values.into_iter().enumerate() {
                 sample.ln_im[k].push(value.ln());

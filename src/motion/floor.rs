@@ -4,7 +4,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::intensity::Oscillator;
+use super::measures::Oscillator;
 
 /// A floor of a building, or the ground: level 0.
 #[derive(Debug, Clone, Copy, PartialEq)]

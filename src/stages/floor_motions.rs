@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::synthesize_motions::out_of_partition;
-use crate::motion::{Floor, IntensityScratch, MeasurePlan, Measured, Measures};
+use crate::motion::{Floor, MeasureScratch, MeasurePlan, Measured, MotionMeasures};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::Stage;
@@ -74,9 +74,9 @@ impl Stage for FloorMotions {
         let plan = measures_of(table.schema());
         let no_rows = RecordBatch::new_empty(table.schema().clone());
         let none = Batch { path: self.input.as_path().into(), first_row: 0, rows: no_rows };
-        let schema = self.filter(&none, &plan, &mut IntensityScratch::default())?.schema();
+        let schema = self.filter(&none, &plan, &mut MeasureScratch::default())?.schema();
         let mut writer = context.create(&self.outputs()[0], &schema)?;
-        let pool = Pool::new(IntensityScratch::default);
+        let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(table.rows());
         let parts = table.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
             match table.read(&group, &|_| true, AT_ONCE) {
@@ -86,7 +86,7 @@ impl Stage for FloorMotions {
         });
         let filtered = |part: Batch| -> anyhow::Result<RecordBatch> {
             bar.advance(part.rows.num_rows() as u64)?;
-            pool.lend(|scratch| self.filter(&part, &plan, scratch))
+            pool.with(|scratch| self.filter(&part, &plan, scratch))
         };
         pipelined(
             batches(parts, PARTS_A_THREAD * rayon::current_num_threads()),
@@ -106,7 +106,7 @@ impl Stage for FloorMotions {
 
 impl FloorMotions {
     /// The rows of the floor; measures are those of its motions, all other columns those of the ground.
-    fn filter(&self, ground: &Batch, plan: &MeasurePlan, scratch: &mut IntensityScratch) -> anyhow::Result<RecordBatch> {
+    fn filter(&self, ground: &Batch, plan: &MeasurePlan, scratch: &mut MeasureScratch) -> anyhow::Result<RecordBatch> {
         let (columns, floor) = (ground.columns(), Floor { period_s: self.period, level: self.level });
         let dt = columns.required_numbers("dt_s")?;
         let (mut samples, mut measured) = (Vec::new(), Vec::new());
@@ -121,7 +121,7 @@ impl FloorMotions {
         }
         let floors: Vec<FloorRow> =
             samples.iter().map(|_| FloorRow { floor_period_s: self.period, floor_level: self.level }).collect();
-        let measures: Vec<Measures> = measured.iter().map(|of: &Measured| of.measures).collect();
+        let measures: Vec<MotionMeasures> = measured.iter().map(|of: &Measured| of.measures).collect();
         let mut known = vec![others(&ground.rows)?, rows::batch(&floors)?, rows::batch(&measures)?];
         if plan.housner {
             let housner: Vec<HousnerRow> =
@@ -141,7 +141,7 @@ fn measures_of(schema: &Schema) -> MeasurePlan {
 
 /// All columns that are neither samples nor measures of them, with unit and meaning.
 fn others(rows: &RecordBatch) -> anyhow::Result<RecordBatch> {
-    let (schema, measures) = (rows.schema(), rows::schema::<Measures>());
+    let (schema, measures) = (rows.schema(), rows::schema::<MotionMeasures>());
     let is_measure = |name: &str| {
         name == ACCELERATION || name == "housner_m" || spectral_period_s(name).is_some() || measures.index_of(name).is_ok()
     };

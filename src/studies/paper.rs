@@ -4,7 +4,7 @@ use std::f64::consts::SQRT_2;
 
 use serde::{Deserialize, Serialize};
 
-use crate::fragility::{DemandFit, DemandModel, Event, Measure, OverturningFit};
+use crate::fragility::{CurveFit, DemandFit, DemandModel, Event, Measure};
 use crate::fragility::{beta, hybrid_measure, lambda, mu, p_overturning};
 use crate::paper::{EXAMPLE_LAMBDA, Published, SeedValue, example, published, seed_values};
 use crate::rocking::Structure;
@@ -31,7 +31,7 @@ pub struct Comparison {
 }
 
 /// Compares fits of the paper's structures with all that the paper publishes.
-pub fn compare(demand: &[DemandFit], curves: &[OverturningFit]) -> Vec<Comparison> {
+pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
     let seeds = seed_values();
     published()
         .into_iter()
@@ -72,7 +72,7 @@ impl Comparison {
 }
 
 /// Our value of a published quantity; none where the fits do not have it.
-fn ours(number: &Published, demand: &[DemandFit], curves: &[OverturningFit]) -> Option<f64> {
+fn ours(number: &Published, demand: &[DemandFit], curves: &[CurveFit]) -> Option<f64> {
     let is_its = |suite: &Option<String>, structure: &str| {
         suite.as_deref() == Some(&number.suite) && structure == number.structure
     };
@@ -82,7 +82,7 @@ fn ours(number: &Published, demand: &[DemandFit], curves: &[OverturningFit]) -> 
         on_side.find(|fit| is_its(&fit.suite, &fit.structure))
     };
     let curve = |structure: &str, im_x: Measure, im_y: Option<Measure>| {
-        let is_its = |fit: &&OverturningFit| {
+        let is_its = |fit: &&CurveFit| {
             (fit.suite.as_deref(), fit.structure.as_str()) == (Some(&number.suite), structure)
                 && (fit.event, fit.im_x, fit.im_y) == (Event::Overturning, im_x, im_y)
         };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rockfrag::motion::{Floor, floor, intensity};
+use rockfrag::motion::{Floor, floor, measures};
 use rockfrag::table::motions::{Motion, Motions};
 
 const DAMPING: f64 = 0.05;
@@ -25,7 +25,7 @@ fn a_floor_moves_as_scipy_has_it() {
         let [period_s, level, peak, ref samples @ ..] = numbers[..] else { panic!("{line}") };
         let motion = motions.iter().find(|motion| motion.motion_id == id).unwrap();
         let found = Floor { period_s, level }.motion(&motion.acceleration_m_s2, motion.dt_s, DAMPING);
-        assert!((intensity::peak(&found) / peak - 1.0).abs() < 1e-6, "{line}");
+        assert!((measures::peak(&found) / peak - 1.0).abs() < 1e-6, "{line}");
         for (k, expected) in samples.iter().enumerate().filter(|(k, _)| 100 * k < found.len()) {
             assert!((found[100 * k] - expected).abs() < 1e-6 * peak, "{id} {period_s} {level}, sample {k}");
         }
@@ -50,7 +50,7 @@ fn the_roof_resonates_as_its_first_mode() {
     // ground at most.
     let sine: Vec<f64> =
         (0..24_000).map(|k| (2.0 * std::f64::consts::PI * f64::from(k) * 0.005).sin()).collect();
-    let peak = intensity::peak(&Floor { period_s: 1.0, level: 1.0 }.motion(&sine, 0.005, DAMPING));
+    let peak = measures::peak(&Floor { period_s: 1.0, level: 1.0 }.motion(&sine, 0.005, DAMPING));
     let expected = 4.0 / std::f64::consts::PI * 1.01_f64.sqrt() / 0.1;
     assert!((peak / expected - 1.0).abs() < 0.02, "{peak}, {expected}");
 }

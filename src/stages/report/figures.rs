@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use super::studies;
 use super::tables::Tables;
-use crate::fragility::{Calibration, Cases, DemandFit, DemandModel, Event, Measure, OverturningFit};
+use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
 use crate::fragility::{Probability, Scenarios, hybrid_measure, lambda};
 use crate::keyword::Keyword;
-use crate::motion::{IntensityMeasures, Suite, intensity};
+use crate::motion::{IntensityMeasures, Suite, measures};
 use crate::report::figures::{self as draw, MEASURES, MeasureFit, ProbabilityPanel, StructureCurves};
 use crate::report::text::number;
 use crate::report::{Estimate, Figure};
@@ -98,7 +98,7 @@ fn group(cases: &Cases) -> draw::Group {
         draw::RockingCase {
             pgv_m_s: cases.pgv_m_s[k],
             tp_s: measures.im1.map(|im1| TAU / (im1 * cases.structure.p_rad_s)),
-            im: Measure::SCALAR.map(|measure| measure.among(&measures)),
+            im: Measure::SCALAR.map(|measure| measure.value_of(&measures)),
             edp: Some(cases.edp[k]).filter(|_| !overturned),
         }
     };
@@ -112,7 +112,7 @@ fn a_motion(motions: &[Motion]) -> Option<Figure> {
     let pulse = |whole: &Motion| motions.iter().find(|other| is(other, Suite::Pulse) && same(whole, other));
     let mut combined = motions.iter().filter(|motion| is(motion, Suite::Csgm));
     let whole = combined.find(|whole| pulse(whole).is_some()).or(motions.first())?;
-    let velocity = |motion: &Motion| intensity::velocity(&motion.acceleration_m_s2, motion.dt_s);
+    let velocity = |motion: &Motion| measures::velocity(&motion.acceleration_m_s2, motion.dt_s);
     Some(draw::motion(&draw::Motion {
         words: words(whole),
         dt_s: whole.dt_s,
@@ -263,7 +263,7 @@ fn over(
     im_y: Option<Measure>,
 ) -> Option<ProbabilityPanel> {
     let fit = |cases: &Cases| {
-        let is_its = |fit: &&OverturningFit| {
+        let is_its = |fit: &&CurveFit| {
             is_of(cases, &fit.suite, &fit.structure)
                 && (fit.im_x, fit.im_y) == (im_x, im_y)
                 && fit.coefficients[1..].iter().sum::<f64>() > 0.0
@@ -275,13 +275,13 @@ fn over(
         let Some(fit) = fit(cases) else { return StructureCurves { name, ..StructureCurves::default() } };
         let value = |k: usize| {
             let (measures, b) = (cases.measures(k), &fit.coefficients);
-            let (x, y) = (im_x.among(&measures)?, im_y.map(|im_y| im_y.among(&measures)));
+            let (x, y) = (im_x.value_of(&measures)?, im_y.map(|im_y| im_y.value_of(&measures)));
             y.map_or(Some(x), |y| Some(hybrid_measure(x, y?, lambda(b).0)))
         };
         let shares: Vec<(f64, bool)> =
             rocked(cases).filter_map(|(k, event)| Some((value(k)?, event))).collect();
         let im3 = quantile(cases.im[2].clone(), 0.5).unwrap_or(1.0);
-        let p = |value: f64| fit.p_overturning(&measures(im4_at(fit, value, im3), im3), CONFIDENCE);
+        let p = |value: f64| fit.probability(&measures(im4_at(fit, value, im3), im3), CONFIDENCE);
         StructureCurves { name, curves: vec![curve("", ratios(ends(&shares)), p)], shares: binned(&shares) }
     };
     let place = Measure::SCALAR.iter().position(|measure| *measure == im_x)?;
@@ -290,7 +290,7 @@ fn over(
     if let [a, b] = groups
         && let (Some(of_a), Some(of_b)) = (fit(a), fit(b))
     {
-        let row = |cases: &Cases, own: &OverturningFit, other: &OverturningFit| {
+        let row = |cases: &Cases, own: &CurveFit, other: &CurveFit| {
             let [own, other] = [own, other].map(|fit| number::fixed(score(fit, cases), 2));
             format!("{}: {own}, {other}", cases.structure.name)
         };
@@ -301,7 +301,7 @@ fn over(
 }
 
 /// IM4 of a motion at which the measure of a curve has this value.
-fn im4_at(fit: &OverturningFit, value: f64, im3: f64) -> f64 {
+fn im4_at(fit: &CurveFit, value: f64, im3: f64) -> f64 {
     match (fit.im_x, &fit.coefficients[..]) {
         (_, [_, b1, b2]) => (((b1 + b2) * value.ln() + b2 * im3.ln()) / b1).exp(),
         (Measure::Im5, _) => value * im3,
@@ -310,10 +310,9 @@ fn im4_at(fit: &OverturningFit, value: f64, im3: f64) -> f64 {
 }
 
 /// Mean log score of a curve on the cases of any structure.
-fn score(fit: &OverturningFit, cases: &Cases) -> f64 {
+fn score(fit: &CurveFit, cases: &Cases) -> f64 {
     const LEAST: f64 = 1e-12;
-    let p =
-        |k: usize| Some(fit.p_overturning(&cases.measures(k), CONFIDENCE)?.value.clamp(LEAST, 1.0 - LEAST));
+    let p = |k: usize| Some(fit.probability(&cases.measures(k), CONFIDENCE)?.value.clamp(LEAST, 1.0 - LEAST));
     let (p, events): (Vec<f64>, Vec<bool>) =
         rocked(cases).filter_map(|(k, event)| Some((p(k)?, event))).unzip();
     log_score(&p, &events)
