@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::synthesize_motions::out_of_partition;
-use crate::motion::{Floor, MeasureScratch, MeasurePlan, Measured, MotionMeasures};
+use crate::motion::{Floor, MeasurePlan, MeasureScratch, Measured, MotionMeasures};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::Stage;
@@ -69,7 +69,9 @@ impl Stage for FloorMotions {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let table = open(&self.input, self.partition)?;
         if table.schema().index_of("floor_level").is_ok() {
-            return Err(TableError::table(&self.input, "motions of a floor; expected those of the ground").into());
+            return Err(
+                TableError::table(&self.input, "motions of a floor; expected those of the ground").into()
+            );
         }
         let plan = measures_of(table.schema());
         let no_rows = RecordBatch::new_empty(table.schema().clone());
@@ -93,12 +95,8 @@ impl Stage for FloorMotions {
             |parts| parts.into_par_iter().map(filtered).collect::<anyhow::Result<Vec<_>>>(),
             |parts| Ok(parts.iter().try_for_each(|part| writer.append(part))?),
         )?;
-        let summary = format!(
-            "{} motions at level {} of a building of {} s\n",
-            table.rows(),
-            self.level,
-            self.period
-        );
+        let summary =
+            format!("{} motions at level {} of a building of {} s\n", table.rows(), self.level, self.period);
         context.finish(writer, &summary)?;
         Ok(summary)
     }
@@ -106,7 +104,12 @@ impl Stage for FloorMotions {
 
 impl FloorMotions {
     /// The rows of the floor; measures are those of its motions, all other columns those of the ground.
-    fn filter(&self, ground: &Batch, plan: &MeasurePlan, scratch: &mut MeasureScratch) -> anyhow::Result<RecordBatch> {
+    fn filter(
+        &self,
+        ground: &Batch,
+        plan: &MeasurePlan,
+        scratch: &mut MeasureScratch,
+    ) -> anyhow::Result<RecordBatch> {
         let (columns, floor) = (ground.columns(), Floor { period_s: self.period, level: self.level });
         let dt = columns.required_numbers("dt_s")?;
         let (mut samples, mut measured) = (Vec::new(), Vec::new());
@@ -119,8 +122,10 @@ impl FloorMotions {
             measured.push(plan.measure(&written, dt_s, scratch));
             samples.push(of_floor);
         }
-        let floors: Vec<FloorRow> =
-            samples.iter().map(|_| FloorRow { floor_period_s: self.period, floor_level: self.level }).collect();
+        let floors: Vec<FloorRow> = samples
+            .iter()
+            .map(|_| FloorRow { floor_period_s: self.period, floor_level: self.level })
+            .collect();
         let measures: Vec<MotionMeasures> = measured.iter().map(|of: &Measured| of.measures).collect();
         let mut known = vec![others(&ground.rows)?, rows::batch(&floors)?, rows::batch(&measures)?];
         if plan.housner {
@@ -143,11 +148,19 @@ fn measures_of(schema: &Schema) -> MeasurePlan {
 fn others(rows: &RecordBatch) -> anyhow::Result<RecordBatch> {
     let (schema, measures) = (rows.schema(), rows::schema::<MotionMeasures>());
     let is_measure = |name: &str| {
-        name == ACCELERATION || name == "housner_m" || spectral_period_s(name).is_some() || measures.index_of(name).is_ok()
+        name == ACCELERATION
+            || name == "housner_m"
+            || spectral_period_s(name).is_some()
+            || measures.index_of(name).is_ok()
     };
     let kept: Vec<usize> =
         (0..schema.fields().len()).filter(|&at| !is_measure(schema.field(at).name())).collect();
     let rows = rows.project(&kept)?;
-    let fields = rows.schema().fields().iter().map(|field| dictionary::with_meaning(field.as_ref().clone())).collect::<Vec<_>>();
+    let fields = rows
+        .schema()
+        .fields()
+        .iter()
+        .map(|field| dictionary::with_meaning(field.as_ref().clone()))
+        .collect::<Vec<_>>();
     Ok(rows.with_schema(Schema::new(fields).into())?)
 }
