@@ -77,7 +77,7 @@ fn peaks_are_those_of_the_script() {
 fn peaks_on_the_ground_and_in_a_rigid_building_are_those_of_the_ground() {
     for floor in [Floor { period_s: 0.9, level: 0.0 }, Floor { period_s: 1e-9, level: 1.0 }] {
         let peaks = floor.peaks(3.0, 0.2);
-        assert!((peaks.pfa_m_s2 - 3.0).abs() < 1e-6 && (peaks.pfv_m_s - 0.2).abs() < 1e-6, "{peaks:?}");
+        assert!((peaks.pfa_m_s2 - 3.0).abs() < 1e-5 && (peaks.pfv_m_s - 0.2).abs() < 1e-6, "{peaks:?}");
         assert!(peaks.sd_ln_pfa < 0.01 && peaks.sd_ln_pfv < 0.01 && peaks.resonant_share < 1e-4, "{peaks:?}");
     }
     let ground = Floor { period_s: 0.9, level: 0.0 }.peaks(3.0, 0.2);
