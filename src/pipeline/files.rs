@@ -43,6 +43,9 @@ const IN_RUN: [(&str, &str, &str); 5] = [
     ("out", "evaluated.parquet", "evaluate"),
 ];
 
+/// The stage in a run whose motions all later ones take, and these.
+const FLOOR: (&str, &str) = ("floor-motions", "floor.parquet");
+
 /// Returns what an argument is.
 pub fn role(arg: &Arg) -> Role {
     match arg.get_value_hint() {
@@ -69,7 +72,9 @@ pub fn in_run(command: &str, arg: &Arg, has: impl Fn(&str) -> bool) -> Option<Pa
     // An input may be a word in place of a file, such as the site `rock`: files have a dot.
     let is_file = |default: &&OsStr| default.to_string_lossy().contains('.');
     let default = arg.get_default_values().first().map(|default| default.as_os_str()).filter(is_file);
-    default.map(PathBuf::from).or(known.map(|(_, file, _)| PathBuf::from(file)))
+    let file = default.map(PathBuf::from).or(known.map(|(_, file, _)| PathBuf::from(file)))?;
+    let is_of_floor = has(FLOOR.0) && command != FLOOR.0 && role != Role::Output;
+    Some(if is_of_floor && file == Path::new("motions.parquet") { PathBuf::from(FLOOR.1) } else { file })
 }
 
 /// Returns `--out` beside a given `--in`, if the user gives no `--out`.
