@@ -4,17 +4,23 @@
 //! curve  annual rate of exceedance of one intensity; the convolution integral
 //! joint  annual rate of occurrence of pairs of PGA and PGV; the sum over them
 //! rates  annual rates of the limit states of a structure, by a model
+//! velocity  PGV / PGA of the motions of a site
+//! budget    what is not known exactly, and the limits that follow
 //! count  the rate counted among motions that are weighted to have the hazard's rates, without a fragility
 //! ```
 
+mod budget;
 mod count;
 mod curve;
 mod joint;
 mod rates;
+mod velocity;
 
+pub use budget::{Budget, Part, Unknown};
 pub use count::{Count, CountedMotion, CountedRate, counted_rates};
 pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
+pub use velocity::{MAGNITUDE, MatchError, Velocity, VelocitySource, velocity_of_spectrum};
 pub use rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate

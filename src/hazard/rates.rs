@@ -22,7 +22,7 @@ pub type Rates = [Rate; 3];
 /// all intensities at once.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
     let states = |intensity| terms(given_peak.limit_states(intensity, Scenarios::Many));
-    let sums = curve.mean_annual_rates(&given_peak.jumps(), states);
+    let sums = curve.mean_annual_rates(&given_peak.jumps(), given_peak.widest_panel(), states);
     let [_, (last, rate_beyond)] = curve.ends();
     let at_last = given_peak.limit_states(last, Scenarios::Many);
     let beyond = at_last.map(|state| rate_beyond * (1.0 - state.value).max(0.0));
