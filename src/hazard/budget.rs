@@ -34,35 +34,16 @@ keywords!(Part {
     Hazard = "hazard",
 });
 
-/// Something that is not known exactly, by its 16, 50 and 84 % quantiles inside what is possible.
+/// Something that is not known exactly, by its 16 and 84 % quantiles inside what is possible. Its median is in
+/// the result itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unknown {
+pub struct Unknown<T> {
     pub part: Part,
-    pub low: f64,
-    pub centre: f64,
-    pub high: f64,
+    pub low: T,
+    pub high: T,
 }
 
-impl Unknown {
-    /// A normal one.
-    pub fn normal(part: Part, mean: f64, sd: f64) -> Unknown {
-        Unknown { part, low: mean - sd, centre: mean, high: mean + sd }
-    }
-
-    /// A coefficient of restitution, of which 1 - eta is lognormal about that of `median`.
-    pub fn restitution(median: f64, sd_of_ln: f64) -> Unknown {
-        let [low, high] = [sd_of_ln, -sd_of_ln].map(|ln| 1.0 - (1.0 - median) * ln.exp());
-        Unknown { part: Part::Eta, low: low.max(0.0), centre: median, high }
-    }
-
-    /// The standard deviations of results that it causes: half of their differences between its quantiles.
-    pub fn sds<const N: usize>(&self, results: impl Fn(f64) -> [f64; N]) -> [f64; N] {
-        let [low, high] = [results(self.low), results(self.high)];
-        std::array::from_fn(|k| 0.5 * (high[k] - low[k]).abs())
-    }
-}
-
-/// Standard deviations of ln of an annual rate, or of the logit of a probability, by part.
+/// Standard deviations of a result: of ln of an annual rate, or of the logit of a probability, by part.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budget {
     variances: [f64; Part::ALL.len()],
@@ -70,7 +51,7 @@ pub struct Budget {
 
 impl Budget {
     /// Adds an error that is independent of the others.
-    pub fn add(&mut self, part: Part, sd: f64) {
+    fn add(&mut self, part: Part, sd: f64) {
         self.variances[part as usize] += if sd.is_finite() { sd * sd } else { 0.0 };
     }
 
@@ -86,13 +67,12 @@ impl Budget {
 
     /// The part that causes most.
     pub fn largest(&self) -> Option<Part> {
-        let largest = Part::ALL.iter().copied().max_by(|a, b| {
-            self.variances[*a as usize].total_cmp(&self.variances[*b as usize])
-        });
-        largest.filter(|part| self.variances[*part as usize] > 0.0)
+        let variance = |part: &Part| self.variances[*part as usize];
+        let largest = Part::ALL.iter().copied().max_by(|a, b| variance(a).total_cmp(&variance(b)));
+        largest.filter(|part| variance(part) > 0.0)
     }
 
-    /// 95 % limits of an annual rate that is at most that of rocking.
+    /// 95 % limits of an annual rate, which is never above that of rocking.
     pub fn limits_of_rate(&self, rate: f64, of_rocking: f64) -> Limits {
         let factor = (Z_95 * self.sd()).exp();
         Limits { low: rate / factor, high: (rate * factor).min(of_rocking.max(rate)) }
@@ -102,8 +82,28 @@ impl Budget {
     /// earthquakes.
     pub fn limits_of_probability(&self, p: f64, tau: f64) -> Limits {
         let half = Z_95 * self.sd().hypot(tau);
-        let logit = (p / (1.0 - p)).ln();
-        let [low, high] = [logit - half, logit + half].map(|z| 1.0 / (1.0 + (-z).exp()));
+        let [low, high] = [-half, half].map(|off| 1.0 / (1.0 + (1.0 - p) / p * (-off).exp()));
         Limits { low, high }
+    }
+}
+
+/// The budgets of two results: of failure and of overturning.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Budgets {
+    pub failure: Budget,
+    pub overturning: Budget,
+}
+
+impl Budgets {
+    /// Adds the standard deviations of both results.
+    pub fn add(&mut self, part: Part, [failure, overturning]: [f64; 2]) {
+        self.failure.add(part, failure);
+        self.overturning.add(part, overturning);
+    }
+
+    /// Adds what an unknown causes: half of the difference of the results between its quantiles.
+    pub fn vary<T>(&mut self, unknown: &Unknown<T>, results: impl Fn(&T) -> [f64; 2]) {
+        let [low, high] = [results(&unknown.low), results(&unknown.high)];
+        self.add(unknown.part, [0, 1].map(|k| 0.5 * (high[k] - low[k])));
     }
 }

@@ -1,8 +1,10 @@
 //! PGV / PGA of the motions of a site, and how well it is known: by the curves of both peaks, or by one and
 //! ground-motion models.
 
+use super::budget::{Part, Unknown};
 use super::curve::HazardCurve;
 use crate::fragility::{Kind, Model, Peak, RatioGiven};
+use crate::keyword::keywords;
 use crate::statistics::normal;
 use crate::units::G_M_S2;
 
@@ -21,6 +23,14 @@ pub enum VelocitySource {
     Sites,
 }
 
+keywords!(VelocitySource {
+    Velocity = "pgv",
+    Spectrum = "sa",
+    Given = "ratio",
+    Motions = "motions",
+    Sites = "sites",
+});
+
 /// PGV / PGA of the motions of a site.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Velocity {
@@ -29,14 +39,16 @@ pub struct Velocity {
     /// By how much ln(PGV / PGA) rises with magnitude.
     per_magnitude: f64,
     /// Standard deviation of the level of ln(PGV / PGA).
-    pub sd: f64,
+    sd: f64,
     pub source: VelocitySource,
 }
 
 /// The magnitude that lines of sites in general are for.
 const MIDDLE: f64 = 6.3;
-/// Mean and standard deviation of the magnitude of the motions that matter, at sites in general.
-pub const MAGNITUDE: [f64; 2] = [6.35, 0.6];
+/// Mean and standard deviation of the magnitude of the motions that matter, at sites in general, and the standard
+/// deviation about a mean that is given.
+const MAGNITUDE: [f64; 2] = [6.35, 0.6];
+const SD_OF_MEAN: f64 = 0.2;
 /// Lines of sites in general (scripts/reference/sites.py): ln(PGV / PGA) in s at PGA of 0.4 g or PGV of 0.4 m/s,
 /// its slope over ln of the peak, the standard deviation about it, its rise with magnitude, and the standard
 /// deviation of the level between sites of one magnitude.
@@ -76,6 +88,13 @@ pub enum MatchError {
         100.0 * (.0.exp() - 1.0)
     )]
     Unlike(f64),
+}
+
+/// Magnitude of the motions that matter: its median, by the mean of the disaggregation if it is given, and what
+/// is not known of it.
+pub fn magnitude(mean: Option<f64>) -> (f64, Unknown<f64>) {
+    let [median, sd] = mean.map_or(MAGNITUDE, |mean| [mean, SD_OF_MEAN]);
+    (median, Unknown { part: Part::Magnitude, low: median - sd, high: median + sd })
 }
 
 /// The curve of PGV (m/s) for one of the spectral acceleration at 1 s (m/s2).
@@ -154,9 +173,14 @@ impl Velocity {
         Ok(Velocity { ratio: line, per_magnitude: 0.0, sd, source })
     }
 
+    /// What is not known of it: ln of a factor.
+    pub fn unknown(&self) -> Unknown<f64> {
+        Unknown { part: Part::Velocity, low: -self.sd, high: self.sd }
+    }
+
     /// PGV / PGA given the peak in earthquakes of a magnitude, times exp(`ln`).
-    pub fn ratio(&self, mw: Option<f64>, ln: f64) -> RatioGiven {
-        self.ratio.raised(self.per_magnitude * (mw.unwrap_or(MAGNITUDE[0]) - MIDDLE) + ln)
+    pub fn ratio(&self, mw: f64, ln: f64) -> RatioGiven {
+        self.ratio.raised(self.per_magnitude * (mw - MIDDLE) + ln)
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueHint};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fitted::{calibrations_text, suite_name, text, verdict, warnings, with_limits};
+use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings, with_limits};
 use super::shared::responses;
 use crate::fragility::{Calibration, CurveFit, CurveOptions, Event, Measure, Pair, Parameter, fit_curves};
 use crate::pipeline::UsageError;

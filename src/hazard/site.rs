@@ -1,0 +1,224 @@
+//! Annual rates of a structure at a site: the hazard as it is given, what is not known of it, and what the ends of
+//! its curve leave open.
+
+use super::budget::{Budget, Budgets, Part, Unknown};
+use super::count::{CountedMotion, CountedRate, counted_rates};
+use super::curve::HazardCurve;
+use super::joint::JointHazard;
+use super::rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
+use super::velocity::{Velocity, VelocitySource, magnitude};
+use crate::fragility::{Cases, Event, GivenPeak, Kind, Model, Peak, Z_95};
+use crate::number::Limited;
+use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
+use crate::rocking::Structure;
+use crate::units::G_M_S2;
+use crate::warning::Warning;
+
+/// The hazard of a site.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Hazard {
+    Curve(PeakHazard),
+    /// Annual rates at which pairs of peaks occur.
+    Joint(JointHazard),
+}
+
+/// Annual rates at which a peak is exceeded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PeakHazard {
+    pub peak: Peak,
+    /// m/s2 or m/s.
+    pub curve: HazardCurve,
+    /// The 16 and 84 % fractiles, if they are given.
+    pub fractiles: Option<[HazardCurve; 2]>,
+    /// PGV / PGA by the curve of the other peak, if it is given.
+    pub velocity: Option<Velocity>,
+}
+
+/// Fraction of a rate that stronger motions than the last may add before it is no value.
+const NEGLIGIBLE: f64 = 0.1;
+/// Rates a year of less count as this, once in 1e12 years, where errors are measured.
+const LEAST: f64 = 1e-12;
+/// The seed of the resamples of a count.
+const SEED: u64 = 1;
+
+/// PGA (m/s2) or PGV (m/s) beyond which nothing was ever recorded: a curve that reaches it cannot end too
+/// early.
+pub fn strongest(peak: Peak) -> f64 {
+    match peak {
+        Peak::Pga => STRONGEST_PGA_G * G_M_S2,
+        Peak::Pgv => STRONGEST_PGV_M_S,
+    }
+}
+
+/// The hazard of a site, and how rates over it are computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Site {
+    pub hazard: Hazard,
+    /// PGV / PGA of all motions, s.
+    pub ratio_s: Option<f64>,
+    /// Mean magnitude of the motions that matter.
+    pub mw: Option<f64>,
+    /// Whether a curve that ends too early is continued.
+    pub extrapolate: bool,
+    /// Demand |theta|max / alpha that is the limit state.
+    pub limit_state: f64,
+    /// Responses to count in, of each suite and structure.
+    pub responses: Vec<Cases>,
+}
+
+/// Annual rates of a structure. Where the hazard ends too early for a value there are bounds alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SiteRates {
+    pub rocking: Option<f64>,
+    pub failure: Limited,
+    pub overturning: Limited,
+    /// Standard deviations of ln rate.
+    pub budgets: Budgets,
+    /// From what PGV / PGA is known; none where the hazard has both peaks of each motion.
+    pub velocity: Option<VelocitySource>,
+    /// The share of the rate of overturning beyond the last point of a curve that is extrapolated.
+    pub beyond: Option<f64>,
+    /// Number of motions, and the rate of overturning counted among them.
+    pub counted: Option<(usize, CountedRate)>,
+    /// PGA and PGV (m/s2 and m/s) of a motion that half of the rate of overturning is above; of a joint hazard
+    /// those of the strongest.
+    pub motion: [f64; 2],
+    pub warnings: Vec<Warning>,
+}
+
+impl Site {
+    /// The rates of a structure, of which this is not known.
+    pub fn rates(&self, structure: &Structure, unknowns: &[Unknown<Structure>], model: &Model) -> SiteRates {
+        match &self.hazard {
+            Hazard::Curve(hazard) => self.rates_over_curve(hazard, structure, unknowns, model),
+            Hazard::Joint(joint) => {
+                let rates = |structure: &Structure| rates_over_pairs(model, structure, joint);
+                let value = rates(structure);
+                let mut budgets = Budgets::default();
+                budgets.add(Part::Fit, sds_of_fit(&value));
+                for unknown in unknowns {
+                    budgets.vary(unknown, |structure| ln_rates(&rates(structure)));
+                }
+                let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
+                let motion = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
+                SiteRates::new(value, budgets, motion, false)
+            }
+        }
+    }
+
+    fn rates_over_curve(
+        &self,
+        hazard: &PeakHazard,
+        structure: &Structure,
+        unknowns: &[Unknown<Structure>],
+        model: &Model,
+    ) -> SiteRates {
+        let peak = hazard.peak;
+        let of_curves = || hazard.velocity.unwrap_or_else(|| Velocity::of_model(model, peak));
+        let velocity = self.ratio_s.map_or_else(of_curves, Velocity::given);
+        let (mw, of_magnitude) = magnitude(self.mw);
+        let given = |mw: f64, ln: f64| GivenPeak { model, structure, peak, ratio: velocity.ratio(mw, ln) };
+        let middle = given(mw, 0.0);
+        let as_given = rates_over_curve(&middle, &hazard.curve);
+        let [(first, _), (last, _)] = hazard.curve.ends();
+        let ends_early = last < strongest(peak) && as_given[2].beyond > NEGLIGIBLE * as_given[2].value;
+        let is_extrapolated = ends_early && self.extrapolate;
+        let extended = |curve: &HazardCurve| if is_extrapolated { curve.extrapolated() } else { curve.clone() };
+        let curve = extended(&hazard.curve);
+        let rates = if is_extrapolated { rates_over_curve(&middle, &curve) } else { as_given };
+
+        let mut budgets = Budgets::default();
+        budgets.add(Part::Fit, sds_of_fit(&rates));
+        let of = |given: &GivenPeak, curve: &HazardCurve| ln_rates(&rates_over_curve(given, curve));
+        if model.depends_on_magnitude() {
+            budgets.vary(&of_magnitude, |mw| of(&given(*mw, 0.0), &curve));
+        }
+        budgets.vary(&velocity.unknown(), |ln| of(&given(mw, *ln), &curve));
+        for unknown in unknowns {
+            budgets.vary(unknown, |structure| of(&GivenPeak { structure, ..middle }, &curve));
+        }
+        if let Some([low, high]) = &hazard.fractiles {
+            let fractiles = Unknown { part: Part::Hazard, low: extended(low), high: extended(high) };
+            budgets.vary(&fractiles, |curve| of(&middle, curve));
+        }
+
+        let motion = middle.median_motion(median_intensity(&middle, &curve));
+        let warnings = [
+            (is_extrapolated, Warning::HazardExtrapolated),
+            (ends_early && !is_extrapolated, Warning::HazardEndsEarly),
+            (first > middle.uplift()[1], Warning::HazardStartsLate),
+        ];
+        SiteRates {
+            velocity: Some(velocity.source),
+            beyond: is_extrapolated
+                .then(|| 1.0 - (as_given[2].value - as_given[2].of_last) / rates[2].value),
+            counted: self.count(&middle, &curve),
+            warnings: warnings.into_iter().filter(|(holds, _)| *holds).map(|(_, warning)| warning).collect(),
+            ..SiteRates::new(rates, budgets, motion, ends_early && !is_extrapolated)
+        }
+    }
+
+    /// The rate of overturning, counted among the responses of this structure to this kind of motion.
+    fn count(&self, given: &GivenPeak, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
+        let kind_of =
+            |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
+        let kind = match given.model {
+            Model::Calibrated { overturning, .. } => overturning.kind,
+            Model::Paper { overturning, .. } => kind_of(&overturning.suite),
+        };
+        let is_same =
+            |cases: &&Cases| kind_of(&cases.suite) == kind && given.structure.is_like(&cases.structure);
+        let cases = self.responses.iter().find(is_same)?;
+        let motion = |case: usize| CountedMotion {
+            intensity: if given.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
+            events: [f64::from(cases.happened(case, Event::Overturning, self.limit_state) == Some(true))],
+            cluster: cases.cluster[case],
+        };
+        let motions: Vec<CountedMotion<1>> = (0..cases.len()).map(motion).collect();
+        // Weaker motions uplift nothing.
+        let least = match given.peak {
+            Peak::Pga => given.structure.uplift_acceleration_m_s2(),
+            Peak::Pgv => given.uplift()[0],
+        };
+        let count = counted_rates(curve, least, motions, SEED)?;
+        Some((count.motions, count.rates[0]))
+    }
+}
+
+impl SiteRates {
+    /// Of the rates of the limit states; `ends_early` where the hazard does so for values.
+    fn new(rates: Rates, budgets: Budgets, motion: [f64; 2], ends_early: bool) -> SiteRates {
+        let [rocking, failure, overturning] = rates;
+        let known = |rate: f64| Some(rate).filter(|rate| !rate.is_nan());
+        let limited = |rate: Rate, budget: &Budget| match ends_early {
+            // No stronger motion has the effect, or each has.
+            true => [None, known(rate.value - rate.of_last), known(rate.value + rate.beyond)],
+            false => {
+                let limits = budget.limits_of_rate(rate.value, rocking.value);
+                [known(rate.value), known(limits.low), known(limits.high)]
+            }
+        };
+        let is_rocking_known = !ends_early || rocking.beyond <= NEGLIGIBLE * rocking.value;
+        SiteRates {
+            rocking: known(rocking.value).filter(|_| is_rocking_known),
+            failure: limited(failure, &budgets.failure),
+            overturning: limited(overturning, &budgets.overturning),
+            budgets,
+            velocity: None,
+            beyond: None,
+            counted: None,
+            motion,
+            warnings: Vec::new(),
+        }
+    }
+}
+
+/// ln of the rates of failure and of overturning.
+fn ln_rates(rates: &Rates) -> [f64; 2] {
+    [rates[1], rates[2]].map(|rate| rate.value.max(LEAST).ln())
+}
+
+/// Their standard deviations by the model's limits.
+fn sds_of_fit(rates: &Rates) -> [f64; 2] {
+    [rates[1], rates[2]].map(|rate| (rate.high.max(LEAST) / rate.low.max(LEAST)).ln() / (2.0 * Z_95))
+}

@@ -1,0 +1,243 @@
+//! Annual rates at a site, and in words.
+
+use serde::{Deserialize, Serialize};
+
+use super::object::{Answer, Predicted};
+use super::words::{brief, friction, model, mostly_unknown, size, table, title, too_far, validity, with_sentences};
+use crate::fragility::Peak;
+use crate::hazard::{Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
+use crate::number::{Limited, PERCENT, RATE, aligned, count, counted, period, plain, significant};
+use crate::units::G_M_S2;
+
+/// Annual rates of an object, and probabilities in the time of exposure. Where the hazard ends too early for
+/// a value there are bounds alone, in the columns of limits.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct RatesRow {
+    pub rocking_per_year: Option<f64>,
+    pub failure_per_year: Option<f64>,
+    pub failure_per_year_low: Option<f64>,
+    pub failure_per_year_high: Option<f64>,
+    pub overturning_per_year: Option<f64>,
+    pub overturning_per_year_low: Option<f64>,
+    pub overturning_per_year_high: Option<f64>,
+    pub return_period_years: Option<f64>,
+    pub years: Option<f64>,
+    pub p_rocking: Option<f64>,
+    pub p_failure: Option<f64>,
+    pub p_failure_low: Option<f64>,
+    pub p_failure_high: Option<f64>,
+    pub p_overturning: Option<f64>,
+    pub p_overturning_low: Option<f64>,
+    pub p_overturning_high: Option<f64>,
+    /// From what PGV / PGA is known.
+    pub velocity_by: Option<String>,
+    /// Share of the rate of overturning beyond the last point of a curve that is extrapolated.
+    pub share_extrapolated: Option<f64>,
+    pub counted_motions: Option<i64>,
+    pub counted_per_year: Option<f64>,
+    pub counted_per_year_low: Option<f64>,
+    pub counted_per_year_high: Option<f64>,
+    pub warnings: Option<String>,
+}
+
+impl RatesRow {
+    pub fn new(rates: &SiteRates, years: f64) -> RatesRow {
+        let in_years = |rates: Limited| rates.map(|rate| Some(probability_in_years(rate?, years)));
+        let ([failure, failure_low, failure_high], [value, low, high]) = (rates.failure, rates.overturning);
+        let [p_failure, p_failure_low, p_failure_high] = in_years(rates.failure);
+        let [p_overturning, p_overturning_low, p_overturning_high] = in_years(rates.overturning);
+        let counted = rates.counted.as_ref();
+        RatesRow {
+            rocking_per_year: rates.rocking,
+            failure_per_year: failure,
+            failure_per_year_low: failure_low,
+            failure_per_year_high: failure_high,
+            overturning_per_year: value,
+            overturning_per_year_low: low,
+            overturning_per_year_high: high,
+            return_period_years: value.map(|rate| 1.0 / rate).filter(|years| years.is_finite()),
+            years: Some(years),
+            p_rocking: rates.rocking.map(|rate| probability_in_years(rate, years)),
+            p_failure,
+            p_failure_low,
+            p_failure_high,
+            p_overturning,
+            p_overturning_low,
+            p_overturning_high,
+            velocity_by: rates.velocity.map(|source| source.to_string()),
+            share_extrapolated: rates.beyond,
+            counted_motions: counted.map(|(motions, _)| *motions as i64),
+            counted_per_year: counted.map(|(_, rate)| rate.value),
+            counted_per_year_low: counted.map(|(_, rate)| rate.limits.low),
+            counted_per_year_high: counted.map(|(_, rate)| rate.limits.high),
+            warnings: None,
+        }
+    }
+
+    /// Rate of failure with limits; limits alone are bounds.
+    pub fn failure(&self) -> Limited {
+        [self.failure_per_year, self.failure_per_year_low, self.failure_per_year_high]
+    }
+
+    /// Rate of overturning with limits; limits alone are bounds.
+    pub fn overturning(&self) -> Limited {
+        [self.overturning_per_year, self.overturning_per_year_low, self.overturning_per_year_high]
+    }
+
+    /// The probability of overturning in the time of exposure, as the rate.
+    pub fn in_years(&self) -> Limited {
+        [self.p_overturning, self.p_overturning_low, self.p_overturning_high]
+    }
+}
+
+impl Predicted for RatesRow {
+    fn with_warnings(self, warnings: Option<String>) -> RatesRow {
+        RatesRow { warnings, ..self }
+    }
+
+    fn severity(&self) -> f64 {
+        self.overturning_per_year.or(self.overturning_per_year_high).unwrap_or(f64::NEG_INFINITY)
+    }
+}
+
+/// The answer for all objects, in words.
+pub fn text(all: &[Answer<RatesRow>], site: &Site, sentence: bool) -> String {
+    let text = match all {
+        [] => String::new(),
+        [answer] => of_one(answer, site),
+        [worst, ..] => of_several(worst, all, site),
+    };
+    with_sentences(text, all, sentence, |object, rates| {
+        let how_often = how_often(rates, site, "95 % confidence limits ");
+        let extended = extrapolated(rates).map_or(String::new(), |text| format!(" ({text})"));
+        format!("{how_often}{extended}, by {}{}", model(object), not_in_limits(site, ", without "))
+    })
+}
+
+fn of_one(answer: &Answer<RatesRow>, site: &Site) -> String {
+    let Answer { object, row: rates, .. } = answer;
+    let years = rates.years.unwrap_or(f64::NAN);
+    let line = |name: String, rate: Limited| {
+        let p = rate.map(|rate| Some(probability_in_years(rate?, years)));
+        vec![name, RATE.value(rate), PERCENT.value(p), PERCENT.limits(p, "")]
+    };
+    let mut lines = vec![
+        vec![String::new(), "a year".to_string(), in_years(rates)],
+        line("rocks".to_string(), [rates.rocking_per_year, None, None]),
+        line(format!("{}, or more", too_far(object)), rates.failure()),
+        line("overturns".to_string(), rates.overturning()),
+    ];
+    if let Some(motions) = rates.counted_motions {
+        let motions = counted(motions as usize, "motion");
+        let rate = [rates.counted_per_year, rates.counted_per_year_low, rates.counted_per_year_high];
+        lines.push(line(format!("overturns, counted among {motions}"), rate));
+    }
+    format!(
+        "{}: {}\n{}{}By {}. {}\n",
+        title(object),
+        how_often(rates, site, "95 % limits "),
+        aligned(&lines, |_| false),
+        about_limits(answer, site),
+        model(object),
+        validity(object)
+    )
+}
+
+fn of_several(worst: &Answer<RatesRow>, all: &[Answer<RatesRow>], site: &Site) -> String {
+    let years = in_years(&worst.row);
+    let heading =
+        ["object", "size", "rocks", "overturns", "once in years", &years, "", "friction", "warning"];
+    let table = table(&heading, all, |answer| {
+        let Answer { object, row: rates, .. } = answer;
+        vec![
+            object.structure.clone(),
+            size(object),
+            RATE.value([rates.rocking_per_year, None, None]),
+            RATE.value(rates.overturning()),
+            rates.return_period_years.map_or("-".to_string(), period),
+            PERCENT.value(rates.in_years()),
+            PERCENT.limits(rates.in_years(), ""),
+            friction(object),
+            brief(answer, &rates.warnings),
+        ]
+    });
+    let how_often = how_often(&worst.row, site, "95 % limits ");
+    format!(
+        "{} overturns most often: {}\n{table}{}Rates a year, by {}. Below its friction an object slides instead.\n",
+        worst.object.structure,
+        how_often.trim_start_matches("overturns "),
+        about_limits(worst, site),
+        model(&worst.object),
+    )
+}
+
+fn in_years(rates: &RatesRow) -> String {
+    let years = rates.years.unwrap_or(f64::NAN);
+    format!("in {} year{}", plain(years), if years == 1.0 { "" } else { "s" })
+}
+
+/// The largest part of the error, what the limits do not contain, and what was extrapolated: a line, or none.
+fn about_limits(answer: &Answer<RatesRow>, site: &Site) -> String {
+    let advice = match answer.row.velocity_by.as_deref().and_then(|source| source.parse().ok()) {
+        Some(VelocitySource::Spectrum) => "Add the PGV curve.",
+        Some(VelocitySource::Sites | VelocitySource::Motions) => match &site.hazard {
+            Hazard::Curve(PeakHazard { peak: Peak::Pgv, .. }) => "Add the PGA curve.",
+            _ => "Add the PGV or SA(1.0 s) curve.",
+        },
+        _ => "",
+    };
+    let is_known = answer.row.overturning_per_year.is_some_and(|rate| rate > 0.0);
+    let unknown = mostly_unknown(&answer.budget, "PGV", advice).filter(|_| is_known);
+    let without = not_in_limits(site, "Not in the limits: ");
+    let without = Some(format!("{without}.")).filter(|without| is_known && without.len() > 1);
+    let parts = [unknown, without, extrapolated(&answer.row).map(|text| format!("{text}."))];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    if parts.is_empty() { String::new() } else { parts.join(" ") + "\n" }
+}
+
+fn not_in_limits(site: &Site, before: &str) -> String {
+    match &site.hazard {
+        Hazard::Curve(PeakHazard { fractiles: Some(_), .. }) => String::new(),
+        _ => format!("{before}the hazard's own error"),
+    }
+}
+
+fn extrapolated(rates: &RatesRow) -> Option<String> {
+    let share = rates.share_extrapolated?;
+    Some(format!("{} of the rate lies beyond the curve", PERCENT.one(share)))
+}
+
+/// How often it overturns, with limits or bounds.
+fn how_often(rates: &RatesRow, site: &Site, limits: &str) -> String {
+    match rates.overturning() {
+        [Some(0.0), ..] => "does not overturn: nothing of the hazard uplifts it".to_string(),
+        [Some(rate), ..] => {
+            let (period, in_years) = (period(1.0 / rate), in_years(rates));
+            let p = rates.in_years();
+            format!(
+                "overturns once in {period} years; {} {in_years} {}",
+                PERCENT.value(p),
+                PERCENT.limits(p, limits)
+            )
+        }
+        bounds @ [None, Some(_), Some(_)] => {
+            let end = match &site.hazard {
+                Hazard::Curve(PeakHazard { peak, curve, .. }) => {
+                    let [_, (last, rate)] = curve.ends();
+                    let last = match peak {
+                        Peak::Pga => format!("{} g", significant(last / G_M_S2, 3)),
+                        Peak::Pgv => format!("{} m/s", significant(last, 3)),
+                    };
+                    format!(
+                        ": the curve ends at {last} (once in {} years)",
+                        count((1.0 / rate).round() as usize)
+                    )
+                }
+                Hazard::Joint(_) => String::new(),
+            };
+            let bounds = RATE.value(bounds).replacen(" to ", " and ", 1);
+            format!("overturns between {bounds} times a year{end}")
+        }
+        _ => "has no rate of overturning".to_string(),
+    }
+}
