@@ -21,7 +21,8 @@ pub struct ImplausibleHazard {
 /// Judges annual rates at which PGA (g), or PGV (m/s), is exceeded, and guesses what they are instead.
 pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), ImplausibleHazard> {
     let excess = |(value, rate): (f64, f64)| rate / (MOST_FREQUENT.0 * value.powf(-MOST_FREQUENT.1));
-    let is_plausible = |convert: fn((f64, f64)) -> (f64, f64)| points.iter().all(|&point| excess(convert(point)) < 1.0);
+    let is_plausible =
+        |convert: fn((f64, f64)) -> (f64, f64)| points.iter().all(|&point| excess(convert(point)) < 1.0);
     if is_plausible(|point| point) {
         return Ok(());
     }

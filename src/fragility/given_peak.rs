@@ -34,7 +34,7 @@ pub fn limit_states_at(
 }
 
 /// Standard deviations from the median within which all ratios lie that count.
-const FARTHEST: f64 = 5.0;
+const FARTHEST: f64 = 6.0;
 /// Step of the trapezoidal rule, in standard deviations: exact to 1e-6 for smooth functions under a normal
 /// density.
 const STEP: f64 = 0.4;

@@ -123,7 +123,8 @@ impl Site {
         let [(first, _), (last, _)] = hazard.curve.ends();
         let ends_early = last < strongest(peak) && as_given[2].beyond > NEGLIGIBLE * as_given[2].value;
         let is_extrapolated = ends_early && self.extrapolate;
-        let extended = |curve: &HazardCurve| if is_extrapolated { curve.extrapolated() } else { curve.clone() };
+        let extended =
+            |curve: &HazardCurve| if is_extrapolated { curve.extrapolated() } else { curve.clone() };
         let curve = extended(&hazard.curve);
         let rates = if is_extrapolated { rates_over_curve(&middle, &curve) } else { as_given };
 
@@ -150,8 +151,7 @@ impl Site {
         ];
         SiteRates {
             velocity: Some(velocity.source),
-            beyond: is_extrapolated
-                .then(|| 1.0 - (as_given[2].value - as_given[2].of_last) / rates[2].value),
+            beyond: is_extrapolated.then(|| 1.0 - (as_given[2].value - as_given[2].of_last) / rates[2].value),
             counted: self.count(&middle, &curve),
             warnings: warnings.into_iter().filter(|(holds, _)| *holds).map(|(_, warning)| warning).collect(),
             ..SiteRates::new(rates, budgets, motion, ends_early && !is_extrapolated)

@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, ObjectRow, Predicted};
-use super::words::{brief, friction, model, mostly_unknown, size, table, title, too_far, validity, with_sentences};
+use super::words::{
+    brief, friction, model, mostly_unknown, size, table, title, too_far, validity, with_sentences,
+};
 use crate::fragility::{Model, Probability, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities, Unknown};
 use crate::motion::IntensityMeasures;

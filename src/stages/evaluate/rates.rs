@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, Predicted};
-use super::words::{brief, friction, model, mostly_unknown, size, table, title, too_far, validity, with_sentences};
+use super::words::{
+    brief, friction, model, mostly_unknown, size, table, title, too_far, validity, with_sentences,
+};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
 use crate::number::{Limited, PERCENT, RATE, aligned, count, counted, period, plain, significant};

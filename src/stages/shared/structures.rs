@@ -304,12 +304,9 @@ fn object(sheet: &Sheet, row: usize, place: &str) -> Object {
     let name = if name.is_empty() { format!("line {}", sheet.lines[row]) } else { name.to_string() };
     match spec(sheet, row) {
         Ok(spec) => Object::of_spec(&Spec { name: Some(name), ..spec }, Some(place)),
-        Err(problem) => Object {
-            name,
-            size_m: None,
-            structure: Err(format!("{place}: {problem}")),
-            unknowns: Vec::new(),
-        },
+        Err(problem) => {
+            Object { name, size_m: None, structure: Err(format!("{place}: {problem}")), unknowns: Vec::new() }
+        }
     }
 }
 
