@@ -170,6 +170,7 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     ("overturning_per_year", "1/a", "mean annual rate of overturning; null where the hazard ends too early"),
     ("overturning_per_year_low", "1/a", "lower 95 % limit of overturning_per_year, or lower bound"),
     ("overturning_per_year_high", "1/a", "upper 95 % limit of overturning_per_year, or upper bound"),
+    ("hazard", "1", "files of the hazard"),
     ("velocity_by", "1", "from what PGV/PGA is known: pgv, sa, ratio, motions or sites"),
     ("share_extrapolated", "1", "share of overturning_per_year beyond the last point of the hazard curve"),
     ("error_fit", "1", "sd of ln rate, or of the logit of P_ro, by the error of the calibration"),

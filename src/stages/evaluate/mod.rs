@@ -38,7 +38,7 @@ use crate::rocking::Structure;
 use crate::units::G_M_S2;
 
 use self::object::{Answer, Prediction};
-pub use self::object::{ObjectRow, Predicted};
+pub use self::object::{ErrorsRow, ObjectRow, Predicted};
 use self::output::Output;
 pub use self::point::TreeRow;
 pub use self::rates::RatesRow;
@@ -159,7 +159,7 @@ impl Evaluate {
         let site = self.site()?;
         let predict = |structure: &Structure, unknowns: &[Unknown<Structure>], model: &Model| {
             let rates = site.rates(structure, unknowns, model);
-            let (row, budget) = (RatesRow::new(&rates, self.years), rates.budgets.overturning);
+            let (row, budget) = (RatesRow::new(&rates, &self.hazard, self.years), rates.budgets.overturning);
             Prediction { row, budget, motion: rates.motion, warnings: rates.warnings }
         };
         let all = object::answers(self.objects(models)?, models, self.explain, predict)?;

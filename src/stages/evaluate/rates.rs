@@ -1,5 +1,7 @@
 //! Annual rates at a site, and in words.
 
+use std::path::PathBuf;
+
 use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, Predicted};
@@ -31,6 +33,8 @@ pub struct RatesRow {
     pub p_overturning: Option<f64>,
     pub p_overturning_low: Option<f64>,
     pub p_overturning_high: Option<f64>,
+    /// Files of the hazard.
+    pub hazard: Option<String>,
     /// From what PGV / PGA is known.
     pub velocity_by: Option<String>,
     /// Share of the rate of overturning beyond the last point of a curve that is extrapolated.
@@ -43,7 +47,8 @@ pub struct RatesRow {
 }
 
 impl RatesRow {
-    pub fn new(rates: &SiteRates, years: f64) -> RatesRow {
+    pub fn new(rates: &SiteRates, hazard: &[PathBuf], years: f64) -> RatesRow {
+        let files = hazard.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy());
         let in_years = |rates: Limited| rates.map(|rate| Some(probability_in_years(rate?, years)));
         let ([failure, failure_low, failure_high], [value, low, high]) = (rates.failure, rates.overturning);
         let [p_failure, p_failure_low, p_failure_high] = in_years(rates.failure);
@@ -66,6 +71,7 @@ impl RatesRow {
             p_overturning,
             p_overturning_low,
             p_overturning_high,
+            hazard: Some(files.collect::<Vec<_>>().join(", ")),
             velocity_by: rates.velocity.map(|source| source.to_string()),
             share_extrapolated: rates.beyond,
             counted_motions: counted.map(|rate| rate.motions as i64),
@@ -189,7 +195,7 @@ fn about_limits(answer: &Answer<RatesRow>, site: &Site) -> String {
         _ => "",
     };
     let is_known = answer.row.overturning_per_year.is_some_and(|rate| rate > 0.0);
-    let unknown = mostly_unknown(&answer.budget, "PGV", advice).filter(|_| is_known);
+    let unknown = mostly_unknown(&answer.budget, advice).filter(|_| is_known);
     let without = not_in_limits(site, "Not in the limits: ");
     let without = Some(format!("{without}.")).filter(|without| is_known && without.len() > 1);
     let parts = [unknown, without, extrapolated(&answer.row).map(|text| format!("{text}."))];

@@ -44,7 +44,7 @@ ida: Incremental dynamic analysis scales each motion until it overturns the stru
 distribution of these intensities has the median.
 validate: Validation compares predicted probabilities with the outcomes of motions that were not fitted.
 evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
-surface, calibrated where there are responses. The limits do not have the error of the hazard.";
+surface, calibrated where there are responses.";
 
 /// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
@@ -59,6 +59,7 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     made.for_each(|made| joined.join(&made.warnings));
     let mut warnings = joined.lines();
     let others = warnings.split_off(warnings.len().min(MOST_WARNINGS));
+    warnings.splice(0..0, about_rates(tables));
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
     let section = |heading: &str, paragraphs: Vec<String>, tables: Vec<Table>, figures: Vec<Figure>| {
@@ -150,6 +151,20 @@ fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
     let fields =
         format!("object|once in years|{percent}|overturns a year|rocks a year|size|friction needed|warning");
     table("", objects.iter().map(row), &fields)
+}
+
+/// The hazard of the rates, the motions, and what their limits hold.
+fn about_rates(tables: &Tables) -> Option<String> {
+    let ((object, rates), errors) = tables.objects.first().zip(tables.errors.as_ref())?;
+    let (parts, largest) = errors.words();
+    let without = if errors.error_hazard.is_none() { ", not of the hazard" } else { "" };
+    Some(format!(
+        "Hazard: {}. By {}. The limits hold the errors of {}{without}. Mostly unknown: {}.",
+        rates.hazard.as_deref().unwrap_or("-"),
+        object.model.as_deref().unwrap_or("-"),
+        parts.join(", "),
+        largest.unwrap_or("-")
+    ))
 }
 
 /// Table II: published over ours.

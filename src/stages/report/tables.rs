@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event};
 use crate::paper;
-use crate::stages::evaluate::{ObjectRow, Predicted, RatesRow};
+use crate::stages::evaluate::{ErrorsRow, ObjectRow, Predicted, RatesRow};
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
@@ -28,6 +28,8 @@ pub struct Tables {
     pub compared: Vec<Comparison>,
     /// Objects with annual rates, the worst first.
     pub objects: Vec<(ObjectRow, RatesRow)>,
+    /// The parts of the error of the first of them.
+    pub errors: Option<ErrorsRow>,
     /// Each file with its number of rows and, if it is ours, what made it.
     pub files: Vec<(PathBuf, u64, Option<Provenance>)>,
 }
@@ -55,6 +57,7 @@ impl Tables {
             let table = Table::open(&path)?;
             if table.schema().index_of(RATES).is_ok() {
                 tables.objects.extend(rows::read(&path)?.into_iter().zip(rows::read(&path)?));
+                tables.errors = rows::read(&path)?.into_iter().next();
             }
             let made = Provenance::of_file(&path)?;
             tables.files.push((path, table.rows(), made));
