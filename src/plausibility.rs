@@ -4,8 +4,9 @@ use std::f64::consts::FRAC_PI_4;
 
 use crate::rocking::{Structure, StructureError};
 
-/// PGA, g, and PGV, m/s, beyond which nothing was ever recorded.
+/// PGA, g, beyond which nothing was ever recorded.
 pub const STRONGEST_PGA_G: f64 = 4.5;
+/// PGV, m/s, beyond which nothing was ever recorded.
 pub const STRONGEST_PGV_M_S: f64 = 5.0;
 
 /// The range of a parameter that a user may give, and the likely mistake outside it.

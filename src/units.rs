@@ -13,6 +13,7 @@ pub const CM_PER_M: f64 = 100.0;
 
 /// Physical quantity of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub enum Quantity {
     Acceleration,
     Velocity,
@@ -27,7 +28,9 @@ pub enum Quantity {
 /// A unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
+    /// As it is written.
     pub name: &'static str,
+    /// What it measures.
     pub quantity: Quantity,
     /// Value in m/s2, m/s, m, s, rad or rad/s.
     pub si: f64,

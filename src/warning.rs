@@ -8,6 +8,7 @@ use crate::keyword::keywords;
 
 /// A warning that changes what one would decide, the weightiest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "text() says it")]
 pub enum Warning {
     ImplausibleRow,
     ImplausibleRecord,

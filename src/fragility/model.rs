@@ -14,6 +14,7 @@ use crate::warning::Warning;
 /// The model of one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "there is one for each structure")]
+#[expect(missing_docs, reason = "the types say it")]
 pub enum Model {
     /// The universal surface, calibrated.
     Calibrated { overturning: Calibration, exceeding: Calibration, peaks: JointPeaks },

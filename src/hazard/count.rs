@@ -32,7 +32,9 @@ pub struct CountedMotion {
 /// An annual rate counted among motions, with 95 % limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CountedRate {
+    /// The rate.
     pub value: f64,
+    /// Of 95 %.
     pub limits: Limits,
     /// How many motions were counted.
     pub motions: usize,

@@ -7,6 +7,7 @@ use crate::rocking::Structure;
 
 /// A mean annual rate with 95 % limits, which are those of the model alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct Rate {
     pub value: f64,
     pub low: f64,

@@ -28,11 +28,15 @@ use crate::sheet::decode;
 /// A text format, in order of detection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
+    /// COSMOS V1 and V2.
     Cosmos,
     /// KiK-net too.
     Knet,
+    /// Engineering Strong Motion database.
     Esm,
+    /// PEER's AT2.
     PeerAt2,
+    /// Columns of a table.
     Csv,
 }
 
