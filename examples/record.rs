@@ -1,4 +1,4 @@
-//! The response of a block to a record of one's own, over time: `record FILE`, of AT2, COSMOS, ESM, K-NET or CSV.
+//! The response of a block over time to a record in a file of AT2, COSMOS, ESM, K-NET or CSV.
 
 use rockfrag::records::{ReadOptions, read_records};
 use rockfrag::rocking::{Record, Structure, trace, with_tail};

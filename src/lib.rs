@@ -41,8 +41,9 @@
 //! use rockfrag::rocking::{Outcome, Record, Structure, simulate};
 //!
 //! let cabinet = Structure::rectangular_block("cabinet", 0.8, 2.2, None)?;
-//! // A sine of 1 Hz and 6 m/s2, every 5 ms; records::read_records reads the files of agencies.
-//! let acceleration: Vec<f64> = (0..400).map(|k| 6.0 * (0.01 * std::f64::consts::PI * k as f64).sin()).collect();
+//! // A sine of 2 Hz and 6 m/s2, every 5 ms; records::read_records reads the files of agencies.
+//! let sine = |k: i32| 6.0 * (std::f64::consts::TAU * 2.0 * 0.005 * f64::from(k)).sin();
+//! let acceleration: Vec<f64> = (0..400).map(sine).collect();
 //! let response = simulate(&cabinet, &Record::new(&acceleration, 0.005)?);
 //! assert_eq!(response.outcome, Outcome::SafeRocking);
 //! // The largest rotation over the slenderness, |theta|max / alpha.
@@ -58,9 +59,9 @@
 //!
 //! | module | holds | in the paper |
 //! |---|---|---|
-//! | [`motion`] | scenarios, synthetic motions, intensity measures | sections 2.1.1 to 2.1.3, Eqs. 1 to 3 and 13 |
+//! | [`motion`] | scenarios, synthetic motions, intensity measures | section 2.1, Eqs. 1 to 3 and 13 |
 //! | [`rocking`] | structures, records, the rocking response | section 2.2, Eqs. 4 to 7 |
-//! | [`fragility`] | P_ex and P_ro, their fits, the universal surface | sections 2.3 and 3, Eqs. 12 and 14 to 24 |
+//! | [`fragility`] | P_ex and P_ro, their fits, the surface | sections 2.3 and 3, Eqs. 12, 14 to 24 |
 //! | [`hazard`] | hazard curves, annual rates | beyond it |
 //! | [`records`] | recorded motions: formats, processing, pulses | beyond it |
 //! | [`studies`] | ranking of measures, validation, the paper's numbers beside ours | Table II |

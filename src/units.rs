@@ -74,7 +74,8 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 30] = [
 ];
 
 impl Unit {
-    /// Reads a unit, in any common notation: `cm/s^2`, `cm/sec/sec`, `cm_s2`, `cm s-2`. None if it is no unit.
+    /// Reads a unit, in any common notation: `cm/s^2`, `cm/sec/sec`, `cm_s2`, `cm s-2`. None of text that is
+    /// no unit.
     pub fn parse(text: &str) -> Option<Unit> {
         let per = |c: char| if c.is_whitespace() || matches!(c, '_' | '.') { '/' } else { c };
         let text = text.trim().trim_end_matches('.').to_lowercase().replace('\u{b2}', "2");

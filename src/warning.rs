@@ -107,7 +107,7 @@ const NAMED: usize = 3;
 const UNNAMED: &str = "structure";
 
 impl Warnings {
-    /// Returns a line a warning, the weightiest first, with the first of what it is about.
+    /// Returns one line for each warning, the weightiest first, with the first subjects that it is about.
     pub fn lines(&self) -> Vec<String> {
         let line = |(warning, Subjects { named, count }): (&Warning, &Subjects)| {
             let named = named.join(", ");

@@ -175,7 +175,7 @@ impl Calibration {
         of_events.into_iter().chain(of_clusters).filter(|_| is_own).collect()
     }
 
-    /// Returns whether some of the motions that it was fitted to had a like PGA and PGV; that of a kind of
+    /// Returns whether some of the motions that it was fitted to had a similar PGA and PGV; that of a kind of
     /// motion is fitted to all that the surface covers.
     pub fn covers(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
         let unit = structure.uplift_acceleration_m_s2();
@@ -199,7 +199,7 @@ fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
 
-/// Least and largest value; none of none.
+/// Least and largest value; none without values.
 fn ends(values: Vec<f64>) -> (Option<f64>, Option<f64>) {
     (values.iter().copied().reduce(f64::min), values.into_iter().reduce(f64::max))
 }

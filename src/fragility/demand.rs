@@ -285,7 +285,8 @@ impl DemandFit {
     }
 
     /// Computes the probability that the demand exceeds a limit state in safe rocking (Eq. 14), with limits
-    /// by the delta method on the scale of ln Dm, into which the error of beta is turned. None without a fit, or where a measure is missing.
+    /// by the delta method on the scale of ln Dm, into which the error of beta is turned. None without a fit,
+    /// or where a measure is missing.
     pub fn p_exceeding(
         &self,
         measures: &IntensityMeasures,

@@ -102,9 +102,9 @@ impl Model {
     }
 }
 
-/// Computes the probabilities of the tree (Eq. 12) by the paper: P_ex of the demand fit that holds at the IM4,
-/// P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere. P_ex is NaN where no
-/// fit holds.
+/// Computes the probabilities of the tree (Eq. 12) by the paper: P_ex of the demand fit that holds at the
+/// IM4, P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere. P_ex is NaN
+/// where no fit holds.
 pub fn paper_probabilities(
     demand: &[DemandFit],
     overturning: &CurveFit,

@@ -95,7 +95,7 @@ impl JointPeaks {
         Some(JointPeaks { given_pga: given(&ln_pga)?, given_pgv: given(&ln_pgv)? })
     }
 
-    /// PGV / PGA (s) of motions with this intensity (m/s2 or m/s of the given peak), so many standard
+    /// PGV / PGA (s) of motions with this intensity (m/s2 or m/s of the given peak), this many standard
     /// deviations above its median.
     pub fn pgv_over_pga(&self, given: Peak, intensity: f64, deviations: f64) -> f64 {
         match given {

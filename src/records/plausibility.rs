@@ -51,7 +51,7 @@ pub enum Implausibility {
     Drift { velocity_m_s: f64 },
     #[error("PGV {} m/s; records reach 3 m/s: another unit or time step?", rounded(*.pgv_m_s))]
     Pgv { pgv_m_s: f64 },
-    #[error("PGV/PGA {} s; those of FEMA P695 reach 0.5 s: velocity, or another time step?", rounded(*.ratio_s))]
+    #[error("PGV/PGA {} s; FEMA P695 has up to 0.5 s: velocity, or another time step?", rounded(*.ratio_s))]
     Slow { ratio_s: f64 },
     #[error("mean frequency {} Hz; records reach 20 Hz: another time step?", rounded(*.frequency_hz))]
     Fast { frequency_hz: f64 },
