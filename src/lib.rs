@@ -97,8 +97,6 @@
 //!
 //! `docs/review/architecture.md` has the picture of the code.
 
-#![warn(missing_docs)]
-
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]

@@ -95,7 +95,7 @@ impl Unit {
             let known =
                 UNITS.iter().filter(|(_, quantity, ..)| *quantity == Acceleration).map(|(name, ..)| *name);
             let known = known.collect::<Vec<_>>().join(", ");
-            format!("'{text}' is not a unit of acceleration; expected {known}")
+            format!("expected a unit of acceleration: {known}")
         })
     }
 }

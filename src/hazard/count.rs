@@ -49,8 +49,8 @@ struct Bin {
 
 /// Counts the annual rate of an event among motions that are weighted so that their intensities have the
 /// rates of the hazard: in bins of equal numbers of motions, the rate of a bin times the share in which the
-/// event happened. Motions weaker than `least` cause none; those stronger than the strongest bin count as this.
-/// None without motions.
+/// event happened. Motions weaker than `least` cause none; those stronger than the strongest bin count as
+/// in it. None without motions.
 ///
 /// The limits are the wider ones of two: percentiles of resamples of clusters, and those of a weighted sum of
 /// Poisson counts, which also hold where no resample has an event more (Fay & Feuer 1997, Confidence

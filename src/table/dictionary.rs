@@ -57,6 +57,8 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     ("pulse_amplitude_m_s", "m/s", "A of the fitted pulse (Eq. 1)"),
     ("t0_s", "s", "middle of the fitted pulse, from the first sample"),
     ("pulse_r2", "1", "share of the squared velocity that the fitted pulse explains"),
+    ("floor_period_s", "s", "first period of the building that the motion is filtered through"),
+    ("floor_level", "1", "height of the floor over that of the roof"),
     // Responses of structures, and their traces.
     ("structure", "1", "name of the structure"),
     ("p_rad_s", "rad/s", "frequency parameter p of the structure"),
@@ -278,7 +280,7 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     (
         "z",
         "1",
-        "(published - mean) / standard deviation; null where the mean lies within the rounding of the print, and that is more than two of these",
+        "(published - ours) / standard deviation over seeds; null where ours lies within the rounding of the print, and that is more than two of these",
     ),
     (
         "t2",
