@@ -13,8 +13,11 @@ use crate::statistics::numerics::{first, quadrature};
 /// The motions of one peak, as they meet a structure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenPeak<'a> {
+    /// What gives the probabilities.
     pub model: &'a Model,
+    /// The structure that moves.
     pub structure: &'a Structure,
+    /// The peak that is given.
     pub peak: Peak,
     /// PGV / PGA of the motions, given the peak.
     pub ratio: RatioGiven,

@@ -57,6 +57,8 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     ("pulse_amplitude_m_s", "m/s", "A of the fitted pulse (Eq. 1)"),
     ("t0_s", "s", "middle of the fitted pulse, from the first sample"),
     ("pulse_r2", "1", "share of the squared velocity that the fitted pulse explains"),
+    ("floor_period_s", "s", "first period of the building that the motion is filtered through"),
+    ("floor_level", "1", "height of the floor over that of the roof"),
     // Responses of structures, and their traces.
     ("structure", "1", "name of the structure"),
     ("p_rad_s", "rad/s", "frequency parameter p of the structure"),
@@ -170,7 +172,6 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     ("overturning_per_year", "1/a", "mean annual rate of overturning; null where the hazard ends too early"),
     ("overturning_per_year_low", "1/a", "lower 95 % limit of overturning_per_year, or lower bound"),
     ("overturning_per_year_high", "1/a", "upper 95 % limit of overturning_per_year, or upper bound"),
-    ("hazard", "1", "files of the hazard"),
     ("velocity_by", "1", "from what PGV/PGA is known: pgv, sa, ratio, motions or sites"),
     ("share_extrapolated", "1", "share of overturning_per_year beyond the last point of the hazard curve"),
     ("error_fit", "1", "sd of ln rate, or of the logit of P_ro, by the error of the calibration"),
@@ -287,7 +288,7 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     (
         "z",
         "1",
-        "(published - mean) / standard deviation; null where the mean lies within the rounding of the print, and that is more than two of these",
+        "(published - ours) / standard deviation over seeds; null where ours lies within the rounding of the print, and that is more than two of these",
     ),
     (
         "t2",

@@ -67,17 +67,7 @@ pub enum Part {
 impl Motions {
     /// Opens a motions table, or a partition of it.
     pub fn open(path: &Path, partition: Option<Partition>) -> Result<Motions, TableError> {
-        let table = Table::open_partition(path, partition)?;
-        for column in ["motion_id", "dt_s", ACCELERATION] {
-            if table.schema().index_of(column).is_err() {
-                let (path, expected) = (path.to_path_buf(), dictionary::meaning(column));
-                return Err(TableError::MissingColumn { path, column: column.to_string(), expected });
-            }
-        }
-        match table.rows() {
-            0 if partition.is_none() => Err(TableError::table(path, "no motions; expected at least one")),
-            _ => Ok(Motions(table)),
-        }
+        open(path, partition).map(Motions)
     }
 
     /// Returns the number of motions.
@@ -115,6 +105,21 @@ impl Motions {
             }
         };
         Ok(batches.map(|batch| batch.and_then(|batch| Ok((batch.path.clone(), motions(&batch)?)))))
+    }
+}
+
+/// Opens a table that has the columns of motions.
+pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
+    let table = Table::open_partition(path, partition)?;
+    for column in ["motion_id", "dt_s", ACCELERATION] {
+        if table.schema().index_of(column).is_err() {
+            let (path, expected) = (path.to_path_buf(), dictionary::meaning(column));
+            return Err(TableError::MissingColumn { path, column: column.to_string(), expected });
+        }
+    }
+    match table.rows() {
+        0 if partition.is_none() => Err(TableError::table(path, "no motions; expected at least one")),
+        _ => Ok(table),
     }
 }
 
@@ -178,4 +183,9 @@ pub fn batch<'a>(
 /// Returns the column name of the spectral acceleration at a period (s): `sa_0p50_m_s2`.
 pub fn spectral_column(period_s: f64) -> String {
     format!("sa_{}_m_s2", format!("{period_s:.2}").replace('.', "p"))
+}
+
+/// Returns the period (s) of a column of spectral accelerations; none of other columns.
+pub fn spectral_period_s(column: &str) -> Option<f64> {
+    column.strip_prefix("sa_")?.strip_suffix("_m_s2")?.replace('p', ".").parse().ok()
 }

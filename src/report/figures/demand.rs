@@ -1,8 +1,8 @@
 //! Figures 3, 4, 7 and 8: the demand over peak velocity, period and the measures of Eq. 13.
 
 use super::{Group, MEASURES, RockingCase, compare, demand_axis, file_words};
+use crate::number;
 use crate::report::figure::{Axis, Estimate, Figure, Ink, Layer, Panel};
-use crate::report::text::number;
 
 type CaseValue = fn(&RockingCase) -> Option<f64>;
 type FitValue = fn(&MeasureFit) -> Option<f64>;

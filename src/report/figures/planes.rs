@@ -1,8 +1,8 @@
 //! Figure 9: the two planes of the demand (Eqs. 17 and 18, Table II), seen along the line in which they meet.
 
 use super::{Group, RockingCase, compare};
+use crate::number;
 use crate::report::figure::{Axis, Figure, Ink, Layer, Panel};
-use crate::report::text::number;
 
 type Vector = [f64; 3];
 

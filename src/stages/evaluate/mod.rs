@@ -42,6 +42,7 @@ pub use self::object::{ErrorsRow, ObjectRow, Predicted};
 use self::output::Output;
 pub use self::point::TreeRow;
 pub use self::rates::RatesRow;
+pub use self::words::size;
 
 /// Predict how probable rocking and overturning are: under a motion, under each of a table, or a year at
 /// a site
@@ -159,7 +160,7 @@ impl Evaluate {
         let site = self.site()?;
         let predict = |structure: &Structure, unknowns: &[Unknown<Structure>], model: &Model| {
             let rates = site.rates(structure, unknowns, model);
-            let (row, budget) = (RatesRow::new(&rates, &self.hazard, self.years), rates.budgets.overturning);
+            let (row, budget) = (RatesRow::new(&rates, self.years), rates.budgets.overturning);
             Prediction { row, budget, motion: rates.motion, warnings: rates.warnings }
         };
         let all = object::answers(self.objects(models)?, models, self.explain, predict)?;
@@ -200,7 +201,7 @@ impl Evaluate {
                     None => Err(UsageError::because(reason)),
                 }
             }
-            _ => Ok(objects),
+            _ => Ok(objects.to_vec()),
         }
     }
 

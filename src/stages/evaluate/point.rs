@@ -133,7 +133,7 @@ fn of_one(answer: &Answer<TreeRow>) -> String {
     };
     let unknown = mostly_unknown(budget, add).map_or(String::new(), |text| text + "\n");
     let peaks = words_of_peaks(tree);
-    let by = format!("{} {peaks}, by {}. {}\n", title(object), model(object), validity(object));
+    let by = format!("{} {peaks}, by {}.\n{}\n", title(object), model(object), validity(object));
     if !tree.rocks() {
         return uplift + &by;
     }

@@ -1,7 +1,5 @@
 //! Annual rates at a site, and in words.
 
-use std::path::PathBuf;
-
 use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, Predicted};
@@ -33,8 +31,6 @@ pub struct RatesRow {
     pub p_overturning: Option<f64>,
     pub p_overturning_low: Option<f64>,
     pub p_overturning_high: Option<f64>,
-    /// Files of the hazard.
-    pub hazard: Option<String>,
     /// From what PGV / PGA is known.
     pub velocity_by: Option<String>,
     /// Share of the rate of overturning beyond the last point of a curve that is extrapolated.
@@ -47,8 +43,7 @@ pub struct RatesRow {
 }
 
 impl RatesRow {
-    pub fn new(rates: &SiteRates, hazard: &[PathBuf], years: f64) -> RatesRow {
-        let files = hazard.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy());
+    pub fn new(rates: &SiteRates, years: f64) -> RatesRow {
         let in_years = |rates: Limited| rates.map(|rate| Some(probability_in_years(rate?, years)));
         let ([failure, failure_low, failure_high], [value, low, high]) = (rates.failure, rates.overturning);
         let [p_failure, p_failure_low, p_failure_high] = in_years(rates.failure);
@@ -71,7 +66,6 @@ impl RatesRow {
             p_overturning,
             p_overturning_low,
             p_overturning_high,
-            hazard: Some(files.collect::<Vec<_>>().join(", ")),
             velocity_by: rates.velocity.map(|source| source.to_string()),
             share_extrapolated: rates.beyond,
             counted_motions: counted.map(|rate| rate.motions as i64),
@@ -141,7 +135,7 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site) -> String {
         lines.push(line(format!("overturns, counted among {motions}"), rate));
     }
     format!(
-        "{}: {}\n{}{}By {}. {}\n",
+        "{}: {}\n{}{}By {}.\n{}\n",
         title(object),
         how_often(rates, site, "95 % limits "),
         aligned(&lines, |_| false),

@@ -38,7 +38,7 @@ pub fn evaluate(
     context: &Context,
 ) -> anyhow::Result<(Vec<RecordBatch>, String)> {
     let batches = intensities::read(path, renamed)?;
-    let given = if structures.is_given() { structures.objects()? } else { Vec::new() };
+    let given = if structures.is_given() { structures.objects()? } else { &[] };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::figures::title;
-use super::tables::Tables;
+use super::tables::{Tables, title};
 use crate::fragility::{Z_95, p_overturning};
 use crate::report::Estimate;
 use crate::report::figures::{AnnualRate, Curve, Ida, MEASURES, NamedEstimates, observed_shares};
