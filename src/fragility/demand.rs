@@ -8,7 +8,7 @@ use nalgebra::{Matrix4, Vector4};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Sample};
+use super::cases::{Cases, Sample, grouped};
 use super::measure::{Measure, design_row};
 use super::parameter::{Parameter, ParameterRow};
 use super::tree::Probability;
@@ -70,7 +70,7 @@ pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
 
 /// ln EDP, ln IM4 and ln IM3 of the cases that rocked safely and whose IM4 lies in `range`.
 fn plane_sample(cases: &Cases, range: Range<f64>) -> Sample<f64> {
-    let [.., im4, _, _] = &cases.im;
+    let im4 = cases.column(Measure::Im4);
     cases.sample(&PLANE, |case| cases.ln_demand(case).filter(|_| range.contains(&im4[case])))
 }
 
@@ -79,16 +79,14 @@ const PLACES: (f64, f64, usize) = (1.05, 0.01, 96);
 /// A plane needs this many cases on its side.
 const LEAST_CASES: usize = 20;
 
-/// The pooled residual of two planes that meet at an IM4: a row of pex.scan.parquet.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// The pooled residual of two planes that meet at an IM4.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScanPoint {
-    pub suite: Option<String>,
-    pub structure: String,
     pub im4: f64,
     /// Residual sum of squares of both planes.
     pub pooled_rss: f64,
-    pub n_low: i64,
-    pub n_high: i64,
+    /// Cases below this IM4, and from it on.
+    pub n: [i64; 2],
 }
 
 /// Tries all places where two planes may meet; none of them has too few cases on a side.
@@ -111,8 +109,7 @@ pub fn scan_transition(cases: &Cases) -> Vec<ScanPoint> {
         n_low = below;
         let n_high = order.len() - below;
         let pooled_rss = (n_low.min(n_high) >= LEAST_CASES).then(|| Some(rss(low)? + rss(all - low)?))??;
-        let (suite, structure) = (cases.suite.clone(), cases.structure.name.clone());
-        Some(ScanPoint { suite, structure, im4, pooled_rss, n_low: n_low as i64, n_high: n_high as i64 })
+        Some(ScanPoint { im4, pooled_rss, n: [n_low as i64, n_high as i64] })
     };
     (0..places).filter_map(point).collect()
 }
@@ -125,7 +122,7 @@ pub fn transition(scan: &[ScanPoint], confidence: f64) -> Option<(f64, Limits)> 
     let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
     let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
     let is_likely = |point: &&ScanPoint| {
-        let cases = (point.n_low + point.n_high) as f64;
+        let cases = point.n.iter().sum::<i64>() as f64;
         cases * (point.pooled_rss - best.pooled_rss) / best.pooled_rss <= critical
     };
     let mut likely = scan.iter().filter(is_likely).map(|point| point.im4);
@@ -147,9 +144,8 @@ pub struct DemandOptions {
 
 /// Fits the demand of a structure under a suite: the two planes, then all other regressions if they are
 /// requested.
-pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> (Vec<DemandFit>, Vec<ScanPoint>) {
-    let scan = scan_transition(cases);
-    let found = transition(&scan, options.confidence);
+pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> Vec<DemandFit> {
+    let found = transition(&scan_transition(cases), options.confidence);
     let im4 = options.transition.or(found.map(|(im4, _)| im4)).unwrap_or(TRANSITION);
     let mut fits = fit_planes(cases, im4).to_vec();
     for fit in &mut fits {
@@ -161,7 +157,7 @@ pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> (Vec<DemandFit>, Ve
         fits.par_extend(Measure::SCALAR.par_iter().map(|&measure| fit_power_law(cases, measure)));
         fits.push(fit_plane(cases));
     }
-    (fits, scan)
+    fits
 }
 
 /// The form of a regression of demand.
@@ -222,6 +218,8 @@ pub struct DemandFit {
     pub misfit_p: Option<f64>,
     pub status: FitStatus,
 }
+
+grouped!(DemandFit);
 
 impl DemandFit {
     /// Fits the sample of these measures.

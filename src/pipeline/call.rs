@@ -8,7 +8,8 @@ use clap::{Arg, ArgMatches, Command, ValueHint};
 use super::stage::Stage;
 use crate::table::TableError;
 use crate::table::file::Partition;
-use crate::table::provenance::{Provenance, key_with};
+use crate::table::keys::key_with;
+use crate::table::provenance::Provenance;
 
 /// The files that are read from a folder of fits.
 pub const FITS: [&str; 4] =

@@ -25,7 +25,7 @@ use crate::records::rotation::{Direction, RotD};
 use crate::records::signal::{Baseline, HighPass, Scaling};
 use crate::records::{Format, ReadOptions, RecordedMotion, read_records};
 use crate::rocking::Record;
-use crate::table::{motions, provenance, rows};
+use crate::table::{keys, motions, rows};
 use crate::units::{G_M_S2, Quantity, Unit};
 use crate::warning::Warning;
 
@@ -222,7 +222,7 @@ enum Work {
 
 impl Importer {
     fn new(options: &ImportMotions) -> anyhow::Result<Importer> {
-        let mut files = provenance::files_below(&options.files)?;
+        let mut files = keys::files_below(&options.files)?;
         // What an earlier run wrote into a folder of records is no record.
         let out = std::path::absolute(&options.out)?;
         files.retain(|file| std::path::absolute(file).is_ok_and(|file| file != out));

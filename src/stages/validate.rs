@@ -11,7 +11,8 @@ use crate::pipeline::context::Context;
 use crate::pipeline::stage::{Stage, part};
 use crate::studies::{Forecasts, ReliabilityBin, Validation};
 use crate::table::frame;
-use crate::table::provenance::{Provenance, key_of};
+use crate::table::keys::key_of;
+use crate::table::provenance::Provenance;
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 

@@ -1,4 +1,4 @@
-//! Columns of a batch by name, as numbers, texts or lists, from any program.
+//! Columns of a batch by name, as numbers, texts or words, from any program.
 
 use std::path::Path;
 
@@ -11,7 +11,8 @@ use arrow_array::{Array, ArrayRef, RecordBatch};
 use arrow_schema::DataType;
 
 use super::TableError;
-use super::dictionary;
+use crate::keyword::{self, Keyword};
+use crate::rocking::Structure;
 
 /// A batch of the table at `path`, whose first row is row `first_row` of the file.
 #[derive(Debug, Clone)]
@@ -65,22 +66,25 @@ impl<'a> Columns<'a> {
         self.texts(name)?.into_iter().enumerate().map(text).collect()
     }
 
-    /// Returns the lists of numbers of a column without nulls.
-    pub fn lists(&self, name: &'static str) -> Result<Vec<Vec<f64>>, TableError> {
-        let column = self.expect(name)?;
-        let list = |row: usize| {
-            let items = match column.data_type() {
-                _ if column.is_null(row) => None,
-                DataType::List(_) => Some(column.as_list::<i32>().value(row)),
-                DataType::LargeList(_) => Some(column.as_list::<i64>().value(row)),
-                DataType::FixedSizeList(..) => Some(column.as_fixed_size_list().value(row)),
-                _ => return Err(self.other_type(name, column, "a list of numbers")),
-            };
-            let items =
-                items.ok_or_else(|| self.value_error(row, name, "null; expected a list of numbers"))?;
-            numbers(&items).ok_or_else(|| self.other_type(name, column, "a list of numbers"))
+    /// Returns the words of a column without nulls.
+    pub fn required_words<T: Keyword>(&self, name: &'static str) -> Result<Vec<T>, TableError> {
+        let word = |(row, text): (usize, String)| {
+            keyword::parse(&text).map_err(|unknown| self.value_error(row, name, unknown.to_string()))
         };
-        (0..self.rows()).map(list).collect()
+        self.required_texts(name)?.into_iter().enumerate().map(word).collect()
+    }
+
+    /// Makes the structure of a row from its p (rad/s), alpha (rad) and eta.
+    pub fn structure(&self, row: usize, name: &str, of: [f64; 3]) -> Result<Structure, TableError> {
+        let [p_rad_s, alpha_rad, eta] = of;
+        Structure::new(name, p_rad_s, alpha_rad, eta).map_err(|error| {
+            let column = match error.parameter {
+                "alpha" => "alpha_rad",
+                "eta" => "eta",
+                _ => "p_rad_s",
+            };
+            self.value_error(row, column, error.to_string())
+        })
     }
 
     /// Makes the error of a value in a row of this batch.
@@ -90,16 +94,11 @@ impl<'a> Columns<'a> {
     }
 
     fn expect(&self, name: &str) -> Result<&'a ArrayRef, TableError> {
-        self.batch.column_by_name(name).ok_or_else(|| {
-            let (path, column) = (self.path.to_path_buf(), name.to_string());
-            TableError::MissingColumn { path, column, expected: dictionary::meaning(name) }
-        })
+        self.batch.column_by_name(name).ok_or_else(|| TableError::missing_column(self.path, name))
     }
 
     fn other_type(&self, name: &str, column: &ArrayRef, expected: &'static str) -> TableError {
-        let (path, column, found) =
-            (self.path.to_path_buf(), name.to_string(), column.data_type().to_string());
-        TableError::ColumnType { path, column, found, expected }
+        TableError::other_type(self.path, name, column.data_type(), expected)
     }
 }
 

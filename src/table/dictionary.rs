@@ -4,6 +4,8 @@ use std::collections::HashMap;
 
 use arrow_schema::Field;
 
+use crate::fragility::Measure;
+
 /// Name, unit and meaning of each column.
 const COLUMNS: &[(&str, &str, &str)] = &[
     // Earthquake scenarios.
@@ -65,12 +67,6 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     ("outcome", "1", "no_rocking, safe_rocking or overturning"),
     ("edp", "1", "largest rotation over slenderness, |theta|max / alpha (Eq. 7); null where it overturns"),
     ("impacts", "1", "impacts within the duration of the record"),
-    ("im1", "1", "wp / p (Eq. 13)"),
-    ("im2", "1", "wm / p (Eq. 13)"),
-    ("im3", "1", "PGA / (p PGV) (Eq. 13)"),
-    ("im4", "1", "PGA / (g tan alpha) (Eq. 13)"),
-    ("im5", "1", "p PGV / (g tan alpha) (Eq. 13)"),
-    ("im6", "1", "wm PGV / (g tan alpha) (Eq. 13)"),
     ("time_s", "s", "time from the first sample"),
     ("theta_over_alpha", "1", "rotation over slenderness"),
     ("theta_rad", "rad", "rotation"),
@@ -120,7 +116,7 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     ("confidence", "1", "probability with which the limits hold the truth"),
     ("transition_low", "1", "lower limit of transition_found (Hansen's of a break)"),
     ("transition_high", "1", "upper limit of transition_found"),
-    ("status", "1", "ok, falling (with the measure), or why there is no fit"),
+    ("status", "1", "ok, poor_fit, wrong_sign (it falls with the measure), or why there is no fit"),
     // Curves of overturning and rocking.
     ("event", "1", "overturning, or rocking"),
     ("theta", "1", "median exp(mu)"),
@@ -145,20 +141,13 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     ("p_f_r_low", "1", "lower 95 % limit of p_f_r"),
     ("p_f_r_high", "1", "upper 95 % limit of p_f_r"),
     ("p_f", "1", "probability of failure over the whole tree; exactly 0 without rocking"),
-    ("out_of_range", "1", "a measure outside of the range of the data of the fits"),
     ("quantity", "1", "a probability, or a measure of the intensity"),
     ("value", "1", "best estimate"),
     ("low", "1", "lower 95 % limit"),
     ("high", "1", "upper 95 % limit"),
     ("meaning", "1", "in words"),
-    ("state", "1", "limit state"),
-    ("annual_rate", "1/a", "mean annual rate of reaching the limit state"),
-    ("annual_rate_low", "1/a", "that of the lower 95 % limits of the probabilities"),
-    ("annual_rate_high", "1/a", "that of the upper 95 % limits of the probabilities"),
     ("years", "a", "time of exposure"),
     ("p", "1", "probability of reaching the limit state in this time"),
-    ("p_low", "1", "that of annual_rate_low"),
-    ("p_high", "1", "that of annual_rate_high"),
     ("width_m", "m", "width of the base"),
     ("height_m", "m", "height"),
     ("friction", "1", "tan(alpha): with less friction it slides in place of rocking"),
@@ -206,18 +195,6 @@ const COLUMNS: &[(&str, &str, &str)] = &[
         "log_score",
         "1",
         "mean logarithm of the probability of what happened; null where a probability of 0 happened",
-    ),
-    (
-        "counted_rate",
-        "1/a",
-        "annual rate of the event, counted in the motions that are weighted to have the rates of the hazard; null without a hazard",
-    ),
-    ("counted_rate_low", "1/a", "lower 95 % limit of counted_rate"),
-    ("counted_rate_high", "1/a", "upper 95 % limit of counted_rate"),
-    (
-        "expected_rate",
-        "1/a",
-        "the same rate by the probabilities of the curves at the same motions; null without a hazard",
     ),
     ("terms", "1", "measures in the set"),
     ("standard_error", "1", "standard error of value; cases of a cluster may depend on each other"),
@@ -288,8 +265,16 @@ const COLUMNS: &[(&str, &str, &str)] = &[
     ("t2_p", "1", "probability of a t2 as large, if the published plane is one more of ours"),
 ];
 
+/// Returns the names of all columns.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    COLUMNS.iter().map(|(name, ..)| *name)
+}
+
 /// Unit and meaning of a column; none where the dictionary lacks it.
 pub fn entry(column: &str) -> Option<(&'static str, &'static str)> {
+    if let Ok(measure) = column.parse::<Measure>() {
+        return Some(("1", measure.formula()));
+    }
     let is_spectral = column.starts_with("sa_") && column.ends_with("_m_s2");
     let name = if is_spectral { "sa_*_m_s2" } else { column };
     COLUMNS.iter().find(|(other, ..)| *other == name).map(|&(_, unit, meaning)| (unit, meaning))

@@ -2,7 +2,8 @@
 
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
-use polars::prelude::{AnyValue, Column, DataFrame, DataType, IntoColumn, NamedFrom, PolarsError, Series};
+use polars::prelude::{AnyValue, Column, DataFrame, DataType, GroupsIndicator, IntoColumn, NamedFrom};
+use polars::prelude::{PolarsError, Series};
 use serde_json::{Map, Value};
 
 use super::TableError;
@@ -63,6 +64,22 @@ pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
     let columns =
         schema.fields().iter().zip(rows.columns()).map(|(field, array)| column(field.name(), array));
     DataFrame::new(rows.num_rows(), columns.collect())
+}
+
+/// The rows of each suite and structure, in the order in which these first come.
+pub fn groups(suites: &[Option<String>], structures: &[String]) -> Result<Vec<Vec<usize>>, PolarsError> {
+    let keys = vec![
+        Series::new("suite".into(), suites).into_column(),
+        Series::new("structure".into(), structures).into_column(),
+    ];
+    // On this thread: the pool of polars does not know --threads.
+    let frame = DataFrame::new(structures.len(), keys)?;
+    let groups = frame.group_by_with_series(frame.columns().to_vec(), false, true)?;
+    let rows = |group: GroupsIndicator| match group {
+        GroupsIndicator::Idx((_, rows)) => rows.iter().map(|&row| row as usize).collect(),
+        GroupsIndicator::Slice([first, count]) => (first as usize..(first + count) as usize).collect(),
+    };
+    Ok(groups.get_groups().iter().map(rows).collect())
 }
 
 fn column(name: &str, array: &ArrayRef) -> Column {

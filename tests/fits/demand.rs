@@ -109,14 +109,14 @@ fn the_scan_by_sums_equals_fitting_anew_at_each_place() {
         let fits = fit_planes(&cases, point.im4);
         let rss: f64 = fits.iter().map(|fit| fit.beta.unwrap().powi(2) * (fit.n - 3) as f64).sum();
         close(point.pooled_rss, rss, 1e-8);
-        assert_eq!(fits.each_ref().map(|fit| fit.n), [point.n_low, point.n_high]);
+        assert_eq!(fits.each_ref().map(|fit| fit.n), point.n);
     }
 }
 
 #[test]
 fn the_transition_is_the_papers_unless_it_is_to_be_found() {
     let cases = on_planes(1.5, 1500);
-    let fit = |transition, all| fit_demand(&cases, &DemandOptions { transition, confidence: 0.95, all }).0;
+    let fit = |transition, all| fit_demand(&cases, &DemandOptions { transition, confidence: 0.95, all });
     let [low, _] = &fit(Some(rockfrag::paper::TRANSITION), false)[..] else { panic!() };
     assert!(low.range_high == Some(1.3) && (low.transition_found.unwrap() - 1.5).abs() < 0.011, "{low:?}");
     assert_eq!(fit(None, false)[0].range_high, low.transition_found);
@@ -152,10 +152,10 @@ fn fits_that_cannot_be_made_have_a_status_and_no_numbers() {
     }));
     assert_eq!(fit_power_law(&falling, Measure::Im4).status, FitStatus::WrongSign);
     assert_eq!(fit_power_law(&falling, Measure::Im1).status, FitStatus::Degenerate, "no case has it");
-    let (fits, scan) =
-        fit_demand(&line(30, |im4| im4), &DemandOptions { transition: None, confidence: 0.95, all: false });
+    let few = line(30, |im4| im4);
+    let fits = fit_demand(&few, &DemandOptions { transition: None, confidence: 0.95, all: false });
     assert!(
-        scan.is_empty()
+        scan_transition(&few).is_empty()
             && fits.iter().all(|fit| !fit.status.is_usable() || fit.model == DemandModel::Univariate)
     );
 }
@@ -185,7 +185,7 @@ fn the_variance_of_p_ex_is_that_of_the_textbook() {
     let variance = 1.0 / 12.0 + (at.ln() - mean).powi(2) / squares;
     let z = (ln_median_demand(&fit.coefficients, &[at]) - limit.ln()) / beta;
     let half_width = t_quantile(0.975, 10.0) * (variance + z * z / 20.0).sqrt();
-    let measures = IntensityMeasures { im1: None, im2: None, im3: None, im4: at, im5: 1.0, im6: None };
+    let measures = IntensityMeasures { im3: None, ..IntensityMeasures::of_peaks(at, 1.0) };
     let p = fit.p_exceeding(&measures, limit, 0.95).unwrap();
     close(p.value, p_exceeding(ln_median_demand(&fit.coefficients, &[at]), limit, beta), 1e-13);
     close(p.low, normal::cdf(z - half_width), 1e-9);

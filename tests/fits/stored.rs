@@ -17,7 +17,11 @@ use crate::common::{equipment, rocking};
 /// Writes the fits of the equipment under these suites.
 fn folder(suites: &[&str]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let of_suite = |suite: &&str| Cases { suite: Some(suite.to_string()), ..rocking(600) };
+    let of_suite = |suite: &&str| {
+        let mut cases = rocking(600);
+        cases.suite = Some(suite.to_string());
+        cases
+    };
     let all: Vec<Cases> = suites.iter().map(of_suite).collect();
     let curves = CurveOptions {
         event: Event::Overturning,
@@ -36,7 +40,7 @@ fn folder(suites: &[&str]) -> tempfile::TempDir {
         put(path, all.iter().map(|of| Calibration::fit(of, Some(0.1))).collect());
     });
     write("pro.parquet", &|path| put(path, all.iter().flat_map(|of| fit_curves(of, &curves)).collect()));
-    write("pex.parquet", &|path| put(path, all.iter().flat_map(|of| fit_demand(of, &planes).0).collect()));
+    write("pex.parquet", &|path| put(path, all.iter().flat_map(|of| fit_demand(of, &planes)).collect()));
     folder
 }
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::object::{Answer, ObjectRow, TreeRow, words_of_kind};
 use super::site::{RatesRow, Site};
 use super::unit;
-use crate::fragility::{Calibration, Kind, Model, Ratio, Scenarios};
+use crate::fragility::{Calibration, Kind, Measure, Model, Ratio, Scenarios};
 use crate::hazard::probability_in_years;
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -255,11 +255,10 @@ pub fn explained(model: &Model, structure: &Structure, measures: &IntensityMeasu
             );
         }
     }
-    let IntensityMeasures { im1, im2, im3, im4, im5, im6 } = *measures;
-    let known =
-        [("IM1", im1), ("IM2", im2), ("IM3", im3), ("IM4", Some(im4)), ("IM5", Some(im5)), ("IM6", im6)];
-    let known =
-        known.iter().filter_map(|(name, value)| Some(format!("{name} {}", significant((*value)?, 3))));
+    let known = |measure: &Measure| {
+        Some(format!("{} {}", measure.as_str().to_uppercase(), significant(measure.value(measures)?, 3)))
+    };
+    let known = Measure::SCALAR.iter().filter_map(known);
     let _ = writeln!(text, "measures:    {}", known.collect::<Vec<_>>().join(", "));
     let other = |&kind: &Kind| {
         let limit_state = match model {

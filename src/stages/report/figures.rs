@@ -8,7 +8,7 @@ use crate::fragility::{Calibration, Cases, DemandFit, DemandModel, Event, Measur
 use crate::fragility::{Probability, Scenarios, hybrid_measure, lambda};
 use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Suite, intensity};
-use crate::report::figures::{self as draw, MEASURES, MeasureFit, ProbabilityPanel, StructureCurves};
+use crate::report::figures::{self as draw, MeasureFit, ProbabilityPanel, StructureCurves};
 use crate::report::text::number;
 use crate::report::{Estimate, Figure};
 use crate::rocking::{Outcome, Record, Structure, simulate, trace, with_tail};
@@ -55,7 +55,7 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
         drawn(draw::exceedance, panels(&|groups| exceeding(tables, groups))),
         drawn(draw::overturning, single),
         drawn(draw::demand, groups.iter().map(|cases| group(cases)).collect()),
-        drawn(draw::quality, fits.iter().map(|(cases, fits)| (name(cases), *fits)).collect()),
+        drawn(draw::quality, fits.iter().map(|(cases, fits)| (name(cases), fits.clone())).collect()),
     ];
     Ok(figures.into_iter().flatten().chain(regressions).collect())
 }
@@ -98,7 +98,7 @@ fn group(cases: &Cases) -> draw::Group {
         draw::RockingCase {
             pgv_m_s: cases.pgv_m_s[k],
             tp_s: measures.im1.map(|im1| TAU / (im1 * cases.structure.p_rad_s)),
-            im: Measure::SCALAR.map(|measure| measure.among(&measures)),
+            measures,
             edp: Some(cases.edp[k]).filter(|_| !overturned),
         }
     };
@@ -172,11 +172,12 @@ fn regressions<'a>(
     its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
 }
 
-fn measure_fits(tables: &Tables, cases: &Cases) -> [Option<MeasureFit>; 6] {
-    Measure::SCALAR.map(|measure| {
+fn measure_fits(tables: &Tables, cases: &Cases) -> Vec<Option<MeasureFit>> {
+    let fit = |measure: Measure| {
         let fit = regressions(tables, cases, DemandModel::Univariate).find(|fit| fit.im_x == measure)?;
         Some(MeasureFit { ln_a: fit.coefficients[0], b: fit.coefficients[1], r2: fit.r2?, beta: fit.beta? })
-    })
+    };
+    Measure::SCALAR.into_iter().map(fit).collect()
 }
 
 fn planes(tables: &Tables, cases: &Cases) -> Option<draw::GroupPlanes> {
@@ -216,7 +217,7 @@ fn panel(groups: &[&Cases], measure: &str, structures: Vec<StructureCurves>) -> 
 
 /// The measures of a motion with these IM4 and IM3.
 fn measures(im4: f64, im3: f64) -> IntensityMeasures {
-    IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5: im4 / im3, im6: None }
+    IntensityMeasures::of_peaks(im4, im4 / im3)
 }
 
 fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
@@ -227,11 +228,12 @@ fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
 
 /// Figure 10: P_ex by the planes at quantiles of IM3, and by IM4 alone.
 fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
-    let safe = |cases: &&Cases, im: usize| -> Vec<f64> {
-        (0..cases.len()).filter(|&k| cases.ln_demand(k).is_some()).map(|k| cases.im[im][k]).collect()
+    let safe = |cases: &&Cases, measure: Measure| -> Vec<f64> {
+        let column = cases.column(measure);
+        (0..cases.len()).filter(|&k| cases.ln_demand(k).is_some()).map(|k| column[k]).collect()
     };
-    let all = |im: usize| groups.iter().flat_map(|cases| safe(cases, im)).collect::<Vec<f64>>();
-    let (im3, most) = (all(2), all(3).into_iter().fold(1.5, f64::max));
+    let all = |measure| groups.iter().flat_map(|cases| safe(cases, measure)).collect::<Vec<f64>>();
+    let (im3, most) = (all(Measure::Im3), all(Measure::Im4).into_iter().fold(1.5, f64::max));
     let limit_state = tables.limit_state;
     let structure = |cases: &&Cases| {
         let planes: Vec<&DemandFit> = regressions(tables, cases, DemandModel::Biplanar).collect();
@@ -251,7 +253,7 @@ fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
         let curves = SHARES.into_iter().filter_map(at_share).chain(alone).collect();
         StructureCurves { name: cases.structure.name.clone(), curves, shares: Vec::new() }
     };
-    panel(groups, MEASURES[3], groups.iter().map(structure).collect())
+    panel(groups, draw::label(Measure::Im4), groups.iter().map(structure).collect())
 }
 
 /// Figures 11 and 12: P_ro over a measure, or over a hybrid one at the median IM3, and how well the curves of
@@ -280,12 +282,11 @@ fn over(
         };
         let shares: Vec<(f64, bool)> =
             rocked(cases).filter_map(|(k, event)| Some((value(k)?, event))).collect();
-        let im3 = quantile(cases.im[2].clone(), 0.5).unwrap_or(1.0);
+        let im3 = quantile(cases.column(Measure::Im3).to_vec(), 0.5).unwrap_or(1.0);
         let p = |value: f64| fit.p_overturning(&measures(im4_at(fit, value, im3), im3), CONFIDENCE);
         StructureCurves { name, curves: vec![curve("", ratios(ends(&shares)), p)], shares: binned(&shares) }
     };
-    let place = Measure::SCALAR.iter().position(|measure| *measure == im_x)?;
-    let measure = if im_y.is_some() { "hybrid measure" } else { MEASURES[place] };
+    let measure = if im_y.is_some() { "hybrid measure" } else { draw::label(im_x) };
     let mut panel = panel(groups, measure, groups.iter().map(structure).collect())?;
     if let [a, b] = groups
         && let (Some(of_a), Some(of_b)) = (fit(a), fit(b))

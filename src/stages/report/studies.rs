@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::figures::title;
 use super::tables::Tables;
-use crate::fragility::{Z_95, p_overturning};
+use crate::fragility::{Measure, Z_95, p_overturning};
 use crate::report::Estimate;
-use crate::report::figures::{AnnualRate, Curve, Ida, MEASURES, NamedEstimates, observed_shares};
+use crate::report::figures::{AnnualRate, Curve, Ida, NamedEstimates, label, observed_shares};
 use crate::rocking::{CapacityStatus, Outcome};
 use crate::stages::evaluate::RatesRow;
 use crate::stages::ida::{CapacityFitRow, CapacityRow, ScaledMeasure};
@@ -54,9 +54,9 @@ pub fn words(measure: ScaledMeasure) -> &'static str {
         ScaledMeasure::Scale => "factor on the motion",
         ScaledMeasure::Pga => "PGA (g)",
         ScaledMeasure::Pgv => "PGV (m/s)",
-        ScaledMeasure::Im4 => MEASURES[3],
-        ScaledMeasure::Im5 => MEASURES[4],
-        ScaledMeasure::Im6 => MEASURES[5],
+        ScaledMeasure::Im4 => label(Measure::Im4),
+        ScaledMeasure::Im5 => label(Measure::Im5),
+        ScaledMeasure::Im6 => label(Measure::Im6),
     }
 }
 
