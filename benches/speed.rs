@@ -4,7 +4,9 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use rockfrag::motion::{Design, Grid, IntensityScratch, MotionModel, Scenario, Suite, Synthesizer, measures};
+use rockfrag::motion::{
+    Design, Grid, MeasureScratch, MotionMeasures, MotionModel, Scenario, Suite, Synthesizer,
+};
 use rockfrag::rocking::{Problem, Record, Structure, reference, simulate_all};
 
 /// Combined motions of some samples of each of the 35 cells.
@@ -35,11 +37,11 @@ fn main() {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the first pool");
     let scenarios = scenarios(20);
     let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
-    let mut scratch = IntensityScratch::default();
+    let mut scratch = MeasureScratch::default();
     let synthesis = median_us(scenarios.len(), || {
         for scenario in &scenarios {
             let motion = synthesizer.synthesize(scenario);
-            black_box(measures(&motion.combined, motion.dt_s, &mut scratch));
+            black_box(MotionMeasures::of(&motion.combined, motion.dt_s, &mut scratch));
         }
     });
     let structure = Structure::new("electrical-equipment", 2.5, 0.20, 0.92).expect("the paper's");

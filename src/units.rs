@@ -6,7 +6,7 @@ use std::fmt;
 pub const G_M_S2: f64 = 9.81;
 
 /// Inverse of [`G_M_S2`]: converts m/s2 to g.
-pub const PER_G: f64 = 1.0 / G_M_S2;
+pub const G_PER_M_S2: f64 = 1.0 / G_M_S2;
 
 /// Centimetres per metre: published ground-motion relations are in cm/s and cm/s2.
 pub const CM_PER_M: f64 = 100.0;

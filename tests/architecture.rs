@@ -12,7 +12,7 @@ const LAYERS: [&[&str]; 7] = [
     &["table", "export", "report"],
     &["studies", "records"],
     &["fragility", "hazard", "paper", "sheet"],
-    &["motion", "rocking", "random", "statistics", "keyword", "units", "warning"],
+    &["motion", "rocking", "random", "statistics", "keyword", "number", "plausibility", "units", "warning"],
 ];
 
 fn layer(room: &str) -> usize {

@@ -84,7 +84,7 @@ pub fn stage_commands() -> Vec<Command> {
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     quiet_damage();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let Err(error) = obey(&arguments) else { return 0 };
+    let Err(error) = run(&arguments) else { return 0 };
     if let Some(refused) = error.downcast_ref::<clap::Error>() {
         let _ = refused.print();
         return u8::from(refused.use_stderr()) * 2;
@@ -93,7 +93,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     if error.is::<UsageError>() { 2 } else { 1 }
 }
 
-fn obey(arguments: &[OsString]) -> anyhow::Result<()> {
+fn run(arguments: &[OsString]) -> anyhow::Result<()> {
     if let [_, name, user @ ..] = arguments
         && let Some(command) = stage_commands().into_iter().find(|command| command.get_name() == *name)
     {

@@ -25,7 +25,7 @@ pub const OWN_ID: &str = "rockfrag_";
 
 /// What the functions of a file have in common.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Model {
+pub struct FragilityModel {
     pub id: String,
     /// Where it comes from, for a reader.
     pub description: String,

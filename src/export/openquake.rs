@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Function, Model};
+use super::{FragilityModel, Function};
 use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
 use crate::units::{CM_PER_M, G_M_S2};
@@ -17,7 +17,7 @@ fn measure(peak: Peak) -> (&'static str, f64) {
 
 /// Writes all limit states as tables, between whose levels OpenQuake draws straight lines. Below the first
 /// level, uplift, the no-damage limit makes each probability 0; above the last OpenQuake keeps it.
-pub fn discrete(model: &Model, functions: &[Function]) -> String {
+pub fn discrete(model: &FragilityModel, functions: &[Function]) -> String {
     let states = LimitState::ALL;
     document(model, functions, |function| {
         let (imt, unit) = measure(function.peak);
@@ -38,7 +38,11 @@ pub fn discrete(model: &Model, functions: &[Function]) -> String {
     })
 }
 
-fn document(model: &Model, functions: &[Function], function: impl Fn(&Function) -> String) -> String {
+fn document(
+    model: &FragilityModel,
+    functions: &[Function],
+    function: impl Fn(&Function) -> String,
+) -> String {
     let states = LimitState::ALL;
     let ranges = functions.iter().map(|function| {
         let (imt, unit) = measure(function.peak);

@@ -4,7 +4,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Function, GAP, Model};
+use super::{FragilityModel, Function, GAP};
 use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
 use crate::units::G_M_S2;
@@ -85,7 +85,7 @@ fn cumulative_distribution(function: &Function, state: usize, unit: f64) -> Stri
 }
 
 /// Describes the rows, for the JSON file beside them.
-pub fn metadata(model: &Model, functions: &[Function]) -> Value {
+pub fn metadata(model: &FragilityModel, functions: &[Function]) -> Value {
     let mut all = Map::new();
     all.insert(
         "_GeneralInformation".to_string(),

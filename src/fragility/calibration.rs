@@ -178,7 +178,7 @@ impl Calibration {
 
     /// Returns whether some of the motions that it was fitted to had a like PGA and PGV; that of a kind of
     /// motion is fitted to all that the surface covers.
-    pub fn has_like(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
+    pub fn covers(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
         let unit = structure.uplift_acceleration_m_s2();
         let (pga, pgv) = (measures.im4 * unit, measures.im5 * unit / structure.p_rad_s);
         let ranges = [

@@ -137,7 +137,7 @@ impl Cases {
         self.pga_m_s2.push(pga_m_s2);
         self.pgv_m_s.push(pgv_m_s);
         for measure in Measure::SCALAR {
-            self.column_mut(measure).push(measure.value(measures).unwrap_or(f64::NAN));
+            self.column_mut(measure).push(measure.raw_value_of(measures).unwrap_or(f64::NAN));
         }
         self.push_cluster(cluster);
     }
@@ -248,7 +248,7 @@ impl Cases {
         for case in 0..self.len() {
             let Some(observed) = y(case) else { continue };
             let values = self.measures(case);
-            let values: Option<Vec<f64>> = measures.iter().map(|measure| measure.among(&values)).collect();
+            let values: Option<Vec<f64>> = measures.iter().map(|measure| measure.value_of(&values)).collect();
             let Some(values) = values else { continue };
             for (k, value) in values.into_iter().enumerate() {
                 sample.ln_im[k].push(value.ln());

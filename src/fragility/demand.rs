@@ -81,7 +81,7 @@ const LEAST_CASES: usize = 20;
 
 /// The pooled residual of two planes that meet at an IM4.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ScanPoint {
+pub struct TransitionPoint {
     pub im4: f64,
     /// Residual sum of squares of both planes.
     pub pooled_rss: f64,
@@ -90,7 +90,7 @@ pub struct ScanPoint {
 }
 
 /// Tries all places where two planes may meet; none of them has too few cases on a side.
-pub fn scan_transition(cases: &Cases) -> Vec<ScanPoint> {
+pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
     let Sample { ln_im, y, .. } = plane_sample(cases, EVERYWHERE);
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let [x_mean, y_mean, edp_mean] = [&ln_im[0], &ln_im[1], &y].map(|values| mean(values));
@@ -109,7 +109,7 @@ pub fn scan_transition(cases: &Cases) -> Vec<ScanPoint> {
         n_low = below;
         let n_high = order.len() - below;
         let pooled_rss = (n_low.min(n_high) >= LEAST_CASES).then(|| Some(rss(low)? + rss(all - low)?))??;
-        Some(ScanPoint { im4, pooled_rss, n: [n_low as i64, n_high as i64] })
+        Some(TransitionPoint { im4, pooled_rss, n: [n_low as i64, n_high as i64] })
     };
     (0..places).filter_map(point).collect()
 }
@@ -118,10 +118,10 @@ pub fn scan_transition(cases: &Cases) -> Vec<ScanPoint> {
 /// more than chance above it: limits that hold a break with this confidence, its jump being large against the
 /// scatter (Hansen 2000, Sample splitting and threshold estimation, Econometrica 68, 575-603; for the same
 /// scatter on both sides). None without a scan.
-pub fn transition(scan: &[ScanPoint], confidence: f64) -> Option<(f64, Limits)> {
+pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<(f64, Limits)> {
     let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
     let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
-    let is_likely = |point: &&ScanPoint| {
+    let is_likely = |point: &&TransitionPoint| {
         let cases = point.n.iter().sum::<i64>() as f64;
         cases * (point.pooled_rss - best.pooled_rss) / best.pooled_rss <= critical
     };

@@ -54,7 +54,7 @@ impl Measure {
     }
 
     /// Returns its value for a motion; none where it is missing.
-    pub fn value(self, measures: &IntensityMeasures) -> Option<f64> {
+    pub fn raw_value_of(self, measures: &IntensityMeasures) -> Option<f64> {
         match self {
             Measure::Im1 => measures.im1,
             Measure::Im2 => measures.im2,
@@ -67,8 +67,8 @@ impl Measure {
     }
 
     /// Returns its value for a motion; none where it is missing or not positive, so that it has no logarithm.
-    pub fn among(self, measures: &IntensityMeasures) -> Option<f64> {
-        self.value(measures).filter(|value| value.is_finite() && *value > 0.0)
+    pub fn value_of(self, measures: &IntensityMeasures) -> Option<f64> {
+        self.raw_value_of(measures).filter(|value| value.is_finite() && *value > 0.0)
     }
 
     /// Gathers the measures of a motion by their values, NaN where one is missing.
@@ -88,7 +88,7 @@ impl Measure {
 /// Returns 1, ln IMx and, of two measures, ln IMy: what the coefficients of a fit multiply. None where a
 /// measure is missing.
 pub fn design_row(im_x: Measure, im_y: Option<Measure>, measures: &IntensityMeasures) -> Option<Vec<f64>> {
-    let ln_im = |measure: Measure| measure.among(measures).map(f64::ln);
+    let ln_im = |measure: Measure| measure.value_of(measures).map(f64::ln);
     std::iter::once(Some(1.0)).chain(std::iter::once(im_x).chain(im_y).map(ln_im)).collect()
 }
 

@@ -2,8 +2,7 @@
 
 use super::calibration::{Calibration, Scenarios};
 use super::demand::DemandFit;
-use super::overturning::OverturningFit;
-use super::paper_model::paper_probabilities;
+use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
 use super::surface::{self, Kind};
 use super::tree::{GivenRocking, Probabilities, Probability, p_failure_given_rocking, p_no_rocking};
@@ -14,12 +13,12 @@ use crate::warning::Warning;
 
 /// The model of one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "there is one a structure")]
+#[expect(clippy::large_enum_variant, reason = "there is one for each structure")]
 pub enum Model {
     /// The universal surface, calibrated.
     Calibrated { overturning: Calibration, exceeding: Calibration, peaks: JointPeaks },
     /// The paper's planes (or the one line that holds everywhere) and its lognormal curve.
-    Paper { demand: Vec<DemandFit>, overturning: OverturningFit, limit_state: f64, peaks: JointPeaks },
+    Paper { demand: Vec<DemandFit>, overturning: CurveFit, limit_state: f64, peaks: JointPeaks },
 }
 
 /// Probability with which the limits hold the truth.
@@ -48,7 +47,7 @@ impl Model {
                 return paper_probabilities(demand, overturning, measures, *limit_state, CONFIDENCE);
             }
         };
-        let given_rocking = || {
+        Probabilities::new(measures.im4, || {
             let of = |calibration: &Calibration| {
                 Some(calibration.probability(calibration.logit(structure, measures)?, scenarios))
             };
@@ -60,9 +59,7 @@ impl Model {
                 high: p_failure_given_rocking(p_ro.high, p_ex.high),
             };
             Some(GivenRocking { p_ex, p_ro, p_failure })
-        };
-        let p_nr = p_no_rocking(measures.im4);
-        Probabilities { p_nr, given_rocking: if p_nr == 0.0 { given_rocking() } else { None } }
+        })
     }
 
     /// How PGA and PGV go together in the motions that it stands for.
@@ -77,9 +74,10 @@ impl Model {
         let rocks = p_no_rocking(measures.im4) == 0.0;
         let mut warnings = match self {
             Model::Calibrated { overturning, exceeding, .. } => {
-                let covered = exceeding.limit_state.is_none_or(|limit| surface::covers(measures, limit))
-                    && overturning.has_like(structure, measures);
-                let unusual = (!surface::has_like(structure)).then_some(Warning::UnusualStructure);
+                let covered =
+                    exceeding.limit_state.is_none_or(|limit| surface::covers_motion(measures, limit))
+                        && overturning.covers(structure, measures);
+                let unusual = (!surface::covers_structure(structure)).then_some(Warning::UnusualStructure);
                 let outside = (rocks && !covered).then_some(Warning::Extrapolated);
                 let of_fits = [overturning.warnings(), exceeding.warnings()].concat();
                 outside.into_iter().chain(unusual).chain(of_fits).collect()
@@ -88,7 +86,7 @@ impl Model {
                 let demand = demand.iter().find(|fit| fit.holds_at(measures.im4));
                 let is_ok = overturning.status == FitStatus::Ok
                     && demand.is_some_and(|demand| demand.status == FitStatus::Ok);
-                let outside = rocks && !overturning.has_like(measures);
+                let outside = rocks && !overturning.covers(measures);
                 let few = !overturning.is_clustered;
                 [(outside, Warning::Extrapolated), (!is_ok, Warning::PoorFit), (few, Warning::FewClusters)]
                     .into_iter()
@@ -101,4 +99,25 @@ impl Model {
         warnings.dedup();
         warnings
     }
+}
+
+/// Computes the probabilities of the tree (Eq. 12) by the paper: P_ex of the demand fit that holds at the IM4,
+/// P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere. P_ex is NaN where no
+/// fit holds.
+pub fn paper_probabilities(
+    demand: &[DemandFit],
+    overturning: &CurveFit,
+    measures: &IntensityMeasures,
+    limit_state: f64,
+    confidence: f64,
+) -> Probabilities {
+    Probabilities::new(measures.im4, || {
+        let p_ro = overturning.probability(measures, confidence)?;
+        let fit = demand.iter().find(|fit| fit.holds_at(measures.im4));
+        let p_ex = fit.and_then(|fit| fit.p_exceeding(measures, limit_state, confidence));
+        Some(match p_ex {
+            Some(p_ex) => GivenRocking { p_ex, p_ro, p_failure: Probability::of_failure(p_ro, p_ex) },
+            None => GivenRocking { p_ex: Probability::UNKNOWN, p_ro, p_failure: Probability::UNKNOWN },
+        })
+    })
 }

@@ -33,7 +33,7 @@ pub fn hybrid_measure(im_x: f64, im_y: f64, lambda: f64) -> f64 {
 /// b0 + b1 ln IMx + b2 ln IMy; from its maximum (Eq. 22) follow [`lambda`], [`mu`] and [`beta`].
 ///
 /// [`log_likelihood`]: crate::statistics::log_likelihood
-pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measure>) -> OverturningFit {
+pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measure>) -> CurveFit {
     let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
     let sample = cases.sample(&measures, |case| cases.happened(case, event, f64::INFINITY));
     let probit = tested_probit(&sample.x(), &sample.y, &sample.clusters);
@@ -44,7 +44,7 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
     let probabilities: Vec<f64> = z.into_iter().map(normal::cdf).collect();
     let end =
         |measure: usize, end: usize| Some(sample.ranges.get(measure)?[end]).filter(|end| end.is_finite());
-    OverturningFit {
+    CurveFit {
         suite: cases.suite.clone(),
         structure: cases.structure.name.clone(),
         p_rad_s: cases.structure.p_rad_s,
@@ -113,7 +113,7 @@ pub struct CurveOptions {
 }
 
 /// Fits the curves of a structure under a suite: single measures, then hybrid ones.
-pub fn fit_curves(cases: &Cases, options: &CurveOptions) -> Vec<OverturningFit> {
+pub fn fit_curves(cases: &Cases, options: &CurveOptions) -> Vec<CurveFit> {
     let single = if options.all { &Measure::SCALAR[..] } else { &[Measure::Im4, Measure::Im5] };
     let single = single.iter().map(|&measure| (measure, None));
     let measures: Vec<_> = single.chain(options.pairs.iter().map(|&Pair(x, y)| (x, Some(y)))).collect();
@@ -122,7 +122,7 @@ pub fn fit_curves(cases: &Cases, options: &CurveOptions) -> Vec<OverturningFit> 
 
 /// A fragility curve: a row of pro.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct OverturningFit {
+pub struct CurveFit {
     pub suite: Option<String>,
     pub structure: String,
     pub p_rad_s: f64,
@@ -160,25 +160,25 @@ pub struct OverturningFit {
     pub status: FitStatus,
 }
 
-grouped!(OverturningFit);
+grouped!(CurveFit);
 
-impl OverturningFit {
+impl CurveFit {
     fn quantile(&self, confidence: f64) -> f64 {
         t_quantile(0.5 * (1.0 + confidence), self.degrees.unwrap_or(f64::INFINITY))
     }
 
     /// Computes the probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale
     /// of its argument. None without a fit, or where a measure is missing.
-    pub fn p_overturning(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Probability> {
+    pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Probability> {
         let row = design_row(self.im_x, self.im_y, measures).filter(|_| !self.coefficients.is_empty())?;
         let error = variance(&self.covariance, &row).sqrt();
         Some(Probability::of_probit(dot(&self.coefficients, &row), self.quantile(confidence) * error))
     }
 
     /// Returns whether the measures are within those of the cases.
-    pub fn has_like(&self, measures: &IntensityMeasures) -> bool {
+    pub fn covers(&self, measures: &IntensityMeasures) -> bool {
         let is_inside = |measure: Option<Measure>, low: Option<f64>, high: Option<f64>| {
-            let value = measure.and_then(|measure| measure.among(measures));
+            let value = measure.and_then(|measure| measure.value_of(measures));
             value.is_none_or(|value| {
                 low.is_none_or(|low| value >= low) && high.is_none_or(|high| value <= high)
             })

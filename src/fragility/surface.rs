@@ -68,16 +68,16 @@ pub fn logit_exceeding(
 }
 
 /// Returns whether a structure is within those that the surface was fitted to.
-pub fn has_like(structure: &Structure) -> bool {
+pub fn covers_structure(structure: &Structure) -> bool {
     let Structure { p_rad_s, alpha_rad, eta, .. } = *structure;
     [("p", p_rad_s), ("alpha", alpha_rad), ("eta", eta)].iter().all(|(name, value)| is_inside(name, *value))
 }
 
 /// Returns whether the measures of a motion, and a limit state, are within those that the surface was fitted
 /// to.
-pub fn covers(measures: &IntensityMeasures, limit_state: f64) -> bool {
+pub fn covers_motion(measures: &IntensityMeasures, limit_state: f64) -> bool {
     let is_known =
-        |measure: &Measure| measure.among(measures).is_none_or(|value| is_inside(measure.as_str(), value));
+        |measure: &Measure| measure.value_of(measures).is_none_or(|value| is_inside(measure.as_str(), value));
     [Measure::Im4, Measure::Im3, Measure::Im5].iter().all(is_known) && is_inside("limit", limit_state)
 }
 
@@ -137,8 +137,8 @@ fn features(
     let limit = limit_state.map_or(0.0, |limit_state| (limit_state / 0.2).ln());
     Some([
         (measures.im4.max(1.0).ln() + 0.2).ln(),
-        Measure::Im5.among(measures)?.min(MOST_IM5).ln() - 0.4 * limit,
-        Measure::Im3.among(measures)?.ln(),
+        Measure::Im5.value_of(measures)?.min(MOST_IM5).ln() - 0.4 * limit,
+        Measure::Im3.value_of(measures)?.ln(),
         (structure.eta - 0.85) / 0.1,
         (structure.p_rad_s / 2.0).ln(),
         limit,

@@ -44,6 +44,9 @@ pub struct Probability {
 }
 
 impl Probability {
+    /// One that no model gives: NaN.
+    pub const UNKNOWN: Probability = Probability { value: f64::NAN, low: f64::NAN, high: f64::NAN };
+
     /// Makes a probability that is known for certain.
     pub fn exact(value: f64) -> Probability {
         Probability { value, low: value, high: value }
@@ -98,6 +101,12 @@ pub struct GivenRocking {
 }
 
 impl Probabilities {
+    /// Makes the probabilities at an IM4; `given_rocking` computes those that matter if it uplifts.
+    pub(super) fn new(im4: f64, given_rocking: impl FnOnce() -> Option<GivenRocking>) -> Probabilities {
+        let p_nr = p_no_rocking(im4);
+        Probabilities { p_nr, given_rocking: if p_nr == 0.0 { given_rocking() } else { None } }
+    }
+
     /// Returns the probabilities of reaching LS1, LS2 and LS3 over the whole tree: exactly 0 without rocking.
     /// None where a measure is missing.
     pub fn limit_states(&self) -> Option<[Probability; 3]> {

@@ -5,17 +5,20 @@
 //! joint  annual rate of occurrence of pairs of PGA and PGV; the sum over them
 //! rates  annual rates of the limit states of a structure, by a model
 //! count  the rate counted among motions that are weighted to have the hazard's rates, without a fragility
+//! site   the rates of a structure at a site, with what speaks against them
 //! ```
 
 mod count;
 mod curve;
 mod joint;
 mod rates;
+mod site;
 
 pub use count::{Count, CountedMotion, CountedRate, counted_rates};
 pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
-pub use rates::{Rate, Rates, median_intensity, rates_along, rates_over_pairs};
+pub use rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
+pub use site::{Hazard, Site, SiteRates, strongest};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate
 /// independently of each other (Poisson): 1 - exp(-rate years).

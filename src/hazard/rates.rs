@@ -2,7 +2,7 @@
 
 use super::curve::HazardCurve;
 use super::joint::{JointHazard, PairOfPeaks};
-use crate::fragility::{Along, Model, Probability, Scenarios, limit_states_at};
+use crate::fragility::{GivenPeak, Model, Probability, Scenarios, limit_states_at};
 use crate::rocking::Structure;
 
 /// A mean annual rate with 95 % limits, which are those of the model alone.
@@ -18,13 +18,13 @@ pub struct Rate {
 /// Annual rates of LS1 to LS3; NaN where the model has no probability.
 pub type Rates = [Rate; 3];
 
-/// Integrates the probabilities along a peak over its hazard curve. Limits are those of the probabilities at
+/// Integrates the probabilities given one peak over its hazard curve. Limits are those of the probabilities at
 /// all intensities at once.
-pub fn rates_along(along: &Along, curve: &HazardCurve) -> Rates {
-    let states = |intensity| terms(along.limit_states(intensity, Scenarios::Many));
-    let sums = curve.mean_annual_rates(&along.jumps(), states);
+pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
+    let states = |intensity| terms(given_peak.limit_states(intensity, Scenarios::Many));
+    let sums = curve.mean_annual_rates(&given_peak.jumps(), states);
     let [_, (last, rate_beyond)] = curve.ends();
-    let at_last = along.limit_states(last, Scenarios::Many);
+    let at_last = given_peak.limit_states(last, Scenarios::Many);
     let beyond = at_last.map(|state| rate_beyond * (1.0 - state.value).max(0.0));
     rates(sums, beyond)
 }
@@ -40,11 +40,11 @@ pub fn rates_over_pairs(model: &Model, structure: &Structure, joint: &JointHazar
 
 /// The intensity above which half of the annual rate of overturning comes from, to a hundredth of the curve's
 /// range.
-pub fn median_intensity(along: &Along, curve: &HazardCurve) -> f64 {
+pub fn median_intensity(given_peak: &GivenPeak, curve: &HazardCurve) -> f64 {
     const STEPS: i32 = 100;
     let [(first, _), (last, rate_beyond)] = curve.ends();
     let edge = |k: i32| first * (last / first).powf(f64::from(k) / f64::from(STEPS));
-    let overturning = |intensity| along.limit_states(intensity, Scenarios::Many)[2].value;
+    let overturning = |intensity| given_peak.limit_states(intensity, Scenarios::Many)[2].value;
     let step = |k: i32| {
         let middle = (edge(k) * edge(k + 1)).sqrt();
         (middle, overturning(middle) * (curve.exceedance(edge(k)) - curve.exceedance(edge(k + 1))))

@@ -1,23 +1,23 @@
 //! Near-fault ground motions: a coherent velocity pulse plus stochastic high frequencies (section 2.1).
 //!
 //! ```text
-//! scenario       magnitude, distance, random parameters of the pulse (section 2.1.1, Eqs. 2 and 3); suites
-//! design         samples of the random parameters in a cell of the magnitude-distance grid
-//! pulse          Mavroeidis & Papageorgiou's pulse (Eq. 1)
-//! stochastic     high frequencies by Boore's stochastic method, source of Atkinson & Silva (section 2.1.2)
-//! site           amplification from the source to the surface
-//! combine        high frequencies and pulse into one motion (section 2.1.3)
-//! synthesis      all of these for one scenario, on one time axis
-//! intensity      intensity measures of any motion
-//! dimensionless  IM1 to IM6 (Eq. 13), and other measures without units
-//! fourier        transforms of real series
+//! scenario            magnitude, distance, random parameters of the pulse (section 2.1.1, Eqs. 2 and 3); suites
+//! design              samples of the random parameters in a cell of the magnitude-distance grid
+//! pulse               Mavroeidis & Papageorgiou's pulse (Eq. 1)
+//! stochastic          high frequencies by Boore's stochastic method, source of Atkinson & Silva (section 2.1.2)
+//! site                amplification from the source to the surface
+//! combine             high frequencies and pulse into one motion (section 2.1.3)
+//! synthesis           all of these for one scenario, on one time axis
+//! measures            measures of a motion with units: peaks, mean period, Arias intensity, duration
+//! intensity_measures  IM1 to IM6 (Eq. 13) of a motion and a structure, and other measures without units
+//! fourier             transforms of real series
 //! ```
 
 mod combine;
 mod design;
-mod dimensionless;
 pub mod fourier;
-pub mod intensity;
+mod intensity_measures;
+pub mod measures;
 pub mod pulse;
 pub mod scenario;
 pub mod site;
@@ -26,11 +26,11 @@ mod synthesis;
 
 pub use combine::{Difference, Epoch};
 pub use design::{Design, Grid};
-pub use dimensionless::{IntensityMeasures, Quantity};
-pub use intensity::{IntensityScratch, MeasurePlan, Measured, Measures, measures};
+pub use intensity_measures::{Dimension, IntensityMeasures};
+pub use measures::{MeasurePlan, MeasureScratch, Measured, MotionMeasures};
 pub use pulse::Pulse;
 pub use scenario::{Scenario, Suite};
-pub use site::Site;
+pub use site::SiteAmplification;
 pub use stochastic::{LowCut, StochasticModel};
 pub use synthesis::{MotionModel, Synthesizer, Synthetic};
 

@@ -2,7 +2,7 @@
 
 /// Amplification from the source to the surface, as a function of frequency.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Site {
+pub enum SiteAmplification {
     /// Generic rock (Boore & Joyner 1997).
     Rock,
     /// Generic soil (Boore & Joyner 1997).
@@ -40,12 +40,12 @@ const GENERIC: [(f64, f64, f64); 11] = [
     (61.2, 4.00, 3.21),
 ];
 
-impl Site {
+impl SiteAmplification {
     /// Makes a table of frequencies (Hz) and factors.
     ///
     /// # Errors
     /// If there are fewer than two rows, frequencies do not rise, or a number is not positive.
-    pub fn table(rows: Vec<(f64, f64)>) -> Result<Site, SiteTableError> {
+    pub fn table(rows: Vec<(f64, f64)>) -> Result<SiteAmplification, SiteTableError> {
         if rows.len() < 2 {
             return Err(SiteTableError::TooShort(rows.len()));
         }
@@ -57,16 +57,16 @@ impl Site {
             }
             last_hz = frequency_hz;
         }
-        Ok(Site::Table(rows))
+        Ok(SiteAmplification::Table(rows))
     }
 
     /// Interpolates V(f) at a frequency (Hz): ln V is linear in the frequency, constant beyond the ends.
     pub fn amplification(&self, frequency_hz: f64) -> f64 {
         match self {
-            Site::None => 1.0,
-            Site::Rock => interpolate(&GENERIC.map(|(f, rock, _)| (f, rock)), frequency_hz),
-            Site::Soil => interpolate(&GENERIC.map(|(f, _, soil)| (f, soil)), frequency_hz),
-            Site::Table(rows) => interpolate(rows, frequency_hz),
+            SiteAmplification::None => 1.0,
+            SiteAmplification::Rock => interpolate(&GENERIC.map(|(f, rock, _)| (f, rock)), frequency_hz),
+            SiteAmplification::Soil => interpolate(&GENERIC.map(|(f, _, soil)| (f, soil)), frequency_hz),
+            SiteAmplification::Table(rows) => interpolate(rows, frequency_hz),
         }
     }
 }

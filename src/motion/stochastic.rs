@@ -2,7 +2,7 @@
 
 use std::f64::consts::{E, FRAC_1_SQRT_2, PI};
 
-use super::site::Site;
+use super::site::SiteAmplification;
 
 /// Density of the crust, g/cm3.
 const DENSITY: f64 = 2.8;
@@ -27,7 +27,7 @@ pub const CONSTANT: f64 = 0.55 * FRAC_1_SQRT_2 * 2.0 * 1e-20
 #[derive(Debug, Clone, PartialEq)]
 pub struct StochasticModel {
     /// Site amplification V(f).
-    pub site: Site,
+    pub site: SiteAmplification,
     /// kappa of the near-surface attenuation exp(-pi kappa f), s.
     pub kappa_s: f64,
     /// Corner fmax of the low-pass filter 1/sqrt(1 + (f/fmax)^8), Hz.
@@ -46,7 +46,7 @@ pub struct LowCut {
 
 impl Default for StochasticModel {
     fn default() -> StochasticModel {
-        StochasticModel { site: Site::Rock, kappa_s: 0.030, fmax_hz: None, low_cut: None }
+        StochasticModel { site: SiteAmplification::Rock, kappa_s: 0.030, fmax_hz: None, low_cut: None }
     }
 }
 

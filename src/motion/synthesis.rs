@@ -6,7 +6,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::combine::{Difference, Epoch, combine};
 use super::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
-use super::intensity::velocity;
+use super::measures::velocity;
 use super::pulse::Pulse;
 use super::scenario::{Scenario, Suite};
 use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window};

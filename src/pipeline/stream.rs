@@ -71,7 +71,7 @@ impl<T> Pool<T> {
     }
 
     /// Lends scratch to `work`.
-    pub fn lend<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
+    pub fn with<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
         let idle = self.idle.lock().ok().and_then(|mut idle| idle.pop());
         let mut scratch = idle.unwrap_or_else(|| (self.make)());
         let result = work(&mut scratch);

@@ -1,7 +1,7 @@
 //! Checks that an acceleration can be of an earthquake: wrong units, wrong time steps and damaged samples
 //! give motions that no instrument has recorded.
 
-use crate::motion::intensity::{peak, velocity};
+use crate::motion::measures::{peak, velocity};
 use crate::units::G_M_S2;
 
 /// Time steps of records, s: 200 to 500 samples a second to film digitised by hand, with a margin.
@@ -35,7 +35,7 @@ const WEAKEST_PGA_G: f64 = 1e-3;
 
 /// Why a motion is implausible: value found, value expected, likely mistake.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum Warning {
+pub enum Implausibility {
     #[error("dt {} s; expected 0.0001 to 0.1 s: milliseconds, or sample numbers?", rounded(*.dt_s))]
     TimeStep { dt_s: f64 },
     #[error("{samples} samples; expected 25 or more: a part of a record, or another table?")]
@@ -62,15 +62,18 @@ pub enum Warning {
     RarePgv { pgv_m_s: f64 },
 }
 
-impl Warning {
+impl Implausibility {
     /// Returns whether no record was ever like this; otherwise it is only rare.
     pub fn is_impossible(&self) -> bool {
-        !matches!(self, Warning::WeakPga { .. } | Warning::RarePga { .. } | Warning::RarePgv { .. })
+        !matches!(
+            self,
+            Implausibility::WeakPga { .. } | Implausibility::RarePga { .. } | Implausibility::RarePgv { .. }
+        )
     }
 }
 
 /// Checks an acceleration (m/s2) at steps of `dt_s`. Returns the first warning.
-pub fn warning(acceleration: &[f64], dt_s: f64) -> Option<Warning> {
+pub fn implausibility(acceleration: &[f64], dt_s: f64) -> Option<Implausibility> {
     let samples = acceleration.len();
     let velocity = velocity(acceleration, dt_s);
     let (pga_m_s2, pgv_m_s) = (peak(acceleration), peak(&velocity));
@@ -79,18 +82,18 @@ pub fn warning(acceleration: &[f64], dt_s: f64) -> Option<Warning> {
     let frequency_hz = mean_frequency_hz(acceleration, dt_s);
     let spike = spike(acceleration, pga_m_s2);
     let warnings = [
-        (!(STEPS_S.0..=STEPS_S.1).contains(&dt_s), Warning::TimeStep { dt_s }),
-        (samples < FEWEST_SAMPLES, Warning::FewSamples { samples }),
-        (pga_m_s2 == 0.0, Warning::Still),
-        (spike.is_some(), Warning::Spike { sample: spike.map_or(0, |at| at + 1), pga_g }),
-        (pga_g > LARGEST_PGA_G, Warning::Pga { pga_g }),
-        (velocity_m_s > DRIFT.0.max(DRIFT.1 * pgv_m_s), Warning::Drift { velocity_m_s }),
-        (pgv_m_s > LARGEST_PGV_M_S, Warning::Pgv { pgv_m_s }),
-        (ratio_s > PGV_PGA_S.1, Warning::Slow { ratio_s }),
-        (frequency_hz > HIGHEST_FREQUENCY_HZ || ratio_s < PGV_PGA_S.0, Warning::Fast { frequency_hz }),
-        (pga_g < WEAKEST_PGA_G, Warning::WeakPga { pga_g }),
-        (pga_g > RARE_PGA_G, Warning::RarePga { pga_g }),
-        (pgv_m_s > RARE_PGV_M_S, Warning::RarePgv { pgv_m_s }),
+        (!(STEPS_S.0..=STEPS_S.1).contains(&dt_s), Implausibility::TimeStep { dt_s }),
+        (samples < FEWEST_SAMPLES, Implausibility::FewSamples { samples }),
+        (pga_m_s2 == 0.0, Implausibility::Still),
+        (spike.is_some(), Implausibility::Spike { sample: spike.map_or(0, |at| at + 1), pga_g }),
+        (pga_g > LARGEST_PGA_G, Implausibility::Pga { pga_g }),
+        (velocity_m_s > DRIFT.0.max(DRIFT.1 * pgv_m_s), Implausibility::Drift { velocity_m_s }),
+        (pgv_m_s > LARGEST_PGV_M_S, Implausibility::Pgv { pgv_m_s }),
+        (ratio_s > PGV_PGA_S.1, Implausibility::Slow { ratio_s }),
+        (frequency_hz > HIGHEST_FREQUENCY_HZ || ratio_s < PGV_PGA_S.0, Implausibility::Fast { frequency_hz }),
+        (pga_g < WEAKEST_PGA_G, Implausibility::WeakPga { pga_g }),
+        (pga_g > RARE_PGA_G, Implausibility::RarePga { pga_g }),
+        (pgv_m_s > RARE_PGV_M_S, Implausibility::RarePgv { pgv_m_s }),
     ];
     warnings.into_iter().find_map(|(is_so, warning)| is_so.then_some(warning))
 }

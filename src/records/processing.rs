@@ -1,12 +1,12 @@
 //! From records to imported motions: baseline, filter, time step, rotation, scale, measures, pulses.
 
 use super::RecordedMotion;
-use super::plausibility::{self, Warning};
+use super::plausibility::{self, Implausibility};
 use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, RotD};
 use super::signal::{Baseline, HighPass, Scaling, resample, resampled_length};
 use crate::keyword::keywords;
-use crate::motion::{IntensityScratch, LONGEST_MOTION, MeasurePlan, Measured, Suite, intensity};
+use crate::motion::{LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, Suite, measures};
 
 /// A file and the hash of its content.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub struct NamedRecord {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ProcessingError {
     #[error("{0} (--accept-implausible imports it anyway)")]
-    Implausible(Warning),
+    Implausible(Implausibility),
     #[error("{samples} samples at a time step of {dt_s} s; choose another for --resample")]
     Resampled { samples: f64, dt_s: f64 },
     #[error("the motion is zero throughout; it cannot be scaled to a peak")]
@@ -47,7 +47,7 @@ pub struct ImportedMotion {
     /// The record, without its samples.
     pub record: RecordedMotion,
     /// Why it is implausible, if accepted all the same.
-    pub warning: Option<Warning>,
+    pub warning: Option<Implausibility>,
     /// Scale factor.
     pub scale: f64,
     /// Samples as written, m/s2.
@@ -124,14 +124,17 @@ impl Processing {
     }
 
     /// Corrects the baseline, filters, checks and resamples.
-    fn corrected(&self, mut record: NamedRecord) -> Result<(NamedRecord, Option<Warning>), ProcessingError> {
+    fn corrected(
+        &self,
+        mut record: NamedRecord,
+    ) -> Result<(NamedRecord, Option<Implausibility>), ProcessingError> {
         let motion = &mut record.motion;
         self.baseline.remove_from(&mut motion.acceleration_m_s2);
         if let Some(high_pass) = self.high_pass {
             high_pass.apply(&mut motion.acceleration_m_s2, motion.dt_s);
         }
-        let warning = plausibility::warning(&motion.acceleration_m_s2, motion.dt_s);
-        if let Some(warning) = warning.filter(Warning::is_impossible)
+        let warning = plausibility::implausibility(&motion.acceleration_m_s2, motion.dt_s);
+        if let Some(warning) = warning.filter(Implausibility::is_impossible)
             && self.implausible == Implausible::Refuse
         {
             return Err(ProcessingError::Implausible(warning));
@@ -155,7 +158,7 @@ impl Processing {
         let azimuth_deg = match self.direction {
             Some(Direction::Azimuth(azimuth_deg)) => azimuth_deg,
             Some(Direction::StrongestPulse) | None => {
-                let [x, y] = pair.accelerations.each_ref().map(|a| intensity::velocity(a, pair.dt_s));
+                let [x, y] = pair.accelerations.each_ref().map(|a| measures::velocity(a, pair.dt_s));
                 pair.azimuth_of(strongest_direction([&x, &y], pair.dt_s).unwrap_or([1.0, 0.0]))
             }
         };
@@ -181,7 +184,7 @@ impl Processing {
     fn scaled(
         &self,
         record: NamedRecord,
-        warning: Option<Warning>,
+        warning: Option<Implausibility>,
         rotd: Option<RotD>,
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
         let NamedRecord { motion_id, source, motion } = record;
@@ -220,7 +223,7 @@ impl Processing {
         if self.pulses == PulseSearch::Skip {
             return (None, None);
         }
-        let velocity = intensity::velocity(&motion.acceleration_m_s2, motion.dt_s);
+        let velocity = measures::velocity(&motion.acceleration_m_s2, motion.dt_s);
         let indicator = PulseIndicator::of(&velocity, motion.dt_s);
         let found = indicator.filter(|found| found.verdict == Verdict::Pulse);
         let fit =
@@ -254,6 +257,6 @@ impl Processing {
     /// Measures samples as written, in single precision.
     fn measured(&self, samples: &[f32], dt_s: f64) -> Measured {
         let written: Vec<f64> = samples.iter().map(|&a| f64::from(a)).collect();
-        self.plan.measure(&written, dt_s, &mut IntensityScratch::default())
+        self.plan.measure(&written, dt_s, &mut MeasureScratch::default())
     }
 }

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use crate::motion::intensity::{peak, velocity};
+use crate::motion::measures::{peak, velocity};
 
 /// Directions of RotD: each degree of a half turn.
 const DIRECTIONS: usize = 180;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::keyword::keywords;
 use crate::motion::fourier::{Transform, even_smooth_at_least};
-use crate::motion::intensity::{peak, velocity};
+use crate::motion::measures::{peak, velocity};
 
 /// Order n of the high-pass, in each direction.
 const HIGH_PASS_ORDER: i32 = 4;

@@ -9,7 +9,7 @@ use super::structure::Structure;
 use super::taylor::{MOST_IMPACTS, Slenderness, State};
 use super::uplift::Uplift;
 use super::vector::{MOST_LANES, Vector};
-use crate::units::PER_G;
+use crate::units::G_PER_M_S2;
 
 /// Longest Taylor step, as p dt sqrt(1 + PGA/g). With steps this long, truncation at order 8 changes the peak
 /// of a structure in white noise of 0.6 g by about 1e-12 of itself.
@@ -162,7 +162,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
         self.slenderness.secant.set(lane, slenderness.secant);
         self.eta.set(lane, structure.eta);
         self.p_dt.set(lane, structure.p_rad_s * record.dt_s());
-        self.longest.set(lane, LONGEST_STEP / (1.0 + record.peak_m_s2() * PER_G).sqrt());
+        self.longest.set(lane, LONGEST_STEP / (1.0 + record.peak_m_s2() * G_PER_M_S2).sqrt());
         self.peak.set(lane, 0.0);
         self.impacts.set(lane, 0.0);
         self.bounces.set(lane, 0.0);
@@ -177,7 +177,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
         if index + 1 >= samples.len() {
             return false;
         }
-        let (now, next) = (self.now.lane(lane), self.next.lane(lane) * PER_G);
+        let (now, next) = (self.now.lane(lane), self.next.lane(lane) * G_PER_M_S2);
         let soon =
             Uplift::between(now, next, tan).filter(|_| self.bounces.lane(lane) < f64::from(MOST_IMPACTS));
         let Some(uplift) = soon else {

@@ -11,7 +11,7 @@ use super::structure::Structure;
 use super::taylor::{MOST_IMPACTS, REST_VELOCITY, State};
 use super::trace::{SolverEvent, TracePoint};
 use super::uplift::Uplift;
-use crate::units::PER_G;
+use crate::units::G_PER_M_S2;
 
 /// Longest step, as p h sqrt(1 + PGA/g): truncation changes the median peak by 1e-12 of itself.
 const LONGEST_STEP: f64 = 5e-4;
@@ -72,14 +72,14 @@ fn first(h: f64, happened: impl Fn(f64) -> bool) -> f64 {
 /// at each sample and event of the record.
 pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(TracePoint)) -> Response {
     let (samples, dt_s, alpha) = (record.acceleration_m_s2(), record.dt_s(), structure.alpha_rad);
-    let longest_s = LONGEST_STEP / (structure.p_rad_s * (1.0 + record.peak_m_s2() * PER_G).sqrt());
+    let longest_s = LONGEST_STEP / (structure.p_rad_s * (1.0 + record.peak_m_s2() * G_PER_M_S2).sqrt());
     let (mut state, mut peak, mut impacts, mut uplifted) = (None, 0.0_f64, 0, false);
     let mut note = |time_s: f64, state: Option<Rocking>, solver_event| {
         let Rocking { theta, velocity, .. } = state.unwrap_or_default();
         observe(TracePoint { time_s, theta_rad: theta, theta_dot_rad_s: velocity, solver_event });
     };
     for (k, pair) in samples.windows(2).enumerate() {
-        let ground = |t: f64| (pair[0] + (pair[1] - pair[0]) * t / dt_s) * PER_G;
+        let ground = |t: f64| (pair[0] + (pair[1] - pair[0]) * t / dt_s) * G_PER_M_S2;
         let (sample_s, mut t, most_impacts) = (k as f64 * dt_s, 0.0, impacts + MOST_IMPACTS);
         note(sample_s, state, None);
         while t < dt_s {

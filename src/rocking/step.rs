@@ -12,7 +12,7 @@ use super::polynomial::{ORDER, Polynomial};
 use super::roots::{falling_root, first_impact, first_overturning, largest, slopes, values};
 use super::taylor::{Excess, MOST_IMPACTS, REST_VELOCITY, State, series};
 use super::vector::{Mask, Vector};
-use crate::units::PER_G;
+use crate::units::G_PER_M_S2;
 
 /// One Taylor step of each lane.
 pub struct Step<S: Simd> {
@@ -57,7 +57,7 @@ impl<S: Simd> Lanes<'_, S> {
     #[inline(always)]
     pub fn step(&self) -> Step<S> {
         let (zero, one) = (Vector::splat(self.simd, 0.0), Vector::splat(self.simd, 1.0));
-        let next = self.next * PER_G;
+        let next = self.next * G_PER_M_S2;
         let (mut fraction, mut h, mut per_h, mut ground) = (one, self.left, self.per_left, next);
         let far = self.longest.lt(self.left);
         if far.any() {
@@ -111,7 +111,7 @@ impl<S: Simd> Lanes<'_, S> {
         let passed = until * step.fraction;
         let within = passed.lt(one);
         let arrived = !within.bits();
-        let next = self.next * PER_G;
+        let next = self.next * G_PER_M_S2;
         self.now = within.select(passed.mul_add(next - self.now, self.now), next);
         self.left = within.select((one - passed) * self.left, self.p_dt);
         self.per_left = one / self.left;

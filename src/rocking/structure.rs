@@ -153,6 +153,12 @@ impl Structure {
         })
     }
 
+    /// Whether p, alpha and eta are those of another structure, each within 1 %.
+    pub fn is_like(&self, other: &Structure) -> bool {
+        let parameters = |of: &Structure| [of.p_rad_s, of.alpha_rad, of.eta];
+        parameters(self).into_iter().zip(parameters(other)).all(|(a, b)| (a - b).abs() <= 0.01 * b.abs())
+    }
+
     /// Makes a structure from p (rad/s), alpha (rad) and eta.
     ///
     /// # Errors

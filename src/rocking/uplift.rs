@@ -1,6 +1,6 @@
 //! Uplift of a structure at rest (Eq. 5).
 
-use crate::units::PER_G;
+use crate::units::G_PER_M_S2;
 
 /// When a structure at rest leaves its base.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,9 +28,9 @@ impl Uplift {
 
     /// Finds the first uplift from sample `from` on; `samples` are in m/s2.
     pub fn next(samples: &[f64], from: usize, tan: f64) -> Option<Uplift> {
-        let loud = from + samples[from..].iter().position(|a| a.abs() * PER_G > tan)?;
+        let loud = from + samples[from..].iter().position(|a| a.abs() * G_PER_M_S2 > tan)?;
         let index = loud.saturating_sub(1).max(from);
-        let uplift = Uplift::between(samples[index] * PER_G, samples.get(index + 1)? * PER_G, tan)?;
+        let uplift = Uplift::between(samples[index] * G_PER_M_S2, samples.get(index + 1)? * G_PER_M_S2, tan)?;
         Some(Uplift { index, ..uplift })
     }
 }

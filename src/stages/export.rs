@@ -4,18 +4,17 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 
-use super::evaluate::words_of;
-use super::shared::fits::FitsArgs;
+use super::shared::model_args::{ModelArgs, words_of};
 use super::shared::structures::{StructureArgs, warnings_of};
-use crate::export::{Function, Model, OWN_ID, PELICUN_TOLERANCE};
+use crate::export::{FragilityModel, Function, OWN_ID, PELICUN_TOLERANCE};
 use crate::export::{discrete, levels, metadata, parameters, plain_id, whole_curve_end};
-use crate::fragility::{Along, Peak, Ratio, Scenarios};
+use crate::fragility::{GivenPeak, Peak, Ratio, Scenarios};
+use crate::hazard::strongest;
 use crate::keyword::keywords;
 use crate::pipeline::context::Context;
 use crate::pipeline::stage::Stage;
 use crate::rocking::Structure;
 use crate::table::writer::write_file;
-use crate::units::G_M_S2;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
 #[derive(Debug, Args)]
@@ -30,7 +29,7 @@ pub struct Export {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "fragility.xml")]
     out: PathBuf,
     #[command(flatten)]
-    fits: FitsArgs,
+    model: ModelArgs,
     #[command(flatten)]
     structures: StructureArgs,
 }
@@ -46,8 +45,6 @@ keywords!(Program { OpenQuake = "openquake", Pelicun = "pelicun" });
 
 /// Largest error of straight lines between the levels for OpenQuake.
 const TOLERANCE: f64 = 4e-6;
-/// PGA (m/s2) and PGV (m/s) beyond which nothing was ever recorded.
-const STRONGEST: [f64; 2] = [4.5 * G_M_S2, 5.0];
 
 impl Stage for Export {
     fn outputs(&self) -> Vec<PathBuf> {
@@ -63,18 +60,18 @@ impl Stage for Export {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let structures = self.structures.resolve()?;
-        let models = self.fits.models()?;
+        let models = self.model.read()?;
         let (mut functions, mut description) = (Vec::new(), String::new());
         for structure in &structures {
             let (model, mut warnings) = models.model(structure)?;
             warnings.extend(warnings_of(structure));
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
-            let along = Along { model: &model, structure, peak: self.im, ratio: Ratio::Distributed };
-            functions.push(self.function(structure, &along));
+            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio: Ratio::Distributed };
+            functions.push(self.function(structure, &given_peak));
             description = words_of(&model);
         }
-        let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.fits.limit_state);
-        let model = Model {
+        let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
+        let model = FragilityModel {
             id: format!("{OWN_ID}{}", plain_id(&structures[0].name)),
             description,
             limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],
@@ -98,18 +95,18 @@ impl Stage for Export {
 impl Export {
     /// The probabilities of a structure as a table, from uplift to where all are 1 or nothing was ever
     /// recorded.
-    fn function(&self, structure: &Structure, along: &Along) -> Function {
+    fn function(&self, structure: &Structure, given_peak: &GivenPeak) -> Function {
         let reaching = |intensity: f64| {
-            along.limit_states(intensity, Scenarios::One).map(|state| state.value.clamp(0.0, 1.0))
+            given_peak.limit_states(intensity, Scenarios::One).map(|state| state.value.clamp(0.0, 1.0))
         };
         let tolerance = match self.to {
             Program::OpenQuake => TOLERANCE,
             Program::Pelicun => PELICUN_TOLERANCE,
         };
-        let [uplift, _] = along.uplift();
-        let strongest = STRONGEST[usize::from(self.im == Peak::Pgv)].max(2.0 * uplift);
-        let end = whole_curve_end(uplift, tolerance, reaching).min(strongest);
-        let jumps = along.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
+        let [uplift, _] = given_peak.uplift();
+        let most = strongest(self.im).max(2.0 * uplift);
+        let end = whole_curve_end(uplift, tolerance, reaching).min(most);
+        let jumps = given_peak.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
         let edges: Vec<f64> = std::iter::once(uplift).chain(jumps).chain([end]).collect();
         let levels = levels(&edges, tolerance, reaching);
         // Strong synthetic PGA have little PGV, by which a probability may fall: it is held where it has

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use clap::{Args, ValueHint};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fitted::{calibrations_text, suite_name, text, verdict, warnings};
+use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
 use crate::fragility::{Calibration, DemandFit, DemandModel, DemandOptions, fit_demand};
 use crate::paper;

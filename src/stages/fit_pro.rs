@@ -5,11 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueHint};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fitted::{calibrations_text, suite_name, text, verdict, warnings, with_limits};
+use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings, with_limits};
 use super::shared::responses;
-use crate::fragility::{
-    Calibration, CurveOptions, Event, Measure, OverturningFit, Pair, Parameter, fit_curves,
-};
+use crate::fragility::{Calibration, CurveFit, CurveOptions, Event, Measure, Pair, Parameter, fit_curves};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
@@ -99,8 +97,8 @@ struct CurveLine {
     verdict: String,
 }
 
-fn curves_text(fits: &[OverturningFit], confidence: f64) -> anyhow::Result<String> {
-    let line = |fit: &OverturningFit| {
+fn curves_text(fits: &[CurveFit], confidence: f64) -> anyhow::Result<String> {
+    let line = |fit: &CurveFit| {
         let parameters = fit.parameters(confidence);
         let of = |wanted: Parameter| {
             let row = parameters.iter().find(|row| row.parameter == wanted)?;

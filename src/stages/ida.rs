@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{DistinctIds, Measures, record, warnings};
 use super::shared::structures::{StructureArgs, warnings_of_all};
-use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities};
+use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
-use crate::motion::{IntensityMeasures, IntensityScratch};
+use crate::motion::{IntensityMeasures, MeasureScratch};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
@@ -123,6 +123,8 @@ pub struct CapacityFitRow {
     pub status: FitStatus,
 }
 
+grouped!(CapacityRow, CapacityFitRow);
+
 /// What came of some motions.
 struct Analysed {
     motion_ids: Vec<String>,
@@ -164,11 +166,11 @@ impl Stage for Ida {
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
         let mut stripes = context.create(&stripes_file, &stripes_of(&[], &[], &[])?.schema())?;
         let (mut ids, mut capacities) = (DistinctIds::default(), Vec::new());
-        let pool = Pool::new(IntensityScratch::default);
+        let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(motions.rows());
         let analyse = |(path, some): (Arc<Path>, Vec<Motion>)| {
             bar.advance(some.len() as u64)?;
-            pool.lend(|scratch| self.analyse(&scan, &structures, &path, &some, scratch))
+            pool.with(|scratch| self.analyse(&scan, &structures, &path, &some, scratch))
         };
         pipelined(
             batches(motions.parts(), rayon::current_num_threads()),
@@ -205,7 +207,7 @@ impl Ida {
         structures: &[Structure],
         path: &Path,
         motions: &[Motion],
-        scratch: &mut IntensityScratch,
+        scratch: &mut MeasureScratch,
     ) -> anyhow::Result<Analysed> {
         let (mut cases, mut warned) = (Vec::new(), Warnings::default());
         for motion in motions {

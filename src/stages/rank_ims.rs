@@ -8,7 +8,7 @@ use clap::{Args, ValueHint};
 use polars::prelude::SortMultipleOptions;
 
 use super::shared::responses;
-use crate::motion::Quantity;
+use crate::motion::Dimension;
 use crate::paper;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
@@ -23,11 +23,11 @@ use crate::table::rows;
 /// Measures of a motions file besides the peaks and periods of Eq. 13.
 const FURTHER: [&str; 6] = ["pgd_m", "arias_m_s", "cav_m_s", "d5_75_s", "d5_95_s", "housner_m"];
 /// The units at the end of the names of columns, the longer ones first.
-const UNITS: [(&str, Quantity); 4] = [
-    ("_m_s2", Quantity::Acceleration),
-    ("_m_s", Quantity::Velocity),
-    ("_m", Quantity::Length),
-    ("_s", Quantity::Duration),
+const UNITS: [(&str, Dimension); 4] = [
+    ("_m_s2", Dimension::Acceleration),
+    ("_m_s", Dimension::Velocity),
+    ("_m", Dimension::Length),
+    ("_s", Dimension::Duration),
 ];
 /// Sets that are printed of each target.
 const SHOWN: usize = 5;
@@ -144,7 +144,7 @@ struct Further {
 
 struct FurtherMeasure {
     column: String,
-    quantity: Quantity,
+    quantity: Dimension,
     /// NaN where unknown.
     values: Vec<f64>,
 }
@@ -201,9 +201,9 @@ impl Further {
 }
 
 /// What a column measures, by the unit at its end.
-fn quantity(name: &str) -> Option<Quantity> {
+fn quantity(name: &str) -> Option<Dimension> {
     if name == "arias_m_s" {
-        return Some(Quantity::AriasIntensity);
+        return Some(Dimension::AriasIntensity);
     }
     UNITS.iter().find(|(unit, _)| name.ends_with(unit)).map(|(_, quantity)| *quantity)
 }

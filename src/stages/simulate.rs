@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::shared::motions::{DistinctIds, Measures, record, warnings};
 use super::shared::structures::{StructureArgs, warnings_of_all};
 use super::synthesize_motions::out_of_partition;
-use crate::motion::IntensityScratch;
+use crate::motion::MeasureScratch;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::listed;
 use crate::pipeline::stage::{Stage, part};
@@ -70,13 +70,13 @@ impl Stage for Simulate {
         let mut writer = context.create(&out, &responses::batch(&[], &[])?.schema())?;
         let (mut ids, mut overturned, mut traces) =
             (DistinctIds::default(), Overturned::default(), Vec::new());
-        let pool = Pool::new(IntensityScratch::default);
+        let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(motions.rows());
         let simulate_part = |part: Part| -> anyhow::Result<Vec<Responded>> {
             let simulate_chunk = |chunk: Result<_, TableError>| {
                 let (path, chunk): (std::sync::Arc<Path>, Vec<Motion>) = chunk?;
                 bar.advance(chunk.len() as u64)?;
-                pool.lend(|scratch| respond(&path, &chunk, &structures, &self.trace, scratch))
+                pool.with(|scratch| respond(&path, &chunk, &structures, &self.trace, scratch))
             };
             motions.read(part, CHUNK)?.map(simulate_chunk).collect()
         };
@@ -126,7 +126,7 @@ fn respond(
     motions: &[Motion],
     structures: &[Structure],
     traced: &[String],
-    scratch: &mut IntensityScratch,
+    scratch: &mut MeasureScratch,
 ) -> anyhow::Result<Responded> {
     let records = motions.iter().map(|motion| record(path, motion)).collect::<Result<Vec<_>, _>>()?;
     let of_record = |&record| structures.iter().map(move |structure| Problem { structure, record });

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::{
-    Difference, Epoch, IntensityScratch, LowCut, MeasurePlan, Measured, MotionModel, Scenario, Site,
-    StochasticModel, Suite, Synthesizer,
+    Difference, Epoch, LowCut, MeasurePlan, MeasureScratch, Measured, MotionModel, Scenario,
+    SiteAmplification, StochasticModel, Suite, Synthesizer,
 };
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
@@ -113,8 +113,8 @@ impl Stage for SynthesizeMotions {
         let model = self.model()?;
         let of_thread = suites.clone();
         let pool =
-            Pool::new(move || (Synthesizer::new(model.clone(), &of_thread), IntensityScratch::default()));
-        let motions = |scenario: &Scenario| pool.lend(|scratch| synthesize(scenario, suites, &plan, scratch));
+            Pool::new(move || (Synthesizer::new(model.clone(), &of_thread), MeasureScratch::default()));
+        let motions = |scenario: &Scenario| pool.with(|scratch| synthesize(scenario, suites, &plan, scratch));
         let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
         let bar = context.bar(scenarios.len() as u64);
         pipelined(
@@ -148,11 +148,11 @@ impl SynthesizeMotions {
 }
 
 /// The site amplification of this name, or in this file.
-fn site(name: &Path) -> anyhow::Result<Site> {
+fn site(name: &Path) -> anyhow::Result<SiteAmplification> {
     match name.to_str() {
-        Some("rock") => return Ok(Site::Rock),
-        Some("soil") => return Ok(Site::Soil),
-        Some("none") => return Ok(Site::None),
+        Some("rock") => return Ok(SiteAmplification::Rock),
+        Some("soil") => return Ok(SiteAmplification::Soil),
+        Some("none") => return Ok(SiteAmplification::None),
         _ => {}
     }
     let place = || {
@@ -163,7 +163,7 @@ fn site(name: &Path) -> anyhow::Result<Site> {
     };
     let sheet = Sheet::parse(&std::fs::read(name).with_context(place)?).with_context(place)?;
     let pairs = (0..sheet.lines.len()).map(|row| Ok((sheet.number(row, 0)?, sheet.number(row, 1)?)));
-    Site::table(pairs.collect::<anyhow::Result<_>>().with_context(place)?).with_context(place)
+    SiteAmplification::table(pairs.collect::<anyhow::Result<_>>().with_context(place)?).with_context(place)
 }
 
 /// The motions of a scenario, each measured as it will be read.
@@ -171,7 +171,7 @@ fn synthesize(
     scenario: &Scenario,
     suites: &[Suite],
     plan: &MeasurePlan,
-    (synthesizer, scratch): &mut (Synthesizer, IntensityScratch),
+    (synthesizer, scratch): &mut (Synthesizer, MeasureScratch),
 ) -> Vec<Motion> {
     let synthetic = synthesizer.synthesize(scenario);
     let dt_s = synthetic.dt_s;

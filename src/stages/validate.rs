@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 
-use super::shared::fits::FitsArgs;
+use super::shared::model_args::ModelArgs;
 use super::shared::responses;
 use crate::fragility::{Cases, Event, Kind, Model, Scenarios};
 use crate::pipeline::context::Context;
@@ -26,7 +26,7 @@ pub struct Validate {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "validation.parquet")]
     out: PathBuf,
     #[command(flatten)]
-    fits: FitsArgs,
+    fits: ModelArgs,
 }
 
 const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
@@ -38,13 +38,14 @@ impl Stage for Validate {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let groups = responses::read(&self.input)?;
+        let models = self.fits.read()?;
         let bar = context.bar(groups.len() as u64);
         let (mut scores, mut bins) = (Vec::new(), Vec::new());
         for cases in &groups {
             // Without --suite the fits to the same kind of motion predict.
-            let kind = Kind::of(cases.suite.as_deref().and_then(|suite| suite.parse().ok()));
-            let fits = FitsArgs { suite: Some(self.fits.suite.unwrap_or(kind)), ..self.fits.clone() };
-            let (model, warnings) = fits.models()?.model(&cases.structure)?;
+            let kind = Kind::of_word(cases.suite.as_deref());
+            let models = models.of_kind(self.fits.suite.unwrap_or(kind));
+            let (model, warnings) = models.model(&cases.structure)?;
             context
                 .warn(warnings.into_iter().map(|warning| (warning, cases.structure.name.clone())).collect());
             for event in EVENTS {

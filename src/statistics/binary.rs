@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::clusters::sandwich;
-use super::design::{Design, with_squares};
+use super::design::{DesignMatrix, with_squares};
 use super::distributions::chi_squared_upper_tail;
 use super::fit::{Fit, FitStatus, predict};
 use super::newton::{Maximum, Objective, maximise};
@@ -76,7 +76,7 @@ pub fn probit(x: &[&[f64]], events: &[bool]) -> Result<ProbitFit, FitStatus> {
     if count.min(events.len() - count) < LEAST_EVENTS {
         return Err(FitStatus::TooFewEvents);
     }
-    let design = Design::new(x)?;
+    let design = DesignMatrix::new(x)?;
     let Maximum { at, objective, converged } = maximum(&design.x, events);
     let inverse = objective.information.cholesky().map(|factors| factors.inverse());
     let inverse = inverse.filter(|inverse| !is_separated(&design.x, events, &at, inverse));
@@ -119,7 +119,7 @@ pub fn tested_probit(x: &[&[f64]], events: &[bool], clusters: &[u32]) -> Result<
 /// Computes the p-value of the squares and products of the predictors; none where these are degenerate.
 fn misfit(probit: &ProbitFit, x: &[&[f64]], events: &[bool]) -> Option<f64> {
     let columns = with_squares(x)?;
-    let wider = Design::new(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).ok()?;
+    let wider = DesignMatrix::new(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).ok()?;
     // If the wider curve separates the outcomes, its likelihood is larger still.
     let gained = maximum(&wider.x, events).objective.value - probit.log_likelihood;
     Some(chi_squared_upper_tail(2.0 * gained.max(0.0), (columns.len() - x.len()) as f64))

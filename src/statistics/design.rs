@@ -10,7 +10,7 @@ const ROUNDING: f64 = 1e-12;
 const LEAST_SHARE: f64 = 1e-7;
 
 /// An intercept and standardised predictors: n x k.
-pub struct Design {
+pub struct DesignMatrix {
     pub x: DMatrix<f64>,
     /// Transforms coefficients of `x` to those of the original predictors, k x k.
     to_given: DMatrix<f64>,
@@ -24,12 +24,12 @@ pub fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
     (sd > ROUNDING * mean.abs()).then_some((mean, sd))
 }
 
-impl Design {
+impl DesignMatrix {
     /// Makes the design matrix of predictors, each a column of length n.
     ///
     /// # Errors
     /// [`FitStatus::Degenerate`] if a predictor is constant or a combination of others, or n <= k.
-    pub fn new(columns: &[&[f64]]) -> Result<Design, FitStatus> {
+    pub fn new(columns: &[&[f64]]) -> Result<DesignMatrix, FitStatus> {
         let (n, k) = (columns.first().map_or(0, |x| x.len()), columns.len() + 1);
         if n <= k {
             return Err(FitStatus::Degenerate);
@@ -44,7 +44,7 @@ impl Design {
         }
         let correlation = x.tr_mul(&x) / n as f64;
         let shares = correlation.cholesky().ok_or(FitStatus::Degenerate)?.l().diagonal();
-        if shares.min() < LEAST_SHARE { Err(FitStatus::Degenerate) } else { Ok(Design { x, to_given }) }
+        if shares.min() < LEAST_SHARE { Err(FitStatus::Degenerate) } else { Ok(DesignMatrix { x, to_given }) }
     }
 
     /// Transforms coefficients and covariance of `x` to those of the original predictors.

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::clusters::sandwich;
-use super::design::{Design, mean_and_sd, with_squares};
+use super::design::{DesignMatrix, mean_and_sd, with_squares};
 use super::distributions::f_upper_tail;
 use super::fit::{Fit, FitStatus, predict};
 
@@ -34,7 +34,7 @@ impl LinearFit {
 /// # Errors
 /// [`FitStatus::Degenerate`] where the cases do not determine the coefficients, or `y` does not vary.
 pub fn least_squares(x: &[&[f64]], y: &[f64]) -> Result<LinearFit, FitStatus> {
-    let design = Design::new(x)?;
+    let design = DesignMatrix::new(x)?;
     let (mean, _) = mean_and_sd(y).ok_or(FitStatus::Degenerate)?;
     let y = DVector::from_column_slice(y);
     let inverse = design.x.tr_mul(&design.x).cholesky().ok_or(FitStatus::Degenerate)?.inverse();

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use arrow_schema::{FieldRef, Schema};
 use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
-use rockfrag::fragility::{DemandFit, DemandModel, Event, Measure, OverturningFit, ParameterRow};
+use rockfrag::fragility::{CurveFit, DemandFit, DemandModel, Event, Measure, ParameterRow};
 use rockfrag::fragility::{lambda, mu};
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
@@ -54,8 +54,8 @@ fn number(name: &str, suite: &str, structure: &str) -> f64 {
         "im5" => (Measure::Im5, None),
         _ => (Measure::Im4, Some(Measure::Im3Inverse)),
     };
-    let curves: Vec<OverturningFit> = rows::read(&out("pro.parquet")).unwrap();
-    let is_it = |fit: &OverturningFit| {
+    let curves: Vec<CurveFit> = rows::read(&out("pro.parquet")).unwrap();
+    let is_it = |fit: &CurveFit| {
         its(&fit.suite, &fit.structure) && fit.event == Event::Overturning && (fit.im_x, fit.im_y) == measures
     };
     let curve = curves.into_iter().find(is_it).unwrap();

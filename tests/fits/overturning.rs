@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 use rand::RngExt;
 use rockfrag::fragility::{
-    Cases, CurveOptions, Event, Measure, OverturningFit, Pair, Parameter, fit_curve, fit_curves,
-    hybrid_measure, p_overturning,
+    Cases, CurveFit, CurveOptions, Event, Measure, Pair, Parameter, fit_curve, fit_curves, hybrid_measure,
+    p_overturning,
 };
 use rockfrag::rocking::Outcome;
 use rockfrag::statistics::{FitStatus, normal};
@@ -15,7 +15,7 @@ use crate::common::{answers, cases, close, data, random};
 const HYBRID: (Measure, Option<Measure>) = (Measure::Im4, Some(Measure::Im3Inverse));
 
 /// Value and standard error of a parameter.
-fn parameter(fit: &OverturningFit, parameter: Parameter) -> (f64, f64) {
+fn parameter(fit: &CurveFit, parameter: Parameter) -> (f64, f64) {
     let rows = fit.parameters(0.95);
     let row = rows.iter().find(|row| row.parameter == parameter).unwrap();
     (row.value, row.standard_error)
@@ -64,7 +64,7 @@ fn the_hybrid_curve_is_the_probit_itself() {
     for case in [0, 17, 230] {
         let measures = cases.measures(case);
         let (im4, ratio) = (measures.im4, 1.0 / measures.im3.unwrap());
-        let p = fit.p_overturning(&measures, 0.95).unwrap();
+        let p = fit.probability(&measures, 0.95).unwrap();
         close(p.value, normal::cdf(b[0] + b[1] * im4.ln() + b[2] * ratio.ln()), 1e-13);
         close(p.value, p_overturning(hybrid_measure(im4, ratio, lambda), mu, beta), 1e-10);
         assert!(p.low < p.value && p.value < p.high);
@@ -176,7 +176,7 @@ proptest! {
             fit_curve(&cases((0..).zip(&rows).map(row)), Event::Overturning, HYBRID.0, HYBRID.1)
         };
         let (here, there) = (fit(0.0, 0.0), fit(a, b));
-        let of = |fit: &OverturningFit, name| parameter(fit, name).0;
+        let of = |fit: &CurveFit, name| parameter(fit, name).0;
         let lambda = of(&here, Parameter::Lambda);
         // mu is a mean of ln IM with weights lambda/(1 + lambda) and 1/(1 + lambda) (Eq. 23).
         let moved = (lambda * a + b) / (1.0 + lambda);

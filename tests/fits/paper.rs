@@ -68,7 +68,7 @@ fn ours_are_found_in_the_fits() {
     let b = &curves[0].coefficients;
     close(equipment("hybrid_lambda"), b[1] / b[2], 1e-15);
     let structure = Structure::new("", 2.5, 0.2, 0.92).unwrap();
-    let p = curves[0].p_overturning(&example(&structure), 0.95).unwrap().value;
+    let p = curves[0].probability(&example(&structure), 0.95).unwrap().value;
     close(equipment("example_p_ro"), p, 1e-10);
     close(equipment("example_half_erf"), 0.81, 0.01);
     assert_eq!((ours("low_b1", "frame"), ours("im5_beta", "frame")), (None, None));

@@ -8,7 +8,7 @@ use rockfrag::fragility::{
 };
 use rockfrag::pipeline::context::Context;
 use rockfrag::rocking::Structure;
-use rockfrag::stages::shared::fits::{FitsArgs, ModelName};
+use rockfrag::stages::shared::model_args::{ModelArgs, ModelName};
 use rockfrag::table::rows::Row;
 use rockfrag::warning::Warning;
 
@@ -44,8 +44,8 @@ fn folder(suites: &[&str]) -> tempfile::TempDir {
     folder
 }
 
-fn args(folder: &tempfile::TempDir) -> FitsArgs {
-    FitsArgs {
+fn args(folder: &tempfile::TempDir) -> ModelArgs {
+    ModelArgs {
         fits: Some(folder.path().to_path_buf()),
         name: None,
         suite: None,
@@ -54,8 +54,8 @@ fn args(folder: &tempfile::TempDir) -> FitsArgs {
     }
 }
 
-fn error(args: &FitsArgs) -> String {
-    args.models().and_then(|models| models.model(&equipment())).unwrap_err().to_string()
+fn error(args: &ModelArgs) -> String {
+    args.read().and_then(|models| models.model(&equipment())).unwrap_err().to_string()
 }
 
 #[test]
@@ -63,12 +63,12 @@ fn the_row_of_the_same_structure_answers_by_either_model() {
     let folder = folder(&["csgm"]);
     let args = args(&folder);
     let near = Structure::new("mine", 2.51, 0.201, 0.925).unwrap();
-    let (model, warnings) = args.models().unwrap().model(&near).unwrap();
+    let (model, warnings) = args.read().unwrap().model(&near).unwrap();
     let Model::Calibrated { overturning, exceeding, .. } = model else { panic!() };
     assert_eq!((overturning, exceeding.limit_state), (Calibration::fit(&rocking(600), None), Some(0.1)));
     assert_eq!(warnings, []);
-    let paper = FitsArgs { model: ModelName::Paper, ..args };
-    let (Model::Paper { demand, overturning, .. }, _) = paper.models().unwrap().model(&near).unwrap() else {
+    let paper = ModelArgs { model: ModelName::Paper, ..args };
+    let (Model::Paper { demand, overturning, .. }, _) = paper.read().unwrap().model(&near).unwrap() else {
         panic!()
     };
     assert_eq!((demand.len(), overturning.im_y), (2, Some(Measure::Im3Inverse)));
@@ -78,17 +78,17 @@ fn the_row_of_the_same_structure_answers_by_either_model() {
 fn a_structure_that_is_not_there_gets_the_surface_unless_it_is_named() {
     let folder = folder(&["csgm"]);
     let other = Structure::new("other", 1.0, 0.15, 0.92).unwrap();
-    let (model, warnings) = args(&folder).models().unwrap().model(&other).unwrap();
+    let (model, warnings) = args(&folder).read().unwrap().model(&other).unwrap();
     assert_eq!((model, warnings), (Model::shipped(Kind::Csgm, &other, 0.1), vec![Warning::NotFitted]));
-    let named = FitsArgs { name: Some("equipment".to_string()), ..args(&folder) };
-    let (Model::Calibrated { overturning, .. }, _) = named.models().unwrap().model(&other).unwrap() else {
+    let named = ModelArgs { name: Some("equipment".to_string()), ..args(&folder) };
+    let (Model::Calibrated { overturning, .. }, _) = named.read().unwrap().model(&other).unwrap() else {
         panic!()
     };
     assert_eq!(overturning.structure, "equipment");
-    let unknown = FitsArgs { name: Some("shelf".to_string()), ..args(&folder) };
+    let unknown = ModelArgs { name: Some("shelf".to_string()), ..args(&folder) };
     assert!(error(&unknown).contains("no structure 'shelf'; expected one of equipment"));
-    let without = FitsArgs { fits: None, ..args(&folder) };
-    let (model, warnings) = without.models().unwrap().model(&other).unwrap();
+    let without = ModelArgs { fits: None, ..args(&folder) };
+    let (model, warnings) = without.read().unwrap().model(&other).unwrap();
     assert_eq!((model, warnings), (Model::shipped(Kind::Recorded, &other, 0.1), vec![]));
 }
 
@@ -96,16 +96,16 @@ fn a_structure_that_is_not_there_gets_the_surface_unless_it_is_named() {
 fn what_cannot_be_chosen_is_an_error_that_tells_what_to_do() {
     let folder = folder(&["csgm", "pulse"]);
     assert!(error(&args(&folder)).ends_with("fits of csgm, pulse; expected --suite with one of them"));
-    let pulses = FitsArgs { suite: Some(Kind::Pulse), ..args(&folder) };
-    let (Model::Calibrated { overturning, .. }, _) = pulses.models().unwrap().model(&equipment()).unwrap()
+    let pulses = ModelArgs { suite: Some(Kind::Pulse), ..args(&folder) };
+    let (Model::Calibrated { overturning, .. }, _) = pulses.read().unwrap().model(&equipment()).unwrap()
     else {
         panic!()
     };
     assert_eq!(overturning.kind, Kind::Pulse);
-    let recorded = FitsArgs { suite: Some(Kind::Recorded), ..pulses.clone() };
+    let recorded = ModelArgs { suite: Some(Kind::Recorded), ..pulses.clone() };
     assert!(error(&recorded).ends_with("no fits of recorded, only of csgm, pulse"));
-    let limit = FitsArgs { limit_state: 0.3, ..pulses };
+    let limit = ModelArgs { limit_state: 0.3, ..pulses };
     assert!(error(&limit).ends_with("run fit-pex --limit-state 0.1,0.3"), "{}", error(&limit));
-    let paper = FitsArgs { fits: None, model: ModelName::Paper, ..args(&folder) };
+    let paper = ModelArgs { fits: None, model: ModelName::Paper, ..args(&folder) };
     assert!(error(&paper).contains("--model paper needs --fits"));
 }

@@ -1,4 +1,4 @@
 //! Synthetic ground motions against published values, and the measures of any motion against closed forms.
 
-mod intensity;
+mod measures;
 mod model;

@@ -10,8 +10,8 @@ use rockfrag::motion::pulse::largest_velocity;
 use rockfrag::motion::site::SiteTableError;
 use rockfrag::motion::stochastic::{CONSTANT, LowCut, PEAK_SHARE, Source, StochasticModel, Window};
 use rockfrag::motion::{
-    Design, Difference, Epoch, Grid, IntensityScratch, MotionModel, Pulse, Scenario, Site, Suite,
-    Synthesizer, Synthetic, intensity, measures,
+    Design, Difference, Epoch, Grid, MeasureScratch, MotionMeasures, MotionModel, Pulse, Scenario,
+    SiteAmplification, Suite, Synthesizer, Synthetic, measures,
 };
 
 const EPOCHS: [Epoch; 3] = [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv];
@@ -74,11 +74,11 @@ fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) 
     let mut mean = [0.0; 3];
     for seed in 0..SEEDS {
         let model = MotionModel { seed, ..with_difference(difference) };
-        let mut scratch = IntensityScratch::default();
+        let mut scratch = MeasureScratch::default();
         let mut synthesizer = Synthesizer::new(model, &Suite::SYNTHETIC);
         let of = |scenario: &Scenario| {
             let motion = synthesizer.synthesize(scenario);
-            measures(samples(&motion), motion.dt_s, &mut scratch)
+            MotionMeasures::of(samples(&motion), motion.dt_s, &mut scratch)
         };
         let all: Vec<_> = cell(mw, re_km, 100, seed).iter().map(of).collect();
         let of_seed = [
@@ -171,7 +171,7 @@ fn amplitudes_fall_with_distance_and_filters_as_their_equations_say() {
     assert!((ratio(&low_cut, 0.05) - 1.0 / 257.0).abs() < 1e-14);
     let kappa = StochasticModel { kappa_s: 0.040, ..near.clone() };
     assert!((ratio(&kappa, 10.0) - (-0.1 * PI).exp()).abs() < 1e-14);
-    let soil = StochasticModel { site: Site::Soil, ..near.clone() };
+    let soil = StochasticModel { site: SiteAmplification::Soil, ..near.clone() };
     assert!((ratio(&soil, 1.25) - 2.76 / 1.74).abs() < 1e-14);
 }
 
@@ -313,15 +313,15 @@ fn the_pulse_is_whole_at_its_epoch_and_ends_at_rest() {
                 assert!((a - pulse.acceleration_m_s2(from_epoch_s)).abs() < 1e-12 * largest);
                 assert!(*a == 0.0 || from_epoch_s.abs() <= half + 1e-9);
             }
-            let velocity = intensity::velocity(&motion.pulse, motion.dt_s);
-            let pgv = intensity::peak(&velocity);
+            let velocity = measures::velocity(&motion.pulse, motion.dt_s);
+            let pgv = measures::peak(&velocity);
             // The highest frequency w of the pulse is wp (1 + 1/gamma). The relative error of a peak between
             // samples is at most (w dt)^2 / 8, that of trapezoids (w dt)^2 / 12.
             let x = 2.0 * PI / scenario.tp_s * (1.0 + 1.0 / scenario.gamma) * motion.dt_s;
             let sampling = x * x * (1.0 / 8.0 + 1.0 / 12.0);
             assert!((pgv / scenario.vp_m_s - 1.0).abs() < sampling, "{epoch:?} {scenario:?}: {pgv}");
             assert!(velocity.last().unwrap().abs() < sampling * scenario.vp_m_s);
-            let combined = intensity::velocity(&motion.combined, motion.dt_s);
+            let combined = measures::velocity(&motion.combined, motion.dt_s);
             assert!(combined.last().unwrap().abs() < 0.02 * scenario.vp_m_s, "no velocity is left");
         }
     }
@@ -335,7 +335,7 @@ fn the_epoch_is_where_the_option_says() {
         for (scenario, motion) in scenarios.iter().zip(synthesize(&model, &scenarios)) {
             let window = Window::new(Source::new(scenario.mw, scenario.re_km).duration_s());
             let at = |series: &[f64]| {
-                let peak = intensity::peak(series);
+                let peak = measures::peak(series);
                 series.iter().position(|a| a.abs() == peak).unwrap() as f64 * motion.dt_s
             };
             let half_s = 0.5 * Pulse::of(scenario).duration_s();
@@ -348,7 +348,7 @@ fn the_epoch_is_where_the_option_says() {
                     onset.ceil() * motion.dt_s + peak_s
                 }
                 Epoch::Pga => at(&motion.high_frequency),
-                Epoch::Pgv => at(&intensity::velocity(&motion.high_frequency, motion.dt_s)),
+                Epoch::Pgv => at(&measures::velocity(&motion.high_frequency, motion.dt_s)),
             };
             assert!((motion.epoch_s - expected).abs() < 1e-9, "{epoch:?} {scenario:?}: {}", motion.epoch_s);
         }
@@ -402,30 +402,40 @@ fn the_noise_depends_on_seed_and_scenario() {
 #[test]
 fn sites_amplify_as_published() {
     for (f, rock, soil) in [(0.01, 1.0, 1.0), (0.51, 1.42, 2.24), (6.05, 2.58, 3.05), (61.2, 4.0, 3.21)] {
-        assert_eq!((Site::Rock.amplification(f), Site::Soil.amplification(f)), (rock, soil), "{f} Hz");
+        assert_eq!(
+            (SiteAmplification::Rock.amplification(f), SiteAmplification::Soil.amplification(f)),
+            (rock, soil),
+            "{f} Hz"
+        );
     }
-    assert_eq!((Site::Rock.amplification(0.0), Site::Rock.amplification(100.0)), (1.0, 4.0));
-    assert_eq!((Site::Soil.amplification(0.0), Site::Soil.amplification(100.0)), (1.0, 3.21));
-    let middle = Site::Rock.amplification(0.5 * (2.26 + 3.17));
+    assert_eq!(
+        (SiteAmplification::Rock.amplification(0.0), SiteAmplification::Rock.amplification(100.0)),
+        (1.0, 4.0)
+    );
+    assert_eq!(
+        (SiteAmplification::Soil.amplification(0.0), SiteAmplification::Soil.amplification(100.0)),
+        (1.0, 3.21)
+    );
+    let middle = SiteAmplification::Rock.amplification(0.5 * (2.26 + 3.17));
     assert!((middle - (2.06_f64 * 2.25).sqrt()).abs() < 1e-12, "linear in f, logarithmic in the factor");
-    assert_eq!(Site::None.amplification(3.0), 1.0);
+    assert_eq!(SiteAmplification::None.amplification(3.0), 1.0);
 }
 
 #[test]
 fn a_site_table_interpolates_between_its_rows_and_is_constant_beyond() {
-    let site = Site::table(vec![(1.0, 2.0), (3.0, 8.0)]).unwrap();
+    let site = SiteAmplification::table(vec![(1.0, 2.0), (3.0, 8.0)]).unwrap();
     for (f, expected) in [(0.0, 2.0), (1.0, 2.0), (2.0, 4.0), (3.0, 8.0), (50.0, 8.0)] {
         assert!((site.amplification(f) - expected).abs() < 1e-14, "{f} Hz");
     }
     let model = StochasticModel { site, ..StochasticModel::default() };
-    let bare = StochasticModel { site: Site::None, ..StochasticModel::default() };
+    let bare = StochasticModel { site: SiteAmplification::None, ..StochasticModel::default() };
     let amplitude = |model: &StochasticModel| model.fourier_amplitude_cm_s(&Source::new(6.0, 10.0), 2.0);
     assert!((amplitude(&model) / amplitude(&bare) - 4.0).abs() < 1e-13);
 }
 
 #[test]
 fn a_site_table_that_cannot_be_used_says_which_row() {
-    assert_eq!(Site::table(vec![(1.0, 2.0)]), Err(SiteTableError::TooShort(1)));
+    assert_eq!(SiteAmplification::table(vec![(1.0, 2.0)]), Err(SiteTableError::TooShort(1)));
     for (rows, bad) in [
         (vec![(1.0, 2.0), (1.0, 3.0)], 1),
         (vec![(0.0, 2.0), (1.0, 3.0)], 0),
@@ -433,7 +443,7 @@ fn a_site_table_that_cannot_be_used_says_which_row() {
         (vec![(f64::NAN, 1.0), (2.0, 1.0)], 0),
         (vec![(1.0, f64::INFINITY), (2.0, 1.0)], 0),
     ] {
-        let error = Site::table(rows.clone()).unwrap_err();
+        let error = SiteAmplification::table(rows.clone()).unwrap_err();
         assert!(matches!(error, SiteTableError::Row { row, .. } if row == bad), "{rows:?}: {error}");
     }
 }

@@ -4,7 +4,7 @@
 
 use std::path::PathBuf;
 
-use rockfrag::motion::intensity::velocity;
+use rockfrag::motion::measures::velocity;
 use rockfrag::records::pulses::indicator::{PulseIndicator, Verdict};
 
 use crate::references::motions;

@@ -1,6 +1,6 @@
 //! Plausible and implausible records.
 
-use rockfrag::records::plausibility::{Warning, warning};
+use rockfrag::records::plausibility::{Implausibility, implausibility};
 
 use crate::references::reference_motions;
 use crate::writers::{DT, G, motion};
@@ -9,11 +9,11 @@ use crate::writers::{DT, G, motion};
 fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
     let mut half_pulses = 0;
     for motion in reference_motions().into_values() {
-        match warning(&motion.acceleration_m_s2, motion.dt_s) {
+        match implausibility(&motion.acceleration_m_s2, motion.dt_s) {
             // The strongest synthetic motions are as strong as few records.
-            None | Some(Warning::RarePga { .. } | Warning::RarePgv { .. }) => {}
+            None | Some(Implausibility::RarePga { .. } | Implausibility::RarePgv { .. }) => {}
             // Half-sine and rectangular pulses end with a velocity.
-            Some(Warning::Drift { .. }) => half_pulses += 1,
+            Some(Implausibility::Drift { .. }) => half_pulses += 1,
             Some(other) => panic!("{}: {other}", motion.motion_id),
         }
     }
@@ -25,7 +25,7 @@ fn every_limit_is_kept() {
     let slow = |k: usize| (2.0 * std::f64::consts::PI * k as f64 / 1000.0).sin();
     let kind = |dt_s: f64, change: &dyn Fn(usize, f64) -> f64| {
         let samples: Vec<f64> = motion(1000).into_iter().enumerate().map(|(k, a)| change(k, a)).collect();
-        format!("{:?}", warning(&samples, dt_s))
+        format!("{:?}", implausibility(&samples, dt_s))
     };
     for (found, expected) in [
         (kind(DT, &|_, a| a), "None"),
@@ -39,12 +39,14 @@ fn every_limit_is_kept() {
         (kind(DT, &|_, _| 0.0), "Some(Still"),
         (kind(DT, &|k, _| slow(k)), "Some(Slow { ratio_s: 3.18"),
         (kind(DT, &|k, _| 4.0 * slow(k)), "Some(Pgv { pgv_m_s: 12.7"),
-        (format!("{:?}", warning(&motion(1000)[..20], DT)), "Some(FewSamples { samples: 20"),
+        (format!("{:?}", implausibility(&motion(1000)[..20], DT)), "Some(FewSamples { samples: 20"),
     ] {
         assert!(found.starts_with(expected), "{expected}: {found}");
     }
-    let impossible = [Warning::Still, Warning::Pga { pga_g: 30.0 }, Warning::TimeStep { dt_s: 1.0 }];
+    let impossible =
+        [Implausibility::Still, Implausibility::Pga { pga_g: 30.0 }, Implausibility::TimeStep { dt_s: 1.0 }];
     assert!(
-        impossible.iter().all(Warning::is_impossible) && !Warning::RarePga { pga_g: 3.0 }.is_impossible()
+        impossible.iter().all(Implausibility::is_impossible)
+            && !Implausibility::RarePga { pga_g: 3.0 }.is_impossible()
     );
 }

@@ -102,7 +102,7 @@ fn components_of_one_station_at_right_angles_are_a_pair() {
 #[test]
 fn motions_are_scaled_by_factors_or_to_peaks() {
     let samples = motion(400);
-    let pgv = peak(&rockfrag::motion::intensity::velocity(&samples, DT));
+    let pgv = peak(&rockfrag::motion::measures::velocity(&samples, DT));
     assert_eq!(Scaling::Factors(vec![0.5, 2.0]).factors(&samples, DT), [0.5, 2.0]);
     near(&Scaling::Pga(1.5).factors(&samples, DT), [1.5 / peak(&samples)], 1e-12);
     near(&Scaling::Pgv(0.4).factors(&samples, DT), [0.4 / pgv], 1e-12);

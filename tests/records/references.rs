@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use rockfrag::motion::intensity::velocity;
-use rockfrag::motion::{IntensityScratch, MeasurePlan, Measured};
+use rockfrag::motion::measures::velocity;
+use rockfrag::motion::{MeasurePlan, MeasureScratch, Measured};
 use rockfrag::records::pulses::{FittedPulse, PulseIndicator};
 use rockfrag::table::motions::{Motion, Motions};
 
@@ -61,7 +61,7 @@ fn measures_are_those_of_eqsig_and_numpy() {
     assert_eq!(answers.len(), 24 * 15);
     for (motion_id, measure, value) in answers {
         let Motion { acceleration_m_s2, dt_s, .. } = &motions[&motion_id];
-        let measured = plan.measure(acceleration_m_s2, *dt_s, &mut IntensityScratch::default());
+        let measured = plan.measure(acceleration_m_s2, *dt_s, &mut MeasureScratch::default());
         let (ours, share, amount) = ours(&measured, &measure, *dt_s);
         assert!(
             (ours - value).abs() <= share * value + amount,

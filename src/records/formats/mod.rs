@@ -22,7 +22,7 @@ pub use error::RecordFileError;
 
 use super::{HeaderPga, ReadOptions, RecordedMotion};
 use crate::keyword::{Keyword, keywords};
-use crate::motion::intensity::peak;
+use crate::motion::measures::peak;
 use crate::sheet::decode;
 
 /// A text format, in order of detection.

@@ -3,7 +3,7 @@
 
 use super::wavelet::{Wavelet, WaveletTransform};
 use crate::keyword::keywords;
-use crate::motion::intensity::peak;
+use crate::motion::measures::peak;
 
 /// Range of pulse periods, s.
 pub const PERIODS_S: (f64, f64) = (0.25, 15.0);

@@ -73,7 +73,7 @@ pub fn regressions(group: &Group, fits: &[Option<MeasureFit>]) -> Figure {
         let points: Vec<[f64; 2]> = group
             .cases
             .iter()
-            .filter_map(|case| Some([measure.among(&case.measures)?, case.demand()?]))
+            .filter_map(|case| Some([measure.value_of(&case.measures)?, case.demand()?]))
             .collect();
         let [low, high] =
             points.iter().fold([f64::INFINITY, 0.0_f64], |[low, high], [x, _]| [low.min(*x), high.max(*x)]);

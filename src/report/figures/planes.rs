@@ -38,7 +38,7 @@ fn panel(GroupPlanes { group, transition, planes }: &GroupPlanes) -> Panel {
     let sides = [("below the transition", Ink::Data(2), true), ("above it", Ink::Data(0), false)];
     for ((label, ink, is_below), [ln_a, b1, b2]) in sides.into_iter().zip(planes) {
         let logarithms = |case: &RockingCase| -> Option<Vector> {
-            let [im4, im3] = PLANE.map(|measure| measure.among(&case.measures));
+            let [im4, im3] = PLANE.map(|measure| measure.value_of(&case.measures));
             Some([im4?.ln(), im3?.ln(), case.demand()?.ln()])
         };
         let cases = group.cases.iter().filter_map(logarithms);

@@ -1,38 +1,49 @@
 //! evaluate: probabilities at an intensity or at each of a table, and annual rates over the hazard of a site.
+//!
+//! ```text
+//! object       what is predicted for each object of a call, the worst first
+//! point        probabilities at one PGA and PGV
+//! rates        annual rates at a site
+//! table        probabilities at each intensity of a table; intensities reads it
+//! words        an object, its model and its warnings in words
+//! explain      the model and the measures behind an answer
+//! output       what is printed and written
+//! ```
 
-mod answer;
+mod explain;
+mod intensities;
 mod object;
-mod site;
+mod output;
+mod point;
+mod rates;
 mod table;
+mod words;
 
 use std::path::{Path, PathBuf};
 
-use arrow_array::RecordBatch;
 use clap::{Args, ValueHint};
-use rayon::prelude::*;
 
-use super::shared::fits::FitsArgs;
 use super::shared::hazard::{self, Renamed};
+use super::shared::model_args::{ModelArgs, Models};
 use super::shared::responses;
-use super::shared::structures::{Object, StructureArgs, warnings_of};
-use crate::fragility::{Model, Peak, Ratio, Scenarios};
-use crate::keyword;
+use super::shared::structures::{Object, StructureArgs};
+use crate::fragility::{Model, Ratio};
+use crate::hazard::{Hazard, Site};
 use crate::motion::IntensityMeasures;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::Stage;
+use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::rocking::Structure;
-use crate::table::frame::{self, Format};
-use crate::table::rows;
-use crate::table::writer::write_file;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
-use self::object::{Answer, texts};
-pub use self::object::{ObjectRow, Predicted, TreeRow, words_of};
-pub use self::site::RatesRow;
-use self::site::Site;
+use self::object::{Answer, Prediction};
+pub use self::object::{ObjectRow, Predicted};
+use self::output::Output;
+pub use self::point::TreeRow;
+pub use self::rates::RatesRow;
 
 /// Predict how probable rocking and overturning are: under a motion, under each of a table, or a year at
 /// a site
@@ -42,11 +53,11 @@ use self::site::Site;
 pub struct Evaluate {
     /// Peak ground acceleration, g
     #[arg(long, value_name = "G", conflicts_with_all = ["in", "hazard"],
-          value_parser = number(0.0..=4.5, "g, up to 4.5, the strongest ever recorded: is it in m/s2?"))]
+          value_parser = number(0.0..=STRONGEST_PGA_G, "g, up to 4.5, the strongest ever recorded: is it in m/s2?"))]
     pga: Option<f64>,
     /// Peak ground velocity, m/s
     #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "hazard"],
-          value_parser = number(0.0..=5.0, "m/s, up to 5, more than was ever recorded: is it in cm/s?"))]
+          value_parser = number(0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, more than was ever recorded: is it in cm/s?"))]
     pgv: Option<f64>,
     /// Table of PGA and PGV (pga_m_s2 or pga_g, pgv_m_s), Parquet or CSV, with p_rad_s, alpha_rad and
     /// eta where they vary
@@ -78,14 +89,10 @@ pub struct Evaluate {
     /// Also print a sentence for a report
     #[arg(long)]
     sentence: bool,
-    /// text, csv or json
-    #[arg(long, default_value = "text")]
-    format: Format,
-    /// File to write: .parquet, .csv or .json [default: none; with --in, evaluated.parquet beside it]
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
-    out: Option<PathBuf>,
     #[command(flatten)]
-    fits: FitsArgs,
+    output: Output,
+    #[command(flatten)]
+    model: ModelArgs,
     #[command(flatten)]
     structures: StructureArgs,
 }
@@ -100,31 +107,28 @@ enum Question<'a> {
 
 impl Stage for Evaluate {
     fn outputs(&self) -> Vec<PathBuf> {
-        self.out().into_iter().collect()
+        self.output.path(self.input.as_deref()).into_iter().collect()
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        if let Some(out) = self.out() {
-            file_format(&out)?;
-        }
+        self.output.check()?;
         self.question().map(|_| ())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
+        let models = self.model.read()?;
         match self.question()? {
-            Question::Table(path) => table::run(self, path, context),
-            Question::Point(pga_g, pgv_m_s) => self.at_point(pga_g, pgv_m_s, context),
-            Question::Hazard(path) => self.over_hazard(path, context),
+            Question::Point(pga_g, pgv_m_s) => self.at_point([pga_g * G_M_S2, pgv_m_s], &models, context),
+            Question::Hazard(path) => self.over_hazard(path, &models, context),
+            Question::Table(path) => {
+                let (rows, text) = table::evaluate(path, &self.columns, &self.structures, &models, context)?;
+                self.output.write(&rows, text, Some(path), context)
+            }
         }
     }
 }
 
 impl Evaluate {
-    fn out(&self) -> Option<PathBuf> {
-        let beside = || self.input.as_ref().map(|input| input.with_file_name("evaluated.parquet"));
-        self.out.clone().or_else(beside)
-    }
-
     fn question(&self) -> anyhow::Result<Question<'_>> {
         match (self.pga, self.pgv, &self.input, &self.hazard) {
             (Some(pga), Some(pgv), ..) => Ok(Question::Point(pga, pgv)),
@@ -136,10 +140,56 @@ impl Evaluate {
         }
     }
 
+    fn at_point(&self, peaks: [f64; 2], models: &Models, context: &Context) -> anyhow::Result<String> {
+        let predict = |structure: &Structure, model: &Model| {
+            let measures = IntensityMeasures::new(structure, peaks[0], peaks[1], None, None);
+            let row = TreeRow::new(structure, model, &measures, peaks);
+            Prediction { row, motion: peaks, warnings: Vec::new() }
+        };
+        let all = object::answers(self.objects(models)?, models, self.explain, predict)?;
+        self.finish(&all, point::text(&all, self.sentence), context)
+    }
+
+    fn over_hazard(&self, path: &Path, models: &Models, context: &Context) -> anyhow::Result<String> {
+        let site = self.site(path)?;
+        let implausible = site.hazard.is_implausible().then_some(Warning::ImplausibleHazard);
+        let predict = |structure: &Structure, model: &Model| {
+            let rates = site.rates(structure, model);
+            let row = RatesRow::new(&rates, self.years);
+            Prediction {
+                row,
+                motion: rates.motion,
+                warnings: rates.warnings.into_iter().chain(implausible).collect(),
+            }
+        };
+        let all = object::answers(self.objects(models)?, models, self.explain, predict)?;
+        self.finish(&all, rates::text(&all, &site, self.sentence), context)
+    }
+
+    /// Reads the hazard and what rates over it need.
+    fn site(&self, path: &Path) -> anyhow::Result<Site> {
+        let hazard = hazard::read(path, &self.columns)?;
+        if let Hazard::Joint(_) = hazard {
+            if self.ratio.is_some() {
+                return Err(UsageError::because("ratio: the hazard has PGA and PGV of each motion"));
+            }
+            if self.extrapolate {
+                return Err(UsageError::because("extrapolate: expected a hazard curve of one peak"));
+            }
+        }
+        Ok(Site {
+            hazard,
+            ratio: self.ratio.map_or(Ratio::Distributed, Ratio::Seconds),
+            extrapolate: self.extrapolate,
+            limit_state: self.model.limit_state,
+            responses: self.responses.as_deref().map_or(Ok(Vec::new()), responses::read)?,
+        })
+    }
+
     /// Returns the given structures, or all fitted ones.
-    fn objects(&self) -> anyhow::Result<Vec<Object>> {
-        if !self.structures.is_given() && self.fits.fits.is_some() {
-            return Ok(self.fits.models()?.structures().into_iter().map(Object::from).collect());
+    fn objects(&self, models: &Models) -> anyhow::Result<Vec<Object>> {
+        if !self.structures.is_given() && self.model.fits.is_some() {
+            return Ok(models.structures()?.into_iter().map(Object::from).collect());
         }
         let objects = self.structures.objects()?;
         match objects.iter().find_map(|object| object.structure.as_ref().err()) {
@@ -153,130 +203,14 @@ impl Evaluate {
         }
     }
 
-    fn at_point(&self, pga_g: f64, pgv_m_s: f64, context: &Context) -> anyhow::Result<String> {
-        let peaks = [pga_g * G_M_S2, pgv_m_s];
-        let predict = |structure: &Structure, model: &Model, _: &mut Vec<Warning>| {
-            let measures = IntensityMeasures::new(structure, peaks[0], peaks[1], None, None);
-            (TreeRow::new(peaks, &model.probabilities(structure, &measures, Scenarios::One)), measures)
-        };
-        self.answer(predict, |all| answer::of_points(all, self.sentence), context)
-    }
-
-    fn over_hazard(&self, path: &Path, context: &Context) -> anyhow::Result<String> {
-        let site = Site {
-            hazard: hazard::read(path, &self.columns)?,
-            years: self.years,
-            ratio: self.ratio.map_or(Ratio::Distributed, Ratio::Seconds),
-            extrapolate: self.extrapolate,
-            limit_state: self.fits.limit_state,
-            responses: self.responses.as_deref().map(responses::read).transpose()?,
-        };
-        site.check(self.ratio)?;
-        let implausible = site.is_implausible().then_some(Warning::ImplausibleHazard);
-        let predict = |structure: &Structure, model: &Model, warnings: &mut Vec<Warning>| {
-            warnings.extend(implausible);
-            site.rates(structure, model, warnings)
-        };
-        self.answer(predict, |all| answer::of_rates(all, &site, self.sentence), context)
-    }
-
-    /// Predicts for all objects, the worst first. `predict` gives a row, and the measures of the motion that
-    /// matters.
-    fn answer<R: Predicted>(
+    /// Writes and prints the answers for all objects, and warns of them.
+    fn finish<R: Predicted>(
         &self,
-        predict: impl Fn(&Structure, &Model, &mut Vec<Warning>) -> (R, IntensityMeasures) + Sync,
-        text: impl Fn(&[Answer<R>]) -> String,
+        all: &[Answer<R>],
+        text: String,
         context: &Context,
     ) -> anyhow::Result<String> {
-        let models = self.fits.models()?;
-        let of_object = |object: Object| -> anyhow::Result<Answer<R>> {
-            let structure = match &object.structure {
-                Ok(structure) => structure,
-                Err(reason) => {
-                    let refused = Answer {
-                        object: ObjectRow::refused(&object),
-                        row: R::default().with_warnings(Some(reason.clone())),
-                        warnings: vec![Warning::ImplausibleRow],
-                        explained: String::new(),
-                    };
-                    return Ok(refused);
-                }
-            };
-            let (model, mut warnings) = models.model(structure)?;
-            let (row, measures) = predict(structure, &model, &mut warnings);
-            warnings.extend(warnings_of(structure));
-            warnings.extend(model.warnings(structure, &measures));
-            warnings.sort();
-            warnings.dedup();
-            let explained = || answer::explained(&model, structure, &measures);
-            Ok(Answer {
-                object: ObjectRow::new(&object, structure, &model, self.fits.limit_state),
-                row: row.with_warnings(texts(&warnings)),
-                warnings,
-                explained: if self.explain { explained() } else { String::new() },
-            })
-        };
-        let all = self.objects()?.into_par_iter().map(of_object).collect::<anyhow::Result<Vec<_>>>();
-        let mut all = all?;
-        let warnings = |answer: &Answer<R>| {
-            let name = answer.object.structure.clone();
-            answer.warnings.clone().into_iter().map(move |warning| (warning, name.clone()))
-        };
-        context.warn(all.iter().flat_map(warnings).collect());
-        all.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
-        let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
-        let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();
-        let columns = [rows::batch_of::<ObjectRow, _>(&objects)?, rows::batch_of::<R, _>(&predicted)?];
-        let rows = rows::side_by_side(&columns)?;
-        self.write(&[rows], || text(&all), context)
-    }
-
-    /// Writes rows of one schema, if they go to a file, and returns what to print.
-    fn write(
-        &self,
-        rows: &[RecordBatch],
-        text: impl Fn() -> String,
-        context: &Context,
-    ) -> anyhow::Result<String> {
-        let show = |format: Format| -> anyhow::Result<String> {
-            let mut whole = frame::of_batch(&rows[0])?;
-            for more in &rows[1..] {
-                whole.vstack_mut(&frame::of_batch(more)?)?;
-            }
-            frame::show(&whole, format)
-        };
-        let printed = if self.format == Format::Text { text() } else { show(self.format)? };
-        let Some(out) = self.out() else { return Ok(printed) };
-        match file_format(&out)? {
-            Some(format) => write_file(&out, show(format)?.as_bytes())?,
-            None => {
-                let mut writer = context.create(&out, &rows[0].schema())?;
-                rows.iter().try_for_each(|rows| writer.append(rows))?;
-                context.finish(writer, &printed)?;
-            }
-        }
-        Ok(printed)
-    }
-}
-
-/// How a file is written, by how its name ends; none as Parquet.
-fn file_format(out: &Path) -> anyhow::Result<Option<Format>> {
-    match out.extension().and_then(|ending| ending.to_str()) {
-        Some("parquet") => Ok(None),
-        Some(ending @ ("csv" | "json")) => Ok(Some(keyword::parse(ending)?)),
-        _ => {
-            let out = out.display();
-            Err(UsageError::because(format!(
-                "out is {out}; expected a name that ends in .parquet, .csv or .json"
-            )))
-        }
-    }
-}
-
-/// The usual unit of a peak, and its size in m/s2 or m/s.
-fn unit(peak: Peak) -> (&'static str, f64) {
-    match peak {
-        Peak::Pga => ("g", G_M_S2),
-        Peak::Pgv => ("m/s", 1.0),
+        context.warn(object::warnings_of_all(all));
+        self.output.write(&[object::batch(all)?], text, None, context)
     }
 }

@@ -1,12 +1,17 @@
-//! What is written of an object: who it is, and its probabilities at an intensity.
+//! What is predicted for each object of a call, the worst first.
 
+use arrow_array::RecordBatch;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::fragility::{GivenRocking, Kind, Model, Probabilities, Probability};
+use super::explain::explained;
+use crate::fragility::Model;
+use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
-use crate::stages::shared::structures::Object;
-use crate::table::rows::Row;
-use crate::warning::Warning;
+use crate::stages::shared::model_args::{Models, words_of};
+use crate::stages::shared::structures::{Object, warnings_of};
+use crate::table::rows::{self, Row};
+use crate::warning::{Warning, Warnings};
 
 /// What is predicted for an object.
 pub struct Answer<R> {
@@ -41,7 +46,7 @@ pub struct ObjectRow {
 }
 
 impl ObjectRow {
-    pub fn new(object: &Object, structure: &Structure, model: &Model, limit_state: f64) -> ObjectRow {
+    fn new(object: &Object, structure: &Structure, model: &Model, limit_state: f64) -> ObjectRow {
         ObjectRow {
             p_rad_s: Some(structure.p_rad_s),
             alpha_rad: Some(structure.alpha_rad),
@@ -54,7 +59,7 @@ impl ObjectRow {
     }
 
     /// Of an object whose row cannot be right.
-    pub fn refused(object: &Object) -> ObjectRow {
+    fn refused(object: &Object) -> ObjectRow {
         ObjectRow {
             structure: object.name.clone(),
             width_m: object.size_m.map(|size| size[0]),
@@ -64,94 +69,67 @@ impl ObjectRow {
     }
 }
 
-/// What predicts, in words.
-pub fn words_of(model: &Model) -> String {
-    match model {
-        Model::Calibrated { overturning, .. } => {
-            let motions = words_of_kind(overturning.kind);
-            match overturning.n {
-                0 => format!("rockfrag's universal surface for {motions}"),
-                n => format!("rockfrag's universal surface, calibrated on {n} responses to {motions}"),
+/// What is predicted for one structure.
+pub struct Prediction<R> {
+    pub row: R,
+    /// PGA and PGV (m/s2 and m/s) of the motion that matters.
+    pub motion: [f64; 2],
+    pub warnings: Vec<Warning>,
+}
+
+/// Predicts for all objects, the worst first.
+pub fn answers<R: Predicted>(
+    objects: Vec<Object>,
+    models: &Models,
+    explain: bool,
+    predict: impl Fn(&Structure, &Model) -> Prediction<R> + Sync,
+) -> anyhow::Result<Vec<Answer<R>>> {
+    let answer = |object: Object| -> anyhow::Result<Answer<R>> {
+        let structure = match &object.structure {
+            Ok(structure) => structure,
+            Err(reason) => {
+                return Ok(Answer {
+                    object: ObjectRow::refused(&object),
+                    row: R::default().with_warnings(Some(reason.clone())),
+                    warnings: vec![Warning::ImplausibleRow],
+                    explained: String::new(),
+                });
             }
-        }
-        Model::Paper { overturning, .. } => {
-            let suite = overturning.suite.as_deref().and_then(|suite| suite.parse().ok());
-            let motions = words_of_kind(Kind::of(suite));
-            format!(
-                "rockfrag's fit of the paper's curve and planes to {} responses to {motions}",
-                overturning.n
-            )
-        }
-    }
-}
-
-/// A kind of motion, in words.
-pub fn words_of_kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Recorded => "recorded motions",
-        Kind::Csgm => "synthetic near-fault motions on rock",
-        Kind::Pulse => "synthetic pulses alone",
-        Kind::Hfc => "synthetic motions without a pulse",
-    }
-}
-
-/// The probabilities of the tree at an intensity; none where they are not known.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct TreeRow {
-    pub pga_m_s2: Option<f64>,
-    pub pgv_m_s: Option<f64>,
-    pub p_nr: Option<f64>,
-    pub p_ex: Option<f64>,
-    pub p_ex_low: Option<f64>,
-    pub p_ex_high: Option<f64>,
-    pub p_ro: Option<f64>,
-    pub p_ro_low: Option<f64>,
-    pub p_ro_high: Option<f64>,
-    pub p_f_r: Option<f64>,
-    pub p_f_r_low: Option<f64>,
-    pub p_f_r_high: Option<f64>,
-    pub p_f: Option<f64>,
-    pub warnings: Option<String>,
-}
-
-impl TreeRow {
-    /// At a PGA and PGV (m/s2 and m/s).
-    pub fn new(peaks: [f64; 2], probabilities: &Probabilities) -> TreeRow {
-        let given = probabilities.given_rocking;
-        let of = |p: fn(&GivenRocking) -> Probability| {
-            let known = given.as_ref().map(p).filter(|p| !p.value.is_nan());
-            [known.map(|p| p.value), known.map(|p| p.low), known.map(|p| p.high)]
         };
-        let [p_ex, p_ex_low, p_ex_high] = of(|given| given.p_ex);
-        let [p_ro, p_ro_low, p_ro_high] = of(|given| given.p_ro);
-        let [p_f_r, p_f_r_low, p_f_r_high] = of(|given| given.p_failure);
-        TreeRow {
-            pga_m_s2: Some(peaks[0]),
-            pgv_m_s: Some(peaks[1]),
-            p_nr: Some(probabilities.p_nr),
-            p_ex,
-            p_ex_low,
-            p_ex_high,
-            p_ro,
-            p_ro_low,
-            p_ro_high,
-            p_f_r,
-            p_f_r_low,
-            p_f_r_high,
-            p_f: probabilities.limit_states().map(|states| states[1].value).filter(|p| !p.is_nan()),
-            warnings: None,
-        }
-    }
+        let (model, mut warnings) = models.model(structure)?;
+        let Prediction { row, motion, warnings: of_prediction } = predict(structure, &model);
+        let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
+        warnings.extend(of_prediction);
+        warnings.extend(warnings_of(structure));
+        warnings.extend(model.warnings(structure, &measures));
+        warnings.sort();
+        warnings.dedup();
+        Ok(Answer {
+            object: ObjectRow::new(&object, structure, &model, models.limit_state()),
+            row: row.with_warnings(texts(&warnings)),
+            warnings,
+            explained: if explain { explained(&model, structure, motion) } else { String::new() },
+        })
+    };
+    let mut all = objects.into_par_iter().map(answer).collect::<anyhow::Result<Vec<_>>>()?;
+    all.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
+    Ok(all)
 }
 
-impl Predicted for TreeRow {
-    fn with_warnings(self, warnings: Option<String>) -> TreeRow {
-        TreeRow { warnings, ..self }
-    }
+/// The warnings of all objects, each with the names of these.
+pub fn warnings_of_all<R>(all: &[Answer<R>]) -> Warnings {
+    let of = |answer: &Answer<R>| {
+        let name = answer.object.structure.clone();
+        answer.warnings.clone().into_iter().map(move |warning| (warning, name.clone()))
+    };
+    all.iter().flat_map(of).collect()
+}
 
-    fn severity(&self) -> f64 {
-        self.p_ro.or(self.p_nr.map(|p_nr| -p_nr)).unwrap_or(f64::NEG_INFINITY)
-    }
+/// The rows of all objects.
+pub fn batch<R: Predicted>(all: &[Answer<R>]) -> anyhow::Result<RecordBatch> {
+    let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
+    let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();
+    rows::side_by_side(&[rows::batch_of::<ObjectRow, _>(&objects)?, rows::batch_of::<R, _>(&predicted)?])
 }
 
 /// Warnings as they stand in a file.

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use super::studies;
 use super::tables::Tables;
-use crate::fragility::{Calibration, Cases, DemandFit, DemandModel, Event, Measure, OverturningFit};
+use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
 use crate::fragility::{Probability, Scenarios, hybrid_measure, lambda};
 use crate::keyword::Keyword;
-use crate::motion::{IntensityMeasures, Suite, intensity};
+use crate::motion::{IntensityMeasures, Suite, measures};
 use crate::report::figures::{self as draw, MeasureFit, ProbabilityPanel, StructureCurves};
 use crate::report::text::number;
 use crate::report::{Estimate, Figure};
@@ -70,11 +70,6 @@ pub fn title(structure: &str, suite: Option<&str>) -> String {
     synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
 }
 
-/// Whether a row of this suite and structure is of some cases.
-pub fn is_of(cases: &Cases, suite: &Option<String>, structure: &str) -> bool {
-    *suite == cases.suite && structure == cases.structure.name
-}
-
 pub fn name(cases: &Cases) -> String {
     title(&cases.structure.name, cases.suite.as_deref())
 }
@@ -112,7 +107,7 @@ fn a_motion(motions: &[Motion]) -> Option<Figure> {
     let pulse = |whole: &Motion| motions.iter().find(|other| is(other, Suite::Pulse) && same(whole, other));
     let mut combined = motions.iter().filter(|motion| is(motion, Suite::Csgm));
     let whole = combined.find(|whole| pulse(whole).is_some()).or(motions.first())?;
-    let velocity = |motion: &Motion| intensity::velocity(&motion.acceleration_m_s2, motion.dt_s);
+    let velocity = |motion: &Motion| measures::velocity(&motion.acceleration_m_s2, motion.dt_s);
     Some(draw::motion(&draw::Motion {
         words: words(whole),
         dt_s: whole.dt_s,
@@ -168,7 +163,7 @@ fn regressions<'a>(
     of: &'a Cases,
     model: DemandModel,
 ) -> impl Iterator<Item = &'a DemandFit> {
-    let its = all.demand.iter().filter(|fit| is_of(of, &fit.suite, &fit.structure));
+    let its = all.demand.iter().filter(|fit| fit.group() == of.group());
     its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
 }
 
@@ -265,25 +260,23 @@ fn over(
     im_y: Option<Measure>,
 ) -> Option<ProbabilityPanel> {
     let fit = |cases: &Cases| {
-        let is_its = |fit: &&OverturningFit| {
-            is_of(cases, &fit.suite, &fit.structure)
-                && (fit.im_x, fit.im_y) == (im_x, im_y)
-                && fit.coefficients[1..].iter().sum::<f64>() > 0.0
-        };
-        tables.curves.iter().find(is_its)
+        let mut its = tables.curves.iter().filter(|fit| fit.group() == cases.group());
+        its.find(|fit| {
+            (fit.im_x, fit.im_y) == (im_x, im_y) && fit.coefficients[1..].iter().sum::<f64>() > 0.0
+        })
     };
     let structure = |cases: &&Cases| {
         let name = cases.structure.name.clone();
         let Some(fit) = fit(cases) else { return StructureCurves { name, ..StructureCurves::default() } };
         let value = |k: usize| {
             let (measures, b) = (cases.measures(k), &fit.coefficients);
-            let (x, y) = (im_x.among(&measures)?, im_y.map(|im_y| im_y.among(&measures)));
+            let (x, y) = (im_x.value_of(&measures)?, im_y.map(|im_y| im_y.value_of(&measures)));
             y.map_or(Some(x), |y| Some(hybrid_measure(x, y?, lambda(b).0)))
         };
         let shares: Vec<(f64, bool)> =
             rocked(cases).filter_map(|(k, event)| Some((value(k)?, event))).collect();
         let im3 = quantile(cases.column(Measure::Im3).to_vec(), 0.5).unwrap_or(1.0);
-        let p = |value: f64| fit.p_overturning(&measures(im4_at(fit, value, im3), im3), CONFIDENCE);
+        let p = |value: f64| fit.probability(&measures(im4_at(fit, value, im3), im3), CONFIDENCE);
         StructureCurves { name, curves: vec![curve("", ratios(ends(&shares)), p)], shares: binned(&shares) }
     };
     let measure = if im_y.is_some() { "hybrid measure" } else { draw::label(im_x) };
@@ -291,7 +284,7 @@ fn over(
     if let [a, b] = groups
         && let (Some(of_a), Some(of_b)) = (fit(a), fit(b))
     {
-        let row = |cases: &Cases, own: &OverturningFit, other: &OverturningFit| {
+        let row = |cases: &Cases, own: &CurveFit, other: &CurveFit| {
             let [own, other] = [own, other].map(|fit| number::fixed(score(fit, cases), 2));
             format!("{}: {own}, {other}", cases.structure.name)
         };
@@ -302,7 +295,7 @@ fn over(
 }
 
 /// IM4 of a motion at which the measure of a curve has this value.
-fn im4_at(fit: &OverturningFit, value: f64, im3: f64) -> f64 {
+fn im4_at(fit: &CurveFit, value: f64, im3: f64) -> f64 {
     match (fit.im_x, &fit.coefficients[..]) {
         (_, [_, b1, b2]) => (((b1 + b2) * value.ln() + b2 * im3.ln()) / b1).exp(),
         (Measure::Im5, _) => value * im3,
@@ -311,10 +304,9 @@ fn im4_at(fit: &OverturningFit, value: f64, im3: f64) -> f64 {
 }
 
 /// Mean log score of a curve on the cases of any structure.
-fn score(fit: &OverturningFit, cases: &Cases) -> f64 {
+fn score(fit: &CurveFit, cases: &Cases) -> f64 {
     const LEAST: f64 = 1e-12;
-    let p =
-        |k: usize| Some(fit.p_overturning(&cases.measures(k), CONFIDENCE)?.value.clamp(LEAST, 1.0 - LEAST));
+    let p = |k: usize| Some(fit.probability(&cases.measures(k), CONFIDENCE)?.value.clamp(LEAST, 1.0 - LEAST));
     let (p, events): (Vec<f64>, Vec<bool>) =
         rocked(cases).filter_map(|(k, event)| Some((p(k)?, event))).unzip();
     log_score(&p, &events)
@@ -323,7 +315,7 @@ fn score(fit: &OverturningFit, cases: &Cases) -> f64 {
 /// P_ro over PGA: means over the motions in each bin, of the calibrated curve and of the surface as shipped.
 fn over_pga(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
     let structure = |cases: &&Cases| {
-        let own = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure))?;
+        let own = tables.calibrations.iter().find(|row| row.group() == cases.group())?;
         let shares: Vec<(f64, bool)> =
             rocked(cases).map(|(k, event)| (cases.pga_m_s2[k] / G_M_S2, event)).collect();
         let bins = bins(&shares);

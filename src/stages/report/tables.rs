@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::fragility::{Calibration, Cases, DemandFit, Event, OverturningFit};
+use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event};
 use crate::paper;
 use crate::stages::evaluate::{ObjectRow, Predicted, RatesRow};
 use crate::stages::shared::responses;
@@ -21,7 +21,7 @@ pub struct Tables {
     pub groups: Vec<Cases>,
     pub demand: Vec<DemandFit>,
     /// Of overturning, as the next.
-    pub curves: Vec<OverturningFit>,
+    pub curves: Vec<CurveFit>,
     pub calibrations: Vec<Calibration>,
     /// Demand whose exceedance was fitted.
     pub limit_state: f64,

@@ -7,18 +7,9 @@ use std::str::FromStr;
 use anyhow::{Context, bail};
 
 use crate::fragility::Peak;
-use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks};
+use crate::hazard::{Hazard, HazardCurve, JointHazard, PairOfPeaks};
 use crate::sheet::{Heading, Sheet};
 use crate::units::{CM_PER_M, G_M_S2, Quantity};
-
-/// The hazard of a site.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Hazard {
-    /// Annual rates at which a peak is exceeded; m/s2 or m/s.
-    Curve(Peak, HazardCurve),
-    /// Annual rates at which pairs of peaks occur.
-    Joint(JointHazard),
-}
 
 /// Another heading for a column: `pga_g=PGA`.
 #[derive(Debug, Clone, PartialEq)]

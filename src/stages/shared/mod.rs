@@ -1,8 +1,8 @@
 //! What several stages have: the options of structures and fits, and motions as simulate and ida take them.
 
-pub mod fits;
-pub mod fitted;
+pub mod fit_tables;
 pub mod hazard;
+pub mod model_args;
 pub mod motions;
 pub mod responses;
 pub mod structures;

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use crate::keyword;
-use crate::motion::{IntensityMeasures, IntensityScratch, Suite, intensity};
+use crate::motion::{IntensityMeasures, MeasureScratch, Suite, measures};
 use crate::records::plausibility;
 use crate::rocking::{Outcome, Record, RecordError, Response, Structure};
 use crate::table::TableError;
@@ -31,13 +31,13 @@ pub struct Measures {
 
 impl Measures {
     /// Measures a motion.
-    pub fn new(motion: &Motion, record: &Record, scratch: &mut IntensityScratch) -> Measures {
+    pub fn new(motion: &Motion, record: &Record, scratch: &mut MeasureScratch) -> Measures {
         let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
-        let pgv = || intensity::peak(&intensity::velocity(samples, dt_s));
+        let pgv = || measures::peak(&measures::velocity(samples, dt_s));
         Measures {
             pga_m_s2: known(motion.pga_m_s2).unwrap_or(record.peak_m_s2()),
             pgv_m_s: known(motion.pgv_m_s).unwrap_or_else(pgv),
-            tm_s: known(motion.tm_s).or_else(|| intensity::mean_period(samples, dt_s, scratch)),
+            tm_s: known(motion.tm_s).or_else(|| measures::mean_period(samples, dt_s, scratch)),
             tp_s: known(motion.tp_s),
         }
     }
@@ -91,7 +91,7 @@ pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
     }
     let (peak, samples) = (record.peak_m_s2(), record.acceleration_m_s2());
     let is_other = known(motion.pga_m_s2).is_some_and(|pga| (pga - peak).abs() > PEAK_TOLERANCE * peak);
-    let implausible = plausibility::warning(samples, record.dt_s())
+    let implausible = plausibility::implausibility(samples, record.dt_s())
         .map(|warning| (Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, warning)));
     let other_peak = is_other.then(|| (Warning::OtherPeak, motion.motion_id.clone()));
     implausible.into_iter().chain(other_peak).collect()

@@ -16,7 +16,7 @@ const HOUSNER_PERIODS: (f64, f64, usize) = (0.1, 2.5, 49);
 
 /// The measures of every motion.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Measures {
+pub struct MotionMeasures {
     /// Peak ground acceleration, m/s2.
     pub pga_m_s2: f64,
     /// Peak ground velocity, m/s.
@@ -35,7 +35,7 @@ pub struct Measures {
     pub d5_95_s: f64,
 }
 
-/// The measures to compute besides [`Measures`].
+/// The measures to compute besides [`MotionMeasures`].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MeasurePlan {
     /// Whether to compute the Housner intensity, which takes as long as all others together.
@@ -47,7 +47,7 @@ pub struct MeasurePlan {
 /// The measures of one motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    pub measures: Measures,
+    pub measures: MotionMeasures,
     /// Housner intensity, m.
     pub housner_m: Option<f64>,
     /// Pseudo-spectral accelerations at the periods of the plan, 5 % damping, m/s2.
@@ -56,7 +56,7 @@ pub struct Measured {
 
 /// Transforms and buffers, reused for each motion.
 #[derive(Default)]
-pub struct IntensityScratch {
+pub struct MeasureScratch {
     transforms: ByLength<Transform>,
     spectrum: Vec<Complex64>,
     scratch: Vec<Complex64>,
@@ -64,44 +64,47 @@ pub struct IntensityScratch {
 
 impl MeasurePlan {
     /// Computes the measures of an acceleration (m/s2) at steps of `dt_s`.
-    pub fn measure(&self, acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Measured {
+    pub fn measure(&self, acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> Measured {
         let sa = |period_s: &f64| spectral_acceleration(acceleration, dt_s, *period_s, DAMPING);
         Measured {
-            measures: measures(acceleration, dt_s, scratch),
+            measures: MotionMeasures::of(acceleration, dt_s, scratch),
             housner_m: self.housner.then(|| housner_intensity(acceleration, dt_s)),
             sa_m_s2: self.sa_periods_s.iter().map(sa).collect(),
         }
     }
 }
 
-/// Computes the measures of every motion from an acceleration (m/s2) at steps of `dt_s`. The squared
-/// acceleration is integrated exactly for lines between samples, everything else by trapezoids.
-pub fn measures(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Measures {
-    let (mut velocity, mut displacement, mut squares, mut cav_m_s) = (0.0_f64, 0.0_f64, 0.0, 0.0);
-    let (mut pgv_m_s, mut pgd_m) = (0.0, 0.0);
-    // Running integral of the squared acceleration, m2/s3.
-    let mut energy = vec![0.0; acceleration.len()];
-    for k in 1..acceleration.len() {
-        let (left, right) = (acceleration[k - 1], acceleration[k]);
-        squares += squared(dt_s, left, right);
-        energy[k] = squares;
-        let next = velocity + trapezoid(dt_s, left, right);
-        displacement += trapezoid(dt_s, velocity, next);
-        velocity = next;
-        cav_m_s += trapezoid(dt_s, left.abs(), right.abs());
-        pgv_m_s = larger(pgv_m_s, velocity.abs());
-        pgd_m = larger(pgd_m, displacement.abs());
-    }
-    let [d5, d75, d95] = [0.05, 0.75, 0.95].map(|share| time_of_share(acceleration, &energy, dt_s, share));
-    Measures {
-        pga_m_s2: peak(acceleration),
-        pgv_m_s,
-        pgd_m,
-        tm_s: mean_period(acceleration, dt_s, scratch),
-        arias_m_s: 0.5 * PI / G_M_S2 * squares,
-        cav_m_s,
-        d5_75_s: d75 - d5,
-        d5_95_s: d95 - d5,
+impl MotionMeasures {
+    /// Computes the measures of every motion from an acceleration (m/s2) at steps of `dt_s`. The squared
+    /// acceleration is integrated exactly for lines between samples, everything else by trapezoids.
+    pub fn of(acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> MotionMeasures {
+        let (mut velocity, mut displacement, mut squares, mut cav_m_s) = (0.0_f64, 0.0_f64, 0.0, 0.0);
+        let (mut pgv_m_s, mut pgd_m) = (0.0, 0.0);
+        // Running integral of the squared acceleration, m2/s3.
+        let mut energy = vec![0.0; acceleration.len()];
+        for k in 1..acceleration.len() {
+            let (left, right) = (acceleration[k - 1], acceleration[k]);
+            squares += squared(dt_s, left, right);
+            energy[k] = squares;
+            let next = velocity + trapezoid(dt_s, left, right);
+            displacement += trapezoid(dt_s, velocity, next);
+            velocity = next;
+            cav_m_s += trapezoid(dt_s, left.abs(), right.abs());
+            pgv_m_s = larger(pgv_m_s, velocity.abs());
+            pgd_m = larger(pgd_m, displacement.abs());
+        }
+        let [d5, d75, d95] =
+            [0.05, 0.75, 0.95].map(|share| time_of_share(acceleration, &energy, dt_s, share));
+        MotionMeasures {
+            pga_m_s2: peak(acceleration),
+            pgv_m_s,
+            pgd_m,
+            tm_s: mean_period(acceleration, dt_s, scratch),
+            arias_m_s: 0.5 * PI / G_M_S2 * squares,
+            cav_m_s,
+            d5_75_s: d75 - d5,
+            d5_95_s: d95 - d5,
+        }
     }
 }
 
@@ -156,7 +159,7 @@ pub fn velocity(acceleration: &[f64], dt_s: f64) -> Vec<f64> {
 /// Computes the mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of
 /// the acceleration from 0.25 to 20 Hz, without smoothing, padded with zeros to a frequency step of at most
 /// 0.05 Hz. None without amplitude in this band.
-pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut IntensityScratch) -> Option<f64> {
+pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> Option<f64> {
     let least = (1.0 / (FREQUENCY_STEP_HZ * dt_s)).ceil() as usize;
     let length = even_smooth_at_least(acceleration.len().max(least));
     let transform = scratch.transforms.get(length, || Transform::new(length));

@@ -1,4 +1,4 @@
-//! Probabilities along one peak: at each intensity averaged over PGV / PGA of the motions that have it.
+//! Probabilities given one peak, PGA or PGV: averaged over PGV / PGA of the motions that have it.
 
 use std::f64::consts::TAU;
 
@@ -22,7 +22,7 @@ pub enum Ratio {
 
 /// The motions of one peak, as they meet a structure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Along<'a> {
+pub struct GivenPeak<'a> {
     pub model: &'a Model,
     pub structure: &'a Structure,
     pub peak: Peak,
@@ -39,8 +39,8 @@ pub fn limit_states_at(
 ) -> [Probability; 3] {
     let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None);
     let probabilities = model.probabilities(structure, &measures, scenarios);
-    let (rocking, unknown) = (Probability::exact(1.0 - probabilities.p_nr), Probability::exact(f64::NAN));
-    probabilities.limit_states().unwrap_or([rocking, unknown, unknown])
+    let rocking = Probability::exact(1.0 - probabilities.p_nr);
+    probabilities.limit_states().unwrap_or([rocking, Probability::UNKNOWN, Probability::UNKNOWN])
 }
 
 /// Standard deviations from the median within which all ratios lie that count.
@@ -57,10 +57,10 @@ const GAUSS_LEGENDRE: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-impl<'a> Along<'a> {
+impl<'a> GivenPeak<'a> {
     /// The same motions with another ratio.
-    pub fn with(self, ratio: Ratio) -> Along<'a> {
-        Along { ratio, ..self }
+    pub fn with(self, ratio: Ratio) -> GivenPeak<'a> {
+        GivenPeak { ratio, ..self }
     }
 
     /// PGA and PGV (m/s2 and m/s) of the motions of median PGV / PGA.

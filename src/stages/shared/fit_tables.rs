@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::fragility::Calibration;
 use crate::keyword::Keyword;
+use crate::number::{THREE_DIGITS, significant};
 use crate::statistics::FitStatus;
 use crate::table::frame;
 use crate::table::rows::{self, Row};
@@ -42,7 +43,7 @@ pub fn calibrations_text(rows: &[Calibration], [cases, events]: [&str; 2]) -> an
 fn calibration_in_words(row: &Calibration) -> String {
     match (row.n, row.n_events) {
         (0, _) => "no case".to_string(),
-        (_, 0) => format!("none of {} predicted", short(row.expected, 2)),
+        (_, 0) => format!("none of {} predicted", significant(row.expected, 2)),
         (_, events) => format!("{:.2} times the predicted", events as f64 / row.expected),
     }
 }
@@ -54,12 +55,7 @@ pub fn text<R: Row>(lines: &[R]) -> anyhow::Result<String> {
 
 /// A number with its limits, to three digits.
 pub fn with_limits(value: f64, low: f64, high: f64) -> String {
-    format!("{} ({}-{})", short(value, 3), short(low, 3), short(high, 3))
-}
-
-fn short(number: f64, digits: i32) -> String {
-    let decimals = (digits - 1 - number.abs().log10().floor() as i32).clamp(0, 6);
-    format!("{number:.*}", decimals as usize)
+    THREE_DIGITS.both([value, low, high].map(Some), "")
 }
 
 /// The name of a suite.

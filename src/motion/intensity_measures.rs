@@ -58,7 +58,7 @@ impl IntensityMeasures {
 
 /// Physical quantity of a measure; p and g tan alpha make it dimensionless, as in Eq. 13.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum Dimension {
     /// A duration D, s: p D.
     Duration,
     /// A length d, m: p^2 d / (g tan alpha).
@@ -72,16 +72,16 @@ pub enum Quantity {
     AriasIntensity,
 }
 
-impl Quantity {
+impl Dimension {
     /// Computes the dimensionless measure of a structure from `value` in the unit above.
     pub fn dimensionless(self, value: f64, structure: &Structure) -> f64 {
         let (p, g_tan_alpha) = (structure.p_rad_s, structure.uplift_acceleration_m_s2());
         match self {
-            Quantity::Duration => p * value,
-            Quantity::Length => p * p * value / g_tan_alpha,
-            Quantity::Velocity => p * value / g_tan_alpha,
-            Quantity::Acceleration => value / g_tan_alpha,
-            Quantity::AriasIntensity => p * (2.0 * G_M_S2 / PI * value) / (g_tan_alpha * g_tan_alpha),
+            Dimension::Duration => p * value,
+            Dimension::Length => p * p * value / g_tan_alpha,
+            Dimension::Velocity => p * value / g_tan_alpha,
+            Dimension::Acceleration => value / g_tan_alpha,
+            Dimension::AriasIntensity => p * (2.0 * G_M_S2 / PI * value) / (g_tan_alpha * g_tan_alpha),
         }
     }
 }

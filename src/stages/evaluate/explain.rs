@@ -1,0 +1,76 @@
+//! What predicts, the motion and its measures, and what other kinds of motion would give.
+
+use std::fmt::Write;
+
+use crate::fragility::{Calibration, Kind, Measure, Model, Scenarios};
+use crate::keyword::Keyword;
+use crate::motion::IntensityMeasures;
+use crate::number::{PERCENT, count, significant};
+use crate::rocking::Structure;
+use crate::stages::shared::model_args::words_of_kind;
+use crate::units::G_M_S2;
+
+/// Explains the answer for a structure; `motion` is the PGA and PGV (m/s2 and m/s) that matters.
+pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2]) -> String {
+    let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
+    let mut text = format!("\n{}\n", structure.name);
+    match model {
+        Model::Calibrated { overturning, exceeding, .. } => {
+            let _ = writeln!(text, "overturning: {}", calibration(overturning));
+            let _ = writeln!(text, "too far:     {}", calibration(exceeding));
+            let of = overturning;
+            if let (Some(low), Some(high), Some(least), Some(most)) =
+                (of.pga_low, of.pga_high, of.ratio_low, of.ratio_high)
+            {
+                let [low, high, least, most] =
+                    [low / G_M_S2, high / G_M_S2, least, most].map(|value| significant(value, 3));
+                let _ =
+                    writeln!(text, "fitted to:   PGA of {low} to {high} g, PGV/PGA of {least} to {most} s");
+            }
+        }
+        Model::Paper { demand, overturning, .. } => {
+            let forms: Vec<String> = demand.iter().map(|fit| fit.model.to_string()).collect();
+            let (status, im_x, forms) = (overturning.status, overturning.im_x, forms.join(", "));
+            let _ = writeln!(text, "overturning: {status} over {im_x}; too far: {forms}");
+        }
+    }
+    let [pga, pgv] = [motion[0] / G_M_S2, motion[1]].map(|peak| significant(peak, 3));
+    let _ = writeln!(text, "motion:      PGA {pga} g, PGV {pgv} m/s");
+    let named = |measure: &Measure| {
+        let value = measure.raw_value_of(&measures)?;
+        Some(format!("{} {}", measure.as_str().to_uppercase(), significant(value, 3)))
+    };
+    let named = Measure::SCALAR.iter().filter_map(named);
+    let _ = writeln!(text, "measures:    {}", named.collect::<Vec<_>>().join(", "));
+    let limit_state = match model {
+        Model::Calibrated { exceeding, .. } => exceeding.limit_state,
+        Model::Paper { limit_state, .. } => Some(*limit_state),
+    };
+    let other = |&kind: &Kind| {
+        let shipped = Model::shipped(kind, structure, limit_state?);
+        let given = shipped.probabilities(structure, &measures, Scenarios::One).given_rocking?;
+        Some(format!("{} by the surface for {}", PERCENT.one(given.p_ro.value), words_of_kind(kind)))
+    };
+    let others: Vec<String> = Kind::ALL.iter().filter_map(other).collect();
+    if !others.is_empty() {
+        let _ = writeln!(text, "overturning: {}", others.join(", "));
+    }
+    text
+}
+
+fn calibration(of: &Calibration) -> String {
+    let kind = words_of_kind(of.kind);
+    let fit = match of.n {
+        0 => String::new(),
+        _ => {
+            let [events, n, clusters] = [of.n_events, of.n, of.n_clusters].map(|n| count(n as usize));
+            format!("; {events} events in {n} responses of {clusters} clusters")
+        }
+    };
+    format!(
+        "logit P = {:.2} + {:.2} logit P of the surface ({kind}); tau {:.2}{fit}",
+        of.c,
+        of.ln_s.exp(),
+        of.tau
+    )
+}

@@ -1,0 +1,95 @@
+//! Tables of intensities, Parquet or CSV: peaks by their headings, structures by their columns.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
+use arrow_schema::{Field, Schema};
+
+use crate::fragility::Peak;
+use crate::pipeline::UsageError;
+use crate::rocking::Structure;
+use crate::sheet::{Heading, Sheet};
+use crate::stages::shared::hazard::{Renamed, headings, peak, rename};
+use crate::table::TableError;
+use crate::table::columns::Columns;
+use crate::table::file::Table;
+
+/// Reads the rows of a table.
+pub fn read(path: &Path, renamed: &[Renamed]) -> anyhow::Result<Vec<RecordBatch>> {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
+        return Ok(vec![read_csv(path, renamed)?]);
+    }
+    let table = Table::open(path)?;
+    Ok(table.batches(&|_| true).map(|batch| Ok(batch?.rows)).collect::<Result<_, TableError>>()?)
+}
+
+/// A peak of each row, m/s2 or m/s.
+pub fn peaks(columns: &Columns, wanted: Peak) -> anyhow::Result<Vec<f64>> {
+    let schema = columns.batch.schema();
+    let found = schema.fields().iter().find_map(|field| {
+        let (peak, unit) = peak(&Heading::of(field.name()))?;
+        (peak == wanted).then(|| (field.name().clone(), unit))
+    });
+    let (column, expected) = match wanted {
+        Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g"),
+        Peak::Pgv => ("pgv_m_s", "pgv_m_s"),
+    };
+    let Some((name, unit)) = found else {
+        let names: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
+        return Err(UsageError::because(format!(
+            "{}: columns {}; expected {expected}; --columns {column}=HEADING renames one",
+            columns.path.display(),
+            names.join(", ")
+        )));
+    };
+    let values = columns.numbers(&name)?;
+    match values.iter().position(|value| !(*value >= 0.0 && value.is_finite())) {
+        Some(row) => Err(columns.value_error(row, expected, "expected a number of 0 or more").into()),
+        None => Ok(values.into_iter().map(|value| value * unit).collect()),
+    }
+}
+
+/// The structure of each row.
+pub fn structures(columns: &Columns) -> anyhow::Result<Vec<Structure>> {
+    let (p, alpha) = (columns.required_numbers("p_rad_s")?, columns.required_numbers("alpha_rad")?);
+    let eta = columns.required_numbers("eta")?;
+    let structure = |row: usize| {
+        Structure::new("structure", p[row], alpha[row], eta[row])
+            .map_err(|error| columns.value_error(row, "p_rad_s", error.to_string()).into())
+    };
+    (0..columns.rows()).map(structure).collect()
+}
+
+/// The columns of a CSV table: numbers where all cells are, else text. Peaks are kept under their headings.
+fn read_csv(path: &Path, renamed: &[Renamed]) -> anyhow::Result<RecordBatch> {
+    let mut sheet = Sheet::parse(&std::fs::read(path).map_err(|source| TableError::io(path, source))?)
+        .map_err(|error| TableError::table(path, error.to_string()))?;
+    rename(&mut sheet, renamed)?;
+    if sheet.lines.is_empty() {
+        let problem = format!("no rows under {}; expected intensities", headings(&sheet));
+        return Err(TableError::table(path, problem).into());
+    }
+    let column = |at: usize| -> (Field, ArrayRef) {
+        let number = |row: usize| match sheet.cell(row, at) {
+            "" => Some(None),
+            _ => sheet.number(row, at).ok().map(Some),
+        };
+        let rows = 0..sheet.lines.len();
+        let array: ArrayRef = match rows.clone().map(number).collect::<Option<Vec<_>>>() {
+            Some(values) => Arc::new(Float64Array::from(values)),
+            None => Arc::new(StringArray::from_iter_values(rows.map(|row| sheet.cell(row, at)))),
+        };
+        let heading = &sheet.headings[at];
+        let name = match heading.name.as_str() {
+            "p" => "p_rad_s",
+            "alpha" => "alpha_rad",
+            "tp" => "tp_s",
+            "tm" => "tm_s",
+            _ => &heading.text,
+        };
+        (Field::new(name, array.data_type().clone(), true), array)
+    };
+    let (fields, arrays): (Vec<Field>, Vec<ArrayRef>) = (0..sheet.columns).map(column).unzip();
+    Ok(RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays)?)
+}

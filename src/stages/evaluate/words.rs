@@ -1,0 +1,92 @@
+//! An object, its model and what speaks against its answer, in words.
+
+use super::object::{Answer, ObjectRow};
+use crate::number;
+use crate::rocking::rectangular_p;
+
+/// The name of a structure that the user gave none.
+const UNNAMED: &str = "structure";
+
+/// An object that has a name by it, others by what they are.
+pub fn title(object: &ObjectRow) -> String {
+    let size = size(object);
+    match (object.structure.as_str(), object.width_m, object.height_m, object.p_rad_s) {
+        (UNNAMED, Some(width), Some(height), Some(p)) => {
+            let is_block = (rectangular_p(0.5 * width.hypot(height)) / p - 1.0).abs() < 1e-9;
+            format!("{} of {size}", if is_block { "Block" } else { "Frame of columns" })
+        }
+        (UNNAMED, ..) => format!("Structure of {size}"),
+        (name, ..) => format!("{name}, {size}"),
+    }
+}
+
+pub fn size(object: &ObjectRow) -> String {
+    match (object.width_m, object.height_m, object.p_rad_s, object.alpha_rad) {
+        (Some(width), Some(height), ..) => {
+            format!("{} x {} m", number::length(width), number::length(height))
+        }
+        (.., Some(p), Some(alpha)) => {
+            let [p, alpha] = [p, alpha].map(|value| number::significant(value, 3));
+            format!("p {p} rad/s, alpha {alpha}")
+        }
+        _ => "-".to_string(),
+    }
+}
+
+pub fn model(object: &ObjectRow) -> &str {
+    object.model.as_deref().unwrap_or("no model")
+}
+
+pub fn validity(object: &ObjectRow) -> String {
+    format!("Valid if friction is above {}; else it slides.", friction(object))
+}
+
+pub fn friction(object: &ObjectRow) -> String {
+    object.friction.map_or("-".to_string(), |friction| number::fixed(friction, 2))
+}
+
+pub fn too_far(object: &ObjectRow) -> String {
+    let limit_state = object.limit_state.unwrap_or(f64::NAN);
+    format!("rocks beyond {} of its slenderness", number::PERCENT.one(limit_state))
+}
+
+/// The warnings of a row in a few words; the reason in full if the row cannot be right.
+pub fn brief<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
+    match reason {
+        Some(reason) if answer.object.p_rad_s.is_none() => {
+            reason.rsplit("': ").next().unwrap_or_default().to_string()
+        }
+        _ => {
+            let words = answer.warnings.iter().map(|warning| warning.to_string().replace('_', " "));
+            words.collect::<Vec<_>>().join(", ")
+        }
+    }
+}
+
+/// A table of a list: a heading, and a row per object.
+pub fn table<R>(heading: &[&str], all: &[Answer<R>], row: impl Fn(&Answer<R>) -> Vec<String>) -> String {
+    let heading = heading.iter().map(|head| head.to_string()).collect();
+    let rows: Vec<Vec<String>> = std::iter::once(heading).chain(all.iter().map(row)).collect();
+    number::aligned(&rows, |_| false)
+}
+
+/// Adds the sentences for a report, if requested, and the explanations. A sentence goes on after the name.
+pub fn with_sentences<R>(
+    mut text: String,
+    all: &[Answer<R>],
+    requested: bool,
+    sentence: impl Fn(&ObjectRow, &R) -> String,
+) -> String {
+    for Answer { object, row, .. } in all {
+        if requested && object.p_rad_s.is_some() {
+            let title = title(object);
+            let comma = if title.contains(", ") { "," } else { "" };
+            let (sentence, friction) = (sentence(object, row), friction(object));
+            text += &format!("\n{title}{comma} {sentence}, if its friction is above {friction}.\n");
+        }
+    }
+    for answer in all {
+        text += &answer.explained;
+    }
+    text
+}

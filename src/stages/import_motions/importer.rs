@@ -1,0 +1,134 @@
+//! The files of a call: which are read, in which pairs, and what is done to each.
+
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use crate::motion::LONGEST_MOTION;
+use crate::pipeline::context::Context;
+use crate::records::pairs::{Pairs, pairs};
+use crate::records::processing::{ImportedMotion, NamedRecord, Processing, SourceFile};
+use crate::records::{ReadOptions, RecordedMotion, read_records};
+use crate::rocking::Record;
+use crate::table::keys;
+use crate::warning::Warning;
+
+/// The files of a call, and what is done to them.
+pub struct Importer {
+    pub files: Vec<PathBuf>,
+    /// How many files share a stem or a name.
+    names: HashMap<String, usize>,
+    reading: ReadOptions,
+    processing: Processing,
+}
+
+/// What one thread imports: a file, or two components by their file and number.
+pub enum Work {
+    File(PathBuf),
+    Pair([(PathBuf, usize); 2]),
+}
+
+impl Importer {
+    /// Of files and folders; `out` is no record, if an earlier run wrote it among them.
+    pub fn new(
+        given: &[PathBuf],
+        out: &Path,
+        reading: ReadOptions,
+        processing: Processing,
+    ) -> anyhow::Result<Importer> {
+        let mut files = keys::files_below(given)?;
+        let out = std::path::absolute(out)?;
+        files.retain(|file| std::path::absolute(file).is_ok_and(|file| file != out));
+        let mut names = HashMap::new();
+        for file in &files {
+            let both: HashSet<String> = [file.file_stem(), file.file_name()].map(text).into();
+            both.into_iter().for_each(|name| *names.entry(name).or_insert(0) += 1);
+        }
+        Ok(Importer { files, names, reading, processing })
+    }
+
+    /// All work in order, and what cannot be read already.
+    pub fn work(&self, context: &Context) -> anyhow::Result<(Vec<Work>, Vec<String>)> {
+        if self.processing.direction.is_none() {
+            return Ok((self.files.iter().cloned().map(Work::File).collect(), Vec::new()));
+        }
+        let (mut components, mut refused) = (Vec::new(), Vec::new());
+        for (file, read) in self.files.par_iter().map(|file| (file, self.read(file))).collect::<Vec<_>>() {
+            match read {
+                // Samples are read again once a pair is found: that takes less memory than keeping all of
+                // them.
+                Ok(records) => components.extend(records.into_iter().enumerate().map(|(index, record)| {
+                    let motion = RecordedMotion { acceleration_m_s2: Vec::new(), ..record.motion };
+                    (motion, (file.clone(), index))
+                })),
+                Err(refusal) => refused.push(refusal),
+            }
+        }
+        let Pairs { pairs, left_out } = pairs(components);
+        let warning = |(file, _): (PathBuf, usize)| (Warning::NoPartner, text(file.file_name()));
+        context.warn(left_out.into_iter().map(warning).collect());
+        Ok((pairs.into_iter().map(Work::Pair).collect(), refused))
+    }
+
+    pub fn import(&self, work: &Work) -> Vec<Result<Vec<ImportedMotion>, String>> {
+        match work {
+            Work::File(file) => match self.read(file) {
+                Ok(records) => {
+                    let import =
+                        |record| self.processing.import(record).map_err(|error| refusal(file, &error));
+                    records.into_iter().map(import).collect()
+                }
+                Err(refusal) => vec![Err(refusal)],
+            },
+            Work::Pair(pair) => {
+                let component = |(file, index): &(PathBuf, usize)| {
+                    let record = self.read(file)?.into_iter().nth(*index);
+                    record.ok_or_else(|| refusal(file, &"changed while it was read; run again"))
+                };
+                let both = || Ok([component(&pair[0])?, component(&pair[1])?]);
+                let import =
+                    |both| self.processing.import_pair(both).map_err(|error| refusal(&pair[0].0, &error));
+                vec![both().and_then(import)]
+            }
+        }
+    }
+
+    /// Reads the records of a file, in words what is wrong with it.
+    fn read(&self, file: &Path) -> Result<Vec<NamedRecord>, String> {
+        let bytes = std::fs::read(file).map_err(|error| refusal(file, &error))?;
+        let source = SourceFile {
+            path: file.display().to_string(),
+            blake3: blake3::hash(&bytes).to_hex().to_string(),
+        };
+        let motions = read_records(&bytes, &self.reading).map_err(|error| refusal(file, &error))?;
+        let several = motions.len() > 1;
+        let named = |(index, motion): (usize, RecordedMotion)| {
+            let samples = motion.acceleration_m_s2.len();
+            if samples > LONGEST_MOTION {
+                return Err(refusal(file, &format!("{samples} samples; expected {LONGEST_MOTION} at most")));
+            }
+            Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| refusal(file, &problem))?;
+            let name = self.name(file);
+            let motion_id = if several { format!("{name}:{}", index + 1) } else { name };
+            Ok(NamedRecord { motion_id, source: source.clone(), motion })
+        };
+        motions.into_iter().enumerate().map(named).collect()
+    }
+
+    /// The name of a file without its ending where no other file has the same, else with it (K-NET tells
+    /// components by the ending), else its path.
+    fn name(&self, file: &Path) -> String {
+        let names = [file.file_stem(), file.file_name()].map(text);
+        let unique = names.into_iter().find(|name| self.names.get(name) == Some(&1));
+        unique.unwrap_or_else(|| file.display().to_string())
+    }
+}
+
+fn text(name: Option<&std::ffi::OsStr>) -> String {
+    name.unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn refusal(file: &Path, reason: &impl ToString) -> String {
+    format!("{}: {}", file.display(), reason.to_string())
+}

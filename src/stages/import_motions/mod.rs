@@ -1,0 +1,215 @@
+//! import-motions: recorded ground motions from the files of strong-motion networks and people, as motions
+//! that simulate reads.
+
+mod columns;
+mod importer;
+mod summary;
+
+use std::collections::HashSet;
+use std::path::PathBuf;
+
+use clap::{Args, ValueHint};
+use rayon::prelude::*;
+
+use self::columns::batch;
+use self::importer::Importer;
+use self::summary::Summary;
+use crate::motion::MeasurePlan;
+use crate::pipeline::UsageError;
+use crate::pipeline::context::Context;
+use crate::pipeline::options::{Steps, number};
+use crate::pipeline::stage::Stage;
+use crate::pipeline::stream::pipelined;
+use crate::records::processing::{Implausible, ImportedMotion, Processing, PulseSearch};
+use crate::records::rotation::Direction;
+use crate::records::signal::{Baseline, HighPass, Scaling};
+use crate::records::{Format, ReadOptions};
+use crate::units::{G_M_S2, Quantity, Unit};
+use crate::warning::{Warning, Warnings};
+
+/// Files, or pairs of components, that are processed at once.
+const AT_ONCE: usize = 32;
+
+/// Import recorded ground motions from the files of strong-motion networks, or CSV
+#[derive(Debug, Args)]
+pub struct ImportMotions {
+    /// Files and folders of records
+    #[arg(value_name = "FILE|DIR", value_hint = ValueHint::FilePath)]
+    files: Vec<PathBuf>,
+    /// Motions to write
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "motions.parquet")]
+    out: PathBuf,
+    /// Format: at2, cosmos, esm, knet or csv [default: by content]
+    #[arg(long)]
+    format: Option<Format>,
+    /// Time step, s, where files do not state it
+    #[arg(long, value_name = "S", value_parser = number(1e-6..=10.0, "a time step above 0 s and up to 10 s"))]
+    dt: Option<f64>,
+    /// Unit of acceleration, where files do not state it: g, m/s2, cm/s2 (gal), mm/s2, mg, %g, ft/s2
+    /// or in/s2
+    #[arg(long, value_parser = acceleration_unit)]
+    unit: Option<Unit>,
+    /// Column of acceleration in CSV: number, heading, or all where one series wraps over lines
+    #[arg(long, value_name = "N|NAME|all")]
+    column: Option<String>,
+    /// Tolerated difference from the peak in the header, as a share
+    #[arg(long, default_value = "0.05", value_name = "SHARE", value_parser = number(0.0..=1e9, "a share of 0 or more"))]
+    pga_tolerance: f64,
+    /// Remove from acceleration: none, mean or linear
+    #[arg(long, default_value = "none")]
+    baseline: Baseline,
+    /// Corner of a zero-phase high-pass filter of order 4, Hz
+    #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1e3, "a frequency above 0 Hz"))]
+    high_pass: Option<f64>,
+    /// Resample to this time step, s
+    #[arg(long, value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
+    resample: Option<f64>,
+    /// Rotate pairs of horizontal components to an azimuth (degrees) or the strongest-pulse; add
+    /// RotD50 and RotD100
+    #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
+    rotate: Option<Direction>,
+    /// Scale by these factors, each to a motion of its own
+    #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"])]
+    scale: Option<Steps>,
+    /// Scale each motion to this PGA, g
+    #[arg(long, value_name = "G", conflicts_with = "scale_pgv", value_parser = number(1e-9..=100.0, "a PGA above 0 g"))]
+    scale_pga: Option<f64>,
+    /// Scale each motion to this PGV, m/s
+    #[arg(long, value_name = "M/S", value_parser = number(1e-9..=100.0, "a PGV above 0 m/s"))]
+    scale_pgv: Option<f64>,
+    /// Velocity pulses: find (Baker 2007, then a fit of Eq. 1, the velocity) or skip
+    #[arg(long, default_value = "find")]
+    pulses: PulseSearch,
+    /// Also write motions without their pulse, as suite residual
+    #[arg(long)]
+    residual: bool,
+    /// Add spectral accelerations (5 % damping) at these periods, s, as sa_0p20_m_s2
+    #[arg(long, value_name = "S,...")]
+    sa: Option<Steps>,
+    /// Also compute the Housner intensity (15 times as slow)
+    #[arg(long)]
+    housner: bool,
+    /// Import motions that no earthquake is likely to have made
+    #[arg(long)]
+    accept_implausible: bool,
+    /// Import the others where a file cannot be read
+    #[arg(long)]
+    keep_going: bool,
+}
+
+impl Stage for ImportMotions {
+    fn outputs(&self) -> Vec<PathBuf> {
+        vec![self.out.clone()]
+    }
+
+    fn check(&self) -> anyhow::Result<()> {
+        if self.files.is_empty() {
+            return Err(UsageError::because("no files; expected files or folders of records"));
+        }
+        if self.residual && self.pulses == PulseSearch::Skip {
+            return Err(UsageError::because("residual motions need their pulses; leave out pulses: skip"));
+        }
+        Ok(())
+    }
+
+    fn run(&self, context: &Context) -> anyhow::Result<String> {
+        let processing = self.processing()?;
+        let periods = processing.plan.sa_periods_s.clone();
+        let importer = Importer::new(&self.files, &self.out, self.reading(), processing)?;
+        let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
+        let (work, mut refused) = importer.work(context)?;
+        let (mut ids, mut summary) = (HashSet::new(), Summary::default());
+        let bar = context.bar(work.len() as u64);
+        pipelined(
+            work.chunks(AT_ONCE).map(Ok),
+            |work| {
+                bar.advance(work.len() as u64)?;
+                Ok(work.par_iter().flat_map_iter(|work| importer.import(work)).collect::<Vec<_>>())
+            },
+            |results| {
+                for result in results {
+                    let imported = match result {
+                        Ok(imported) => imported,
+                        Err(refusal) => {
+                            refused.push(refusal);
+                            continue;
+                        }
+                    };
+                    for motion in &imported {
+                        if !ids.insert(motion.motion_id.clone()) {
+                            let (file, id) = (&motion.source.path, &motion.motion_id);
+                            anyhow::bail!("{file}: two motions are called '{id}'; rename the file");
+                        }
+                    }
+                    context.warn(warnings(&imported));
+                    summary.add(&imported);
+                    writer.append(&batch(&imported, &periods)?)?;
+                }
+                Ok(())
+            },
+        )?;
+        if ids.is_empty() || !refused.is_empty() && !self.keep_going {
+            let others = if ids.is_empty() { "" } else { "\n--keep-going imports the others" };
+            anyhow::bail!(
+                "{} of {} files cannot be imported:\n{}{others}",
+                refused.len(),
+                importer.files.len(),
+                refused.join("\n")
+            );
+        }
+        context.warn(refused.into_iter().map(|refusal| (Warning::UnreadableFile, refusal)).collect());
+        let summary = summary.text();
+        context.finish(writer, &summary)?;
+        Ok(summary)
+    }
+}
+
+impl ImportMotions {
+    fn reading(&self) -> ReadOptions {
+        ReadOptions {
+            format: self.format,
+            dt_s: self.dt,
+            unit: self.unit,
+            column: self.column.clone(),
+            pga_tolerance: self.pga_tolerance,
+        }
+    }
+
+    fn processing(&self) -> anyhow::Result<Processing> {
+        let scaling = match (&self.scale, self.scale_pga, self.scale_pgv) {
+            (Some(factors), ..) if factors.0.iter().any(|factor| *factor <= 0.0) => {
+                return Err(UsageError::because("scale: expected factors above 0"));
+            }
+            (Some(factors), ..) => Scaling::Factors(factors.0.clone()),
+            (_, Some(pga_g), _) => Scaling::Pga(pga_g * G_M_S2),
+            (_, _, Some(pgv_m_s)) => Scaling::Pgv(pgv_m_s),
+            _ => Scaling::Factors(vec![1.0]),
+        };
+        let sa_periods_s = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
+        Ok(Processing {
+            baseline: self.baseline,
+            high_pass: self.high_pass.map(|corner_hz| HighPass { corner_hz }),
+            resample_s: self.resample,
+            direction: self.rotate,
+            scaling,
+            pulses: self.pulses,
+            residual: self.residual,
+            implausible: if self.accept_implausible { Implausible::Accept } else { Implausible::Refuse },
+            plan: MeasurePlan { housner: self.housner, sa_periods_s },
+        })
+    }
+}
+
+/// What is implausible of imported motions.
+fn warnings(imported: &[ImportedMotion]) -> Warnings {
+    let warning = |motion: &ImportedMotion| {
+        Some((Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, motion.warning?)))
+    };
+    imported.iter().filter_map(warning).collect()
+}
+
+/// The unit of acceleration of this name.
+fn acceleration_unit(text: &str) -> Result<Unit, String> {
+    let unit = Unit::parse(text).filter(|unit| unit.quantity == Quantity::Acceleration);
+    unit.ok_or_else(|| "expected g, m/s2, cm/s2, gal, mm/s2, mg, %g, ft/s2 or in/s2".to_string())
+}

@@ -1,0 +1,273 @@
+//! The options that select a model, the fits that they name, and the model of a structure.
+
+use std::path::PathBuf;
+
+use anyhow::bail;
+use clap::{Args, ValueHint};
+
+use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
+use crate::keyword::{Keyword, keywords};
+use crate::number;
+use crate::pipeline::UsageError;
+use crate::pipeline::options::{listed, number as number_in};
+use crate::rocking::Structure;
+use crate::stages::shared::fit_tables::verdict;
+use crate::table::rows;
+use crate::warning::Warning;
+
+/// The model that predicts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ModelName {
+    /// The universal surface, calibrated where there are fits.
+    Calibrated,
+    /// The two planes and the lognormal curve of the paper.
+    Paper,
+}
+
+keywords!(ModelName { Calibrated = "calibrated", Paper = "paper" });
+
+/// The model of a call.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Model")]
+pub struct ModelArgs {
+    /// Folder of fits, from fit-pex and fit-pro [default: the universal surface as shipped]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub fits: Option<PathBuf>,
+    /// Structure of the fits [default: the one with the same p, alpha and eta]
+    #[arg(long, value_name = "NAME", requires = "fits")]
+    pub name: Option<String>,
+    /// Kind of motion: recorded, csgm, pulse or hfc [default: that of the fits, or recorded]
+    #[arg(long, value_name = "KIND")]
+    pub suite: Option<Kind>,
+    /// calibrated (the surface, by the fits) or paper (its planes and hybrid curve)
+    #[arg(long, default_value = "calibrated")]
+    pub model: ModelName,
+    /// Limit state: a demand |theta|max / alpha
+    #[arg(long, value_name = "DEMAND", default_value = "0.1",
+          value_parser = number_in(1e-6..=10.0, "a demand |theta|max / alpha above 0, such as 0.1"))]
+    pub limit_state: f64,
+}
+
+/// Fits, and the surface where there are none.
+#[derive(Debug, Clone)]
+pub struct Models {
+    args: ModelArgs,
+    overturning: Vec<Calibration>,
+    exceeding: Vec<Calibration>,
+    curves: Vec<CurveFit>,
+    demand: Vec<DemandFit>,
+}
+
+impl ModelArgs {
+    /// Reads the fits, if there are any.
+    pub fn read(&self) -> anyhow::Result<Models> {
+        let is_paper = self.model == ModelName::Paper;
+        if is_paper && self.fits.is_none() {
+            return Err(UsageError::because("--model paper needs --fits, the folder of fit-pex and fit-pro"));
+        }
+        let file = |name: &str| self.fits.as_ref().map(|folder| folder.join(name));
+        let of_paper = |name: &str| file(name).filter(|_| is_paper);
+        let calibrations = |name: &str| file(name).map_or(Ok(Vec::new()), |file| rows::read(&file));
+        Ok(Models {
+            overturning: calibrations("pro.calibration.parquet")?,
+            exceeding: calibrations("pex.calibration.parquet")?,
+            curves: of_paper("pro.parquet").map_or(Ok(Vec::new()), |file| rows::read(&file))?,
+            demand: of_paper("pex.parquet").map_or(Ok(Vec::new()), |file| rows::read(&file))?,
+            args: self.clone(),
+        })
+    }
+}
+
+impl Models {
+    /// The model for a structure: that of the fitted structure of the same p, alpha and eta, or of the one
+    /// named; without one, the surface, with a warning if there are fits.
+    pub fn model(&self, structure: &Structure) -> anyhow::Result<(Model, Vec<Warning>)> {
+        let ModelArgs { limit_state, suite, model, .. } = self.args;
+        if self.args.fits.is_none() {
+            let kind = suite.unwrap_or(Kind::Recorded);
+            return Ok((Model::shipped(kind, structure, limit_state), Vec::new()));
+        }
+        let fitted = self.of_structure(structure)?;
+        if fitted.is_empty() && model == ModelName::Paper {
+            bail!(
+                "{}: no structure like '{}' (p, alpha and eta within 1 %); expected one of {} by --name",
+                self.folder(),
+                structure.name,
+                self.names()
+            );
+        }
+        let Some(overturning) = self.of_suite(fitted)? else {
+            let of_fits = || {
+                Ok::<_, anyhow::Error>(self.of_suite(self.overturning.iter().collect())?.map(|row| row.kind))
+            };
+            let kind = suite.map_or_else(of_fits, |kind| Ok(Some(kind)))?.unwrap_or(Kind::Recorded);
+            return Ok((Model::shipped(kind, structure, limit_state), vec![Warning::NotFitted]));
+        };
+        let exceeding = self.exceeding(overturning)?;
+        let shipped = || *Model::shipped(overturning.kind, structure, limit_state).peaks();
+        let peaks = overturning.peaks().unwrap_or_else(shipped);
+        let model = match model {
+            ModelName::Calibrated => {
+                Model::Calibrated { overturning: overturning.clone(), exceeding: exceeding.clone(), peaks }
+            }
+            ModelName::Paper => Model::Paper {
+                demand: self.planes(overturning),
+                overturning: self.curve(overturning)?,
+                limit_state,
+                peaks,
+            },
+        };
+        Ok((model, (overturning.n == 0).then_some(Warning::NotFitted).into_iter().collect()))
+    }
+
+    /// The same for this kind of motion.
+    pub fn of_kind(&self, kind: Kind) -> Models {
+        Models { args: ModelArgs { suite: Some(kind), ..self.args.clone() }, ..self.clone() }
+    }
+
+    /// Demand |theta|max / alpha that is the limit state.
+    pub fn limit_state(&self) -> f64 {
+        self.args.limit_state
+    }
+
+    /// All fitted structures, or the one named.
+    pub fn structures(&self) -> anyhow::Result<Vec<Structure>> {
+        let mut structures: Vec<Structure> = Vec::new();
+        for row in &self.overturning {
+            let is_wanted = self.args.name.as_ref().is_none_or(|wanted| *wanted == row.structure);
+            if is_wanted && structures.iter().all(|other| other.name != row.structure) {
+                structures.push(self.structure(row)?);
+            }
+        }
+        Ok(structures)
+    }
+
+    fn structure(&self, row: &Calibration) -> anyhow::Result<Structure> {
+        let structure = Structure::new(&row.structure, row.p_rad_s, row.alpha_rad, row.eta);
+        structure.map_err(|error| anyhow::anyhow!("{}: {error}", self.folder()))
+    }
+
+    fn folder(&self) -> String {
+        self.args.fits.as_ref().map_or(String::new(), |folder| folder.display().to_string())
+    }
+
+    fn names(&self) -> String {
+        let mut names: Vec<&str> = self.overturning.iter().map(|row| row.structure.as_str()).collect();
+        names.dedup();
+        listed(&names, 8)
+    }
+
+    /// The rows of a structure, of one name.
+    fn of_structure(&self, structure: &Structure) -> anyhow::Result<Vec<&Calibration>> {
+        let named = |name: &str| self.overturning.iter().filter(|row| row.structure == name).collect();
+        if let Some(name) = &self.args.name {
+            let rows: Vec<&Calibration> = named(name);
+            if rows.is_empty() {
+                let (folder, names) = (self.folder(), self.names());
+                let problem = format!("{folder}: no structure '{name}'; expected one of {names}");
+                return Err(UsageError::because(problem));
+            }
+            return Ok(rows);
+        }
+        let mut like = Vec::new();
+        for row in &self.overturning {
+            if structure.is_like(&self.structure(row)?) {
+                like.push(row);
+            }
+        }
+        let row = like.iter().find(|row| row.structure == structure.name).or(like.first());
+        Ok(row.map_or(Vec::new(), |row| named(&row.structure)))
+    }
+
+    /// Returns the row of the requested suite, or the only row; none if there is no row.
+    fn of_suite<'a>(&self, rows: Vec<&'a Calibration>) -> anyhow::Result<Option<&'a Calibration>> {
+        let mut suites: Vec<&str> = rows.iter().map(|row| row.kind.as_str()).collect();
+        suites.sort_unstable();
+        suites.dedup();
+        let (folder, names) = (self.folder(), suites.join(", "));
+        match (self.args.suite, suites.len()) {
+            (_, 0) => Ok(None),
+            (None, 1) => Ok(rows.first().copied()),
+            (None, _) => Err(UsageError::because(format!(
+                "{folder}: fits of {names}; expected --suite with one of them"
+            ))),
+            (Some(kind), _) => match rows.iter().find(|row| row.kind == kind) {
+                Some(row) => Ok(Some(row)),
+                None => Err(UsageError::because(format!("{folder}: no fits of {kind}, only of {names}"))),
+            },
+        }
+    }
+
+    /// The row of P_ex beside one of P_ro.
+    fn exceeding(&self, overturning: &Calibration) -> anyhow::Result<&Calibration> {
+        let limit_state = self.args.limit_state;
+        let rows = || self.exceeding.iter().filter(|row| row.group() == overturning.group());
+        let is_same = |other: f64| (other - limit_state).abs() <= 1e-9 * limit_state;
+        if let Some(row) = rows().find(|row| row.limit_state.is_some_and(is_same)) {
+            return Ok(row);
+        }
+        let mut fitted: Vec<f64> = rows().filter_map(|row| row.limit_state).collect();
+        let found = if fitted.is_empty() { "none".to_string() } else { listed(&fitted, 8) };
+        fitted.push(limit_state);
+        bail!(
+            "{}: P_ex of '{}' has limit states {found}, not {limit_state}; run fit-pex --limit-state {}",
+            self.folder(),
+            overturning.structure,
+            fitted.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
+        )
+    }
+
+    /// The two planes of the paper.
+    fn planes(&self, row: &Calibration) -> Vec<DemandFit> {
+        let planes = self.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
+        planes.filter(|fit| fit.group() == row.group()).cloned().collect()
+    }
+
+    /// The paper's curve of the hybrid measure of its worked example; where that has no fit, of IM5.
+    fn curve(&self, row: &Calibration) -> anyhow::Result<CurveFit> {
+        let curves = self.curves.iter().filter(|fit| fit.event == Event::Overturning);
+        let curves: Vec<&CurveFit> = curves.filter(|fit| fit.group() == row.group()).collect();
+        let over = [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im5, None)];
+        let fits: Vec<&CurveFit> = over
+            .iter()
+            .filter_map(|over| curves.iter().find(|fit| (fit.im_x, fit.im_y) == *over).copied())
+            .collect();
+        if let Some(usable) = fits.iter().find(|fit| fit.status.is_usable()) {
+            return Ok((*usable).clone());
+        }
+        let (folder, structure) = (self.folder(), &row.structure);
+        let status = fits.first().map_or("missing".to_string(), |fit| verdict(fit.status));
+        bail!(
+            "{folder}: the paper's curve of '{structure}' has the status '{status}'; use --model calibrated"
+        )
+    }
+}
+
+/// What predicts, in words.
+pub fn words_of(model: &Model) -> String {
+    let responses = |n: i64| number::counted(n as usize, "response");
+    match model {
+        Model::Calibrated { overturning, .. } => {
+            let motions = words_of_kind(overturning.kind);
+            match overturning.n {
+                0 => format!("rockfrag's universal surface for {motions}"),
+                n => format!("rockfrag's universal surface, calibrated on {} to {motions}", responses(n)),
+            }
+        }
+        Model::Paper { overturning, .. } => {
+            let kind = Kind::of_word(overturning.suite.as_deref());
+            let (n, motions) = (responses(overturning.n), words_of_kind(kind));
+            format!("rockfrag's fit of the paper's curve and planes to {n} to {motions}")
+        }
+    }
+}
+
+/// A kind of motion, in words.
+pub fn words_of_kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Recorded => "recorded motions",
+        Kind::Csgm => "synthetic near-fault motions on rock",
+        Kind::Pulse => "synthetic pulses alone",
+        Kind::Hfc => "synthetic motions without a pulse",
+    }
+}
