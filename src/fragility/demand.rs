@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Sample, grouped};
-use super::measure::{Measure, design_row};
+use super::measure::{Measure, design_row, values};
 use super::parameter::{Parameter, ParameterRow};
 use super::tree::Probability;
 use crate::keyword::{Keyword, keywords};
@@ -17,7 +17,7 @@ use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
 use crate::statistics::distributions::t_quantile;
 use crate::statistics::{FitStatus, Limits, LinearFit};
-use crate::statistics::{dot, normal, tested_least_squares, variance};
+use crate::statistics::{normal, tested_least_squares, variance};
 
 /// Computes the probability that the demand exceeds `limit_state` in safe rocking, of the logarithm of its
 /// median Dm and its dispersion beta: Phi((ln Dm - ln c) / beta) (Eq. 14, which prints the argument with the
@@ -85,8 +85,9 @@ pub struct TransitionPoint {
     pub im4: f64,
     /// Residual sum of squares of both planes.
     pub pooled_rss: f64,
-    /// Cases below this IM4, and from it on.
-    pub n: [i64; 2],
+    /// Number of cases on each side.
+    pub n_low: i64,
+    pub n_high: i64,
 }
 
 /// Tries all places where two planes may meet; none of them has too few cases on a side.
@@ -109,7 +110,7 @@ pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
         n_low = below;
         let n_high = order.len() - below;
         let pooled_rss = (n_low.min(n_high) >= LEAST_CASES).then(|| Some(rss(low)? + rss(all - low)?))??;
-        Some(TransitionPoint { im4, pooled_rss, n: [n_low as i64, n_high as i64] })
+        Some(TransitionPoint { im4, pooled_rss, n_low: n_low as i64, n_high: n_high as i64 })
     };
     (0..places).filter_map(point).collect()
 }
@@ -122,7 +123,7 @@ pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<(f64, Lim
     let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
     let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
     let is_likely = |point: &&TransitionPoint| {
-        let cases = point.n.iter().sum::<i64>() as f64;
+        let cases = (point.n_low + point.n_high) as f64;
         cases * (point.pooled_rss - best.pooled_rss) / best.pooled_rss <= critical
     };
     let mut likely = scan.iter().filter(is_likely).map(|point| point.im4);
@@ -231,8 +232,7 @@ impl DemandFit {
         sample: &Sample<f64>,
     ) -> DemandFit {
         let linear = tested_least_squares(&sample.x(), &sample.y, &sample.clusters);
-        let end =
-            |measure: usize, end: usize| Some(sample.ranges.get(measure)?[end]).filter(|end| end.is_finite());
+        let end = |measure: usize, end: usize| sample.end(measure, end);
         let fitted = linear.as_ref().ok();
         let limiting = fitted.map(|linear| linear.fit.limiting_covariance());
         DemandFit {
@@ -284,7 +284,7 @@ impl DemandFit {
     }
 
     /// Computes the probability that the demand exceeds a limit state in safe rocking (Eq. 14), with limits
-    /// by the delta method on the scale of its argument. None without a fit, or where a measure is missing.
+    /// by the delta method on the scale of ln Dm, into which the error of beta is turned. None without a fit, or where a measure is missing.
     pub fn p_exceeding(
         &self,
         measures: &IntensityMeasures,
@@ -292,12 +292,13 @@ impl DemandFit {
         confidence: f64,
     ) -> Option<Probability> {
         let (beta, degrees) = (self.beta?, self.degrees?);
-        let row = design_row(self.im_x, self.im_y, measures)?;
-        let z = (dot(&self.coefficients, &row) - limit_state.ln()) / beta;
-        let of_median = variance(&self.covariance, &row) / (beta * beta);
-        let of_beta = z * z / (2.0 * self.residual_degrees());
-        let quantile = t_quantile(0.5 * (1.0 + confidence), degrees);
-        Some(Probability::of_probit(z, quantile * (of_median + of_beta).sqrt()))
+        let ims = values(self.im_x, self.im_y, measures)?;
+        let ln_median = ln_median_demand(&self.coefficients, &ims);
+        let of_median = variance(&self.covariance, &design_row(&ims));
+        let of_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
+        let half_width = t_quantile(0.5 * (1.0 + confidence), degrees) * (of_median + of_beta).sqrt();
+        let p_at = |shift: f64| p_exceeding(ln_median + shift, limit_state, beta);
+        Some(Probability::with_limits(half_width, p_at))
     }
 
     /// Degrees of freedom of beta, whose large-sample variance is beta^2 / (2 degrees).
