@@ -45,7 +45,7 @@ impl Inspect {
     pub fn run(&self) -> anyhow::Result<String> {
         let table = Table::open(&self.file)?;
         if let Some(head) = self.head {
-            let shown = frame::show(&frame::head(&table, head)?, self.format)?;
+            let shown = frame::show(&frame::read(&table, head)?, self.format)?;
             return Ok(if self.format == Format::Text { cut(&shown) } else { shown });
         }
         let metadata = table.metadata().metadata();

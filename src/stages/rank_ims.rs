@@ -170,9 +170,9 @@ impl Further {
         for batch in table.batches(&|name| name == "motion_id" || columns.iter().any(|column| column == name)) {
             let batch = batch?;
             for measure in &mut measures {
-                measure.values.extend(batch.columns().numbers(&measure.column)?);
+                measure.values.extend(batch.numbers(&measure.column)?);
             }
-            places.extend(batch.columns().required_texts("motion_id")?.into_iter().zip(rows..));
+            places.extend(batch.required_texts("motion_id")?.into_iter().zip(rows..));
             rows += batch.rows.num_rows();
         }
         // A measure that no motion has does not compete.

@@ -1,6 +1,7 @@
 //! Columns of a batch by name, as numbers, texts or words, from any program.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{
@@ -14,24 +15,20 @@ use super::TableError;
 use crate::keyword::{self, Keyword};
 use crate::rocking::Structure;
 
-/// A batch of the table at `path`, whose first row is row `first_row` of the file.
+/// Consecutive rows of a table.
 #[derive(Debug, Clone)]
-pub struct Columns<'a> {
-    pub path: &'a Path,
+pub struct Batch {
+    pub path: Arc<Path>,
+    /// First row, counted in the file.
     pub first_row: u64,
-    pub batch: &'a RecordBatch,
+    pub rows: RecordBatch,
 }
 
-impl<'a> Columns<'a> {
-    /// Returns the number of rows.
-    pub fn rows(&self) -> usize {
-        self.batch.num_rows()
-    }
-
+impl Batch {
     /// Returns the numbers of a column, NaN for null or if it is missing.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, TableError> {
-        match self.batch.column_by_name(name) {
-            None => Ok(vec![f64::NAN; self.rows()]),
+        match self.rows.column_by_name(name) {
+            None => Ok(vec![f64::NAN; self.rows.num_rows()]),
             Some(column) => numbers(column).ok_or_else(|| self.other_type(name, column, "a number")),
         }
     }
@@ -48,7 +45,9 @@ impl<'a> Columns<'a> {
 
     /// Returns the texts of a column (integers as texts), `None` for null or if it is missing.
     pub fn texts(&self, name: &str) -> Result<Vec<Option<String>>, TableError> {
-        let Some(column) = self.batch.column_by_name(name) else { return Ok(vec![None; self.rows()]) };
+        let Some(column) = self.rows.column_by_name(name) else {
+            return Ok(vec![None; self.rows.num_rows()]);
+        };
         if let Some(texts) = column.as_string_opt::<i32>() {
             return Ok(texts.iter().map(|text| text.map(str::to_string)).collect());
         }
@@ -93,12 +92,12 @@ impl<'a> Columns<'a> {
         TableError::Value { path: self.path.to_path_buf(), row, column, problem: problem.into() }
     }
 
-    fn expect(&self, name: &str) -> Result<&'a ArrayRef, TableError> {
-        self.batch.column_by_name(name).ok_or_else(|| TableError::missing_column(self.path, name))
+    fn expect(&self, name: &str) -> Result<&ArrayRef, TableError> {
+        self.rows.column_by_name(name).ok_or_else(|| TableError::missing_column(&self.path, name))
     }
 
     fn other_type(&self, name: &str, column: &ArrayRef, expected: &'static str) -> TableError {
-        TableError::other_type(self.path, name, column.data_type(), expected)
+        TableError::other_type(&self.path, name, column.data_type(), expected)
     }
 }
 

@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 
-use arrow_array::RecordBatch;
 use arrow_schema::SchemaRef;
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::{
@@ -18,13 +17,13 @@ use parquet::arrow::arrow_reader::{
 use parquet::file::metadata::{ParquetMetaData, RowGroupMetaData};
 
 use super::TableError;
-use super::columns::Columns;
+use super::columns::Batch;
 use super::provenance::Provenance;
 
 /// Largest size of the wanted columns of a row group: larger ones are damaged, or exceed the memory.
 const MOST_BYTES: i64 = 4 << 30;
 /// Rows per batch of a narrow table.
-const NARROW_BATCH: usize = 8192;
+pub const NARROW_BATCH: usize = 8192;
 
 /// One of `of` equal parts of a table, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,7 +90,7 @@ pub struct RowGroup {
     file: usize,
     group: usize,
     /// Rows within the row group.
-    rows: Range<u64>,
+    pub rows: Range<u64>,
     /// First row, counted in the file.
     pub first_row: u64,
 }
@@ -107,31 +106,9 @@ impl RowGroup {
         self.rows.is_empty()
     }
 
-    /// Returns the rows to read, counted in the row group.
-    pub fn rows(&self) -> Range<u64> {
-        self.rows.clone()
-    }
-}
-
-/// Consecutive rows of a table.
-#[derive(Debug, Clone)]
-pub struct Batch {
-    pub path: Arc<Path>,
-    /// First row, counted in the file.
-    pub first_row: u64,
-    pub rows: RecordBatch,
-}
-
-impl Batch {
-    /// Returns its columns by name.
-    pub fn columns(&self) -> Columns<'_> {
-        Columns { path: &self.path, first_row: self.first_row, batch: &self.rows }
-    }
-
-    /// Returns a range of its rows.
-    pub fn slice(&self, rows: Range<usize>) -> Batch {
-        let first_row = self.first_row + rows.start as u64;
-        Batch { path: self.path.clone(), first_row, rows: self.rows.slice(rows.start, rows.len()) }
+    /// Returns the number of rows.
+    pub fn count(&self) -> usize {
+        (self.rows.end - self.rows.start) as usize
     }
 }
 
@@ -224,7 +201,7 @@ impl Table {
                 .with_projection(mask)
                 .with_row_groups(vec![group.group])
                 .with_offset(group.rows.start as usize)
-                .with_limit(group.len())
+                .with_limit(group.count())
                 .with_batch_size(batch_size)
                 .build()
         })?;

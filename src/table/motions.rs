@@ -9,8 +9,9 @@ use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_schema::{DataType, Field, Schema};
 
 use super::TableError;
+use super::columns::Batch;
 use super::dictionary;
-use super::file::{Batch, Partition, RowGroup, Table};
+use super::file::{Partition, RowGroup, Table};
 use super::lists::Lists;
 use super::rows::side_by_side;
 
@@ -76,7 +77,7 @@ impl Motions {
     /// Returns all motions in parts.
     pub fn parts(&self) -> impl Iterator<Item = Result<Part, TableError>> + Send {
         self.0.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
-            if group.len() <= LARGEST_PART {
+            if group.count() <= LARGEST_PART {
                 return Box::new(std::iter::once(Ok(Part::Unread(group))));
             }
             match self.read_group(&group, LARGEST_PART) {
@@ -118,12 +119,11 @@ impl Motions {
 
 /// Makes motions of the columns of a batch and their samples.
 fn motions(batch: &Batch, samples: Vec<Vec<f64>>) -> Result<Vec<Motion>, TableError> {
-    let columns = batch.columns();
     let [mw, re_km, pga, pgv, tm, tp] =
-        ["mw", "re_km", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"].map(|name| columns.numbers(name));
+        ["mw", "re_km", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"].map(|name| batch.numbers(name));
     let (mw, re_km, pga, pgv, tm, tp) = (mw?, re_km?, pga?, pgv?, tm?, tp?);
-    let (suites, earthquakes) = (columns.texts("suite")?, columns.texts("earthquake")?);
-    let (ids, dt) = (columns.required_texts("motion_id")?, columns.required_numbers("dt_s")?);
+    let (suites, earthquakes) = (batch.texts("suite")?, batch.texts("earthquake")?);
+    let (ids, dt) = (batch.required_texts("motion_id")?, batch.required_numbers("dt_s")?);
     let rows = ids.into_iter().zip(suites).zip(earthquakes).zip(samples).enumerate();
     let motion = |(at, (((motion_id, suite), earthquake), acceleration_m_s2))| Motion {
         motion_id,

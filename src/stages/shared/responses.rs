@@ -6,7 +6,7 @@ use crate::fragility::{Cases, Cluster, Group, MOST_CASES, Measure};
 use crate::keyword::Keyword;
 use crate::rocking::{Outcome, Structure};
 use crate::table::TableError;
-use crate::table::columns::Columns;
+use crate::table::columns::Batch;
 use crate::table::file::Table;
 use crate::table::frame;
 
@@ -44,7 +44,7 @@ pub fn read_with(path: &Path, candidates: Candidates) -> anyhow::Result<Vec<Case
     let table = Table::open(path)?;
     let mut all: Vec<Cases> = Vec::new();
     for batch in table.batches(&is_wanted) {
-        add(&mut all, &batch?.columns(), candidates)?;
+        add(&mut all, &batch?, candidates)?;
     }
     all.iter_mut().for_each(Cases::sort_clusters);
     match all.is_empty() {
@@ -54,20 +54,20 @@ pub fn read_with(path: &Path, candidates: Candidates) -> anyhow::Result<Vec<Case
 }
 
 /// Adds the responses of a batch to the cases of their suites and structures.
-fn add(all: &mut Vec<Cases>, columns: &Columns, candidates: Candidates) -> anyhow::Result<()> {
-    let (suites, names) = (columns.texts("suite")?, columns.required_texts("structure")?);
-    let p_rad_s = columns.required_numbers("p_rad_s")?;
-    let alpha_rad = columns.required_numbers("alpha_rad")?;
-    let eta = columns.required_numbers("eta")?;
-    let outcomes = columns.required_words::<Outcome>("outcome")?;
-    let edp = demands(columns, &outcomes)?;
-    let (pga, pgv) = (columns.required_numbers("pga_m_s2")?, columns.required_numbers("pgv_m_s")?);
+fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Candidates) -> anyhow::Result<()> {
+    let (suites, names) = (batch.texts("suite")?, batch.required_texts("structure")?);
+    let p_rad_s = batch.required_numbers("p_rad_s")?;
+    let alpha_rad = batch.required_numbers("alpha_rad")?;
+    let eta = batch.required_numbers("eta")?;
+    let outcomes = batch.required_words::<Outcome>("outcome")?;
+    let edp = demands(batch, &outcomes)?;
+    let (pga, pgv) = (batch.required_numbers("pga_m_s2")?, batch.required_numbers("pgv_m_s")?);
     let (mw, re_km, earthquakes) =
-        (columns.numbers("mw")?, columns.numbers("re_km")?, columns.texts("earthquake")?);
-    let motions = columns.required_texts("motion_id")?;
+        (batch.numbers("mw")?, batch.numbers("re_km")?, batch.texts("earthquake")?);
+    let motions = batch.required_texts("motion_id")?;
     let measure = |measure: &Measure| match measure {
-        Measure::Im4 | Measure::Im5 => columns.required_numbers(measure.as_str()),
-        other => columns.numbers(other.as_str()),
+        Measure::Im4 | Measure::Im5 => batch.required_numbers(measure.as_str()),
+        other => batch.numbers(other.as_str()),
     };
     let measures = Measure::SCALAR.iter().map(measure).collect::<Result<Vec<_>, TableError>>()?;
     for rows in frame::groups(&suites, &names)? {
@@ -76,18 +76,18 @@ fn add(all: &mut Vec<Cases>, columns: &Columns, candidates: Candidates) -> anyho
         let place = match all.iter().position(|cases| cases.group() == group) {
             Some(place) => place,
             None => {
-                all.push(Cases::new(group.suite, columns.structure(rows[0], group.structure, of(rows[0]))?));
+                all.push(Cases::new(group.suite, batch.structure(rows[0], group.structure, of(rows[0]))?));
                 all.len() - 1
             }
         };
         let cases = &mut all[place];
-        expect_same(columns, &cases.structure, rows.iter().map(|&row| (row, of(row))))?;
+        expect_same(batch, &cases.structure, rows.iter().map(|&row| (row, of(row))))?;
         if cases.len() + rows.len() > MOST_CASES {
             let problem = format!(
                 "more than {MOST_CASES} responses of '{}'; take a sample of the rows",
                 group.structure
             );
-            return Err(TableError::table(columns.path, problem).into());
+            return Err(TableError::table(&batch.path, problem).into());
         }
         let its = |column: &[f64]| rows.iter().map(|&row| column[row]).collect::<Vec<f64>>();
         cases.outcome.extend(rows.iter().map(|&row| outcomes[row]));
@@ -112,13 +112,13 @@ fn add(all: &mut Vec<Cases>, columns: &Columns, candidates: Candidates) -> anyho
 }
 
 /// The demands, which only overturned structures lack.
-fn demands(columns: &Columns, outcomes: &[Outcome]) -> Result<Vec<f64>, TableError> {
-    let mut edp = columns.numbers("edp")?;
+fn demands(batch: &Batch, outcomes: &[Outcome]) -> Result<Vec<f64>, TableError> {
+    let mut edp = batch.numbers("edp")?;
     for (row, (edp, outcome)) in edp.iter_mut().zip(outcomes).enumerate() {
         if *outcome == Outcome::Overturning {
             *edp = f64::NAN;
         } else if edp.is_nan() {
-            return Err(columns.value_error(row, "edp", "null; expected a number unless it overturns"));
+            return Err(batch.value_error(row, "edp", "null; expected a number unless it overturns"));
         }
     }
     Ok(edp)
@@ -126,18 +126,18 @@ fn demands(columns: &Columns, outcomes: &[Outcome]) -> Result<Vec<f64>, TableErr
 
 /// Checks that these rows have the p, alpha and eta of a structure.
 fn expect_same(
-    columns: &Columns,
+    batch: &Batch,
     structure: &Structure,
     mut rows: impl Iterator<Item = (usize, [f64; 3])>,
 ) -> Result<(), TableError> {
     let Structure { name, p_rad_s, alpha_rad, eta } = structure;
     let first = [*p_rad_s, *alpha_rad, *eta];
     let Some((row, of)) = rows.find(|(_, of)| *of != first) else { return Ok(()) };
-    columns.structure(row, name, of)?;
+    batch.structure(row, name, of)?;
     let others = ["p_rad_s", "alpha_rad", "eta"].into_iter().zip(of).zip(first);
     let mut others = others.filter(|((_, value), first)| value != first);
     let ((column, value), first) = others.next().unwrap_or((("p_rad_s", of[0]), first[0]));
     let problem =
         format!("{value}; structure '{name}' has {first} in another row: give each structure its own name");
-    Err(columns.value_error(row, column, problem))
+    Err(batch.value_error(row, column, problem))
 }
