@@ -23,6 +23,9 @@ pub struct Lists {
     next: Box<Next>,
 }
 
+/// Levels that are searched at once.
+const BLOCK: usize = 512;
+
 /// Reads the lists of the next rows, none where one is null.
 type Next = dyn FnMut(usize) -> Result<Vec<Option<Vec<f64>>>, ParquetError> + Send;
 
@@ -81,7 +84,7 @@ fn next<T: Number>(
     mut reader: ColumnReaderImpl<T>,
     column: &ColumnDescriptor,
     mut skipped: usize,
-    number: fn(&T::T) -> f64,
+    number: impl Fn(&T::T) -> f64 + Copy + Send + 'static,
 ) -> Box<Next> {
     // The definition level of a number, and the least one of an item, which may be null.
     let known = column.max_def_level();
@@ -109,8 +112,14 @@ fn next<T: Number>(
             let mut number = |level: &i16| if *level == known { numbers.next() } else { None };
             Some(items.iter().map(|level| number(level).unwrap_or(f64::NAN)).collect())
         };
-        let starts = (0..repeated.len()).filter(|&at| repeated[at] == 0);
-        let ends = starts.clone().skip(1).chain([repeated.len()]);
-        Ok(starts.zip(ends).map(|(start, end)| list(&levels[start..end])).collect())
+        // Most blocks are within a list.
+        let mut starts = Vec::with_capacity(rows + 1);
+        for (at, block) in
+            (0..).step_by(BLOCK).zip(repeated.chunks(BLOCK)).filter(|(_, block)| block.contains(&0))
+        {
+            starts.extend((at..).zip(block).filter(|(_, level)| **level == 0).map(|(at, _)| at));
+        }
+        starts.push(levels.len());
+        Ok(starts.windows(2).map(|ends| list(&levels[ends[0]..ends[1]])).collect())
     })
 }
