@@ -21,6 +21,9 @@ const IN_RUN: [(&str, &str, &str); 5] = [
     ("out", "evaluated.parquet", "evaluate"),
 ];
 
+/// The stage in a run whose motions all later ones take.
+const FLOOR: &str = "floor-motions";
+
 /// A pipeline file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Config {
@@ -125,6 +128,11 @@ impl Config {
             let is_it = |maker: &str| self.has(maker) && (flag != "out" || maker == command.get_name());
             let in_run = IN_RUN.iter().find(|(other, _, maker)| *other == flag && is_it(maker));
             let file = default.map(PathBuf::from).or(in_run.map(|(_, file, _)| PathBuf::from(file)));
+            let is_on_floor = self.has(FLOOR) && command.get_name() != FLOOR && flag != "out";
+            let file = file.map(|file| match file.to_str() {
+                Some("motions.parquet") if is_on_floor => PathBuf::from("floor.parquet"),
+                _ => file,
+            });
             if let Some(file) = file.filter(|_| flag != "config") {
                 arguments.push(assigned(flag, folder.join(file).as_os_str()));
             }

@@ -8,6 +8,7 @@
 //! site                amplification from the source to the surface
 //! combine             high frequencies and pulse into one motion (section 2.1.3)
 //! synthesis           all of these for one scenario, on one time axis
+//! floor               motions of floors of buildings, and their peaks
 //! measures            measures of a motion with units: peaks, mean period, Arias intensity, duration
 //! intensity_measures  IM1 to IM6 (Eq. 13) of a motion and a structure, and other measures without units
 //! fourier             transforms of real series
@@ -15,6 +16,7 @@
 
 mod combine;
 mod design;
+pub mod floor;
 pub mod fourier;
 mod intensity_measures;
 pub mod measures;
@@ -26,6 +28,7 @@ mod synthesis;
 
 pub use combine::{Difference, Epoch};
 pub use design::{Design, Grid};
+pub use floor::{Floor, FloorPeaks};
 pub use intensity_measures::{Dimension, IntensityMeasures};
 pub use measures::{MeasurePlan, MeasureScratch, Measured, MotionMeasures};
 pub use pulse::Pulse;

@@ -58,15 +58,7 @@ pub enum Part {
 impl Motions {
     /// Opens a motions table, or a partition of it.
     pub fn open(path: &Path, partition: Option<Partition>) -> Result<Motions, TableError> {
-        let table = Table::open_partition(path, partition)?;
-        let required = ["motion_id", "dt_s", ACCELERATION];
-        if let Some(column) = required.iter().find(|column| table.schema().index_of(column).is_err()) {
-            return Err(TableError::missing_column(path, column));
-        }
-        match table.rows() {
-            0 if partition.is_none() => Err(TableError::table(path, "no motions; expected at least one")),
-            _ => Ok(Motions(table)),
-        }
+        open(path, partition).map(Motions)
     }
 
     /// Returns the number of motions.
@@ -107,18 +99,42 @@ impl Motions {
         group: &RowGroup,
         at_once: usize,
     ) -> Result<impl Iterator<Item = Result<MotionsOfFile, TableError>> + Send + use<>, TableError> {
-        let batches = self.0.read(group, &|name| COLUMNS.contains(&name), at_once)?;
-        let mut samples = Lists::open(&self.0, group, ACCELERATION)?;
-        Ok(batches.map(move |batch| {
-            let batch = batch?;
-            let samples = samples.read(batch.rows.num_rows())?;
-            Ok((batch.path.clone(), motions(&batch, samples)?))
-        }))
+        let read = read(&self.0, group, &|name| COLUMNS.contains(&name), at_once)?;
+        Ok(read.map(|read| read.and_then(motions)))
     }
 }
 
+/// Opens a table that has the columns of motions.
+pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
+    let table = Table::open_partition(path, partition)?;
+    let required = ["motion_id", "dt_s", ACCELERATION];
+    if let Some(column) = required.iter().find(|column| table.schema().index_of(column).is_err()) {
+        return Err(TableError::missing_column(path, column));
+    }
+    match table.rows() {
+        0 if partition.is_none() => Err(TableError::table(path, "no motions; expected at least one")),
+        _ => Ok(table),
+    }
+}
+
+/// Reads the `wanted` columns of motions besides the samples, and these, `at_once` at a time.
+pub fn read(
+    table: &Table,
+    group: &RowGroup,
+    wanted: &dyn Fn(&str) -> bool,
+    at_once: usize,
+) -> Result<impl Iterator<Item = Result<(Batch, Vec<Vec<f64>>), TableError>> + Send + use<>, TableError> {
+    let batches = table.read(group, &|name| name != ACCELERATION && wanted(name), at_once)?;
+    let mut samples = Lists::open(table, group, ACCELERATION)?;
+    Ok(batches.map(move |batch| {
+        let batch = batch?;
+        let samples = samples.read(batch.rows.num_rows())?;
+        Ok((batch, samples))
+    }))
+}
+
 /// Makes motions of the columns of a batch and their samples.
-fn motions(batch: &Batch, samples: Vec<Vec<f64>>) -> Result<Vec<Motion>, TableError> {
+fn motions((batch, samples): (Batch, Vec<Vec<f64>>)) -> Result<MotionsOfFile, TableError> {
     let [mw, re_km, pga, pgv, tm, tp] =
         ["mw", "re_km", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"].map(|name| batch.numbers(name));
     let (mw, re_km, pga, pgv, tm, tp) = (mw?, re_km?, pga?, pgv?, tm?, tp?);
@@ -139,7 +155,7 @@ fn motions(batch: &Batch, samples: Vec<Vec<f64>>) -> Result<Vec<Motion>, TableEr
         acceleration_m_s2,
         row: batch.first_row + at as u64,
     };
-    Ok(rows.map(motion).collect())
+    Ok((batch.path.clone(), rows.map(motion).collect()))
 }
 
 /// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples.
@@ -171,4 +187,9 @@ pub fn batch<'a>(
 /// Returns the column name of the spectral acceleration at a period (s): `sa_0p50_m_s2`.
 pub fn spectral_column(period_s: f64) -> String {
     format!("sa_{}_m_s2", format!("{period_s:.2}").replace('.', "p"))
+}
+
+/// Returns the period (s) of a column of spectral accelerations; none of other columns.
+pub fn spectral_period_s(column: &str) -> Option<f64> {
+    column.strip_prefix("sa_")?.strip_suffix("_m_s2")?.replace('p', ".").parse().ok()
 }

@@ -4,6 +4,7 @@ mod common;
 mod config;
 mod evaluate;
 mod files;
+mod floors;
 mod interruption;
 mod paper;
 mod pipeline;
