@@ -71,11 +71,9 @@ impl Warning {
             Warning::Extrapolated => "outside of the motions that the model was fitted to",
             Warning::UnusualStructure => "outside of the structures that the universal surface was fitted to",
             Warning::PoorFit => "the paper's curve or planes do not fit these responses",
-            Warning::NoEvents => {
-                "no response or every response overturned: the level comes from other structures"
-            }
+            Warning::NoEvents => "all responses or none overturned: the estimate rests on other structures",
             Warning::FewEvents => {
-                "fewer than ten responses with the event, or without: the level is uncertain"
+                "fewer than ten responses with the event, or without: the fitted rate is uncertain"
             }
             Warning::FewClusters => {
                 "fewer than ten earthquakes or cells: limits assume the usual differences between them"

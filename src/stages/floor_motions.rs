@@ -8,9 +8,9 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::synthesize_motions::out_of_partition;
 use crate::motion::{Floor, MeasurePlan, MeasureScratch, Measured, MotionMeasures};
 use crate::pipeline::context::Context;
+use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
@@ -19,7 +19,7 @@ use crate::table::TableError;
 use crate::table::dictionary;
 use crate::table::columns::Batch;
 use crate::table::file::Partition;
-use crate::table::motions::{ACCELERATION, batch, open, read, spectral_period_s};
+use crate::table::motions::{ACCELERATION, Sampled, batch, open, read, spectral_period_s};
 use crate::table::rows;
 
 /// Motions that a thread takes at once, and such parts that are in memory, for each thread.
@@ -87,7 +87,7 @@ impl Stage for FloorMotions {
                 Err(error) => Box::new(std::iter::once(Err(error))),
             }
         });
-        let filtered = |(part, samples): (Batch, Vec<Vec<f64>>)| -> anyhow::Result<RecordBatch> {
+        let filtered = |(part, samples): Sampled| -> anyhow::Result<RecordBatch> {
             bar.advance(part.rows.num_rows() as u64)?;
             pool.with(|scratch| self.filter(&part, &samples, &plan, scratch))
         };

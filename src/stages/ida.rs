@@ -16,8 +16,9 @@ use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, MeasureScratch};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
+use crate::pipeline::files::part;
 use crate::pipeline::options::number;
-use crate::pipeline::stage::{Stage, part};
+use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{
     Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,

@@ -9,11 +9,11 @@ use rayon::prelude::*;
 
 use super::shared::motions::{DistinctIds, Measures, record, warnings};
 use super::shared::structures::{StructureArgs, warnings_of_all};
-use super::synthesize_motions::out_of_partition;
 use crate::motion::MeasureScratch;
 use crate::pipeline::context::Context;
+use crate::pipeline::files::{out_of_partition, part};
 use crate::pipeline::options::listed;
-use crate::pipeline::stage::{Stage, part};
+use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
 use crate::table::TableError;

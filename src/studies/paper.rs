@@ -23,8 +23,7 @@ pub struct Comparison {
     pub mean: Option<f64>,
     pub sd: Option<f64>,
     pub seeds: i64,
-    /// (published - mean) / sd; none where the print leaves open more than two of these sds, the mean among
-    /// it.
+    /// (published - ours) / sd; none where the print leaves open more than two of these sds, ours among it.
     pub z: Option<f64>,
     pub t2: Option<f64>,
     pub t2_p: Option<f64>,
@@ -50,9 +49,9 @@ impl Comparison {
         let mean = Some(values.iter().sum::<f64>() / n).filter(|_| n > 1.0);
         let sd = mean.map(|mean| (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt());
         let z = || {
-            let (mean, sd, low, high) = (mean?, sd?, number.print_low?, number.print_high?);
-            let is_open = (low..=high).contains(&mean) && high - low > 2.0 * sd;
-            (sd > 0.0 && !is_open).then_some((number.published? - mean) / sd)
+            let (ours, sd, low, high) = (ours?, sd?, number.print_low?, number.print_high?);
+            let is_open = (low..=high).contains(&ours) && high - low > 2.0 * sd;
+            (sd > 0.0 && !is_open).then_some((number.published? - ours) / sd)
         };
         Comparison {
             quantity: quantity.clone(),

@@ -41,6 +41,9 @@ pub struct Motion {
     pub row: u64,
 }
 
+/// Columns of some motions, and their samples.
+pub type Sampled = (Batch, Vec<Vec<f64>>);
+
 /// Motions, and the file they are in.
 type MotionsOfFile = (Arc<Path>, Vec<Motion>);
 
@@ -123,7 +126,7 @@ pub fn read(
     group: &RowGroup,
     wanted: &dyn Fn(&str) -> bool,
     at_once: usize,
-) -> Result<impl Iterator<Item = Result<(Batch, Vec<Vec<f64>>), TableError>> + Send + use<>, TableError> {
+) -> Result<impl Iterator<Item = Result<Sampled, TableError>> + Send + use<>, TableError> {
     let batches = table.read(group, &|name| name != ACCELERATION && wanted(name), at_once)?;
     let mut samples = Lists::open(table, group, ACCELERATION)?;
     Ok(batches.map(move |batch| {
@@ -134,7 +137,7 @@ pub fn read(
 }
 
 /// Makes motions of the columns of a batch and their samples.
-fn motions((batch, samples): (Batch, Vec<Vec<f64>>)) -> Result<MotionsOfFile, TableError> {
+fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
     let [mw, re_km, pga, pgv, tm, tp] =
         ["mw", "re_km", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"].map(|name| batch.numbers(name));
     let (mw, re_km, pga, pgv, tm, tp) = (mw?, re_km?, pga?, pgv?, tm?, tp?);

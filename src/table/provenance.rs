@@ -24,6 +24,9 @@ pub struct Provenance {
     pub arguments: BTreeMap<String, Vec<String>>,
     /// Keys of its inputs.
     pub inputs: BTreeMap<String, String>,
+    /// Names of the files of its inputs, which are not part of the key.
+    #[serde(default)]
+    pub files: BTreeMap<String, String>,
     /// Text printed by the stage.
     pub summary: String,
     /// Warnings about the results.

@@ -2,8 +2,8 @@
 
 use super::{Group, RockingCase, compare, demand_axis, file_words, label, name};
 use crate::fragility::Measure;
+use crate::number;
 use crate::report::figure::{Axis, Estimate, Figure, Ink, Layer, Panel};
-use crate::report::text::number;
 
 type CaseValue = fn(&RockingCase) -> Option<f64>;
 type FitValue = fn(&MeasureFit) -> Option<f64>;

@@ -2,6 +2,7 @@
 //! plain numbers.
 
 mod demand;
+mod map;
 mod motion;
 mod planes;
 mod probability;
@@ -15,11 +16,10 @@ use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 
 pub use demand::{MeasureFit, demand, quality, regressions};
+pub use map::{LEVELS, Map, maps};
 pub use motion::{Motion, motion};
 pub use planes::{GroupPlanes, planes};
-pub use probability::{
-    Curve, ProbabilityPanel, StructureCurves, calibrated, exceedance, hybrids, overturning,
-};
+pub use probability::{Curve, ProbabilityPanel, StructureCurves, exceedance, hybrids, overturning};
 pub use rates::{AnnualRate, list, rates};
 pub use similarity::{History, similarity};
 pub use studies::{Ida, NamedEstimates, ida, ranking, validation};
@@ -104,13 +104,6 @@ pub fn observed_shares(
         Estimate { x: sum / n as f64, y: events as f64 / n as f64, low, high, n: n as f64 }
     };
     bins.iter().filter(|(_, n, _)| *n > 0).map(share).collect()
-}
-
-/// Bins of equal numbers of values, for [`observed_shares`].
-pub fn equal_numbers(mut values: Vec<f64>, count: usize) -> impl Fn(f64) -> usize {
-    values.sort_by(f64::total_cmp);
-    let edges: Vec<f64> = (1..count).map(|k| values[k * values.len() / count]).collect();
-    move |value| edges.partition_point(|edge| *edge <= value)
 }
 
 /// Bins of equal ratio between two values, for [`observed_shares`].

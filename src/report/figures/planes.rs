@@ -2,8 +2,8 @@
 
 use super::{Group, RockingCase, compare};
 use crate::fragility::PLANE;
+use crate::number;
 use crate::report::figure::{Axis, Figure, Ink, Layer, Panel};
-use crate::report::text::number;
 
 type Vector = [f64; 3];
 

@@ -44,6 +44,7 @@ pub use self::object::{ObjectRow, Predicted};
 use self::output::Output;
 pub use self::point::TreeRow;
 pub use self::rates::RatesRow;
+pub use self::words::size;
 
 /// Predict how probable rocking and overturning are: under a motion, under each of a table, or a year at
 /// a site
@@ -199,7 +200,7 @@ impl Evaluate {
                     None => Err(UsageError::because(reason)),
                 }
             }
-            _ => Ok(objects),
+            _ => Ok(objects.to_vec()),
         }
     }
 

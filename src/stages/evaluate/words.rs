@@ -20,6 +20,7 @@ pub fn title(object: &ObjectRow) -> String {
     }
 }
 
+/// Width and height, else p and alpha.
 pub fn size(object: &ObjectRow) -> String {
     match (object.width_m, object.height_m, object.p_rad_s, object.alpha_rad) {
         (Some(width), Some(height), ..) => {

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::figures::title;
-use super::tables::Tables;
+use super::tables::{Tables, title};
 use crate::fragility::{Measure, Z_95, grouped, p_overturning};
 use crate::report::Estimate;
 use crate::report::figures::{AnnualRate, Curve, Ida, NamedEstimates, label, observed_shares};

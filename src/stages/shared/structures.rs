@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+use std::sync::OnceLock;
 
 use anyhow::Context;
 use clap::{Args, ValueHint};
@@ -45,6 +46,9 @@ pub struct StructureArgs {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
           conflicts_with_all = ["p", "alpha", "eta", "width", "height", "beam_mass_ratio", "structure"])]
     pub structures: Option<PathBuf>,
+    /// What these give, once it was asked for.
+    #[arg(skip)]
+    known: OnceLock<Vec<Object>>,
 }
 
 /// A structure as it is given.
@@ -161,14 +165,17 @@ impl StructureArgs {
 
     /// All structures.
     pub fn resolve(&self) -> anyhow::Result<Vec<Structure>> {
-        let objects = self.objects()?;
-        let structures: Result<Vec<Structure>, String> =
-            objects.into_iter().map(|object| object.structure).collect();
-        structures.map_err(UsageError::because)
+        let structures = self.objects()?.iter().map(|object| object.structure.clone());
+        structures.collect::<Result<Vec<Structure>, String>>().map_err(UsageError::because)
     }
 
-    /// All structures, each with what is wrong with it.
-    pub fn objects(&self) -> anyhow::Result<Vec<Object>> {
+    /// All structures, each with what is wrong with it. A list is read once.
+    pub fn objects(&self) -> anyhow::Result<&[Object]> {
+        let known = self.known.get().map_or_else(|| self.read(), |_| Ok(Vec::new()))?;
+        Ok(self.known.get_or_init(|| known))
+    }
+
+    fn read(&self) -> anyhow::Result<Vec<Object>> {
         let StructureArgs { p, alpha, eta, width, height, beam_mass_ratio, .. } = *self;
         let objects = match &self.structures {
             Some(path) if path.as_os_str() == "paper" => {
