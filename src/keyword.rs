@@ -7,10 +7,12 @@ use serde::de::{EnumAccess, Error, VariantAccess, Visitor};
 
 /// An enum with one word per variant.
 pub trait Keyword: Copy + PartialEq + 'static {
+    /// All variants, in their order.
     const ALL: &'static [Self];
     /// Advice on words that a user may expect on the list.
     const ADVICE: &'static [(&'static str, &'static str)] = &[];
 
+    /// Returns the word.
     fn as_str(self) -> &'static str;
 }
 

@@ -8,6 +8,7 @@ use crate::keyword::keywords;
 
 /// A warning that changes what one would decide, the weightiest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "text() says it")]
 pub enum Warning {
     ImplausibleRow,
     ImplausibleRecord,
@@ -104,7 +105,7 @@ const NAMED: usize = 3;
 const UNNAMED: &str = "structure";
 
 impl Warnings {
-    /// Returns a line a warning, the weightiest first, with the first of what it is about.
+    /// Returns one line for each warning, the weightiest first, with the first subjects that it is about.
     pub fn lines(&self) -> Vec<String> {
         let line = |(warning, Subjects { named, count }): (&Warning, &Subjects)| {
             let named = named.join(", ");

@@ -27,6 +27,7 @@ pub enum Scenarios {
 
 /// The calibration of a structure: a row of pro.calibration.parquet or pex.calibration.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "table/dictionary.rs says it")]
 pub struct Calibration {
     pub suite: Option<String>,
     pub kind: Kind,
@@ -176,7 +177,7 @@ impl Calibration {
         of_events.into_iter().chain(of_clusters).filter(|_| is_own).collect()
     }
 
-    /// Returns whether some of the motions that it was fitted to had a like PGA and PGV; that of a kind of
+    /// Returns whether some of the motions that it was fitted to had a similar PGA and PGV; that of a kind of
     /// motion is fitted to all that the surface covers.
     pub fn covers(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
         let unit = structure.uplift_acceleration_m_s2();
@@ -200,7 +201,7 @@ fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
 
-/// Least and largest value; none of none.
+/// Least and largest value; none without values.
 fn ends(values: Vec<f64>) -> (Option<f64>, Option<f64>) {
     (values.iter().copied().reduce(f64::min), values.into_iter().reduce(f64::max))
 }

@@ -82,11 +82,13 @@ const LEAST_CASES: usize = 20;
 /// The pooled residual of two planes that meet at an IM4.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransitionPoint {
+    /// Where they meet.
     pub im4: f64,
     /// Residual sum of squares of both planes.
     pub pooled_rss: f64,
-    /// Number of cases on each side.
+    /// Number of cases below it.
     pub n_low: i64,
+    /// Number of cases from it on.
     pub n_high: i64,
 }
 
@@ -176,6 +178,7 @@ keywords!(DemandModel { Univariate = "univariate", Plane = "plane", Biplanar = "
 
 /// A regression of ln EDP in safe rocking: a row of pex.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "table/dictionary.rs says it")]
 pub struct DemandFit {
     pub suite: Option<String>,
     pub structure: String,
@@ -284,7 +287,8 @@ impl DemandFit {
     }
 
     /// Computes the probability that the demand exceeds a limit state in safe rocking (Eq. 14), with limits
-    /// by the delta method on the scale of ln Dm, into which the error of beta is turned. None without a fit, or where a measure is missing.
+    /// by the delta method on the scale of ln Dm, into which the error of beta is turned. None without a fit,
+    /// or where a measure is missing.
     pub fn p_exceeding(
         &self,
         measures: &IntensityMeasures,

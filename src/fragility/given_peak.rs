@@ -24,9 +24,13 @@ pub enum Ratio {
 /// The motions of one peak, as they meet a structure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenPeak<'a> {
+    /// What gives the probabilities.
     pub model: &'a Model,
+    /// The structure that moves.
     pub structure: &'a Structure,
+    /// The peak that is given.
     pub peak: Peak,
+    /// The other peak.
     pub ratio: Ratio,
 }
 

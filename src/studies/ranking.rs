@@ -48,6 +48,7 @@ pub struct RankingRules {
 
 /// Scores of a set of measures: a row of ranking.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "table/dictionary.rs says it")]
 pub struct RankedSet {
     pub suite: Option<String>,
     pub structure: String,
@@ -74,6 +75,7 @@ pub struct RankedSet {
 /// All sets of measures of a structure and suite, best first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
+    /// Ranked sets of measures.
     pub sets: Vec<RankedSet>,
     /// Measures missing in some cases, and in how many; they are not ranked.
     pub incomplete: Vec<(String, usize)>,
