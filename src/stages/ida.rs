@@ -241,7 +241,12 @@ impl Ida {
                 let measures = case.measures.scaled(scale);
                 responses.push(measures.response_row(case.motion, case.structure, at.response));
                 measured.push(measures.of_structure(case.structure));
-                stripes.push(StripeRow { measure: self.measure, intensity: at.intensity, scale, overturning_above });
+                stripes.push(StripeRow {
+                    measure: self.measure,
+                    intensity: at.intensity,
+                    scale,
+                    overturning_above,
+                });
             }
         }
         let capacities =
@@ -337,8 +342,11 @@ fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
 fn fits(capacities: &[CapacityRow], scan: &Scan) -> anyhow::Result<Vec<CapacityFitRow>> {
     let suites: Vec<_> = capacities.iter().map(|row| row.suite.clone()).collect();
     let structures: Vec<_> = capacities.iter().map(|row| row.structure.clone()).collect();
-    let groups = frame::groups(&suites, &structures)?.into_iter();
-    Ok(groups.map(|group| group.into_iter().map(|row| &capacities[row]).collect::<Vec<_>>()).map(|rows| fit(&rows, scan)).collect())
+    let of = |rows: Vec<usize>| {
+        let rows: Vec<&CapacityRow> = rows.into_iter().map(|row| &capacities[row]).collect();
+        fit(&rows, scan)
+    };
+    Ok(frame::groups(&suites, &structures)?.into_iter().map(of).collect())
 }
 
 fn fit(rows: &[&CapacityRow], scan: &Scan) -> CapacityFitRow {

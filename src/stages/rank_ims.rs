@@ -155,7 +155,9 @@ impl Further {
         let names: Vec<&String> = table.schema().fields().iter().map(|field| field.name()).collect();
         if let Some(missing) = candidates.iter().find(|name| !names.contains(name)) {
             let (file, names) = (path.display(), listed(&names, usize::MAX));
-            return Err(UsageError::because(format!("{file}: no column '{missing}'; expected one of {names}")));
+            return Err(UsageError::because(format!(
+                "{file}: no column '{missing}'; expected one of {names}"
+            )));
         }
         let is_wanted = |name: &String| {
             FURTHER.contains(&name.as_str()) || name.starts_with("sa_") || candidates.contains(name)
@@ -167,7 +169,8 @@ impl Further {
         let mut measures: Vec<FurtherMeasure> = wanted.filter_map(measure).collect();
         let (mut places, mut rows) = (HashMap::new(), 0);
         let columns: Vec<String> = measures.iter().map(|measure| measure.column.clone()).collect();
-        for batch in table.batches(&|name| name == "motion_id" || columns.iter().any(|column| column == name)) {
+        for batch in table.batches(&|name| name == "motion_id" || columns.iter().any(|column| column == name))
+        {
             let batch = batch?;
             for measure in &mut measures {
                 measure.values.extend(batch.numbers(&measure.column)?);
@@ -188,7 +191,9 @@ impl Further {
         let place = |motion: &&str| {
             let place = self.places.get(*motion).copied();
             let file = self.path.display();
-            place.with_context(|| format!("{file}: no motion '{motion}'; expected the motions of the responses"))
+            place.with_context(|| {
+                format!("{file}: no motion '{motion}'; expected the motions of the responses")
+            })
         };
         let places = motions.iter().map(place).collect::<anyhow::Result<Vec<usize>>>()?;
         let of_measure = |measure: &FurtherMeasure| {

@@ -149,7 +149,13 @@ fn respond(
         warned.extend(warnings(motion, record));
     }
     let motion_ids = motions.iter().map(|motion| motion.motion_id.clone()).collect();
-    Ok(Responded { motion_ids, rows: responses::batch(&rows, &measured)?, traces, warnings: warned, overturned })
+    Ok(Responded {
+        motion_ids,
+        rows: responses::batch(&rows, &measured)?,
+        traces,
+        warnings: warned,
+        overturned,
+    })
 }
 
 /// The rotation of all structures over time under a motion.

@@ -11,8 +11,8 @@ use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
 use crate::table::file::{self, Table};
-use crate::table::motions::{Motion, Motions};
 use crate::table::keys::key_of;
+use crate::table::motions::{Motion, Motions};
 use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
 
