@@ -5,7 +5,7 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Event};
+use super::cases::{Cases, Event, grouped};
 use super::peaks::{JointPeaks, RatioGiven};
 use super::surface::{self, Curve, Kind, Prior, logit_exceeding, logit_overturning};
 use super::tree::{Probability, Z_95};
@@ -65,6 +65,8 @@ const FEW_EVENTS: i64 = 10;
 /// A peak within this factor of those of the data is like them.
 const LIKE: f64 = 1.2;
 
+grouped!(Calibration);
+
 impl Calibration {
     /// That of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, none of
     /// P_ro.
@@ -101,7 +103,7 @@ impl Calibration {
     /// Fits c and ln s to responses: the maximum of their posterior density, with the priors of the kind of
     /// motion.
     pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
-        let kind = Kind::of(cases.suite.as_deref().and_then(|suite| suite.parse().ok()));
+        let kind = Kind::of_word(cases.suite.as_deref());
         let prior = surface::prior(kind, curve(limit_state));
         let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
         let sample = Sample::of(cases, limit_state, |measures| shipped.logit(&cases.structure, measures));

@@ -8,7 +8,7 @@ use nalgebra::{Matrix4, Vector4};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Sample};
+use super::cases::{Cases, Sample, grouped};
 use super::measure::{Measure, design_row, values};
 use super::parameter::{Parameter, ParameterRow};
 use super::tree::Probability;
@@ -70,7 +70,7 @@ pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
 
 /// ln EDP, ln IM4 and ln IM3 of the cases that rocked safely and whose IM4 lies in `range`.
 fn plane_sample(cases: &Cases, range: Range<f64>) -> Sample<f64> {
-    let [.., im4, _, _] = &cases.im;
+    let im4 = cases.column(Measure::Im4);
     cases.sample(&PLANE, |case| cases.ln_demand(case).filter(|_| range.contains(&im4[case])))
 }
 
@@ -222,6 +222,8 @@ pub struct DemandFit {
     pub misfit_p: Option<f64>,
     pub status: FitStatus,
 }
+
+grouped!(DemandFit);
 
 impl DemandFit {
     /// Fits the sample of these measures.

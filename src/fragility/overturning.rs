@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Event};
+use super::cases::{Cases, Event, grouped};
 use super::measure::{Measure, Pair, design_row, values};
 use super::parameter::{Parameter, ParameterRow};
 use super::tree::Probability;
@@ -159,6 +159,8 @@ pub struct CurveFit {
     pub misfit_p: Option<f64>,
     pub status: FitStatus,
 }
+
+grouped!(CurveFit);
 
 impl CurveFit {
     fn quantile(&self, confidence: f64) -> f64 {

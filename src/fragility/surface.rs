@@ -35,6 +35,11 @@ impl Kind {
         }
     }
 
+    /// The kind of a suite by its word in tables; that of an unknown word, or of none, is that of records.
+    pub fn of_word(suite: Option<&str>) -> Kind {
+        Kind::of(suite.and_then(|word| word.parse().ok()))
+    }
+
     /// The column of its coefficients: recorded motions have those of high frequencies.
     fn column(self) -> usize {
         match self {

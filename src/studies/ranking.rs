@@ -160,7 +160,7 @@ impl Contest {
             Target::Overturning => cases.happened(*case, Event::Overturning, f64::INFINITY).is_some(),
         };
         let rows: Vec<usize> = (0..cases.len()).filter(counts).collect();
-        let [.., im4, _, _] = &cases.im;
+        let im4 = cases.column(Measure::Im4);
         let mut contest = Contest {
             target,
             names: Vec::new(),
@@ -170,8 +170,8 @@ impl Contest {
             is_low: rows.iter().map(|&row| im4[row] < transition).collect(),
             clusters: rows.iter().map(|&row| cases.cluster[row]).collect(),
         };
-        let of_paper = Measure::SCALAR.iter().map(|measure| measure.as_str()).zip(&cases.im);
-        let candidates = cases.candidates.iter().map(|(name, values)| (name.as_str(), values));
+        let of_paper = Measure::SCALAR.iter().map(|measure| (measure.as_str(), cases.column(*measure)));
+        let candidates = cases.candidates.iter().map(|(name, values)| (name.as_str(), &values[..]));
         let mut incomplete = Vec::new();
         for (name, values) in of_paper.chain(candidates) {
             let ln: Vec<f64> = rows.iter().map(|&row| values[row].ln()).filter(|ln| ln.is_finite()).collect();

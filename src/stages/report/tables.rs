@@ -11,8 +11,9 @@ use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
 use crate::table::file::{self, Table};
+use crate::table::keys::key_of;
 use crate::table::motions::{Motion, Motions};
-use crate::table::provenance::{Provenance, key_of};
+use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
 
 /// What most of the report needs; further tables are read where they are shown.
@@ -49,11 +50,6 @@ const MOTIONS_IN_GROUP: u64 = 64;
 pub fn title(structure: &str, suite: Option<&str>) -> String {
     let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
     synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
-}
-
-/// Whether a row of this suite and structure is of some cases.
-pub fn is_of(cases: &Cases, suite: &Option<String>, structure: &str) -> bool {
-    *suite == cases.suite && structure == cases.structure.name
 }
 
 /// The same of some cases.
