@@ -175,3 +175,29 @@ fn no_files_import_each_other_on_any_way() {
     assert!(imports.values().map(BTreeSet::len).sum::<usize>() > 400, "the sources are read");
     expect_no_circle(&imports);
 }
+
+/// The fields of all structs that are rows of tables.
+fn columns_of_rows() -> BTreeSet<String> {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let is_code = |file: &PathBuf| file.extension().is_some_and(|ending| ending == "rs");
+    let texts = files(&src).into_iter().filter(is_code).map(|file| std::fs::read_to_string(file).unwrap());
+    let fields = |text: String| -> Vec<String> {
+        let rows =
+            text.split("#[derive(").skip(1).filter(|row| row.lines().next().unwrap().contains("Serialize"));
+        let bodies = rows.filter_map(|row| row.split_once(" {\n")?.1.split("\n}").next());
+        let lines =
+            bodies.flat_map(|body| body.lines().map(str::trim).filter(|line| !line.starts_with("//")));
+        let names = lines.filter_map(|line| Some(line.trim_start_matches("pub ").split_once(": ")?.0));
+        names.map(str::to_string).collect()
+    };
+    texts.flat_map(fields).collect()
+}
+
+#[test]
+fn every_column_of_the_dictionary_is_written() {
+    let written = columns_of_rows();
+    let made_of_samples = ["acceleration_m_s2", "sa_*_m_s2"];
+    for name in rockfrag::table::dictionary::names() {
+        assert!(written.contains(name) || made_of_samples.contains(&name), "no table has a column {name}");
+    }
+}

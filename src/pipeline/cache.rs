@@ -7,7 +7,8 @@ use super::UsageError;
 use super::call::Call;
 use super::context::Context;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, head};
+use crate::table::keys::head;
+use crate::table::provenance::Provenance;
 use crate::warning::Warnings;
 
 /// Whether the files of a call are up to date.

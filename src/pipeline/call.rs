@@ -10,7 +10,8 @@ use super::files::{Role, files_of, role};
 use super::stage::Stage;
 use crate::table::TableError;
 use crate::table::file::Partition;
-use crate::table::provenance::{Provenance, key_with};
+use crate::table::keys::key_with;
+use crate::table::provenance::Provenance;
 
 /// Files of an input that are named in what is made of it.
 const MOST_NAMED: usize = 4;

@@ -10,7 +10,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::keyword::keywords;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, key_of};
+use crate::table::keys::key_of;
+use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
 use crate::table::writer::TableWriter;
 use crate::warning::Warnings;

@@ -3,6 +3,7 @@
 use std::slice::from_ref;
 
 use resvg::{tiny_skia::Pixmap, usvg};
+use rockfrag::motion::IntensityMeasures;
 use rockfrag::number;
 use rockfrag::report::figures::*;
 use rockfrag::report::{
@@ -17,11 +18,11 @@ fn group(count: usize) -> Group {
         let (im4, im3) = (1.02 + 0.01 * k as f64, 5.0 + (k % 7) as f64);
         let [ln_a, b1, b2] = PLANES[usize::from(im4 >= 1.3)];
         let edp = (ln_a + b1 * im4.ln() + b2 * im3.ln()).exp();
-        let im = [None, Some(2.0), Some(im3), Some(im4), Some(im4 / im3), Some(0.0)];
+        let measures = IntensityMeasures::of_peaks(im4, im4 / im3);
         RockingCase {
             pgv_m_s: im4 / im3,
             tp_s: k.is_multiple_of(2).then_some(1.0),
-            im,
+            measures: IntensityMeasures { im2: Some(2.0), im6: Some(0.0), ..measures },
             edp: (k < 90).then_some(edp),
         }
     };
@@ -31,7 +32,7 @@ fn group(count: usize) -> Group {
 /// All fifteen figures, of `count` data, which may be none.
 fn figures(count: usize) -> Vec<Figure> {
     let fit = Some(MeasureFit { ln_a: -2.0, b: 1.5, r2: 0.5, beta: 0.9 });
-    let fits = [fit, None, fit, None, None, None];
+    let fits = vec![fit, None, fit, None, None, None];
     let wave: Vec<f64> = (0..50 * count).map(|k| (0.02 * k as f64).sin()).collect();
     let history = |p_rad_s| History { p_rad_s, alpha_rad: 0.15, dt_s: 0.01, theta_rad: wave.clone() };
     let record = Motion {

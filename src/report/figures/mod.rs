@@ -11,6 +11,9 @@ mod similarity;
 mod studies;
 
 use super::figure::{Axis, Estimate};
+use crate::fragility::Measure;
+use crate::keyword::Keyword;
+use crate::motion::IntensityMeasures;
 
 pub use demand::{MeasureFit, demand, quality, regressions};
 pub use map::{LEVELS, Map, maps};
@@ -27,8 +30,8 @@ pub struct RockingCase {
     pub pgv_m_s: f64,
     /// Period of the pulse, s, if known.
     pub tp_s: Option<f64>,
-    /// IM1 to IM6 of Eq. 13.
-    pub im: [Option<f64>; 6],
+    /// Those of Eq. 13.
+    pub measures: IntensityMeasures,
     /// |theta|max / alpha (Eq. 7); none if it overturned.
     pub edp: Option<f64>,
 }
@@ -48,15 +51,23 @@ impl RockingCase {
     }
 }
 
-/// Labels of IM1 to IM6 (Eq. 13).
-pub const MEASURES: [&str; 6] = [
-    "*ω*_{p} / *p*",
-    "*ω*_{m} / *p*",
-    "PGA / (*p* PGV)",
-    "PGA / (*g* tan *α*)",
-    "*p* PGV / (*g* tan *α*)",
-    "*ω*_{m} PGV / (*g* tan *α*)",
-];
+/// Label of a measure (Eq. 13).
+pub fn label(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Im1 => "*ω*_{p} / *p*",
+        Measure::Im2 => "*ω*_{m} / *p*",
+        Measure::Im3 => "PGA / (*p* PGV)",
+        Measure::Im4 => "PGA / (*g* tan *α*)",
+        Measure::Im5 => "*p* PGV / (*g* tan *α*)",
+        Measure::Im6 => "*ω*_{m} PGV / (*g* tan *α*)",
+        Measure::Im3Inverse => "*p* PGV / PGA",
+    }
+}
+
+/// Name of a measure: IM4.
+fn name(measure: Measure) -> String {
+    measure.as_str().to_uppercase()
+}
 
 /// Axis of the demand (Eq. 7).
 fn demand_axis() -> Axis {

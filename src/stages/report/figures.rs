@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use super::studies;
-use super::tables::{Tables, is_of, name};
+use super::tables::{Tables, name};
 use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Event, Kind, Measure};
 use crate::fragility::{Probability, Scenarios};
 use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Suite, measures};
 use crate::number;
-use crate::report::figures::{self as draw, MEASURES, MeasureFit, ProbabilityPanel, StructureCurves};
+use crate::report::figures::{self as draw, MeasureFit, ProbabilityPanel, StructureCurves};
 use crate::report::text::minus;
 use crate::report::{Estimate, Figure};
 use crate::rocking::{Outcome, Record, Structure, simulate, trace, with_tail};
@@ -58,7 +58,7 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
         drawn(draw::exceedance, panels(&|groups| exceeding(tables, groups))),
         drawn(draw::overturning, single),
         drawn(draw::demand, groups.iter().map(|cases| group(cases)).collect()),
-        drawn(draw::quality, fits.iter().map(|(cases, fits)| (name(cases), *fits)).collect()),
+        drawn(draw::quality, fits.iter().map(|(cases, fits)| (name(cases), fits.clone())).collect()),
     ];
     Ok(figures.into_iter().flatten().chain(regressions).collect())
 }
@@ -86,7 +86,7 @@ fn group(cases: &Cases) -> draw::Group {
         draw::RockingCase {
             pgv_m_s: cases.pgv_m_s[k],
             tp_s: measures.im1.map(|im1| TAU / (im1 * cases.structure.p_rad_s)),
-            im: Measure::SCALAR.map(|measure| measure.value_of(&measures)),
+            measures,
             edp: Some(cases.edp[k]).filter(|_| !overturned),
         }
     };
@@ -156,15 +156,16 @@ fn regressions<'a>(
     of: &'a Cases,
     model: DemandModel,
 ) -> impl Iterator<Item = &'a DemandFit> {
-    let its = all.demand.iter().filter(|fit| is_of(of, &fit.suite, &fit.structure));
+    let its = all.demand.iter().filter(|fit| fit.group() == of.group());
     its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
 }
 
-fn measure_fits(tables: &Tables, cases: &Cases) -> [Option<MeasureFit>; 6] {
-    Measure::SCALAR.map(|measure| {
+fn measure_fits(tables: &Tables, cases: &Cases) -> Vec<Option<MeasureFit>> {
+    let fit = |measure: Measure| {
         let fit = regressions(tables, cases, DemandModel::Univariate).find(|fit| fit.im_x == measure)?;
         Some(MeasureFit { ln_a: fit.coefficients[0], b: fit.coefficients[1], r2: fit.r2?, beta: fit.beta? })
-    })
+    };
+    Measure::SCALAR.into_iter().map(fit).collect()
 }
 
 fn planes(tables: &Tables, cases: &Cases) -> Option<draw::GroupPlanes> {
@@ -204,16 +205,17 @@ fn panel(groups: &[&Cases], measure: &str, structures: Vec<StructureCurves>) -> 
 
 /// The measures of a motion with these IM4 and IM3.
 fn measures(im4: f64, im3: f64) -> IntensityMeasures {
-    IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5: im4 / im3, im6: None }
+    IntensityMeasures::of_peaks(im4, im4 / im3)
 }
 
 /// Figure 10: P_ex by the planes at quantiles of IM3, and by IM4 alone.
 fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
-    let safe = |cases: &&Cases, im: usize| -> Vec<f64> {
-        (0..cases.len()).filter(|&k| cases.ln_demand(k).is_some()).map(|k| cases.im[im][k]).collect()
+    let safe = |cases: &&Cases, measure: Measure| -> Vec<f64> {
+        let column = cases.column(measure);
+        (0..cases.len()).filter(|&k| cases.ln_demand(k).is_some()).map(|k| column[k]).collect()
     };
-    let all = |im: usize| groups.iter().flat_map(|cases| safe(cases, im)).collect::<Vec<f64>>();
-    let (im3, most) = (all(2), all(3).into_iter().fold(1.5, f64::max));
+    let all = |measure| groups.iter().flat_map(|cases| safe(cases, measure)).collect::<Vec<f64>>();
+    let (im3, most) = (all(Measure::Im3), all(Measure::Im4).into_iter().fold(1.5, f64::max));
     let limit_state = tables.limit_state;
     let structure = |cases: &&Cases| {
         let planes: Vec<&DemandFit> = regressions(tables, cases, DemandModel::Biplanar).collect();
@@ -233,7 +235,7 @@ fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
         let curves = SHARES.into_iter().filter_map(at_share).chain(alone).collect();
         StructureCurves { name: cases.structure.name.clone(), curves, shares: Vec::new() }
     };
-    panel(groups, MEASURES[3], groups.iter().map(structure).collect())
+    panel(groups, draw::label(Measure::Im4), groups.iter().map(structure).collect())
 }
 
 /// Figures 11 and 12: P_ro over a measure, or over a hybrid one at the median IM3, and how well the curves of
@@ -245,12 +247,10 @@ fn over(
     im_y: Option<Measure>,
 ) -> Option<ProbabilityPanel> {
     let fit = |cases: &Cases| {
-        let is_its = |fit: &&CurveFit| {
-            is_of(cases, &fit.suite, &fit.structure)
-                && (fit.im_x, fit.im_y) == (im_x, im_y)
-                && fit.coefficients[1..].iter().sum::<f64>() > 0.0
-        };
-        tables.curves.iter().find(is_its)
+        let mut its = tables.curves.iter().filter(|fit| fit.group() == cases.group());
+        its.find(|fit| {
+            (fit.im_x, fit.im_y) == (im_x, im_y) && fit.coefficients[1..].iter().sum::<f64>() > 0.0
+        })
     };
     let structure = |cases: &&Cases| {
         let name = cases.structure.name.clone();
@@ -258,7 +258,7 @@ fn over(
         let value = |k: usize| measure_of(fit, &cases.measures(k));
         let shares: Vec<(f64, bool)> =
             rocked(cases).filter_map(|(k, event)| Some((value(k)?, event))).collect();
-        let im3 = sample_quantile(cases.im[2].clone(), 0.5).unwrap_or(1.0);
+        let im3 = sample_quantile(cases.column(Measure::Im3).to_vec(), 0.5).unwrap_or(1.0);
         let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
         StructureCurves {
             name,
@@ -266,8 +266,7 @@ fn over(
             shares: binned(&shares),
         }
     };
-    let place = Measure::SCALAR.iter().position(|measure| *measure == im_x)?;
-    let measure = if im_y.is_some() { "hybrid measure" } else { MEASURES[place] };
+    let measure = if im_y.is_some() { "hybrid measure" } else { draw::label(im_x) };
     let mut panel = panel(groups, measure, groups.iter().map(structure).collect())?;
     if let [a, b] = groups
         && let (Some(of_a), Some(of_b)) = (fit(a), fit(b))
@@ -306,7 +305,7 @@ fn map(tables: &Tables, groups: &[&Cases]) -> Option<draw::Map> {
 /// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
 fn line(tables: &Tables, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f64; 2]) -> Vec<[f64; 2]> {
     let structure = &cases.structure;
-    let fitted = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure));
+    let fitted = tables.calibrations.iter().find(|row| row.group() == cases.group());
     let shipped = || Calibration::shipped(kind_of(cases), structure, None);
     let calibration = fitted.cloned().unwrap_or_else(shipped);
     let reaches = |pga: f64, ln_pgv: f64| {
@@ -324,7 +323,7 @@ fn line(tables: &Tables, cases: &Cases, level: f64, pga: [f64; 2], [least, most]
 }
 
 fn kind_of(cases: &Cases) -> Kind {
-    Kind::of(cases.suite.as_deref().and_then(|suite| suite.parse().ok()))
+    Kind::of_word(cases.suite.as_deref())
 }
 
 fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {

@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::studies;
-use super::tables::{Tables, is_of, name};
+use super::tables::{Tables, name};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::number::{self, OF_HUNDRED, RATE, TWO_DIGITS};
 use crate::pipeline::options::listed;
@@ -104,13 +104,12 @@ fn facts(tables: &Tables) -> Vec<String> {
         models.sort_unstable();
         models.dedup();
         facts.push(format!("By {}.", listed(&models, MOST_NAMED)));
-        let of_velocity = match rates.overturning_per_year_less_velocity {
-            Some(_) => " and of PGV/PGA at the site",
-            None => "",
-        };
-        facts.push(format!(
-            "The 95 % limits are those of the model, without the errors of the hazard{of_velocity}."
-        ));
+        if let Some(errors) = &tables.errors {
+            let (parts, largest) = errors.words();
+            let without = if errors.error_hazard.is_none() { ", without those of the hazard" } else { "" };
+            facts.push(format!("The 95 % limits hold the errors of {}{without}.", parts.join(", ")));
+            facts.extend(largest.map(|largest| format!("Mostly unknown: {largest}.")));
+        }
         return facts;
     }
     for stage in ["synthesize-motions", "import-motions"] {
@@ -231,14 +230,14 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
-        let calibration = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure));
+        let calibration = tables.calibrations.iter().find(|row| row.group() == cases.group());
         let often = calibration.map(|row| row.n_events as f64 / row.expected);
         let often = often.map(|often| format!("{} times", number::significant(often, 2)));
-        let mut capacities = capacities.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
+        let mut capacities = capacities.iter().filter(|fit| fit.group() == cases.group());
         let of_capacity = capacities
             .next()
             .map(|fit| [[fit.theta, fit.theta_low, fit.theta_high], [fit.beta, fit.beta_low, fit.beta_high]]);
-        let mut curves = tables.curves.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
+        let mut curves = tables.curves.iter().filter(|fit| fit.group() == cases.group());
         let curve = curves.find(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
         let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
         let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;

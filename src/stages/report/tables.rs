@@ -6,13 +6,14 @@ use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event};
 use crate::keyword::Keyword;
 use crate::motion::Suite;
 use crate::paper;
-use crate::stages::evaluate::{ObjectRow, Predicted, RatesRow};
+use crate::stages::evaluate::{ErrorsRow, ObjectRow, Predicted, RatesRow};
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
 use crate::table::file::{self, Table};
+use crate::table::keys::key_of;
 use crate::table::motions::{Motion, Motions};
-use crate::table::provenance::{Provenance, key_of};
+use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
 
 /// What most of the report needs; further tables are read where they are shown.
@@ -31,6 +32,8 @@ pub struct Tables {
     pub compared: Vec<Comparison>,
     /// Objects with annual rates, the worst first.
     pub objects: Vec<(ObjectRow, RatesRow)>,
+    /// The parts of the error of the first of them.
+    pub errors: Option<ErrorsRow>,
     /// Each file with its number of rows and, if it is ours, what made it.
     pub files: Vec<(PathBuf, u64, Option<Provenance>)>,
     /// What is not shown, and why.
@@ -47,11 +50,6 @@ const MOTIONS_IN_GROUP: u64 = 64;
 pub fn title(structure: &str, suite: Option<&str>) -> String {
     let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
     synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
-}
-
-/// Whether a row of this suite and structure is of some cases.
-pub fn is_of(cases: &Cases, suite: &Option<String>, structure: &str) -> bool {
-    *suite == cases.suite && structure == cases.structure.name
 }
 
 /// The same of some cases.
@@ -101,6 +99,7 @@ impl Tables {
                 continue;
             }
             self.objects.extend(rows::read(path)?.into_iter().zip(rows::read(path)?));
+            self.errors = self.errors.take().or(rows::read(path)?.into_iter().next());
         }
         self.objects.sort_by(|a, b| b.1.severity().total_cmp(&a.1.severity()));
         Ok(())
