@@ -6,7 +6,7 @@ use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, RotD};
 use super::signal::{Baseline, HighPass, Scaling, resample, resampled_length};
 use crate::keyword::keywords;
-use crate::motion::{LONGEST_MOTION, MeasurePlan, MeasureScratch, MotionMeasures, Measured, Suite, measures};
+use crate::motion::{LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, MotionMeasures, Suite, measures};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::units::G_M_S2;
 
@@ -40,9 +40,13 @@ pub enum ProcessingError {
     Resampled { samples: f64, dt_s: f64 },
     #[error("the motion is zero throughout; it cannot be scaled to a peak")]
     Zero,
-    #[error("corner of the high-pass {corner_hz} Hz; expected less than half the sampling rate, {nyquist_hz} Hz")]
+    #[error(
+        "corner of the high-pass {corner_hz} Hz; expected less than half the sampling rate, {nyquist_hz} Hz"
+    )]
     Corner { corner_hz: f64, nyquist_hz: f64 },
-    #[error("PGA {pga_g:.1} g and PGV {pgv_m_s:.1} m/s when scaled by {scale}; none as strong was ever recorded")]
+    #[error(
+        "PGA {pga_g:.1} g and PGV {pgv_m_s:.1} m/s when scaled by {scale}; none as strong was ever recorded"
+    )]
     Scaled { scale: f64, pga_g: f64, pgv_m_s: f64 },
 }
 

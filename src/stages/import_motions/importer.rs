@@ -187,7 +187,9 @@ fn unprocessed(file: &Path, error: &ProcessingError) -> String {
         ProcessingError::Implausible(Implausibility::Drift { .. }) => {
             " (--baseline linear corrects it, --accept-implausible imports it anyway)"
         }
-        ProcessingError::Implausible(_) | ProcessingError::Scaled { .. } => " (--accept-implausible imports it anyway)",
+        ProcessingError::Implausible(_) | ProcessingError::Scaled { .. } => {
+            " (--accept-implausible imports it anyway)"
+        }
         ProcessingError::Resampled { .. } => ": choose another for --resample",
         ProcessingError::Zero | ProcessingError::Corner { .. } => "",
     };
