@@ -14,7 +14,7 @@ mod joint;
 mod rates;
 mod site;
 
-pub use count::{Count, CountedMotion, CountedRate, counted_rates};
+pub use count::{CountedMotion, CountedRate, counted_rate};
 pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
 pub use rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
@@ -23,5 +23,5 @@ pub use site::{Hazard, Site, SiteRates, strongest};
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate
 /// independently of each other (Poisson): 1 - exp(-rate years).
 pub fn probability_in_years(annual_rate: f64, years: f64) -> f64 {
-    -libm::expm1(-annual_rate * years)
+    -(-annual_rate * years).exp_m1()
 }

@@ -1,7 +1,7 @@
 //! Annual rates of a structure at a site: the hazard as it is given, and what the ends of its curve leave
 //! open.
 
-use super::count::{CountedMotion, CountedRate, counted_rates};
+use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
 use super::joint::JointHazard;
 use super::rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
@@ -76,8 +76,8 @@ pub struct SiteRates {
     pub overturning: Limited,
     /// Of overturning, with PGV / PGA a standard deviation below its median, and above.
     pub by_velocity: Option<[f64; 2]>,
-    /// Number of motions, and the rate of overturning counted among them.
-    pub counted: Option<(usize, CountedRate)>,
+    /// The rate of overturning, counted among the responses.
+    pub counted: Option<CountedRate>,
     /// PGA and PGV (m/s2 and m/s) of a motion that half of the rate of overturning is above; of a joint hazard
     /// those of the strongest.
     pub motion: [f64; 2],
@@ -128,7 +128,7 @@ impl Site {
     }
 
     /// The rate of overturning, counted among the responses of this structure to this kind of motion.
-    fn count(&self, given_peak: &GivenPeak, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
+    fn count(&self, given_peak: &GivenPeak, curve: &HazardCurve) -> Option<CountedRate> {
         let kind_of =
             |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
         let kind = match given_peak.model {
@@ -140,17 +140,16 @@ impl Site {
         let cases = self.responses.iter().find(is_same)?;
         let motion = |case: usize| CountedMotion {
             intensity: if given_peak.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
-            events: [f64::from(cases.happened(case, Event::Overturning, self.limit_state) == Some(true))],
+            event: cases.happened(case, Event::Overturning, self.limit_state) == Some(true),
             cluster: cases.cluster[case],
         };
-        let motions: Vec<CountedMotion<1>> = (0..cases.len()).map(motion).collect();
+        let motions: Vec<CountedMotion> = (0..cases.len()).map(motion).collect();
         // Weaker motions uplift nothing.
         let least = match given_peak.peak {
             Peak::Pga => given_peak.structure.uplift_acceleration_m_s2(),
             Peak::Pgv => given_peak.uplift()[0],
         };
-        let count = counted_rates(curve, least, motions, SEED)?;
-        Some((count.motions, count.rates[0]))
+        counted_rate(curve, least, motions, SEED)
     }
 }
 

@@ -65,10 +65,10 @@ impl RatesRow {
             p_overturning_high,
             overturning_per_year_less_velocity: rates.by_velocity.map(|rates| rates[0]),
             overturning_per_year_more_velocity: rates.by_velocity.map(|rates| rates[1]),
-            counted_motions: counted.map(|(motions, _)| *motions as i64),
-            counted_per_year: counted.map(|(_, rate)| rate.value),
-            counted_per_year_low: counted.map(|(_, rate)| rate.limits.low),
-            counted_per_year_high: counted.map(|(_, rate)| rate.limits.high),
+            counted_motions: counted.map(|rate| rate.motions as i64),
+            counted_per_year: counted.map(|rate| rate.value),
+            counted_per_year_low: counted.map(|rate| rate.limits.low),
+            counted_per_year_high: counted.map(|rate| rate.limits.high),
             warnings: None,
         }
     }

@@ -9,7 +9,8 @@ use clap::{Args, ValueHint};
 use crate::keyword::nearest;
 use crate::paper;
 use crate::pipeline::UsageError;
-use crate::rocking::{Structure, housner_eta, judge};
+use crate::plausibility::{check_structure, is_too_high};
+use crate::rocking::{Structure, housner_eta};
 use crate::sheet::Sheet;
 use crate::units::Quantity;
 use crate::warning::{Warning, Warnings};
@@ -132,7 +133,7 @@ impl Spec {
         ];
         let given: Vec<(&str, f64)> =
             given.into_iter().filter_map(|(key, value)| Some((key, value?))).collect();
-        judge(name, &given).map_err(|error| error.to_string())?;
+        check_structure(name, &given).map_err(|error| error.to_string())?;
         let structure = match (p, alpha, eta, width, height) {
             (Some(p), Some(alpha), Some(Restitution::Number(eta)), None, None) => {
                 Structure::new(name, p, alpha, eta)
@@ -206,7 +207,7 @@ const LOW_ETA: f64 = 0.5;
 
 /// What speaks against the parameters of a structure.
 pub fn warnings_of(structure: &Structure) -> Vec<Warning> {
-    let size = structure.warning().map(|_| Warning::ImplausibleSize);
+    let size = is_too_high(structure).then_some(Warning::ImplausibleSize);
     size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()
 }
 
