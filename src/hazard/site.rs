@@ -88,13 +88,14 @@ impl Site {
     /// The rates of a structure.
     pub fn rates(&self, structure: &Structure, model: &Model) -> SiteRates {
         match &self.hazard {
-            Hazard::Curve(peak, curve) => {
-                self.rates_of_curve(&GivenPeak { model, structure, peak: *peak, ratio: self.ratio }, curve)
-            }
+            Hazard::Curve(peak, curve) => self.rates_of_curve(
+                &GivenPeak { model, structure, peak: *peak, ratio: self.ratio, mw: None },
+                curve,
+            ),
             Hazard::Joint(joint) => {
                 let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
                 let motion = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
-                SiteRates::new(rates_over_pairs(model, structure, joint), false, motion)
+                SiteRates::new(rates_over_pairs(model, structure, None, joint), false, motion)
             }
         }
     }

@@ -99,7 +99,7 @@ fn summary(compared: &[Comparison]) -> anyhow::Result<String> {
     let surface = paper::structures().into_iter().filter_map(|structure| {
         let model = Model::shipped(Kind::Csgm, &structure, paper::LIMIT_STATE);
         let given =
-            model.probabilities(&structure, &paper::example(&structure), Scenarios::One).given_rocking?;
+            model.probabilities(&structure, &paper::example(&structure), None, Scenarios::One).given_rocking?;
         let p = given.p_ro;
         Some(format!("{} {:.2} ({:.2} to {:.2})", structure.name, p.value, p.low, p.high))
     });

@@ -66,7 +66,8 @@ impl Stage for Export {
             let (model, mut warnings) = models.model(structure)?;
             warnings.extend(warnings_of(structure));
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
-            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio: Ratio::Distributed };
+            let ratio = Ratio::Distributed;
+            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio, mw: None };
             functions.push(self.function(structure, &given_peak));
             description = words_of(&model);
         }

@@ -37,7 +37,7 @@ impl TreeRow {
         measures: &IntensityMeasures,
         peaks: [f64; 2],
     ) -> TreeRow {
-        TreeRow::of(peaks, &model.probabilities(structure, measures, Scenarios::One))
+        TreeRow::of(peaks, &model.probabilities(structure, measures, None, Scenarios::One))
     }
 
     fn of(peaks: [f64; 2], probabilities: &Probabilities) -> TreeRow {

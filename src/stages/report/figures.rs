@@ -329,8 +329,9 @@ fn over_pga(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
         let drawn = |label: &str, row: &Calibration| {
             let mut sums = vec![[0.0; 5]; bins];
             for (&(pga, _), (k, _)) in shares.iter().zip(rocked(cases)) {
-                let logit = row.logit(&cases.structure, &cases.measures(k));
-                let Some(p) = logit.map(|logit| row.probability(logit, Scenarios::Many)) else { continue };
+                let mw = Some(cases.mw[k]).filter(|mw| !mw.is_nan());
+                let Some(of) = row.predictor(&cases.structure, &cases.measures(k), mw) else { continue };
+                let p = row.probability(&of, Scenarios::Many);
                 let terms = [1.0, pga, p.value, p.low, p.high];
                 sums[bin(pga)].iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
             }
