@@ -8,13 +8,13 @@ use crate::keyword::keywords;
 
 /// A warning that changes what one would decide, the weightiest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "text() says it")]
 pub enum Warning {
     ImplausibleRow,
     ImplausibleRecord,
     OtherPeak,
     ImplausibleSize,
     LowRestitution,
-    ImplausibleHazard,
     HazardEndsEarly,
     HazardExtrapolated,
     HazardStartsLate,
@@ -36,7 +36,6 @@ keywords!(Warning {
     OtherPeak = "other_peak",
     ImplausibleSize = "implausible_size",
     LowRestitution = "low_restitution",
-    ImplausibleHazard = "implausible_hazard",
     HazardEndsEarly = "hazard_ends_early",
     HazardExtrapolated = "hazard_extrapolated",
     HazardStartsLate = "hazard_starts_late",
@@ -61,7 +60,6 @@ impl Warning {
             Warning::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",
             Warning::ImplausibleSize => "no solid block is as high: are its dimensions in cm?",
             Warning::LowRestitution => "eta is below 0.5: a typing error?",
-            Warning::ImplausibleHazard => "such strong motion is never so frequent: wrong unit or column?",
             Warning::HazardEndsEarly => "the hazard curve ends too early: bounds in place of a value",
             Warning::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
             Warning::HazardStartsLate => {
@@ -71,11 +69,9 @@ impl Warning {
             Warning::Extrapolated => "outside of the motions that the model was fitted to",
             Warning::UnusualStructure => "outside of the structures that the universal surface was fitted to",
             Warning::PoorFit => "the paper's curve or planes do not fit these responses",
-            Warning::NoEvents => {
-                "no response or every response overturned: the level comes from other structures"
-            }
+            Warning::NoEvents => "all responses or none overturned: the estimate rests on other structures",
             Warning::FewEvents => {
-                "fewer than ten responses with the event, or without: the level is uncertain"
+                "fewer than ten responses with the event, or without: the fitted rate is uncertain"
             }
             Warning::FewClusters => {
                 "fewer than ten earthquakes or cells: limits assume the usual differences between them"
@@ -106,7 +102,7 @@ const NAMED: usize = 3;
 const UNNAMED: &str = "structure";
 
 impl Warnings {
-    /// Returns a line a warning, the weightiest first, with the first of what it is about.
+    /// Returns one line for each warning, the weightiest first, with the first subjects that it is about.
     pub fn lines(&self) -> Vec<String> {
         let line = |(warning, Subjects { named, count }): (&Warning, &Subjects)| {
             let named = named.join(", ");

@@ -14,6 +14,7 @@ use crate::warning::Warning;
 /// The model of one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "there is one for each structure")]
+#[expect(missing_docs, reason = "the types say it")]
 pub enum Model {
     /// The universal surface, calibrated.
     Calibrated { overturning: Calibration, exceeding: Calibration, peaks: JointPeaks },
@@ -63,6 +64,11 @@ impl Model {
         })
     }
 
+    /// Whether probabilities depend on magnitude: those of the paper do not.
+    pub fn depends_on_magnitude(&self) -> bool {
+        matches!(self, Model::Calibrated { .. })
+    }
+
     /// How PGA and PGV go together in the motions that it stands for.
     pub fn peaks(&self) -> &JointPeaks {
         match self {
@@ -103,9 +109,9 @@ impl Model {
     }
 }
 
-/// Computes the probabilities of the tree (Eq. 12) by the paper: P_ex of the demand fit that holds at the IM4,
-/// P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere. P_ex is NaN where no
-/// fit holds.
+/// Computes the probabilities of the tree (Eq. 12) by the paper: P_ex of the demand fit that holds at the
+/// IM4, P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere. P_ex is NaN
+/// where no fit holds.
 pub fn paper_probabilities(
     demand: &[DemandFit],
     overturning: &CurveFit,

@@ -34,6 +34,11 @@ impl Kind {
             Some(Suite::Record | Suite::Residual) | None => Kind::Recorded,
         }
     }
+
+    /// The kind of a suite by its word in tables; that of an unknown word, or of none, is that of records.
+    pub fn of_word(suite: Option<&str>) -> Kind {
+        Kind::of(suite.and_then(|word| word.parse().ok()))
+    }
 }
 
 /// What the surface says of one case, to be calibrated.
@@ -88,7 +93,7 @@ pub fn covers_motion(structure: &Structure, measures: &IntensityMeasures, limit_
         .all(|(name, value)| is_inside(name, *value))
 }
 
-/// By how much, relative to it, a value may pass a bound: what a print of it does not show.
+/// The relative amount by which a value may pass a bound, as rounding in print does.
 const UNSEEN: f64 = 1e-5;
 
 fn is_inside(name: &str, value: f64) -> bool {

@@ -2,10 +2,6 @@
 
 use crate::statistics::numerics::quadrature;
 
-/// The widest panel of the quadrature, in ln IM: less than the narrowest dispersion of a fragility that we
-/// know, the zeta of 0.03 of the lower plane under pulses.
-const WIDEST_PANEL: f64 = 0.02;
-
 /// Annual rate that the largest intensity of a hazard curve hardly has; a column of intensities, taken for
 /// rates, has.
 const FREQUENT: f64 = 0.02;
@@ -19,6 +15,7 @@ pub struct HazardCurve {
 
 /// Why points make no hazard curve. `point` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the message says it")]
 pub enum HazardError {
     #[error("{0} point(s); expected 2 or more")]
     TooFewPoints(usize),
@@ -81,6 +78,21 @@ impl HazardCurve {
         HazardCurve { points }
     }
 
+    /// The same rates at intensities times `factor`.
+    pub fn scaled(&self, factor: f64) -> HazardCurve {
+        HazardCurve { points: self.points.iter().map(|&(im, rate)| (im * factor, rate)).collect() }
+    }
+
+    /// The intensity that is exceeded at an annual rate; beyond the ends of the curve that of the end.
+    pub fn intensity(&self, rate: f64) -> f64 {
+        let below = self.points.partition_point(|&(_, point)| point >= rate);
+        if below == 0 || below == self.points.len() {
+            return self.points[below.saturating_sub(1)].0;
+        }
+        let [(low, at_low), (high, at_high)] = [self.points[below - 1], self.points[below]];
+        low * (high / low).powf((at_low / rate).ln() / (at_low / at_high).ln())
+    }
+
     /// The annual rate at which an intensity is exceeded; beyond the ends of the curve that of the end.
     pub fn exceedance(&self, im: f64) -> f64 {
         let above = self.points.partition_point(|&(point, _)| point <= im);
@@ -94,12 +106,13 @@ impl HazardCurve {
     /// Integrates the mean annual rates of events that have these probabilities at an intensity: P(im)
     /// |dH(im)|.
     ///
-    /// Gauss-Legendre on short panels in ln IM, none across a point of the curve or one of `breaks`, where a
-    /// probability jumps. Motions above the last intensity count with the probability at it; those below the
+    /// Gauss-Legendre on panels of ln IM that are at most `widest`, none across a point of the curve or one of
+    /// `breaks`, where a probability jumps. Motions above the last intensity count with the probability at it; those below the
     /// first are not counted.
     pub fn mean_annual_rates<const N: usize>(
         &self,
         breaks: &[f64],
+        widest: f64,
         probabilities: impl Fn(f64) -> [f64; N],
     ) -> [f64; N] {
         let [_, (last, rate_beyond)] = self.ends();
@@ -110,8 +123,7 @@ impl HazardCurve {
             let mut edges = vec![low.ln(), high.ln()];
             edges.extend(breaks.iter().filter(|&&im| low < im && im < high).map(|im| im.ln()));
             edges.sort_by(f64::total_cmp);
-            for (ln_im, width) in edges.windows(2).flat_map(|edge| quadrature(edge[0], edge[1], WIDEST_PANEL))
-            {
+            for (ln_im, width) in edges.windows(2).flat_map(|edge| quadrature(edge[0], edge[1], widest)) {
                 let density = slope * rate * (-slope * (ln_im - low.ln())).exp() * width;
                 for (sum, p) in rates.iter_mut().zip(probabilities(ln_im.exp())) {
                     *sum += p * density;

@@ -48,6 +48,7 @@ pub struct MeasurePlan {
 /// The measures of one motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
+    /// Those of every motion.
     pub measures: MotionMeasures,
     /// Housner intensity, m.
     pub housner_m: Option<f64>,
@@ -172,29 +173,64 @@ pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch
     (total > 0.0).then(|| weighted / total)
 }
 
-/// Computes the pseudo-spectral acceleration, m/s2: (2 pi / T)^2 times the largest relative displacement of a
-/// linear oscillator of period `period_s` and damping ratio `damping` in [0, 1), exact for an acceleration
-/// linear between samples (Nigam & Jennings 1969).
-pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, damping: f64) -> f64 {
-    let w = 2.0 * PI / period_s;
-    let wd = w * (1.0 - damping * damping).sqrt();
-    let decay = (-damping * w * dt_s).exp();
-    let (sin, cos) = (wd * dt_s).sin_cos();
-    let (mut displacement, mut velocity, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
-    for pair in acceleration.windows(2) {
-        let slope = (pair[1] - pair[0]) / dt_s;
+/// A linear oscillator under an acceleration of its base, exact for lines between samples (Nigam & Jennings
+/// 1969), from rest.
+pub struct Oscillator {
+    /// Circular frequency, that of damped vibration, rad/s, and the damping ratio.
+    w: f64,
+    wd: f64,
+    damping: f64,
+    dt_s: f64,
+    /// Of free vibration over a step: decay, and sine and cosine of the angle.
+    decay: f64,
+    sin: f64,
+    cos: f64,
+    /// Relative to the base, m and m/s.
+    displacement: f64,
+    velocity: f64,
+}
+
+impl Oscillator {
+    /// Of period `period_s` and damping ratio `damping` in [0, 1), for samples at steps of `dt_s`.
+    pub fn new(period_s: f64, damping: f64, dt_s: f64) -> Oscillator {
+        let w = 2.0 * PI / period_s;
+        let wd = w * (1.0 - damping * damping).sqrt();
+        let (sin, cos) = (wd * dt_s).sin_cos();
+        let decay = (-damping * w * dt_s).exp();
+        Oscillator { w, wd, damping, dt_s, decay, sin, cos, displacement: 0.0, velocity: 0.0 }
+    }
+
+    /// Moves on by a step over which the base goes from one acceleration to the next, m/s2.
+    pub fn step(&mut self, before: f64, after: f64) {
+        let Oscillator { w, wd, damping, dt_s, decay, sin, cos, displacement, velocity } = *self;
+        let slope = (after - before) / dt_s;
         // The particular solution of u'' + 2 z w u' + w^2 u = -(a0 + slope t) is linear; the rest is free.
         let linear = -slope / (w * w);
-        let constant = -pair[0] / (w * w) - 2.0 * damping / w * linear;
+        let constant = -before / (w * w) - 2.0 * damping / w * linear;
         let free = displacement - constant;
         let free_rate = (velocity - linear + damping * w * free) / wd;
-        displacement = decay * (free * cos + free_rate * sin) + constant + linear * dt_s;
-        velocity = decay
+        self.displacement = decay * (free * cos + free_rate * sin) + constant + linear * dt_s;
+        self.velocity = decay
             * ((free_rate * wd - damping * w * free) * cos - (free * wd + damping * w * free_rate) * sin)
             + linear;
-        largest = largest.max(displacement.abs());
     }
-    w * w * largest
+
+    /// The acceleration of its mass, m/s2.
+    pub fn absolute_acceleration(&self) -> f64 {
+        -self.w * (self.w * self.displacement + 2.0 * self.damping * self.velocity)
+    }
+}
+
+/// Computes the pseudo-spectral acceleration, m/s2: (2 pi / T)^2 times the largest relative displacement of a
+/// linear oscillator of period `period_s` and damping ratio `damping` in [0, 1).
+pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, damping: f64) -> f64 {
+    let mut oscillator = Oscillator::new(period_s, damping, dt_s);
+    let mut largest = 0.0_f64;
+    for pair in acceleration.windows(2) {
+        oscillator.step(pair[0], pair[1]);
+        largest = largest.max(oscillator.displacement.abs());
+    }
+    oscillator.w * oscillator.w * largest
 }
 
 /// Computes the Housner intensity, m: the integral of the pseudo-velocity spectrum at 5 % damping from 0.1 to

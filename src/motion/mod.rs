@@ -1,13 +1,14 @@
 //! Near-fault ground motions: a coherent velocity pulse plus stochastic high frequencies (section 2.1).
 //!
 //! ```text
-//! scenario            magnitude, distance, random parameters of the pulse (section 2.1.1, Eqs. 2 and 3); suites
+//! scenario            magnitude, distance, parameters of the pulse (section 2.1.1, Eqs. 2 and 3); suites
 //! design              samples of the random parameters in a cell of the magnitude-distance grid
 //! pulse               Mavroeidis & Papageorgiou's pulse (Eq. 1)
-//! stochastic          high frequencies by Boore's stochastic method, source of Atkinson & Silva (section 2.1.2)
+//! stochastic          high frequencies: Boore's method, source of Atkinson & Silva (section 2.1.2)
 //! site                amplification from the source to the surface
 //! combine             high frequencies and pulse into one motion (section 2.1.3)
 //! synthesis           all of these for one scenario, on one time axis
+//! floor               motions of floors of buildings, and their peaks
 //! measures            measures of a motion with units: peaks, mean period, Arias intensity, duration
 //! intensity_measures  IM1 to IM6 (Eq. 13) of a motion and a structure, and other measures without units
 //! fourier             transforms of real series
@@ -15,6 +16,7 @@
 
 mod combine;
 mod design;
+pub mod floor;
 pub mod fourier;
 mod intensity_measures;
 pub mod measures;
@@ -26,6 +28,7 @@ mod synthesis;
 
 pub use combine::{Difference, Epoch};
 pub use design::{Design, Grid};
+pub use floor::{Floor, FloorPeaks};
 pub use intensity_measures::{Dimension, IntensityMeasures};
 pub use measures::{MeasurePlan, MeasureScratch, Measured, MotionMeasures};
 pub use pulse::Pulse;

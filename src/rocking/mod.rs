@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! structure    p, alpha and eta, and their formulas for blocks and frames
+//! body         those of any rigid body on two edges, of its weaker side
 //! record       ground acceleration, piecewise linear in time
 //! reference    equation of motion, uplift, impact (Eqs. 4 to 6) as printed, in small steps: read this first
 //! taylor       the equation of motion (Eq. 4): rotation over one step as a Taylor polynomial
@@ -18,6 +19,7 @@
 //! ```
 
 mod batch;
+mod body;
 mod incremental;
 mod lanes;
 mod polynomial;
@@ -33,6 +35,7 @@ mod uplift;
 mod vector;
 
 pub use batch::{simulate, simulate_all};
+pub use body::Body;
 pub use incremental::{Capacity, CapacityStatus, SafeWindow, Scan, ScanPoint, ScanResponse};
 pub use lanes::Problem;
 pub use record::{Record, RecordError};

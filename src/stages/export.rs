@@ -8,8 +8,9 @@ use super::shared::model_args::{ModelArgs, words_of};
 use super::shared::structures::{StructureArgs, warnings_of};
 use crate::export::{FragilityModel, Function, OWN_ID, PELICUN_TOLERANCE};
 use crate::export::{discrete, levels, metadata, parameters, plain_id, whole_curve_end};
-use crate::fragility::{GivenPeak, Peak, Ratio, Scenarios};
+use crate::fragility::{GivenPeak, Peak, Scenarios};
 use crate::hazard::strongest;
+use crate::hazard::{Velocity, magnitude};
 use crate::keyword::keywords;
 use crate::pipeline::context::Context;
 use crate::pipeline::stage::Stage;
@@ -66,8 +67,9 @@ impl Stage for Export {
             let (model, mut warnings) = models.model(structure)?;
             warnings.extend(warnings_of(structure));
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
-            let ratio = Ratio::Distributed;
-            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio, mw: None };
+            let (velocity, median) = (Velocity::of_model(&model, self.im), magnitude(None).0);
+            let (ratio, mw) = (velocity.ratio(median, 0.0), velocity.magnitude(None, median));
+            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio, mw };
             functions.push(self.function(structure, &given_peak));
             description = words_of(&model);
         }

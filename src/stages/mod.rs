@@ -40,6 +40,7 @@ stages! {
     sample_scenarios::SampleScenarios,
     synthesize_motions::SynthesizeMotions,
     import_motions::ImportMotions,
+    floor_motions::FloorMotions,
     simulate::Simulate,
     ida::Ida,
     fit_pex::FitPex,

@@ -4,6 +4,8 @@ mod common;
 mod config;
 mod evaluate;
 mod files;
+mod floors;
+mod hazard;
 mod interruption;
 mod paper;
 mod pipeline;

@@ -1,4 +1,5 @@
 //! Synthetic ground motions against published values, and the measures of any motion against closed forms.
 
+mod floor;
 mod measures;
 mod model;

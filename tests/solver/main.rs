@@ -1,5 +1,6 @@
 //! The rocking solver against closed forms, quadruple precision, the printed equations, and extreme input.
 
+mod body;
 mod company;
 mod incremental;
 mod noise;

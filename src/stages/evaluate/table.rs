@@ -8,9 +8,10 @@ use arrow_array::RecordBatch;
 use rayon::prelude::*;
 
 use super::intensities::{self, peaks};
-use super::object::{Predicted, texts};
+use super::object::{ErrorsRow, Predicted, texts};
 use super::point::TreeRow;
 use crate::fragility::{Model, Peak};
+use crate::hazard::Motion;
 use crate::motion::IntensityMeasures;
 use crate::number::counted;
 use crate::pipeline::UsageError;
@@ -19,9 +20,9 @@ use crate::rocking::Structure;
 use crate::stages::shared::hazard::Renamed;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::motions::known;
-use crate::stages::shared::structures::{StructureArgs, warnings_of};
+use crate::stages::shared::structures::{Object, StructureArgs, warnings_of};
 use crate::table::TableError;
-use crate::table::columns::Columns;
+use crate::table::columns::Batch;
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 
@@ -37,38 +38,36 @@ pub fn evaluate(
     context: &Context,
 ) -> anyhow::Result<(Vec<RecordBatch>, String)> {
     let batches = intensities::read(path, renamed)?;
-    let given = if structures.is_given() { structures.resolve()? } else { Vec::new() };
+    let given = if structures.is_given() { structures.objects()? } else { &[] };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
         ));
     }
-    let (mut known, mut evaluated, mut first_row) = (KnownModels::new(), Vec::new(), 0);
-    for batch in batches {
-        let columns = Columns { path, first_row, batch: &batch };
-        evaluated.push(of_batch(&columns, given.first(), models, &mut known, context)?);
-        first_row += batch.num_rows() as u64;
-    }
-    match first_row {
+    let mut known = KnownModels::new();
+    let evaluate = |batch: &Batch| of_batch(batch, given.first(), models, &mut known, context);
+    let evaluated = batches.iter().map(evaluate).collect::<anyhow::Result<Vec<RecordBatch>>>()?;
+    match batches.iter().map(|batch| batch.rows.num_rows()).sum() {
         0 => Err(TableError::table(path, "no rows; expected intensities").into()),
-        rows => Ok((evaluated, format!("{} evaluated\n", counted(rows as usize, "row")))),
+        rows => Ok((evaluated, format!("{} evaluated\n", counted(rows, "row")))),
     }
 }
 
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
 fn of_batch(
-    columns: &Columns,
-    given: Option<&Structure>,
+    batch: &Batch,
+    given: Option<&Object>,
     models: &Models,
     known_models: &mut KnownModels,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
-    let [pga, pgv] = [peaks(columns, Peak::Pga)?, peaks(columns, Peak::Pgv)?];
-    let [tp, tm] = [columns.numbers("tp_s")?, columns.numbers("tm_s")?];
-    let structures = match given {
-        Some(structure) => vec![structure.clone(); columns.rows()],
-        None => intensities::structures(columns)?,
+    let [pga, pgv] = [peaks(batch, Peak::Pga)?, peaks(batch, Peak::Pgv)?];
+    let [tp, tm, mw] = [batch.numbers("tp_s")?, batch.numbers("tm_s")?, batch.numbers("mw")?];
+    let structures = match given.map(|object| object.structure.clone()) {
+        Some(structure) => vec![structure.map_err(UsageError::because)?; batch.rows.num_rows()],
+        None => intensities::structures(batch)?,
     };
+    let unknowns = given.map_or(&[] as &[_], |object| &object.unknowns);
     let key =
         |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits);
     for structure in &structures {
@@ -83,19 +82,21 @@ fn of_batch(
         let measures = IntensityMeasures::new(structure, pga[row], pgv[row], known(tp[row]), known(tm[row]));
         let mut warnings = of_structure.clone();
         warnings.extend(model.warnings(structure, &measures));
-        let tree = TreeRow::new(structure, model, &measures, [pga[row], pgv[row]]);
-        (tree.with_warnings(texts(&warnings)), warnings)
+        let motion = Motion { pga_m_s2: Some(pga[row]), pgv_m_s: Some(pgv[row]), mw: known(mw[row]) };
+        let (tree, budget) = TreeRow::new(&motion, structure, unknowns, model);
+        ((tree.with_warnings(texts(&warnings)), ErrorsRow::of(&budget)), warnings)
     };
-    let (trees, warnings): (Vec<TreeRow>, Vec<Vec<Warning>>) =
-        (0..columns.rows()).into_par_iter().map(of_row).unzip();
+    let (rows_of_all, warnings): (Vec<(TreeRow, ErrorsRow)>, Vec<Vec<Warning>>) =
+        (0..batch.rows.num_rows()).into_par_iter().map(of_row).unzip();
+    let (trees, errors): (Vec<TreeRow>, Vec<ErrorsRow>) = rows_of_all.into_iter().unzip();
     for (row, warnings) in warnings.into_iter().enumerate() {
-        let place = format!("row {}", columns.first_row + row as u64);
+        let place = format!("row {}", batch.first_row + row as u64);
         context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect::<Warnings>());
     }
-    let own = rows::batch(&trees)?;
-    let schema = columns.batch.schema();
+    let own = rows::side_by_side(&[rows::batch(&trees)?, rows::batch(&errors)?])?;
+    let schema = batch.rows.schema();
     let kept: Vec<usize> = (0..schema.fields().len())
         .filter(|&at| own.schema().index_of(schema.field(at).name()).is_err())
         .collect();
-    rows::side_by_side(&[own, columns.batch.project(&kept)?])
+    rows::side_by_side(&[own, batch.rows.project(&kept)?])
 }

@@ -1,6 +1,7 @@
 //! An object, its model and what speaks against its answer, in words.
 
 use super::object::{Answer, ObjectRow};
+use crate::hazard::{Budget, Part};
 use crate::number;
 use crate::rocking::rectangular_p;
 
@@ -20,6 +21,7 @@ pub fn title(object: &ObjectRow) -> String {
     }
 }
 
+/// Width and height, else p and alpha.
 pub fn size(object: &ObjectRow) -> String {
     match (object.width_m, object.height_m, object.p_rad_s, object.alpha_rad) {
         (Some(width), Some(height), ..) => {
@@ -48,6 +50,21 @@ pub fn friction(object: &ObjectRow) -> String {
 pub fn too_far(object: &ObjectRow) -> String {
     let limit_state = object.limit_state.unwrap_or(f64::NAN);
     format!("rocks beyond {} of its slenderness", number::PERCENT.one(limit_state))
+}
+
+/// The largest part of the error, and what would narrow it: of PGV / PGA this advice.
+pub fn mostly_unknown(budget: &Budget, of_velocity: &str) -> Option<String> {
+    let part = budget.largest()?;
+    let advice = match part {
+        Part::Fit => "Calibrate it by responses of the object (--fits).",
+        Part::Magnitude => "Add --magnitude.",
+        Part::Velocity => of_velocity,
+        Part::Eta => "Measure it (--eta, --eta-sd).",
+        Part::Object => "Measure its centre of mass.",
+        Part::Floor => "Measure its period (--period, --period-sd).",
+        Part::Hazard => "",
+    };
+    Some(format!("Mostly unknown: {}. {advice}", part.words()).trim_end().to_string())
 }
 
 /// The warnings of a row in a few words; the reason in full if the row cannot be right.

@@ -1,0 +1,168 @@
+//! floor-motions: motions of the ground as a floor of a building has them.
+
+use std::path::PathBuf;
+
+use arrow_array::RecordBatch;
+use arrow_schema::Schema;
+use clap::{Args, ValueHint};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::motion::{Floor, MeasurePlan, MeasureScratch, Measured, MotionMeasures};
+use crate::pipeline::context::Context;
+use crate::pipeline::files::out_of_partition;
+use crate::pipeline::options::number;
+use crate::pipeline::stage::Stage;
+use crate::pipeline::stream::{Pool, batches, pipelined};
+use crate::rocking::Record;
+use crate::table::TableError;
+use crate::table::columns::Batch;
+use crate::table::dictionary;
+use crate::table::file::Partition;
+use crate::table::motions::{ACCELERATION, Sampled, batch, open, read, spectral_period_s};
+use crate::table::rows;
+
+/// Motions that a thread takes at once, and such parts that are in memory, for each thread.
+const AT_ONCE: usize = 32;
+const PARTS_A_THREAD: usize = 2;
+
+/// Filter motions through a linear building to one of its floors
+#[derive(Debug, Args)]
+pub struct FloorMotions {
+    /// Motions of the ground to read: motion_id, dt_s and acceleration_m_s2
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "motions.parquet")]
+    input: PathBuf,
+    /// Motions of the floor to write, with all other columns
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "floor.parquet")]
+    out: PathBuf,
+    /// First period of the building, s
+    #[arg(long, value_name = "S", value_parser = number(0.02..=10.0, "a period from 0.02 to 10 s: is it in Hz?"))]
+    period: f64,
+    /// Height of the floor over that of the roof, 0 to 1
+    #[arg(long, value_name = "Z", value_parser = number(0.0..=1.0, "the height over that of the roof, 0 to 1: 0.6 for storey 3 of 5"))]
+    level: f64,
+    /// Damping ratio of the modes
+    #[arg(long, value_name = "RATIO", default_value = "0.05", value_parser = number(0.005..=0.5, "a ratio from 0.005 to 0.5: is it in percent?"))]
+    damping: f64,
+    /// Only part i of n (0 to n - 1), into the folder --out
+    #[arg(long, value_name = "I/N")]
+    partition: Option<Partition>,
+}
+
+/// The floor of a motion, as columns.
+#[derive(Serialize, Deserialize)]
+struct FloorRow {
+    floor_period_s: f64,
+    floor_level: f64,
+}
+
+/// The measure that only some files have.
+#[derive(Serialize, Deserialize)]
+struct HousnerRow {
+    housner_m: Option<f64>,
+}
+
+impl Stage for FloorMotions {
+    fn outputs(&self) -> Vec<PathBuf> {
+        vec![out_of_partition(&self.out, self.partition)]
+    }
+
+    fn run(&self, context: &Context) -> anyhow::Result<String> {
+        let table = open(&self.input, self.partition)?;
+        if table.schema().index_of("floor_level").is_ok() {
+            return Err(
+                TableError::table(&self.input, "motions of a floor; expected those of the ground").into()
+            );
+        }
+        let plan = measures_of(table.schema());
+        let no_rows = RecordBatch::new_empty(table.schema().clone());
+        let none = Batch { path: self.input.as_path().into(), first_row: 0, rows: no_rows };
+        let schema = self.filter(&none, &[], &plan, &mut MeasureScratch::default())?.schema();
+        let mut writer = context.create(&self.outputs()[0], &schema)?;
+        let pool = Pool::new(MeasureScratch::default);
+        let bar = context.bar(table.rows());
+        let parts = table.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
+            match read(&table, &group, &|_| true, AT_ONCE) {
+                Ok(parts) => Box::new(parts),
+                Err(error) => Box::new(std::iter::once(Err(error))),
+            }
+        });
+        let filtered = |(part, samples): Sampled| -> anyhow::Result<RecordBatch> {
+            bar.advance(part.rows.num_rows() as u64)?;
+            pool.with(|scratch| self.filter(&part, &samples, &plan, scratch))
+        };
+        pipelined(
+            batches(parts, PARTS_A_THREAD * rayon::current_num_threads()),
+            |parts| parts.into_par_iter().map(filtered).collect::<anyhow::Result<Vec<_>>>(),
+            |parts| Ok(parts.iter().try_for_each(|part| writer.append(part))?),
+        )?;
+        let summary =
+            format!("{} motions at level {} of a building of {} s\n", table.rows(), self.level, self.period);
+        context.finish(writer, &summary)?;
+        Ok(summary)
+    }
+}
+
+impl FloorMotions {
+    /// The rows of the floor; measures are those of its motions, all other columns those of the ground.
+    fn filter(
+        &self,
+        ground: &Batch,
+        samples: &[Vec<f64>],
+        plan: &MeasurePlan,
+        scratch: &mut MeasureScratch,
+    ) -> anyhow::Result<RecordBatch> {
+        let floor = Floor { period_s: self.period, level: self.level };
+        let dt = ground.required_numbers("dt_s")?;
+        let (mut filtered, mut measured) = (Vec::new(), Vec::new());
+        for (row, (acceleration, &dt_s)) in samples.iter().zip(&dt).enumerate() {
+            Record::new(acceleration, dt_s)
+                .map_err(|problem| ground.value_error(row, ACCELERATION, problem.to_string()))?;
+            let of_floor: Vec<f32> =
+                floor.motion(acceleration, dt_s, self.damping).iter().map(|&a| a as f32).collect();
+            let written: Vec<f64> = of_floor.iter().map(|&a| f64::from(a)).collect();
+            measured.push(plan.measure(&written, dt_s, scratch));
+            filtered.push(of_floor);
+        }
+        let floors: Vec<FloorRow> = filtered
+            .iter()
+            .map(|_| FloorRow { floor_period_s: self.period, floor_level: self.level })
+            .collect();
+        let measures: Vec<MotionMeasures> = measured.iter().map(|of: &Measured| of.measures).collect();
+        let mut known = vec![others(&ground.rows)?, rows::batch(&floors)?, rows::batch(&measures)?];
+        if plan.housner {
+            let housner: Vec<HousnerRow> =
+                measured.iter().map(|of| HousnerRow { housner_m: of.housner_m }).collect();
+            known.push(rows::batch(&housner)?);
+        }
+        let sa: Vec<&[f64]> = measured.iter().map(|of| of.sa_m_s2.as_slice()).collect();
+        batch(&known, &plan.sa_periods_s, &sa, filtered.iter().map(Vec::as_slice))
+    }
+}
+
+/// The measures of a motions file besides those of every motion.
+fn measures_of(schema: &Schema) -> MeasurePlan {
+    let periods = schema.fields().iter().filter_map(|field| spectral_period_s(field.name()));
+    MeasurePlan { housner: schema.index_of("housner_m").is_ok(), sa_periods_s: periods.collect() }
+}
+
+/// All columns that are neither samples nor measures of them, with unit and meaning.
+fn others(rows: &RecordBatch) -> anyhow::Result<RecordBatch> {
+    let (schema, measures) = (rows.schema(), rows::schema::<MotionMeasures>());
+    let is_measure = |name: &str| {
+        name == ACCELERATION
+            || name == "housner_m"
+            || spectral_period_s(name).is_some()
+            || measures.index_of(name).is_ok()
+    };
+    let kept: Vec<usize> =
+        (0..schema.fields().len()).filter(|&at| !is_measure(schema.field(at).name())).collect();
+    let rows = rows.project(&kept)?;
+    let fields = rows
+        .schema()
+        .fields()
+        .iter()
+        .map(|field| dictionary::with_meaning(field.as_ref().clone()))
+        .collect::<Vec<_>>();
+    Ok(rows.with_schema(Schema::new(fields).into())?)
+}

@@ -1,0 +1,99 @@
+//! floor-motions: motions in, motions out.
+
+use std::path::Path;
+
+use rockfrag::table::file::Table;
+use rockfrag::table::frame;
+use rockfrag::table::keys::key_of;
+
+use super::common::{SMALL, bytes, fail, folder_with, made, succeed, write_motions};
+
+/// The rows of a table as text, without some columns.
+fn rows(path: &Path, drop: &[&str]) -> Vec<String> {
+    let table = Table::open(path).unwrap();
+    let is_kept = |name: &str| !drop.contains(&name);
+    let text = |rows| frame::show(&frame::of_batch(&rows).unwrap(), frame::Format::Csv).unwrap();
+    let batches = table.batches(&is_kept).map(|batch| text(batch.unwrap().rows));
+    batches.flat_map(|text| text.lines().skip(1).map(str::to_string).collect::<Vec<_>>()).collect()
+}
+
+const SAMPLES: &[&str] = &["acceleration_m_s2"];
+const MEASURES: &[&str] = &[
+    "acceleration_m_s2",
+    "pga_m_s2",
+    "pgv_m_s",
+    "pgd_m",
+    "tm_s",
+    "arias_m_s",
+    "cav_m_s",
+    "d5_75_s",
+    "d5_95_s",
+    "sa_0p50_m_s2",
+    "floor_level",
+    "floor_period_s",
+];
+
+#[test]
+fn a_floor_keeps_what_is_not_measured_and_level_0_is_the_ground() {
+    let folder = folder_with(SMALL);
+    let here = folder.path();
+    succeed(here, "sample-scenarios --mw 6.5 --re 5 --samples 40 --out scenarios.parquet");
+    succeed(here, "synthesize-motions --in scenarios.parquet --sa 0.5 --out motions.parquet");
+    succeed(here, "floor-motions --in motions.parquet --period 0.8 --level 1");
+    let [ground, roof] = ["motions.parquet", "floor.parquet"].map(|name| here.join(name));
+    assert!(rows(&ground, MEASURES) == rows(&roof, MEASURES));
+    assert!(rows(&ground, SAMPLES) != rows(&roof, SAMPLES));
+    succeed(here, "floor-motions --in motions.parquet --period 0.8 --level 0 --out same.parquet");
+    let floor = ["acceleration_m_s2", "floor_level", "floor_period_s"];
+    let in_order = |path: &Path| {
+        let mut columns: Vec<_> =
+            Table::open(path).unwrap().schema().fields().iter().map(|f| f.name().clone()).collect();
+        columns.retain(|name| !floor.contains(&name.as_str()));
+        columns.sort();
+        columns
+    };
+    assert_eq!(in_order(&ground), in_order(&here.join("same.parquet")));
+    succeed(here, "simulate --in motions.parquet --width 0.6 --height 2 --out a.parquet");
+    succeed(here, "simulate --in same.parquet --width 0.6 --height 2 --out b.parquet");
+    assert!(rows(&here.join("a.parquet"), &[]) == rows(&here.join("b.parquet"), &[]));
+
+    succeed(here, "floor-motions --in motions.parquet --period 0.8 --level 1 --threads 1 --out one.parquet");
+    for part in 0..3 {
+        succeed(
+            here,
+            &format!(
+                "floor-motions --in motions.parquet --period 0.8 --level 1 --partition {part}/3 --out parts"
+            ),
+        );
+    }
+    assert!(rows(&roof, SAMPLES) == rows(&here.join("one.parquet"), SAMPLES));
+    assert!(rows(&roof, SAMPLES) == rows(&here.join("parts"), SAMPLES));
+    assert_eq!(bytes(&roof).len(), bytes(&here.join("one.parquet")).len());
+}
+
+#[test]
+fn a_run_with_a_floor_simulates_on_it() {
+    let folder = folder_with(&format!("{SMALL}floor-motions: {{ period: 0.8, level: 1 }}\n"));
+    succeed(folder.path(), "run");
+    let [floor, responses] =
+        ["floor", "responses"].map(|name| folder.path().join(format!("out/{name}.parquet")));
+    assert_eq!(made(&responses).inputs["in"], key_of(&floor).unwrap());
+}
+
+#[test]
+fn what_is_no_motion_of_the_ground_is_refused() {
+    let folder = folder_with(SMALL);
+    let here = folder.path();
+    write_motions(&here.join("motions.parquet"), 0.01, &[&[0.0, 1.0, 0.0]]);
+    succeed(here, "floor-motions --period 0.8 --level 0.5");
+    fail(
+        here,
+        "floor-motions --in floor.parquet --out again.parquet --period 0.8 --level 0.5",
+        1,
+        &["floor.parquet"],
+    );
+    fail(here, "floor-motions --period 0.8 --level 3", 2, &["--level", "0 to 1"]);
+    fail(here, "floor-motions --period 0.8 --level 1 --damping 5", 2, &["--damping", "percent"]);
+    write_motions(&here.join("damaged.parquet"), 0.01, &[&[0.0, 1.0, 0.0], &[0.0, f64::NAN]]);
+    fail(here, "floor-motions --in damaged.parquet --period 0.8 --level 1", 1, &["damaged.parquet", "row 1"]);
+}
