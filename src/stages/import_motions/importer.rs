@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
+use super::about::About;
 use crate::motion::LONGEST_MOTION;
 use crate::pipeline::context::Context;
 use crate::records::pairs::{Pairs, pairs};
@@ -22,6 +23,7 @@ pub struct Importer {
     names: HashMap<String, usize>,
     reading: ReadOptions,
     processing: Processing,
+    about: About,
 }
 
 /// What one thread imports: a file, or two components by their file and number.
@@ -37,6 +39,7 @@ impl Importer {
         out: &Path,
         reading: ReadOptions,
         processing: Processing,
+        about: About,
     ) -> anyhow::Result<Importer> {
         let mut files = keys::files_below(given)?;
         let out = std::path::absolute(out)?;
@@ -46,7 +49,7 @@ impl Importer {
             let both: HashSet<String> = [file.file_stem(), file.file_name()].map(text).into();
             both.into_iter().for_each(|name| *names.entry(name).or_insert(0) += 1);
         }
-        Ok(Importer { files, names, reading, processing })
+        Ok(Importer { files, names, reading, processing, about })
     }
 
     /// All work in order, and what cannot be read already.
@@ -104,7 +107,8 @@ impl Importer {
         };
         let motions = read_records(&bytes, &self.reading).map_err(|error| unread(file, &error))?;
         let several = motions.len() > 1;
-        let named = |(index, motion): (usize, RecordedMotion)| {
+        let named = |(index, mut motion): (usize, RecordedMotion)| {
+            self.about.add(file, &mut motion);
             let samples = motion.acceleration_m_s2.len();
             if samples > LONGEST_MOTION {
                 return Err(refusal(file, &format!("{samples} samples; expected {LONGEST_MOTION} at most")));
