@@ -40,7 +40,7 @@ def rises(event, n=2500):
     smaller at the same shape or bouncier, or the limit falls: at points within the domain and beyond it, on a
     grid (functions are linear in eta) and at random."""
     rng = np.random.default_rng(5)
-    axes = [[1, 1.02, 1.1, 1.3, 2, 4, 7, 12, 18, 24], [0.7, 1, 2.6, 6.7, 17, 44, 60]]
+    axes = [[1, 1.02, 1.1, 1.3, 2, 4, 7, 10, 12.5, 15, 18.2], [1, 1.02, 2.6, 6.7, 17, 45]]
     axes += [[0.3, 0.4, 1.3, 3, 7.8, 11], [0.7, 0.995], [0.02, 0.2, 0.88] if event == "pex" else [0.2]]
     drawn = np.log([(1, 24), (0.7, 60), (0.3, 11), (0.7, 0.995), (0.02, 0.88)])
     drawn = np.exp(rng.uniform(drawn[:, 0], drawn[:, 1], (n, 5)))
