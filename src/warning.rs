@@ -78,7 +78,7 @@ impl Warning {
             }
             Warning::ScanEndsEarly => "too few motions overturn it for a median; raise --to",
             Warning::UnreadableFile => "not imported",
-            Warning::NoPartner => "vertical, or no partner at right angles: left out",
+            Warning::NoPartner => "no partner at right angles: left out",
         }
     }
 }

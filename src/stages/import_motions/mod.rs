@@ -17,6 +17,7 @@ use self::columns::batch;
 use self::importer::Importer;
 use self::summary::Summary;
 use crate::motion::MeasurePlan;
+use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number};
@@ -61,7 +62,7 @@ pub struct ImportMotions {
     #[arg(long, default_value = "none")]
     baseline: Baseline,
     /// Corner of a zero-phase high-pass filter of order 4, Hz
-    #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1e3, "a frequency above 0 Hz"))]
+    #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1.0, "above 0 and up to 1 Hz: motions above 1 Hz rock structures"))]
     high_pass: Option<f64>,
     /// Resample to this time step, s
     #[arg(long, value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
@@ -95,6 +96,9 @@ pub struct ImportMotions {
     /// distance, earthquake
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     about: Option<PathBuf>,
+    /// Import vertical components too
+    #[arg(long)]
+    vertical: bool,
     /// Import motions that no earthquake is likely to have made
     #[arg(long)]
     accept_implausible: bool,
@@ -122,7 +126,8 @@ impl Stage for ImportMotions {
         let processing = self.processing()?;
         let periods = processing.plan.sa_periods_s.clone();
         let about = self.about.as_deref().map_or(Ok(About::default()), About::read)?;
-        let importer = Importer::new(&self.files, &self.out, self.reading(), processing, about)?;
+        let (reading, given) = (self.reading(), &self.files);
+        let importer = Importer::new(given, &self.out, reading, processing, about, self.vertical)?;
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         let (work, mut refused) = importer.work(context)?;
         let (mut ids, mut summary) = (HashSet::new(), Summary::default());
@@ -155,6 +160,10 @@ impl Stage for ImportMotions {
                 Ok(())
             },
         )?;
+        if ids.is_empty() && refused.is_empty() {
+            let verticals = counted(importer.left_out(), "vertical component");
+            anyhow::bail!("no horizontal component; {verticals}, which --vertical imports");
+        }
         if ids.is_empty() || !refused.is_empty() && !self.keep_going {
             let others = if ids.is_empty() { "" } else { "\n--keep-going imports the others" };
             anyhow::bail!(
@@ -165,7 +174,7 @@ impl Stage for ImportMotions {
             );
         }
         context.warn(refused.into_iter().map(|refusal| (Warning::UnreadableFile, refusal)).collect());
-        let summary = summary.text();
+        let summary = summary.text(importer.left_out());
         context.finish(writer, &summary)?;
         Ok(summary)
     }
