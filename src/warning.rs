@@ -19,6 +19,7 @@ pub enum Warning {
     HazardExtrapolated,
     HazardStartsLate,
     NotFitted,
+    OtherStructure,
     Extrapolated,
     UnusualStructure,
     PoorFit,
@@ -40,6 +41,7 @@ keywords!(Warning {
     HazardExtrapolated = "hazard_extrapolated",
     HazardStartsLate = "hazard_starts_late",
     NotFitted = "not_fitted",
+    OtherStructure = "other_structure",
     Extrapolated = "extrapolated",
     UnusualStructure = "unusual_structure",
     PoorFit = "poor_fit",
@@ -66,6 +68,7 @@ impl Warning {
                 "the hazard curve starts above the intensity that uplifts it: rates are too low"
             }
             Warning::NotFitted => "not among the fitted structures: the universal surface is used",
+            Warning::OtherStructure => "calibrated on responses of another structure, as --name has it",
             Warning::Extrapolated => "outside of the motions that the model was fitted to",
             Warning::UnusualStructure => "outside of the structures that the universal surface was fitted to",
             Warning::PoorFit => "the paper's curve or planes do not fit these responses",
