@@ -363,13 +363,11 @@ fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
 
 /// The lognormal distribution of the capacities of each suite and structure.
 fn fits(capacities: &[CapacityRow], scan: &Scan) -> anyhow::Result<Vec<CapacityFitRow>> {
-    let suites: Vec<_> = capacities.iter().map(|row| row.suite.clone()).collect();
-    let structures: Vec<_> = capacities.iter().map(|row| row.structure.clone()).collect();
     let of = |rows: Vec<usize>| {
         let rows: Vec<&CapacityRow> = rows.into_iter().map(|row| &capacities[row]).collect();
         fit(&rows, scan)
     };
-    Ok(frame::groups(&suites, &structures)?.into_iter().map(of).collect())
+    Ok(frame::groups(capacities.iter().map(CapacityRow::group))?.into_iter().map(of).collect())
 }
 
 fn fit<'a>(rows: &[&'a CapacityRow], scan: &Scan) -> CapacityFitRow {
