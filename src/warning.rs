@@ -10,6 +10,7 @@ use crate::keyword::keywords;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "text() says it")]
 pub enum Warning {
+    UnusualScenario,
     ImplausibleRow,
     ImplausibleRecord,
     OtherPeak,
@@ -32,6 +33,7 @@ pub enum Warning {
 }
 
 keywords!(Warning {
+    UnusualScenario = "unusual_scenario",
     ImplausibleRow = "implausible_row",
     ImplausibleRecord = "implausible_record",
     OtherPeak = "other_peak",
@@ -57,6 +59,9 @@ impl Warning {
     /// In at most 15 words.
     pub fn text(self) -> &'static str {
         match self {
+            Warning::UnusualScenario => {
+                "outside of the earthquakes of the paper: magnitude 5.5 to 7.5, distance up to 20 km"
+            }
             Warning::ImplausibleRow => "this row cannot be right; it has no result",
             Warning::ImplausibleRecord => "this is no plausible record of an earthquake",
             Warning::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",

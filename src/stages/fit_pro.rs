@@ -68,7 +68,9 @@ impl Stage for FitPro {
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let curves = curves_text(&fits, self.confidence, &self.out)?;
         let summary = match self.calibrates() {
-            true => format!("{}\n{curves}", calibrations_text(&calibrations, ["rock", "overturn"], &self.out)?),
+            true => {
+                format!("{}\n{curves}", calibrations_text(&calibrations, ["rock", "overturn"], &self.out)?)
+            }
             false => curves,
         };
         context.warn(warnings(&calibrations));

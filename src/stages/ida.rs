@@ -429,7 +429,11 @@ fn summary(fits: &[CapacityFitRow], out: &Path) -> String {
                     "{name}: median of the lowest {name_of_measure} that overturns it {median}{unit} {limits}, dispersion {beta}\n"
                 )
             }
-            _ => format!("{name}: no median; {} of {} do not overturn it\n", row.n_safe, counted(row.n as usize, "motion")),
+            _ => format!(
+                "{name}: no median; {} of {} do not overturn it\n",
+                row.n_safe,
+                counted(row.n as usize, "motion")
+            ),
         }
     };
     first_lines(&fits.iter().map(line).collect::<String>(), 0, out)

@@ -213,7 +213,8 @@ impl Overturned {
                 String::new()
             };
             let overturn = if count == 1 { "overturns" } else { "overturn" };
-            let (count, motions) = (number::count(count as usize), number::counted(motions as usize, "motion"));
+            let (count, motions) =
+                (number::count(count as usize), number::counted(motions as usize, "motion"));
             format!("{}: {count} of {motions} {overturn} it{named}\n", structure.name)
         };
         first_lines(&structures.iter().map(line).collect::<String>(), 0, out)

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, ObjectRow, Predicted};
 use super::words::{
-    brief, friction, model, model_of_all, mostly_unknown, size, table, title, too_far, validity, with_sentences,
+    brief, friction, model, model_of_all, mostly_unknown, size, table, title, too_far, validity,
+    with_sentences,
 };
 use crate::fragility::{Model, Probability, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities, Unknown};

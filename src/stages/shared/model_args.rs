@@ -118,10 +118,8 @@ impl Models {
             },
         };
         let is_other = self.args.name.is_some() && !structure.is_like(&self.structure(overturning)?);
-        let warnings = [
-            (overturning.n == 0).then_some(Warning::NotFitted),
-            is_other.then_some(Warning::OtherStructure),
-        ];
+        let warnings =
+            [(overturning.n == 0).then_some(Warning::NotFitted), is_other.then_some(Warning::OtherStructure)];
         Ok((model, warnings.into_iter().flatten().collect()))
     }
 
