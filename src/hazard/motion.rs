@@ -71,8 +71,8 @@ impl Motion {
         let (of_one, of_many) =
             (states(structure, mw, 0.0, Scenarios::One), states(structure, mw, 0.0, Scenarios::Many));
         let fit = [of_many[1], of_many[2]].map(sd_of_limits);
-        let mut budgets = Budgets::default();
-        budgets.add(Part::Fit, fit);
+        let mut budgets = Budgets::about(logits(structure, mw, 0.0));
+        budgets.add(Part::Fit, fit.map(|sd| [sd, sd]));
         // Of a motion whose peaks are both known, what magnitude adds is beside tau in its own limits.
         if model.depends_on_magnitude() && one.is_some() && self.mw.is_none() {
             budgets.vary(&of_magnitude, |mw| logits(structure, *mw, 0.0));

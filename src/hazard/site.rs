@@ -98,7 +98,7 @@ impl Site {
             Hazard::Joint(joint) => {
                 let rates = |structure: &Structure| rates_over_pairs(model, structure, self.mw, joint);
                 let value = rates(structure);
-                let mut budgets = Budgets::default();
+                let mut budgets = Budgets::about(ln_rates(&value));
                 budgets.add(Part::Fit, sds_of_fit(&value));
                 for unknown in unknowns {
                     budgets.vary(unknown, |structure| ln_rates(&rates(structure)));
@@ -135,7 +135,7 @@ impl Site {
         let curve = extended(&hazard.curve);
         let rates = if is_extrapolated { rates_over_curve(&middle, &curve) } else { as_given };
 
-        let mut budgets = Budgets::default();
+        let mut budgets = Budgets::about(ln_rates(&rates));
         budgets.add(Part::Fit, sds_of_fit(&rates));
         let of = |given: &GivenPeak, curve: &HazardCurve| ln_rates(&rates_over_curve(given, curve));
         if model.depends_on_magnitude() {
@@ -223,7 +223,10 @@ fn ln_rates(rates: &Rates) -> [f64; 2] {
     [rates[1], rates[2]].map(|rate| rate.value.max(LEAST).ln())
 }
 
-/// Their standard deviations by the model's limits.
-fn sds_of_fit(rates: &Rates) -> [f64; 2] {
-    [rates[1], rates[2]].map(|rate| (rate.high.max(LEAST) / rate.low.max(LEAST)).ln() / (2.0 * Z_95))
+/// Their standard deviations by the model's limits, downwards and upwards.
+fn sds_of_fit(rates: &Rates) -> [[f64; 2]; 2] {
+    [rates[1], rates[2]].map(|rate| {
+        let [value, low, high] = [rate.value, rate.low, rate.high].map(|rate| rate.max(LEAST).ln());
+        [(value - low) / Z_95, (high - value) / Z_95]
+    })
 }
