@@ -64,7 +64,7 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     let mut warnings = [tables.left_out.clone(), joined.lines()].concat();
     let others = warnings.split_off(warnings.len().min(MOST_WARNINGS.max(tables.left_out.len())));
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
-    let is_shown = |stage: &str| tables.are_of(stage) && !(stage == "fit-pex" && !tables.objects.is_empty());
+    let is_shown = |stage: &str| tables.are_of(stage) && (stage != "fit-pex" || tables.objects.is_empty());
     let method = method.filter(|(stage, _)| is_shown(stage)).map(|(_, words)| words.to_string());
     let section = |heading: &str, paragraphs: Vec<String>, tables: Vec<Table>, figures: Vec<Figure>| {
         let is_there = figures.len() + paragraphs.len() + tables.len() > 0;
