@@ -3,3 +3,49 @@
 /// PGA, g, and PGV, m/s, beyond which nothing was ever recorded.
 pub const STRONGEST_PGA_G: f64 = 4.5;
 pub const STRONGEST_PGV_M_S: f64 = 5.0;
+
+/// Annual rate at which no place on earth has 1 g or 1 m/s, and by which power of the peak it falls.
+const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
+
+/// Strong motion more frequent than anywhere on earth.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{peak} of {value} {unit} once in {years:.2} years; no place on earth has that: {guess}")]
+pub struct ImplausibleHazard {
+    peak: &'static str,
+    value: f64,
+    unit: &'static str,
+    years: f64,
+    guess: &'static str,
+}
+
+/// Judges annual rates at which PGA (g), or PGV (m/s), is exceeded, and guesses what they are instead.
+pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), ImplausibleHazard> {
+    let excess = |(value, rate): (f64, f64)| rate / (MOST_FREQUENT.0 * value.powf(-MOST_FREQUENT.1));
+    let is_plausible = |convert: fn((f64, f64)) -> (f64, f64)| points.iter().all(|&point| excess(convert(point)) < 1.0);
+    if is_plausible(|point| point) {
+        return Ok(());
+    }
+    let worst = points.iter().copied().max_by(|a, b| excess(*a).total_cmp(&excess(*b)));
+    let (value, rate) = worst.unwrap_or_default();
+    let (peak, unit, strongest) =
+        if is_velocity { ("PGV", "m/s", STRONGEST_PGV_M_S) } else { ("PGA", "g", STRONGEST_PGA_G) };
+    let is_large = points.iter().any(|(value, _)| *value > strongest);
+    let are_probabilities = is_plausible(|(value, p)| (value, -(-p.min(1.0 - 1e-9)).ln_1p() / 50.0));
+    let guess = match (is_velocity, is_large, are_probabilities) {
+        (true, true, _) => "is it in cm/s?",
+        (false, true, _) => "is it in m/s2?",
+        (.., true) => "are these probabilities in 50 years (heading probability_of_exceedance_in_50_years)?",
+        _ => "another unit, or another column?",
+    };
+    Err(ImplausibleHazard { peak, value, unit, years: 1.0 / rate, guess })
+}
+
+/// Why a peak is none of a ground motion: PGA in m/s2, PGV in m/s.
+pub fn judge_peak(is_velocity: bool, value: f64) -> Result<(), &'static str> {
+    let strongest = if is_velocity { STRONGEST_PGV_M_S } else { STRONGEST_PGA_G * crate::units::G_M_S2 };
+    match (is_velocity, (0.0..=strongest).contains(&value)) {
+        (_, true) => Ok(()),
+        (false, false) => Err("0 to 4.5 g, the strongest ever recorded: is it in m/s2?"),
+        (true, false) => Err("0 to 5 m/s, more than was ever recorded: is it in cm/s?"),
+    }
+}

@@ -40,9 +40,10 @@ use Quantity::{Acceleration, Angle, AngularFrequency, Counts, Length, Time, Velo
 
 /// Name, quantity, value, and other spellings as normalised by [`Unit::parse`].
 #[rustfmt::skip]
-const UNITS: [(&str, Quantity, f64, &[&str]); 30] = [
+const UNITS: [(&str, Quantity, f64, &[&str]); 31] = [
     ("g", Acceleration, G_M_S2, &["gs"]),
     ("%g", Acceleration, 0.01 * G_M_S2, &["%/g"]),
+    ("g/10", Acceleration, 0.1 * G_M_S2, &[]),
     ("mg", Acceleration, 0.001 * G_M_S2, &["millig"]),
     ("m/s2", Acceleration, 1.0, &["m/s/s", "ms2"]),
     ("cm/s2", Acceleration, 0.01, &["cm/s/s", "cms2", "gal", "gals"]),

@@ -14,7 +14,6 @@ pub enum Warning {
     OtherPeak,
     ImplausibleSize,
     LowRestitution,
-    ImplausibleHazard,
     HazardEndsEarly,
     HazardExtrapolated,
     HazardStartsLate,
@@ -36,7 +35,6 @@ keywords!(Warning {
     OtherPeak = "other_peak",
     ImplausibleSize = "implausible_size",
     LowRestitution = "low_restitution",
-    ImplausibleHazard = "implausible_hazard",
     HazardEndsEarly = "hazard_ends_early",
     HazardExtrapolated = "hazard_extrapolated",
     HazardStartsLate = "hazard_starts_late",
@@ -61,7 +59,6 @@ impl Warning {
             Warning::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",
             Warning::ImplausibleSize => "no solid block is as high: are its dimensions in cm?",
             Warning::LowRestitution => "eta is below 0.5: a typing error?",
-            Warning::ImplausibleHazard => "such strong motion is never so frequent: wrong unit or column?",
             Warning::HazardEndsEarly => "the hazard curve ends too early: bounds in place of a value",
             Warning::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
             Warning::HazardStartsLate => {

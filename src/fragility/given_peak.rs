@@ -4,21 +4,10 @@ use std::f64::consts::TAU;
 
 use super::calibration::Scenarios;
 use super::model::Model;
-use super::peaks::Peak;
+use super::peaks::{Peak, RatioGiven};
 use super::tree::Probability;
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
-
-/// PGV / PGA of motions of one intensity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Ratio {
-    /// Lognormal, as in the motions that the model stands for.
-    Distributed,
-    /// So many standard deviations of its logarithm above the median.
-    Deviations(f64),
-    /// The same for all motions, s.
-    Seconds(f64),
-}
 
 /// The motions of one peak, as they meet a structure.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +15,8 @@ pub struct GivenPeak<'a> {
     pub model: &'a Model,
     pub structure: &'a Structure,
     pub peak: Peak,
-    pub ratio: Ratio,
+    /// PGV / PGA of the motions, given the peak.
+    pub ratio: RatioGiven,
 }
 
 /// Probabilities of LS1, LS2 and LS3 under motions of a PGA and PGV (m/s2 and m/s); NaN where the model has
@@ -57,12 +47,7 @@ const GAUSS_LEGENDRE: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-impl<'a> GivenPeak<'a> {
-    /// The same motions with another ratio.
-    pub fn with(self, ratio: Ratio) -> GivenPeak<'a> {
-        GivenPeak { ratio, ..self }
-    }
-
+impl GivenPeak<'_> {
     /// PGA and PGV (m/s2 and m/s) of the motions of median PGV / PGA.
     pub fn median_motion(&self, intensity: f64) -> [f64; 2] {
         self.peaks(intensity, 0.0)
@@ -92,9 +77,18 @@ impl<'a> GivenPeak<'a> {
     /// Intensities at which a probability jumps: that of uplift, and that of the planes' transition. Over a
     /// distribution of PGA none does.
     pub fn jumps(&self) -> Vec<f64> {
-        match (self.peak, self.ratio) {
-            (Peak::Pgv, Ratio::Distributed) => Vec::new(),
+        match (self.peak, self.ratio.is_exact()) {
+            (Peak::Pgv, false) => Vec::new(),
             _ => self.jumps_of_pga().into_iter().map(|pga| self.intensity_of(pga, 0.0)).collect(),
+        }
+    }
+
+    /// Widest panel of ln of the peak over which probabilities are smooth: the paper's lower plane under pulses has
+    /// a dispersion of 0.03.
+    pub fn widest_panel(&self) -> f64 {
+        match self.model {
+            Model::Paper { .. } => 0.02,
+            Model::Calibrated { .. } => 0.2,
         }
     }
 
@@ -126,12 +120,12 @@ impl<'a> GivenPeak<'a> {
     /// Standard deviations from the median, with weights that sum to 1, but for motions of too little PGA.
     fn nodes(&self, intensity: f64) -> Vec<(f64, f64)> {
         let density = |z: f64| libm::exp(-0.5 * z * z) / TAU.sqrt();
-        match (self.ratio, self.peak) {
-            (Ratio::Distributed, Peak::Pga) => {
+        match (self.ratio.is_exact(), self.peak) {
+            (false, Peak::Pga) => {
                 let last = (FARTHEST / STEP).ceil() as i32;
                 (-last..=last).map(|k| STEP * f64::from(k)).map(|z| (z, STEP * density(z))).collect()
             }
-            (Ratio::Distributed, Peak::Pgv) => {
+            (false, Peak::Pgv) => {
                 let edges = self.edges(intensity);
                 let panels = edges.windows(2).flat_map(|edge| {
                     let panels = ((edge[1] - edge[0]) / PANEL).ceil().max(1.0);
@@ -161,12 +155,7 @@ impl<'a> GivenPeak<'a> {
     }
 
     fn peaks(&self, intensity: f64, node: f64) -> [f64; 2] {
-        let of_model = |deviations| self.model.peaks().pgv_over_pga(self.peak, intensity, deviations);
-        let ratio = match self.ratio {
-            Ratio::Distributed => of_model(node),
-            Ratio::Deviations(deviations) => of_model(deviations),
-            Ratio::Seconds(ratio) => ratio,
-        };
+        let ratio = self.ratio.ratio(intensity, node);
         match self.peak {
             Peak::Pga => [intensity, intensity * ratio],
             Peak::Pgv => [intensity / ratio, intensity],

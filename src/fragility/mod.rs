@@ -31,7 +31,7 @@ pub use cases::{CaseRow, Cases, CasesBuilder, CasesError, Event, MOST_CASES, Sam
 pub use demand::{DemandFit, DemandModel, DemandOptions, PLANE, TransitionPoint};
 pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
 pub use demand::{ln_median_demand, p_exceeding};
-pub use given_peak::{GivenPeak, Ratio, limit_states_at};
+pub use given_peak::{GivenPeak, limit_states_at};
 pub use measure::{Measure, Pair};
 pub use model::{Model, paper_probabilities};
 pub use overturning::{CurveFit, CurveOptions, fit_curve, fit_curves};

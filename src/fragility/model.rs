@@ -62,6 +62,11 @@ impl Model {
         })
     }
 
+    /// Whether the level depends on magnitude: that of recorded motions does.
+    pub fn depends_on_magnitude(&self) -> bool {
+        matches!(self, Model::Calibrated { overturning, .. } if overturning.kind == Kind::Recorded)
+    }
+
     /// How PGA and PGV go together in the motions that it stands for.
     pub fn peaks(&self) -> &JointPeaks {
         match self {

@@ -72,7 +72,28 @@ impl RatioGiven {
         self.intercept + self.slope * ln_peak + self.bend * (ln_peak - self.knot).max(0.0)
     }
 
-    fn ratio(&self, intensity: f64, deviations: f64) -> f64 {
+    /// The same ratio (s) of all motions.
+    pub fn exactly(ratio_s: f64) -> RatioGiven {
+        RatioGiven::line(ratio_s.ln(), 0.0, 0.0)
+    }
+
+    /// A straight line in ln of the peak (m/s2 or m/s), and the standard deviation about it.
+    pub fn line(intercept: f64, slope: f64, sd: f64) -> RatioGiven {
+        RatioGiven { intercept, slope, knot: 0.0, bend: 0.0, sd_below: sd, sd_above: sd }
+    }
+
+    /// The ratios times exp(`ln`).
+    pub fn raised(self, ln: f64) -> RatioGiven {
+        RatioGiven { intercept: self.intercept + ln, ..self }
+    }
+
+    /// Whether all motions of an intensity have the same ratio.
+    pub fn is_exact(&self) -> bool {
+        self.sd_below == 0.0 && self.sd_above == 0.0
+    }
+
+    /// PGV / PGA (s) of motions of an intensity (m/s2 or m/s), so many standard deviations above its median.
+    pub fn ratio(&self, intensity: f64, deviations: f64) -> f64 {
         let sd = if deviations > 0.0 { self.sd_above } else { self.sd_below };
         (self.mean(intensity.ln()) + deviations * sd).exp()
     }
@@ -92,12 +113,11 @@ impl JointPeaks {
         Some(JointPeaks { given_pga: given(&ln_pga)?, given_pgv: given(&ln_pgv)? })
     }
 
-    /// PGV / PGA (s) of motions with this intensity (m/s2 or m/s of the given peak), so many standard
-    /// deviations above its median.
-    pub fn pgv_over_pga(&self, given: Peak, intensity: f64, deviations: f64) -> f64 {
-        match given {
-            Peak::Pga => self.given_pga.ratio(intensity, deviations),
-            Peak::Pgv => self.given_pgv.ratio(intensity, deviations),
+    /// The ratio given a peak.
+    pub fn given(&self, peak: Peak) -> RatioGiven {
+        match peak {
+            Peak::Pga => self.given_pga,
+            Peak::Pgv => self.given_pgv,
         }
     }
 }

@@ -1,10 +1,5 @@
 //! Hazard curve of one intensity, and its convolution with a fragility.
 
-/// The widest step of the quadrature, in ln IM: less than the narrowest dispersion of a fragility that we
-/// know, the zeta of
-/// 0.03 of the lower plane under pulses.
-const WIDEST_PANEL: f64 = 0.02;
-
 /// Nodes and weights on (0, 1) of the Gauss-Legendre rule of order 8, exact for polynomials of degree 15.
 const GAUSS_LEGENDRE: [(f64, f64); 8] = [
     (0.019_855_071_751_231_884, 0.050_614_268_145_188_13),
@@ -92,6 +87,21 @@ impl HazardCurve {
         HazardCurve { points }
     }
 
+    /// The same rates at intensities times `factor`.
+    pub fn scaled(&self, factor: f64) -> HazardCurve {
+        HazardCurve { points: self.points.iter().map(|&(im, rate)| (im * factor, rate)).collect() }
+    }
+
+    /// The intensity that is exceeded at an annual rate; beyond the ends of the curve that of the end.
+    pub fn intensity(&self, rate: f64) -> f64 {
+        let below = self.points.partition_point(|&(_, point)| point >= rate);
+        if below == 0 || below == self.points.len() {
+            return self.points[below.saturating_sub(1)].0;
+        }
+        let [(low, at_low), (high, at_high)] = [self.points[below - 1], self.points[below]];
+        low * (high / low).powf((at_low / rate).ln() / (at_low / at_high).ln())
+    }
+
     /// The annual rate at which an intensity is exceeded; beyond the ends of the curve that of the end.
     pub fn exceedance(&self, im: f64) -> f64 {
         let above = self.points.partition_point(|&(point, _)| point <= im);
@@ -105,12 +115,13 @@ impl HazardCurve {
     /// Integrates the mean annual rates of events that have these probabilities at an intensity: P(im)
     /// |dH(im)|.
     ///
-    /// Gauss-Legendre on short panels in ln IM, none across a point of the curve or one of `breaks`, where a
-    /// probability jumps. Motions above the last intensity count with the probability at it; those below the
+    /// Gauss-Legendre on panels of ln IM that are at most `widest`, none across a point of the curve or one of
+    /// `breaks`, where a probability jumps. Motions above the last intensity count with the probability at it; those below the
     /// first are not counted.
     pub fn mean_annual_rates<const N: usize>(
         &self,
         breaks: &[f64],
+        widest: f64,
         probabilities: impl Fn(f64) -> [f64; N],
     ) -> [f64; N] {
         let [_, (last, rate_beyond)] = self.ends();
@@ -121,7 +132,7 @@ impl HazardCurve {
             let mut edges = vec![libm::log(low), libm::log(high)];
             edges.extend(breaks.iter().filter(|&&im| low < im && im < high).map(|im| libm::log(*im)));
             edges.sort_by(f64::total_cmp);
-            for (ln_im, width) in edges.windows(2).flat_map(|edge| nodes(edge[0], edge[1])) {
+            for (ln_im, width) in edges.windows(2).flat_map(|edge| nodes(edge[0], edge[1], widest)) {
                 let density = slope * rate * libm::exp(-slope * (ln_im - libm::log(low))) * width;
                 for (sum, p) in rates.iter_mut().zip(probabilities(libm::exp(ln_im))) {
                     *sum += p * density;
@@ -133,8 +144,8 @@ impl HazardCurve {
 }
 
 /// Returns nodes and weights of the quadrature between two values of ln IM.
-fn nodes(from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
-    let panels = ((to - from) / WIDEST_PANEL).ceil().max(1.0);
+fn nodes(from: f64, to: f64, widest: f64) -> impl Iterator<Item = (f64, f64)> {
+    let panels = ((to - from) / widest).ceil().max(1.0);
     let width = (to - from) / panels;
     (0..panels as usize).flat_map(move |panel| {
         let start = from + width * panel as f64;

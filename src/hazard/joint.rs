@@ -9,6 +9,8 @@ pub struct PairOfPeaks {
     pub pgv_m_s: f64,
     /// Mean number of motions of the bin in a year.
     pub annual_rate: f64,
+    /// Moment magnitude of the earthquakes, if it is known.
+    pub mw: Option<f64>,
 }
 
 /// Annual rates of occurrence (not of exceedance) of bins of PGA and PGV that do not overlap.

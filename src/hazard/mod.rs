@@ -1,24 +1,33 @@
 //! Seismic hazard at a site, and the annual rates that follow from it and a fragility.
 //!
 //! ```text
-//! curve  annual rate of exceedance of one intensity; the convolution integral
-//! joint  annual rate of occurrence of pairs of PGA and PGV; the sum over them
-//! rates  annual rates of the limit states of a structure, by a model
-//! count  the rate counted among motions that are weighted to have the hazard's rates, without a fragility
-//! site   the rates of a structure at a site, with what speaks against them
+//! curve     annual rate of exceedance of one intensity; the convolution integral
+//! joint     annual rate of occurrence of pairs of PGA and PGV; the sum over them
+//! velocity  PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
+//! rates     annual rates of the limit states of a structure, by a model
+//! budget    what is not known exactly, and the limits that follow
+//! count     the rate counted among motions that are weighted to have the hazard's rates, without a fragility
+//! motion    the limit states under one motion, with limits
+//! site      the rates of a structure at a site, with limits and what speaks against them
 //! ```
 
+mod budget;
 mod count;
 mod curve;
 mod joint;
+mod motion;
 mod rates;
 mod site;
+mod velocity;
 
+pub use budget::{Budget, Budgets, Part, Unknown};
 pub use count::{Count, CountedMotion, CountedRate, counted_rates};
 pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
+pub use motion::{Motion, MotionProbabilities};
 pub use rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
-pub use site::{Hazard, Site, SiteRates, strongest};
+pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
+pub use velocity::{MatchError, Velocity, VelocitySource, magnitude, velocity_of_spectrum};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate
 /// independently of each other (Poisson): 1 - exp(-rate years).

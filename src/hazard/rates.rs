@@ -11,7 +11,9 @@ pub struct Rate {
     pub value: f64,
     pub low: f64,
     pub high: f64,
-    /// What motions stronger than the last of the curve could add: they count with the probability at it.
+    /// What motions stronger than the last of the curve contribute to the value, by the probability at it.
+    pub of_last: f64,
+    /// What they could add to it.
     pub beyond: f64,
 }
 
@@ -22,11 +24,10 @@ pub type Rates = [Rate; 3];
 /// all intensities at once.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
     let states = |intensity| terms(given_peak.limit_states(intensity, Scenarios::Many));
-    let sums = curve.mean_annual_rates(&given_peak.jumps(), states);
+    let sums = curve.mean_annual_rates(&given_peak.jumps(), given_peak.widest_panel(), states);
     let [_, (last, rate_beyond)] = curve.ends();
     let at_last = given_peak.limit_states(last, Scenarios::Many);
-    let beyond = at_last.map(|state| rate_beyond * (1.0 - state.value).max(0.0));
-    rates(sums, beyond)
+    rates(sums, at_last.map(|state| [state.value, (1.0 - state.value).max(0.0)].map(|p| p * rate_beyond)))
 }
 
 /// Sums the probabilities over the bins of a joint hazard.
@@ -35,7 +36,7 @@ pub fn rates_over_pairs(model: &Model, structure: &Structure, joint: &JointHazar
         let peaks = [bin.pga_m_s2, bin.pgv_m_s];
         terms(limit_states_at(model, structure, peaks, Scenarios::Many))
     };
-    rates(joint.mean_annual_rates(states), [0.0; 3])
+    rates(joint.mean_annual_rates(states), [[0.0; 2]; 3])
 }
 
 /// The intensity above which half of the annual rate of overturning comes from, to a hundredth of the curve's
@@ -69,11 +70,12 @@ fn terms(states: [Probability; 3]) -> [f64; 9] {
     terms
 }
 
-fn rates(sums: [f64; 9], beyond: [f64; 3]) -> Rates {
+fn rates(sums: [f64; 9], ends: [[f64; 2]; 3]) -> Rates {
     [0, 1, 2].map(|k| Rate {
         value: sums[3 * k],
         low: sums[3 * k + 1],
         high: sums[3 * k + 2],
-        beyond: beyond[k],
+        of_last: ends[k][0],
+        beyond: ends[k][1],
     })
 }

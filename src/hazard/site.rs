@@ -1,11 +1,13 @@
-//! Annual rates of a structure at a site: the hazard as it is given, and what the ends of its curve leave
-//! open.
+//! Annual rates of a structure at a site: the hazard as it is given, what is not known of it, and what the ends of
+//! its curve leave open.
 
+use super::budget::{Budget, Budgets, Part, Unknown};
 use super::count::{CountedMotion, CountedRate, counted_rates};
 use super::curve::HazardCurve;
 use super::joint::JointHazard;
 use super::rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
-use crate::fragility::{Cases, Event, GivenPeak, Kind, Model, Peak, Ratio};
+use super::velocity::{Velocity, VelocitySource, magnitude};
+use crate::fragility::{Cases, Event, GivenPeak, Kind, Model, Peak, Z_95};
 use crate::number::Limited;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::rocking::Structure;
@@ -15,17 +17,27 @@ use crate::warning::Warning;
 /// The hazard of a site.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hazard {
-    /// Annual rates at which a peak is exceeded; m/s2 or m/s.
-    Curve(Peak, HazardCurve),
+    Curve(PeakHazard),
     /// Annual rates at which pairs of peaks occur.
     Joint(JointHazard),
 }
 
+/// Annual rates at which a peak is exceeded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PeakHazard {
+    pub peak: Peak,
+    /// m/s2 or m/s.
+    pub curve: HazardCurve,
+    /// The 16 and 84 % fractiles, if they are given.
+    pub fractiles: Option<[HazardCurve; 2]>,
+    /// PGV / PGA by the curve of the other peak, if it is given.
+    pub velocity: Option<Velocity>,
+}
+
 /// Fraction of a rate that stronger motions than the last may add before it is no value.
 const NEGLIGIBLE: f64 = 0.1;
-/// Rate a year at which no site has 1 g or 1 m/s, and by which power of the peak it falls: a hundred times
-/// less than 0.1 g once a year.
-const IMPLAUSIBLE: (f64, f64) = (0.02, 1.7);
+/// Rates a year of less count as this, once in 1e12 years, where errors are measured.
+const LEAST: f64 = 1e-12;
 /// The seed of the resamples of a count.
 const SEED: u64 = 1;
 
@@ -38,28 +50,14 @@ pub fn strongest(peak: Peak) -> f64 {
     }
 }
 
-impl Hazard {
-    /// Whether strong motions are more frequent than anywhere on earth.
-    pub fn is_implausible(&self) -> bool {
-        let exceeds = |one: f64, points: &[(f64, f64)]| {
-            points.iter().any(|&(peak, rate)| rate >= IMPLAUSIBLE.0 * (peak / one).powf(-IMPLAUSIBLE.1))
-        };
-        match self {
-            Hazard::Curve(Peak::Pga, curve) => exceeds(G_M_S2, curve.points()),
-            Hazard::Curve(Peak::Pgv, curve) => exceeds(1.0, curve.points()),
-            Hazard::Joint(joint) => {
-                exceeds(G_M_S2, &joint.exceedance(|bin| bin.pga_m_s2))
-                    || exceeds(1.0, &joint.exceedance(|bin| bin.pgv_m_s))
-            }
-        }
-    }
-}
-
 /// The hazard of a site, and how rates over it are computed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Site {
     pub hazard: Hazard,
-    pub ratio: Ratio,
+    /// PGV / PGA of all motions, s.
+    pub ratio_s: Option<f64>,
+    /// Mean magnitude of the motions that matter.
+    pub mw: Option<f64>,
     /// Whether a curve that ends too early is continued.
     pub extrapolate: bool,
     /// Demand |theta|max / alpha that is the limit state.
@@ -74,8 +72,12 @@ pub struct SiteRates {
     pub rocking: Option<f64>,
     pub failure: Limited,
     pub overturning: Limited,
-    /// Of overturning, with PGV / PGA a standard deviation below its median, and above.
-    pub by_velocity: Option<[f64; 2]>,
+    /// Standard deviations of ln rate.
+    pub budgets: Budgets,
+    /// From what PGV / PGA is known; none where the hazard has both peaks of each motion.
+    pub velocity: Option<VelocitySource>,
+    /// The share of the rate of overturning beyond the last point of a curve that is extrapolated.
+    pub beyond: Option<f64>,
     /// Number of motions, and the rate of overturning counted among them.
     pub counted: Option<(usize, CountedRate)>,
     /// PGA and PGV (m/s2 and m/s) of a motion that half of the rate of overturning is above; of a joint hazard
@@ -85,69 +87,98 @@ pub struct SiteRates {
 }
 
 impl Site {
-    /// The rates of a structure.
-    pub fn rates(&self, structure: &Structure, model: &Model) -> SiteRates {
+    /// The rates of a structure, of which this is not known.
+    pub fn rates(&self, structure: &Structure, unknowns: &[Unknown<Structure>], model: &Model) -> SiteRates {
         match &self.hazard {
-            Hazard::Curve(peak, curve) => {
-                self.rates_of_curve(&GivenPeak { model, structure, peak: *peak, ratio: self.ratio }, curve)
-            }
+            Hazard::Curve(hazard) => self.rates_over_curve(hazard, structure, unknowns, model),
             Hazard::Joint(joint) => {
+                let rates = |structure: &Structure| rates_over_pairs(model, structure, joint);
+                let value = rates(structure);
+                let mut budgets = Budgets::default();
+                budgets.add(Part::Fit, sds_of_fit(&value));
+                for unknown in unknowns {
+                    budgets.vary(unknown, |structure| ln_rates(&rates(structure)));
+                }
                 let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
                 let motion = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
-                SiteRates::new(rates_over_pairs(model, structure, joint), false, motion)
+                SiteRates::new(value, budgets, motion, false)
             }
         }
     }
 
-    fn rates_of_curve(&self, given_peak: &GivenPeak, curve: &HazardCurve) -> SiteRates {
-        let [(first, _), (last, _)] = curve.ends();
-        let mut warnings = Vec::new();
-        let mut rates = rates_over_curve(given_peak, curve);
-        let is_short = last < strongest(given_peak.peak) && rates[2].beyond > NEGLIGIBLE * rates[2].value;
-        let extrapolated = (is_short && self.extrapolate).then(|| curve.extrapolated());
-        if let Some(curve) = &extrapolated {
-            rates = rates_over_curve(given_peak, curve);
-            warnings.push(Warning::HazardExtrapolated);
-        } else if is_short {
-            warnings.push(Warning::HazardEndsEarly);
+    fn rates_over_curve(
+        &self,
+        hazard: &PeakHazard,
+        structure: &Structure,
+        unknowns: &[Unknown<Structure>],
+        model: &Model,
+    ) -> SiteRates {
+        let peak = hazard.peak;
+        let of_curves = || hazard.velocity.unwrap_or_else(|| Velocity::of_model(model, peak));
+        let velocity = self.ratio_s.map_or_else(of_curves, Velocity::given);
+        let (mw, of_magnitude) = magnitude(self.mw);
+        let given = |mw: f64, ln: f64| GivenPeak { model, structure, peak, ratio: velocity.ratio(mw, ln) };
+        let middle = given(mw, 0.0);
+        let as_given = rates_over_curve(&middle, &hazard.curve);
+        let [(first, _), (last, _)] = hazard.curve.ends();
+        let ends_early = last < strongest(peak) && as_given[2].beyond > NEGLIGIBLE * as_given[2].value;
+        let is_extrapolated = ends_early && self.extrapolate;
+        let extended = |curve: &HazardCurve| if is_extrapolated { curve.extrapolated() } else { curve.clone() };
+        let curve = extended(&hazard.curve);
+        let rates = if is_extrapolated { rates_over_curve(&middle, &curve) } else { as_given };
+
+        let mut budgets = Budgets::default();
+        budgets.add(Part::Fit, sds_of_fit(&rates));
+        let of = |given: &GivenPeak, curve: &HazardCurve| ln_rates(&rates_over_curve(given, curve));
+        if model.depends_on_magnitude() {
+            budgets.vary(&of_magnitude, |mw| of(&given(*mw, 0.0), &curve));
         }
-        let is_short = is_short && extrapolated.is_none();
-        let curve = extrapolated.as_ref().unwrap_or(curve);
-        if first > given_peak.uplift()[1] {
-            warnings.push(Warning::HazardStartsLate);
+        budgets.vary(&velocity.unknown(), |ln| of(&given(mw, *ln), &curve));
+        for unknown in unknowns {
+            budgets.vary(unknown, |structure| of(&GivenPeak { structure, ..middle }, &curve));
         }
-        let motion = given_peak.median_motion(median_intensity(given_peak, curve));
-        let mut rates = SiteRates { warnings, ..SiteRates::new(rates, is_short, motion) };
-        if self.ratio == Ratio::Distributed && rates.overturning[0].is_some() {
-            let with = |deviations| {
-                rates_over_curve(&given_peak.with(Ratio::Deviations(deviations)), curve)[2].value
-            };
-            rates.by_velocity = Some([-1.0, 1.0].map(with));
+        if let Some([low, high]) = &hazard.fractiles {
+            let fractiles = Unknown { part: Part::Hazard, low: extended(low), high: extended(high) };
+            budgets.vary(&fractiles, |curve| of(&middle, curve));
         }
-        SiteRates { counted: self.count(given_peak, curve), ..rates }
+
+        let motion = middle.median_motion(median_intensity(&middle, &curve));
+        let warnings = [
+            (is_extrapolated, Warning::HazardExtrapolated),
+            (ends_early && !is_extrapolated, Warning::HazardEndsEarly),
+            (first > middle.uplift()[1], Warning::HazardStartsLate),
+        ];
+        SiteRates {
+            velocity: Some(velocity.source),
+            beyond: is_extrapolated
+                .then(|| 1.0 - (as_given[2].value - as_given[2].of_last) / rates[2].value),
+            counted: self.count(&middle, &curve),
+            warnings: warnings.into_iter().filter(|(holds, _)| *holds).map(|(_, warning)| warning).collect(),
+            ..SiteRates::new(rates, budgets, motion, ends_early && !is_extrapolated)
+        }
     }
 
     /// The rate of overturning, counted among the responses of this structure to this kind of motion.
-    fn count(&self, given_peak: &GivenPeak, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
+    fn count(&self, given: &GivenPeak, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
         let kind_of =
             |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
-        let kind = match given_peak.model {
+        let kind = match given.model {
             Model::Calibrated { overturning, .. } => overturning.kind,
             Model::Paper { overturning, .. } => kind_of(&overturning.suite),
         };
         let is_same =
-            |cases: &&Cases| kind_of(&cases.suite) == kind && given_peak.structure.is_like(&cases.structure);
+            |cases: &&Cases| kind_of(&cases.suite) == kind && given.structure.is_like(&cases.structure);
         let cases = self.responses.iter().find(is_same)?;
         let motion = |case: usize| CountedMotion {
-            intensity: if given_peak.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
+            intensity: if given.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
             events: [f64::from(cases.happened(case, Event::Overturning, self.limit_state) == Some(true))],
             cluster: cases.cluster[case],
         };
         let motions: Vec<CountedMotion<1>> = (0..cases.len()).map(motion).collect();
         // Weaker motions uplift nothing.
-        let least = match given_peak.peak {
-            Peak::Pga => given_peak.structure.uplift_acceleration_m_s2(),
-            Peak::Pgv => given_peak.uplift()[0],
+        let least = match given.peak {
+            Peak::Pga => given.structure.uplift_acceleration_m_s2(),
+            Peak::Pgv => given.uplift()[0],
         };
         let count = counted_rates(curve, least, motions, SEED)?;
         Some((count.motions, count.rates[0]))
@@ -155,22 +186,39 @@ impl Site {
 }
 
 impl SiteRates {
-    /// Of the rates of the limit states; `is_short` where the hazard ends too early for values.
-    fn new([rocking, failure, overturning]: Rates, is_short: bool, motion: [f64; 2]) -> SiteRates {
+    /// Of the rates of the limit states; `ends_early` where the hazard does so for values.
+    fn new(rates: Rates, budgets: Budgets, motion: [f64; 2], ends_early: bool) -> SiteRates {
+        let [rocking, failure, overturning] = rates;
         let known = |rate: f64| Some(rate).filter(|rate| !rate.is_nan());
-        let limited = |rate: Rate| match is_short {
-            true => [None, known(rate.low), known(rate.high.max(rate.value + rate.beyond))],
-            false => [known(rate.value), known(rate.low), known(rate.high)],
+        let limited = |rate: Rate, budget: &Budget| match ends_early {
+            // No stronger motion has the effect, or each has.
+            true => [None, known(rate.value - rate.of_last), known(rate.value + rate.beyond)],
+            false => {
+                let limits = budget.limits_of_rate(rate.value, rocking.value);
+                [known(rate.value), known(limits.low), known(limits.high)]
+            }
         };
-        let is_rocking_known = !is_short || rocking.beyond <= NEGLIGIBLE * rocking.value;
+        let is_rocking_known = !ends_early || rocking.beyond <= NEGLIGIBLE * rocking.value;
         SiteRates {
             rocking: known(rocking.value).filter(|_| is_rocking_known),
-            failure: limited(failure),
-            overturning: limited(overturning),
-            by_velocity: None,
+            failure: limited(failure, &budgets.failure),
+            overturning: limited(overturning, &budgets.overturning),
+            budgets,
+            velocity: None,
+            beyond: None,
             counted: None,
             motion,
             warnings: Vec::new(),
         }
     }
+}
+
+/// ln of the rates of failure and of overturning.
+fn ln_rates(rates: &Rates) -> [f64; 2] {
+    [rates[1], rates[2]].map(|rate| rate.value.max(LEAST).ln())
+}
+
+/// Their standard deviations by the model's limits.
+fn sds_of_fit(rates: &Rates) -> [f64; 2] {
+    [rates[1], rates[2]].map(|rate| (rate.high.max(LEAST) / rate.low.max(LEAST)).ln() / (2.0 * Z_95))
 }

@@ -8,7 +8,8 @@ use super::shared::model_args::{ModelArgs, words_of};
 use super::shared::structures::{StructureArgs, warnings_of};
 use crate::export::{FragilityModel, Function, OWN_ID, PELICUN_TOLERANCE};
 use crate::export::{discrete, levels, metadata, parameters, plain_id, whole_curve_end};
-use crate::fragility::{GivenPeak, Peak, Ratio, Scenarios};
+use crate::fragility::{GivenPeak, Peak, Scenarios};
+use crate::hazard::{Velocity, magnitude};
 use crate::hazard::strongest;
 use crate::keyword::keywords;
 use crate::pipeline::context::Context;
@@ -66,7 +67,8 @@ impl Stage for Export {
             let (model, mut warnings) = models.model(structure)?;
             warnings.extend(warnings_of(structure));
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
-            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio: Ratio::Distributed };
+            let ratio = Velocity::of_model(&model, self.im).ratio(magnitude(None).0, 0.0);
+            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio };
             functions.push(self.function(structure, &given_peak));
             description = words_of(&model);
         }

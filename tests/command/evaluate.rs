@@ -85,11 +85,6 @@ fn rates_over_a_power_law_are_those_of_closed_forms() {
     assert!(near(number(row, "overturning_per_year"), expected, 1e-4), "{row}: {expected}");
     assert!(near(number(row, "return_period_years"), 1.0 / expected, 1e-4));
     assert!(near(number(row, "p_overturning"), -(-expected * 100.0).exp_m1(), 1e-4));
-    // Averaged over PGV/PGA it lies between the rates a standard deviation lower and higher.
-    let all = &rows(folder.path(), &format!("{BLOCK} --hazard hazard.csv"))[0];
-    let less = number(all, "overturning_per_year_less_velocity");
-    let more = number(all, "overturning_per_year_more_velocity");
-    assert!(less < number(all, "overturning_per_year") && number(all, "overturning_per_year") < more);
 }
 
 #[test]
@@ -158,9 +153,9 @@ fn slips_are_refused_or_warned() {
     for (arguments, code, named) in [
         (&format!("{BLOCK} --pga 4.9 --pgv 0.6") as &str, 2, vec!["--pga", "4.9", "m/s2"]),
         (&format!("{BLOCK} --pga 0.5 --pgv 60"), 2, vec!["--pgv", "60", "cm/s"]),
-        (&format!("{BLOCK} --pga 0.5"), 2, vec!["--pgv"]),
         ("--p 0.2 --alpha 2.5 --eta 0.9 --pga 0.5 --pgv 0.6", 2, vec!["alpha", "2.5", "p"]),
         ("--p 2.5 --alpha 0.2 --eta 92 --pga 0.5 --pgv 0.6", 2, vec!["eta", "92"]),
+        (&format!("{BLOCK} --hazard percent.csv"), 1, vec!["percent.csv", "once in", "no place"]),
         (&format!("{BLOCK} --hazard impossible.csv"), 1, vec!["impossible.csv", "1000"]),
         (&format!("{BLOCK} --hazard sign.csv"), 1, vec!["sign.csv", "1.8"]),
         (&format!("{BLOCK} --hazard hazard.csv --ratio 12"), 2, vec!["--ratio", "12"]),
@@ -174,7 +169,6 @@ fn slips_are_refused_or_warned() {
     let warned = |arguments: &str| succeed(folder.path(), &format!("evaluate {arguments}")).1;
     let plausible = format!("{BLOCK} --hazard hazard.csv");
     assert_eq!(warned(&plausible), "");
-    assert!(warned(&format!("{BLOCK} --hazard percent.csv")).contains(Warning::ImplausibleHazard.text()));
     let low = "--p 2.5 --alpha 0.2 --eta 0.09 --pga 0.5 --pgv 0.6";
     assert!(warned(low).contains(Warning::LowRestitution.text()));
     assert_eq!(warned(&format!("{low} --quiet")), "");

@@ -15,7 +15,7 @@ fn a_power_law_and_a_lognormal_have_a_rate_in_closed_form() {
     // H(theta) exp(k^2 beta^2 / 2), whatever the points of the curve.
     for (k, theta, beta, n) in [(1.0, 0.3, 0.4, 2), (2.5, 1.0, 0.2, 17), (3.0, 0.7, 0.08, 301)] {
         let curve = power_law(1e-3, k, n);
-        let [rate] = curve.mean_annual_rates(&[], |im| [p_overturning(im, f64::ln(theta), beta)]);
+        let [rate] = curve.mean_annual_rates(&[], 0.02, |im| [p_overturning(im, f64::ln(theta), beta)]);
         let expected = 1e-3 * theta.powf(-k) * (0.5 * k * k * beta * beta).exp();
         assert!((rate / expected - 1.0).abs() < 1e-9, "k {k}: {rate} for {expected}");
     }
@@ -25,13 +25,13 @@ fn a_power_law_and_a_lognormal_have_a_rate_in_closed_form() {
 fn the_rate_of_a_jump_is_the_hazard_there() {
     let curve = power_law(1e-3, 2.0, 5);
     let jump = 0.37;
-    let [rate] = curve.mean_annual_rates(&[jump], |im| [f64::from(u8::from(im >= jump))]);
+    let [rate] = curve.mean_annual_rates(&[jump], 0.02, |im| [f64::from(u8::from(im >= jump))]);
     assert!((rate / (1e-3 / (jump * jump)) - 1.0).abs() < 1e-9);
 }
 
 #[test]
 fn a_joint_hazard_has_a_curve_of_each_peak() {
-    let bin = |(pga_m_s2, pgv_m_s, annual_rate)| PairOfPeaks { pga_m_s2, pgv_m_s, annual_rate };
+    let bin = |(pga_m_s2, pgv_m_s, annual_rate)| PairOfPeaks { pga_m_s2, pgv_m_s, annual_rate, mw: None };
     let bins = [(2.0, 0.3, 0.125), (1.0, 0.3, 0.5), (2.0, 0.1, 0.25), (4.0, 0.2, 0.0625)].map(bin).to_vec();
     let joint = JointHazard { bins };
     assert_eq!(joint.exceedance(|bin| bin.pga_m_s2), [(1.0, 0.9375), (2.0, 0.4375), (4.0, 0.0625)]);
@@ -41,7 +41,7 @@ fn a_joint_hazard_has_a_curve_of_each_peak() {
 #[test]
 fn motions_beyond_the_curve_count_as_its_last_one() {
     let curve = HazardCurve::new(vec![(0.1, 0.01), (1.0, 0.001)]).unwrap();
-    let [all, half] = curve.mean_annual_rates(&[], |_| [1.0, 0.5]);
+    let [all, half] = curve.mean_annual_rates(&[], 0.02, |_| [1.0, 0.5]);
     assert!((all - 0.01).abs() < 1e-12 && (half - 0.005).abs() < 1e-12);
 }
 
@@ -54,6 +54,7 @@ fn a_joint_hazard_of_lognormal_velocities_widens_the_curve() {
         pga_m_s2: 5.0,
         pgv_m_s: f64::exp(m + s * normal::quantile((k as f64 + 0.5) / n as f64)),
         annual_rate: 0.02 / n as f64,
+        mw: None,
     };
     let joint = JointHazard { bins: (0..n).map(bin).collect() };
     let [rate] = joint.mean_annual_rates(|bin| [p_overturning(bin.pgv_m_s, mu, beta)]);

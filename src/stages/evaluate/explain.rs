@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::fragility::{Calibration, Kind, Model, Scenarios};
+use crate::hazard::{Budget, Part};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::number::{PERCENT, count, significant};
@@ -11,7 +12,7 @@ use crate::stages::shared::model_args::words_of_kind;
 use crate::units::G_M_S2;
 
 /// Explains the answer for a structure; `motion` is the PGA and PGV (m/s2 and m/s) that matters.
-pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2]) -> String {
+pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2], budget: &Budget) -> String {
     let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
     let mut text = format!("\n{}\n", structure.name);
     match model {
@@ -56,6 +57,12 @@ pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2]) -> Stri
         let given = shipped.probabilities(structure, &measures, Scenarios::One).given_rocking?;
         Some(format!("{} by the surface for {}", PERCENT.one(given.p_ro.value), words_of_kind(kind)))
     };
+    let part = |part: &Part| Some(format!("{part} {}", significant(budget.sd_of(*part)?, 2)));
+    let parts: Vec<String> = Part::ALL.iter().filter_map(part).collect();
+    if !parts.is_empty() {
+        let all = significant(budget.sd(), 2);
+        let _ = writeln!(text, "errors:      {}; all {all} (sd of ln rate, or of logit)", parts.join(", "));
+    }
     let others: Vec<String> = Kind::ALL.iter().filter_map(other).collect();
     if !others.is_empty() {
         let _ = writeln!(text, "overturning: {}", others.join(", "));

@@ -8,6 +8,7 @@ use arrow_schema::{Field, Schema};
 
 use crate::fragility::Peak;
 use crate::pipeline::UsageError;
+use crate::plausibility::judge_peak;
 use crate::rocking::Structure;
 use crate::sheet::{Heading, Sheet};
 use crate::stages::shared::hazard::{Renamed, headings, peak, rename};
@@ -43,11 +44,11 @@ pub fn peaks(columns: &Columns, wanted: Peak) -> anyhow::Result<Vec<f64>> {
             names.join(", ")
         )));
     };
-    let values = columns.numbers(&name)?;
-    match values.iter().position(|value| !(*value >= 0.0 && value.is_finite())) {
-        Some(row) => Err(columns.value_error(row, expected, "expected a number of 0 or more").into()),
-        None => Ok(values.into_iter().map(|value| value * unit).collect()),
-    }
+    let judged = |(row, value): (usize, f64)| match judge_peak(wanted == Peak::Pgv, value * unit) {
+        Ok(()) => Ok(value * unit),
+        Err(possible) => Err(columns.value_error(row, expected, format!("expected {possible}")).into()),
+    };
+    columns.numbers(&name)?.into_iter().enumerate().map(judged).collect()
 }
 
 /// The structure of each row.

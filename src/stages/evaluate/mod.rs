@@ -27,9 +27,8 @@ use super::shared::hazard::{self, Renamed};
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::responses;
 use super::shared::structures::{Object, StructureArgs};
-use crate::fragility::{Model, Ratio};
-use crate::hazard::{Hazard, Site};
-use crate::motion::IntensityMeasures;
+use crate::fragility::Model;
+use crate::hazard::{Hazard, Motion, Site, Unknown};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
@@ -37,7 +36,6 @@ use crate::pipeline::stage::Stage;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::rocking::Structure;
 use crate::units::G_M_S2;
-use crate::warning::Warning;
 
 use self::object::{Answer, Prediction};
 pub use self::object::{ObjectRow, Predicted};
@@ -63,17 +61,23 @@ pub struct Evaluate {
     /// eta where they vary
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "hazard")]
     input: Option<PathBuf>,
-    /// Hazard curve, CSV: PGA or PGV with annual rates, probabilities or return periods; or both with
-    /// rates of occurrence
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    hazard: Option<PathBuf>,
+    /// Hazard curves, CSV: PGA, best with PGV or SA(1.0 s), by annual rates, probabilities or return periods;
+    /// or PGA and PGV together, by rates of occurrence or as OpenQuake's ground-motion fields
+    #[arg(long, value_name = "FILE,...", value_hint = ValueHint::FilePath, value_delimiter = ',')]
+    hazard: Vec<PathBuf>,
+    /// Years that the ground-motion fields of --hazard stand for
+    #[arg(long, value_name = "YEARS", requires = "hazard", value_parser = number(1.0..=1e9, "years of 1 and more"))]
+    effective_years: Option<f64>,
+    /// Moment magnitude of the motion; at a site the mean of the disaggregation of PGA at 2475 years
+    #[arg(long, value_name = "MW", conflicts_with = "in", value_parser = number(4.0..=9.5, "a moment magnitude"))]
+    magnitude: Option<f64>,
     /// Headings of --hazard or --in that stand for columns
     #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
     columns: Vec<Renamed>,
     /// Time of exposure, years
     #[arg(long, value_name = "YEARS", default_value = "50", value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
-    /// PGV/PGA of all motions, s [default: as in motions of that strength]
+    /// PGV/PGA of all motions, s [default: by the curves, or that of sites in general]
     #[arg(long, value_name = "S", requires = "hazard",
           value_parser = number(0.005..=1.0, "PGV/PGA in s, from 0.005 to 1, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
@@ -99,10 +103,9 @@ pub struct Evaluate {
 
 /// What is evaluated.
 enum Question<'a> {
-    /// PGA (g) and PGV (m/s).
-    Point(f64, f64),
+    Motion(Motion),
     Table(&'a Path),
-    Hazard(&'a Path),
+    Hazard,
 }
 
 impl Stage for Evaluate {
@@ -118,8 +121,8 @@ impl Stage for Evaluate {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let models = self.model.read()?;
         match self.question()? {
-            Question::Point(pga_g, pgv_m_s) => self.at_point([pga_g * G_M_S2, pgv_m_s], &models, context),
-            Question::Hazard(path) => self.over_hazard(path, &models, context),
+            Question::Motion(motion) => self.under_motion(&motion, &models, context),
+            Question::Hazard => self.over_hazard(&models, context),
             Question::Table(path) => {
                 let (rows, text) = table::evaluate(path, &self.columns, &self.structures, &models, context)?;
                 self.output.write(&rows, text, Some(path), context)
@@ -130,45 +133,42 @@ impl Stage for Evaluate {
 
 impl Evaluate {
     fn question(&self) -> anyhow::Result<Question<'_>> {
-        match (self.pga, self.pgv, &self.input, &self.hazard) {
-            (Some(pga), Some(pgv), ..) => Ok(Question::Point(pga, pgv)),
-            (_, _, Some(path), _) => Ok(Question::Table(path)),
-            (_, _, _, Some(path)) => Ok(Question::Hazard(path)),
-            _ => Err(UsageError::because(
+        match (&self.input, self.pga, self.pgv) {
+            (Some(path), ..) => Ok(Question::Table(path)),
+            _ if !self.hazard.is_empty() => Ok(Question::Hazard),
+            (_, None, None) => Err(UsageError::because(
                 "expected --pga (g) and --pgv (m/s), a table of intensities (--in) or the hazard of a site (--hazard)",
             )),
+            (_, pga_g, pgv_m_s) => {
+                let pga_m_s2 = pga_g.map(|pga| pga * G_M_S2);
+                Ok(Question::Motion(Motion { pga_m_s2, pgv_m_s, mw: self.magnitude }))
+            }
         }
     }
 
-    fn at_point(&self, peaks: [f64; 2], models: &Models, context: &Context) -> anyhow::Result<String> {
-        let predict = |structure: &Structure, model: &Model| {
-            let measures = IntensityMeasures::new(structure, peaks[0], peaks[1], None, None);
-            let row = TreeRow::new(structure, model, &measures, peaks);
-            Prediction { row, motion: peaks, warnings: Vec::new() }
+    fn under_motion(&self, motion: &Motion, models: &Models, context: &Context) -> anyhow::Result<String> {
+        let predict = |structure: &Structure, unknowns: &[Unknown<Structure>], model: &Model| {
+            let (row, budget) = TreeRow::new(motion, structure, unknowns, model);
+            Prediction { row, budget, motion: motion.peaks(model), warnings: Vec::new() }
         };
         let all = object::answers(self.objects(models)?, models, self.explain, predict)?;
         self.finish(&all, point::text(&all, self.sentence), context)
     }
 
-    fn over_hazard(&self, path: &Path, models: &Models, context: &Context) -> anyhow::Result<String> {
-        let site = self.site(path)?;
-        let implausible = site.hazard.is_implausible().then_some(Warning::ImplausibleHazard);
-        let predict = |structure: &Structure, model: &Model| {
-            let rates = site.rates(structure, model);
-            let row = RatesRow::new(&rates, self.years);
-            Prediction {
-                row,
-                motion: rates.motion,
-                warnings: rates.warnings.into_iter().chain(implausible).collect(),
-            }
+    fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
+        let site = self.site()?;
+        let predict = |structure: &Structure, unknowns: &[Unknown<Structure>], model: &Model| {
+            let rates = site.rates(structure, unknowns, model);
+            let (row, budget) = (RatesRow::new(&rates, self.years), rates.budgets.overturning);
+            Prediction { row, budget, motion: rates.motion, warnings: rates.warnings }
         };
         let all = object::answers(self.objects(models)?, models, self.explain, predict)?;
         self.finish(&all, rates::text(&all, &site, self.sentence), context)
     }
 
     /// Reads the hazard and what rates over it need.
-    fn site(&self, path: &Path) -> anyhow::Result<Site> {
-        let hazard = hazard::read(path, &self.columns)?;
+    fn site(&self) -> anyhow::Result<Site> {
+        let hazard = hazard::read(&self.hazard, &self.columns, self.effective_years)?;
         if let Hazard::Joint(_) = hazard {
             if self.ratio.is_some() {
                 return Err(UsageError::because("ratio: the hazard has PGA and PGV of each motion"));
@@ -179,7 +179,8 @@ impl Evaluate {
         }
         Ok(Site {
             hazard,
-            ratio: self.ratio.map_or(Ratio::Distributed, Ratio::Seconds),
+            ratio_s: self.ratio,
+            mw: self.magnitude,
             extrapolate: self.extrapolate,
             limit_state: self.model.limit_state,
             responses: self.responses.as_deref().map_or(Ok(Vec::new()), responses::read)?,

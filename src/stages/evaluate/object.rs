@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::explain::explained;
 use crate::fragility::Model;
+use crate::hazard::{Budget, Part, Unknown};
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::{Models, words_of};
@@ -18,6 +19,8 @@ pub struct Answer<R> {
     pub object: ObjectRow,
     pub row: R,
     pub warnings: Vec<Warning>,
+    /// Errors of its probability or rate of overturning.
+    pub budget: Budget,
     /// The model and the measures of the motion, if requested.
     pub explained: String,
 }
@@ -69,9 +72,41 @@ impl ObjectRow {
     }
 }
 
+/// The parts of the error of overturning: standard deviations of ln of its annual rate, or of the logit of its
+/// probability; none where nothing of a part is unknown.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ErrorsRow {
+    pub error_fit: Option<f64>,
+    pub error_magnitude: Option<f64>,
+    pub error_velocity: Option<f64>,
+    pub error_eta: Option<f64>,
+    pub error_object: Option<f64>,
+    pub error_floor: Option<f64>,
+    pub error_hazard: Option<f64>,
+    /// The largest part.
+    pub error_largest: Option<String>,
+}
+
+impl ErrorsRow {
+    pub fn of(budget: &Budget) -> ErrorsRow {
+        ErrorsRow {
+            error_fit: budget.sd_of(Part::Fit),
+            error_magnitude: budget.sd_of(Part::Magnitude),
+            error_velocity: budget.sd_of(Part::Velocity),
+            error_eta: budget.sd_of(Part::Eta),
+            error_object: budget.sd_of(Part::Object),
+            error_floor: budget.sd_of(Part::Floor),
+            error_hazard: budget.sd_of(Part::Hazard),
+            error_largest: budget.largest().map(|part| part.to_string()),
+        }
+    }
+}
+
 /// What is predicted for one structure.
 pub struct Prediction<R> {
     pub row: R,
+    /// Errors of the logit of the probability of overturning, or of ln of its rate.
+    pub budget: Budget,
     /// PGA and PGV (m/s2 and m/s) of the motion that matters.
     pub motion: [f64; 2],
     pub warnings: Vec<Warning>,
@@ -82,7 +117,7 @@ pub fn answers<R: Predicted>(
     objects: Vec<Object>,
     models: &Models,
     explain: bool,
-    predict: impl Fn(&Structure, &Model) -> Prediction<R> + Sync,
+    predict: impl Fn(&Structure, &[Unknown<Structure>], &Model) -> Prediction<R> + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
         let structure = match &object.structure {
@@ -92,12 +127,14 @@ pub fn answers<R: Predicted>(
                     object: ObjectRow::refused(&object),
                     row: R::default().with_warnings(Some(reason.clone())),
                     warnings: vec![Warning::ImplausibleRow],
+                    budget: Budget::default(),
                     explained: String::new(),
                 });
             }
         };
         let (model, mut warnings) = models.model(structure)?;
-        let Prediction { row, motion, warnings: of_prediction } = predict(structure, &model);
+        let Prediction { row, budget, motion, warnings: of_prediction } =
+            predict(structure, &object.unknowns, &model);
         let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
         warnings.extend(of_prediction);
         warnings.extend(warnings_of(structure));
@@ -108,7 +145,8 @@ pub fn answers<R: Predicted>(
             object: ObjectRow::new(&object, structure, &model, models.limit_state()),
             row: row.with_warnings(texts(&warnings)),
             warnings,
-            explained: if explain { explained(&model, structure, motion) } else { String::new() },
+            budget,
+            explained: if explain { explained(&model, structure, motion, &budget) } else { String::new() },
         })
     };
     let mut all = objects.into_par_iter().map(answer).collect::<anyhow::Result<Vec<_>>>()?;
@@ -129,7 +167,12 @@ pub fn warnings_of_all<R>(all: &[Answer<R>]) -> Warnings {
 pub fn batch<R: Predicted>(all: &[Answer<R>]) -> anyhow::Result<RecordBatch> {
     let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
     let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();
-    rows::side_by_side(&[rows::batch_of::<ObjectRow, _>(&objects)?, rows::batch_of::<R, _>(&predicted)?])
+    let errors: Vec<ErrorsRow> = all.iter().map(|answer| ErrorsRow::of(&answer.budget)).collect();
+    rows::side_by_side(&[
+        rows::batch_of::<ObjectRow, _>(&objects)?,
+        rows::batch_of::<R, _>(&predicted)?,
+        rows::batch(&errors)?,
+    ])
 }
 
 /// Warnings as they stand in a file.

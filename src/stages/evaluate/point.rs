@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, ObjectRow, Predicted};
-use super::words::{brief, friction, model, size, table, title, too_far, validity, with_sentences};
-use crate::fragility::{GivenRocking, Model, Probabilities, Probability, Scenarios};
+use super::words::{brief, friction, model, mostly_unknown, size, table, title, too_far, validity, with_sentences};
+use crate::fragility::{Model, Probability, Scenarios};
+use crate::hazard::{Budget, Motion, MotionProbabilities, Unknown};
 use crate::motion::IntensityMeasures;
 use crate::number::{Limited, PERCENT, aligned, fixed, plain};
 use crate::rocking::Structure;
@@ -30,29 +31,34 @@ pub struct TreeRow {
 }
 
 impl TreeRow {
-    /// Of a structure under a motion.
+    /// Of a structure under a motion, with the errors of the logit of P_ro.
     pub fn new(
+        motion: &Motion,
         structure: &Structure,
+        unknowns: &[Unknown<Structure>],
         model: &Model,
-        measures: &IntensityMeasures,
-        peaks: [f64; 2],
-    ) -> TreeRow {
-        TreeRow::of(peaks, &model.probabilities(structure, measures, Scenarios::One))
-    }
-
-    fn of(peaks: [f64; 2], probabilities: &Probabilities) -> TreeRow {
-        let given = probabilities.given_rocking;
-        let of = |p: fn(&GivenRocking) -> Probability| {
-            let known = given.as_ref().map(p).filter(|p| !p.value.is_nan());
-            [known.map(|p| p.value), known.map(|p| p.low), known.map(|p| p.high)]
+    ) -> (TreeRow, Budget) {
+        let MotionProbabilities { states: [rocking, failure, overturning], budgets } =
+            motion.probabilities(structure, unknowns, model);
+        let given_rocking = |p: Probability| {
+            let known = |p: f64| Some(p / rocking.value).filter(|p| p.is_finite());
+            [known(p.value), known(p.low), known(p.high)]
         };
-        let [p_ex, p_ex_low, p_ex_high] = of(|given| given.p_ex);
-        let [p_ro, p_ro_low, p_ro_high] = of(|given| given.p_ro);
-        let [p_f_r, p_f_r_low, p_f_r_high] = of(|given| given.p_failure);
-        TreeRow {
-            pga_m_s2: Some(peaks[0]),
-            pgv_m_s: Some(peaks[1]),
-            p_nr: Some(probabilities.p_nr),
+        // The demand has a probability of its own under a motion that is known.
+        let p_ex = motion.pga_m_s2.zip(motion.pgv_m_s).and_then(|(pga, pgv)| {
+            let measures = IntensityMeasures::new(structure, pga, pgv, None, None);
+            Some(model.probabilities(structure, &measures, Scenarios::One).given_rocking?.p_ex)
+        });
+        let [p_ex, p_ex_low, p_ex_high] = match p_ex.filter(|p| !p.value.is_nan()) {
+            Some(p) => [p.value, p.low, p.high].map(Some),
+            None => [None; 3],
+        };
+        let [p_ro, p_ro_low, p_ro_high] = given_rocking(overturning);
+        let [p_f_r, p_f_r_low, p_f_r_high] = given_rocking(failure);
+        let row = TreeRow {
+            pga_m_s2: motion.pga_m_s2,
+            pgv_m_s: motion.pgv_m_s,
+            p_nr: Some(1.0 - rocking.value),
             p_ex,
             p_ex_low,
             p_ex_high,
@@ -62,16 +68,19 @@ impl TreeRow {
             p_f_r,
             p_f_r_low,
             p_f_r_high,
-            p_f: probabilities.limit_states().map(|states| states[1].value).filter(|p| !p.is_nan()),
+            p_f: Some(failure.value).filter(|p| !p.is_nan()),
             warnings: None,
-        }
+        };
+        (row, budgets.overturning)
     }
 
     /// Overturning, and failure, over the whole tree.
     fn states(&self) -> [Limited; 2] {
+        let given_rocking =
+            [[self.p_ro, self.p_ro_low, self.p_ro_high], [self.p_f_r, self.p_f_r_low, self.p_f_r_high]];
         match self.p_nr {
             Some(1.0) => [[Some(0.0); 3]; 2],
-            _ => [[self.p_ro, self.p_ro_low, self.p_ro_high], [self.p_f_r, self.p_f_r_low, self.p_f_r_high]],
+            p_nr => given_rocking.map(|p| p.map(|p| Some(p? * (1.0 - p_nr.unwrap_or(0.0))))),
         }
     }
 
@@ -94,7 +103,7 @@ impl Predicted for TreeRow {
 pub fn text(all: &[Answer<TreeRow>], sentence: bool) -> String {
     let text = match all {
         [] => String::new(),
-        [Answer { object, row, .. }] => of_one(object, row),
+        [answer] => of_one(answer),
         [worst, ..] => of_several(worst, all),
     };
     with_sentences(text, all, sentence, |object, tree| {
@@ -109,9 +118,18 @@ pub fn text(all: &[Answer<TreeRow>], sentence: bool) -> String {
     })
 }
 
-fn of_one(object: &ObjectRow, tree: &TreeRow) -> String {
+fn of_one(answer: &Answer<TreeRow>) -> String {
+    let Answer { object, row: tree, budget, .. } = answer;
     let rocks = if tree.rocks() { "rocks" } else { "does not rock" };
-    let uplift = format!("{rocks}: PGA is {} times what uplifts it\n", times_uplift(object, tree));
+    let uplift = match tree.pga_m_s2 {
+        Some(pga) => format!("{rocks}: PGA is {} times what uplifts it\n", times_uplift(object, pga)),
+        None => format!("rocks with a probability of {}\n", PERCENT.one(1.0 - tree.p_nr.unwrap_or(f64::NAN))),
+    };
+    let add = match (tree.pga_m_s2, tree.pgv_m_s) {
+        (Some(_), None) => "Add --pgv.",
+        _ => "Add --pga.",
+    };
+    let unknown = mostly_unknown(budget, "the other peak", add).map_or(String::new(), |text| text + "\n");
     let peaks = words_of_peaks(tree);
     let by = format!("{} {peaks}, by {}. {}\n", title(object), model(object), validity(object));
     if !tree.rocks() {
@@ -125,7 +143,7 @@ fn of_one(object: &ObjectRow, tree: &TreeRow) -> String {
         line("overturns", overturning, "95 % limits "),
         line(&format!("overturns, or {}", too_far(object)), failure, ""),
     ];
-    aligned(&lines, |_| false) + &uplift + &by
+    aligned(&lines, |_| false) + &uplift + &unknown + &by
 }
 
 fn of_several(worst: &Answer<TreeRow>, all: &[Answer<TreeRow>]) -> String {
@@ -156,13 +174,13 @@ fn of_several(worst: &Answer<TreeRow>, all: &[Answer<TreeRow>]) -> String {
 }
 
 fn words_of_peaks(tree: &TreeRow) -> String {
-    let [pga, pgv] = [tree.pga_m_s2.unwrap_or_default() / G_M_S2, tree.pgv_m_s.unwrap_or_default()];
-    format!("at {} g and {} m/s", plain(pga), plain(pgv))
+    let pga = tree.pga_m_s2.map(|pga| format!("{} g", plain(pga / G_M_S2)));
+    let pgv = tree.pgv_m_s.map(|pgv| format!("{} m/s", plain(pgv)));
+    format!("at {}", [pga, pgv].into_iter().flatten().collect::<Vec<_>>().join(" and "))
 }
 
 /// PGA over that of uplift.
-fn times_uplift(object: &ObjectRow, tree: &TreeRow) -> String {
-    let uplift = object.friction.unwrap_or(f64::NAN) * G_M_S2;
-    let times = tree.pga_m_s2.unwrap_or_default() / uplift;
+fn times_uplift(object: &ObjectRow, pga_m_s2: f64) -> String {
+    let times = pga_m_s2 / (object.friction.unwrap_or(f64::NAN) * G_M_S2);
     fixed(times, if times > 10.0 { 0 } else { 1 })
 }

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::object::{Answer, ObjectRow, Predicted};
-use super::words::{brief, friction, model, size, table, title, too_far, validity, with_sentences};
-use crate::fragility::{Peak, Ratio};
-use crate::hazard::{Hazard, Site, SiteRates, probability_in_years};
+use super::object::{Answer, Predicted};
+use super::words::{brief, friction, model, mostly_unknown, size, table, title, too_far, validity, with_sentences};
+use crate::fragility::Peak;
+use crate::hazard::{Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
 use crate::number::{Limited, PERCENT, RATE, aligned, count, counted, period, plain, significant};
 use crate::units::G_M_S2;
 
@@ -29,9 +29,10 @@ pub struct RatesRow {
     pub p_overturning: Option<f64>,
     pub p_overturning_low: Option<f64>,
     pub p_overturning_high: Option<f64>,
-    /// With PGV / PGA a standard deviation below its median, and above.
-    pub overturning_per_year_less_velocity: Option<f64>,
-    pub overturning_per_year_more_velocity: Option<f64>,
+    /// From what PGV / PGA is known.
+    pub velocity_by: Option<String>,
+    /// Share of the rate of overturning beyond the last point of a curve that is extrapolated.
+    pub share_extrapolated: Option<f64>,
     pub counted_motions: Option<i64>,
     pub counted_per_year: Option<f64>,
     pub counted_per_year_low: Option<f64>,
@@ -63,8 +64,8 @@ impl RatesRow {
             p_overturning,
             p_overturning_low,
             p_overturning_high,
-            overturning_per_year_less_velocity: rates.by_velocity.map(|rates| rates[0]),
-            overturning_per_year_more_velocity: rates.by_velocity.map(|rates| rates[1]),
+            velocity_by: rates.velocity.map(|source| source.to_string()),
+            share_extrapolated: rates.beyond,
             counted_motions: counted.map(|(motions, _)| *motions as i64),
             counted_per_year: counted.map(|(_, rate)| rate.value),
             counted_per_year_low: counted.map(|(_, rate)| rate.limits.low),
@@ -103,17 +104,18 @@ impl Predicted for RatesRow {
 pub fn text(all: &[Answer<RatesRow>], site: &Site, sentence: bool) -> String {
     let text = match all {
         [] => String::new(),
-        [Answer { object, row, .. }] => of_one(object, row, site),
+        [answer] => of_one(answer, site),
         [worst, ..] => of_several(worst, all, site),
     };
     with_sentences(text, all, sentence, |object, rates| {
-        let extended = if site.extrapolate { ", with the hazard curve extrapolated" } else { "" };
         let how_often = how_often(rates, site, "95 % confidence limits ");
-        format!("{how_often}, by {}{extended}, without {}", model(object), errors(site))
+        let extended = extrapolated(rates).map_or(String::new(), |text| format!(" ({text})"));
+        format!("{how_often}{extended}, by {}{}", model(object), not_in_limits(site, ", without "))
     })
 }
 
-fn of_one(object: &ObjectRow, rates: &RatesRow, site: &Site) -> String {
+fn of_one(answer: &Answer<RatesRow>, site: &Site) -> String {
+    let Answer { object, row: rates, .. } = answer;
     let years = rates.years.unwrap_or(f64::NAN);
     let line = |name: String, rate: Limited| {
         let p = rate.map(|rate| Some(probability_in_years(rate?, years)));
@@ -130,17 +132,12 @@ fn of_one(object: &ObjectRow, rates: &RatesRow, site: &Site) -> String {
         let rate = [rates.counted_per_year, rates.counted_per_year_low, rates.counted_per_year_high];
         lines.push(line(format!("overturns, counted among {motions}"), rate));
     }
-    let by_velocity = rates.overturning_per_year_less_velocity.zip(rates.overturning_per_year_more_velocity);
-    let least_known = by_velocity.map_or(String::new(), |(less, more)| {
-        let [less, more] = [less, more].map(|rate| RATE.one(rate));
-        format!(" Least known: PGV/PGA (one standard deviation: {less} to {more} a year).")
-    });
     format!(
-        "{}: {}\n{}Not in the limits: {}.{least_known}\nBy {}. {}\n",
+        "{}: {}\n{}{}By {}. {}\n",
         title(object),
         how_often(rates, site, "95 % limits "),
         aligned(&lines, |_| false),
-        errors(site),
+        about_limits(answer, site),
         model(object),
         validity(object)
     )
@@ -166,12 +163,11 @@ fn of_several(worst: &Answer<RatesRow>, all: &[Answer<RatesRow>], site: &Site) -
     });
     let how_often = how_often(&worst.row, site, "95 % limits ");
     format!(
-        "{} overturns most often: {}\n{table}Rates a year, by {}. \
-         Not in the limits: {}. Below its friction an object slides instead.\n",
+        "{} overturns most often: {}\n{table}{}Rates a year, by {}. Below its friction an object slides instead.\n",
         worst.object.structure,
         how_often.trim_start_matches("overturns "),
+        about_limits(worst, site),
         model(&worst.object),
-        errors(site)
     )
 }
 
@@ -180,12 +176,35 @@ fn in_years(rates: &RatesRow) -> String {
     format!("in {} year{}", plain(years), if years == 1.0 { "" } else { "s" })
 }
 
-/// The errors that the limits of rates do not contain.
-fn errors(site: &Site) -> &'static str {
-    match site.ratio {
-        Ratio::Distributed => "the errors of the hazard and of PGV/PGA",
-        _ => "the error of the hazard",
+/// The largest part of the error, what the limits do not contain, and what was extrapolated: a line, or none.
+fn about_limits(answer: &Answer<RatesRow>, site: &Site) -> String {
+    let advice = match answer.row.velocity_by.as_deref().and_then(|source| source.parse().ok()) {
+        Some(VelocitySource::Spectrum) => "Add the PGV curve.",
+        Some(VelocitySource::Sites | VelocitySource::Motions) => match &site.hazard {
+            Hazard::Curve(PeakHazard { peak: Peak::Pgv, .. }) => "Add the PGA curve.",
+            _ => "Add the PGV or SA(1.0 s) curve.",
+        },
+        _ => "",
+    };
+    let is_known = answer.row.overturning_per_year.is_some_and(|rate| rate > 0.0);
+    let unknown = mostly_unknown(&answer.budget, "PGV", advice).filter(|_| is_known);
+    let without = not_in_limits(site, "Not in the limits: ");
+    let without = Some(format!("{without}.")).filter(|without| is_known && without.len() > 1);
+    let parts = [unknown, without, extrapolated(&answer.row).map(|text| format!("{text}."))];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    if parts.is_empty() { String::new() } else { parts.join(" ") + "\n" }
+}
+
+fn not_in_limits(site: &Site, before: &str) -> String {
+    match &site.hazard {
+        Hazard::Curve(PeakHazard { fractiles: Some(_), .. }) => String::new(),
+        _ => format!("{before}the hazard's own error"),
     }
+}
+
+fn extrapolated(rates: &RatesRow) -> Option<String> {
+    let share = rates.share_extrapolated?;
+    Some(format!("{} of the rate lies beyond the curve", PERCENT.one(share)))
 }
 
 /// How often it overturns, with limits or bounds.
@@ -203,7 +222,7 @@ fn how_often(rates: &RatesRow, site: &Site, limits: &str) -> String {
         }
         bounds @ [None, Some(_), Some(_)] => {
             let end = match &site.hazard {
-                Hazard::Curve(peak, curve) => {
+                Hazard::Curve(PeakHazard { peak, curve, .. }) => {
                     let [_, (last, rate)] = curve.ends();
                     let last = match peak {
                         Peak::Pga => format!("{} g", significant(last / G_M_S2, 3)),

@@ -8,9 +8,10 @@ use arrow_array::RecordBatch;
 use rayon::prelude::*;
 
 use super::intensities::{self, peaks};
-use super::object::{Predicted, texts};
+use super::object::{ErrorsRow, Predicted, texts};
 use super::point::TreeRow;
 use crate::fragility::{Model, Peak};
+use crate::hazard::Motion;
 use crate::motion::IntensityMeasures;
 use crate::number::counted;
 use crate::pipeline::UsageError;
@@ -19,7 +20,7 @@ use crate::rocking::Structure;
 use crate::stages::shared::hazard::Renamed;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::motions::known;
-use crate::stages::shared::structures::{StructureArgs, warnings_of};
+use crate::stages::shared::structures::{Object, StructureArgs, warnings_of};
 use crate::table::TableError;
 use crate::table::columns::Columns;
 use crate::table::rows;
@@ -37,7 +38,7 @@ pub fn evaluate(
     context: &Context,
 ) -> anyhow::Result<(Vec<RecordBatch>, String)> {
     let batches = intensities::read(path, renamed)?;
-    let given = if structures.is_given() { structures.resolve()? } else { Vec::new() };
+    let given = if structures.is_given() { structures.objects()? } else { Vec::new() };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
@@ -58,17 +59,18 @@ pub fn evaluate(
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
 fn of_batch(
     columns: &Columns,
-    given: Option<&Structure>,
+    given: Option<&Object>,
     models: &Models,
     known_models: &mut KnownModels,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let [pga, pgv] = [peaks(columns, Peak::Pga)?, peaks(columns, Peak::Pgv)?];
-    let [tp, tm] = [columns.numbers("tp_s")?, columns.numbers("tm_s")?];
-    let structures = match given {
-        Some(structure) => vec![structure.clone(); columns.rows()],
+    let [tp, tm, mw] = [columns.numbers("tp_s")?, columns.numbers("tm_s")?, columns.numbers("mw")?];
+    let structures = match given.map(|object| object.structure.clone()) {
+        Some(structure) => vec![structure.map_err(UsageError::because)?; columns.rows()],
         None => intensities::structures(columns)?,
     };
+    let unknowns = given.map_or(&[] as &[_], |object| &object.unknowns);
     let key =
         |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits);
     for structure in &structures {
@@ -83,16 +85,18 @@ fn of_batch(
         let measures = IntensityMeasures::new(structure, pga[row], pgv[row], known(tp[row]), known(tm[row]));
         let mut warnings = of_structure.clone();
         warnings.extend(model.warnings(structure, &measures));
-        let tree = TreeRow::new(structure, model, &measures, [pga[row], pgv[row]]);
-        (tree.with_warnings(texts(&warnings)), warnings)
+        let motion = Motion { pga_m_s2: Some(pga[row]), pgv_m_s: Some(pgv[row]), mw: known(mw[row]) };
+        let (tree, budget) = TreeRow::new(&motion, structure, unknowns, model);
+        ((tree.with_warnings(texts(&warnings)), ErrorsRow::of(&budget)), warnings)
     };
-    let (trees, warnings): (Vec<TreeRow>, Vec<Vec<Warning>>) =
+    let (rows_of_all, warnings): (Vec<(TreeRow, ErrorsRow)>, Vec<Vec<Warning>>) =
         (0..columns.rows()).into_par_iter().map(of_row).unzip();
+    let (trees, errors): (Vec<TreeRow>, Vec<ErrorsRow>) = rows_of_all.into_iter().unzip();
     for (row, warnings) in warnings.into_iter().enumerate() {
         let place = format!("row {}", columns.first_row + row as u64);
         context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect::<Warnings>());
     }
-    let own = rows::batch(&trees)?;
+    let own = rows::side_by_side(&[rows::batch(&trees)?, rows::batch(&errors)?])?;
     let schema = columns.batch.schema();
     let kept: Vec<usize> = (0..schema.fields().len())
         .filter(|&at| own.schema().index_of(schema.field(at).name()).is_err())

@@ -1,6 +1,7 @@
 //! An object, its model and what speaks against its answer, in words.
 
 use super::object::{Answer, ObjectRow};
+use crate::hazard::{Budget, Part};
 use crate::number;
 use crate::rocking::rectangular_p;
 
@@ -48,6 +49,20 @@ pub fn friction(object: &ObjectRow) -> String {
 pub fn too_far(object: &ObjectRow) -> String {
     let limit_state = object.limit_state.unwrap_or(f64::NAN);
     format!("rocks beyond {} of its slenderness", number::PERCENT.one(limit_state))
+}
+
+/// The largest part of the error, and what would narrow it. Of PGV / PGA it has a name and advice of its own.
+pub fn mostly_unknown(budget: &Budget, velocity: &str, advice: &str) -> Option<String> {
+    let (what, advice) = match budget.largest()? {
+        Part::Fit => ("the fragility", "Calibrate it by responses of the object (--fits)."),
+        Part::Magnitude => ("magnitude", "Add --magnitude."),
+        Part::Velocity => (velocity, advice),
+        Part::Eta => ("eta", "Measure it (--eta, --eta-sd)."),
+        Part::Object => ("the object's body", "Measure its centre of mass."),
+        Part::Floor => ("the building's period", "Measure it (--period, --period-sd)."),
+        Part::Hazard => ("the hazard", "See its fractiles."),
+    };
+    Some(format!("Mostly unknown: {what}. {advice}").trim_end().to_string())
 }
 
 /// The warnings of a row in a few words; the reason in full if the row cannot be right.

@@ -1,0 +1,223 @@
+//! PGV / PGA of the motions of a site, and how well it is known: by the curves of both peaks, or by one and
+//! ground-motion models.
+
+use super::budget::{Part, Unknown};
+use super::curve::HazardCurve;
+use crate::fragility::{Kind, Model, Peak, RatioGiven};
+use crate::keyword::keywords;
+use crate::statistics::normal;
+use crate::units::G_M_S2;
+
+/// From what PGV / PGA is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VelocitySource {
+    /// Curves of PGA and PGV.
+    Velocity,
+    /// Curves of PGA and of the spectral acceleration at 1 s.
+    Spectrum,
+    /// A ratio that the user gives.
+    Given,
+    /// The motions that the model was fitted to.
+    Motions,
+    /// Ground-motion models, at sites in general.
+    Sites,
+}
+
+keywords!(VelocitySource {
+    Velocity = "pgv",
+    Spectrum = "sa",
+    Given = "ratio",
+    Motions = "motions",
+    Sites = "sites",
+});
+
+/// PGV / PGA of the motions of a site.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Velocity {
+    /// Given the peak of the hazard, at the magnitude [`MIDDLE`].
+    ratio: RatioGiven,
+    /// By how much ln(PGV / PGA) rises with magnitude.
+    per_magnitude: f64,
+    /// Standard deviation of the level of ln(PGV / PGA).
+    sd: f64,
+    pub source: VelocitySource,
+}
+
+/// The magnitude that lines of sites in general are for.
+const MIDDLE: f64 = 6.3;
+/// Mean and standard deviation of the magnitude of the motions that matter, at sites in general, and the standard
+/// deviation about a mean that is given.
+const MAGNITUDE: [f64; 2] = [6.35, 0.6];
+const SD_OF_MEAN: f64 = 0.2;
+/// Lines of sites in general (scripts/reference/sites.py): ln(PGV / PGA) in s at PGA of 0.4 g or PGV of 0.4 m/s,
+/// its slope over ln of the peak, the standard deviation about it, its rise with magnitude, and the standard
+/// deviation of the level between sites of one magnitude.
+const GIVEN_PGA: [f64; 5] = [-2.88, -0.06, 0.57, 0.35, 0.28];
+const GIVEN_PGV: [f64; 5] = [-2.21, 0.25, 0.50, 0.33, 0.23];
+/// Where the lines of sites in general have their level: m/s2 and m/s.
+const LEVEL_AT: [f64; 2] = [0.4 * G_M_S2, 0.4];
+/// Standard deviation of ln(PGV / PGA) given PGA, where the curves of both peaks give the line.
+const SCATTER: f64 = 0.45;
+/// Standard deviations of the level by two curves: of PGA and PGV, and of PGA and SA(1.0 s).
+const SD_BY_CURVES: [f64; 2] = [0.08, 0.18];
+/// PGV over SA(1.0 s) 1 s / (2 pi) (Newmark & Hall 1982, in FEMA P-58 and HAZUS).
+const NEWMARK_HALL: f64 = 1.0 / 1.65;
+
+/// Rates a year between which two curves are matched, and at how many.
+const MATCHED: [f64; 2] = [1e-6, 2e-2];
+const LEVELS: usize = 16;
+/// Widest panel of the quadrature, in ln PGA.
+const PANEL: f64 = 0.25;
+/// Root mean square of ln rate above which two curves do not belong together.
+const LARGEST_REMAINDER: f64 = 0.3;
+/// PGV / PGA of a site, s.
+const POSSIBLE: [f64; 2] = [0.01, 0.5];
+
+/// Why two curves do not belong together.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MatchError {
+    #[error("the curves have no rates in common: {0:.1e} to {1:.1e} a year; expected three times as far")]
+    NothingInCommon(f64, f64),
+    #[error(
+        "PGV/PGA is {ratio_s:.3} s at {pga_g:.2} g; expected 0.01 to 0.5 s: curves of one site, in these units?"
+    )]
+    ImpossibleRatio { ratio_s: f64, pga_g: f64 },
+    #[error(
+        "by no PGV/PGA do both curves belong together: rates differ by {:.0} %; expected at most 35 %: curves of one \
+         site?",
+        100.0 * (.0.exp() - 1.0)
+    )]
+    Unlike(f64),
+}
+
+/// Magnitude of the motions that matter: its median, by the mean of the disaggregation if it is given, and what
+/// is not known of it.
+pub fn magnitude(mean: Option<f64>) -> (f64, Unknown<f64>) {
+    let [median, sd] = mean.map_or(MAGNITUDE, |mean| [mean, SD_OF_MEAN]);
+    (median, Unknown { part: Part::Magnitude, low: median - sd, high: median + sd })
+}
+
+/// The curve of PGV (m/s) for one of the spectral acceleration at 1 s (m/s2).
+pub fn velocity_of_spectrum(sa_1s: &HazardCurve) -> HazardCurve {
+    sa_1s.scaled(NEWMARK_HALL / std::f64::consts::TAU)
+}
+
+impl Velocity {
+    /// One that is the same (s) in all motions.
+    pub fn given(ratio_s: f64) -> Velocity {
+        Velocity {
+            ratio: RatioGiven::exactly(ratio_s),
+            per_magnitude: 0.0,
+            sd: 0.0,
+            source: VelocitySource::Given,
+        }
+    }
+
+    /// That of the motions that a model stands for: those that it was fitted to, or sites in general.
+    pub fn of_model(model: &Model, given: Peak) -> Velocity {
+        let [level, slope, sd, per_magnitude, sd_of_level] = match given {
+            Peak::Pga => GIVEN_PGA,
+            Peak::Pgv => GIVEN_PGV,
+        };
+        match model {
+            Model::Calibrated { overturning, .. } if overturning.n == 0 && overturning.kind == Kind::Recorded => {
+                let at = LEVEL_AT[usize::from(given == Peak::Pgv)];
+                let ratio = RatioGiven::line(level - slope * at.ln(), slope, sd);
+                Velocity { ratio, per_magnitude, sd: sd_of_level, source: VelocitySource::Sites }
+            }
+            _ => Velocity {
+                ratio: model.peaks().given(given),
+                per_magnitude: 0.0,
+                sd: sd_of_level,
+                source: VelocitySource::Motions,
+            },
+        }
+    }
+
+    /// PGV / PGA given PGA by which the curve of PGA (m/s2) has the rates of that of PGV (m/s): its level and slope
+    /// by least squares in ln rate.
+    ///
+    /// # Errors
+    /// If the curves cannot belong together.
+    pub fn of_curves(
+        pga: &HazardCurve,
+        pgv: &HazardCurve,
+        source: VelocitySource,
+    ) -> Result<Velocity, MatchError> {
+        let [[(_, first), (_, last)], [(_, first_v), (_, last_v)]] = [pga.ends(), pgv.ends()];
+        let most = MATCHED[1].min(0.5 * first).min(first_v);
+        let least = MATCHED[0].max(2.0 * last).max(last_v);
+        if most < 3.0 * least {
+            return Err(MatchError::NothingInCommon(least, most));
+        }
+        let rate = |k: usize| most * (least / most).powf(k as f64 / (LEVELS - 1) as f64);
+        let levels: Vec<(f64, f64)> = (0..LEVELS).map(|k| (pgv.intensity(rate(k)), rate(k))).collect();
+        let off = |[level, slope]: [f64; 2]| -> Vec<f64> {
+            let line = line_at_pga(level, slope);
+            levels.iter().map(|&(v, rate)| (exceedance_of_velocity(pga, &line, v) / rate).ln()).collect()
+        };
+        let at_equal_rates = |&(v, rate): &(f64, f64)| (v / pga.intensity(rate)).ln();
+        let start = levels.iter().map(at_equal_rates).sum::<f64>() / LEVELS as f64;
+        let ([level, slope], remainder) = least_squares_of_two([start, 0.0], off);
+        let line = line_at_pga(level, slope);
+        for a in [most, least].map(|rate| pga.intensity(rate)) {
+            let ratio_s = line.ratio(a, 0.0);
+            if !(POSSIBLE[0]..=POSSIBLE[1]).contains(&ratio_s) {
+                return Err(MatchError::ImpossibleRatio { ratio_s, pga_g: a / G_M_S2 });
+            }
+        }
+        if remainder > LARGEST_REMAINDER || remainder.is_nan() {
+            return Err(MatchError::Unlike(remainder));
+        }
+        let sd = SD_BY_CURVES[usize::from(source == VelocitySource::Spectrum)];
+        Ok(Velocity { ratio: line, per_magnitude: 0.0, sd, source })
+    }
+
+    /// What is not known of it: ln of a factor.
+    pub fn unknown(&self) -> Unknown<f64> {
+        Unknown { part: Part::Velocity, low: -self.sd, high: self.sd }
+    }
+
+    /// PGV / PGA given the peak in earthquakes of a magnitude, times exp(`ln`).
+    pub fn ratio(&self, mw: f64, ln: f64) -> RatioGiven {
+        self.ratio.raised(self.per_magnitude * (mw - MIDDLE) + ln)
+    }
+}
+
+/// The line through a level at 0.4 g.
+fn line_at_pga(level: f64, slope: f64) -> RatioGiven {
+    RatioGiven::line(level - slope * LEVEL_AT[0].ln(), slope, SCATTER)
+}
+
+/// The annual rate at which a PGV (m/s) is exceeded, by a curve of PGA and PGV / PGA given PGA.
+fn exceedance_of_velocity(pga: &HazardCurve, line: &RatioGiven, pgv_m_s: f64) -> f64 {
+    let exceeds = |a: f64| [normal::cdf((a * line.ratio(a, 0.0) / pgv_m_s).ln() / line.sd_above)];
+    pga.mean_annual_rates(&[], PANEL, exceeds)[0]
+}
+
+/// Minimises a sum of squares over two parameters by Gauss and Newton, and returns the root mean square at the
+/// minimum.
+fn least_squares_of_two(start: [f64; 2], off: impl Fn([f64; 2]) -> Vec<f64>) -> ([f64; 2], f64) {
+    const STEP: f64 = 1e-4;
+    const MOST: usize = 30;
+    let mut at = start;
+    let mut current = off(at);
+    for _ in 0..MOST {
+        let [by_x, by_y] = [[at[0] + STEP, at[1]], [at[0], at[1] + STEP]].map(|moved| {
+            off(moved).iter().zip(&current).map(|(new, old)| (new - old) / STEP).collect::<Vec<f64>>()
+        });
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let [xx, xy, yy] = [dot(&by_x, &by_x), dot(&by_x, &by_y), dot(&by_y, &by_y)];
+        let [x, y] = [dot(&by_x, &current), dot(&by_y, &current)];
+        let determinant = xx * yy - xy * xy;
+        let step = [(yy * x - xy * y) / determinant, (xx * y - xy * x) / determinant];
+        // Far from the minimum, steps are held to what keeps PGV rising with PGA.
+        let held = step.map(|step| step.clamp(-0.5, 0.5));
+        at = [at[0] - held[0], (at[1] - held[1]).max(-0.95)];
+        current = off(at);
+        if step.iter().all(|step| step.abs() < 1e-9) {
+            break;
+        }
+    }
+    (at, (current.iter().map(|off| off * off).sum::<f64>() / current.len() as f64).sqrt())
+}
