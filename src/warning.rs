@@ -10,6 +10,7 @@ use crate::keyword::keywords;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Warning {
     ImplausibleRow,
+    NotRocking,
     ImplausibleRecord,
     OtherPeak,
     ImplausibleSize,
@@ -27,10 +28,12 @@ pub enum Warning {
     ScanEndsEarly,
     UnreadableFile,
     NoPartner,
+    UnusedColumns,
 }
 
 keywords!(Warning {
     ImplausibleRow = "implausible_row",
+    NotRocking = "not_rocking",
     ImplausibleRecord = "implausible_record",
     OtherPeak = "other_peak",
     ImplausibleSize = "implausible_size",
@@ -48,6 +51,7 @@ keywords!(Warning {
     ScanEndsEarly = "scan_ends_early",
     UnreadableFile = "unreadable_file",
     NoPartner = "no_partner",
+    UnusedColumns = "unused_columns",
 });
 
 impl Warning {
@@ -55,6 +59,7 @@ impl Warning {
     pub fn text(self) -> &'static str {
         match self {
             Warning::ImplausibleRow => "this row cannot be right; it has no result",
+            Warning::NotRocking => "it is held, or slides: no result",
             Warning::ImplausibleRecord => "this is no plausible record of an earthquake",
             Warning::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",
             Warning::ImplausibleSize => "no solid block is as high: are its dimensions in cm?",
@@ -79,6 +84,7 @@ impl Warning {
             }
             Warning::ScanEndsEarly => "too few motions overturn it for a median; raise --to",
             Warning::UnreadableFile => "not imported",
+            Warning::UnusedColumns => "columns that say nothing to rockfrag; a floor needs level and period",
             Warning::NoPartner => "vertical, or no partner at right angles: left out",
         }
     }

@@ -147,10 +147,15 @@ impl Calibration {
     /// Computes the calibrated probability from the logit of the surface, with 95 % limits: those of c + s L
     /// by the delta method, J V J', and of one scenario by tau too.
     pub fn probability(&self, logit: f64, scenarios: Scenarios) -> Probability {
+        self.probability_with(logit, 0.0, scenarios)
+    }
+
+    /// The same with a number added to the calibrated logit.
+    pub fn probability_with(&self, logit: f64, added: f64, scenarios: Scenarios) -> Probability {
         let slope = self.ln_s.exp() * logit;
         let between = if scenarios == Scenarios::One { self.tau * self.tau } else { 0.0 };
         let half_width = Z_95 * (variance(&self.covariance, &[1.0, slope]) + between).sqrt();
-        let z = self.c + slope;
+        let z = self.c + slope + added;
         let [value, low, high] = [z, z - half_width, z + half_width].map(logistic);
         Probability { value, low, high }
     }

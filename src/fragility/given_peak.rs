@@ -70,8 +70,8 @@ impl GivenPeak<'_> {
 
     /// Least intensity that uplifts the structure, and that which does so with the median PGV / PGA.
     pub fn uplift(&self) -> [f64; 2] {
-        let uplift = self.structure.uplift_acceleration_m_s2();
-        [-FARTHEST, 0.0].map(|node| self.intensity_of(uplift, node))
+        let [least, usual] = self.model.uplift_m_s2(self.structure);
+        [self.intensity_of(least, -FARTHEST), self.intensity_of(usual, 0.0)]
     }
 
     /// Intensities at which a probability jumps: that of uplift, and that of the planes' transition. Over a
@@ -98,7 +98,7 @@ impl GivenPeak<'_> {
             Model::Paper { demand, .. } => demand.iter().filter_map(|fit| fit.range_low).collect(),
             Model::Calibrated { .. } => Vec::new(),
         };
-        let uplift = self.structure.uplift_acceleration_m_s2();
+        let [uplift, _] = self.model.uplift_m_s2(self.structure);
         let levels = std::iter::once(1.0).chain(transitions.into_iter().filter(|&im4| im4 > 1.0));
         levels.map(|im4| im4 * uplift).collect()
     }

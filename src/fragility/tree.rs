@@ -114,6 +114,10 @@ impl Probabilities {
         if self.p_nr == 1.0 {
             return Some([rocking; 3]);
         }
-        self.given_rocking.map(|given| [rocking, given.p_failure, given.p_ro])
+        let of_all = |p: Probability| {
+            let [value, low, high] = [p.value, p.low, p.high].map(|p| rocking.value * p);
+            Probability { value, low, high }
+        };
+        self.given_rocking.map(|given| [rocking, of_all(given.p_failure), of_all(given.p_ro)])
     }
 }

@@ -88,16 +88,21 @@ pub struct SiteRates {
 
 impl Site {
     /// The rates of a structure, of which this is not known.
-    pub fn rates(&self, structure: &Structure, unknowns: &[Unknown<Structure>], model: &Model) -> SiteRates {
+    pub fn rates(
+        &self,
+        structure: &Structure,
+        unknowns: &[Unknown<(Structure, Model)>],
+        model: &Model,
+    ) -> SiteRates {
         match &self.hazard {
             Hazard::Curve(hazard) => self.rates_over_curve(hazard, structure, unknowns, model),
             Hazard::Joint(joint) => {
-                let rates = |structure: &Structure| rates_over_pairs(model, structure, joint);
-                let value = rates(structure);
+                let rates = |structure: &Structure, model: &Model| rates_over_pairs(model, structure, joint);
+                let value = rates(structure, model);
                 let mut budgets = Budgets::default();
                 budgets.add(Part::Fit, sds_of_fit(&value));
                 for unknown in unknowns {
-                    budgets.vary(unknown, |structure| ln_rates(&rates(structure)));
+                    budgets.vary(unknown, |(structure, model)| ln_rates(&rates(structure, model)));
                 }
                 let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
                 let motion = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
@@ -110,7 +115,7 @@ impl Site {
         &self,
         hazard: &PeakHazard,
         structure: &Structure,
-        unknowns: &[Unknown<Structure>],
+        unknowns: &[Unknown<(Structure, Model)>],
         model: &Model,
     ) -> SiteRates {
         let peak = hazard.peak;
@@ -123,7 +128,8 @@ impl Site {
         let [(first, _), (last, _)] = hazard.curve.ends();
         let ends_early = last < strongest(peak) && as_given[2].beyond > NEGLIGIBLE * as_given[2].value;
         let is_extrapolated = ends_early && self.extrapolate;
-        let extended = |curve: &HazardCurve| if is_extrapolated { curve.extrapolated() } else { curve.clone() };
+        let extended =
+            |curve: &HazardCurve| if is_extrapolated { curve.extrapolated() } else { curve.clone() };
         let curve = extended(&hazard.curve);
         let rates = if is_extrapolated { rates_over_curve(&middle, &curve) } else { as_given };
 
@@ -135,7 +141,7 @@ impl Site {
         }
         budgets.vary(&velocity.unknown(), |ln| of(&given(mw, *ln), &curve));
         for unknown in unknowns {
-            budgets.vary(unknown, |structure| of(&GivenPeak { structure, ..middle }, &curve));
+            budgets.vary(unknown, |(structure, model)| of(&GivenPeak { structure, model, ..middle }, &curve));
         }
         if let Some([low, high]) = &hazard.fractiles {
             let fractiles = Unknown { part: Part::Hazard, low: extended(low), high: extended(high) };
@@ -150,8 +156,7 @@ impl Site {
         ];
         SiteRates {
             velocity: Some(velocity.source),
-            beyond: is_extrapolated
-                .then(|| 1.0 - (as_given[2].value - as_given[2].of_last) / rates[2].value),
+            beyond: is_extrapolated.then(|| 1.0 - (as_given[2].value - as_given[2].of_last) / rates[2].value),
             counted: self.count(&middle, &curve),
             warnings: warnings.into_iter().filter(|(holds, _)| *holds).map(|(_, warning)| warning).collect(),
             ..SiteRates::new(rates, budgets, motion, ends_early && !is_extrapolated)
@@ -185,7 +190,36 @@ impl Site {
     }
 }
 
+/// The first of two results over their sum; a half of none.
+fn share([a, b]: [f64; 2]) -> f64 {
+    if a + b > 0.0 { a / (a + b) } else { 0.5 }
+}
+
 impl SiteRates {
+    /// Of an object that falls in either of two directions: the rates add, at most to that of rocking.
+    pub fn either(self, other: SiteRates) -> SiteRates {
+        let rocking = self.rocking.zip(other.rocking).map(|(a, b)| a.max(b));
+        let most = rocking.unwrap_or(f64::INFINITY);
+        let sum = |a: Limited, b: Limited| [0, 1, 2].map(|k| Some((a[k]? + b[k]?).min(most)));
+        let of = |rates: Limited| rates[0].or(rates[2]).unwrap_or(0.0);
+        let shares = [
+            share([of(self.failure), of(other.failure)]),
+            share([of(self.overturning), of(other.overturning)]),
+        ];
+        let more = if shares[1] < 0.5 { &other } else { &self };
+        SiteRates {
+            rocking,
+            failure: sum(self.failure, other.failure),
+            overturning: sum(self.overturning, other.overturning),
+            budgets: Budgets::of_sums([self.budgets, other.budgets], shares),
+            velocity: more.velocity,
+            beyond: more.beyond,
+            counted: None,
+            motion: more.motion,
+            warnings: [self.warnings.clone(), other.warnings.clone()].concat(),
+        }
+    }
+
     /// Of the rates of the limit states; `ends_early` where the hazard does so for values.
     fn new(rates: Rates, budgets: Budgets, motion: [f64; 2], ends_early: bool) -> SiteRates {
         let [rocking, failure, overturning] = rates;

@@ -22,6 +22,7 @@ mod folds;
 mod linear;
 pub mod newton;
 pub mod normal;
+pub mod numerics;
 pub mod scores;
 
 pub use binary::{LEAST_EVENTS, ProbitFit, log_likelihood, probit, tested_probit};

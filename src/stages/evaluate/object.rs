@@ -8,9 +8,11 @@ use super::explain::explained;
 use crate::fragility::Model;
 use crate::hazard::{Budget, Part, Unknown};
 use crate::motion::IntensityMeasures;
+use crate::pipeline::UsageError;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::{Models, words_of};
-use crate::stages::shared::structures::{Object, warnings_of};
+use crate::stages::shared::objects::{Object, Reason};
+use crate::stages::shared::structures::warnings_of;
 use crate::table::rows::{self, Row};
 use crate::warning::{Warning, Warnings};
 
@@ -38,7 +40,12 @@ pub trait Predicted: Row + Default + Send + Sync {
 pub struct ObjectRow {
     pub structure: String,
     pub width_m: Option<f64>,
+    pub depth_m: Option<f64>,
     pub height_m: Option<f64>,
+    pub floor_period_s: Option<f64>,
+    pub floor_level: Option<f64>,
+    /// Number of such objects.
+    pub count: Option<f64>,
     pub p_rad_s: Option<f64>,
     pub alpha_rad: Option<f64>,
     pub eta: Option<f64>,
@@ -61,12 +68,16 @@ impl ObjectRow {
         }
     }
 
-    /// Of an object whose row cannot be right.
+    /// Of an object without an answer.
     fn refused(object: &Object) -> ObjectRow {
         ObjectRow {
-            structure: object.name.clone(),
-            width_m: object.size_m.map(|size| size[0]),
-            height_m: object.size_m.map(|size| size[1]),
+            structure: object.name().to_string(),
+            width_m: object.spec.width,
+            depth_m: object.spec.depth,
+            height_m: object.spec.height,
+            floor_period_s: object.floor().map(|floor| floor.period_s),
+            floor_level: object.floor().map(|floor| floor.level),
+            count: object.spec.place.count,
             ..ObjectRow::default()
         }
     }
@@ -102,7 +113,55 @@ impl ErrorsRow {
     }
 }
 
-/// What is predicted for one structure.
+/// A direction of an object, with the model that predicts for it.
+pub struct Subject {
+    pub structure: Structure,
+    pub model: Model,
+    /// What is not known of both.
+    pub unknowns: Vec<Unknown<(Structure, Model)>>,
+}
+
+impl Subject {
+    /// The directions of an object on its floor, and what speaks against their models.
+    pub fn of(
+        object: &Object,
+        models: &Models,
+    ) -> anyhow::Result<Result<(Vec<Subject>, Vec<Warning>), Reason>> {
+        let directions = match &object.directions {
+            Ok(directions) => directions,
+            Err(reason) => return Ok(Err(reason.clone())),
+        };
+        let (mut subjects, mut warnings) = (Vec::new(), Vec::new());
+        for direction in directions {
+            let (on_ground, of_model) = models.model(&direction.structure)?;
+            let on = |floor| {
+                let problem = || UsageError::because("period: the paper's model is that of the ground");
+                on_ground.on(floor).ok_or_else(problem)
+            };
+            let (structure, model) = (direction.structure.clone(), on(object.floor())?);
+            let of_structure = direction.unknowns.iter().cloned();
+            let mut unknowns: Vec<_> =
+                of_structure.map(|unknown| unknown.map(|structure| (structure, model.clone()))).collect();
+            if let Some(unknown) = object.unknown_floor() {
+                let [low, high] = [unknown.low, unknown.high].map(|floor| on(Some(floor)));
+                let [low, high] = [low?, high?].map(|model| (structure.clone(), model));
+                unknowns.push(Unknown { part: unknown.part, low, high });
+            }
+            warnings.extend(of_model);
+            warnings.extend(warnings_of(&structure));
+            subjects.push(Subject { structure, model, unknowns });
+        }
+        Ok(Ok((subjects, warnings)))
+    }
+
+    /// What speaks against predictions at a motion (m/s2 and m/s).
+    pub fn warnings(&self, motion: [f64; 2]) -> Vec<Warning> {
+        let measures = IntensityMeasures::new(&self.structure, motion[0], motion[1], None, None);
+        self.model.warnings(&self.structure, &measures)
+    }
+}
+
+/// What is predicted for one object.
 pub struct Prediction<R> {
     pub row: R,
     /// Errors of the logit of the probability of overturning, or of ln of its rate.
@@ -117,36 +176,37 @@ pub fn answers<R: Predicted>(
     objects: Vec<Object>,
     models: &Models,
     explain: bool,
-    predict: impl Fn(&Structure, &[Unknown<Structure>], &Model) -> Prediction<R> + Sync,
+    predict: impl Fn(&Object, &[Subject]) -> Prediction<R> + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
-        let structure = match &object.structure {
-            Ok(structure) => structure,
+        let (subjects, mut warnings) = match Subject::of(&object, models)? {
+            Ok(found) => found,
             Err(reason) => {
+                let (warning, reason) = match reason {
+                    Reason::Implausible(reason) => (Warning::ImplausibleRow, reason),
+                    Reason::Held(reason) => (Warning::NotRocking, reason),
+                };
                 return Ok(Answer {
                     object: ObjectRow::refused(&object),
-                    row: R::default().with_warnings(Some(reason.clone())),
-                    warnings: vec![Warning::ImplausibleRow],
+                    row: R::default().with_warnings(Some(reason)),
+                    warnings: vec![warning],
                     budget: Budget::default(),
                     explained: String::new(),
                 });
             }
         };
-        let (model, mut warnings) = models.model(structure)?;
-        let Prediction { row, budget, motion, warnings: of_prediction } =
-            predict(structure, &object.unknowns, &model);
-        let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
+        let Prediction { row, budget, motion, warnings: of_prediction } = predict(&object, &subjects);
         warnings.extend(of_prediction);
-        warnings.extend(warnings_of(structure));
-        warnings.extend(model.warnings(structure, &measures));
+        warnings.extend(subjects.iter().flat_map(|subject| subject.warnings(motion)));
         warnings.sort();
         warnings.dedup();
+        let Subject { structure, model, .. } = &subjects[0];
         Ok(Answer {
-            object: ObjectRow::new(&object, structure, &model, models.limit_state()),
+            object: ObjectRow::new(&object, structure, model, models.limit_state()),
             row: row.with_warnings(texts(&warnings)),
             warnings,
             budget,
-            explained: if explain { explained(&model, structure, motion, &budget) } else { String::new() },
+            explained: if explain { explained(model, structure, motion, &budget) } else { String::new() },
         })
     };
     let mut all = objects.into_par_iter().map(answer).collect::<anyhow::Result<Vec<_>>>()?;

@@ -8,11 +8,10 @@ use arrow_array::RecordBatch;
 use rayon::prelude::*;
 
 use super::intensities::{self, peaks};
-use super::object::{ErrorsRow, Predicted, texts};
+use super::object::{ErrorsRow, Predicted, Subject, texts};
 use super::point::TreeRow;
-use crate::fragility::{Model, Peak};
+use crate::fragility::Peak;
 use crate::hazard::Motion;
-use crate::motion::IntensityMeasures;
 use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
@@ -20,34 +19,37 @@ use crate::rocking::Structure;
 use crate::stages::shared::hazard::Renamed;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::motions::known;
-use crate::stages::shared::structures::{Object, StructureArgs, warnings_of};
+use crate::stages::shared::structures::{Place, StructureArgs, warnings_of};
 use crate::table::TableError;
 use crate::table::columns::Columns;
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 
-/// The model of each structure by its parameters.
-type KnownModels = HashMap<[u64; 3], (Structure, Model, Vec<Warning>)>;
+/// What is predicted for, and what speaks against it.
+type Known = (Vec<Subject>, Vec<Warning>);
 
 /// Reads intensities, and returns them with their probabilities, and what to print.
 pub fn evaluate(
     path: &Path,
     renamed: &[Renamed],
     structures: &StructureArgs,
+    place: &Place,
     models: &Models,
     context: &Context,
 ) -> anyhow::Result<(Vec<RecordBatch>, String)> {
     let batches = intensities::read(path, renamed)?;
-    let given = if structures.is_given() { structures.objects()? } else { Vec::new() };
+    let given = if structures.is_given() { structures.objects(place)?.0 } else { Vec::new() };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
         ));
     }
-    let (mut known, mut evaluated, mut first_row) = (KnownModels::new(), Vec::new(), 0);
+    let given = given.first().map(|object| Subject::of(object, models)).transpose()?;
+    let given = given.transpose().map_err(|reason| UsageError::because(reason.to_string()))?;
+    let (mut known, mut evaluated, mut first_row) = (HashMap::new(), Vec::new(), 0);
     for batch in batches {
         let columns = Columns { path, first_row, batch: &batch };
-        evaluated.push(of_batch(&columns, given.first(), models, &mut known, context)?);
+        evaluated.push(of_batch(&columns, given.as_ref(), models, &mut known, context)?);
         first_row += batch.num_rows() as u64;
     }
     match first_row {
@@ -59,34 +61,30 @@ pub fn evaluate(
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
 fn of_batch(
     columns: &Columns,
-    given: Option<&Object>,
+    given: Option<&Known>,
     models: &Models,
-    known_models: &mut KnownModels,
+    known_structures: &mut HashMap<[u64; 3], Known>,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let [pga, pgv] = [peaks(columns, Peak::Pga)?, peaks(columns, Peak::Pgv)?];
-    let [tp, tm, mw] = [columns.numbers("tp_s")?, columns.numbers("tm_s")?, columns.numbers("mw")?];
-    let structures = match given.map(|object| object.structure.clone()) {
-        Some(structure) => vec![structure.map_err(UsageError::because)?; columns.rows()],
-        None => intensities::structures(columns)?,
-    };
-    let unknowns = given.map_or(&[] as &[_], |object| &object.unknowns);
+    let mw = columns.numbers("mw")?;
+    let structures = if given.is_some() { Vec::new() } else { intensities::structures(columns)? };
     let key =
         |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits);
     for structure in &structures {
-        if let Entry::Vacant(place) = known_models.entry(key(structure)) {
+        if let Entry::Vacant(place) = known_structures.entry(key(structure)) {
             let (model, mut warnings) = models.model(structure)?;
             warnings.extend(warnings_of(structure));
-            place.insert((structure.clone(), model, warnings));
+            let subject = Subject { structure: structure.clone(), model, unknowns: Vec::new() };
+            place.insert((vec![subject], warnings));
         }
     }
     let of_row = |row: usize| {
-        let (structure, model, of_structure) = &known_models[&key(&structures[row])];
-        let measures = IntensityMeasures::new(structure, pga[row], pgv[row], known(tp[row]), known(tm[row]));
+        let (subjects, of_structure) = given.unwrap_or_else(|| &known_structures[&key(&structures[row])]);
         let mut warnings = of_structure.clone();
-        warnings.extend(model.warnings(structure, &measures));
+        warnings.extend(subjects.iter().flat_map(|subject| subject.warnings([pga[row], pgv[row]])));
         let motion = Motion { pga_m_s2: Some(pga[row]), pgv_m_s: Some(pgv[row]), mw: known(mw[row]) };
-        let (tree, budget) = TreeRow::new(&motion, structure, unknowns, model);
+        let (tree, budget) = TreeRow::new(&motion, subjects);
         ((tree.with_warnings(texts(&warnings)), ErrorsRow::of(&budget)), warnings)
     };
     let (rows_of_all, warnings): (Vec<(TreeRow, ErrorsRow)>, Vec<Vec<Warning>>) =

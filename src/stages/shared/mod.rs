@@ -5,4 +5,6 @@ pub mod hazard;
 pub mod model_args;
 pub mod motions;
 pub mod responses;
+pub mod object_list;
+pub mod objects;
 pub mod structures;
