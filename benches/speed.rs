@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use rockfrag::motion::{
-    Design, Grid, MeasureScratch, MotionMeasures, MotionModel, Scenario, Suite, Synthesizer,
+    Design, Grid, MeasureScratch, MotionMeasures, MotionModel, Scenario, Synthesizer, SyntheticSuite,
 };
 use rockfrag::rocking::{Problem, Record, Structure, reference, simulate_all};
 
@@ -36,7 +36,7 @@ fn median_us(count: usize, mut work: impl FnMut()) -> f64 {
 fn main() {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the first pool");
     let scenarios = scenarios(20);
-    let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
+    let mut synthesizer = Synthesizer::new(MotionModel::default(), &[SyntheticSuite::Csgm]);
     let mut scratch = MeasureScratch::default();
     let synthesis = median_us(scenarios.len(), || {
         for scenario in &scenarios {

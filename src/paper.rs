@@ -7,12 +7,6 @@ use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::units::G_M_S2;
 
-/// Moment magnitudes: first, last, step (section 2.1.1).
-pub const MW: [f64; 3] = [5.5, 7.5, 0.5];
-/// Distances, km: first, last, step.
-pub const RE_KM: [f64; 3] = [5.0, 20.0, 2.5];
-/// Samples in each of the 35 cells of magnitude and distance.
-pub const SAMPLES: usize = 100;
 /// PGA/(g tan alpha) at which the two planes meet (section 2.3.2).
 pub const TRANSITION: f64 = 1.30;
 /// Demand |theta|max / alpha of LS2, limited rocking (Table I).

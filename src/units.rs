@@ -33,9 +33,6 @@ pub struct Unit {
     pub si: f64,
 }
 
-/// Unit of stored accelerations.
-pub const M_S2: Unit = Unit { name: "m/s2", quantity: Acceleration, si: 1.0 };
-
 use Quantity::{Acceleration, Angle, AngularFrequency, Counts, Length, Time, Velocity};
 
 /// Name, quantity, value, and other spellings as normalised by [`Unit::parse`].
@@ -75,7 +72,7 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 31] = [
 ];
 
 impl Unit {
-    /// Reads a unit, in any common notation: `cm/s^2`, `cm/sec/sec`, `cm_s2`, `cm s-2`. None of other text.
+    /// Reads a unit, in any common notation: `cm/s^2`, `cm/sec/sec`, `cm_s2`, `cm s-2`. None if it is no unit.
     pub fn parse(text: &str) -> Option<Unit> {
         let per = |c: char| if c.is_whitespace() || matches!(c, '_' | '.') { '/' } else { c };
         let text = text.trim().trim_end_matches('.').to_lowercase().replace('\u{b2}', "2");
@@ -86,7 +83,10 @@ impl Unit {
         Some(Unit { name, quantity: *quantity, si: *si })
     }
 
-    /// Reads a unit of acceleration, the value of `--unit`.
+    /// Reads a unit of acceleration.
+    ///
+    /// # Errors
+    /// With the known units, if it is none of them.
     pub fn of_acceleration(text: &str) -> Result<Unit, String> {
         Unit::parse(text).filter(|unit| unit.quantity == Acceleration).ok_or_else(|| {
             let known =

@@ -1,6 +1,7 @@
 //! Intensities at which a curve is tabulated.
 
 use super::GAP;
+use crate::statistics::numerics::first;
 
 /// Number of steps, equal in logarithm, with which every interval between two edges begins, so that no bend
 /// hides in one.
@@ -62,10 +63,5 @@ pub fn whole_curve_end<const N: usize>(from: f64, tolerance: f64, f: impl Fn(f64
     while !is_whole(high) && high.is_finite() {
         high *= 2.0;
     }
-    let mut low = from;
-    while high > low * (1.0 + 1e-6) && high.is_finite() {
-        let middle = (low * high).sqrt();
-        if is_whole(middle) { high = middle } else { low = middle }
-    }
-    high
+    if high.is_finite() { first(from, high, is_whole) } else { high }
 }

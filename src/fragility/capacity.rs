@@ -4,7 +4,6 @@
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use super::overturning::p_overturning;
 use super::tree::Z_95;
 use crate::statistics::FitStatus;
 use crate::statistics::distributions::{chi_squared_quantile, t_quantile};
@@ -31,13 +30,6 @@ pub struct CapacityFit {
     pub beta: f64,
     pub beta_low: f64,
     pub beta_high: f64,
-}
-
-impl CapacityFit {
-    /// Computes the probability that the capacity is up to an intensity.
-    pub fn p_up_to(&self, intensity: f64) -> f64 {
-        p_overturning(intensity, self.theta.ln(), self.beta)
-    }
 }
 
 /// Fits the distribution. Where each capacity is known, of mean and standard deviation of their logarithms

@@ -215,6 +215,11 @@ pub struct Sample<Y> {
 }
 
 impl<Y> Sample<Y> {
+    /// Returns the least (0) or largest (1) value of a measure; none without cases or such a measure.
+    pub(super) fn end(&self, measure: usize, end: usize) -> Option<f64> {
+        Some(self.ranges.get(measure)?[end]).filter(|end| end.is_finite())
+    }
+
     /// Returns the columns of ln IM.
     pub fn x(&self) -> Vec<&[f64]> {
         self.ln_im.iter().map(Vec::as_slice).collect()

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Sample};
-use super::measure::{Measure, design_row};
+use super::measure::{Measure, design_row, values};
 use super::parameter::{Parameter, ParameterRow};
 use super::tree::Probability;
 use crate::keyword::{Keyword, keywords};
@@ -17,7 +17,7 @@ use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
 use crate::statistics::distributions::t_quantile;
 use crate::statistics::{FitStatus, Limits, LinearFit};
-use crate::statistics::{dot, normal, tested_least_squares, variance};
+use crate::statistics::{normal, tested_least_squares, variance};
 
 /// Computes the probability that the demand exceeds `limit_state` in safe rocking, of the logarithm of its
 /// median Dm and its dispersion beta: Phi((ln Dm - ln c) / beta) (Eq. 14, which prints the argument with the
@@ -79,14 +79,13 @@ const PLACES: (f64, f64, usize) = (1.05, 0.01, 96);
 /// A plane needs this many cases on its side.
 const LEAST_CASES: usize = 20;
 
-/// The pooled residual of two planes that meet at an IM4: a row of pex.scan.parquet.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// The pooled residual of two planes that meet at an IM4.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransitionPoint {
-    pub suite: Option<String>,
-    pub structure: String,
     pub im4: f64,
     /// Residual sum of squares of both planes.
     pub pooled_rss: f64,
+    /// Number of cases on each side.
     pub n_low: i64,
     pub n_high: i64,
 }
@@ -111,15 +110,7 @@ pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
         n_low = below;
         let n_high = order.len() - below;
         let pooled_rss = (n_low.min(n_high) >= LEAST_CASES).then(|| Some(rss(low)? + rss(all - low)?))??;
-        let (suite, structure) = (cases.suite.clone(), cases.structure.name.clone());
-        Some(TransitionPoint {
-            suite,
-            structure,
-            im4,
-            pooled_rss,
-            n_low: n_low as i64,
-            n_high: n_high as i64,
-        })
+        Some(TransitionPoint { im4, pooled_rss, n_low: n_low as i64, n_high: n_high as i64 })
     };
     (0..places).filter_map(point).collect()
 }
@@ -154,9 +145,8 @@ pub struct DemandOptions {
 
 /// Fits the demand of a structure under a suite: the two planes, then all other regressions if they are
 /// requested.
-pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> (Vec<DemandFit>, Vec<TransitionPoint>) {
-    let scan = scan_transition(cases);
-    let found = transition(&scan, options.confidence);
+pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> Vec<DemandFit> {
+    let found = transition(&scan_transition(cases), options.confidence);
     let im4 = options.transition.or(found.map(|(im4, _)| im4)).unwrap_or(TRANSITION);
     let mut fits = fit_planes(cases, im4).to_vec();
     for fit in &mut fits {
@@ -168,7 +158,7 @@ pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> (Vec<DemandFit>, Ve
         fits.par_extend(Measure::SCALAR.par_iter().map(|&measure| fit_power_law(cases, measure)));
         fits.push(fit_plane(cases));
     }
-    (fits, scan)
+    fits
 }
 
 /// The form of a regression of demand.
@@ -240,8 +230,7 @@ impl DemandFit {
         sample: &Sample<f64>,
     ) -> DemandFit {
         let linear = tested_least_squares(&sample.x(), &sample.y, &sample.clusters);
-        let end =
-            |measure: usize, end: usize| Some(sample.ranges.get(measure)?[end]).filter(|end| end.is_finite());
+        let end = |measure: usize, end: usize| sample.end(measure, end);
         let fitted = linear.as_ref().ok();
         let limiting = fitted.map(|linear| linear.fit.limiting_covariance());
         DemandFit {
@@ -293,7 +282,7 @@ impl DemandFit {
     }
 
     /// Computes the probability that the demand exceeds a limit state in safe rocking (Eq. 14), with limits
-    /// by the delta method on the scale of its argument. None without a fit, or where a measure is missing.
+    /// by the delta method on the scale of ln Dm, into which the error of beta is turned. None without a fit, or where a measure is missing.
     pub fn p_exceeding(
         &self,
         measures: &IntensityMeasures,
@@ -301,12 +290,13 @@ impl DemandFit {
         confidence: f64,
     ) -> Option<Probability> {
         let (beta, degrees) = (self.beta?, self.degrees?);
-        let row = design_row(self.im_x, self.im_y, measures)?;
-        let z = (dot(&self.coefficients, &row) - limit_state.ln()) / beta;
-        let of_median = variance(&self.covariance, &row) / (beta * beta);
-        let of_beta = z * z / (2.0 * self.residual_degrees());
-        let quantile = t_quantile(0.5 * (1.0 + confidence), degrees);
-        Some(Probability::of_probit(z, quantile * (of_median + of_beta).sqrt()))
+        let ims = values(self.im_x, self.im_y, measures)?;
+        let ln_median = ln_median_demand(&self.coefficients, &ims);
+        let of_median = variance(&self.covariance, &design_row(&ims));
+        let of_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
+        let half_width = t_quantile(0.5 * (1.0 + confidence), degrees) * (of_median + of_beta).sqrt();
+        let p_at = |shift: f64| p_exceeding(ln_median + shift, limit_state, beta);
+        Some(Probability::with_limits(half_width, p_at))
     }
 
     /// Degrees of freedom of beta, whose large-sample variance is beta^2 / (2 degrees).

@@ -8,6 +8,7 @@ use super::peaks::{Peak, RatioGiven};
 use super::tree::Probability;
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
+use crate::statistics::numerics::{first, quadrature};
 
 /// The motions of one peak, as they meet a structure.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,18 +35,14 @@ pub fn limit_states_at(
 }
 
 /// Standard deviations from the median within which all ratios lie that count.
-const FARTHEST: f64 = 5.0;
+const FARTHEST: f64 = 6.0;
 /// Step of the trapezoidal rule, in standard deviations: exact to 1e-6 for smooth functions under a normal
 /// density.
 const STEP: f64 = 0.4;
-/// Widest panel of the Gauss-Legendre rule of order 4, whose nodes and weights on (0, 1) these are.
-const PANEL: f64 = 0.8;
-const GAUSS_LEGENDRE: [(f64, f64); 4] = [
-    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
-    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
-    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
-    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
-];
+/// Widest panel of the quadrature, in standard deviations.
+const PANEL: f64 = 1.6;
+/// PGV between which the uplift of any structure is sought, m/s.
+const SOUGHT_M_S: [f64; 2] = [1e-6, 1e3];
 
 impl GivenPeak<'_> {
     /// PGA and PGV (m/s2 and m/s) of the motions of median PGV / PGA.
@@ -103,23 +100,19 @@ impl GivenPeak<'_> {
         levels.map(|im4| im4 * uplift).collect()
     }
 
-    /// The intensity at which motions so many standard deviations from the median have a PGA (m/s2): by
+    /// The intensity at which motions this many standard deviations from the median have a PGA (m/s2): by
     /// bisection, since the median bends.
     fn intensity_of(&self, pga_m_s2: f64, node: f64) -> f64 {
         if self.peak == Peak::Pga {
             return pga_m_s2;
         }
-        let (mut low, mut high) = (1e-6_f64, 1e3_f64);
-        while high > low * (1.0 + 1e-12) {
-            let middle = (low * high).sqrt();
-            if self.peaks(middle, node)[0] < pga_m_s2 { low = middle } else { high = middle }
-        }
-        high
+        let [low, high] = SOUGHT_M_S.map(f64::ln);
+        first(low, high, |ln_pgv| self.peaks(ln_pgv.exp(), node)[0] >= pga_m_s2).exp()
     }
 
     /// Standard deviations from the median, with weights that sum to 1, but for motions of too little PGA.
     fn nodes(&self, intensity: f64) -> Vec<(f64, f64)> {
-        let density = |z: f64| libm::exp(-0.5 * z * z) / TAU.sqrt();
+        let density = |z: f64| (-0.5 * z * z).exp() / TAU.sqrt();
         match (self.ratio.is_exact(), self.peak) {
             (false, Peak::Pga) => {
                 let last = (FARTHEST / STEP).ceil() as i32;
@@ -127,15 +120,8 @@ impl GivenPeak<'_> {
             }
             (false, Peak::Pgv) => {
                 let edges = self.edges(intensity);
-                let panels = edges.windows(2).flat_map(|edge| {
-                    let panels = ((edge[1] - edge[0]) / PANEL).ceil().max(1.0);
-                    let (start, width) = (edge[0], (edge[1] - edge[0]) / panels);
-                    (0..panels as usize).map(move |panel| (start + width * panel as f64, width))
-                });
-                let nodes = |(start, width): (f64, f64)| {
-                    GAUSS_LEGENDRE.map(|(node, weight)| (start + node * width, weight * width))
-                };
-                panels.flat_map(nodes).map(|(z, width)| (z, width * density(z))).collect()
+                let nodes = edges.windows(2).flat_map(|edge| quadrature(edge[0], edge[1], PANEL));
+                nodes.map(|(z, width)| (z, width * density(z))).collect()
             }
             _ => vec![(0.0, 1.0)],
         }
@@ -143,9 +129,9 @@ impl GivenPeak<'_> {
 
     /// Standard deviations between which the motions of a PGV have probabilities without a jump.
     fn edges(&self, pgv_m_s: f64) -> Vec<f64> {
-        let ln_ratio = |z| libm::log(self.peaks(pgv_m_s, z)[1] / self.peaks(pgv_m_s, z)[0]);
+        let ln_ratio = |z| (self.peaks(pgv_m_s, z)[1] / self.peaks(pgv_m_s, z)[0]).ln();
         let (median, sd) = (ln_ratio(0.0), ln_ratio(1.0) - ln_ratio(0.0));
-        let of_pga = |pga: f64| (libm::log(pgv_m_s / pga) - median) / sd;
+        let of_pga = |pga: f64| ((pgv_m_s / pga).ln() - median) / sd;
         let jumps = self.jumps_of_pga().into_iter().map(of_pga).map(|z| z.clamp(-FARTHEST, FARTHEST));
         // Those with less PGA than uplifts the structure, behind the last, do not count.
         let mut edges: Vec<f64> = std::iter::once(-FARTHEST).chain(jumps).collect();

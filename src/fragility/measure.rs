@@ -55,11 +55,14 @@ impl Measure {
     }
 }
 
-/// Returns 1, ln IMx and, of two measures, ln IMy: what the coefficients of a fit multiply. None where a
-/// measure is missing.
-pub fn design_row(im_x: Measure, im_y: Option<Measure>, measures: &IntensityMeasures) -> Option<Vec<f64>> {
-    let ln_im = |measure: Measure| measure.value_of(measures).map(f64::ln);
-    std::iter::once(Some(1.0)).chain(std::iter::once(im_x).chain(im_y).map(ln_im)).collect()
+/// Returns IMx and, of two measures, IMy; none where one is missing.
+pub fn values(im_x: Measure, im_y: Option<Measure>, measures: &IntensityMeasures) -> Option<Vec<f64>> {
+    std::iter::once(im_x).chain(im_y).map(|measure| measure.value_of(measures)).collect()
+}
+
+/// Returns 1, ln IMx and, of two measures, ln IMy: what the coefficients of a fit multiply.
+pub fn design_row(ims: &[f64]) -> Vec<f64> {
+    std::iter::once(1.0).chain(ims.iter().map(|im| im.ln())).collect()
 }
 
 /// Two measures that make a hybrid one (Eq. 23), written as `im4:im3_inv`.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Event};
-use super::measure::{Measure, Pair, design_row};
+use super::measure::{Measure, Pair, design_row, values};
 use super::parameter::{Parameter, ParameterRow};
 use super::tree::Probability;
 use crate::keyword::Keyword;
@@ -14,7 +14,7 @@ use crate::motion::IntensityMeasures;
 use crate::statistics::distributions::t_quantile;
 use crate::statistics::scores::{auc, brier_score};
 use crate::statistics::{Estimate, FitStatus};
-use crate::statistics::{dot, normal, predict, tested_probit, variance};
+use crate::statistics::{normal, predict, tested_probit, variance};
 
 /// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta)
 /// (Eq. 20; Eq. 24 with the hybrid measure).
@@ -24,7 +24,7 @@ pub fn p_overturning(im: f64, mu: f64, beta: f64) -> f64 {
 
 /// Computes the hybrid measure IMx^(lambda/(1 + lambda)) IMy^(1/(1 + lambda)) (Eq. 23).
 pub fn hybrid_measure(im_x: f64, im_y: f64, lambda: f64) -> f64 {
-    (im_x.powf(lambda) * im_y).powf(1.0 / (1.0 + lambda))
+    im_x.powf(lambda / (1.0 + lambda)) * im_y.powf(1.0 / (1.0 + lambda))
 }
 
 /// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood. The likelihood is the
@@ -42,8 +42,7 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
     let coefficients = fitted.map_or(Vec::new(), |probit| probit.fit.coefficients.as_slice().to_vec());
     let z = fitted.map_or(Vec::new(), |_| predict(&coefficients, &sample.x()));
     let probabilities: Vec<f64> = z.into_iter().map(normal::cdf).collect();
-    let end =
-        |measure: usize, end: usize| Some(sample.ranges.get(measure)?[end]).filter(|end| end.is_finite());
+    let end = |measure: usize, end: usize| sample.end(measure, end);
     CurveFit {
         suite: cases.suite.clone(),
         structure: cases.structure.name.clone(),
@@ -166,11 +165,18 @@ impl CurveFit {
     }
 
     /// Computes the probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale
-    /// of its argument. None without a fit, or where a measure is missing.
+    /// of ln IM - mu. None without a fit, or where a measure is missing.
     pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Probability> {
-        let row = design_row(self.im_x, self.im_y, measures).filter(|_| !self.coefficients.is_empty())?;
-        let error = variance(&self.covariance, &row).sqrt();
-        Some(Probability::of_probit(dot(&self.coefficients, &row), self.quantile(confidence) * error))
+        let ims = values(self.im_x, self.im_y, measures).filter(|_| !self.coefficients.is_empty())?;
+        let b = &self.coefficients;
+        let (mu, beta) = (mu(b).0, beta(b).0);
+        let im = match ims[..] {
+            [im_x, im_y] => hybrid_measure(im_x, im_y, lambda(b).0),
+            _ => ims[0],
+        };
+        let error = beta * variance(&self.covariance, &design_row(&ims)).sqrt();
+        let p_at = |shift: f64| p_overturning(im, mu - shift, beta);
+        Some(Probability::with_limits(self.quantile(confidence) * error, p_at))
     }
 
     /// Returns whether the measures are within those of the cases.

@@ -1,7 +1,6 @@
 //! The event tree of Figure 6 (Eq. 12): no rocking, safe rocking below or above the limit state, overturning.
 
 use crate::keyword::keywords;
-use crate::statistics::normal;
 
 /// The 97.5 % quantile of the normal distribution.
 pub const Z_95: f64 = 1.959_963_984_540_054;
@@ -30,9 +29,10 @@ pub fn p_failure_given_rocking(p_ro: f64, p_ex: f64) -> f64 {
     p_ro + (1.0 - p_ro) * p_ex
 }
 
-/// Computes the probability of failure over the whole tree, (1 - P_nr) P_f|r: exactly 0 without rocking.
-pub fn p_failure(p_nr: f64, p_failure_given_rocking: f64) -> f64 {
-    (1.0 - p_nr) * p_failure_given_rocking
+/// Computes the probability of failure, or of another event, over the whole tree from that given rocking:
+/// P_f = (1 - P_nr) P_f|r (Eq. 12), exactly 0 without rocking.
+pub fn p_failure(p_nr: f64, given_rocking: f64) -> f64 {
+    (1.0 - p_nr) * given_rocking
 }
 
 /// A probability with limits of confidence.
@@ -52,9 +52,16 @@ impl Probability {
         Probability { value, low: value, high: value }
     }
 
-    /// Computes Phi(z); its limits are Phi of those of z, and so lie between 0 and 1.
-    pub fn of_probit(z: f64, half_width: f64) -> Probability {
-        let [low, value, high] = [z - half_width, z, z + half_width].map(normal::cdf);
+    /// Computes a probability that rises with a shift of its argument, at 0 and at the limits of the shift:
+    /// limits that lie between 0 and 1.
+    pub fn with_limits(half_width: f64, p_at: impl Fn(f64) -> f64) -> Probability {
+        let [low, value, high] = [-half_width, 0.0, half_width].map(p_at);
+        Probability { value, low, high }
+    }
+
+    /// Applies a rising function to the value and both limits.
+    fn map(self, f: impl Fn(f64) -> f64) -> Probability {
+        let [value, low, high] = [self.value, self.low, self.high].map(f);
         Probability { value, low, high }
     }
 
@@ -114,10 +121,7 @@ impl Probabilities {
         if self.p_nr == 1.0 {
             return Some([rocking; 3]);
         }
-        let of_all = |p: Probability| {
-            let [value, low, high] = [p.value, p.low, p.high].map(|p| rocking.value * p);
-            Probability { value, low, high }
-        };
-        self.given_rocking.map(|given| [rocking, of_all(given.p_failure), of_all(given.p_ro)])
+        let over_tree = |given: Probability| given.map(|p| p_failure(self.p_nr, p));
+        self.given_rocking.map(|given| [rocking, over_tree(given.p_failure), over_tree(given.p_ro)])
     }
 }

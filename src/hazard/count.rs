@@ -1,4 +1,4 @@
-//! Annual rates counted among motions, without any curve of fragility.
+//! The annual rate of an event counted among motions, without any curve of fragility.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::random::{Purpose, stream};
 use crate::statistics::Limits;
 use crate::statistics::distributions::chi_squared_quantile;
 
-/// Bins of equal numbers of motions, as many as leave each so many motions.
+/// Most bins of equal numbers of motions, and least motions in each.
 const MOST_BINS: usize = 320;
 const LEAST_IN_BIN: usize = 20;
 /// How often the clusters are drawn anew.
@@ -20,83 +20,62 @@ const TAIL: f64 = 0.025;
 
 /// A motion that is counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CountedMotion<const N: usize> {
+pub struct CountedMotion {
     /// In the measure of the hazard.
     pub intensity: f64,
-    /// Whether each event happened, as 1 or 0; or its probability.
-    pub events: [f64; N],
+    /// Whether the event happened.
+    pub event: bool,
     /// Its cluster: motions of one cluster may depend on each other.
     pub cluster: u32,
 }
 
-/// A counted annual rate, with 95 % limits.
+/// An annual rate counted among motions, with 95 % limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CountedRate {
     pub value: f64,
     pub limits: Limits,
-}
-
-/// What is counted among motions.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Count<const N: usize> {
-    /// Of each event.
-    pub rates: [CountedRate; N],
-    /// The strongest motion.
-    pub strongest: f64,
-    /// The annual rate of stronger ones, which count as the strongest bin.
-    pub rate_beyond: f64,
-    /// How many were counted.
+    /// How many motions were counted.
     pub motions: usize,
 }
 
-/// Motions of like intensity, which stand for all that come at the site.
-struct Bin<const N: usize> {
+/// Motions of similar intensity, which stand for all that occur at the site.
+struct Bin {
     annual_rate: f64,
     motions: f64,
-    events: [f64; N],
+    events: f64,
 }
 
-/// Counts the annual rates of events at motions that are weighted so that their intensities have the rates of
-/// the hazard: in bins of equal numbers of motions, the rate of a bin times the share in which the event
+/// Counts the annual rate of an event among motions that are weighted so that their intensities have the rates
+/// of the hazard: in bins of equal numbers of motions, the rate of a bin times the share in which the event
 /// happened. Motions weaker than `least` cause none; those stronger than the strongest bin count as this.
 /// None without motions.
 ///
 /// The limits are the wider ones of two: percentiles of resamples of clusters, and those of a weighted sum of
 /// Poisson counts, which also hold where no resample has an event more (Fay & Feuer 1997, Confidence
 /// intervals for directly standardized rates, Statistics in Medicine 16, 791-801).
-pub fn counted_rates<const N: usize>(
+pub fn counted_rate(
     curve: &HazardCurve,
     least: f64,
-    mut motions: Vec<CountedMotion<N>>,
+    mut motions: Vec<CountedMotion>,
     seed: u64,
-) -> Option<Count<N>> {
+) -> Option<CountedRate> {
     motions.retain(|motion| motion.intensity >= least);
     motions.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
-    let strongest = motions.last()?.intensity;
+    motions.last()?;
     let mut numbers: BTreeMap<u32, u32> = motions.iter().map(|motion| (motion.cluster, 0)).collect();
     numbers.values_mut().zip(0..).for_each(|(number, place)| *number = place);
     motions.iter_mut().for_each(|motion| motion.cluster = numbers[&motion.cluster]);
     let in_all = bins(curve, least, &motions, |_| 1.0);
     let draw = |resample: u64| {
         let times = draw_clusters(numbers.len(), &mut stream(seed, Purpose::Bootstrap, resample));
-        rates(&bins(curve, least, &motions, |cluster| times[cluster as usize]))
+        rate(&bins(curve, least, &motions, |cluster| times[cluster as usize]))
     };
-    let resampled: Vec<[f64; N]> = (0..RESAMPLES).into_par_iter().map(draw).collect();
-    let values = rates(&in_all);
-    let rate = |event: usize| {
-        let mut drawn: Vec<f64> = resampled.iter().map(|rates| rates[event]).collect();
-        drawn.sort_by(f64::total_cmp);
-        let at = |share: f64| drawn[(share * (drawn.len() - 1) as f64).round() as usize];
-        let poisson = poisson_limits(&in_all, event);
-        let limits = Limits { low: poisson.low.min(at(TAIL)), high: poisson.high.max(at(1.0 - TAIL)) };
-        CountedRate { value: values[event], limits }
-    };
-    Some(Count {
-        rates: std::array::from_fn(rate),
-        strongest,
-        rate_beyond: curve.exceedance(strongest),
-        motions: motions.len(),
-    })
+    let mut drawn: Vec<f64> = (0..RESAMPLES).into_par_iter().map(draw).collect();
+    drawn.sort_by(f64::total_cmp);
+    let at = |share: f64| drawn[(share * (drawn.len() - 1) as f64).round() as usize];
+    let poisson = poisson_limits(&in_all);
+    let limits = Limits { low: poisson.low.min(at(TAIL)), high: poisson.high.max(at(1.0 - TAIL)) };
+    Some(CountedRate { value: rate(&in_all), limits, motions: motions.len() })
 }
 
 /// Draws as many clusters as there are, with replacement, and returns how often each came.
@@ -108,17 +87,12 @@ fn draw_clusters(clusters: usize, random: &mut impl Rng) -> Vec<f64> {
     times
 }
 
-/// The bins of motions in order, where each counts so many times. A motion is in the bin of the middle of its
+/// The bins of motions in order; `times` says how often a motion counts. A motion is in the bin of the middle of its
 /// share.
-fn bins<const N: usize>(
-    curve: &HazardCurve,
-    least: f64,
-    motions: &[CountedMotion<N>],
-    times: impl Fn(u32) -> f64,
-) -> Vec<Bin<N>> {
+fn bins(curve: &HazardCurve, least: f64, motions: &[CountedMotion], times: impl Fn(u32) -> f64) -> Vec<Bin> {
     let number = (motions.len() / LEAST_IN_BIN).clamp(1, MOST_BINS);
     let all: f64 = motions.iter().map(|motion| times(motion.cluster)).sum();
-    let (mut bins, mut before, mut current): (Vec<Bin<N>>, f64, usize) = (Vec::new(), 0.0, 0);
+    let (mut bins, mut before, mut current): (Vec<Bin>, f64, usize) = (Vec::new(), 0.0, 0);
     for motion in motions {
         let weight = times(motion.cluster);
         if weight == 0.0 {
@@ -131,26 +105,24 @@ fn bins<const N: usize>(
             if let Some(below) = bins.last_mut() {
                 below.annual_rate -= exceeded;
             }
-            bins.push(Bin { annual_rate: exceeded, motions: 0.0, events: [0.0; N] });
+            bins.push(Bin { annual_rate: exceeded, motions: 0.0, events: 0.0 });
             current = place;
         }
         if let Some(bin) = bins.last_mut() {
             bin.motions += weight;
-            bin.events.iter_mut().zip(motion.events).for_each(|(sum, event)| *sum += weight * event);
+            bin.events += weight * f64::from(motion.event);
         }
     }
     bins
 }
 
-fn rates<const N: usize>(bins: &[Bin<N>]) -> [f64; N] {
-    std::array::from_fn(|event| {
-        bins.iter().map(|bin| bin.annual_rate * bin.events[event] / bin.motions).sum()
-    })
+fn rate(bins: &[Bin]) -> f64 {
+    bins.iter().map(|bin| bin.annual_rate * bin.events / bin.motions).sum()
 }
 
-fn poisson_limits<const N: usize>(bins: &[Bin<N>], event: usize) -> Limits {
-    let weight = |bin: &Bin<N>| bin.annual_rate / bin.motions;
-    let sum = |power: i32| bins.iter().map(|bin| weight(bin).powi(power) * bin.events[event]).sum::<f64>();
+fn poisson_limits(bins: &[Bin]) -> Limits {
+    let weight = |bin: &Bin| bin.annual_rate / bin.motions;
+    let sum = |power: i32| bins.iter().map(|bin| weight(bin).powi(power) * bin.events).sum::<f64>();
     let (rate, variance) = (sum(1), sum(2));
     let largest = bins.iter().map(weight).fold(0.0, f64::max);
     let scaled = |rate: f64, variance: f64, p: f64| {

@@ -1,19 +1,9 @@
 //! Hazard curve of one intensity, and its convolution with a fragility.
 
-/// Nodes and weights on (0, 1) of the Gauss-Legendre rule of order 8, exact for polynomials of degree 15.
-const GAUSS_LEGENDRE: [(f64, f64); 8] = [
-    (0.019_855_071_751_231_884, 0.050_614_268_145_188_13),
-    (0.101_666_761_293_186_63, 0.111_190_517_226_687_24),
-    (0.237_233_795_041_835_5, 0.156_853_322_938_943_64),
-    (0.408_282_678_752_175_1, 0.181_341_891_689_181),
-    (0.591_717_321_247_825, 0.181_341_891_689_181),
-    (0.762_766_204_958_164_5, 0.156_853_322_938_943_64),
-    (0.898_333_238_706_813_4, 0.111_190_517_226_687_24),
-    (0.980_144_928_248_768_1, 0.050_614_268_145_188_13),
-];
+use crate::statistics::numerics::quadrature;
 
-/// A rate a year that the largest intensity of a hazard curve hardly has: a column with intensities in it
-/// has.
+/// Annual rate that the largest intensity of a hazard curve hardly has; a column of intensities, taken for
+/// rates, has.
 const FREQUENT: f64 = 0.02;
 
 /// Annual rates at which intensities are exceeded; between its points ln rate is linear in ln IM.
@@ -109,7 +99,7 @@ impl HazardCurve {
             return self.points[above.saturating_sub(1)].1;
         }
         let [(low, rate), (high, rate_at_high)] = [self.points[above - 1], self.points[above]];
-        rate * libm::exp(libm::log(rate_at_high / rate) * libm::log(im / low) / libm::log(high / low))
+        rate * ((rate_at_high / rate).ln() * (im / low).ln() / (high / low).ln()).exp()
     }
 
     /// Integrates the mean annual rates of events that have these probabilities at an intensity: P(im)
@@ -128,27 +118,17 @@ impl HazardCurve {
         let mut rates = probabilities(last).map(|p| p * rate_beyond);
         for segment in self.points.windows(2) {
             let [(low, rate), (high, rate_at_high)] = [segment[0], segment[1]];
-            let slope = libm::log(rate / rate_at_high) / libm::log(high / low);
-            let mut edges = vec![libm::log(low), libm::log(high)];
-            edges.extend(breaks.iter().filter(|&&im| low < im && im < high).map(|im| libm::log(*im)));
+            let slope = (rate / rate_at_high).ln() / (high / low).ln();
+            let mut edges = vec![low.ln(), high.ln()];
+            edges.extend(breaks.iter().filter(|&&im| low < im && im < high).map(|im| im.ln()));
             edges.sort_by(f64::total_cmp);
-            for (ln_im, width) in edges.windows(2).flat_map(|edge| nodes(edge[0], edge[1], widest)) {
-                let density = slope * rate * libm::exp(-slope * (ln_im - libm::log(low))) * width;
-                for (sum, p) in rates.iter_mut().zip(probabilities(libm::exp(ln_im))) {
+            for (ln_im, width) in edges.windows(2).flat_map(|edge| quadrature(edge[0], edge[1], widest)) {
+                let density = slope * rate * (-slope * (ln_im - low.ln())).exp() * width;
+                for (sum, p) in rates.iter_mut().zip(probabilities(ln_im.exp())) {
                     *sum += p * density;
                 }
             }
         }
         rates
     }
-}
-
-/// Returns nodes and weights of the quadrature between two values of ln IM.
-fn nodes(from: f64, to: f64, widest: f64) -> impl Iterator<Item = (f64, f64)> {
-    let panels = ((to - from) / widest).ceil().max(1.0);
-    let width = (to - from) / panels;
-    (0..panels as usize).flat_map(move |panel| {
-        let start = from + width * panel as f64;
-        GAUSS_LEGENDRE.map(|(node, weight)| (start + node * width, weight * width))
-    })
 }

@@ -21,7 +21,7 @@ mod site;
 mod velocity;
 
 pub use budget::{Budget, Budgets, Part, Unknown};
-pub use count::{Count, CountedMotion, CountedRate, counted_rates};
+pub use count::{CountedMotion, CountedRate, counted_rate};
 pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
 pub use motion::{Motion, MotionProbabilities};
@@ -32,5 +32,5 @@ pub use velocity::{MatchError, Velocity, VelocitySource, magnitude, velocity_of_
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate
 /// independently of each other (Poisson): 1 - exp(-rate years).
 pub fn probability_in_years(annual_rate: f64, years: f64) -> f64 {
-    -libm::expm1(-annual_rate * years)
+    -(-annual_rate * years).exp_m1()
 }

@@ -2,7 +2,7 @@
 //! its curve leave open.
 
 use super::budget::{Budget, Budgets, Part, Unknown};
-use super::count::{CountedMotion, CountedRate, counted_rates};
+use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
 use super::joint::JointHazard;
 use super::rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
@@ -78,8 +78,8 @@ pub struct SiteRates {
     pub velocity: Option<VelocitySource>,
     /// The share of the rate of overturning beyond the last point of a curve that is extrapolated.
     pub beyond: Option<f64>,
-    /// Number of motions, and the rate of overturning counted among them.
-    pub counted: Option<(usize, CountedRate)>,
+    /// The rate of overturning, counted among the responses.
+    pub counted: Option<CountedRate>,
     /// PGA and PGV (m/s2 and m/s) of a motion that half of the rate of overturning is above; of a joint hazard
     /// those of the strongest.
     pub motion: [f64; 2],
@@ -164,7 +164,7 @@ impl Site {
     }
 
     /// The rate of overturning, counted among the responses of this structure to this kind of motion.
-    fn count(&self, given: &GivenPeak, curve: &HazardCurve) -> Option<(usize, CountedRate)> {
+    fn count(&self, given: &GivenPeak, curve: &HazardCurve) -> Option<CountedRate> {
         let kind_of =
             |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
         let kind = match given.model {
@@ -176,17 +176,16 @@ impl Site {
         let cases = self.responses.iter().find(is_same)?;
         let motion = |case: usize| CountedMotion {
             intensity: if given.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
-            events: [f64::from(cases.happened(case, Event::Overturning, self.limit_state) == Some(true))],
+            event: cases.happened(case, Event::Overturning, self.limit_state) == Some(true),
             cluster: cases.cluster[case],
         };
-        let motions: Vec<CountedMotion<1>> = (0..cases.len()).map(motion).collect();
+        let motions: Vec<CountedMotion> = (0..cases.len()).map(motion).collect();
         // Weaker motions uplift nothing.
         let least = match given.peak {
             Peak::Pga => given.structure.uplift_acceleration_m_s2(),
             Peak::Pgv => given.uplift()[0],
         };
-        let count = counted_rates(curve, least, motions, SEED)?;
-        Some((count.motions, count.rates[0]))
+        counted_rate(curve, least, motions, SEED)
     }
 }
 

@@ -69,7 +69,7 @@ const LEVELS: usize = 16;
 /// Widest panel of the quadrature, in ln PGA.
 const PANEL: f64 = 0.25;
 /// Root mean square of ln rate above which two curves do not belong together.
-const LARGEST_REMAINDER: f64 = 0.3;
+const LARGEST_REMAINDER: f64 = 0.4;
 /// PGV / PGA of a site, s.
 const POSSIBLE: [f64; 2] = [0.01, 0.5];
 
@@ -83,7 +83,7 @@ pub enum MatchError {
     )]
     ImpossibleRatio { ratio_s: f64, pga_g: f64 },
     #[error(
-        "by no PGV/PGA do both curves belong together: rates differ by {:.0} %; expected at most 35 %: curves of one \
+        "by no PGV/PGA do both curves belong together: rates differ by {:.0} %; expected at most 50 %: curves of one \
          site?",
         100.0 * (.0.exp() - 1.0)
     )]
@@ -120,7 +120,9 @@ impl Velocity {
             Peak::Pgv => GIVEN_PGV,
         };
         match model {
-            Model::Calibrated { overturning, .. } if overturning.n == 0 && overturning.kind == Kind::Recorded => {
+            Model::Calibrated { overturning, .. }
+                if overturning.n == 0 && overturning.kind == Kind::Recorded =>
+            {
                 let at = LEVEL_AT[usize::from(given == Peak::Pgv)];
                 let ratio = RatioGiven::line(level - slope * at.ln(), slope, sd);
                 Velocity { ratio, per_magnitude, sd: sd_of_level, source: VelocitySource::Sites }

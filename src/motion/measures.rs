@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
+use crate::statistics::numerics::first;
 use crate::units::G_M_S2;
 
 /// Largest frequency step of the mean period, Hz.
@@ -108,9 +109,6 @@ impl MotionMeasures {
     }
 }
 
-/// Halvings of a time step to rounding.
-const HALVINGS: usize = 40;
-
 /// Computes the time (s) at which a share of the total `energy`, the running integral of the squared
 /// acceleration, is reached. 0 without energy.
 fn time_of_share(acceleration: &[f64], energy: &[f64], dt_s: f64, share: f64) -> f64 {
@@ -118,13 +116,8 @@ fn time_of_share(acceleration: &[f64], energy: &[f64], dt_s: f64, share: f64) ->
     let reached = share * total;
     let after = energy.partition_point(|sum| *sum < reached).max(1);
     let (left, right) = (acceleration[after - 1], acceleration[after]);
-    let mut part = [0.0, 1.0];
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (part[0] + part[1]);
-        let sum = energy[after - 1] + middle * squared(dt_s, left, left + middle * (right - left));
-        part[usize::from(sum >= reached)] = middle;
-    }
-    dt_s * ((after - 1) as f64 + part[1])
+    let sum = |part: f64| energy[after - 1] + part * squared(dt_s, left, left + part * (right - left));
+    dt_s * ((after - 1) as f64 + first(0.0, 1.0, |part| sum(part) >= reached))
 }
 
 /// Integrates a line between two samples.

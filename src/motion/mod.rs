@@ -32,7 +32,7 @@ pub use floor::{Floor, FloorPeaks};
 pub use intensity_measures::{Dimension, IntensityMeasures};
 pub use measures::{MeasurePlan, MeasureScratch, Measured, MotionMeasures};
 pub use pulse::Pulse;
-pub use scenario::{Scenario, Suite};
+pub use scenario::{Scenario, Suite, SyntheticSuite};
 pub use site::SiteAmplification;
 pub use stochastic::{LowCut, StochasticModel};
 pub use synthesis::{MotionModel, Synthesizer, Synthetic};

@@ -81,7 +81,7 @@ pub fn mean_log10_tp_s(mw: f64) -> f64 {
     -2.87 + 0.47 * mw
 }
 
-/// A kind of ground motion.
+/// A kind of ground motion in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Suite {
     /// The coherent pulse alone.
@@ -98,16 +98,26 @@ pub enum Suite {
 
 keywords!(Suite { Pulse = "pulse", Csgm = "csgm", Hfc = "hfc", Record = "record", Residual = "residual" });
 
-impl Suite {
-    /// The suites synthesized from a scenario.
-    pub const SYNTHETIC: [Suite; 3] = [Suite::Pulse, Suite::Csgm, Suite::Hfc];
+/// A kind of ground motion that is synthesized from a scenario.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum SyntheticSuite {
+    /// The coherent pulse alone.
+    Pulse,
+    /// Pulse and high frequencies combined.
+    Csgm,
+    /// The stochastic high-frequency component alone.
+    Hfc,
+}
+
+keywords!(SyntheticSuite { Pulse = "pulse", Csgm = "csgm", Hfc = "hfc" });
+
+impl SyntheticSuite {
     /// Motion numbers reserved for each scenario.
     const IDS_OF_SCENARIO: i64 = 4;
 
-    /// Returns the number of the motion of a scenario in this suite, one of [`Suite::SYNTHETIC`]: unique, and
-    /// independent of the suites synthesized.
+    /// Returns the number of the motion of a scenario in this suite: unique, and independent of the suites
+    /// synthesized.
     pub fn motion_id(self, scenario_id: i64) -> i64 {
-        debug_assert!(Suite::SYNTHETIC.contains(&self), "recorded motions are named after their files");
-        scenario_id * Suite::IDS_OF_SCENARIO + self as i64
+        scenario_id * SyntheticSuite::IDS_OF_SCENARIO + self as i64
     }
 }

@@ -8,7 +8,7 @@ use super::combine::{Difference, Epoch, combine};
 use super::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
 use super::measures::velocity;
 use super::pulse::Pulse;
-use super::scenario::{Scenario, Suite};
+use super::scenario::{Scenario, SyntheticSuite};
 use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window};
 use crate::random::{Purpose, stream};
 use crate::units::CM_PER_M;
@@ -57,12 +57,12 @@ pub struct Synthetic {
 }
 
 impl Synthetic {
-    /// Returns the samples of the motion in a synthetic suite.
-    pub fn samples(&self, suite: Suite) -> &[f64] {
+    /// Returns the samples of the motion in a suite, m/s2.
+    pub fn samples(&self, suite: SyntheticSuite) -> &[f64] {
         match suite {
-            Suite::Pulse => &self.pulse,
-            Suite::Hfc => &self.high_frequency,
-            Suite::Csgm | Suite::Record | Suite::Residual => &self.combined,
+            SyntheticSuite::Pulse => &self.pulse,
+            SyntheticSuite::Hfc => &self.high_frequency,
+            SyntheticSuite::Csgm => &self.combined,
         }
     }
 }
@@ -118,10 +118,10 @@ struct Timeline {
 
 impl Synthesizer {
     /// Makes a synthesizer of some suites.
-    pub fn new(model: MotionModel, suites: &[Suite]) -> Synthesizer {
+    pub fn new(model: MotionModel, suites: &[SyntheticSuite]) -> Synthesizer {
         Synthesizer {
-            high_frequency: suites.contains(&Suite::Hfc) || model.epoch != Epoch::EnvelopePeak,
-            combined: suites.contains(&Suite::Csgm),
+            high_frequency: suites.contains(&SyntheticSuite::Hfc) || model.epoch != Epoch::EnvelopePeak,
+            combined: suites.contains(&SyntheticSuite::Csgm),
             model,
             transforms: ByLength::default(),
             earthquake: None,

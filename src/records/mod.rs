@@ -21,4 +21,4 @@ pub mod rotation;
 pub mod signal;
 
 pub use formats::{Format, RecordFileError, read_records};
-pub use recorded_motion::{HeaderPga, ReadOptions, RecordedMotion, UnitSource};
+pub use recorded_motion::{HeaderPga, ReadOptions, RecordedMotion};

@@ -18,8 +18,8 @@ const LARGEST_PGV_M_S: f64 = 5.0;
 /// Above these, a motion is rare: m/s2 read as g is ten times too strong, without effect on PGV/PGA.
 const RARE_PGA_G: f64 = 2.0;
 const RARE_PGV_M_S: f64 = 2.5;
-/// Range of PGV/PGA, s: 0.005 for a sine of 30 Hz; 0.06 to 0.47 in the records of FEMA P695; about 0.9 in
-/// those with the longest pulses (from memory, without a source).
+/// Range of PGV/PGA, s: 0.005 for a sine of 30 Hz, and twice the largest in the records of FEMA P695, which
+/// have 0.06 to 0.47.
 const PGV_PGA_S: (f64, f64) = (0.005, 1.0);
 /// Highest mean frequency, Hz: the ground damps frequencies above some 20 Hz even on the hardest rock; the
 /// records of FEMA P695 have 1.5 to 14.
@@ -46,11 +46,11 @@ pub enum Implausibility {
     Spike { sample: usize, pga_g: f64 },
     #[error("PGA {} g; the largest ever recorded is 4 g: another unit, such as cm/s2?", rounded(*.pga_g))]
     Pga { pga_g: f64 },
-    #[error("velocity {} m/s at the end; expected rest: try --baseline linear", rounded(*.velocity_m_s))]
+    #[error("velocity {} m/s at the end; expected rest: an uncorrected baseline?", rounded(*.velocity_m_s))]
     Drift { velocity_m_s: f64 },
     #[error("PGV {} m/s; records reach 3 m/s: another unit or time step?", rounded(*.pgv_m_s))]
     Pgv { pgv_m_s: f64 },
-    #[error("PGV/PGA {} s; records reach 0.9 s: velocity, or another time step?", rounded(*.ratio_s))]
+    #[error("PGV/PGA {} s; those of FEMA P695 reach 0.5 s: velocity, or another time step?", rounded(*.ratio_s))]
     Slow { ratio_s: f64 },
     #[error("mean frequency {} Hz; records reach 20 Hz: another time step?", rounded(*.frequency_hz))]
     Fast { frequency_hz: f64 },

@@ -29,9 +29,9 @@ pub struct NamedRecord {
 /// Why a record cannot be processed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ProcessingError {
-    #[error("{0} (--accept-implausible imports it anyway)")]
+    #[error("{0}")]
     Implausible(Implausibility),
-    #[error("{samples} samples at a time step of {dt_s} s; choose another for --resample")]
+    #[error("{samples} samples at a time step of {dt_s} s; expected 2 to {LONGEST_MOTION}")]
     Resampled { samples: f64, dt_s: f64 },
     #[error("the motion is zero throughout; it cannot be scaled to a peak")]
     Zero,

@@ -24,19 +24,11 @@ pub struct RecordedMotion {
     pub format: &'static str,
     /// Unit of the samples in the file.
     pub unit: Unit,
-    pub unit_source: UnitSource,
-}
-
-/// Source of the unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum UnitSource {
-    File,
-    User,
 }
 
 impl RecordedMotion {
     /// Makes a record of samples in a unit of acceleration, `dt_s` apart, without labels.
-    pub fn new(dt_s: f64, samples: Vec<f64>, (unit, unit_source): (Unit, UnitSource)) -> RecordedMotion {
+    pub fn new(dt_s: f64, samples: Vec<f64>, unit: Unit) -> RecordedMotion {
         RecordedMotion {
             dt_s,
             acceleration_m_s2: samples.into_iter().map(|value| value * unit.si).collect(),
@@ -47,7 +39,6 @@ impl RecordedMotion {
             header_pga: None,
             format: "",
             unit,
-            unit_source,
         }
     }
 }

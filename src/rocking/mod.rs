@@ -41,7 +41,5 @@ pub use lanes::Problem;
 pub use record::{Record, RecordError};
 pub use reference::trace;
 pub use response::{Outcome, Response};
-pub use structure::{
-    BOUNDS, Bound, Structure, StructureError, frame_eta, frame_p, housner_eta, judge, rectangular_p,
-};
+pub use structure::{Structure, StructureError, frame_eta, frame_p, housner_eta, rectangular_p};
 pub use trace::{SolverEvent, TracePoint, with_tail};

@@ -11,6 +11,7 @@ use super::structure::Structure;
 use super::taylor::{MOST_IMPACTS, REST_VELOCITY, State};
 use super::trace::{SolverEvent, TracePoint};
 use super::uplift::Uplift;
+use crate::statistics::numerics::first;
 use crate::units::G_PER_M_S2;
 
 /// Longest step, as p h sqrt(1 + PGA/g): truncation changes the median peak by 1e-12 of itself.
@@ -59,15 +60,6 @@ fn step(structure: &Structure, from: Rocking, ground: impl Fn(f64) -> f64, h: f6
     Rocking { side, theta, velocity: velocity + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4) }
 }
 
-/// Finds by bisection the first time in (0, `h`] at which `happened` holds; it holds at `h`.
-fn first(h: f64, happened: impl Fn(f64) -> bool) -> f64 {
-    let halve = |(before, after): (f64, f64), _| {
-        let middle = 0.5 * (before + after);
-        if happened(middle) { (before, middle) } else { (middle, after) }
-    };
-    (0..60).fold((0.0, h), halve).1
-}
-
 /// Simulates a structure, initially at rest, through a record and the free rocking after it. Calls `observe`
 /// at each sample and event of the record.
 pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(TracePoint)) -> Response {
@@ -96,10 +88,10 @@ pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(Tra
             let falls = |at: Rocking| now.side * at.velocity < 0.0;
             let mut h = longest_s.min(dt_s - t);
             if strikes(at(h)) || overturns(at(h)) {
-                h = first(h, |h| strikes(at(h)) || overturns(at(h)));
+                h = first(0.0, h, |h| strikes(at(h)) || overturns(at(h)));
             }
             let next = at(h);
-            let top = if falls(next) && !falls(now) { at(first(h, |h| falls(at(h)))) } else { next };
+            let top = if falls(next) && !falls(now) { at(first(0.0, h, |h| falls(at(h)))) } else { next };
             (t, state, peak) = (t + h, Some(next), peak.max(now.side * top.theta));
             if overturns(next) {
                 note(sample_s + t, state, Some(SolverEvent::Overturn));

@@ -1,6 +1,6 @@
 //! Rocking structures: p, alpha and eta, given or computed from dimensions (section 2.2.1).
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
 
 use crate::units::G_M_S2;
@@ -35,130 +35,19 @@ pub struct StructureError {
     pub expected: String,
 }
 
-/// The range of a parameter that a user may give, and the likely mistake outside it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bound {
-    /// Name of the parameter in options.
-    pub parameter: &'static str,
-    /// Least and largest value.
-    pub range: (f64, f64),
-    /// The range in words.
-    pub expected: &'static str,
-    /// The likely mistake.
-    pub slip: &'static str,
-}
-
-const fn bound(
-    parameter: &'static str,
-    range: (f64, f64),
-    expected: &'static str,
-    slip: &'static str,
-) -> Bound {
-    Bound { parameter, range, expected, slip }
-}
-
-/// Ranges that a user may give, narrower than those of [`Structure::new`]. Other numbers are likely in a
-/// wrong unit: no rocking structure is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or
-/// above 184 m (p 0.2 rad/s), is wider than tall (it slides), or has a beam of 50 times the column mass.
-pub const BOUNDS: [Bound; 6] = [
-    bound("width", (1e-4, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
-    bound("height", (1e-3, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
-    bound("beam-mass-ratio", (0.0, 50.0), "a mass ratio of 0 or more, up to 50", "is it in percent?"),
-    bound(
-        "p",
-        (0.2, 50.0),
-        "a frequency parameter above 0 rad/s, from 0.2 to 50",
-        "is it in Hz, or of dimensions in cm or mm?",
-    ),
-    bound(
-        "alpha",
-        (0.01, FRAC_PI_4),
-        "a slenderness between 0 and pi/2 rad, from 0.01 to 0.7854 (45 degrees)",
-        "is it in degrees, or height over width?",
-    ),
-    bound(
-        "eta",
-        (f64::MIN_POSITIVE, 1.0),
-        "a coefficient of restitution above 0 and up to 1",
-        "is it in percent?",
-    ),
-];
-
-impl Bound {
-    /// Finds the range of a parameter.
-    pub fn of(parameter: &str) -> Option<&'static Bound> {
-        BOUNDS.iter().find(|bound| bound.parameter == parameter)
-    }
-
-    /// Returns the expected range and likely mistake of a number out of range; none of a valid number.
-    pub fn refusal(&self, value: f64) -> Option<String> {
-        let Bound { range: (least, most), expected, slip, .. } = *self;
-        match value {
-            _ if value >= least && value <= most => None,
-            _ if value > 0.0 && value.is_finite() => Some(format!("{expected}; {slip}")),
-            _ => Some(expected.to_string()),
-        }
+impl StructureError {
+    /// Makes the error of a parameter of the structure of this name.
+    pub fn new(
+        structure: &str,
+        parameter: &'static str,
+        value: f64,
+        expected: impl Into<String>,
+    ) -> StructureError {
+        StructureError { structure: structure.to_string(), parameter, value, expected: expected.into() }
     }
 }
-
-/// Checks the parameters of a structure as a user gives them, by name.
-///
-/// # Errors
-/// If one is out of range, p and alpha are exchanged, or the width exceeds the height.
-pub fn judge(structure: &str, given: &[(&'static str, f64)]) -> Result<(), StructureError> {
-    let value =
-        |wanted: &str| given.iter().find(|(parameter, _)| *parameter == wanted).map(|&(_, value)| value);
-    let can_be = |parameter: &str, value: f64| {
-        Bound::of(parameter).is_some_and(|bound| bound.refusal(value).is_none())
-    };
-    if let (Some(p), Some(alpha)) = (value("p"), value("alpha"))
-        && !can_be("alpha", alpha)
-        && can_be("alpha", p)
-        && can_be("p", alpha)
-    {
-        let expected = "a slenderness up to 0.7854 rad; were p and alpha exchanged?";
-        return refuse(structure, "alpha", alpha, expected);
-    }
-    for &(parameter, value) in given {
-        if let Some(expected) = Bound::of(parameter).and_then(|bound| bound.refusal(value)) {
-            return refuse(structure, parameter, value, &expected);
-        }
-    }
-    match (value("width"), value("height")) {
-        (Some(width), Some(height)) if width > height => {
-            let expected = format!("no more than the height, {height} m; were they exchanged?");
-            refuse(structure, "width", width, &expected)
-        }
-        _ => Ok(()),
-    }
-}
-
-fn refuse(name: &str, parameter: &'static str, value: f64, expected: &str) -> Result<(), StructureError> {
-    let (structure, expected) = (name.to_string(), expected.to_string());
-    Err(StructureError { structure, parameter, value, expected })
-}
-
-/// Solid blocks of a smaller p (rad/s) are higher than about 90 m.
-const UNLIKELY_P: f64 = 0.4;
 
 impl Structure {
-    /// Returns the likely mistake in a size that no solid block has; none of a plausible size.
-    pub fn warning(&self) -> Option<String> {
-        let height = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s) * self.alpha_rad.cos();
-        (self.p_rad_s < UNLIKELY_P).then(|| {
-            format!(
-                "p {:.3} rad/s is that of a solid block {height:.0} m high: are its dimensions in cm?",
-                self.p_rad_s
-            )
-        })
-    }
-
-    /// Whether p, alpha and eta are those of another structure, each within 1 %.
-    pub fn is_like(&self, other: &Structure) -> bool {
-        let parameters = |of: &Structure| [of.p_rad_s, of.alpha_rad, of.eta];
-        parameters(self).into_iter().zip(parameters(other)).all(|(a, b)| (a - b).abs() <= 0.01 * b.abs())
-    }
-
     /// Makes a structure from p (rad/s), alpha (rad) and eta.
     ///
     /// # Errors
@@ -171,7 +60,7 @@ impl Structure {
         ];
         for (parameter, value, range, expected) in accepted {
             if !range.contains(&value) {
-                refuse(name, parameter, value, expected)?;
+                return Err(StructureError::new(name, parameter, value, expected));
             }
         }
         Ok(Structure { name: name.to_string(), p_rad_s, alpha_rad, eta })
@@ -189,7 +78,7 @@ impl Structure {
     ) -> Result<Structure, StructureError> {
         for (parameter, value) in [("width", width_m), ("height", height_m)] {
             if !(value > 0.0 && value.is_finite()) {
-                refuse(name, parameter, value, "a length above 0 m")?;
+                return Err(StructureError::new(name, parameter, value, "a length above 0 m"));
             }
         }
         let alpha_rad = (width_m / height_m).atan();
@@ -210,11 +99,18 @@ impl Structure {
         eta: Option<f64>,
     ) -> Result<Structure, StructureError> {
         if !(beam_mass_ratio >= 0.0 && beam_mass_ratio.is_finite()) {
-            refuse(name, "beam-mass-ratio", beam_mass_ratio, "a mass ratio of 0 or more")?;
+            let expected = "a mass ratio of 0 or more";
+            return Err(StructureError::new(name, "beam-mass-ratio", beam_mass_ratio, expected));
         }
         let column = Structure::rectangular_block(name, width_m, height_m, Some(1.0))?;
         let eta = eta.unwrap_or_else(|| frame_eta(column.alpha_rad, beam_mass_ratio));
         Structure::new(name, frame_p(column.p_rad_s, beam_mass_ratio), column.alpha_rad, eta)
+    }
+
+    /// Whether p, alpha and eta are those of another structure, each within 1 %.
+    pub fn is_like(&self, other: &Structure) -> bool {
+        let parameters = |of: &Structure| [of.p_rad_s, of.alpha_rad, of.eta];
+        parameters(self).into_iter().zip(parameters(other)).all(|(a, b)| (a - b).abs() <= 0.01 * b.abs())
     }
 
     /// Computes the uplift acceleration g tan(alpha), m/s2 (Eq. 5): the unit of IM4 to IM6.

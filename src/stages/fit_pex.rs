@@ -75,7 +75,7 @@ impl Stage for FitPex {
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
-            fits.extend(fit_demand(cases, &options).0);
+            fits.extend(fit_demand(cases, &options));
             let of_limit = |limit_state: &f64| Calibration::fit(cases, Some(*limit_state));
             calibrations.extend(self.limit_state.iter().map(of_limit));
             bar.advance(1)?;

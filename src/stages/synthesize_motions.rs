@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::motion::{
     Difference, Epoch, LowCut, MeasurePlan, MeasureScratch, Measured, MotionModel, Scenario,
-    SiteAmplification, StochasticModel, Suite, Synthesizer,
+    SiteAmplification, StochasticModel, Synthesizer, SyntheticSuite,
 };
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
@@ -37,7 +37,7 @@ pub struct SynthesizeMotions {
     seed: u64,
     /// Suites: pulse (alone), hfc (high frequencies alone), csgm (both)
     #[arg(long, default_value = "pulse,csgm", value_delimiter = ',')]
-    suite: Vec<Suite>,
+    suite: Vec<SyntheticSuite>,
     /// Time between samples, s
     #[arg(long, default_value = "0.005", value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
     dt: f64,
@@ -78,7 +78,7 @@ pub struct SynthesizeMotions {
 #[derive(Serialize, Deserialize)]
 struct MotionName {
     motion_id: String,
-    suite: Suite,
+    suite: SyntheticSuite,
     dt_s: f64,
 }
 
@@ -96,9 +96,8 @@ impl Stage for SynthesizeMotions {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        let is_made = |suite: &Suite| Suite::SYNTHETIC.contains(suite);
         let is_distinct = (1..self.suite.len()).all(|k| !self.suite[..k].contains(&self.suite[k]));
-        match self.suite.iter().all(is_made) && is_distinct {
+        match is_distinct {
             true => Ok(()),
             false => Err(UsageError::because("suite: expected some of pulse, csgm and hfc, each once")),
         }
@@ -169,13 +168,13 @@ fn site(name: &Path) -> anyhow::Result<SiteAmplification> {
 /// The motions of a scenario, each measured as it will be read.
 fn synthesize(
     scenario: &Scenario,
-    suites: &[Suite],
+    suites: &[SyntheticSuite],
     plan: &MeasurePlan,
     (synthesizer, scratch): &mut (Synthesizer, MeasureScratch),
 ) -> Vec<Motion> {
     let synthetic = synthesizer.synthesize(scenario);
     let dt_s = synthetic.dt_s;
-    let motion = |&suite: &Suite| {
+    let motion = |&suite: &SyntheticSuite| {
         let acceleration_m_s2: Vec<f32> = synthetic.samples(suite).iter().map(|&a| a as f32).collect();
         let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
         let measured = plan.measure(&written, dt_s, scratch);

@@ -133,7 +133,7 @@ pub fn predict(coefficients: &[f64], x: &[&[f64]]) -> Vec<f64> {
 }
 
 /// Computes the dot product.
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

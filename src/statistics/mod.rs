@@ -11,6 +11,7 @@
 //! scores         AUC, Brier and log score of probabilities
 //! normal         standard normal distribution
 //! distributions  t, F and chi squared
+//! numerics       quadrature and bisection
 //! ```
 
 mod binary;
@@ -26,6 +27,6 @@ pub mod numerics;
 pub mod scores;
 
 pub use binary::{LEAST_EVENTS, ProbitFit, log_likelihood, probit, tested_probit};
-pub use fit::{Estimate, Fit, FitStatus, Limits, dot, predict, variance};
+pub use fit::{Estimate, Fit, FitStatus, Limits, predict, variance};
 pub use folds::Folds;
 pub use linear::{LinearFit, least_squares, tested_least_squares};

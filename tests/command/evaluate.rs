@@ -64,7 +64,7 @@ fn nothing_rocks_below_uplift_and_probabilities_are_ordered_above() {
 #[test]
 fn rates_over_a_power_law_are_those_of_closed_forms() {
     let folder = folder(&[("hazard.csv", CURVE)]);
-    let row = &rows(folder.path(), &format!("{BLOCK} --hazard hazard.csv --ratio 0.12 --years 100"))[0];
+    let row = &rows(folder.path(), &format!("{BLOCK} --hazard hazard.csv --ratio 0.1 --years 100"))[0];
     // Rocking: the curve at g tan(alpha) = 0.25 g.
     let rocking = 1e-3 / 0.25_f64.powi(2);
     assert!(near(number(row, "rocking_per_year"), rocking, 1e-9));
@@ -72,7 +72,7 @@ fn rates_over_a_power_law_are_those_of_closed_forms() {
     // Overturning: the sum of P_ro at the middles of narrow bins times their rates; beyond 4.5 g as at 4.5 g.
     let edges: Vec<f64> = (0..=400).map(|k| 0.25 * 18_f64.powf(f64::from(k) / 400.0)).collect();
     let middles = edges.windows(2).map(|edge| (edge[0] * edge[1]).sqrt()).chain([4.5]);
-    let lines = middles.map(|pga| format!("{pga},{}\n", 0.12 * pga * G_M_S2));
+    let lines = middles.map(|pga| format!("{pga},{}\n", 0.1 * pga * G_M_S2));
     let table = format!("pga_g,pgv_m_s\n{}", lines.collect::<String>());
     std::fs::write(folder.path().join("table.csv"), table).unwrap();
     let p: Vec<f64> = rows(folder.path(), &format!("{BLOCK} --in table.csv --out t.csv"))
@@ -89,7 +89,7 @@ fn rates_over_a_power_law_are_those_of_closed_forms() {
 
 #[test]
 fn the_rate_of_one_bin_is_its_rate_times_the_probability_in_it() {
-    let joint = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n0.1,0.1,0.5\n";
+    let joint = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n0.1,0.1,0.05\n";
     let folder = folder(&[("joint.csv", joint)]);
     let row = &rows(folder.path(), &format!("{BLOCK} --hazard joint.csv"))[0];
     let point = &rows(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"))[0];
@@ -225,12 +225,13 @@ fn an_exported_curve_is_that_of_evaluate_and_rises() {
     let (levels, p) = (numbers("<imls"), numbers("<poes ls=\"LS3\""));
     assert!((levels[0] - 0.25).abs() < 1e-9 && levels.is_sorted() && p.is_sorted());
     for at in [levels.len() / 4, levels.len() / 2] {
-        // A hazard of this PGA alone, once a year.
-        let line = |k: i32| format!("{},{}\n", levels[at] * (1.0 + 1e-9 * f64::from(k)), 10f64.powi(-3 * k));
+        // A hazard of this PGA alone.
+        let rate = |k: i32| 1e-5 * 10f64.powi(-3 * k);
+        let line = |k: i32| format!("{},{}\n", levels[at] * (1.0 + 1e-9 * f64::from(k)), rate(k));
         let curve = (0..5).map(line).collect::<String>();
         let curve = format!("pga_g,annual_rate_of_exceedance\n{curve}");
         std::fs::write(folder.path().join("one.csv"), curve).unwrap();
         let row = &rows(folder.path(), &format!("{BLOCK} --hazard one.csv"))[0];
-        assert!((number(row, "overturning_per_year") - p[at]).abs() < 1e-5, "at {} g", levels[at]);
+        assert!((1e5 * number(row, "overturning_per_year") - p[at]).abs() < 1e-5, "at {} g", levels[at]);
     }
 }

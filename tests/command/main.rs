@@ -5,6 +5,7 @@ mod config;
 mod evaluate;
 mod files;
 mod floors;
+mod hazard;
 mod interruption;
 mod paper;
 mod pipeline;

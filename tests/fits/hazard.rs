@@ -1,8 +1,14 @@
 //! Annual rates against closed forms.
 
-use rockfrag::fragility::p_overturning;
-use rockfrag::hazard::{HazardCurve, HazardError, JointHazard, PairOfPeaks, probability_in_years};
+use rockfrag::fragility::{Event, GivenPeak, Measure, Model, Peak, RatioGiven, fit_curve, p_overturning};
+use rockfrag::hazard::{
+    Budget, Hazard, HazardCurve, HazardError, JointHazard, MatchError, PairOfPeaks, Part, PeakHazard, Site,
+    Unknown, Velocity, VelocitySource, probability_in_years, rates_over_curve,
+};
+use rockfrag::rocking::Structure;
 use rockfrag::statistics::normal;
+
+use crate::common::{cases, close, equipment};
 
 /// H = k0 IM^-k at `n` intensities from 1e-4 to 1e4.
 fn power_law(k0: f64, k: f64, n: usize) -> HazardCurve {
@@ -76,4 +82,117 @@ fn what_is_no_hazard_curve_is_refused() {
     assert_eq!(curve(&[(0.1, 0.1), (0.2, 0.2)]), HazardError::Unordered { point: 1 });
     assert!(matches!(curve(&[(0.1, 0.1), (0.2, 0.0)]), HazardError::NotPositive { point: 1, .. }));
     assert!(matches!(curve(&[(0.0, 0.1), (0.2, 0.05)]), HazardError::NotPositive { point: 0, .. }));
+}
+
+/// P_ro = Phi(b[0] + b[1] ln IM4 + b[2] ln IM5), with the paper's model of a block that hardly needs to uplift.
+fn lognormal_over_both_peaks(b: [f64; 3]) -> (Model, Structure) {
+    let mut overturning = fit_curve(&cases([]), Event::Overturning, Measure::Im4, Some(Measure::Im5));
+    (overturning.coefficients, overturning.covariance) = (b.to_vec(), vec![0.0; 9]);
+    let peaks = *Model::shipped(rockfrag::fragility::Kind::Csgm, &equipment(), 0.1).peaks();
+    let model = Model::Paper { demand: vec![], overturning, limit_state: 0.1, peaks };
+    (model, Structure::new("slender", 1.0, 1e-3, 0.9).unwrap())
+}
+
+/// The rate of Phi(c + d ln IM) over k0 IM^-k.
+fn rate_in_closed_form(k0: f64, k: f64, c: f64, d: f64) -> f64 {
+    k0 * (k * c / d).exp() * (0.5 * (k / d).powi(2)).exp()
+}
+
+#[test]
+fn a_power_law_and_a_bivariate_lognormal_have_a_rate_in_closed_form() {
+    let b = [-15.0, 1.2, 1.6];
+    let (model, structure) = lognormal_over_both_peaks(b);
+    let ln_uplift = structure.uplift_acceleration_m_s2().ln();
+    let (k0, k) = (1e-3, 2.2);
+    let curve = power_law(k0, k, 9);
+    for (level, slope, sd) in [(-2.9, 0.1, 0.5), (-2.5, -0.2, 0.3), (-3.0, 0.0, 0.0)] {
+        let ratio = RatioGiven::line(level, slope, sd);
+        // ln PGV = level + (1 + slope) ln PGA + sd z, and the other way.
+        let of_constant = b[0] - (b[1] + b[2]) * ln_uplift;
+        for (peak, constant, per_ln, per_z) in [
+            (Peak::Pga, of_constant + b[2] * level, b[1] + b[2] * (1.0 + slope), b[2] * sd),
+            (Peak::Pgv, of_constant - b[1] * level, b[1] * (1.0 - slope) + b[2], b[1] * sd),
+        ] {
+            let wider = 1.0_f64.hypot(per_z);
+            let given = GivenPeak { model: &model, structure: &structure, peak, ratio };
+            let rate = rates_over_curve(&given, &curve)[2].value;
+            let expected = rate_in_closed_form(k0, k, constant / wider, per_ln / wider);
+            assert!((rate / expected - 1.0).abs() < 1e-6, "{peak}: {rate} for {expected}");
+        }
+    }
+}
+
+#[test]
+fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
+    // ln rate rises by k b2 / d for each unit of ln(PGV / PGA), d = b1 + b2 (1 + slope).
+    let b = [-15.0, 1.2, 1.6];
+    let (model, structure) = lognormal_over_both_peaks(b);
+    let k = 2.2;
+    let pga = power_law(1e-3, k, 9);
+    let (slope, sd) = (0.1, 0.45);
+    let pgv = curve_of_velocity(k, -2.9, slope, sd);
+    let velocity = Velocity::of_curves(&pga, &pgv, VelocitySource::Spectrum).unwrap();
+    let fractiles = Some([power_law(1e-3 / 1.5, k, 9), power_law(1e-3 * 1.5, k, 9)]);
+    let hazard = PeakHazard { peak: Peak::Pga, curve: pga, fractiles, velocity: Some(velocity) };
+    let site = Site {
+        hazard: Hazard::Curve(hazard),
+        ratio_s: None,
+        mw: None,
+        extrapolate: false,
+        limit_state: 0.1,
+        responses: vec![],
+    };
+    let rates = site.rates(&structure, &[], &model);
+    let errors = rates.budgets.overturning;
+    let of_velocity = errors.sd_of(Part::Velocity).unwrap();
+    let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.unknown().high;
+    assert!((of_velocity / expected - 1.0).abs() < 1e-5, "{of_velocity} for {expected}");
+    assert!((errors.sd_of(Part::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
+    assert_eq!(errors.sd_of(Part::Magnitude), None);
+    let [value, low, high] = rates.overturning.map(Option::unwrap);
+    assert!(((value / low).ln() - 1.959_964 * errors.sd()).abs() < 1e-6 && high > value);
+}
+
+/// The curve of PGV that a line of PGV / PGA gives over 1e-3 PGA^-k, which is a power law too.
+fn curve_of_velocity(k: f64, level: f64, slope: f64, sd: f64) -> HazardCurve {
+    let rate = |v: f64| rate_in_closed_form(1e-3, k, (level - v.ln()) / sd, (1.0 + slope) / sd);
+    let pgv = |i: i32| 10f64.powf(-2.0 + 0.25 * f64::from(i));
+    HazardCurve::new((0..13).map(|i| (pgv(i), rate(pgv(i)))).collect()).unwrap()
+}
+
+#[test]
+fn two_curves_tell_the_line_by_which_they_belong_together() {
+    let pga = power_law(1e-3, 2.2, 33);
+    for (level, slope) in [(-2.9, 0.0), (-2.2, -0.3), (-3.3, 0.2)] {
+        let pgv = curve_of_velocity(2.2, level, slope, 0.45);
+        let velocity = Velocity::of_curves(&pga, &pgv, VelocitySource::Velocity).unwrap();
+        for pga_m_s2 in [1.0, 5.0] {
+            let ratio = velocity.ratio(6.5, 0.0).ratio(pga_m_s2, 0.0);
+            let expected = (level + slope * f64::ln(pga_m_s2)).exp();
+            assert!((ratio / expected - 1.0).abs() < 1e-4, "{ratio} for {expected}");
+        }
+    }
+    let matched = |pgv: &HazardCurve| Velocity::of_curves(&pga, pgv, VelocitySource::Velocity).unwrap_err();
+    assert!(matches!(matched(&curve_of_velocity(2.2, 1.0, 0.0, 0.45)), MatchError::ImpossibleRatio { .. }));
+    let kinked = HazardCurve::new(vec![(0.05, 0.1), (0.1, 1e-4), (0.5, 5e-5), (2.0, 1e-6)]).unwrap();
+    assert!(matches!(matched(&kinked), MatchError::Unlike(_)));
+    let rare = HazardCurve::new(vec![(0.5, 3e-8), (2.0, 1e-9)]).unwrap();
+    assert!(matches!(matched(&rare), MatchError::NothingInCommon(..)));
+}
+
+#[test]
+fn limits_are_those_of_normal_errors() {
+    let mut budgets = rockfrag::hazard::Budgets::default();
+    budgets.add(Part::Fit, [0.1, 0.3]);
+    budgets.vary(&Unknown { part: Part::Eta, low: -1.0, high: 1.0 }, |x| [0.0, 0.4 * x]);
+    budgets.add(Part::Floor, [0.0, f64::NAN]);
+    let budget: Budget = budgets.overturning;
+    assert!((budget.sd() - 0.5).abs() < 1e-12);
+    assert_eq!((budget.largest(), budget.sd_of(Part::Floor)), (Some(Part::Eta), None));
+    let limits = budget.limits_of_rate(1e-4, 2e-4);
+    assert!((limits.low / (1e-4 * (-0.979_982_f64).exp()) - 1.0).abs() < 1e-6);
+    assert_eq!(limits.high, 2e-4, "never above the rate of rocking");
+    let p = budget.limits_of_probability(0.5, 1.2);
+    close(p.high, 1.0 / (1.0 + (-1.959_964 * 1.3_f64).exp()), 1e-6);
+    close(p.low, 1.0 - p.high, 1e-9);
 }

@@ -36,7 +36,7 @@ fn folder(suites: &[&str]) -> tempfile::TempDir {
         put(path, all.iter().map(|of| Calibration::fit(of, Some(0.1))).collect());
     });
     write("pro.parquet", &|path| put(path, all.iter().flat_map(|of| fit_curves(of, &curves)).collect()));
-    write("pex.parquet", &|path| put(path, all.iter().flat_map(|of| fit_demand(of, &planes).0).collect()));
+    write("pex.parquet", &|path| put(path, all.iter().flat_map(|of| fit_demand(of, &planes)).collect()));
     folder
 }
 

@@ -6,12 +6,13 @@ use proptest::prelude::*;
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
+use rockfrag::keyword::Keyword;
 use rockfrag::motion::pulse::largest_velocity;
 use rockfrag::motion::site::SiteTableError;
 use rockfrag::motion::stochastic::{CONSTANT, LowCut, PEAK_SHARE, Source, StochasticModel, Window};
 use rockfrag::motion::{
     Design, Difference, Epoch, Grid, MeasureScratch, MotionMeasures, MotionModel, Pulse, Scenario,
-    SiteAmplification, Suite, Synthesizer, Synthetic, measures,
+    SiteAmplification, Synthesizer, Synthetic, SyntheticSuite, measures,
 };
 
 const EPOCHS: [Epoch; 3] = [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv];
@@ -50,7 +51,7 @@ fn varied_scenarios() -> Vec<Scenario> {
 }
 
 fn synthesize(model: &MotionModel, scenarios: &[Scenario]) -> Vec<Synthetic> {
-    let mut synthesizer = Synthesizer::new(model.clone(), &Suite::SYNTHETIC);
+    let mut synthesizer = Synthesizer::new(model.clone(), SyntheticSuite::ALL);
     scenarios.iter().map(|scenario| synthesizer.synthesize(scenario)).collect()
 }
 
@@ -75,7 +76,7 @@ fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) 
     for seed in 0..SEEDS {
         let model = MotionModel { seed, ..with_difference(difference) };
         let mut scratch = MeasureScratch::default();
-        let mut synthesizer = Synthesizer::new(model, &Suite::SYNTHETIC);
+        let mut synthesizer = Synthesizer::new(model, SyntheticSuite::ALL);
         let of = |scenario: &Scenario| {
             let motion = synthesizer.synthesize(scenario);
             MotionMeasures::of(samples(&motion), motion.dt_s, &mut scratch)
@@ -367,12 +368,12 @@ fn a_motion_is_the_same_whatever_else_is_made_and_on_any_number_of_threads() {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let apart: Vec<Synthetic> = pool
                 .install(|| scenarios.par_chunks(5).flat_map_iter(|some| synthesize(&model, some)).collect());
-            for suite in Suite::SYNTHETIC {
+            for suite in SyntheticSuite::ALL.iter().copied() {
                 let is_same = |(a, b)| bits(a, suite) == bits(b, suite);
                 assert!(together.iter().zip(&apart).all(is_same), "{epoch:?} {suite:?} {threads} threads");
             }
         }
-        for suite in Suite::SYNTHETIC {
+        for suite in SyntheticSuite::ALL.iter().copied() {
             let mut one = Synthesizer::new(model.clone(), &[suite]);
             for (scenario, motion) in scenarios.iter().zip(&together).rev().step_by(11) {
                 assert_eq!(

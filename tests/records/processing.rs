@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
+use rockfrag::records::RecordedMotion;
 use rockfrag::records::pairs::{Pairs, pairs};
 use rockfrag::records::rotation::HorizontalPair;
 use rockfrag::records::signal::{Baseline, HighPass, Scaling, resample, resampled_length};
-use rockfrag::records::{RecordedMotion, UnitSource};
-use rockfrag::units::M_S2;
+use rockfrag::units::Unit;
 
 use crate::writers::{DT, motion, peak};
 
@@ -92,7 +92,7 @@ fn components_of_one_station_at_right_angles_are_a_pair() {
     let component = |((station, azimuth), place): ((&str, f64), usize)| {
         let (station, azimuth_deg) =
             (Some(station.to_string()), Some(azimuth).filter(|azimuth| !azimuth.is_nan()));
-        let unknown = RecordedMotion::new(DT, Vec::new(), (M_S2, UnitSource::File));
+        let unknown = RecordedMotion::new(DT, Vec::new(), Unit::parse("m/s2").unwrap());
         (RecordedMotion { station, azimuth_deg, ..unknown }, place)
     };
     let found = pairs(components.into_iter().zip(0..).map(component).collect());

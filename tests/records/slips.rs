@@ -70,7 +70,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         // Contradictory units, unknown units, and units of other quantities.
         (csv("time,acc_cm_s2", 0.01), "unit=g", "Contradiction { line: 2, field: \"unit\""),
         (csv("time,acc (counts)", 1e-4), "unit=g", "Value { line: 2, field: \"unit\""),
-        (csv("time,acc", G), "", "Missing { line: 2, field: \"unit\""),
+        (csv("time,acc", G), "", "NoUnit { line: 2 }"),
         (at2("IN UNITS OF FURLONGS", "NPTS= 103, DT= .01"), "", "Value { line: 3, field: \"unit\""),
         (cosmos(&motion(103), 90).replace("cm/sec2(04)", "counts (50)"), "", "Value"),
         (esm(&motion(103)).replace("PGA_CM/S^2: ", "PGA_CM/S^2: 9"), "", "Peak"),
@@ -92,8 +92,8 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (gap.clone(), "", "UnevenTime { line: 203"),
         (gap, "dt=0.01", "UnevenTime { line: 203"),
         (lines("time,acc_g", G, |k, a| format!("{:.1},{a:.6}", time(k))), "", "UnevenTime"),
-        (lines("", G, |_, a| format!("{a:.6}")), "unit=g", "Missing { line: 2, field: \"time step\""),
-        (at2(IN_G, "NPTS= 103"), "", "Missing { line: 4, field: \"DT\""),
+        (lines("", G, |_, a| format!("{a:.6}")), "unit=g", "NoTimeStep { line: 2"),
+        (at2(IN_G, "NPTS= 103"), "", "NoTimeStep { line: 4"),
         // Columns, cells and counts.
         (lines("time,N,E,Z", G, |k, a| format!("{:.2},{a:.6},1,1", time(k))), "unit=g", "Column"),
         (csv("time,acc_g", G).replacen("0.30", "NaN", 1), "", "Sheet(Cell { line: 32"),

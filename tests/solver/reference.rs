@@ -1,13 +1,13 @@
 //! The vector solver against the readable one (Eqs. 4 to 6: motion, uplift, impact).
 
-use rockfrag::motion::{Design, Grid, MotionModel, Suite, Synthesizer};
+use rockfrag::motion::{Design, Grid, MotionModel, Synthesizer, SyntheticSuite};
 use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, reference, simulate_all};
 
 #[test]
 fn vectors_solve_the_equations_of_the_paper() {
     let (mw, re_km) = (vec![5.5, 6.5, 7.5], vec![5.0, 10.0, 20.0]);
     let grid = Grid { mw, re_km, samples: 8, design: Design::Lhs, seed: 42 };
-    let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
+    let mut synthesizer = Synthesizer::new(MotionModel::default(), &[SyntheticSuite::Csgm]);
     let scenarios = (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell));
     let motions: Vec<Vec<f64>> =
         scenarios.map(|scenario| synthesizer.synthesize(&scenario).combined).collect();

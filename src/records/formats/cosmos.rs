@@ -97,12 +97,11 @@ impl Channel<'_> {
     ) -> Result<RecordedMotion, RecordFileError> {
         let unit = unit_of(after(announcement, "units=").unwrap_or(""), line)?;
         let step = self.reals.get(TIME_STEP_MS).filter(|step| **step > 0.0).map(|step| step / MS_PER_S);
-        let missing =
-            RecordFileError::missing(line, "time step in the header", "its 62nd real in ms, or --dt");
+        let missing = RecordFileError::NoTimeStep { line, expected: "it in ms as 62nd real of the header" };
         let dt_s = step.or(options.dt_s).ok_or(missing)?;
         let find = |key| self.header.iter().find_map(|text| after(text, key));
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
-        let peak = peak.map(|peak| peak.abs() * unit.0.si);
+        let peak = peak.map(|peak| peak.abs() * unit.si);
         let component = find("Sta Chan").and_then(|rest| words(after(rest, ":")?.split('(').next()?));
         // Codes above 360 are not azimuths; nor is 0, since north is 360.
         let azimuth = self.integers.get(AZIMUTH).copied().filter(|azimuth| (1.0..=360.0).contains(azimuth));

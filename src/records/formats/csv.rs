@@ -3,7 +3,7 @@
 
 use super::error::RecordFileError;
 use super::header::{first_number, given_unit, time_step};
-use crate::records::{ReadOptions, RecordedMotion, UnitSource};
+use crate::records::{ReadOptions, RecordedMotion};
 use crate::sheet::{Heading, Sheet};
 use crate::units::{Quantity, Unit};
 
@@ -40,12 +40,12 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<RecordedMotion, Reco
         }
         _ => notes.iter().find_map(step_of_note),
     };
-    let expected = "a column of times, or --dt, such as --dt 0.005";
+    let expected = "a column of times, or a comment such as dt = 0.005 s";
     let dt_s = match (found, options.dt_s) {
         (Some(found), Some(given)) if (found - given).abs() > SAME_STEP * given => {
             return Err(contradiction(line, "time step", format!("{found} s"), format!("{given} s")));
         }
-        (found, given) => given.or(found).ok_or(RecordFileError::missing(line, "time step", expected))?,
+        (found, given) => given.or(found).ok_or(RecordFileError::NoTimeStep { line, expected })?,
     };
     let component = heading.map(|heading| heading.text.clone());
     Ok(RecordedMotion { component, ..RecordedMotion::new(time_step(dt_s, line)?, samples, unit) })
@@ -124,7 +124,7 @@ fn unit(
     notes: &[Heading],
     options: &ReadOptions,
     line: usize,
-) -> Result<(Unit, UnitSource), RecordFileError> {
+) -> Result<Unit, RecordFileError> {
     let is_on_samples = |note: &str| ["acc", "unit", "vel", "dis"].iter().any(|word| note.contains(word));
     let note = || notes.iter().filter(|note| is_on_samples(&note.name)).find_map(|note| note.unit);
     let Some(found) = heading.and_then(|heading| heading.unit).or_else(note) else {
@@ -135,7 +135,7 @@ fn unit(
     }
     match options.unit.filter(|given| given.si != found.si) {
         Some(given) => Err(contradiction(line, "unit", found.to_string(), given.to_string())),
-        None => Ok((found, UnitSource::File)),
+        None => Ok(found),
     }
 }
 

@@ -11,19 +11,21 @@ pub enum RecordFileError {
     NotAcceleration { line: usize, found: String },
     #[error("line {line}: no {field}; expected {expected}")]
     Missing { line: usize, field: &'static str, expected: &'static str },
+    #[error("line {line}: no unit; expected one of acceleration, such as g or cm/s2")]
+    NoUnit { line: usize },
+    #[error("line {line}: no time step; expected {expected}")]
+    NoTimeStep { line: usize, expected: &'static str },
     #[error("line {line}: {field} '{found}'; expected {expected}")]
     Value { line: usize, field: &'static str, found: String, expected: &'static str },
-    #[error("line {line}: {field} {found}, {given} by the option; correct the file, or leave the option out")]
+    #[error("line {line}: {field} {found}, but {given} was given; correct the one or leave out the other")]
     Contradiction { line: usize, field: &'static str, found: String, given: String },
     #[error("the header announces {announced} samples, {found} follow; get the file again")]
     Count { announced: u64, found: usize },
     #[error("PGA {header_m_s2:.5} m/s2 in the header, {found_m_s2:.5} m/s2 in the samples; check the unit")]
     Peak { header_m_s2: f64, found_m_s2: f64 },
-    #[error(
-        "line {line}: a step of {found_s:.6} s among {expected_s:.6} s; fill gaps, or give --dt if rounded"
-    )]
+    #[error("line {line}: a step of {found_s:.6} s among {expected_s:.6} s; expected even times: a gap?")]
     UnevenTime { line: usize, found_s: f64, expected_s: f64 },
-    #[error("{columns}; expected one of acceleration: choose with --column, or --column all if lines wrap")]
+    #[error("{columns}; expected one of acceleration")]
     Column { columns: String },
     #[error("line {line}: uneven '{time}', even '{acceleration}'; are the headings exchanged?")]
     Exchanged { line: usize, time: String, acceleration: String },

@@ -27,7 +27,8 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let number = |key| find(key).and_then(|(line, value)| Some((line, leading_number(value)?)));
     let missing = |field, expected| RecordFileError::missing(end, field, expected);
     let step = number("SAMPLING_INTERVAL_S").or(options.dt_s.map(|dt_s| (end, dt_s)));
-    let (line, dt_s) = step.ok_or(missing("SAMPLING_INTERVAL_S", "the time step, or --dt"))?;
+    let expected = "SAMPLING_INTERVAL_S";
+    let (line, dt_s) = step.ok_or(RecordFileError::NoTimeStep { line: end, expected })?;
     let (_, announced) =
         number("NDATA").ok_or(missing("NDATA", "the number of samples, such as 'NDATA: 18904'"))?;
     let values = samples(lines, end, announced, str::split_ascii_whitespace)?;

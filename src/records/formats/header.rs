@@ -1,7 +1,7 @@
 //! Header fields and blocks of numbers, common to several formats.
 
 use super::error::RecordFileError;
-use crate::records::{HeaderPga, ReadOptions, UnitSource};
+use crate::records::{HeaderPga, ReadOptions};
 use crate::units::{Quantity, Unit};
 
 /// The longest time step of a record, s.
@@ -15,17 +15,16 @@ pub fn time_step(dt_s: f64, line: usize) -> Result<f64, RecordFileError> {
 }
 
 /// Reads the unit of acceleration at the start of a text on a line; more text may follow.
-pub fn unit_of(text: &str, line: usize) -> Result<(Unit, UnitSource), RecordFileError> {
+pub fn unit_of(text: &str, line: usize) -> Result<Unit, RecordFileError> {
     let word = text.trim_start().split(|c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';')).next();
     let unit = word.and_then(Unit::parse).filter(|unit| unit.quantity == Quantity::Acceleration);
     let refusal = || RecordFileError::value(line, "unit", text, "one of acceleration, such as g or cm/s2");
-    unit.map(|unit| (unit, UnitSource::File)).ok_or_else(refusal)
+    unit.ok_or_else(refusal)
 }
 
-/// Returns the unit among the options, for a file without one.
-pub fn given_unit(options: &ReadOptions, line: usize) -> Result<(Unit, UnitSource), RecordFileError> {
-    let missing = RecordFileError::missing(line, "unit", "one in the file, or --unit, such as --unit g");
-    options.unit.map(|unit| (unit, UnitSource::User)).ok_or(missing)
+/// Returns the given unit, for a file without one.
+pub fn given_unit(options: &ReadOptions, line: usize) -> Result<Unit, RecordFileError> {
+    options.unit.ok_or(RecordFileError::NoUnit { line })
 }
 
 /// Reads the peak acceleration at the start of a text.

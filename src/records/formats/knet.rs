@@ -25,7 +25,8 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let hertz =
         find("Sampling Freq(Hz)").map(|(line, text)| (line, 1.0 / leading_number(text).unwrap_or(0.0)));
     let step = hertz.or(options.dt_s.map(|dt_s| (end, dt_s)));
-    let (line, dt_s) = step.ok_or(missing(end, "Sampling Freq(Hz)", "such a line, or --dt"))?;
+    let expected = "a line with Sampling Freq(Hz)";
+    let (line, dt_s) = step.ok_or(RecordFileError::NoTimeStep { line: end, expected })?;
     let dt_s = time_step(dt_s, line)?;
     let (line, text) = find("Scale Factor").ok_or(missing(end, "Scale Factor", "'2000(gal)/8388608'"))?;
     let counts = after(text, "/").and_then(first_number).filter(|counts| *counts != 0.0);
@@ -49,7 +50,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
         station: find("Station Code").and_then(|(_, code)| words(&format!("{code} {place}"))),
         component: words(component),
         azimuth_deg: azimuth_of(component),
-        header_pga: find("Max. Acc. (gal)").and_then(|(_, peak)| header_pga(peak, unit.0)),
+        header_pga: find("Max. Acc. (gal)").and_then(|(_, peak)| header_pga(peak, unit)),
         ..RecordedMotion::new(dt_s, gal, unit)
     })
 }

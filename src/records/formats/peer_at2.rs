@@ -6,7 +6,7 @@ use super::header::{
     after, azimuth_of, first_number, given_unit, header_pga, leading_number, samples, time_step, unit_of,
     words,
 };
-use crate::records::{ReadOptions, RecordedMotion, UnitSource};
+use crate::records::{ReadOptions, RecordedMotion};
 use crate::units::Unit;
 
 /// Largest number of lines before the one with NPTS.
@@ -33,7 +33,8 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let (first, second) = (unnamed.next(), unnamed.next());
     let announced = named("NPTS").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
     let dt_s = named("DT").or(second).or(options.dt_s);
-    let dt_s = dt_s.ok_or(missing(at + 1, "DT", "the time step, such as 'DT= .0050 SEC', or --dt"))?;
+    let expected = "one such as 'DT= .0050 SEC'";
+    let dt_s = dt_s.ok_or(RecordFileError::NoTimeStep { line: at + 1, expected })?;
     let values = samples(lines, at + 1, announced, str::split_ascii_whitespace)?;
 
     // Event, date, station and component, separated by commas; only the date has none inside.
@@ -58,7 +59,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
 }
 
 /// Finds the unit in the header. The first two lines are the database and the record.
-fn unit(header: &[&str], options: &ReadOptions) -> Result<(Unit, UnitSource), RecordFileError> {
+fn unit(header: &[&str], options: &ReadOptions) -> Result<Unit, RecordFileError> {
     let find = |key| header.iter().zip(1..).skip(2).find(|(line, _)| after(line, key).is_some());
     if let Some((text, line)) = find("VELOCITY").or(find("DISPLACEMENT")) {
         return Err(RecordFileError::NotAcceleration { line, found: text.trim().to_string() });

@@ -8,8 +8,9 @@ use rayon::prelude::*;
 use crate::motion::LONGEST_MOTION;
 use crate::pipeline::context::Context;
 use crate::records::pairs::{Pairs, pairs};
-use crate::records::processing::{ImportedMotion, NamedRecord, Processing, SourceFile};
-use crate::records::{ReadOptions, RecordedMotion, read_records};
+use crate::records::plausibility::Implausibility;
+use crate::records::processing::{ImportedMotion, NamedRecord, Processing, ProcessingError, SourceFile};
+use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
 use crate::rocking::Record;
 use crate::table::provenance;
 use crate::warning::Warning;
@@ -76,7 +77,7 @@ impl Importer {
             Work::File(file) => match self.read(file) {
                 Ok(records) => {
                     let import =
-                        |record| self.processing.import(record).map_err(|error| refusal(file, &error));
+                        |record| self.processing.import(record).map_err(|error| unprocessed(file, &error));
                     records.into_iter().map(import).collect()
                 }
                 Err(refusal) => vec![Err(refusal)],
@@ -88,7 +89,7 @@ impl Importer {
                 };
                 let both = || Ok([component(&pair[0])?, component(&pair[1])?]);
                 let import =
-                    |both| self.processing.import_pair(both).map_err(|error| refusal(&pair[0].0, &error));
+                    |both| self.processing.import_pair(both).map_err(|error| unprocessed(&pair[0].0, &error));
                 vec![both().and_then(import)]
             }
         }
@@ -101,7 +102,7 @@ impl Importer {
             path: file.display().to_string(),
             blake3: blake3::hash(&bytes).to_hex().to_string(),
         };
-        let motions = read_records(&bytes, &self.reading).map_err(|error| refusal(file, &error))?;
+        let motions = read_records(&bytes, &self.reading).map_err(|error| unread(file, &error))?;
         let several = motions.len() > 1;
         let named = |(index, motion): (usize, RecordedMotion)| {
             let samples = motion.acceleration_m_s2.len();
@@ -131,4 +132,29 @@ fn text(name: Option<&std::ffi::OsStr>) -> String {
 
 fn refusal(file: &Path, reason: &impl ToString) -> String {
     format!("{}: {}", file.display(), reason.to_string())
+}
+
+/// What is wrong with a file, and the option that helps.
+fn unread(file: &Path, error: &RecordFileError) -> String {
+    let option = match error {
+        RecordFileError::NoUnit { .. } => ", or --unit, such as --unit g",
+        RecordFileError::NoTimeStep { .. } => ", or --dt, such as --dt 0.005",
+        RecordFileError::UnevenTime { .. } => " Rounded times? Give --dt",
+        RecordFileError::Column { .. } => ": choose with --column, or --column all if lines wrap",
+        _ => "",
+    };
+    format!("{}{option}", refusal(file, error))
+}
+
+/// Why a record cannot be imported, and the option that helps.
+fn unprocessed(file: &Path, error: &ProcessingError) -> String {
+    let option = match error {
+        ProcessingError::Implausible(Implausibility::Drift { .. }) => {
+            " (--baseline linear corrects it, --accept-implausible imports it anyway)"
+        }
+        ProcessingError::Implausible(_) => " (--accept-implausible imports it anyway)",
+        ProcessingError::Resampled { .. } => ": choose another for --resample",
+        ProcessingError::Zero => "",
+    };
+    format!("{}{option}", refusal(file, error))
 }

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use crate::keyword;
-use crate::motion::{IntensityMeasures, MeasureScratch, Suite, measures};
+use crate::motion::{IntensityMeasures, MeasureScratch, SyntheticSuite, measures};
 use crate::records::plausibility;
 use crate::rocking::{Outcome, Record, RecordError, Response, Structure};
 use crate::table::TableError;
@@ -92,8 +92,8 @@ const PEAK_TOLERANCE: f64 = 0.1;
 
 /// What speaks against a motion that is not synthetic.
 pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
-    let suite = motion.suite.as_deref().and_then(|word| keyword::parse::<Suite>(word).ok());
-    if suite.is_some_and(|suite| Suite::SYNTHETIC.contains(&suite)) {
+    let is_synthetic = |word: &str| keyword::parse::<SyntheticSuite>(word).is_ok();
+    if motion.suite.as_deref().is_some_and(is_synthetic) {
         return Warnings::default();
     }
     let (peak, samples) = (record.peak_m_s2(), record.acceleration_m_s2());

@@ -5,7 +5,8 @@ use std::f64::consts::FRAC_PI_4;
 use super::structures::{Place, Restitution, Spec};
 use crate::hazard::{Part, Unknown};
 use crate::motion::Floor;
-use crate::rocking::{Body, Structure, housner_eta, judge};
+use crate::plausibility::check_structure;
+use crate::rocking::{Body, Structure, housner_eta};
 use crate::statistics::{normal, numerics};
 
 /// An object of a list: the structures that it rocks like, or why there is no answer.
@@ -135,7 +136,7 @@ impl Spec {
         let of_structure = ["p", "alpha", "eta", "height", "beam-mass-ratio"];
         let plain = given.iter().copied().filter(|(key, _)| of_structure.contains(key));
         let plain: Vec<(&str, f64)> = plain.chain(side.map(|side| ("width", side))).collect();
-        judge(name, &plain).map_err(|error| error.to_string())?;
+        check_structure(name, &plain).map_err(|error| error.to_string())?;
         let (width, height) = (self.width.unwrap_or(f64::INFINITY), self.height.unwrap_or(f64::INFINITY));
         let centre = format!("above 0 and below the height, {height} m: were they exchanged?");
         let offset = format!("less than half of the width, {} m: is it from an edge, or in cm?", 0.5 * width);

@@ -11,6 +11,7 @@ use crate::keyword::nearest;
 use crate::paper;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::number;
+use crate::plausibility::is_too_high;
 use crate::rocking::Structure;
 use crate::warning::{Warning, Warnings};
 
@@ -298,7 +299,7 @@ const LOW_ETA: f64 = 0.5;
 
 /// What speaks against the parameters of a structure.
 pub fn warnings_of(structure: &Structure) -> Vec<Warning> {
-    let size = structure.warning().map(|_| Warning::ImplausibleSize);
+    let size = is_too_high(structure).then_some(Warning::ImplausibleSize);
     size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()
 }
 
