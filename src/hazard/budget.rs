@@ -43,13 +43,6 @@ pub struct Unknown<T> {
     pub high: T,
 }
 
-impl<T> Unknown<T> {
-    /// The same of what follows from it.
-    pub fn map<S>(self, of: impl Fn(T) -> S) -> Unknown<S> {
-        Unknown { part: self.part, low: of(self.low), high: of(self.high) }
-    }
-}
-
 /// Standard deviations of a result: of ln of an annual rate, or of the logit of a probability, by part.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budget {
@@ -94,14 +87,6 @@ impl Budget {
     }
 }
 
-impl Budget {
-    /// Of a sum of two results with these shares, whose errors have the same causes.
-    pub fn of_sum([a, b]: [Budget; 2], share: f64) -> Budget {
-        let sd = |k: usize| share * a.variances[k].sqrt() + (1.0 - share) * b.variances[k].sqrt();
-        Budget { variances: std::array::from_fn(|k| sd(k).powi(2)) }
-    }
-}
-
 /// The budgets of two results: of failure and of overturning.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budgets {
@@ -114,14 +99,6 @@ impl Budgets {
     pub fn add(&mut self, part: Part, [failure, overturning]: [f64; 2]) {
         self.failure.add(part, failure);
         self.overturning.add(part, overturning);
-    }
-
-    /// Of sums of two results, by the share of the first in each.
-    pub fn of_sums([a, b]: [Budgets; 2], [failure, overturning]: [f64; 2]) -> Budgets {
-        Budgets {
-            failure: Budget::of_sum([a.failure, b.failure], failure),
-            overturning: Budget::of_sum([a.overturning, b.overturning], overturning),
-        }
     }
 
     /// Adds what an unknown causes: half of the difference of the results between its quantiles.

@@ -37,13 +37,13 @@ impl Motion {
         }
     }
 
-    /// The probabilities for a structure, averaged over the peak that is not known.
+    /// The probabilities for an object in its directions, averaged over the peak that is not known.
     pub fn probabilities(
         &self,
-        structure: &Structure,
-        unknowns: &[Unknown<(Structure, Model)>],
-        model: &Model,
+        directions: &[(Structure, Model)],
+        unknowns: &[Unknown<Vec<(Structure, Model)>>],
     ) -> MotionProbabilities {
+        let model = &directions[0].1;
         let (mw, of_magnitude) = magnitude(self.mw);
         let one = match (self.pga_m_s2, self.pgv_m_s) {
             (Some(_), Some(_)) => None,
@@ -51,35 +51,30 @@ impl Motion {
             (None, pgv) => Some((Peak::Pgv, pgv.unwrap_or(0.0))),
         };
         let velocity = one.map(|(peak, _)| Velocity::of_model(model, peak));
-        let states = |(structure, model): (&Structure, &Model), mw: f64, ln: f64, scenarios: Scenarios| match (
-            one, velocity,
-        ) {
-            (Some((peak, intensity)), Some(velocity)) => {
-                let ratio = velocity.ratio(mw, ln);
-                GivenPeak { model, structure, peak, ratio }.limit_states(intensity, scenarios)
-            }
-            _ => {
+        let states = |directions: &[(Structure, Model)], mw: f64, ln: f64, scenarios: Scenarios| {
+            let Some(((peak, intensity), velocity)) = one.zip(velocity) else {
                 let peaks = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
-                limit_states_at(model, structure, peaks, scenarios)
-            }
+                return limit_states_at(directions, peaks, scenarios);
+            };
+            GivenPeak { directions, peak, ratio: velocity.ratio(mw, ln) }.limit_states(intensity, scenarios)
         };
-        let logits = |subject: (&Structure, &Model), mw: f64, ln: f64| {
-            let [_, failure, overturning] = states(subject, mw, ln, Scenarios::Many);
+        let logits = |directions: &[(Structure, Model)], mw: f64, ln: f64| {
+            let [_, failure, overturning] = states(directions, mw, ln, Scenarios::Many);
             [failure, overturning].map(|p| logit(p.value))
         };
-        let it = (structure, model);
-        let (of_one, of_many) = (states(it, mw, 0.0, Scenarios::One), states(it, mw, 0.0, Scenarios::Many));
+        let [of_one, of_many] =
+            [Scenarios::One, Scenarios::Many].map(|scenarios| states(directions, mw, 0.0, scenarios));
         let fit = [of_many[1], of_many[2]].map(sd_of_limits);
         let mut budgets = Budgets::default();
         budgets.add(Part::Fit, fit);
         if model.depends_on_magnitude() {
-            budgets.vary(&of_magnitude, |mw| logits(it, *mw, 0.0));
+            budgets.vary(&of_magnitude, |mw| logits(directions, *mw, 0.0));
         }
         if let Some(velocity) = velocity {
-            budgets.vary(&velocity.unknown(), |ln| logits(it, mw, *ln));
+            budgets.vary(&velocity.unknown(), |ln| logits(directions, mw, *ln));
         }
         for unknown in unknowns {
-            budgets.vary(unknown, |(structure, model)| logits((structure, model), mw, 0.0));
+            budgets.vary(unknown, |directions| logits(directions, mw, 0.0));
         }
         let tau = [0, 1].map(|k| (sd_of_limits(of_one[k + 1]).powi(2) - fit[k] * fit[k]).max(0.0).sqrt());
         let [rocking, failure, overturning] = of_many;
@@ -93,27 +88,6 @@ impl Motion {
             states: [rocking, limited(failure, of_failure), limited(overturning, of_overturning)],
             budgets,
         }
-    }
-}
-
-impl MotionProbabilities {
-    /// Of an object that falls in either of two directions, independently under one motion.
-    pub fn either(self, other: MotionProbabilities) -> MotionProbabilities {
-        let either = |a: f64, b: f64| a + b - a * b;
-        let state = |k: usize| {
-            let (a, b) = (self.states[k], other.states[k]);
-            Probability {
-                value: either(a.value, b.value),
-                low: either(a.low, b.low),
-                high: either(a.high, b.high),
-            }
-        };
-        let share = |k: usize| {
-            let (a, b) = (self.states[k].value, other.states[k].value);
-            if a + b > 0.0 { a / (a + b) } else { 0.5 }
-        };
-        let budgets = Budgets::of_sums([self.budgets, other.budgets], [share(1), share(2)]);
-        MotionProbabilities { states: [state(0), state(1), state(2)], budgets }
     }
 }
 

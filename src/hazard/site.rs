@@ -87,22 +87,20 @@ pub struct SiteRates {
 }
 
 impl Site {
-    /// The rates of a structure, of which this is not known.
+    /// The rates of an object in its directions, of which this is not known.
     pub fn rates(
         &self,
-        structure: &Structure,
-        unknowns: &[Unknown<(Structure, Model)>],
-        model: &Model,
+        directions: &[(Structure, Model)],
+        unknowns: &[Unknown<Vec<(Structure, Model)>>],
     ) -> SiteRates {
         match &self.hazard {
-            Hazard::Curve(hazard) => self.rates_over_curve(hazard, structure, unknowns, model),
+            Hazard::Curve(hazard) => self.rates_over_curve(hazard, directions, unknowns),
             Hazard::Joint(joint) => {
-                let rates = |structure: &Structure, model: &Model| rates_over_pairs(model, structure, joint);
-                let value = rates(structure, model);
+                let value = rates_over_pairs(directions, joint);
                 let mut budgets = Budgets::default();
                 budgets.add(Part::Fit, sds_of_fit(&value));
                 for unknown in unknowns {
-                    budgets.vary(unknown, |(structure, model)| ln_rates(&rates(structure, model)));
+                    budgets.vary(unknown, |directions| ln_rates(&rates_over_pairs(directions, joint)));
                 }
                 let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
                 let motion = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
@@ -114,15 +112,14 @@ impl Site {
     fn rates_over_curve(
         &self,
         hazard: &PeakHazard,
-        structure: &Structure,
-        unknowns: &[Unknown<(Structure, Model)>],
-        model: &Model,
+        directions: &[(Structure, Model)],
+        unknowns: &[Unknown<Vec<(Structure, Model)>>],
     ) -> SiteRates {
-        let peak = hazard.peak;
+        let (peak, model) = (hazard.peak, &directions[0].1);
         let of_curves = || hazard.velocity.unwrap_or_else(|| Velocity::of_model(model, peak));
         let velocity = self.ratio_s.map_or_else(of_curves, Velocity::given);
         let (mw, of_magnitude) = magnitude(self.mw);
-        let given = |mw: f64, ln: f64| GivenPeak { model, structure, peak, ratio: velocity.ratio(mw, ln) };
+        let given = |mw: f64, ln: f64| GivenPeak { directions, peak, ratio: velocity.ratio(mw, ln) };
         let middle = given(mw, 0.0);
         let as_given = rates_over_curve(&middle, &hazard.curve);
         let [(first, _), (last, _)] = hazard.curve.ends();
@@ -141,7 +138,7 @@ impl Site {
         }
         budgets.vary(&velocity.unknown(), |ln| of(&given(mw, *ln), &curve));
         for unknown in unknowns {
-            budgets.vary(unknown, |(structure, model)| of(&GivenPeak { structure, model, ..middle }, &curve));
+            budgets.vary(unknown, |directions| of(&GivenPeak { directions, ..middle }, &curve));
         }
         if let Some([low, high]) = &hazard.fractiles {
             let fractiles = Unknown { part: Part::Hazard, low: extended(low), high: extended(high) };
@@ -167,12 +164,12 @@ impl Site {
     fn count(&self, given: &GivenPeak, curve: &HazardCurve) -> Option<CountedRate> {
         let kind_of =
             |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
-        let kind = match given.model {
+        let [(structure, model)] = given.directions else { return None };
+        let kind = match model {
             Model::Calibrated { overturning, .. } => overturning.kind,
             Model::Paper { overturning, .. } => kind_of(&overturning.suite),
         };
-        let is_same =
-            |cases: &&Cases| kind_of(&cases.suite) == kind && given.structure.is_like(&cases.structure);
+        let is_same = |cases: &&Cases| kind_of(&cases.suite) == kind && structure.is_like(&cases.structure);
         let cases = self.responses.iter().find(is_same)?;
         let motion = |case: usize| CountedMotion {
             intensity: if given.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
@@ -182,43 +179,14 @@ impl Site {
         let motions: Vec<CountedMotion> = (0..cases.len()).map(motion).collect();
         // Weaker motions uplift nothing.
         let least = match given.peak {
-            Peak::Pga => given.structure.uplift_acceleration_m_s2(),
+            Peak::Pga => structure.uplift_acceleration_m_s2(),
             Peak::Pgv => given.uplift()[0],
         };
         counted_rate(curve, least, motions, SEED)
     }
 }
 
-/// The first of two results over their sum; a half of none.
-fn share([a, b]: [f64; 2]) -> f64 {
-    if a + b > 0.0 { a / (a + b) } else { 0.5 }
-}
-
 impl SiteRates {
-    /// Of an object that falls in either of two directions: the rates add, at most to that of rocking.
-    pub fn either(self, other: SiteRates) -> SiteRates {
-        let rocking = self.rocking.zip(other.rocking).map(|(a, b)| a.max(b));
-        let most = rocking.unwrap_or(f64::INFINITY);
-        let sum = |a: Limited, b: Limited| [0, 1, 2].map(|k| Some((a[k]? + b[k]?).min(most)));
-        let of = |rates: Limited| rates[0].or(rates[2]).unwrap_or(0.0);
-        let shares = [
-            share([of(self.failure), of(other.failure)]),
-            share([of(self.overturning), of(other.overturning)]),
-        ];
-        let more = if shares[1] < 0.5 { &other } else { &self };
-        SiteRates {
-            rocking,
-            failure: sum(self.failure, other.failure),
-            overturning: sum(self.overturning, other.overturning),
-            budgets: Budgets::of_sums([self.budgets, other.budgets], shares),
-            velocity: more.velocity,
-            beyond: more.beyond,
-            counted: None,
-            motion: more.motion,
-            warnings: [self.warnings.clone(), other.warnings.clone()].concat(),
-        }
-    }
-
     /// Of the rates of the limit states; `ends_early` where the hazard does so for values.
     fn new(rates: Rates, budgets: Budgets, motion: [f64; 2], ends_early: bool) -> SiteRates {
         let [rocking, failure, overturning] = rates;

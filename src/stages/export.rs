@@ -68,7 +68,8 @@ impl Stage for Export {
             warnings.extend(warnings_of(structure));
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
             let ratio = Velocity::of_model(&model, self.im).ratio(magnitude(None).0, 0.0);
-            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio };
+            let directions = [(structure.clone(), model.clone())];
+            let given_peak = GivenPeak { directions: &directions, peak: self.im, ratio };
             functions.push(self.function(structure, &given_peak));
             description = words_of(&model);
         }

@@ -156,9 +156,9 @@ impl Evaluate {
     }
 
     fn under_motion(&self, motion: &Motion, models: &Models, context: &Context) -> anyhow::Result<String> {
-        let predict = |_: &Object, subjects: &[Subject]| {
-            let (row, budget) = TreeRow::new(motion, subjects);
-            Prediction { row, budget, motion: motion.peaks(&subjects[0].model), warnings: Vec::new() }
+        let predict = |_: &Object, subject: &Subject| {
+            let (row, budget) = TreeRow::new(motion, subject);
+            Prediction { row, budget, motion: motion.peaks(&subject.weaker().1), warnings: Vec::new() }
         };
         let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
         self.finish(&all, point::text(&all, self.sentence), context)
@@ -166,8 +166,8 @@ impl Evaluate {
 
     fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
         let site = self.site()?;
-        let predict = |object: &Object, subjects: &[Subject]| {
-            let rates = rates::of_subjects(&site, subjects);
+        let predict = |object: &Object, subject: &Subject| {
+            let rates = site.rates(&subject.directions, &subject.unknowns);
             let widths = |target| target::widths(object, models, &site, self.years, target);
             let mut row = RatesRow::new(&rates, self.years);
             [row.target_width_m, row.target_width_m_high] = self.target.map_or([None; 2], widths);

@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::explain::explained;
 use crate::fragility::Model;
 use crate::hazard::{Budget, Part, Unknown};
-use crate::motion::IntensityMeasures;
+use crate::motion::{Floor, IntensityMeasures};
 use crate::pipeline::UsageError;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::{Models, words_of};
-use crate::stages::shared::objects::{Object, Reason};
+use crate::stages::shared::objects::{Direction, Object, Reason};
 use crate::stages::shared::structures::warnings_of;
 use crate::table::rows::{self, Row};
 use crate::warning::{Warning, Warnings};
@@ -113,51 +113,66 @@ impl ErrorsRow {
     }
 }
 
-/// A direction of an object, with the model that predicts for it.
+/// What is predicted for: an object in its directions, the weaker first, each with the model that predicts for it.
 pub struct Subject {
-    pub structure: Structure,
-    pub model: Model,
-    /// What is not known of both.
-    pub unknowns: Vec<Unknown<(Structure, Model)>>,
+    pub directions: Vec<(Structure, Model)>,
+    /// What is not known of them.
+    pub unknowns: Vec<Unknown<Vec<(Structure, Model)>>>,
 }
 
 impl Subject {
-    /// The directions of an object on its floor, and what speaks against their models.
-    pub fn of(
-        object: &Object,
-        models: &Models,
-    ) -> anyhow::Result<Result<(Vec<Subject>, Vec<Warning>), Reason>> {
-        let directions = match &object.directions {
+    /// An object on its floor, and what speaks against the models.
+    pub fn of(object: &Object, models: &Models) -> anyhow::Result<Result<(Subject, Vec<Warning>), Reason>> {
+        let found = match &object.directions {
             Ok(directions) => directions,
             Err(reason) => return Ok(Err(reason.clone())),
         };
-        let (mut subjects, mut warnings) = (Vec::new(), Vec::new());
-        for direction in directions {
-            let (on_ground, of_model) = models.model(&direction.structure)?;
-            let on = |floor| {
-                let problem = || UsageError::because("period: the paper's model is that of the ground");
-                on_ground.on(floor).ok_or_else(problem)
-            };
-            let (structure, model) = (direction.structure.clone(), on(object.floor())?);
-            let of_structure = direction.unknowns.iter().cloned();
-            let mut unknowns: Vec<_> =
-                of_structure.map(|unknown| unknown.map(|structure| (structure, model.clone()))).collect();
-            if let Some(unknown) = object.unknown_floor() {
-                let [low, high] = [unknown.low, unknown.high].map(|floor| on(Some(floor)));
-                let [low, high] = [low?, high?].map(|model| (structure.clone(), model));
-                unknowns.push(Unknown { part: unknown.part, low, high });
-            }
+        let (mut on_ground, mut warnings) = (Vec::new(), Vec::new());
+        for Direction { structure, .. } in found {
+            let (model, of_model) = models.model(structure)?;
             warnings.extend(of_model);
-            warnings.extend(warnings_of(&structure));
-            subjects.push(Subject { structure, model, unknowns });
+            warnings.extend(warnings_of(structure));
+            on_ground.push(model);
         }
-        Ok(Ok((subjects, warnings)))
+        let on = |floor: Option<Floor>| -> anyhow::Result<Vec<Model>> {
+            let problem = || UsageError::because("period: the paper's model is that of the ground");
+            on_ground.iter().map(|model| model.on(floor).ok_or_else(problem)).collect()
+        };
+        let structures = || found.iter().map(|direction| direction.structure.clone());
+        let models = on(object.floor())?;
+        let mut unknowns = Vec::new();
+        for number in 0..found.iter().map(|direction| direction.unknowns.len()).min().unwrap_or(0) {
+            let of = |end: fn(&Unknown<Structure>) -> &Structure| {
+                let structures = found.iter().map(|direction| end(&direction.unknowns[number]).clone());
+                structures.zip(models.iter().cloned()).collect()
+            };
+            let part = found[0].unknowns[number].part;
+            unknowns.push(Unknown {
+                part,
+                low: of(|unknown| &unknown.low),
+                high: of(|unknown| &unknown.high),
+            });
+        }
+        if let Some(Unknown { part, low, high }) = object.unknown_floor() {
+            let of = |floor| anyhow::Ok(structures().zip(on(Some(floor))?).collect());
+            unknowns.push(Unknown { part, low: of(low)?, high: of(high)? });
+        }
+        let directions = structures().zip(models.iter().cloned()).collect();
+        Ok(Ok((Subject { directions, unknowns }, warnings)))
+    }
+
+    /// The weaker direction.
+    pub fn weaker(&self) -> &(Structure, Model) {
+        &self.directions[0]
     }
 
     /// What speaks against predictions at a motion (m/s2 and m/s).
     pub fn warnings(&self, motion: [f64; 2]) -> Vec<Warning> {
-        let measures = IntensityMeasures::new(&self.structure, motion[0], motion[1], None, None);
-        self.model.warnings(&self.structure, &measures)
+        let of = |(structure, model): &(Structure, Model)| {
+            let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
+            model.warnings(structure, &measures)
+        };
+        self.directions.iter().flat_map(of).collect()
     }
 }
 
@@ -176,10 +191,10 @@ pub fn answers<R: Predicted>(
     objects: Vec<Object>,
     models: &Models,
     explain: bool,
-    predict: impl Fn(&Object, &[Subject]) -> Prediction<R> + Sync,
+    predict: impl Fn(&Object, &Subject) -> Prediction<R> + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
-        let (subjects, mut warnings) = match Subject::of(&object, models)? {
+        let (subject, mut warnings) = match Subject::of(&object, models)? {
             Ok(found) => found,
             Err(reason) => {
                 let (warning, reason) = match reason {
@@ -195,12 +210,12 @@ pub fn answers<R: Predicted>(
                 });
             }
         };
-        let Prediction { row, budget, motion, warnings: of_prediction } = predict(&object, &subjects);
+        let Prediction { row, budget, motion, warnings: of_prediction } = predict(&object, &subject);
         warnings.extend(of_prediction);
-        warnings.extend(subjects.iter().flat_map(|subject| subject.warnings(motion)));
+        warnings.extend(subject.warnings(motion));
         warnings.sort();
         warnings.dedup();
-        let Subject { structure, model, .. } = &subjects[0];
+        let (structure, model) = subject.weaker();
         Ok(Answer {
             object: ObjectRow::new(&object, structure, model, models.limit_state()),
             row: row.with_warnings(texts(&warnings)),

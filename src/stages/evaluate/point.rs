@@ -33,19 +33,16 @@ pub struct TreeRow {
 
 impl TreeRow {
     /// Of an object under a motion, with the errors of the logit of P_ro.
-    pub fn new(motion: &Motion, subjects: &[Subject]) -> (TreeRow, Budget) {
-        let of =
-            |subject: &Subject| motion.probabilities(&subject.structure, &subject.unknowns, &subject.model);
-        let all = subjects.iter().map(of).reduce(MotionProbabilities::either);
+    pub fn new(motion: &Motion, subject: &Subject) -> (TreeRow, Budget) {
         let MotionProbabilities { states: [rocking, failure, overturning], budgets } =
-            all.expect("an object rocks in a direction");
+            motion.probabilities(&subject.directions, &subject.unknowns);
         let given_rocking = |p: Probability| {
             let known = |p: f64| Some(p / rocking.value).filter(|p| p.is_finite());
             [known(p.value), known(p.low), known(p.high)]
         };
         // The demand has a probability of its own under a motion that is known.
-        let p_ex = match (subjects, motion.pga_m_s2, motion.pgv_m_s) {
-            ([Subject { structure, model, .. }], Some(pga), Some(pgv)) => {
+        let p_ex = match (&subject.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
+            ([(structure, model)], Some(pga), Some(pgv)) => {
                 let measures = IntensityMeasures::new(structure, pga, pgv, None, None);
                 let given = model.probabilities(structure, &measures, Scenarios::One).given_rocking;
                 given.map(|given| given.p_ex).filter(|p| !p.value.is_nan())

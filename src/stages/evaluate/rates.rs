@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::object::{Answer, Predicted, Subject};
+use super::object::{Answer, Predicted};
 use super::target::Target;
 use super::words::{
     brief, friction, linear, model, mostly_unknown, size, table, title, too_far, validity, with_sentences,
@@ -44,12 +44,6 @@ pub struct RatesRow {
     pub target_width_m: Option<f64>,
     pub target_width_m_high: Option<f64>,
     pub warnings: Option<String>,
-}
-
-/// The rates of an object, in all of its directions.
-pub fn of_subjects(site: &Site, subjects: &[Subject]) -> SiteRates {
-    let of = |subject: &Subject| site.rates(&subject.structure, &subject.unknowns, &subject.model);
-    subjects.iter().map(of).reduce(SiteRates::either).expect("an object rocks in a direction")
 }
 
 impl RatesRow {

@@ -26,7 +26,7 @@ use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 
 /// What is predicted for, and what speaks against it.
-type Known = (Vec<Subject>, Vec<Warning>);
+type Known = (Subject, Vec<Warning>);
 
 /// Reads intensities, and returns them with their probabilities, and what to print.
 pub fn evaluate(
@@ -75,16 +75,16 @@ fn of_batch(
         if let Entry::Vacant(place) = known_structures.entry(key(structure)) {
             let (model, mut warnings) = models.model(structure)?;
             warnings.extend(warnings_of(structure));
-            let subject = Subject { structure: structure.clone(), model, unknowns: Vec::new() };
-            place.insert((vec![subject], warnings));
+            let subject = Subject { directions: vec![(structure.clone(), model)], unknowns: Vec::new() };
+            place.insert((subject, warnings));
         }
     }
     let of_row = |row: usize| {
-        let (subjects, of_structure) = given.unwrap_or_else(|| &known_structures[&key(&structures[row])]);
+        let (subject, of_structure) = given.unwrap_or_else(|| &known_structures[&key(&structures[row])]);
         let mut warnings = of_structure.clone();
-        warnings.extend(subjects.iter().flat_map(|subject| subject.warnings([pga[row], pgv[row]])));
+        warnings.extend(subject.warnings([pga[row], pgv[row]]));
         let motion = Motion { pga_m_s2: Some(pga[row]), pgv_m_s: Some(pgv[row]), mw: known(mw[row]) };
-        let (tree, budget) = TreeRow::new(&motion, subjects);
+        let (tree, budget) = TreeRow::new(&motion, subject);
         ((tree.with_warnings(texts(&warnings)), ErrorsRow::of(&budget)), warnings)
     };
     let (rows_of_all, warnings): (Vec<(TreeRow, ErrorsRow)>, Vec<Vec<Warning>>) =

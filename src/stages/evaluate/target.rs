@@ -6,7 +6,7 @@ use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentRoot;
 
 use super::object::Subject;
-use super::rates::{RatesRow, of_subjects};
+use super::rates::RatesRow;
 use crate::hazard::Site;
 use crate::number::Limited;
 use crate::stages::shared::model_args::Models;
@@ -82,8 +82,8 @@ pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target:
     let range = SLENDERNESSES.map(|alpha| 2.0 * centre_height * alpha.tan() / nearer);
     let in_years = |width_m: f64| -> Option<Limited> {
         let resized = Object::new(object.spec.resized(width_m / width));
-        let (subjects, _) = Subject::of(&resized, models).ok()?.ok()?;
-        Some(RatesRow::new(&of_subjects(site, &subjects), years).in_years())
+        let (subject, _) = Subject::of(&resized, models).ok()?.ok()?;
+        Some(RatesRow::new(&site.rates(&subject.directions, &subject.unknowns), years).in_years())
     };
     [0, 2].map(|which| Excess { in_years, which, target: target.0 }.root(range))
 }
