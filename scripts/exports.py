@@ -4,10 +4,8 @@ import csv
 import pathlib
 import subprocess
 import sys
-import tempfile
 
 ALPHA = 0.20
-HEADINGS = {"pga": "pga_g", "pgv": "pgv_m_s"}
 
 rockfrag = pathlib.Path(sys.argv[1]).resolve()
 structure = f"--structure=name=equipment,p=2.5,alpha={ALPHA},eta=0.92"
@@ -20,10 +18,7 @@ def run(subcommand, *arguments):
 
 
 def reached(im, intensity):
-    """The probability of reaching LS1, LS2 and LS3: the rates over a hazard of this intensity alone, once a year."""
-    with tempfile.NamedTemporaryFile("w", suffix=".csv") as hazard:
-        hazard.write(f"{HEADINGS[im]},annual_rate_of_exceedance\n")
-        hazard.writelines(f"{intensity * (1 + k * 1e-9)!r},{10.0 ** (-3 * k)!r}\n" for k in range(5))
-        hazard.flush()
-        (row,) = csv.DictReader(run("evaluate", f"--hazard={hazard.name}", "--format=csv").splitlines())
-    return [float(row[f"{state}_per_year"] or 0) for state in ["rocking", "failure", "overturning"]]
+    """The probability of reaching LS1, LS2 and LS3 at this PGA (g) or PGV (m/s)."""
+    (row,) = csv.DictReader(run("evaluate", f"--{im}={intensity!r}", "--format=csv").splitlines())
+    rocking = 1 - float(row["p_nr"])
+    return [rocking, float(row["p_f"] or 0), rocking * float(row["p_ro"] or 0)]

@@ -1,13 +1,18 @@
 //! Enums with one word per variant, in options and in files.
 
 use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::{EnumAccess, Error, VariantAccess, Visitor};
 
 /// An enum with one word per variant.
 pub trait Keyword: Copy + PartialEq + 'static {
+    /// All variants, in their order.
     const ALL: &'static [Self];
     /// Advice on words that a user may expect on the list.
     const ADVICE: &'static [(&'static str, &'static str)] = &[];
 
+    /// Returns the word.
     fn as_str(self) -> &'static str;
 }
 
@@ -47,17 +52,30 @@ macro_rules! keywords {
 
         impl<'de> serde::Deserialize<'de> for $type {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let word = <std::borrow::Cow<str>>::deserialize(deserializer)?;
-                // serde_arrow traces the schema from the type, with an empty word.
-                match word.as_ref() {
-                    "" => Ok(<Self as $crate::keyword::Keyword>::ALL[0]),
-                    word => word.parse().map_err(serde::de::Error::custom),
-                }
+                let words = $crate::keyword::Words(std::marker::PhantomData);
+                deserializer.deserialize_enum(stringify!($type), &[$($word),*], words)
             }
         }
     };
 }
 pub(crate) use keywords;
+
+/// Takes the word of a variant from a file.
+pub struct Words<T>(pub PhantomData<T>);
+
+impl<'de, T: Keyword> Visitor<'de> for Words<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a word")
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, access: A) -> Result<T, A::Error> {
+        let (word, variant) = access.variant::<String>()?;
+        variant.unit_variant()?;
+        parse(&word).map_err(A::Error::custom)
+    }
+}
 
 /// An unknown word.
 #[derive(Debug, Clone, PartialEq, Eq)]

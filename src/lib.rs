@@ -1,10 +1,89 @@
-//! Dimensionless fragility curves for rocking structures in near-fault earthquakes.
+//! Free-standing structures in earthquakes: the probability that one rocks, rocks too far, or overturns, and
+//! how often it does at a site.
 //!
-//! Begin with [`rocking::reference`]: Eqs. 4 to 6 as they are printed, the equation of motion, uplift and
-//! impact.
+//! A cabinet, a statue or a frame on rocking columns stays on its base until the ground acceleration exceeds
+//! g tan *α*. Then it rocks, and either comes to rest or overturns. Three numbers of the structure decide: its
+//! frequency parameter *p* (rad/s; a large block is slow), its slenderness *α* (rad; width over height is tan
+//! *α*), and its coefficient of restitution *η* (the ratio of the velocities after and before an impact). Of a
+//! motion, PGA says whether it rocks, and PGV with it whether it overturns.
 //!
-//! rockfrag implements the system of Dimitrakopoulos & Paraskeva (2015), "Dimensionless fragility curves for
-//! rocking response to near-fault excitations", as a pipeline of stages over Parquet files:
+//! The method is that of Dimitrakopoulos & Paraskeva (2015), *Dimensionless fragility curves for rocking
+//! response to near-fault excitations* (Earthquake Engineering & Structural Dynamics), extended to recorded
+//! motions, other structures and hazard curves.
+//!
+//! # The probability that a block overturns
+//!
+//! Without a simulation of one's own, by the universal surface, a fit to the responses of many structures:
+//!
+//! ```
+//! use rockfrag::fragility::{Kind, Model, Scenarios};
+//! use rockfrag::motion::IntensityMeasures;
+//! use rockfrag::rocking::Structure;
+//!
+//! // 0.5 m wide and 2 m high; eta after Housner. Failure: a rotation above a tenth of the slenderness.
+//! let block = Structure::rectangular_block("block", 0.5, 2.0, None)?;
+//! let model = Model::shipped(Kind::Recorded, &block, 0.10);
+//!
+//! // A motion of PGA 0.5 g = 4.9 m/s2 and PGV 0.6 m/s; pulse period and mean period are not needed.
+//! let motion = IntensityMeasures::new(&block, 4.9, 0.6, None, None);
+//! let given_rocking = model.probabilities(&block, &motion, Scenarios::One).given_rocking;
+//! let p = given_rocking.expect("PGA is above g tan alpha").p_ro;
+//! assert!(0.0 < p.low && p.low < p.value && p.value < p.high && p.high < 1.0);
+//! # assert!((0.01..0.6).contains(&p.value), "{p:?}");
+//! # Ok::<(), rockfrag::rocking::StructureError>(())
+//! ```
+//!
+//! [`hazard::rates_over_curve`] makes annual rates of it.
+//!
+//! # The response to a record
+//!
+//! ```
+//! use rockfrag::rocking::{Outcome, Record, Structure, simulate};
+//!
+//! let cabinet = Structure::rectangular_block("cabinet", 0.8, 2.2, None)?;
+//! // A sine of 2 Hz and 6 m/s2, every 5 ms; records::read_records reads the files of agencies.
+//! let sine = |k: i32| 6.0 * (std::f64::consts::TAU * 2.0 * 0.005 * f64::from(k)).sin();
+//! let acceleration: Vec<f64> = (0..400).map(sine).collect();
+//! let response = simulate(&cabinet, &Record::new(&acceleration, 0.005)?);
+//! assert_eq!(response.outcome, Outcome::SafeRocking);
+//! // The largest rotation over the slenderness, |theta|max / alpha.
+//! assert!(0.0 < response.edp && response.edp < 1.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`rocking::trace`] gives the rotation over time. The folder `examples` has three whole programs: the
+//! probability and rate of a block, the response to a record of one's own, and the way from earthquake
+//! scenarios to a fragility curve.
+//!
+//! # What is where
+//!
+//! | module | holds | in the paper |
+//! |---|---|---|
+//! | [`motion`] | scenarios, synthetic motions, intensity measures | section 2.1, Eqs. 1 to 3 and 13 |
+//! | [`rocking`] | structures, records, the rocking response | section 2.2, Eqs. 4 to 7 |
+//! | [`fragility`] | P_ex and P_ro, their fits, the surface | sections 2.3 and 3, Eqs. 12, 14 to 24 |
+//! | [`hazard`] | hazard curves, annual rates | beyond it |
+//! | [`records`] | recorded motions: formats, processing, pulses | beyond it |
+//! | [`studies`] | ranking of measures, validation, the paper's numbers beside ours | Table II |
+//! | [`statistics`] | regressions and distributions | Eqs. 16, 17, 19 to 22 |
+//! | [`paper`] | what the paper publishes | sections 2 and 3 |
+//!
+//! A reviewer begins with [`rocking::reference`]: the equation of motion, uplift and impact (Eqs. 4 to 6) as
+//! they are printed.
+//!
+//! # Conventions
+//!
+//! Names end in their unit: `pga_m_s2`, `p_rad_s`. Quantities without a unit have none: demands are |*θ*|max /
+//! *α*, and IM1 to IM6 are those of Eq. 13. A fit takes columns of length n and has k coefficients, the
+//! intercept first; a covariance is k × k, row by row. What is unknown is `None`, and NaN in columns. Limits
+//! hold 95 % unless a confidence is given. The same seed gives the same numbers for any number of threads.
+//!
+//! The modules above read no files. Fits, counts and rankings share their work among the threads of rayon.
+//! Before 1.0, any version may change them.
+//!
+//! # The command
+//!
+//! The command `rockfrag` runs the stages of this diagram over Parquet files; [`table`] has their rows.
 //!
 //! ```text
 //! sample-scenarios -> scenarios -> synthesize-motions -> motions -> simulate -> responses
@@ -16,39 +95,34 @@
 //! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from
 //! ```
 //!
-//! | the paper | here |
-//! |---|---|
-//! | sections 2.1.1 to 2.1.3, Eqs. 1 to 3 and 13: scenarios, motions, intensity measures | [`motion`] |
-//! | section 2.2, Eqs. 4 to 7: the rocking response | [`rocking`] |
-//! | sections 2.3 and 3, Eqs. 12 and 14 to 24: fragility | [`fragility`] |
-//! | what it prints: set-up, Table II, worked example | [`paper`] |
-//! | beyond it: recorded motions | [`records`] |
-//! | beyond it: annual rates at a site | [`hazard`] |
-//! | beyond it: ranking of measures, validation | [`studies`] |
-//! | what the fits rest on | [`statistics`] |
-//!
-//! These know no files, threads or command line, nor do [`export`], which words fragility for other programs,
-//! and [`report`], which draws it. [`table`] reads and writes the files, [`pipeline`] decides what must run,
-//! [`stages`] joins them: a file or folder a subcommand. `docs/review/architecture.md` has the picture.
+//! `docs/review/architecture.md` has the picture of the code.
 
+#[doc(hidden)]
 pub mod cli;
+#[doc(hidden)]
 pub mod export;
 pub mod fragility;
 pub mod hazard;
 pub mod keyword;
 pub mod motion;
+#[doc(hidden)]
 pub mod number;
 pub mod paper;
+#[doc(hidden)]
 pub mod pipeline;
 pub mod plausibility;
 pub mod random;
 pub mod records;
+#[doc(hidden)]
 pub mod report;
 pub mod rocking;
+#[doc(hidden)]
 pub mod sheet;
+#[doc(hidden)]
 pub mod stages;
 pub mod statistics;
 pub mod studies;
+#[doc(hidden)]
 pub mod table;
 pub mod units;
 pub mod warning;

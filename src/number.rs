@@ -73,7 +73,9 @@ pub const PERCENT: Style = Style { number: in_percent, unit: " %" };
 pub const OF_HUNDRED: Style = Style { number: in_percent, unit: "" };
 /// An annual rate.
 pub const RATE: Style = Style { number: rate, unit: "" };
-/// A number of three digits.
+/// A number of two digits, and of three.
+pub const TWO_DIGITS: Style = Style { number: |value| significant(value, 2), unit: "" };
+
 pub const THREE_DIGITS: Style = Style { number: |value| significant(value, 3), unit: "" };
 
 fn in_percent(p: f64) -> String {

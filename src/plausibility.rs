@@ -4,8 +4,9 @@ use std::f64::consts::FRAC_PI_4;
 
 use crate::rocking::{Structure, StructureError};
 
-/// PGA, g, and PGV, m/s, beyond which nothing was ever recorded.
+/// PGA, g, beyond which nothing was ever recorded.
 pub const STRONGEST_PGA_G: f64 = 4.5;
+/// PGV, m/s, beyond which nothing was ever recorded.
 pub const STRONGEST_PGV_M_S: f64 = 5.0;
 
 /// Annual rate at which no place on earth has 1 g or 1 m/s, and by which power of the peak it falls.
@@ -75,9 +76,9 @@ const fn bound(
     Bound { parameter, range, expected, slip }
 }
 
-/// Narrower than what [`Structure::new`](crate::rocking::Structure::new) accepts. Other numbers are likely in a
-/// wrong unit: no rocking structure is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or
-/// above 184 m (p 0.2 rad/s), is wider than tall (it slides), or has a beam of 50 times the column mass.
+/// Narrower than what [`Structure::new`] accepts. Other numbers are likely in a wrong unit: no rocking
+/// structure is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s),
+/// is wider than tall (it slides), or has a beam of 50 times the column mass.
 const BOUNDS: [Bound; 6] = [
     bound("width", (1e-4, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
     bound("height", (1e-3, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),

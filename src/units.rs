@@ -13,6 +13,7 @@ pub const CM_PER_M: f64 = 100.0;
 
 /// Physical quantity of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub enum Quantity {
     Acceleration,
     Velocity,
@@ -27,7 +28,9 @@ pub enum Quantity {
 /// A unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
+    /// As it is written.
     pub name: &'static str,
+    /// What it measures.
     pub quantity: Quantity,
     /// Value in m/s2, m/s, m, s, rad or rad/s.
     pub si: f64,
@@ -72,7 +75,8 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 31] = [
 ];
 
 impl Unit {
-    /// Reads a unit, in any common notation: `cm/s^2`, `cm/sec/sec`, `cm_s2`, `cm s-2`. None if it is no unit.
+    /// Reads a unit, in any common notation: `cm/s^2`, `cm/sec/sec`, `cm_s2`, `cm s-2`. None of text that is
+    /// no unit.
     pub fn parse(text: &str) -> Option<Unit> {
         let per = |c: char| if c.is_whitespace() || matches!(c, '_' | '.') { '/' } else { c };
         let text = text.trim().trim_end_matches('.').to_lowercase().replace('\u{b2}', "2");
@@ -92,7 +96,7 @@ impl Unit {
             let known =
                 UNITS.iter().filter(|(_, quantity, ..)| *quantity == Acceleration).map(|(name, ..)| *name);
             let known = known.collect::<Vec<_>>().join(", ");
-            format!("'{text}' is not a unit of acceleration; expected {known}")
+            format!("expected a unit of acceleration: {known}")
         })
     }
 }

@@ -8,6 +8,7 @@ use crate::keyword::keywords;
 
 /// A warning that changes what one would decide, the weightiest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "text() says it")]
 pub enum Warning {
     ImplausibleRow,
     NotRocking,
@@ -73,11 +74,9 @@ impl Warning {
             Warning::Extrapolated => "outside of the motions that the model was fitted to",
             Warning::UnusualStructure => "outside of the structures that the universal surface was fitted to",
             Warning::PoorFit => "the paper's curve or planes do not fit these responses",
-            Warning::NoEvents => {
-                "no response or every response overturned: the level comes from other structures"
-            }
+            Warning::NoEvents => "all responses or none overturned: the estimate rests on other structures",
             Warning::FewEvents => {
-                "fewer than ten responses with the event, or without: the level is uncertain"
+                "fewer than ten responses with the event, or without: the fitted rate is uncertain"
             }
             Warning::FewClusters => {
                 "fewer than ten earthquakes or cells: limits assume the usual differences between them"
@@ -109,7 +108,7 @@ const NAMED: usize = 3;
 const UNNAMED: &str = "structure";
 
 impl Warnings {
-    /// Returns a line a warning, the weightiest first, with the first of what it is about.
+    /// Returns one line for each warning, the weightiest first, with the first subjects that it is about.
     pub fn lines(&self) -> Vec<String> {
         let line = |(warning, Subjects { named, count }): (&Warning, &Subjects)| {
             let named = named.join(", ");

@@ -10,8 +10,9 @@ use pyo3::prelude::*;
 use rockfrag::cli::config::{Config, arguments};
 use rockfrag::cli::{calls_of, configured, stage_commands};
 use rockfrag::pipeline::cache::{self, Done};
-use rockfrag::pipeline::call::{Call, is_input};
+use rockfrag::pipeline::call::Call;
 use rockfrag::pipeline::context::{COMMON, Common, Context};
+use rockfrag::pipeline::files::role;
 use rockfrag::stages::inspect::Inspect;
 use serde_json::{Value, json};
 
@@ -37,7 +38,7 @@ fn describe_stage(command: &Command) -> Value {
             "help": words(arg.get_help()),
             "default": default.collect::<Vec<_>>().join(","),
             "flag": matches!(arg.get_action(), ArgAction::SetTrue),
-            "file": is_input(arg),
+            "file": role(arg).is_read(),
             "positional": arg.is_positional(),
             "common": arg.get_help_heading() == Some(COMMON),
         })
@@ -92,7 +93,6 @@ pub fn run_pipeline(
 ) -> PyResult<Vec<Made>> {
     run(py, threads, progress.as_ref(), |mut context| {
         let calls = calls_of(&Config::read(&pipeline)?.with_seed(seed), out, &pipeline)?;
-        calls.iter().try_for_each(|call| call.stage.check())?;
         context.force = force;
         let mut made = HashMap::new();
         calls.iter().map(|call| make(call, &context, &mut made)).collect()

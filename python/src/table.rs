@@ -79,7 +79,7 @@ pub fn read_numbers<'py>(
         for batch in Table::open(&path)?.batches(&|_| true) {
             let batch = batch?;
             for (name, values) in columns.iter_mut() {
-                values.extend(batch.columns().numbers(name)?);
+                values.extend(batch.numbers(name)?);
             }
         }
         Ok(())
@@ -126,5 +126,5 @@ fn without_dictionary(column: &ArrayRef) -> Result<ArrayRef, ArrowError> {
 fn write_csv(reader: ArrowArrayStreamReader, path: &Path) -> anyhow::Result<()> {
     let parquet = path.with_extension("parquet");
     write(reader.schema(), reader, &parquet)?;
-    Ok(std::fs::write(path, frame::show(&frame::read(&Table::open(&parquet)?)?, Format::Csv)?)?)
+    Ok(std::fs::write(path, frame::show(&frame::read(&Table::open(&parquet)?, usize::MAX)?, Format::Csv)?)?)
 }

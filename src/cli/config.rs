@@ -10,19 +10,7 @@ use serde_json::Value;
 
 use crate::keyword::nearest;
 use crate::pipeline::UsageError;
-use crate::pipeline::call::is_input;
-
-/// Inputs in a run besides default files: flag, file, and the stage whose section must exist.
-const IN_RUN: [(&str, &str, &str); 5] = [
-    ("fits", ".", "fit-pro"),
-    ("motions", "motions.parquet", "synthesize-motions"),
-    ("motions", "motions.parquet", "import-motions"),
-    ("responses", "responses.parquet", "simulate"),
-    ("out", "evaluated.parquet", "evaluate"),
-];
-
-/// The stage in a run whose motions all later ones take.
-const FLOOR: &str = "floor-motions";
+use crate::pipeline::files::{assigned, in_run, role};
 
 /// A pipeline file.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -119,21 +107,7 @@ impl Config {
         let section = &self.sections[command.get_name()];
         for arg in command.get_arguments() {
             let Some(flag) = arg.get_long().filter(|flag| !section.contains_key(*flag)) else { continue };
-            let names_file = |default: &&clap::builder::OsStr| default.to_string_lossy().contains('.');
-            let default = arg
-                .get_default_values()
-                .first()
-                .filter(names_file)
-                .filter(|_| is_input(arg) || flag == "out");
-            let is_it = |maker: &str| self.has(maker) && (flag != "out" || maker == command.get_name());
-            let in_run = IN_RUN.iter().find(|(other, _, maker)| *other == flag && is_it(maker));
-            let file = default.map(PathBuf::from).or(in_run.map(|(_, file, _)| PathBuf::from(file)));
-            let is_on_floor = self.has(FLOOR) && command.get_name() != FLOOR && flag != "out";
-            let file = file.map(|file| match file.to_str() {
-                Some("motions.parquet") if is_on_floor => PathBuf::from("floor.parquet"),
-                _ => file,
-            });
-            if let Some(file) = file.filter(|_| flag != "config") {
+            if let Some(file) = in_run(command.get_name(), arg, |stage| self.has(stage)) {
                 arguments.push(assigned(flag, folder.join(file).as_os_str()));
             }
         }
@@ -164,7 +138,8 @@ pub fn arguments(
             let text = text_of(value);
             let path = folder.join(&text);
             // An input may be a word, such as a site name, in place of a file.
-            if is_input(arg) && (path.exists() || !folder.as_os_str().is_empty() && text.contains(['/', '.']))
+            if role(arg).is_read()
+                && (path.exists() || !folder.as_os_str().is_empty() && text.contains(['/', '.']))
             {
                 path.into()
             } else {
@@ -189,13 +164,6 @@ pub fn arguments(
         }
     }
     Ok(arguments)
-}
-
-/// Returns `--flag=value`; the value may begin with a minus sign.
-fn assigned(flag: &str, value: &std::ffi::OsStr) -> OsString {
-    let mut argument = OsString::from(format!("--{flag}="));
-    argument.push(value);
-    argument
 }
 
 /// Converts a value to command-line text; a mapping becomes `name=frame,p=1`.

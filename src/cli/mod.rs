@@ -7,14 +7,13 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
 
 use self::config::{Config, lenient};
 use crate::pipeline::call::Call;
 use crate::pipeline::context::{Common, Context};
-use crate::pipeline::{UsageError, cache};
+use crate::pipeline::{UsageError, cache, files};
 use crate::stages::{Stages, init, inspect, run};
 use crate::table::file::quiet_damage;
 
@@ -147,7 +146,7 @@ pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<(Call,
     parsed(command, [section, user.to_vec()].concat())
 }
 
-/// Parses the arguments of a stage. Without `--out`, the output is beside a given `--in`.
+/// Parses and checks the arguments of a stage.
 pub fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<(Call, ArgMatches)> {
     let words = [vec![OsString::from("rockfrag"), command.get_name().into()], arguments].concat();
     // Parsed as part of the whole command line, which usage lines name.
@@ -156,19 +155,11 @@ pub fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<(Ca
         Ok(whole.subcommand().map(|(_, matches)| matches.clone()).unwrap_or_default())
     };
     let mut matches = parse(&words)?;
-    let source = |matches: &ArgMatches, id: &str| {
-        matches.try_contains_id(id).ok().and_then(|_| matches.value_source(id))
-    };
-    if source(&matches, "in") == Some(ValueSource::CommandLine)
-        && source(&matches, "out") == Some(ValueSource::DefaultValue)
-    {
-        let [folder, file] =
-            ["in", "out"].map(|id| matches.get_one::<PathBuf>(id).cloned().unwrap_or_default());
-        let mut out = OsString::from("--out=");
-        out.push(folder.with_file_name(file));
+    if let Some(out) = files::out_beside_in(&matches) {
         matches = parse(&[words, vec![out]].concat())?;
     }
     let stage = Stages::of(command.get_name(), &matches)?;
+    stage.check()?;
     Ok((Call::new(command, &matches, stage), matches))
 }
 

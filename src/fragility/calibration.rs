@@ -5,7 +5,7 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Event};
+use super::cases::{Cases, Event, grouped};
 use super::peaks::{JointPeaks, RatioGiven};
 use super::surface::{self, Curve, Kind, Prior, logit_exceeding, logit_overturning};
 use super::tree::{Probability, Z_95};
@@ -27,6 +27,7 @@ pub enum Scenarios {
 
 /// The calibration of a structure: a row of pro.calibration.parquet or pex.calibration.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "table/dictionary.rs says it")]
 pub struct Calibration {
     pub suite: Option<String>,
     pub kind: Kind,
@@ -64,6 +65,8 @@ const FEW_EVENTS: i64 = 10;
 /// A peak within this factor of those of the data is like them.
 const LIKE: f64 = 1.2;
 
+grouped!(Calibration);
+
 impl Calibration {
     /// That of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, none of
     /// P_ro.
@@ -100,7 +103,7 @@ impl Calibration {
     /// Fits c and ln s to responses: the maximum of their posterior density, with the priors of the kind of
     /// motion.
     pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
-        let kind = Kind::of(cases.suite.as_deref().and_then(|suite| suite.parse().ok()));
+        let kind = Kind::of_word(cases.suite.as_deref());
         let prior = surface::prior(kind, curve(limit_state));
         let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
         let sample = Sample::of(cases, limit_state, |measures| shipped.logit(&cases.structure, measures));
@@ -179,7 +182,7 @@ impl Calibration {
         of_events.into_iter().chain(of_clusters).filter(|_| is_own).collect()
     }
 
-    /// Returns whether some of the motions that it was fitted to had a like PGA and PGV; that of a kind of
+    /// Returns whether some of the motions that it was fitted to had a similar PGA and PGV; that of a kind of
     /// motion is fitted to all that the surface covers.
     pub fn covers(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
         let unit = structure.uplift_acceleration_m_s2();
@@ -203,7 +206,7 @@ fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
 
-/// Least and largest value; none of none.
+/// Least and largest value; none without values.
 fn ends(values: Vec<f64>) -> (Option<f64>, Option<f64>) {
     (values.iter().copied().reduce(f64::min), values.into_iter().reduce(f64::max))
 }

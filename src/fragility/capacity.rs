@@ -23,6 +23,7 @@ pub enum KnownCapacity {
 
 /// A lognormal distribution of capacities: median theta and dispersion beta, with 95 % limits.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct CapacityFit {
     pub theta: f64,
     pub theta_low: f64,

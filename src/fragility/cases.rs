@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::measure::Measure;
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
-use crate::rocking::{Outcome, Structure};
+use crate::rocking::{Outcome, Response, Structure};
 
 /// The most cases of one structure and suite.
 pub const MOST_CASES: usize = 20_000_000;
@@ -44,46 +44,44 @@ impl Event {
     }
 }
 
-/// What the responses of a cluster share.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SharedBy {
-    Earthquake,
-    /// Magnitude and distance.
-    Cell,
-    /// Nothing: each motion is a cluster of its own.
-    Nothing,
+/// The suite and the structure that responses, and rows of fits, are of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Group<'a> {
+    pub suite: Option<&'a str>,
+    pub structure: &'a str,
 }
 
-keywords!(SharedBy { Earthquake = "earthquake", Cell = "cell", Nothing = "nothing" });
+/// Implements `group` for rows with a suite and a structure.
+macro_rules! grouped {
+    ($($row:ty),* $(,)?) => {$(
+        impl $row {
+            /// Returns the suite and the structure that it is of.
+            pub fn group(&self) -> $crate::fragility::Group<'_> {
+                $crate::fragility::Group { suite: self.suite.as_deref(), structure: &self.structure }
+            }
+        }
+    )*};
+}
+pub(crate) use grouped;
 
-/// One response, as [`CasesBuilder`] takes it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CaseRow<'a> {
-    pub p_rad_s: f64,
-    pub alpha_rad: f64,
-    pub eta: f64,
-    pub outcome: Outcome,
-    /// Demand |theta|max / alpha (Eq. 7); none where it overturned.
-    pub edp: Option<f64>,
-    pub measures: IntensityMeasures,
-    pub pga_m_s2: f64,
-    pub pgv_m_s: f64,
-    pub mw: Option<f64>,
-    pub re_km: Option<f64>,
-    pub earthquake: Option<&'a str>,
-    /// Values of the candidate measures, in the order of their names; NaN where unknown.
-    pub candidates: &'a [f64],
+/// What the motions of cases share, so that the cases may depend on each other.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Cluster {
+    Earthquake(String),
+    /// Magnitude and distance, as the bits of these numbers.
+    Cell([u64; 2]),
 }
 
-/// Why a response cannot be added.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum CasesError {
-    #[error(
-        "structure '{structure}': {parameter} is {value} in one row and {first} in another; give each structure its own name"
-    )]
-    OtherStructure { structure: String, parameter: &'static str, value: f64, first: f64 },
-    #[error("structure '{structure}': more than {MOST_CASES} responses; take a sample of the rows")]
-    TooMany { structure: String },
+impl Cluster {
+    /// Returns that of a motion: its earthquake, else its magnitude and distance (km); NaN where unknown. None
+    /// of a motion that shares nothing.
+    pub fn of(earthquake: Option<&str>, mw: f64, re_km: f64) -> Option<Cluster> {
+        match earthquake {
+            Some(name) => Some(Cluster::Earthquake(name.to_string())),
+            // Both are positive, so that the bits are in the order of the values.
+            None => (!mw.is_nan() && !re_km.is_nan()).then(|| Cluster::Cell([mw, re_km].map(f64::to_bits))),
+        }
+    }
 }
 
 /// The responses of one structure to one suite; all columns are as long.
@@ -94,113 +92,97 @@ pub struct Cases {
     pub outcome: Vec<Outcome>,
     /// Demand |theta|max / alpha (Eq. 7); NaN where it overturned.
     pub edp: Vec<f64>,
-    /// IM1 to IM6 (Eq. 13); NaN where unknown.
-    pub im: [Vec<f64>; 6],
     pub pga_m_s2: Vec<f64>,
     pub pgv_m_s: Vec<f64>,
-    /// Magnitude; NaN where unknown.
-    pub mw: Vec<f64>,
-    /// Distance, km; NaN where unknown.
-    pub re_km: Vec<f64>,
-    /// Number of the cluster: cases of one cluster may depend on each other.
+    /// Number of the cluster, from 0: cases of one cluster may depend on each other.
     pub cluster: Vec<u32>,
-    pub shared_by: SharedBy,
     /// Further measures by name; NaN where unknown.
     pub candidates: Vec<(String, Vec<f64>)>,
+    /// The measures of Eq. 13, in the order of [`Measure::SCALAR`]; NaN where unknown.
+    im: [Vec<f64>; Measure::SCALAR.len()],
+    /// The numbers of the known clusters, and the next number.
+    clusters: BTreeMap<Cluster, u32>,
+    next_cluster: u32,
 }
 
-/// What makes cases one cluster, in the order of the numbers of clusters.
-#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum ClusterKey {
-    Earthquake(String),
-    /// Bits of magnitude and distance: these are positive, so that the bits are in the order of the values.
-    Cell(u64, u64),
-}
-
-/// Number of a case that shares nothing, until all have come.
-const ALONE: u32 = u32::MAX;
-
-/// Makes [`Cases`], response by response.
-#[derive(Debug)]
-pub struct CasesBuilder {
-    cases: Cases,
-    /// The number under which each cluster first came.
-    clusters: BTreeMap<ClusterKey, u32>,
-}
-
-impl CasesBuilder {
-    /// Starts without a case, with these names of candidate measures.
-    pub fn new(suite: Option<&str>, structure: Structure, candidates: &[String]) -> CasesBuilder {
-        let cases = Cases {
+impl Cases {
+    /// Begins without a case.
+    pub fn new(suite: Option<&str>, structure: Structure) -> Cases {
+        Cases {
             suite: suite.map(str::to_string),
             structure,
             outcome: Vec::new(),
             edp: Vec::new(),
-            im: Default::default(),
             pga_m_s2: Vec::new(),
             pgv_m_s: Vec::new(),
-            mw: Vec::new(),
-            re_km: Vec::new(),
             cluster: Vec::new(),
-            shared_by: SharedBy::Nothing,
-            candidates: candidates.iter().map(|name| (name.clone(), Vec::new())).collect(),
-        };
-        CasesBuilder { cases, clusters: BTreeMap::new() }
+            candidates: Vec::new(),
+            im: Default::default(),
+            clusters: BTreeMap::new(),
+            next_cluster: 0,
+        }
     }
 
-    /// Adds a response.
-    ///
-    /// # Errors
-    /// If its structure is another one, or there are [`MOST_CASES`] already.
-    pub fn push(&mut self, row: &CaseRow) -> Result<(), CasesError> {
-        let cases = &mut self.cases;
-        let Structure { name, p_rad_s, alpha_rad, eta } = &cases.structure;
-        let parameters =
-            [("p", row.p_rad_s, *p_rad_s), ("alpha", row.alpha_rad, *alpha_rad), ("eta", row.eta, *eta)];
-        if let Some(&(parameter, value, first)) = parameters.iter().find(|(_, value, first)| value != first) {
-            return Err(CasesError::OtherStructure { structure: name.clone(), parameter, value, first });
+    /// Adds the response to a motion with these measures, PGA (m/s2), PGV (m/s) and cluster.
+    pub fn push(
+        &mut self,
+        response: &Response,
+        measures: &IntensityMeasures,
+        [pga_m_s2, pgv_m_s]: [f64; 2],
+        cluster: Option<Cluster>,
+    ) {
+        let overturned = response.outcome == Outcome::Overturning;
+        self.outcome.push(response.outcome);
+        self.edp.push(if overturned { f64::NAN } else { response.edp });
+        self.pga_m_s2.push(pga_m_s2);
+        self.pgv_m_s.push(pgv_m_s);
+        for measure in Measure::SCALAR {
+            self.column_mut(measure).push(measure.raw_value_of(measures).unwrap_or(f64::NAN));
         }
-        if cases.len() == MOST_CASES {
-            return Err(CasesError::TooMany { structure: name.clone() });
-        }
-        let key = match (row.earthquake, row.mw, row.re_km) {
-            (Some(earthquake), ..) => Some(ClusterKey::Earthquake(earthquake.to_string())),
-            (None, Some(mw), Some(re_km)) => Some(ClusterKey::Cell(mw.to_bits(), re_km.to_bits())),
-            _ => None,
-        };
-        let next = self.clusters.len() as u32;
-        cases.cluster.push(key.map_or(ALONE, |key| *self.clusters.entry(key).or_insert(next)));
-        let IntensityMeasures { im1, im2, im3, im4, im5, im6 } = row.measures;
-        let values = [im1, im2, im3, Some(im4), Some(im5), im6];
-        cases.im.iter_mut().zip(values).for_each(|(column, im)| column.push(im.unwrap_or(f64::NAN)));
-        cases.outcome.push(row.outcome);
-        cases.edp.push(row.edp.unwrap_or(f64::NAN));
-        cases.pga_m_s2.push(row.pga_m_s2);
-        cases.pgv_m_s.push(row.pgv_m_s);
-        cases.mw.push(row.mw.unwrap_or(f64::NAN));
-        cases.re_km.push(row.re_km.unwrap_or(f64::NAN));
-        cases.candidates.iter_mut().zip(row.candidates).for_each(|((_, column), value)| column.push(*value));
-        Ok(())
+        self.push_cluster(cluster);
     }
 
-    /// Numbers the clusters, in an order that does not depend on that of the rows, and those of one motion
+    /// Adds the cluster of the next case: the number of a known one, or the next.
+    pub fn push_cluster(&mut self, cluster: Option<Cluster>) {
+        let next = self.next_cluster;
+        let number = cluster.map_or(next, |cluster| *self.clusters.entry(cluster).or_insert(next));
+        self.next_cluster = next.max(number + 1);
+        self.cluster.push(number);
+    }
+
+    /// Numbers the clusters in an order that does not depend on that of the cases, and those of one motion
     /// after them.
-    pub fn finish(self) -> Cases {
-        let CasesBuilder { mut cases, clusters } = self;
-        let mut numbers = vec![0; clusters.len()];
-        clusters.values().zip(0..).for_each(|(&came, number)| numbers[came as usize] = number);
-        let mut alone = clusters.len() as u32..;
-        for cluster in &mut cases.cluster {
-            *cluster =
-                if *cluster == ALONE { alone.next().unwrap_or(ALONE) } else { numbers[*cluster as usize] };
+    pub fn sort_clusters(&mut self) {
+        let mut numbers = vec![None; self.next_cluster as usize];
+        for (number, known) in (0..).zip(self.clusters.values_mut()) {
+            numbers[*known as usize] = Some(number);
+            *known = number;
         }
-        cases.shared_by = match clusters.keys().next() {
-            Some(ClusterKey::Earthquake(_)) => SharedBy::Earthquake,
-            Some(ClusterKey::Cell(..)) => SharedBy::Cell,
-            None => SharedBy::Nothing,
-        };
-        cases
+        let mut alone = self.clusters.len() as u32..;
+        for cluster in &mut self.cluster {
+            *cluster = *numbers[*cluster as usize].get_or_insert_with(|| alone.next().unwrap_or(u32::MAX));
+        }
     }
+
+    /// Returns a measure of Eq. 13 of each case; NaN where unknown.
+    pub fn column(&self, measure: Measure) -> &[f64] {
+        &self.im[place(measure)]
+    }
+
+    /// Returns the same, to change it.
+    pub fn column_mut(&mut self, measure: Measure) -> &mut Vec<f64> {
+        &mut self.im[place(measure)]
+    }
+
+    /// Returns the suite and the structure.
+    pub fn group(&self) -> Group<'_> {
+        Group { suite: self.suite.as_deref(), structure: &self.structure.name }
+    }
+}
+
+/// The place of a measure among those of Eq. 13.
+fn place(measure: Measure) -> usize {
+    Measure::SCALAR.iter().position(|scalar| *scalar == measure).expect("a measure of Eq. 13")
 }
 
 /// Logarithms of measures, and what was observed, of the cases of a fit.
@@ -239,9 +221,7 @@ impl Cases {
 
     /// Returns the measures of a case.
     pub fn measures(&self, case: usize) -> IntensityMeasures {
-        let [im1, im2, im3, im4, im5, im6] = self.im.each_ref().map(|column| column[case]);
-        let known = |im: f64| Some(im).filter(|im| !im.is_nan());
-        IntensityMeasures { im1: known(im1), im2: known(im2), im3: known(im3), im4, im5, im6: known(im6) }
+        Measure::gather(|measure| self.column(measure)[case])
     }
 
     /// Returns whether an event happened in a case; none where the case does not count.

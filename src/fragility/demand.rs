@@ -8,7 +8,7 @@ use nalgebra::{Matrix4, Vector4};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Sample};
+use super::cases::{Cases, Sample, grouped};
 use super::measure::{Measure, design_row, values};
 use super::parameter::{Parameter, ParameterRow};
 use super::tree::Probability;
@@ -70,7 +70,7 @@ pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
 
 /// ln EDP, ln IM4 and ln IM3 of the cases that rocked safely and whose IM4 lies in `range`.
 fn plane_sample(cases: &Cases, range: Range<f64>) -> Sample<f64> {
-    let [.., im4, _, _] = &cases.im;
+    let im4 = cases.column(Measure::Im4);
     cases.sample(&PLANE, |case| cases.ln_demand(case).filter(|_| range.contains(&im4[case])))
 }
 
@@ -82,11 +82,13 @@ const LEAST_CASES: usize = 20;
 /// The pooled residual of two planes that meet at an IM4.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransitionPoint {
+    /// Where they meet.
     pub im4: f64,
     /// Residual sum of squares of both planes.
     pub pooled_rss: f64,
-    /// Number of cases on each side.
+    /// Number of cases below it.
     pub n_low: i64,
+    /// Number of cases from it on.
     pub n_high: i64,
 }
 
@@ -176,6 +178,7 @@ keywords!(DemandModel { Univariate = "univariate", Plane = "plane", Biplanar = "
 
 /// A regression of ln EDP in safe rocking: a row of pex.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "table/dictionary.rs says it")]
 pub struct DemandFit {
     pub suite: Option<String>,
     pub structure: String,
@@ -219,6 +222,8 @@ pub struct DemandFit {
     pub misfit_p: Option<f64>,
     pub status: FitStatus,
 }
+
+grouped!(DemandFit);
 
 impl DemandFit {
     /// Fits the sample of these measures.
@@ -282,7 +287,8 @@ impl DemandFit {
     }
 
     /// Computes the probability that the demand exceeds a limit state in safe rocking (Eq. 14), with limits
-    /// by the delta method on the scale of ln Dm, into which the error of beta is turned. None without a fit, or where a measure is missing.
+    /// by the delta method on the scale of ln Dm, into which the error of beta is turned. None without a fit,
+    /// or where a measure is missing.
     pub fn p_exceeding(
         &self,
         measures: &IntensityMeasures,

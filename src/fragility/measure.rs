@@ -40,9 +40,22 @@ impl Measure {
     pub const SCALAR: [Measure; 6] =
         [Measure::Im1, Measure::Im2, Measure::Im3, Measure::Im4, Measure::Im5, Measure::Im6];
 
-    /// Returns its value for a motion; none where it is missing or not positive, so that it has no logarithm.
-    pub fn value_of(self, measures: &IntensityMeasures) -> Option<f64> {
-        let value = match self {
+    /// Returns what it is, in the words of the dictionary of columns.
+    pub fn formula(self) -> &'static str {
+        match self {
+            Measure::Im1 => "wp / p (Eq. 13)",
+            Measure::Im2 => "wm / p (Eq. 13)",
+            Measure::Im3 => "PGA / (p PGV) (Eq. 13)",
+            Measure::Im4 => "PGA / (g tan alpha) (Eq. 13)",
+            Measure::Im5 => "p PGV / (g tan alpha) (Eq. 13)",
+            Measure::Im6 => "wm PGV / (g tan alpha) (Eq. 13)",
+            Measure::Im3Inverse => "p PGV / PGA: 1 / IM3",
+        }
+    }
+
+    /// Returns its value for a motion; none where it is missing.
+    pub fn raw_value_of(self, measures: &IntensityMeasures) -> Option<f64> {
+        match self {
             Measure::Im1 => measures.im1,
             Measure::Im2 => measures.im2,
             Measure::Im3 => measures.im3,
@@ -50,8 +63,25 @@ impl Measure {
             Measure::Im5 => Some(measures.im5),
             Measure::Im6 => measures.im6,
             Measure::Im3Inverse => measures.im3.map(|im3| 1.0 / im3),
-        };
-        value.filter(|value| value.is_finite() && *value > 0.0)
+        }
+    }
+
+    /// Returns its value for a motion; none where it is missing or not positive, so that it has no logarithm.
+    pub fn value_of(self, measures: &IntensityMeasures) -> Option<f64> {
+        self.raw_value_of(measures).filter(|value| value.is_finite() && *value > 0.0)
+    }
+
+    /// Gathers the measures of a motion by their values, NaN where one is missing.
+    pub fn gather(value: impl Fn(Measure) -> f64) -> IntensityMeasures {
+        let known = |measure: Measure| Some(value(measure)).filter(|value| !value.is_nan());
+        IntensityMeasures {
+            im1: known(Measure::Im1),
+            im2: known(Measure::Im2),
+            im3: known(Measure::Im3),
+            im4: value(Measure::Im4),
+            im5: value(Measure::Im5),
+            im6: known(Measure::Im6),
+        }
     }
 }
 

@@ -29,7 +29,8 @@ mod tree;
 
 pub use calibration::{Calibration, Scenarios};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
-pub use cases::{CaseRow, Cases, CasesBuilder, CasesError, Event, MOST_CASES, Sample, SharedBy};
+pub(crate) use cases::grouped;
+pub use cases::{Cases, Cluster, Event, Group, MOST_CASES, Sample};
 pub use demand::{DemandFit, DemandModel, DemandOptions, PLANE, TransitionPoint};
 pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
 pub use demand::{ln_median_demand, p_exceeding};

@@ -15,6 +15,7 @@ use crate::warning::Warning;
 /// The model of one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "there is one for each structure")]
+#[expect(missing_docs, reason = "the types say it")]
 pub enum Model {
     /// The universal surface, calibrated.
     Calibrated { overturning: Calibration, exceeding: Calibration, peaks: JointPeaks, floor: Option<Floor> },
@@ -146,9 +147,9 @@ impl Model {
     }
 }
 
-/// Computes the probabilities of the tree (Eq. 12) by the paper: P_ex of the demand fit that holds at the IM4,
-/// P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere. P_ex is NaN where no
-/// fit holds.
+/// Computes the probabilities of the tree (Eq. 12) by the paper: P_ex of the demand fit that holds at the
+/// IM4, P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere. P_ex is NaN
+/// where no fit holds.
 pub fn paper_probabilities(
     demand: &[DemandFit],
     overturning: &CurveFit,

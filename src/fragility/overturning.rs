@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Event};
+use super::cases::{Cases, Event, grouped};
 use super::measure::{Measure, Pair, design_row, values};
 use super::parameter::{Parameter, ParameterRow};
 use super::tree::Probability;
@@ -121,6 +121,7 @@ pub fn fit_curves(cases: &Cases, options: &CurveOptions) -> Vec<CurveFit> {
 
 /// A fragility curve: a row of pro.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "table/dictionary.rs says it")]
 pub struct CurveFit {
     pub suite: Option<String>,
     pub structure: String,
@@ -158,6 +159,8 @@ pub struct CurveFit {
     pub misfit_p: Option<f64>,
     pub status: FitStatus,
 }
+
+grouped!(CurveFit);
 
 impl CurveFit {
     fn quantile(&self, confidence: f64) -> f64 {

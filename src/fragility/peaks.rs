@@ -17,7 +17,9 @@ keywords!(Peak { Pga = "pga", Pgv = "pgv" });
 /// The ratio PGV / PGA given each peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointPeaks {
+    /// Of motions of one PGA.
     pub given_pga: RatioGiven,
+    /// Of motions of one PGV.
     pub given_pgv: RatioGiven,
 }
 
@@ -25,6 +27,7 @@ pub struct JointPeaks {
 /// strongest PGA are of small, near earthquakes, with less PGV than a line has. Normal about that, on each
 /// side with its sd.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the formula says it")]
 pub struct RatioGiven {
     pub intercept: f64,
     pub slope: f64,

@@ -35,6 +35,11 @@ impl Kind {
         }
     }
 
+    /// The kind of a suite by its word in tables; that of an unknown word, or of none, is that of records.
+    pub fn of_word(suite: Option<&str>) -> Kind {
+        Kind::of(suite.and_then(|word| word.parse().ok()))
+    }
+
     /// The column of its coefficients: recorded motions have those of high frequencies.
     fn column(self) -> usize {
         match self {
@@ -76,7 +81,7 @@ pub fn covers_motion(measures: &IntensityMeasures, limit_state: f64) -> bool {
     [Measure::Im4, Measure::Im3, Measure::Im5].iter().all(is_known) && is_inside("limit", limit_state)
 }
 
-/// By how much, relative to it, a value may pass a bound: what a print of it does not show.
+/// The relative amount by which a value may pass a bound, as rounding in print does.
 const UNSEEN: f64 = 1e-5;
 
 fn is_inside(name: &str, value: f64) -> bool {

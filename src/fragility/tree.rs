@@ -37,6 +37,7 @@ pub fn p_failure(p_nr: f64, given_rocking: f64) -> f64 {
 
 /// A probability with limits of confidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct Probability {
     pub value: f64,
     pub low: f64,

@@ -34,6 +34,21 @@ keywords!(Part {
     Hazard = "hazard",
 });
 
+impl Part {
+    /// What is unknown, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Part::Fit => "the fragility",
+            Part::Magnitude => "magnitude",
+            Part::Velocity => "PGV",
+            Part::Eta => "eta",
+            Part::Object => "the object's body",
+            Part::Floor => "the building",
+            Part::Hazard => "the hazard",
+        }
+    }
+}
+
 /// Something that is not known exactly, by its 16 and 84 % quantiles inside what is possible. Its median is in
 /// the result itself.
 #[derive(Debug, Clone, Copy, PartialEq)]

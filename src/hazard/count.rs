@@ -32,7 +32,9 @@ pub struct CountedMotion {
 /// An annual rate counted among motions, with 95 % limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CountedRate {
+    /// The rate.
     pub value: f64,
+    /// Of 95 %.
     pub limits: Limits,
     /// How many motions were counted.
     pub motions: usize,
@@ -45,10 +47,10 @@ struct Bin {
     events: f64,
 }
 
-/// Counts the annual rate of an event among motions that are weighted so that their intensities have the rates
-/// of the hazard: in bins of equal numbers of motions, the rate of a bin times the share in which the event
-/// happened. Motions weaker than `least` cause none; those stronger than the strongest bin count as this.
-/// None without motions.
+/// Counts the annual rate of an event among motions that are weighted so that their intensities have the
+/// rates of the hazard: in bins of equal numbers of motions, the rate of a bin times the share in which the
+/// event happened. Motions weaker than `least` cause none; those stronger than the strongest bin count as
+/// in it. None without motions.
 ///
 /// The limits are the wider ones of two: percentiles of resamples of clusters, and those of a weighted sum of
 /// Poisson counts, which also hold where no resample has an event more (Fay & Feuer 1997, Confidence
@@ -87,8 +89,8 @@ fn draw_clusters(clusters: usize, random: &mut impl Rng) -> Vec<f64> {
     times
 }
 
-/// The bins of motions in order; `times` says how often a motion counts. A motion is in the bin of the middle of its
-/// share.
+/// The bins of motions in order; `times` says how often a motion counts. A motion is in the bin of the middle
+/// of its share.
 fn bins(curve: &HazardCurve, least: f64, motions: &[CountedMotion], times: impl Fn(u32) -> f64) -> Vec<Bin> {
     let number = (motions.len() / LEAST_IN_BIN).clamp(1, MOST_BINS);
     let all: f64 = motions.iter().map(|motion| times(motion.cluster)).sum();

@@ -15,6 +15,7 @@ pub struct HazardCurve {
 
 /// Why points make no hazard curve. `point` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the message says it")]
 pub enum HazardError {
     #[error("{0} point(s); expected 2 or more")]
     TooFewPoints(usize),

@@ -7,6 +7,7 @@ use crate::rocking::Structure;
 
 /// A mean annual rate with 95 % limits, which are those of the model alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct Rate {
     pub value: f64,
     pub low: f64,
@@ -20,8 +21,8 @@ pub struct Rate {
 /// Annual rates of LS1 to LS3; NaN where the model has no probability.
 pub type Rates = [Rate; 3];
 
-/// Integrates the probabilities given one peak over its hazard curve. Limits are those of the probabilities at
-/// all intensities at once.
+/// Integrates the probabilities given one peak over its hazard curve. Limits are those of the probabilities
+/// at all intensities at once.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
     let states = |intensity| terms(given_peak.limit_states(intensity, Scenarios::Many));
     let sums = curve.mean_annual_rates(&given_peak.jumps(), given_peak.widest_panel(), states);

@@ -162,8 +162,7 @@ impl Site {
 
     /// The rate of overturning, counted among the responses of this structure to this kind of motion.
     fn count(&self, given: &GivenPeak, curve: &HazardCurve) -> Option<CountedRate> {
-        let kind_of =
-            |suite: &Option<String>| Kind::of(suite.as_deref().and_then(|suite| suite.parse().ok()));
+        let kind_of = |suite: &Option<String>| Kind::of_word(suite.as_deref());
         let [(structure, model)] = given.directions else { return None };
         let kind = match model {
             Model::Calibrated { overturning, .. } => overturning.kind,

@@ -30,7 +30,9 @@ pub struct Grid {
     pub re_km: Vec<f64>,
     /// Scenarios in each cell.
     pub samples: usize,
+    /// How a cell is sampled.
     pub design: Design,
+    /// Of the random numbers.
     pub seed: u64,
 }
 

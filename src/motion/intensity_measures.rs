@@ -3,11 +3,14 @@
 
 use std::f64::consts::PI;
 
+use serde::{Deserialize, Serialize};
+
 use crate::rocking::Structure;
 use crate::units::G_M_S2;
 
-/// The dimensionless intensity measures of Eq. 13. Those of a period are missing where the period is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The dimensionless intensity measures of Eq. 13: the last columns of responses.parquet. Those of a period
+/// are missing where the period is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct IntensityMeasures {
     /// wp / p.
     pub im1: Option<f64>,
@@ -44,6 +47,12 @@ impl IntensityMeasures {
             im5: p * pgv_m_s / g_tan_alpha,
             im6: wm.map(|wm| wm * pgv_m_s / g_tan_alpha),
         }
+    }
+
+    /// Returns those of a motion without periods, of IM4 and IM5: IM3 = IM4 / IM5 (Eq. 13).
+    pub fn of_peaks(im4: f64, im5: f64) -> IntensityMeasures {
+        let im3 = (im5 > 0.0).then(|| im4 / im5);
+        IntensityMeasures { im1: None, im2: None, im3, im4, im5, im6: None }
     }
 }
 

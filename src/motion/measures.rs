@@ -48,6 +48,7 @@ pub struct MeasurePlan {
 /// The measures of one motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
+    /// Those of every motion.
     pub measures: MotionMeasures,
     /// Housner intensity, m.
     pub housner_m: Option<f64>,

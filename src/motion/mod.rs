@@ -1,10 +1,10 @@
 //! Near-fault ground motions: a coherent velocity pulse plus stochastic high frequencies (section 2.1).
 //!
 //! ```text
-//! scenario            magnitude, distance, random parameters of the pulse (section 2.1.1, Eqs. 2 and 3); suites
+//! scenario            magnitude, distance, parameters of the pulse (section 2.1.1, Eqs. 2 and 3); suites
 //! design              samples of the random parameters in a cell of the magnitude-distance grid
 //! pulse               Mavroeidis & Papageorgiou's pulse (Eq. 1)
-//! stochastic          high frequencies by Boore's stochastic method, source of Atkinson & Silva (section 2.1.2)
+//! stochastic          high frequencies: Boore's method, source of Atkinson & Silva (section 2.1.2)
 //! site                amplification from the source to the surface
 //! combine             high frequencies and pulse into one motion (section 2.1.3)
 //! synthesis           all of these for one scenario, on one time axis

@@ -15,6 +15,7 @@ pub enum SiteAmplification {
 
 /// An invalid table of amplification. `row` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the message says it")]
 pub enum SiteTableError {
     #[error("site table: {0} row(s); expected 2 or more of frequency in Hz and amplification")]
     TooShort(usize),

@@ -32,6 +32,7 @@ pub struct StochasticModel {
     pub kappa_s: f64,
     /// Corner fmax of the low-pass filter 1/sqrt(1 + (f/fmax)^8), Hz.
     pub fmax_hz: Option<f64>,
+    /// High-pass filter.
     pub low_cut: Option<LowCut>,
 }
 

@@ -25,6 +25,7 @@ pub struct MotionModel {
     pub difference: Difference,
     /// When the pulse peaks.
     pub epoch: Epoch,
+    /// Model of the high frequencies.
     pub stochastic: StochasticModel,
     /// Seed of the noise.
     pub seed: u64,
@@ -45,6 +46,7 @@ impl Default for MotionModel {
 /// The motions of one scenario on one time axis: accelerations, m/s2. Those of other suites are empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Synthetic {
+    /// Time between samples, s.
     pub dt_s: f64,
     /// Time of the middle of the pulse from the first sample, s.
     pub epoch_s: f64,

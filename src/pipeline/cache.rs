@@ -7,7 +7,8 @@ use super::UsageError;
 use super::call::Call;
 use super::context::Context;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, head};
+use crate::table::keys::head;
+use crate::table::provenance::Provenance;
 use crate::warning::Warnings;
 
 /// Whether the files of a call are up to date.
@@ -51,7 +52,6 @@ pub fn freshness(call: &Call, planned: &Provenance) -> Freshness {
 /// Runs a call unless its files are up to date. `made` has the keys of files that the same run made before:
 /// its inputs must still be these.
 pub fn run(call: &Call, context: &Context, made: &HashMap<PathBuf, String>) -> anyhow::Result<Done> {
-    call.stage.check()?;
     let planned = call.provenance(made)?;
     let key = planned.key();
     if !context.force
@@ -62,7 +62,7 @@ pub fn run(call: &Call, context: &Context, made: &HashMap<PathBuf, String>) -> a
     for path in call.stage.outputs() {
         expect_replaceable(&path, call, context.force)?;
     }
-    let context = context.of_call(call, planned);
+    let context = context.of_call(call.inputs.values().flatten(), planned);
     let summary = call.stage.run(&context)?;
     Ok(Done { summary, warnings: context.warnings(), ran: true, key })
 }

@@ -3,16 +3,18 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
-use clap::{Arg, ArgMatches, Command, ValueHint};
+use clap::{ArgMatches, Command};
 
+use super::context::COMMON;
+use super::files::{Role, files_of, role};
 use super::stage::Stage;
 use crate::table::TableError;
 use crate::table::file::Partition;
-use crate::table::provenance::{Provenance, key_with};
+use crate::table::keys::key_with;
+use crate::table::provenance::Provenance;
 
-/// The files that are read from a folder of fits.
-pub const FITS: [&str; 4] =
-    ["pro.calibration.parquet", "pex.calibration.parquet", "pro.parquet", "pex.parquet"];
+/// Files of an input that are named in what is made of it.
+const MOST_NAMED: usize = 4;
 
 /// A call of a stage.
 pub struct Call {
@@ -24,33 +26,26 @@ pub struct Call {
     pub inputs: BTreeMap<String, Vec<PathBuf>>,
 }
 
-/// Returns whether an argument is an input: a file, or a folder of fits.
-pub fn is_input(arg: &Arg) -> bool {
-    matches!(arg.get_value_hint(), ValueHint::FilePath | ValueHint::DirPath)
-}
-
 impl Call {
     /// Makes a call from the matches of a command.
     pub fn new(command: &Command, matches: &ArgMatches, stage: Box<dyn Stage>) -> Call {
         let mut arguments: BTreeMap<String, Vec<String>> = BTreeMap::new();
         let mut inputs: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
-        for arg in
-            command.get_arguments().filter(|arg| arg.get_help_heading() != Some(super::context::COMMON))
-        {
+        for arg in command.get_arguments() {
             let id = arg.get_id().as_str();
             let flag = arg.get_long().unwrap_or(id).to_string();
             let Ok(Some(values)) = matches.try_get_raw(id) else { continue };
-            let values: Vec<PathBuf> = values.map(PathBuf::from).collect();
-            if arg.get_value_hint() == ValueHint::DirPath {
-                inputs.insert(
-                    flag,
-                    values.iter().flat_map(|folder| FITS.map(|name| folder.join(name))).collect(),
-                );
-            } else if is_input(arg) {
-                inputs.insert(flag, values);
-            } else if flag != "out" {
-                let text = |value: PathBuf| value.to_string_lossy().into_owned();
-                arguments.insert(flag, values.into_iter().map(text).collect());
+            let values = values.map(PathBuf::from);
+            match role(arg) {
+                Role::Output => {}
+                Role::Parameter if arg.get_help_heading() == Some(COMMON) => {}
+                Role::Parameter => {
+                    let texts = values.map(|value| value.to_string_lossy().into_owned());
+                    arguments.insert(flag, texts.collect());
+                }
+                role => {
+                    inputs.insert(flag, values.flat_map(|path| files_of(role, path)).collect());
+                }
             }
         }
         // A partition reads one file of a folder, whatever comes and goes beside it.
@@ -72,7 +67,11 @@ impl Call {
             let keys = paths.iter().map(|path| key(path)).collect::<Result<Vec<_>, _>>()?;
             Ok((flag.clone(), keys.join(" ")))
         });
+        let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let names =
+            |paths: &Vec<PathBuf>| paths.iter().take(MOST_NAMED).map(name).collect::<Vec<_>>().join(", ");
         Ok(Provenance {
+            files: self.inputs.iter().map(|(flag, paths)| (flag.clone(), names(paths))).collect(),
             stage: self.name.clone(),
             version: env!("CARGO_PKG_VERSION").to_string(),
             arguments: self.arguments.clone(),

@@ -8,9 +8,10 @@ use arrow_schema::SchemaRef;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::call::Call;
+use crate::keyword::keywords;
 use crate::table::TableError;
-use crate::table::provenance::{Provenance, key_of};
+use crate::table::keys::key_of;
+use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
 use crate::table::writer::TableWriter;
 use crate::warning::Warnings;
@@ -35,10 +36,19 @@ pub struct Common {
     #[arg(long)]
     pub quiet: bool,
     /// Progress bars: auto or never
-    #[arg(long, value_name = "WHEN", default_value = "auto", hide_possible_values = true,
-          value_parser = ["auto", "never"])]
-    pub progress: String,
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    pub progress: Bars,
 }
+
+/// When to draw progress bars: if stderr is a terminal, or never.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Bars {
+    #[default]
+    Auto,
+    Never,
+}
+
+keywords!(Bars { Auto = "auto", Never = "never" });
 
 /// A program that observes the progress of a stage, in place of the terminal.
 pub trait Listener: Send + Sync {
@@ -70,14 +80,14 @@ pub struct Context {
 impl Context {
     /// Makes the context of a command line.
     pub fn new(common: &Common) -> Context {
-        let progress = common.progress == "auto" && !common.quiet;
+        let progress = common.progress == Bars::Auto && !common.quiet;
         Context { force: common.force, quiet: common.quiet, progress, ..Context::default() }
     }
 
-    /// Returns the context of a call with this provenance.
-    pub fn of_call(&self, call: &Call, made: Provenance) -> Context {
+    /// Returns the context of a call that reads these files and makes files of this provenance.
+    pub fn of_call<'a>(&self, inputs: impl Iterator<Item = &'a PathBuf>, made: Provenance) -> Context {
         let keys = made.inputs.values().flat_map(|keys| keys.split(' '));
-        let files = call.inputs.values().flatten().cloned().zip(keys.map(str::to_string));
+        let files = inputs.cloned().zip(keys.map(str::to_string));
         let inputs = files.filter(|(path, _)| path.exists()).collect();
         Context { made, inputs, warnings: Arc::default(), ..self.clone() }
     }

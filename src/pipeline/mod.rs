@@ -4,6 +4,7 @@
 //! stage     a stage: a struct of options, and a function that runs it
 //! call      one call of a stage: its options, inputs and key
 //! cache     runs a call unless its files are up to date
+//! files     which arguments are files, and where they are by default
 //! context   output, progress and warnings of a running stage
 //! stream    concurrent reading, work and writing
 //! options   option types of several stages
@@ -12,6 +13,7 @@
 pub mod cache;
 pub mod call;
 pub mod context;
+pub mod files;
 pub mod options;
 pub mod stage;
 pub mod stream;

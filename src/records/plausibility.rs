@@ -35,6 +35,7 @@ const WEAKEST_PGA_G: f64 = 1e-3;
 
 /// Why a motion is implausible: value found, value expected, likely mistake.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the message says it")]
 pub enum Implausibility {
     #[error("dt {} s; expected 0.0001 to 0.1 s: milliseconds, or sample numbers?", rounded(*.dt_s))]
     TimeStep { dt_s: f64 },
@@ -50,7 +51,7 @@ pub enum Implausibility {
     Drift { velocity_m_s: f64 },
     #[error("PGV {} m/s; records reach 3 m/s: another unit or time step?", rounded(*.pgv_m_s))]
     Pgv { pgv_m_s: f64 },
-    #[error("PGV/PGA {} s; those of FEMA P695 reach 0.5 s: velocity, or another time step?", rounded(*.ratio_s))]
+    #[error("PGV/PGA {} s; FEMA P695 has up to 0.5 s: velocity, or another time step?", rounded(*.ratio_s))]
     Slow { ratio_s: f64 },
     #[error("mean frequency {} Hz; records reach 20 Hz: another time step?", rounded(*.frequency_hz))]
     Fast { frequency_hz: f64 },

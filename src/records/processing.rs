@@ -22,12 +22,15 @@ pub struct SourceFile {
 pub struct NamedRecord {
     /// Unique among the imported records.
     pub motion_id: String,
+    /// Where it comes from.
     pub source: SourceFile,
+    /// The record.
     pub motion: RecordedMotion,
 }
 
 /// Why a record cannot be processed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the message says it")]
 pub enum ProcessingError {
     #[error("{0}")]
     Implausible(Implausibility),
@@ -42,7 +45,9 @@ pub enum ProcessingError {
 pub struct ImportedMotion {
     /// Unique in the file.
     pub motion_id: String,
+    /// Record or residual.
     pub suite: Suite,
+    /// Where it comes from.
     pub source: SourceFile,
     /// The record, without its samples.
     pub record: RecordedMotion,
@@ -75,7 +80,9 @@ impl ImportedMotion {
 /// Whether to search for pulses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PulseSearch {
+    /// Search for a pulse, and fit it.
     Find,
+    /// Do not search.
     Skip,
 }
 
@@ -84,24 +91,32 @@ keywords!(PulseSearch { Find = "find", Skip = "skip" });
 /// Treatment of implausible motions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Implausible {
+    /// They are errors.
     Refuse,
+    /// They are imported with a warning.
     Accept,
 }
 
 /// Options of the processing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Processing {
+    /// Baseline that is removed.
     pub baseline: Baseline,
+    /// High-pass filter.
     pub high_pass: Option<HighPass>,
     /// Another time step, s.
     pub resample_s: Option<f64>,
     /// Direction of pairs; none imports components one by one.
     pub direction: Option<Direction>,
+    /// Scale factors, or the peak to scale to.
     pub scaling: Scaling,
+    /// Whether to search for pulses.
     pub pulses: PulseSearch,
     /// Whether to add motions without their pulses.
     pub residual: bool,
+    /// What happens to implausible motions.
     pub implausible: Implausible,
+    /// The measures of the result.
     pub plan: MeasurePlan,
 }
 

@@ -20,7 +20,9 @@ const CORNER: f64 = 0.9;
 /// Baseline to remove from an acceleration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Baseline {
+    /// Nothing.
     None,
+    /// Mean.
     Mean,
     /// Least-squares line.
     Linear,

@@ -1,7 +1,8 @@
 //! Axes: from values to fractions of a length, and the places of ticks.
 
 use super::figure::{Axis, Marks, Panel, Scale};
-use super::text::number;
+use super::text::minus;
+use crate::number;
 
 /// An axis with a range.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,7 +102,7 @@ impl<'a> Ruler<'a> {
         let ends = [(self.low / step - 1e-9).ceil() as i64, (self.high / step + 1e-9).floor() as i64];
         let tick = |k: i64| {
             let value = k as f64 * step;
-            Tick { value, label: Some(number::fixed(value, decimals)) }
+            Tick { value, label: Some(minus(number::fixed(value, decimals))) }
         };
         (ends[0]..=ends[1]).map(tick).collect()
     }
@@ -132,7 +133,7 @@ impl<'a> Ruler<'a> {
             choices[if as_powers { 4 } else { 0 }..].iter().map(|&(factors, every)| at(factors, every));
         let labelled = fitting.find(|values| values.len() <= most).unwrap_or_default();
         let label = |value: f64| match as_powers {
-            true => format!("10^{{{}}}", number::fixed(value.log10().round(), 0)),
+            true => format!("10^{{{}}}", minus(number::fixed(value.log10().round(), 0))),
             false => number::plain(value),
         };
         let all = if self.high / self.low < 1e6 {

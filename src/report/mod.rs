@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! figure     a figure as data: panels of layers
-//! figures    one function a figure
+//! figures    one function per figure
 //! draw       a figure as SVG and PNG; axis: ranges and ticks
-//! page       the HTML page; table: rows of strings
-//! text       marked text, numbers as text
+//! page       the HTML page: sections of tables and figures
+//! text       marked text
 //! ```
 
 mod axis;

@@ -14,6 +14,8 @@ pub struct Page {
     pub byline: String,
     /// The result, in a sentence.
     pub sentence: String,
+    /// What was asked, and what the result rests on.
+    pub facts: Vec<String>,
     pub table: Option<Table>,
     /// Warnings that change a decision, under the table.
     pub notes: Vec<String>,
@@ -59,7 +61,7 @@ impl Column {
 impl Page {
     /// Writes the page.
     pub fn html(&self) -> String {
-        let Page { title, byline, sentence, table, notes, figures, sections, key } = self;
+        let Page { title, byline, sentence, facts, table, notes, figures, sections, key } = self;
         let numbered: Vec<String> =
             (1..).zip(figures).map(|(number, figure)| write_figure(figure, number)).collect();
         let (first, others) = numbered.split_at(numbered.len().min(1));
@@ -77,6 +79,7 @@ impl Page {
             ("{key}", escape(key)),
             ("{byline}", escape(byline)),
             ("{sentence}", html(sentence)),
+            ("{facts}", paragraphs(facts)),
             ("{first}", beside + &first.concat()),
             ("{figures}", others.concat()),
             ("{sections}", folded),

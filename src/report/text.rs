@@ -1,4 +1,4 @@
-//! Text of figures and pages. Marked text has italics and small letters below or above the line: `*P*_{ro}`,
+//! Text of figures and of the page. Marked text has italics and small letters below or above the line: `*P*_{ro}`,
 //! `10^{-3}`.
 
 /// Words in one style.
@@ -64,46 +64,7 @@ pub fn escape(text: &str) -> String {
     clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Writes numbers as short as a reader needs them.
-pub mod number {
-    /// Writes a number with so many decimals and a true minus sign.
-    pub fn fixed(value: f64, decimals: usize) -> String {
-        // Adding 0 turns -0 into 0.
-        format!("{:.decimals$}", value + 0.0).replace('-', "\u{2212}")
-    }
-
-    /// Writes a number without trailing zeros.
-    pub fn plain(value: f64) -> String {
-        fixed(value, 6).trim_end_matches('0').trim_end_matches('.').to_string()
-    }
-
-    /// Writes a number with so many significant digits, very small and very large ones with a power of ten; a
-    /// dash if it is none.
-    pub fn significant(value: f64, digits: usize) -> String {
-        match value.abs().log10().floor() {
-            _ if value == 0.0 => "0".to_string(),
-            _ if !value.is_finite() => "\u{2013}".to_string(),
-            power if (-2.0..6.0).contains(&power) => {
-                fixed(value, (digits as f64 - 1.0 - power).max(0.0) as usize)
-            }
-            power => format!("{}e{power}", fixed(value / 10_f64.powf(power), digits - 1)),
-        }
-    }
-
-    /// Writes a value with its limits.
-    pub fn with_limits([value, low, high]: [f64; 3], digits: usize) -> String {
-        let [value, low, high] = [value, low, high].map(|value| significant(value, digits));
-        format!("{value} ({low} to {high})")
-    }
-
-    /// Writes a count, its thousands apart.
-    pub fn count(value: usize) -> String {
-        let digits = value.to_string();
-        let apart = |(place, digit): (usize, char)| {
-            let left = digits.len() - place;
-            let space = place > 0 && digits.len() > 4 && left.is_multiple_of(3);
-            [space.then_some('\u{a0}'), Some(digit)].into_iter().flatten()
-        };
-        digits.chars().enumerate().flat_map(apart).collect()
-    }
+/// Sets the minus sign of a number.
+pub fn minus(number: String) -> String {
+    number.replace('-', "\u{2212}")
 }

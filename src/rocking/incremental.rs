@@ -36,7 +36,9 @@ pub struct Scan {
 /// The response at one intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScanResponse {
+    /// Intensity of the motion.
     pub intensity: f64,
+    /// Response to it.
     pub response: Response,
 }
 
@@ -45,6 +47,7 @@ pub struct ScanResponse {
 pub struct ScanPoint {
     /// Index of the case.
     pub case: usize,
+    /// Intensity to simulate.
     pub intensity: f64,
 }
 
@@ -58,10 +61,12 @@ impl Scan {
         }
     }
 
+    /// Returns the lowest intensity.
     pub fn lowest(&self) -> f64 {
         self.levels[0]
     }
 
+    /// Returns the highest intensity.
     pub fn highest(&self) -> f64 {
         self.levels[self.levels.len() - 1]
     }
@@ -214,6 +219,7 @@ keywords!(CapacityStatus { Overturns = "overturns", Safe = "safe", Below = "belo
 /// The overturning capacity of a structure in a scan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Capacity {
+    /// Whether and where it overturns.
     pub status: CapacityStatus,
     /// Largest safe intensity below the first overturning one.
     pub safe_below: Option<f64>,

@@ -18,7 +18,9 @@ const LONGEST_STEP: f64 = 0.03;
 /// A structure, initially at rest, and its ground motion.
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
+    /// The structure.
     pub structure: &'a Structure,
+    /// The motion of its base.
     pub record: Record<'a>,
 }
 

@@ -17,6 +17,7 @@ pub struct Record<'a> {
 
 /// An invalid record. `sample` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the message says it")]
 pub enum RecordError {
     #[error("dt_s is {0}; expected a time step above 0 s, from 1e-6 to 10")]
     TimeStep(f64),
@@ -62,10 +63,12 @@ impl<'a> Record<'a> {
         self.peak_m_s2
     }
 
+    /// Returns the samples, m/s2.
     pub fn acceleration_m_s2(&self) -> &'a [f64] {
         self.acceleration_m_s2
     }
 
+    /// Returns the time between samples, s.
     pub fn dt_s(&self) -> f64 {
         self.dt_s
     }

@@ -25,6 +25,7 @@ keywords!(Outcome {
 /// The response of one structure to one ground motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
+    /// Whether it rocked, and overturned.
     pub outcome: Outcome,
     /// Engineering demand parameter |theta|max / alpha (Eq. 7); pi / (2 alpha) if it overturns.
     pub edp: f64,

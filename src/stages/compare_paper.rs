@@ -1,16 +1,21 @@
-//! compare-paper: each published number beside ours.
+//! compare-paper: each published number beside that of this run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueHint};
-use serde::{Deserialize, Serialize};
+use clap::{Args, Command, ValueHint};
 
-use crate::fragility::{Kind, Model, Scenarios};
+use super::sample_scenarios::SampleScenarios;
+use super::simulate::Simulate;
+use super::synthesize_motions::SynthesizeMotions;
+use crate::fragility::DemandFit;
+use crate::number::{aligned, counted, fixed};
 use crate::paper;
 use crate::pipeline::context::Context;
 use crate::pipeline::stage::Stage;
+use crate::rocking::Structure;
 use crate::studies::paper::{Comparison, compare};
 use crate::table::frame::{self, Format};
+use crate::table::provenance::Provenance;
 use crate::table::rows;
 
 /// Compare fits of the paper's set-up with the numbers that the paper publishes
@@ -36,79 +41,120 @@ impl Stage for ComparePaper {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let compared = compare(&rows::read(&self.pex)?, &rows::read(&self.pro)?);
-        let summary = match self.all {
+        let demand: Vec<DemandFit> = rows::read(&self.pex)?;
+        let compared = compare(&demand, &rows::read(&self.pro)?);
+        let differences = [other_structures(&demand), other_options(&self.pex)].concat();
+        let mut summary = verdict(&compared, &differences);
+        summary += &match self.all {
             true => frame::show(&frame::of_batch(&rows::batch(&compared)?)?, Format::Text)?,
-            false => summary(&compared)?,
+            false => planes(&compared) + &example(&compared),
         };
         context.write::<Comparison>(&self.out, &compared, &summary)?;
         Ok(summary)
     }
 }
 
-/// One of the eight planes of Table II: z of each of its numbers over our seeds, and the probability that all
-/// four are one more draw of ours.
-#[derive(Serialize, Deserialize)]
-struct PlaneLine {
-    plane: String,
-    z_ln_a: Option<String>,
-    z_b1: Option<String>,
-    z_b2: Option<String>,
-    z_r2: Option<String>,
-    p: Option<String>,
-}
-
-/// Within so many standard deviations of ours a published number agrees.
+/// Within this many standard deviations over seeds a published number agrees with that of the run.
 const AGREES: f64 = 2.0;
 
-/// The eight planes, the worked example, how many numbers agree, and what the surface predicts in their
-/// place.
-fn summary(compared: &[Comparison]) -> anyhow::Result<String> {
-    let planes = compared.iter().filter_map(|row| Some((row, row.quantity.strip_suffix("_plane")?)));
-    let line = |(of, side): (&Comparison, &str)| {
-        let z = |name: &str| {
-            let quantity = format!("{side}_{name}");
-            let is_it = |row: &&Comparison| {
-                (&row.quantity, &row.suite, &row.structure) == (&quantity, &of.suite, &of.structure)
-            };
-            let z = compared.iter().find(is_it)?.z?;
-            Some(format!("{z:+.1}"))
+/// How many published numbers agree with those of this run, and what is not the paper's set-up.
+fn verdict(compared: &[Comparison], differences: &[String]) -> String {
+    let z: Vec<f64> = compared.iter().filter_map(|row| row.z).collect();
+    let agree = z.iter().filter(|z| z.abs() < AGREES).count();
+    let count = format!(
+        "{agree} of {} are within two standard deviations (over 20 seeds) of those of this run\n",
+        counted(z.len(), "published number")
+    );
+    match differences {
+        [] => count,
+        _ => format!("not the paper's set-up ({}): {count}", differences.join("; ")),
+    }
+}
+
+/// What structures of the paper's names have other parameters.
+fn other_structures(demand: &[DemandFit]) -> Vec<String> {
+    let mut differences = Vec::new();
+    for Structure { name, p_rad_s, alpha_rad, eta } in paper::structures() {
+        let Some(fit) = demand.iter().find(|fit| fit.structure == name) else {
+            differences.push(format!("no fits of {name}"));
+            continue;
         };
-        PlaneLine {
-            plane: format!("{}, {}, {side}", of.suite, of.structure),
-            z_ln_a: z("ln_a"),
-            z_b1: z("b1"),
-            z_b2: z("b2"),
-            z_r2: z("r2"),
-            p: of.t2_p.map(|p| if p < 0.001 { format!("{p:.0e}") } else { format!("{p:.2}") }),
+        for (parameter, now, then) in
+            [("p", fit.p_rad_s, p_rad_s), ("alpha", fit.alpha_rad, alpha_rad), ("eta", fit.eta, eta)]
+        {
+            if now != then {
+                differences.push(format!("{name} has {parameter} {now}, not {then}"));
+            }
         }
-    };
-    let planes: Vec<PlaneLine> = planes.map(line).collect();
-    let known: Vec<&Comparison> =
-        compared.iter().filter(|row| row.sd.is_some() && row.published.is_some()).collect();
-    let agree = known.iter().filter(|row| row.z.is_none_or(|z| z.abs() < AGREES)).count();
-    let example = |row: &&Comparison| row.quantity == "example_p_ro";
-    let example: Vec<String> = compared
-        .iter()
-        .filter(example)
-        .map(|row| {
-            let number = |value: Option<f64>| value.map_or("none".to_string(), |value| format!("{value:.2}"));
-            format!("{} {} ({} here)", row.structure, number(row.published), number(row.ours))
-        })
-        .collect();
-    let surface = paper::structures().into_iter().filter_map(|structure| {
-        let model = Model::shipped(Kind::Csgm, &structure, paper::LIMIT_STATE);
-        let given =
-            model.probabilities(&structure, &paper::example(&structure), Scenarios::One).given_rocking?;
-        let p = given.p_ro;
-        Some(format!("{} {:.2} ({:.2} to {:.2})", structure.name, p.value, p.low, p.high))
-    });
-    Ok(format!(
-        "{agree} of {} published numbers are within two standard deviations of ours over seeds\n{}\
-         worked example, P_ro published: {}\nworked example, by the universal surface: {}\n",
-        known.len(),
-        frame::text(&frame::of_batch(&rows::batch(&planes)?)?),
-        example.join(", "),
-        surface.collect::<Vec<_>>().join(", ")
-    ))
+    }
+    differences
+}
+
+/// Options that do not change what is compared.
+const NEUTRAL: [&str; 6] = ["seed", "partition", "housner", "sa", "structure", "trace"];
+
+/// What options of the stages before the fits are not the paper's, which are the defaults; as far as the files
+/// of these stages are beside the fits.
+fn other_options(fits: &Path) -> Vec<String> {
+    let stages: [(&str, Command); 3] = [
+        ("responses.parquet", Simulate::augment_args(Command::new("simulate"))),
+        ("motions.parquet", SynthesizeMotions::augment_args(Command::new("synthesize-motions"))),
+        ("scenarios.parquet", SampleScenarios::augment_args(Command::new("sample-scenarios"))),
+    ];
+    let (mut differences, mut child) = (Vec::new(), Provenance::of_file(fits).ok().flatten());
+    for (file, command) in stages {
+        let made = Provenance::of_file(&fits.with_file_name(file)).ok().flatten();
+        let (Some(made), Some(of_child)) = (made, child) else { break };
+        if of_child.inputs.get("in") != Some(&made.key()) {
+            break;
+        }
+        for arg in command.get_arguments() {
+            let flag = arg.get_long().unwrap_or_default();
+            let values = made.arguments.get(flag).map(|values| values.join(","));
+            let Some(now) = values.or_else(|| made.inputs.get(flag).cloned()) else { continue };
+            let default: Vec<_> =
+                arg.get_default_values().iter().map(|value| value.to_string_lossy()).collect();
+            let then = if default.is_empty() { "none".to_string() } else { default.join(",") };
+            if flag != "in" && now != then && !NEUTRAL.contains(&flag) {
+                differences.push(format!("{} --{flag} {now}, not {then}", made.stage));
+            }
+        }
+        child = Some(made);
+    }
+    differences
+}
+
+/// The eight planes of Table II: each number as published, of this run, and how far they are apart.
+fn planes(compared: &[Comparison]) -> String {
+    let names = ["ln_a", "b1", "b2", "r2"];
+    let heading = ["Table II: published / this run (z)", "ln a", "b1", "b2", "R2"];
+    let mut lines = vec![heading.map(str::to_string).to_vec()];
+    for plane in compared {
+        let Some(side) = plane.quantity.strip_suffix("_plane") else { continue };
+        let mut line = vec![format!("{}, {}, {side}", plane.suite, plane.structure)];
+        line.extend(names.map(|name| {
+            let row = compared.iter().find(|row| {
+                (&row.suite, &row.structure) == (&plane.suite, &plane.structure)
+                    && row.quantity == format!("{side}_{name}")
+            });
+            row.map_or(String::new(), both)
+        }));
+        lines.push(line);
+    }
+    aligned(&lines, |_| false)
+}
+
+/// A number as published, of this run, and how far they are apart.
+pub fn both(row: &Comparison) -> String {
+    let [published, ours] =
+        [row.published, row.ours].map(|value| value.map_or("-".to_string(), |value| fixed(value, 2)));
+    let z = row.z.map_or(String::new(), |z| format!(" ({z:+.1})"));
+    format!("{published} / {ours}{z}")
+}
+
+/// The worked example.
+fn example(compared: &[Comparison]) -> String {
+    let rows = compared.iter().filter(|row| row.quantity == "example_p_ro");
+    let rows: Vec<String> = rows.map(|row| format!("{} {}", row.structure, both(row))).collect();
+    format!("worked example, P_ro: {}\n", rows.join(", "))
 }

@@ -10,8 +10,9 @@ use super::shared::responses;
 use crate::fragility::{Calibration, CurveFit, CurveOptions, Event, Measure, Pair, Parameter, fit_curves};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
+use crate::pipeline::files::part;
 use crate::pipeline::options::number;
-use crate::pipeline::stage::{Stage, part};
+use crate::pipeline::stage::Stage;
 
 /// Fit the probability of overturning: P_ro
 #[derive(Debug, Args)]

@@ -8,17 +8,18 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::synthesize_motions::out_of_partition;
 use crate::motion::{Floor, MeasurePlan, MeasureScratch, Measured, MotionMeasures};
 use crate::pipeline::context::Context;
+use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::Record;
 use crate::table::TableError;
+use crate::table::columns::Batch;
 use crate::table::dictionary;
-use crate::table::file::{Batch, Partition};
-use crate::table::motions::{ACCELERATION, batch, open, spectral_period_s};
+use crate::table::file::Partition;
+use crate::table::motions::{ACCELERATION, Sampled, batch, open, read, spectral_period_s};
 use crate::table::rows;
 
 /// Motions that a thread takes at once, and such parts that are in memory, for each thread.
@@ -76,19 +77,19 @@ impl Stage for FloorMotions {
         let plan = measures_of(table.schema());
         let no_rows = RecordBatch::new_empty(table.schema().clone());
         let none = Batch { path: self.input.as_path().into(), first_row: 0, rows: no_rows };
-        let schema = self.filter(&none, &plan, &mut MeasureScratch::default())?.schema();
+        let schema = self.filter(&none, &[], &plan, &mut MeasureScratch::default())?.schema();
         let mut writer = context.create(&self.outputs()[0], &schema)?;
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(table.rows());
         let parts = table.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
-            match table.read(&group, &|_| true, AT_ONCE) {
+            match read(&table, &group, &|_| true, AT_ONCE) {
                 Ok(parts) => Box::new(parts),
                 Err(error) => Box::new(std::iter::once(Err(error))),
             }
         });
-        let filtered = |part: Batch| -> anyhow::Result<RecordBatch> {
+        let filtered = |(part, samples): Sampled| -> anyhow::Result<RecordBatch> {
             bar.advance(part.rows.num_rows() as u64)?;
-            pool.with(|scratch| self.filter(&part, &plan, scratch))
+            pool.with(|scratch| self.filter(&part, &samples, &plan, scratch))
         };
         pipelined(
             batches(parts, PARTS_A_THREAD * rayon::current_num_threads()),
@@ -107,22 +108,23 @@ impl FloorMotions {
     fn filter(
         &self,
         ground: &Batch,
+        samples: &[Vec<f64>],
         plan: &MeasurePlan,
         scratch: &mut MeasureScratch,
     ) -> anyhow::Result<RecordBatch> {
-        let (columns, floor) = (ground.columns(), Floor { period_s: self.period, level: self.level });
-        let dt = columns.required_numbers("dt_s")?;
-        let (mut samples, mut measured) = (Vec::new(), Vec::new());
-        for (row, (acceleration, &dt_s)) in columns.lists(ACCELERATION)?.iter().zip(&dt).enumerate() {
+        let floor = Floor { period_s: self.period, level: self.level };
+        let dt = ground.required_numbers("dt_s")?;
+        let (mut filtered, mut measured) = (Vec::new(), Vec::new());
+        for (row, (acceleration, &dt_s)) in samples.iter().zip(&dt).enumerate() {
             Record::new(acceleration, dt_s)
-                .map_err(|problem| columns.value_error(row, ACCELERATION, problem.to_string()))?;
+                .map_err(|problem| ground.value_error(row, ACCELERATION, problem.to_string()))?;
             let of_floor: Vec<f32> =
                 floor.motion(acceleration, dt_s, self.damping).iter().map(|&a| a as f32).collect();
             let written: Vec<f64> = of_floor.iter().map(|&a| f64::from(a)).collect();
             measured.push(plan.measure(&written, dt_s, scratch));
-            samples.push(of_floor);
+            filtered.push(of_floor);
         }
-        let floors: Vec<FloorRow> = samples
+        let floors: Vec<FloorRow> = filtered
             .iter()
             .map(|_| FloorRow { floor_period_s: self.period, floor_level: self.level })
             .collect();
@@ -134,7 +136,7 @@ impl FloorMotions {
             known.push(rows::batch(&housner)?);
         }
         let sa: Vec<&[f64]> = measured.iter().map(|of| of.sa_m_s2.as_slice()).collect();
-        batch(&known, &plan.sa_periods_s, &sa, samples.iter().map(Vec::as_slice))
+        batch(&known, &plan.sa_periods_s, &sa, filtered.iter().map(Vec::as_slice))
     }
 }
 

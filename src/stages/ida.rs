@@ -1,31 +1,34 @@
 //! ida: every structure under every motion at rising intensity.
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use arrow_array::RecordBatch;
 use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{DistinctIds, Measures, record, warnings};
 use super::shared::structures::{StructureArgs, warnings_of_all};
-use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities};
+use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
-use crate::motion::MeasureScratch;
+use crate::motion::{IntensityMeasures, MeasureScratch};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
+use crate::pipeline::files::part;
 use crate::pipeline::options::number;
-use crate::pipeline::stage::{Stage, part};
+use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{
     Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
     simulate_all,
 };
+use crate::statistics::FitStatus;
 use crate::table::TableError;
 use crate::table::motions::{ACCELERATION, Motion, Motions, Part};
-use crate::table::rows;
+use crate::table::responses::{self, ResponseRow};
+use crate::table::{frame, rows};
 use crate::units::G_M_S2;
 use crate::warning::{Warning, Warnings};
 
@@ -118,13 +121,15 @@ pub struct CapacityFitRow {
     pub beta: Option<f64>,
     pub beta_low: Option<f64>,
     pub beta_high: Option<f64>,
-    pub status: String,
+    pub status: FitStatus,
 }
+
+grouped!(CapacityRow, CapacityFitRow);
 
 /// What came of some motions.
 struct Analysed {
     motion_ids: Vec<String>,
-    stripes: arrow_array::RecordBatch,
+    stripes: RecordBatch,
     capacities: Vec<CapacityRow>,
     warnings: Warnings,
 }
@@ -160,7 +165,7 @@ impl Stage for Ida {
         let scan = Scan::new(self.from, self.to, self.steps);
         let motions = Motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
-        let mut stripes = context.create(&stripes_file, &stripes_of(&[], &[])?.schema())?;
+        let mut stripes = context.create(&stripes_file, &stripes_of(&[], &[], &[])?.schema())?;
         let (mut ids, mut capacities) = (DistinctIds::default(), Vec::new());
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(motions.rows());
@@ -185,7 +190,8 @@ impl Stage for Ida {
                 Ok(())
             },
         )?;
-        let fits = fits(&capacities, &scan, context);
+        let fits = fits(&capacities, &scan)?;
+        context.warn(ends_early(&fits));
         let summary = summary(&fits);
         context.finish(stripes, &summary)?;
         context.write(&fragility_file, &fits, &summary)?;
@@ -224,7 +230,7 @@ impl Ida {
             }
         }
         let scans = scan.run(cases.len(), |points| respond(&cases, points))?;
-        let (mut responses, mut stripes) = (Vec::new(), Vec::new());
+        let (mut responses, mut measured, mut stripes) = (Vec::new(), Vec::new(), Vec::new());
         for (case, scanned) in cases.iter().zip(&scans) {
             let shares = scan.overturning_shares(scanned).into_iter().map(Some).chain([None]);
             let is_level = |at: &&ScanResponse| {
@@ -232,11 +238,9 @@ impl Ida {
             };
             for (at, overturning_above) in scanned.iter().filter(is_level).zip(shares) {
                 let scale = at.intensity / case.unscaled;
-                responses.push(case.measures.scaled(scale).response_row(
-                    case.motion,
-                    case.structure,
-                    at.response,
-                ));
+                let measures = case.measures.scaled(scale);
+                responses.push(measures.response_row(case.motion, case.structure, at.response));
+                measured.push(measures.of_structure(case.structure));
                 stripes.push(StripeRow {
                     measure: self.measure,
                     intensity: at.intensity,
@@ -249,7 +253,7 @@ impl Ida {
             cases.iter().zip(&scans).map(|(case, scanned)| self.capacity(case, &scan.capacity(scanned)));
         Ok(Analysed {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
-            stripes: stripes_of(&responses, &stripes)?,
+            stripes: stripes_of(&responses, &measured, &stripes)?,
             capacities: capacities.collect(),
             warnings: warned,
         })
@@ -288,10 +292,11 @@ impl ScaledMeasure {
 
 /// Responses and what stripes have besides, side by side.
 fn stripes_of(
-    responses: &[crate::table::responses::ResponseRow],
+    responses: &[ResponseRow],
+    measures: &[IntensityMeasures],
     stripes: &[StripeRow],
-) -> anyhow::Result<arrow_array::RecordBatch> {
-    rows::side_by_side(&[rows::batch(responses)?, rows::batch(stripes)?])
+) -> anyhow::Result<RecordBatch> {
+    rows::side_by_side(&[responses::batch(responses, measures)?, rows::batch(stripes)?])
 }
 
 /// Simulates scaled copies of motions, as many at once as fit.
@@ -334,55 +339,46 @@ fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
 }
 
 /// The lognormal distribution of the capacities of each suite and structure.
-fn fits(capacities: &[CapacityRow], scan: &Scan, context: &Context) -> Vec<CapacityFitRow> {
-    let mut groups: BTreeMap<(Option<&str>, &str), Vec<KnownCapacity>> = BTreeMap::new();
-    let mut order = Vec::new();
-    for row in capacities {
-        let known = match (row.capacity, row.overturning_intensity) {
-            (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
-            (CapacityStatus::Below, _) => KnownCapacity::Below(scan.lowest()),
-            _ => KnownCapacity::Above(scan.highest()),
-        };
-        let name = (row.suite.as_deref(), row.structure.as_str());
-        groups
-            .entry(name)
-            .or_insert_with(|| {
-                order.push(name);
-                Vec::new()
-            })
-            .push(known);
-    }
-    let measure = capacities.first().map_or(ScaledMeasure::Scale, |row| row.measure);
-    let fit = |name: (Option<&str>, &str)| {
-        let known = &groups[&name];
-        let count =
-            |is: fn(&KnownCapacity) -> bool| known.iter().filter(|capacity| is(capacity)).count() as i64;
-        let (fit, status) = match fit_capacities(known) {
-            Ok(fit) => (Some(fit), "ok".to_string()),
-            Err(status) => (None, status.to_string()),
-        };
-        let of = |value: fn(&CapacityFit) -> f64| fit.as_ref().map(value);
-        let row = CapacityFitRow {
-            suite: name.0.map(str::to_string),
-            structure: name.1.to_string(),
-            measure,
-            n: known.len() as i64,
-            n_safe: count(|capacity| matches!(capacity, KnownCapacity::Above(_))),
-            n_below: count(|capacity| matches!(capacity, KnownCapacity::Below(_))),
-            theta: of(|fit| fit.theta),
-            theta_low: of(|fit| fit.theta_low),
-            theta_high: of(|fit| fit.theta_high),
-            beta: of(|fit| fit.beta),
-            beta_low: of(|fit| fit.beta_low),
-            beta_high: of(|fit| fit.beta_high),
-            status,
-        };
-        if row.theta.is_none() && 2 * row.n_safe >= row.n {
-            context.warn([(Warning::ScanEndsEarly, row.structure.clone())].into_iter().collect());
-        }
-        row
+fn fits(capacities: &[CapacityRow], scan: &Scan) -> anyhow::Result<Vec<CapacityFitRow>> {
+    let suites: Vec<_> = capacities.iter().map(|row| row.suite.clone()).collect();
+    let structures: Vec<_> = capacities.iter().map(|row| row.structure.clone()).collect();
+    let of = |rows: Vec<usize>| {
+        let rows: Vec<&CapacityRow> = rows.into_iter().map(|row| &capacities[row]).collect();
+        fit(&rows, scan)
     };
-    order.into_iter().map(fit).collect()
+    Ok(frame::groups(&suites, &structures)?.into_iter().map(of).collect())
+}
+
+fn fit(rows: &[&CapacityRow], scan: &Scan) -> CapacityFitRow {
+    let known = |row: &&CapacityRow| match (row.capacity, row.overturning_intensity) {
+        (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
+        (CapacityStatus::Below, _) => KnownCapacity::Below(scan.lowest()),
+        _ => KnownCapacity::Above(scan.highest()),
+    };
+    let fit = fit_capacities(&rows.iter().map(known).collect::<Vec<_>>());
+    let of = |value: fn(&CapacityFit) -> f64| fit.as_ref().ok().map(value);
+    let count = |status: CapacityStatus| rows.iter().filter(|row| row.capacity == status).count() as i64;
+    CapacityFitRow {
+        suite: rows[0].suite.clone(),
+        structure: rows[0].structure.clone(),
+        measure: rows[0].measure,
+        n: rows.len() as i64,
+        n_safe: count(CapacityStatus::Safe),
+        n_below: count(CapacityStatus::Below),
+        theta: of(|fit| fit.theta),
+        theta_low: of(|fit| fit.theta_low),
+        theta_high: of(|fit| fit.theta_high),
+        beta: of(|fit| fit.beta),
+        beta_low: of(|fit| fit.beta_low),
+        beta_high: of(|fit| fit.beta_high),
+        status: fit.err().unwrap_or(FitStatus::Ok),
+    }
+}
+
+/// Of the structures that half of the motions or more do not overturn, so that there is no median.
+fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
+    let without = fits.iter().filter(|row| row.theta.is_none() && 2 * row.n_safe >= row.n);
+    without.map(|row| (Warning::ScanEndsEarly, row.structure.clone())).collect()
 }
 
 /// A line a structure: its median intensity of overturning with limits.

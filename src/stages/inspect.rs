@@ -5,13 +5,12 @@ use std::path::PathBuf;
 
 use arrow_schema::Field;
 use clap::{Args, ValueHint};
-use parquet::arrow::arrow_reader::ArrowReaderMetadata;
 use parquet::file::metadata::ParquetMetaData;
 use parquet::file::statistics::Statistics;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::table::file::{self, Table};
+use crate::table::file::Table;
 use crate::table::frame::{self, Format};
 use crate::table::provenance::Provenance;
 use crate::table::{dictionary, rows};
@@ -46,14 +45,13 @@ impl Inspect {
     pub fn run(&self) -> anyhow::Result<String> {
         let table = Table::open(&self.file)?;
         if let Some(head) = self.head {
-            let shown = frame::show(&frame::head(&table, head)?, self.format)?;
+            let shown = frame::show(&frame::read(&table, head)?, self.format)?;
             return Ok(if self.format == Format::Text { cut(&shown) } else { shown });
         }
-        let first = file::files(&self.file)?.swap_remove(0);
-        let metadata: ArrowReaderMetadata = file::metadata(&first)?;
-        let fields = metadata.schema().fields();
-        let columns: Vec<ColumnRow> = fields.iter().map(|field| column(field, metadata.metadata())).collect();
-        let made = Provenance::of_footer(metadata.metadata());
+        let metadata = table.metadata().metadata();
+        let fields = table.schema().fields();
+        let columns: Vec<ColumnRow> = fields.iter().map(|field| column(field, metadata)).collect();
+        let made = Provenance::of_footer(metadata);
         if self.format == Format::Json {
             let path = self.file.display().to_string();
             return Ok(format!(

@@ -1,8 +1,9 @@
 //! rank-ims: which intensity measures predict best, alone, in pairs and in triples.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
+use anyhow::Context as _;
 use clap::{Args, ValueHint};
 use polars::prelude::SortMultipleOptions;
 
@@ -11,7 +12,7 @@ use crate::motion::Dimension;
 use crate::paper;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::number;
+use crate::pipeline::options::{listed, number};
 use crate::pipeline::stage::Stage;
 use crate::rocking::Structure;
 use crate::studies::{RankedSet, RankingRules, Target, rank_measures};
@@ -77,19 +78,21 @@ impl Stage for RankIms {
             Some(path) => Further::read(path, &self.candidate)?,
             None => Further::default(),
         };
-        let groups = responses::read_with(&self.input, &further.names(), |motion, structure| {
-            further.of(motion, structure)
-        })?;
+        let groups = responses::read_with(&self.input, &|motions, structure| further.of(motions, structure))?;
         let rules = RankingRules { terms: self.terms, folds: self.folds, transition: self.transition };
         let bar = context.bar(2 * groups.len() as u64);
-        let mut sets: Vec<RankedSet> = Vec::new();
+        let (mut sets, mut incomplete) = (Vec::new(), BTreeMap::new());
         for cases in &groups {
             for target in [Target::Demand, Target::Overturning] {
-                sets.extend(rank_measures(cases, target, &rules).sets);
+                let ranking = rank_measures(cases, target, &rules);
+                sets.extend(ranking.sets);
+                for (name, missing) in ranking.incomplete {
+                    *incomplete.entry(name).or_default() += missing;
+                }
                 bar.advance(1)?;
             }
         }
-        let summary = best(&sets)?;
+        let summary = best(&sets)? + &not_ranked(&incomplete);
         context.write(&self.out, &sets, &summary)?;
         Ok(summary)
     }
@@ -123,76 +126,82 @@ fn best(sets: &[RankedSet]) -> anyhow::Result<String> {
     Ok(frame::text(&shown))
 }
 
+/// A line on the measures that some cases lack.
+fn not_ranked(incomplete: &BTreeMap<String, usize>) -> String {
+    let measures: Vec<String> =
+        incomplete.iter().map(|(name, missing)| format!("{name} (missing in {missing} cases)")).collect();
+    if measures.is_empty() { String::new() } else { format!("not ranked: {}\n", measures.join(", ")) }
+}
+
 /// Further measures of motions.
 #[derive(Default)]
 struct Further {
-    columns: Vec<(String, Dimension)>,
-    values: HashMap<String, Vec<f64>>,
+    measures: Vec<FurtherMeasure>,
+    /// The place of each motion in the columns.
+    places: HashMap<String, usize>,
     path: PathBuf,
+}
+
+struct FurtherMeasure {
+    column: String,
+    quantity: Dimension,
+    /// NaN where unknown.
+    values: Vec<f64>,
 }
 
 impl Further {
     fn read(path: &Path, candidates: &[String]) -> anyhow::Result<Further> {
         let table = Table::open(path)?;
-        let names: Vec<&str> = table.schema().fields().iter().map(|field| field.name().as_str()).collect();
-        if let Some(missing) = candidates.iter().find(|name| !names.contains(&name.as_str())) {
-            let file = path.display();
+        let names: Vec<&String> = table.schema().fields().iter().map(|field| field.name()).collect();
+        if let Some(missing) = candidates.iter().find(|name| !names.contains(name)) {
+            let (file, names) = (path.display(), listed(&names, usize::MAX));
             return Err(UsageError::because(format!(
-                "{file}: no column '{missing}'; expected one of {}",
-                names.join(", ")
+                "{file}: no column '{missing}'; expected one of {names}"
             )));
         }
-        let is_wanted = |name: &&&str| {
-            FURTHER.contains(*name)
-                || name.starts_with("sa_")
-                || candidates.iter().any(|other| other == **name)
+        let is_wanted = |name: &String| {
+            FURTHER.contains(&name.as_str()) || name.starts_with("sa_") || candidates.contains(name)
         };
-        let columns: Vec<(String, Dimension)> = names
-            .iter()
-            .filter(is_wanted)
-            .filter_map(|name| Some((name.to_string(), quantity(name)?)))
-            .collect();
-        let mut values = HashMap::new();
-        for batch in
-            table.batches(&|name| name == "motion_id" || columns.iter().any(|(column, _)| column == name))
+        let measure = |column: &String| {
+            Some(FurtherMeasure { column: column.clone(), quantity: quantity(column)?, values: Vec::new() })
+        };
+        let wanted = names.into_iter().filter(|name| is_wanted(name));
+        let mut measures: Vec<FurtherMeasure> = wanted.filter_map(measure).collect();
+        let (mut places, mut rows) = (HashMap::new(), 0);
+        let columns: Vec<String> = measures.iter().map(|measure| measure.column.clone()).collect();
+        for batch in table.batches(&|name| name == "motion_id" || columns.iter().any(|column| column == name))
         {
             let batch = batch?;
-            let all = batch.columns();
-            let of_columns =
-                columns.iter().map(|(name, _)| all.numbers(name)).collect::<Result<Vec<_>, _>>()?;
-            for (row, id) in all.required_texts("motion_id")?.into_iter().enumerate() {
-                values.insert(id, of_columns.iter().map(|column| column[row]).collect());
+            for measure in &mut measures {
+                measure.values.extend(batch.numbers(&measure.column)?);
             }
+            places.extend(batch.required_texts("motion_id")?.into_iter().zip(rows..));
+            rows += batch.rows.num_rows();
         }
         // A measure that no motion has does not compete.
-        let has_any = |place: &usize| values.values().any(|values: &Vec<f64>| !values[*place].is_nan());
-        let kept: Vec<usize> = (0..columns.len()).filter(has_any).collect();
-        values.values_mut().for_each(|values| *values = kept.iter().map(|&place| values[place]).collect());
-        let columns = kept.iter().map(|&place| columns[place].clone()).collect();
-        Ok(Further { columns, values, path: path.to_path_buf() })
+        measures.retain(|measure| measure.values.iter().any(|value| !value.is_nan()));
+        Ok(Further { measures, places, path: path.to_path_buf() })
     }
 
-    /// The names of the measures, without units.
-    fn names(&self) -> Vec<String> {
-        let plain = |name: &String| {
-            UNITS.iter().find_map(|(unit, _)| name.strip_suffix(unit)).unwrap_or(name).to_string()
-        };
-        self.columns.iter().map(|(name, _)| plain(name)).collect()
-    }
-
-    /// The measures of a motion, made dimensionless for a structure.
-    fn of(&self, motion: &str, structure: &Structure) -> anyhow::Result<Vec<f64>> {
-        if self.columns.is_empty() {
+    /// The measures of motions, made dimensionless for a structure, by their names without units.
+    fn of(&self, motions: &[&str], structure: &Structure) -> anyhow::Result<Vec<(String, Vec<f64>)>> {
+        if self.measures.is_empty() {
             return Ok(Vec::new());
         }
-        let values = self.values.get(motion).ok_or_else(|| {
-            anyhow::anyhow!(
-                "{}: no motion '{motion}'; expected the motions of the responses",
-                self.path.display()
-            )
-        })?;
-        let pairs = values.iter().zip(&self.columns);
-        Ok(pairs.map(|(value, (_, quantity))| quantity.dimensionless(*value, structure)).collect())
+        let place = |motion: &&str| {
+            let place = self.places.get(*motion).copied();
+            let file = self.path.display();
+            place.with_context(|| {
+                format!("{file}: no motion '{motion}'; expected the motions of the responses")
+            })
+        };
+        let places = motions.iter().map(place).collect::<anyhow::Result<Vec<usize>>>()?;
+        let of_measure = |measure: &FurtherMeasure| {
+            let unit = UNITS.iter().find_map(|(unit, _)| measure.column.strip_suffix(unit));
+            let value = |&place: &usize| measure.quantity.dimensionless(measure.values[place], structure);
+            (unit.unwrap_or(&measure.column).to_string(), places.iter().map(value).collect())
+        };
+        Ok(self.measures.iter().map(of_measure).collect())
     }
 }
 

@@ -9,18 +9,17 @@ use rayon::prelude::*;
 
 use super::shared::motions::{DistinctIds, Measures, record, warnings};
 use super::shared::structures::{StructureArgs, warnings_of_all};
-use super::synthesize_motions::out_of_partition;
 use crate::motion::MeasureScratch;
 use crate::pipeline::context::Context;
+use crate::pipeline::files::{out_of_partition, part};
 use crate::pipeline::options::listed;
-use crate::pipeline::stage::{Stage, part};
+use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
 use crate::table::TableError;
 use crate::table::file::Partition;
 use crate::table::motions::{Motion, Motions, Part};
-use crate::table::responses::{ResponseRow, TraceRow};
-use crate::table::rows;
+use crate::table::responses::{self, TraceRow};
 use crate::warning::Warnings;
 
 /// Parts of the file that are read at once, for each thread.
@@ -44,7 +43,8 @@ pub struct Simulate {
     out: PathBuf,
     #[command(flatten)]
     structures: StructureArgs,
-    /// Also write the rotation of these motions over time, to NAME.trace.parquet
+    /// Also write the rotation of these motions over time, to NAME.trace.parquet: by a plain solver, which
+    /// may disagree with the outcome where a structure all but overturns
     #[arg(long, value_name = "ID,...", value_delimiter = ',', help_heading = None::<&str>)]
     trace: Vec<String>,
     /// Only part i of n (0 to n - 1), into the folder --out
@@ -67,7 +67,7 @@ impl Stage for Simulate {
         context.warn(warnings_of_all(&structures));
         let motions = Motions::open(&self.input, self.partition)?;
         let out = out_of_partition(&self.out, self.partition);
-        let mut writer = context.create(&out, &rows::schema::<ResponseRow>())?;
+        let mut writer = context.create(&out, &responses::batch(&[], &[])?.schema())?;
         let (mut ids, mut overturned, mut traces) =
             (DistinctIds::default(), Overturned::default(), Vec::new());
         let pool = Pool::new(MeasureScratch::default);
@@ -132,29 +132,30 @@ fn respond(
     let of_record = |&record| structures.iter().map(move |structure| Problem { structure, record });
     let problems: Vec<Problem> = records.iter().flat_map(of_record).collect();
     let mut responses = simulate_all(&problems).into_iter();
-    let mut responded = Responded {
-        motion_ids: Vec::new(),
-        rows: rows::batch::<ResponseRow>(&[])?,
-        traces: Vec::new(),
-        warnings: Warnings::default(),
-        overturned: Overturned::default(),
-    };
-    let mut all = Vec::with_capacity(problems.len());
+    let (mut rows, mut measured) = (Vec::with_capacity(problems.len()), Vec::with_capacity(problems.len()));
+    let (mut traces, mut warned, mut overturned) = (Vec::new(), Warnings::default(), Overturned::default());
     for (motion, record) in motions.iter().zip(&records) {
         let measures = Measures::new(motion, record, scratch);
         for (structure, response) in structures.iter().zip(&mut responses) {
             if response.outcome == Outcome::Overturning {
-                responded.overturned.add(structure, motion);
+                overturned.add(structure, motion);
             }
-            all.push(measures.response_row(motion, structure, response));
+            rows.push(measures.response_row(motion, structure, response));
+            measured.push(measures.of_structure(structure));
         }
         if traced.contains(&motion.motion_id) {
-            responded.traces.extend(trace_rows(motion, record, structures)?);
+            traces.extend(trace_rows(motion, record, structures)?);
         }
-        responded.warnings.extend(warnings(motion, record));
-        responded.motion_ids.push(motion.motion_id.clone());
+        warned.extend(warnings(motion, record));
     }
-    Ok(Responded { rows: rows::batch(&all)?, ..responded })
+    let motion_ids = motions.iter().map(|motion| motion.motion_id.clone()).collect();
+    Ok(Responded {
+        motion_ids,
+        rows: responses::batch(&rows, &measured)?,
+        traces,
+        warnings: warned,
+        overturned,
+    })
 }
 
 /// The rotation of all structures over time under a motion.

@@ -13,6 +13,7 @@ use crate::motion::{
 };
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
+use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::{Steps, number};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
@@ -196,12 +197,4 @@ fn batch(some: &[Motion], periods_s: &[f64]) -> anyhow::Result<arrow_array::Reco
     let sa: Vec<&[f64]> = some.iter().map(|motion| motion.measured.sa_m_s2.as_slice()).collect();
     let known = [rows::batch_of::<MotionName, _>(&names)?, rows::batch(&scenarios)?, rows::batch(&measures)?];
     motions::batch(&known, periods_s, &sa, some.iter().map(|motion| motion.acceleration_m_s2.as_slice()))
-}
-
-/// Where a partition is written: as a file of the folder that stands for the whole.
-pub fn out_of_partition(out: &Path, partition: Option<Partition>) -> PathBuf {
-    match partition {
-        Some(partition) => out.with_extension("").join(partition.file_name()),
-        None => out.to_path_buf(),
-    }
 }

@@ -8,10 +8,12 @@ use super::shared::model_args::ModelArgs;
 use super::shared::responses;
 use crate::fragility::{Cases, Event, Kind, Model, Scenarios};
 use crate::pipeline::context::Context;
-use crate::pipeline::stage::{Stage, part};
+use crate::pipeline::files::part;
+use crate::pipeline::stage::Stage;
 use crate::studies::{Forecasts, ReliabilityBin, Validation};
 use crate::table::frame;
-use crate::table::provenance::{Provenance, key_of};
+use crate::table::keys::key_of;
+use crate::table::provenance::Provenance;
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 
@@ -42,7 +44,7 @@ impl Stage for Validate {
         let (mut scores, mut bins) = (Vec::new(), Vec::new());
         for cases in &groups {
             // Without --suite the fits to the same kind of motion predict.
-            let kind = Kind::of(cases.suite.as_deref().and_then(|suite| suite.parse().ok()));
+            let kind = Kind::of_word(cases.suite.as_deref());
             let models = models.of_kind(self.fits.suite.unwrap_or(kind));
             let (model, warnings) = models.model(&cases.structure)?;
             context

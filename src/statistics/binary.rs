@@ -17,7 +17,9 @@ const ENDLESS: f64 = 1e3;
 /// A probit regression P(event) = Phi(z), z = b0 + b1 x1 + ...
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbitFit {
+    /// Coefficients and their covariance.
     pub fit: Fit,
+    /// Logarithm of the likelihood at the maximum (Eq. 21).
     pub log_likelihood: f64,
 }
 

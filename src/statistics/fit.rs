@@ -8,6 +8,7 @@ use crate::keyword::keywords;
 /// Whether a fit is usable, and if not, why.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FitStatus {
+    /// Usable.
     Ok,
     /// Squares and products of the predictors improve the fit (p < 0.01).
     PoorFit,
@@ -45,6 +46,7 @@ const POOR_FIT: f64 = 0.01;
 
 /// Confidence limits.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct Limits {
     pub low: f64,
     pub high: f64,
@@ -52,6 +54,7 @@ pub struct Limits {
 
 /// A value with its standard error and confidence limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct Estimate {
     pub value: f64,
     pub standard_error: f64,

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 pub struct Folds {
     /// Fold of each case.
     of: Vec<usize>,
+    /// Number of folds.
     pub count: usize,
 }
 

@@ -10,6 +10,7 @@ use super::fit::{Fit, FitStatus, predict};
 /// A linear regression y = b0 + b1 x1 + ... with normal errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearFit {
+    /// Coefficients and their covariance.
     pub fit: Fit,
     /// Residual sum of squares.
     pub rss: f64,

@@ -16,7 +16,9 @@ const CHUNK: usize = 8192;
 /// The value of a function to maximise, with its derivatives at k coefficients.
 #[derive(Debug, Clone)]
 pub struct Objective {
+    /// Value.
     pub value: f64,
+    /// First derivatives, k.
     pub gradient: DVector<f64>,
     /// Negative of the second derivatives, k x k.
     pub information: DMatrix<f64>,
@@ -48,7 +50,9 @@ impl Objective {
 /// The end of the iterations.
 #[derive(Debug, Clone)]
 pub struct Maximum {
+    /// Coefficients, k.
     pub at: DVector<f64>,
+    /// The function there.
     pub objective: Objective,
     /// Whether it is a maximum.
     pub converged: bool,

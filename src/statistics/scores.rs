@@ -1,4 +1,4 @@
-//! Scores of predicted probabilities.
+//! Scores of predicted probabilities, and quantiles of a sample.
 
 /// Computes the area under the receiver operating characteristic: the probability that an event has a higher
 /// score than another case, ties counted half. NaN without events or without other cases.
@@ -26,4 +26,11 @@ pub fn brier_score(probabilities: &[f64], events: &[bool]) -> f64 {
 pub fn log_score(probabilities: &[f64], events: &[bool]) -> f64 {
     let term = |(p, &event): (&f64, &bool)| if event { p.ln() } else { (-p).ln_1p() };
     probabilities.iter().zip(events).map(term).sum::<f64>() / events.len() as f64
+}
+
+/// Finds the value that this fraction of a sample lies below; NaN do not count. None of an empty sample.
+pub fn sample_quantile(mut values: Vec<f64>, fraction: f64) -> Option<f64> {
+    values.retain(|value| !value.is_nan());
+    values.sort_unstable_by(f64::total_cmp);
+    values.get((fraction * values.len() as f64) as usize).copied()
 }

@@ -4,7 +4,7 @@ use std::f64::consts::SQRT_2;
 
 use serde::{Deserialize, Serialize};
 
-use crate::fragility::{CurveFit, DemandFit, DemandModel, Event, Measure};
+use crate::fragility::{CurveFit, DemandFit, DemandModel, Event, Group, Measure};
 use crate::fragility::{beta, hybrid_measure, lambda, mu, p_overturning};
 use crate::paper::{EXAMPLE_LAMBDA, Published, SeedValue, example, published, seed_values};
 use crate::rocking::Structure;
@@ -12,6 +12,7 @@ use crate::statistics::normal;
 
 /// A published number beside ours: a row of paper.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "table/dictionary.rs says it")]
 pub struct Comparison {
     pub quantity: String,
     pub place: String,
@@ -23,8 +24,7 @@ pub struct Comparison {
     pub mean: Option<f64>,
     pub sd: Option<f64>,
     pub seeds: i64,
-    /// (published - mean) / sd; none where the print leaves open more than two of these sds, the mean among
-    /// it.
+    /// (published - ours) / sd; none where the print leaves open more than two of these sds, ours among it.
     pub z: Option<f64>,
     pub t2: Option<f64>,
     pub t2_p: Option<f64>,
@@ -42,17 +42,17 @@ pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
 impl Comparison {
     fn new(number: &Published, ours: Option<f64>, seeds: &[SeedValue]) -> Comparison {
         let Published { quantity, suite, structure, .. } = number;
-        let is_its = |seed: &&SeedValue| {
-            (&seed.quantity, &seed.suite, &seed.structure) == (quantity, suite, structure)
-        };
-        let values: Vec<f64> = seeds.iter().filter(is_its).map(|seed| seed.value).collect();
+        let its = seeds
+            .iter()
+            .filter(|seed| (&seed.quantity, &seed.suite, &seed.structure) == (quantity, suite, structure));
+        let values: Vec<f64> = its.map(|seed| seed.value).collect();
         let n = values.len() as f64;
         let mean = Some(values.iter().sum::<f64>() / n).filter(|_| n > 1.0);
         let sd = mean.map(|mean| (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt());
         let z = || {
-            let (mean, sd, low, high) = (mean?, sd?, number.print_low?, number.print_high?);
-            let is_open = (low..=high).contains(&mean) && high - low > 2.0 * sd;
-            (sd > 0.0 && !is_open).then_some((number.published? - mean) / sd)
+            let (ours, sd, low, high) = (ours?, sd?, number.print_low?, number.print_high?);
+            let is_open = (low..=high).contains(&ours) && high - low > 2.0 * sd;
+            (sd > 0.0 && !is_open).then_some((number.published? - ours) / sd)
         };
         Comparison {
             quantity: quantity.clone(),
@@ -73,26 +73,24 @@ impl Comparison {
 
 /// Our value of a published quantity; none where the fits do not have it.
 fn ours(number: &Published, demand: &[DemandFit], curves: &[CurveFit]) -> Option<f64> {
-    let is_its = |suite: &Option<String>, structure: &str| {
-        suite.as_deref() == Some(&number.suite) && structure == number.structure
-    };
+    let its = Group { suite: Some(&number.suite), structure: &number.structure };
     let plane = |side: &str| {
         let planes = demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
         let mut on_side = planes.filter(|fit| fit.range_high.is_some() == (side == "low"));
-        on_side.find(|fit| is_its(&fit.suite, &fit.structure))
+        on_side.find(|fit| fit.group() == its)
     };
     let curve = |structure: &str, im_x: Measure, im_y: Option<Measure>| {
-        let is_its = |fit: &&CurveFit| {
-            (fit.suite.as_deref(), fit.structure.as_str()) == (Some(&number.suite), structure)
+        let mut fitted = curves.iter().filter(|fit| !fit.coefficients.is_empty());
+        fitted.find(|fit| {
+            fit.group() == Group { structure, ..its }
                 && (fit.event, fit.im_x, fit.im_y) == (Event::Overturning, im_x, im_y)
-        };
-        curves.iter().filter(|fit| !fit.coefficients.is_empty()).find(is_its)
+        })
     };
     let im5 = || curve(&number.structure, Measure::Im5, None);
     let hybrid = |structure: &str| curve(structure, Measure::Im4, Some(Measure::Im3Inverse));
     // The hybrid measure of the worked example, of the motion as it meets the structure.
     let of_example = |lambda: f64| {
-        let fit = curves.iter().find(|fit| is_its(&fit.suite, &fit.structure))?;
+        let fit = curves.iter().find(|fit| fit.group() == its)?;
         let structure = Structure::new(&fit.structure, fit.p_rad_s, fit.alpha_rad, fit.eta).ok()?;
         let measures = example(&structure);
         Some(hybrid_measure(measures.im4, 1.0 / measures.im3?, lambda))

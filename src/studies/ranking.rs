@@ -48,6 +48,7 @@ pub struct RankingRules {
 
 /// Scores of a set of measures: a row of ranking.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "table/dictionary.rs says it")]
 pub struct RankedSet {
     pub suite: Option<String>,
     pub structure: String,
@@ -74,6 +75,7 @@ pub struct RankedSet {
 /// All sets of measures of a structure and suite, best first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
+    /// Ranked sets of measures.
     pub sets: Vec<RankedSet>,
     /// Measures missing in some cases, and in how many; they are not ranked.
     pub incomplete: Vec<(String, usize)>,
@@ -158,7 +160,7 @@ impl Contest {
             Target::Overturning => cases.happened(*case, Event::Overturning, f64::INFINITY).is_some(),
         };
         let rows: Vec<usize> = (0..cases.len()).filter(counts).collect();
-        let [.., im4, _, _] = &cases.im;
+        let im4 = cases.column(Measure::Im4);
         let mut contest = Contest {
             target,
             names: Vec::new(),
@@ -168,8 +170,8 @@ impl Contest {
             is_low: rows.iter().map(|&row| im4[row] < transition).collect(),
             clusters: rows.iter().map(|&row| cases.cluster[row]).collect(),
         };
-        let of_paper = Measure::SCALAR.iter().map(|measure| measure.as_str()).zip(&cases.im);
-        let candidates = cases.candidates.iter().map(|(name, values)| (name.as_str(), values));
+        let of_paper = Measure::SCALAR.iter().map(|measure| (measure.as_str(), cases.column(*measure)));
+        let candidates = cases.candidates.iter().map(|(name, values)| (name.as_str(), &values[..]));
         let mut incomplete = Vec::new();
         for (name, values) in of_paper.chain(candidates) {
             let ln: Vec<f64> = rows.iter().map(|&row| values[row].ln()).filter(|ln| ln.is_finite()).collect();

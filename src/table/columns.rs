@@ -1,6 +1,7 @@
-//! Columns of a batch by name, as numbers, texts or lists, from any program.
+//! Columns of a batch by name, as numbers, texts or words, from any program.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{
@@ -11,26 +12,23 @@ use arrow_array::{Array, ArrayRef, RecordBatch};
 use arrow_schema::DataType;
 
 use super::TableError;
-use super::dictionary;
+use crate::keyword::{self, Keyword};
+use crate::rocking::Structure;
 
-/// A batch of the table at `path`, whose first row is row `first_row` of the file.
+/// Consecutive rows of a table.
 #[derive(Debug, Clone)]
-pub struct Columns<'a> {
-    pub path: &'a Path,
+pub struct Batch {
+    pub path: Arc<Path>,
+    /// First row, counted in the file.
     pub first_row: u64,
-    pub batch: &'a RecordBatch,
+    pub rows: RecordBatch,
 }
 
-impl<'a> Columns<'a> {
-    /// Returns the number of rows.
-    pub fn rows(&self) -> usize {
-        self.batch.num_rows()
-    }
-
+impl Batch {
     /// Returns the numbers of a column, NaN for null or if it is missing.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, TableError> {
-        match self.batch.column_by_name(name) {
-            None => Ok(vec![f64::NAN; self.rows()]),
+        match self.rows.column_by_name(name) {
+            None => Ok(vec![f64::NAN; self.rows.num_rows()]),
             Some(column) => numbers(column).ok_or_else(|| self.other_type(name, column, "a number")),
         }
     }
@@ -47,7 +45,9 @@ impl<'a> Columns<'a> {
 
     /// Returns the texts of a column (integers as texts), `None` for null or if it is missing.
     pub fn texts(&self, name: &str) -> Result<Vec<Option<String>>, TableError> {
-        let Some(column) = self.batch.column_by_name(name) else { return Ok(vec![None; self.rows()]) };
+        let Some(column) = self.rows.column_by_name(name) else {
+            return Ok(vec![None; self.rows.num_rows()]);
+        };
         if let Some(texts) = column.as_string_opt::<i32>() {
             return Ok(texts.iter().map(|text| text.map(str::to_string)).collect());
         }
@@ -65,22 +65,25 @@ impl<'a> Columns<'a> {
         self.texts(name)?.into_iter().enumerate().map(text).collect()
     }
 
-    /// Returns the lists of numbers of a column without nulls.
-    pub fn lists(&self, name: &'static str) -> Result<Vec<Vec<f64>>, TableError> {
-        let column = self.expect(name)?;
-        let list = |row: usize| {
-            let items = match column.data_type() {
-                _ if column.is_null(row) => None,
-                DataType::List(_) => Some(column.as_list::<i32>().value(row)),
-                DataType::LargeList(_) => Some(column.as_list::<i64>().value(row)),
-                DataType::FixedSizeList(..) => Some(column.as_fixed_size_list().value(row)),
-                _ => return Err(self.other_type(name, column, "a list of numbers")),
-            };
-            let items =
-                items.ok_or_else(|| self.value_error(row, name, "null; expected a list of numbers"))?;
-            numbers(&items).ok_or_else(|| self.other_type(name, column, "a list of numbers"))
+    /// Returns the words of a column without nulls.
+    pub fn required_words<T: Keyword>(&self, name: &'static str) -> Result<Vec<T>, TableError> {
+        let word = |(row, text): (usize, String)| {
+            keyword::parse(&text).map_err(|unknown| self.value_error(row, name, unknown.to_string()))
         };
-        (0..self.rows()).map(list).collect()
+        self.required_texts(name)?.into_iter().enumerate().map(word).collect()
+    }
+
+    /// Makes the structure of a row from its p (rad/s), alpha (rad) and eta.
+    pub fn structure(&self, row: usize, name: &str, of: [f64; 3]) -> Result<Structure, TableError> {
+        let [p_rad_s, alpha_rad, eta] = of;
+        Structure::new(name, p_rad_s, alpha_rad, eta).map_err(|error| {
+            let column = match error.parameter {
+                "alpha" => "alpha_rad",
+                "eta" => "eta",
+                _ => "p_rad_s",
+            };
+            self.value_error(row, column, error.to_string())
+        })
     }
 
     /// Makes the error of a value in a row of this batch.
@@ -89,17 +92,12 @@ impl<'a> Columns<'a> {
         TableError::Value { path: self.path.to_path_buf(), row, column, problem: problem.into() }
     }
 
-    fn expect(&self, name: &str) -> Result<&'a ArrayRef, TableError> {
-        self.batch.column_by_name(name).ok_or_else(|| {
-            let (path, column) = (self.path.to_path_buf(), name.to_string());
-            TableError::MissingColumn { path, column, expected: dictionary::meaning(name) }
-        })
+    fn expect(&self, name: &str) -> Result<&ArrayRef, TableError> {
+        self.rows.column_by_name(name).ok_or_else(|| TableError::missing_column(&self.path, name))
     }
 
     fn other_type(&self, name: &str, column: &ArrayRef, expected: &'static str) -> TableError {
-        let (path, column, found) =
-            (self.path.to_path_buf(), name.to_string(), column.data_type().to_string());
-        TableError::ColumnType { path, column, found, expected }
+        TableError::other_type(&self.path, name, column.data_type(), expected)
     }
 }
 

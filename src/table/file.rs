@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 
-use arrow_array::RecordBatch;
 use arrow_schema::SchemaRef;
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::{
@@ -18,13 +17,13 @@ use parquet::arrow::arrow_reader::{
 use parquet::file::metadata::{ParquetMetaData, RowGroupMetaData};
 
 use super::TableError;
-use super::columns::Columns;
+use super::columns::Batch;
 use super::provenance::Provenance;
 
 /// Largest size of the wanted columns of a row group: larger ones are damaged, or exceed the memory.
 const MOST_BYTES: i64 = 4 << 30;
 /// Rows per batch of a narrow table.
-const NARROW_BATCH: usize = 8192;
+pub const NARROW_BATCH: usize = 8192;
 
 /// One of `of` equal parts of a table, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,7 +90,7 @@ pub struct RowGroup {
     file: usize,
     group: usize,
     /// Rows within the row group.
-    rows: Range<u64>,
+    pub rows: Range<u64>,
     /// First row, counted in the file.
     pub first_row: u64,
 }
@@ -106,35 +105,22 @@ impl RowGroup {
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
-}
 
-/// Consecutive rows of a table.
-#[derive(Debug, Clone)]
-pub struct Batch {
-    pub path: Arc<Path>,
-    /// First row, counted in the file.
-    pub first_row: u64,
-    pub rows: RecordBatch,
-}
-
-impl Batch {
-    /// Returns its columns by name.
-    pub fn columns(&self) -> Columns<'_> {
-        Columns { path: &self.path, first_row: self.first_row, batch: &self.rows }
-    }
-
-    /// Returns a range of its rows.
-    pub fn slice(&self, rows: Range<usize>) -> Batch {
-        let first_row = self.first_row + rows.start as u64;
-        Batch { path: self.path.clone(), first_row, rows: self.rows.slice(rows.start, rows.len()) }
+    /// Returns the number of rows.
+    pub fn count(&self) -> usize {
+        (self.rows.end - self.rows.start) as usize
     }
 }
 
 impl Table {
     /// Opens a file, or a folder with the parts of one table.
     pub fn open(path: &Path) -> Result<Table, TableError> {
+        let paths = if path.is_dir() { tables(path)? } else { vec![path.to_path_buf()] };
         let open = |path: PathBuf| Ok(TableFile { metadata: metadata(&path)?, path: path.into() });
-        let files = files(path)?.into_iter().map(open).collect::<Result<Vec<_>, TableError>>()?;
+        let files = paths.into_iter().map(open).collect::<Result<Vec<_>, TableError>>()?;
+        if path.is_dir() {
+            expect_all_parts(path, &files)?;
+        }
         let total = files.iter().map(TableFile::rows).sum();
         Ok(Table { files, rows: 0..total })
     }
@@ -144,11 +130,12 @@ impl Table {
         let Some(partition) = partition else { return Table::open(path) };
         if path.is_dir() {
             let file = partition.file_of(path)?;
-            return match partition_of(&file)?.filter(|made| made.of != partition.of) {
+            let table = Table::open(&file)?;
+            return match table.files[0].partition().filter(|made| made.of != partition.of) {
                 Some(made) => {
                     Err(TableError::table(&file, format!("partition {made}; expected {partition}")))
                 }
-                None => Table::open(&file),
+                None => Ok(table),
             };
         }
         let table = Table::open(path)?;
@@ -161,9 +148,14 @@ impl Table {
         self.rows.end - self.rows.start
     }
 
+    /// Returns the footer of the first file.
+    pub fn metadata(&self) -> &ArrowReaderMetadata {
+        &self.files[0].metadata
+    }
+
     /// Returns the schema of the first file.
     pub fn schema(&self) -> &SchemaRef {
-        self.files[0].metadata.schema()
+        self.metadata().schema()
     }
 
     /// Returns the row groups, in order.
@@ -185,6 +177,12 @@ impl Table {
         groups
     }
 
+    /// Returns the file of a row group, its footer, and the number of the row group in it.
+    pub(super) fn place(&self, group: &RowGroup) -> (&Arc<Path>, &ArrowReaderMetadata, usize) {
+        let TableFile { path, metadata } = &self.files[group.file];
+        (path, metadata, group.group)
+    }
+
     /// Reads the `wanted` columns of a row group in batches of `batch_size` rows.
     pub fn read(
         &self,
@@ -203,7 +201,7 @@ impl Table {
                 .with_projection(mask)
                 .with_row_groups(vec![group.group])
                 .with_offset(group.rows.start as usize)
-                .with_limit(group.len())
+                .with_limit(group.count())
                 .with_batch_size(batch_size)
                 .build()
         })?;
@@ -239,6 +237,12 @@ impl TableFile {
     fn rows(&self) -> u64 {
         self.metadata.metadata().row_groups().iter().map(|group| group.num_rows() as u64).sum()
     }
+
+    /// Returns which partition it is; none if it is a whole table.
+    fn partition(&self) -> Option<Partition> {
+        let made = Provenance::of_footer(self.metadata.metadata())?;
+        made.arguments.get("partition")?.first()?.parse().ok()
+    }
 }
 
 /// Reads the footer of a Parquet file, with plain Parquet types: the Arrow schema is ignored.
@@ -255,40 +259,29 @@ pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
     }
 }
 
-/// Returns the files of a table: the file itself, or those of a folder in the order of their names.
-pub fn files(path: &Path) -> Result<Vec<PathBuf>, TableError> {
-    if !path.is_dir() {
-        return Ok(vec![path.to_path_buf()]);
-    }
-    let files = tables(path)?;
-    if files.is_empty() {
-        return Err(TableError::table(path, "a folder without Parquet files"));
-    }
-    expect_all_parts(path, &files)?;
-    Ok(files)
-}
-
 /// Returns the Parquet files of a folder, in the order of their names.
 pub fn tables(path: &Path) -> Result<Vec<PathBuf>, TableError> {
     let entries = std::fs::read_dir(path).map_err(|source| TableError::io(path, source))?;
     let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     files.retain(|file| {
         let is_hidden = file.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-        !is_hidden && file.extension().is_some_and(|extension| extension == "parquet")
+        !is_hidden && is_table(file)
     });
     files.sort_unstable();
     Ok(files)
 }
 
-/// Returns which partition a file is; none if it is a whole table.
-fn partition_of(file: &Path) -> Result<Option<Partition>, TableError> {
-    let made = Provenance::of_file(file)?;
-    Ok(made.and_then(|made| made.arguments.get("partition")?.first()?.parse().ok()))
+/// Returns whether a file has the name of a table.
+pub fn is_table(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "parquet")
 }
 
 /// Checks that no partition is missing: rows are sorted by magnitude, so that a gap would bias fits.
-fn expect_all_parts(folder: &Path, files: &[PathBuf]) -> Result<(), TableError> {
-    let parts = files.iter().map(|file| partition_of(file)).collect::<Result<Option<Vec<_>>, _>>()?;
+fn expect_all_parts(folder: &Path, files: &[TableFile]) -> Result<(), TableError> {
+    if files.is_empty() {
+        return Err(TableError::table(folder, "a folder without Parquet files"));
+    }
+    let parts: Option<Vec<Partition>> = files.iter().map(TableFile::partition).collect();
     let parts = parts.unwrap_or_default();
     let Some(of) = parts.first().map(|part| part.of) else { return Ok(()) };
     let missing = (0..of).map(|index| Partition { index, of }).find(|part| !parts.contains(part));
@@ -310,7 +303,12 @@ fn wanted_columns(metadata: &ParquetMetaData, wanted: &dyn Fn(&str) -> bool) -> 
     roots.enumerate().filter(|(_, root)| wanted(root.name())).map(|(place, _)| place).collect()
 }
 
-fn expect_small(path: &Path, group: &RowGroupMetaData, wanted: &[usize]) -> Result<(), TableError> {
+/// Checks that the `wanted` columns of a row group are not too large.
+pub(super) fn expect_small(
+    path: &Path,
+    group: &RowGroupMetaData,
+    wanted: &[usize],
+) -> Result<(), TableError> {
     let columns = group.columns().iter().enumerate();
     let is_wanted = |leaf: usize| wanted.contains(&group.schema_descr().get_column_root_idx(leaf));
     let bytes: i64 = columns
@@ -331,7 +329,10 @@ thread_local! {
 }
 
 /// Calls `read`; a panic of the decoder is an error of a damaged file.
-fn guarded<T, E: ToString>(path: &Path, read: impl FnOnce() -> Result<T, E>) -> Result<T, TableError> {
+pub(super) fn guarded<T, E: ToString>(
+    path: &Path,
+    read: impl FnOnce() -> Result<T, E>,
+) -> Result<T, TableError> {
     let before = GUARDED.replace(true);
     let read = catch_unwind(AssertUnwindSafe(read));
     GUARDED.set(before);

@@ -2,13 +2,14 @@
 
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
-use polars::prelude::{AnyValue, Column, DataFrame, DataType, IntoColumn, NamedFrom, PolarsError, Series};
+use polars::prelude::{AnyValue, Column, DataFrame, DataType, GroupsIndicator, IntoColumn, NamedFrom};
+use polars::prelude::{PolarsError, Series};
 use serde_json::{Map, Value};
 
-use super::TableError;
 use super::columns::numbers;
-use super::file::Table;
+use super::file::{NARROW_BATCH, Table};
 use crate::keyword::keywords;
+use crate::number::aligned;
 
 /// Format of a printed table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,41 +21,20 @@ pub enum Format {
 
 keywords!(Format { Text = "text", Csv = "csv", Json = "json" });
 
-/// Reads the first rows of a table; a list is shown by its length.
-pub fn head(table: &Table, rows: usize) -> anyhow::Result<DataFrame> {
-    let mut left = rows;
-    let mut frame: Option<DataFrame> = None;
+/// Reads the first rows of a table, at most this many; a list is shown by its length.
+pub fn read(table: &Table, most: usize) -> anyhow::Result<DataFrame> {
+    let mut whole = DataFrame::default();
     for group in table.row_groups() {
-        for batch in table.read(&group, &|_| true, rows.clamp(1, 64))? {
-            if left == 0 {
-                return Ok(frame.unwrap_or_default());
-            }
-            let batch = batch?;
-            let batch = batch.slice(0..left.min(batch.rows.num_rows()));
-            left -= batch.rows.num_rows();
-            let some = of_batch(&batch.rows)?;
-            match &mut frame {
-                Some(frame) => drop(frame.vstack_mut(&some)?),
-                None => frame = Some(some),
+        for batch in table.read(&group, &|_| true, most.clamp(1, NARROW_BATCH))? {
+            let rows = batch?.rows;
+            let some = of_batch(&rows.slice(0, rows.num_rows().min(most - whole.height())))?;
+            whole = if whole.width() == 0 { some } else { whole.vstack(&some)? };
+            if whole.height() == most {
+                return Ok(whole);
             }
         }
     }
-    Ok(frame.unwrap_or_default())
-}
-
-/// Reads a narrow table.
-pub fn read(table: &Table) -> Result<DataFrame, TableError> {
-    let mut whole: Option<DataFrame> = None;
-    for batch in table.batches(&|_| true) {
-        let batch = batch?;
-        let failed = |error: PolarsError| TableError::table(&batch.path, error.to_string());
-        let frame = of_batch(&batch.rows).map_err(failed)?;
-        match &mut whole {
-            Some(whole) => drop(whole.vstack_mut(&frame).map_err(failed)?),
-            None => whole = Some(frame),
-        }
-    }
-    Ok(whole.unwrap_or_default())
+    Ok(whole)
 }
 
 /// Converts a batch to a frame.
@@ -63,6 +43,22 @@ pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
     let columns =
         schema.fields().iter().zip(rows.columns()).map(|(field, array)| column(field.name(), array));
     DataFrame::new(rows.num_rows(), columns.collect())
+}
+
+/// The rows of each suite and structure, in the order in which these first come.
+pub fn groups(suites: &[Option<String>], structures: &[String]) -> Result<Vec<Vec<usize>>, PolarsError> {
+    let keys = vec![
+        Series::new("suite".into(), suites).into_column(),
+        Series::new("structure".into(), structures).into_column(),
+    ];
+    // On this thread: the pool of polars does not know --threads.
+    let frame = DataFrame::new(structures.len(), keys)?;
+    let groups = frame.group_by_with_series(frame.columns().to_vec(), false, true)?;
+    let rows = |group: GroupsIndicator| match group {
+        GroupsIndicator::Idx((_, rows)) => rows.iter().map(|&row| row as usize).collect(),
+        GroupsIndicator::Slice([first, count]) => (first as usize..(first + count) as usize).collect(),
+    };
+    Ok(groups.get_groups().iter().map(rows).collect())
 }
 
 fn column(name: &str, array: &ArrayRef) -> Column {
@@ -97,13 +93,8 @@ pub fn show(frame: &DataFrame, format: Format) -> anyhow::Result<String> {
         Format::Text => Ok(text(frame)),
         Format::Csv => csv(frame),
         Format::Json => {
-            let object = |row| {
-                frame
-                    .columns()
-                    .iter()
-                    .map(|column| (column.name().to_string(), json(&value(column, row))))
-                    .collect()
-            };
+            let member = |column: &Column, row| (column.name().to_string(), json(&value(column, row)));
+            let object = |row| frame.columns().iter().map(|column| member(column, row)).collect();
             let objects: Vec<Map<String, Value>> = (0..frame.height()).map(object).collect();
             Ok(serde_json::to_string_pretty(&objects)? + "\n")
         }
@@ -145,25 +136,15 @@ fn csv(frame: &DataFrame) -> anyhow::Result<String> {
 
 /// Formats a frame as text: numbers right-aligned with four significant digits, "-" for null.
 pub fn text(frame: &DataFrame) -> String {
-    let cells = |column: &Column| -> Vec<String> {
-        let cells = (0..column.len()).map(|row| match value(column, row) {
-            AnyValue::Float64(number) => short(number),
-            other => cell(&other, "-"),
-        });
-        let cells: Vec<String> = std::iter::once(column.name().to_string()).chain(cells).collect();
-        let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0);
-        let is_text = column.dtype() == &DataType::String;
-        cells
-            .iter()
-            .map(|cell| if is_text { format!("{cell:width$}") } else { format!("{cell:>width$}") })
-            .collect()
+    let columns = frame.columns();
+    let names = columns.iter().map(|column| column.name().to_string()).collect();
+    let cell = |column: &Column, row: usize| match value(column, row) {
+        AnyValue::Float64(number) => short(number),
+        other => cell(&other, "-"),
     };
-    let columns: Vec<Vec<String>> = frame.columns().iter().map(cells).collect();
-    let line = |row: usize| {
-        let cells: Vec<&str> = columns.iter().map(|column| column[row].as_str()).collect();
-        format!("{}\n", cells.join("  ").trim_end())
-    };
-    (0..=frame.height()).map(line).collect()
+    let cells = (0..frame.height()).map(|row| columns.iter().map(|column| cell(column, row)).collect());
+    let rows: Vec<Vec<String>> = std::iter::once(names).chain(cells).collect();
+    aligned(&rows, |column| columns[column].dtype() != &DataType::String)
 }
 
 /// Formats a number with four significant digits.

@@ -5,8 +5,10 @@
 //! rows        structs as rows of a table (serde)
 //! file        a table on disk: a file, or a folder of files
 //! columns     columns of a batch by name, from any program
+//! lists       a column of lists of numbers, read without building lists
 //! writer      atomic writing
-//! provenance  stage, arguments and inputs of a file, and its key
+//! provenance  stage, arguments and inputs of a file, and their key
+//! keys        the keys of files, which show whether a file is up to date
 //! motions     motions, one per row
 //! responses   responses, one row for each motion and structure
 //! frame       tables as polars frames, and their text, CSV and JSON
@@ -16,6 +18,8 @@ pub mod columns;
 pub mod dictionary;
 pub mod file;
 pub mod frame;
+pub mod keys;
+pub mod lists;
 pub mod motions;
 pub mod provenance;
 pub mod responses;
@@ -23,6 +27,8 @@ pub mod rows;
 pub mod writer;
 
 use std::path::{Path, PathBuf};
+
+use arrow_schema::DataType;
 
 /// A table that cannot be read or written. Rows count from 0.
 #[derive(Debug, thiserror::Error)]
@@ -55,6 +61,18 @@ impl TableError {
     /// Makes the error of the Parquet library for `path`.
     pub fn parquet(path: &Path, cause: impl ToString) -> TableError {
         TableError::Parquet { path: path.to_path_buf(), cause: cause.to_string() }
+    }
+
+    /// Makes the error of a table without a column.
+    pub fn missing_column(path: &Path, column: &str) -> TableError {
+        let (path, expected) = (path.to_path_buf(), dictionary::meaning(column));
+        TableError::MissingColumn { path, column: column.to_string(), expected }
+    }
+
+    /// Makes the error of a column of another type.
+    pub fn other_type(path: &Path, column: &str, found: &DataType, expected: &'static str) -> TableError {
+        let (path, column, found) = (path.to_path_buf(), column.to_string(), found.to_string());
+        TableError::ColumnType { path, column, found, expected }
     }
 
     /// Makes the error of a table as a whole.

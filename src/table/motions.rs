@@ -9,26 +9,17 @@ use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_schema::{DataType, Field, Schema};
 
 use super::TableError;
+use super::columns::Batch;
 use super::dictionary;
-use super::file::{Batch, Partition, RowGroup, Table};
+use super::file::{Partition, RowGroup, Table};
+use super::lists::Lists;
 use super::rows::side_by_side;
 
 /// Column of the samples.
 pub const ACCELERATION: &str = "acceleration_m_s2";
-/// Columns to read.
-const COLUMNS: [&str; 11] = [
-    "motion_id",
-    "suite",
-    "mw",
-    "re_km",
-    "earthquake",
-    "dt_s",
-    "pga_m_s2",
-    "pgv_m_s",
-    "tm_s",
-    "tp_s",
-    ACCELERATION,
-];
+/// Columns to read besides the samples.
+const COLUMNS: [&str; 10] =
+    ["motion_id", "suite", "mw", "re_km", "earthquake", "dt_s", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"];
 /// Row groups of more motions are read in parts of this size.
 const LARGEST_PART: usize = 128;
 
@@ -50,6 +41,9 @@ pub struct Motion {
     pub row: u64,
 }
 
+/// Columns of some motions, and their samples.
+pub type Sampled = (Batch, Vec<Vec<f64>>);
+
 /// Motions, and the file they are in.
 type MotionsOfFile = (Arc<Path>, Vec<Motion>);
 
@@ -61,7 +55,7 @@ pub enum Part {
     /// A row group, not yet read.
     Unread(RowGroup),
     /// Motions of a row group too large to read at once.
-    Read(Batch),
+    Read(MotionsOfFile),
 }
 
 impl Motions {
@@ -78,11 +72,11 @@ impl Motions {
     /// Returns all motions in parts.
     pub fn parts(&self) -> impl Iterator<Item = Result<Part, TableError>> + Send {
         self.0.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
-            if group.len() <= LARGEST_PART {
+            if group.count() <= LARGEST_PART {
                 return Box::new(std::iter::once(Ok(Part::Unread(group))));
             }
-            match self.0.read(&group, &is_column, LARGEST_PART) {
-                Ok(batches) => Box::new(batches.map(|batch| batch.map(Part::Read))),
+            match self.read_group(&group, LARGEST_PART) {
+                Ok(read) => Box::new(read.map(|read| read.map(Part::Read))),
                 Err(error) => Box::new(std::iter::once(Err(error))),
             }
         })
@@ -93,29 +87,32 @@ impl Motions {
         &self,
         part: Part,
         at_once: usize,
-    ) -> Result<impl Iterator<Item = Result<MotionsOfFile, TableError>> + use<>, TableError> {
-        let batches: Box<dyn Iterator<Item = Result<Batch, TableError>>> = match part {
-            Part::Unread(group) => Box::new(self.0.read(&group, &is_column, at_once)?),
-            Part::Read(batch) => {
-                let starts = (0..batch.rows.num_rows()).step_by(at_once);
-                Box::new(starts.map(move |start| {
-                    let end = (start + at_once).min(batch.rows.num_rows());
-                    Ok(batch.slice(start..end))
-                }))
-            }
-        };
-        Ok(batches.map(|batch| batch.and_then(|batch| Ok((batch.path.clone(), motions(&batch)?)))))
+    ) -> Result<Box<dyn Iterator<Item = Result<MotionsOfFile, TableError>>>, TableError> {
+        match part {
+            Part::Unread(group) => Ok(Box::new(self.read_group(&group, at_once)?)),
+            Part::Read((path, mut motions)) => Ok(Box::new(std::iter::from_fn(move || {
+                let next: Vec<Motion> = motions.drain(..at_once.min(motions.len())).collect();
+                (!next.is_empty()).then(|| Ok((path.clone(), next)))
+            }))),
+        }
+    }
+
+    fn read_group(
+        &self,
+        group: &RowGroup,
+        at_once: usize,
+    ) -> Result<impl Iterator<Item = Result<MotionsOfFile, TableError>> + Send + use<>, TableError> {
+        let read = read(&self.0, group, &|name| COLUMNS.contains(&name), at_once)?;
+        Ok(read.map(|read| read.and_then(motions)))
     }
 }
 
 /// Opens a table that has the columns of motions.
 pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
     let table = Table::open_partition(path, partition)?;
-    for column in ["motion_id", "dt_s", ACCELERATION] {
-        if table.schema().index_of(column).is_err() {
-            let (path, expected) = (path.to_path_buf(), dictionary::meaning(column));
-            return Err(TableError::MissingColumn { path, column: column.to_string(), expected });
-        }
+    let required = ["motion_id", "dt_s", ACCELERATION];
+    if let Some(column) = required.iter().find(|column| table.schema().index_of(column).is_err()) {
+        return Err(TableError::missing_column(path, column));
     }
     match table.rows() {
         0 if partition.is_none() => Err(TableError::table(path, "no motions; expected at least one")),
@@ -123,19 +120,29 @@ pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableErr
     }
 }
 
-fn is_column(name: &str) -> bool {
-    COLUMNS.contains(&name)
+/// Reads the `wanted` columns of motions besides the samples, and these, `at_once` at a time.
+pub fn read(
+    table: &Table,
+    group: &RowGroup,
+    wanted: &dyn Fn(&str) -> bool,
+    at_once: usize,
+) -> Result<impl Iterator<Item = Result<Sampled, TableError>> + Send + use<>, TableError> {
+    let batches = table.read(group, &|name| name != ACCELERATION && wanted(name), at_once)?;
+    let mut samples = Lists::open(table, group, ACCELERATION)?;
+    Ok(batches.map(move |batch| {
+        let batch = batch?;
+        let samples = samples.read(batch.rows.num_rows())?;
+        Ok((batch, samples))
+    }))
 }
 
-/// Converts a batch to motions.
-fn motions(batch: &Batch) -> Result<Vec<Motion>, TableError> {
-    let columns = batch.columns();
+/// Makes motions of the columns of a batch and their samples.
+fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
     let [mw, re_km, pga, pgv, tm, tp] =
-        ["mw", "re_km", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"].map(|name| columns.numbers(name));
+        ["mw", "re_km", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"].map(|name| batch.numbers(name));
     let (mw, re_km, pga, pgv, tm, tp) = (mw?, re_km?, pga?, pgv?, tm?, tp?);
-    let (suites, earthquakes) = (columns.texts("suite")?, columns.texts("earthquake")?);
-    let (ids, dt) = (columns.required_texts("motion_id")?, columns.required_numbers("dt_s")?);
-    let samples = columns.lists(ACCELERATION)?;
+    let (suites, earthquakes) = (batch.texts("suite")?, batch.texts("earthquake")?);
+    let (ids, dt) = (batch.required_texts("motion_id")?, batch.required_numbers("dt_s")?);
     let rows = ids.into_iter().zip(suites).zip(earthquakes).zip(samples).enumerate();
     let motion = |(at, (((motion_id, suite), earthquake), acceleration_m_s2))| Motion {
         motion_id,
@@ -151,7 +158,7 @@ fn motions(batch: &Batch) -> Result<Vec<Motion>, TableError> {
         acceleration_m_s2,
         row: batch.first_row + at as u64,
     };
-    Ok(rows.map(motion).collect())
+    Ok((batch.path.clone(), rows.map(motion).collect()))
 }
 
 /// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples.

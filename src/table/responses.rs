@@ -1,10 +1,13 @@
 //! The outputs of simulate: responses, one row for each motion and structure, and traces.
 
+use arrow_array::RecordBatch;
 use serde::{Deserialize, Serialize};
 
+use super::rows;
+use crate::motion::IntensityMeasures;
 use crate::rocking::{Outcome, SolverEvent};
 
-/// The response of a structure to a motion.
+/// The response of a structure to a motion; beside it stand the measures of the motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ResponseRow {
     pub motion_id: String,
@@ -24,12 +27,11 @@ pub struct ResponseRow {
     pub pgv_m_s: f64,
     pub tp_s: Option<f64>,
     pub tm_s: Option<f64>,
-    pub im1: Option<f64>,
-    pub im2: Option<f64>,
-    pub im3: Option<f64>,
-    pub im4: f64,
-    pub im5: f64,
-    pub im6: Option<f64>,
+}
+
+/// Makes a batch of responses, with the measures of their motions behind.
+pub fn batch(responses: &[ResponseRow], measures: &[IntensityMeasures]) -> anyhow::Result<RecordBatch> {
+    rows::side_by_side(&[rows::batch(responses)?, rows::batch(measures)?])
 }
 
 /// A point of a traced response.

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::RecordBatch;
-use arrow_schema::{FieldRef, Schema, SchemaRef};
+use arrow_schema::{DataType, Field, FieldRef, Schema, SchemaRef};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_arrow::schema::{SchemaLike, TracingOptions};
@@ -25,8 +25,13 @@ pub fn schema<R: Row>() -> SchemaRef {
         .sequence_as_large_list(false)
         .enums_without_data_as_strings(true);
     let fields = Vec::<FieldRef>::from_type::<R>(options).expect("rows are flat structs");
-    let with_meaning = |field: &FieldRef| Arc::new(dictionary::with_meaning(field.as_ref().clone()));
-    Arc::new(Schema::new(fields.iter().map(with_meaning).collect::<Vec<_>>()))
+    let column = |field: &FieldRef| match field.data_type() {
+        // Words are texts.
+        DataType::Dictionary(_, texts) => Field::new(field.name(), (**texts).clone(), field.is_nullable()),
+        _ => field.as_ref().clone(),
+    };
+    let columns = fields.iter().map(|field| dictionary::with_meaning(column(field)));
+    Arc::new(Schema::new(columns.collect::<Vec<_>>()))
 }
 
 /// Converts rows to a batch.
@@ -48,8 +53,7 @@ pub fn read<R: Row>(path: &Path) -> Result<Vec<R>, TableError> {
     if let Some(field) =
         schema.fields().iter().find(|f| !f.is_nullable() && found.index_of(f.name()).is_err())
     {
-        let (path, column) = (path.to_path_buf(), field.name().clone());
-        return Err(TableError::MissingColumn { path, expected: dictionary::meaning(&column), column });
+        return Err(TableError::missing_column(path, field.name()));
     }
     let mut rows = Vec::new();
     for batch in table.batches(&|name| schema.index_of(name).is_ok()) {

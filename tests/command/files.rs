@@ -60,6 +60,57 @@ fn columns_that_are_missing_or_of_another_type_are_named() {
     }
 }
 
+/// One response, of which some columns are of another type or value, is refused by fit-pro; the rest is fine.
+#[test]
+fn responses_that_cannot_be_right_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = |word: &str| -> ArrayRef { Arc::new(StringArray::from(vec!["safe_rocking", word])) };
+    let numbers = |first: f64, second: f64| -> ArrayRef { Arc::new(Float64Array::from(vec![first, second])) };
+    let write = |column: &str, values: ArrayRef| {
+        let same =
+            ["motion_id", "structure"].map(|name| (name, Arc::new(StringArray::from(vec!["a", "a"])) as _));
+        let usual = [("p_rad_s", 2.5), ("alpha_rad", 0.2), ("eta", 0.92), ("edp", 0.1), ("pga_m_s2", 3.0)];
+        let others = [("pgv_m_s", 0.5), ("im4", 1.5), ("im5", 0.6)];
+        let usual = usual.into_iter().chain(others).map(|(name, value)| (name, numbers(value, value)));
+        let all = same.into_iter().chain([("outcome", text("safe_rocking"))]).chain(usual);
+        let all = all.map(|(name, usual)| (name, if name == column { values.clone() } else { usual }));
+        crate::common::write(&folder.path().join("responses.parquet"), all.collect());
+    };
+    for (column, values, named) in [
+        ("p_rad_s", numbers(-1.0, -1.0), vec!["row 0", "p_rad_s", "-1"]),
+        ("p_rad_s", numbers(2.5, f64::NAN), vec!["row 1", "p_rad_s"]),
+        ("alpha_rad", numbers(0.2, 0.19), vec!["row 1", "alpha_rad", "0.19", "own name"]),
+        ("eta", numbers(0.92, 1.5), vec!["row 1", "eta", "1.5"]),
+        ("outcome", text("falls"), vec!["row 1", "outcome", "falls"]),
+        ("outcome", text(""), vec!["row 1", "outcome"]),
+        ("edp", numbers(0.1, f64::NAN), vec!["row 1", "edp"]),
+    ] {
+        write(column, values);
+        fail(folder.path(), "fit-pro", 1, &[&["responses.parquet"], &named[..]].concat());
+    }
+    write("", text(""));
+    succeed(folder.path(), "fit-pro");
+}
+
+#[test]
+fn a_fit_without_a_status_is_refused() {
+    let folder = folder_with(SMALL);
+    succeed(folder.path(), "run");
+    let path = folder.path().join("out/pro.parquet");
+    let file = std::fs::File::open(&path).unwrap();
+    let reader = parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder::try_new(file).unwrap();
+    let batch = reader.build().unwrap().next().unwrap().unwrap();
+    let schema = batch.schema();
+    let columns = schema.fields().iter().zip(batch.columns()).map(|(field, column)| {
+        let nothing: ArrayRef = Arc::new(StringArray::from(vec![""; batch.num_rows()]));
+        (field.name().clone(), if field.name() == "status" { nothing } else { column.clone() })
+    });
+    let columns: Vec<(String, ArrayRef)> = columns.collect();
+    write(&path, columns.iter().map(|(name, column)| (name.as_str(), column.clone())).collect());
+    let call = "evaluate --fits out --model paper --suite csgm --name frame --pga 0.4 --pgv 0.5";
+    fail(folder.path(), call, 1, &["pro.parquet", "status"]);
+}
+
 #[test]
 fn a_file_of_pandas_is_read() {
     let folder = tempfile::tempdir().unwrap();

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rockfrag::table::file::Table;
 use rockfrag::table::frame;
-use rockfrag::table::provenance::key_of;
+use rockfrag::table::keys::key_of;
 
 use super::common::{SMALL, bytes, fail, folder_with, made, succeed, write_motions};
 

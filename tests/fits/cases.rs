@@ -1,13 +1,13 @@
 //! Responses as columns: what counts, clusters, and structures that are not one.
 
-use rockfrag::fragility::{CaseRow, CasesBuilder, CasesError, Event, Measure, SharedBy};
+use rockfrag::fragility::{Cases, Cluster, Event, Measure};
 use rockfrag::keyword::Keyword;
 use rockfrag::rocking::Outcome;
 use rockfrag::statistics::FitStatus;
 use serde::Deserialize;
 use serde::de::IntoDeserializer;
 
-use crate::common::{cases, equipment, row};
+use crate::common::{cases, equipment};
 
 #[test]
 fn events_count_the_branches_of_the_tree() {
@@ -43,36 +43,26 @@ fn only_cases_with_a_demand_and_all_measures_are_fitted() {
 
 #[test]
 fn clusters_do_not_depend_on_the_order_of_rows() {
-    let base = |edp: f64| row(Outcome::SafeRocking, edp, 1.5, 1.0, 0);
-    let rows = [
-        CaseRow { earthquake: Some("Kobe"), ..base(1.0) },
-        CaseRow { mw: Some(6.0), re_km: Some(9.0), ..base(2.0) },
-        CaseRow { mw: None, ..base(3.0) },
-        CaseRow { earthquake: Some("Imperial Valley"), ..base(4.0) },
-        CaseRow { mw: Some(6.0), re_km: Some(9.0), ..base(5.0) },
-        CaseRow { mw: None, ..base(6.0) },
+    let motions = [
+        (Some("Kobe"), 7.0, 2.0),
+        (None, 6.0, 9.0),
+        (None, f64::NAN, 2.0),
+        (Some("Imperial Valley"), 7.0, 2.0),
+        (None, 6.0, 9.0),
+        (None, f64::NAN, 2.0),
     ];
     let clusters = |order: &[usize]| {
-        let mut builder = CasesBuilder::new(None, equipment(), &[]);
-        order.iter().for_each(|&k| builder.push(&rows[k]).unwrap());
-        let cases = builder.finish();
-        (cases.cluster, cases.shared_by)
+        let mut cases = Cases::new(None, equipment());
+        for (earthquake, mw, re_km) in order.iter().map(|&k| motions[k]) {
+            cases.push_cluster(Cluster::of(earthquake, mw, re_km));
+        }
+        cases.sort_clusters();
+        cases.cluster
     };
-    assert_eq!(clusters(&[0, 1, 2, 3, 4, 5]), (vec![1, 2, 3, 0, 2, 4], SharedBy::Earthquake));
-    assert_eq!(clusters(&[4, 3, 0, 1]), (vec![2, 0, 1, 2], SharedBy::Earthquake));
-    assert_eq!(clusters(&[4, 2, 1]), (vec![0, 1, 0], SharedBy::Cell));
-    assert_eq!(clusters(&[5, 2]), (vec![0, 1], SharedBy::Nothing));
-}
-
-#[test]
-fn another_structure_of_the_same_name_is_refused() {
-    let mut builder = CasesBuilder::new(None, equipment(), &["housner".to_string()]);
-    builder.push(&CaseRow { candidates: &[0.7], ..row(Outcome::NoRocking, 0.0, 0.5, 1.0, 0) }).unwrap();
-    let other = CaseRow { alpha_rad: 0.19, ..row(Outcome::NoRocking, 0.0, 0.5, 1.0, 0) };
-    let error = builder.push(&other).unwrap_err();
-    assert!(matches!(error, CasesError::OtherStructure { parameter: "alpha", value: 0.19, first: 0.20, .. }));
-    let cases = builder.finish();
-    assert_eq!((cases.len(), &cases.candidates[0].1[..]), (1, &[0.7][..]));
+    assert_eq!(clusters(&[0, 1, 2, 3, 4, 5]), [1, 2, 3, 0, 2, 4]);
+    assert_eq!(clusters(&[4, 3, 0, 1]), [2, 0, 1, 2]);
+    assert_eq!(clusters(&[4, 2, 1]), [0, 1, 0]);
+    assert_eq!(clusters(&[5, 2]), [0, 1]);
 }
 
 #[test]
@@ -83,6 +73,8 @@ fn files_have_the_words_of_the_command_line() {
                 known.as_str().into_deserializer();
             assert_eq!(T::deserialize(word).unwrap(), *known);
         }
+        let nothing: serde::de::value::StrDeserializer<serde::de::value::Error> = "".into_deserializer();
+        assert!(T::deserialize(nothing).is_err());
     }
     check::<FitStatus>();
     check::<Measure>();

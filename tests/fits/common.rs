@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use rockfrag::fragility::{CaseRow, Cases, CasesBuilder};
+use rockfrag::fragility::{Cases, Cluster};
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::random::{Purpose, stream};
-use rockfrag::rocking::{Outcome, Structure};
+use rockfrag::rocking::{Outcome, Response, Structure};
 
 /// Two measures, a demand and an event in each of 400 cases; 20 make a cell.
 pub struct Data {
@@ -67,31 +67,16 @@ pub fn equipment() -> Structure {
     Structure::new("equipment", 2.5, 0.20, 0.92).unwrap()
 }
 
-/// A response of the equipment to a motion in a cell.
-pub fn row<'a>(outcome: Outcome, edp: f64, im4: f64, im3: f64, cell: u32) -> CaseRow<'a> {
-    CaseRow {
-        p_rad_s: 2.5,
-        alpha_rad: 0.20,
-        eta: 0.92,
-        outcome,
-        edp: (outcome != Outcome::Overturning).then_some(edp),
-        measures: IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5: im4 / im3, im6: None },
-        pga_m_s2: 1.0,
-        pgv_m_s: 1.0,
-        mw: Some(7.0),
-        re_km: Some(1.0 + f64::from(cell)),
-        earthquake: None,
-        candidates: &[],
-    }
-}
-
 /// Cases of these outcomes, demands, IM4, IM3 and cells.
 pub fn cases(rows: impl IntoIterator<Item = (Outcome, f64, f64, f64, u32)>) -> Cases {
-    let mut builder = CasesBuilder::new(Some("csgm"), equipment(), &[]);
+    let mut cases = Cases::new(Some("csgm"), equipment());
     for (outcome, edp, im4, im3, cell) in rows {
-        builder.push(&row(outcome, edp, im4, im3, cell)).unwrap();
+        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::of_peaks(im4, im4 / im3) };
+        let cluster = Cluster::of(None, 7.0, 1.0 + f64::from(cell));
+        cases.push(&Response { outcome, edp, impacts: 0 }, &measures, [1.0, 1.0], cluster);
     }
-    builder.finish()
+    cases.sort_clusters();
+    cases
 }
 
 pub fn random(seed: u64) -> ChaCha8Rng {

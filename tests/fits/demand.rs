@@ -185,7 +185,7 @@ fn the_variance_of_p_ex_is_that_of_the_textbook() {
     let variance = 1.0 / 12.0 + (at.ln() - mean).powi(2) / squares;
     let z = (ln_median_demand(&fit.coefficients, &[at]) - limit.ln()) / beta;
     let half_width = t_quantile(0.975, 10.0) * (variance + z * z / 20.0).sqrt();
-    let measures = IntensityMeasures { im1: None, im2: None, im3: None, im4: at, im5: 1.0, im6: None };
+    let measures = IntensityMeasures { im3: None, ..IntensityMeasures::of_peaks(at, 1.0) };
     let p = fit.p_exceeding(&measures, limit, 0.95).unwrap();
     close(
         p.value,

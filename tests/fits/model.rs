@@ -3,12 +3,12 @@
 
 use rand::RngExt;
 use rockfrag::fragility::{
-    Calibration, CaseRow, Cases, CasesBuilder, Event, Kind, Measure, Model, Probability, Scenarios,
-    fit_curve, logit_exceeding, logit_overturning, p_failure_given_rocking,
+    Calibration, Cases, Cluster, Event, Kind, Measure, Model, Probability, Scenarios, fit_curve,
+    logit_exceeding, logit_overturning, p_failure_given_rocking,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
-use rockfrag::rocking::{Outcome, Structure};
+use rockfrag::rocking::{Outcome, Response, Structure};
 use rockfrag::warning::Warning;
 
 use crate::common::{cases, close, equipment, random, read, rocking};
@@ -19,7 +19,7 @@ fn measures(structure: &Structure, pga_m_s2: f64, pgv_m_s: f64) -> IntensityMeas
 
 /// As IM5 and IM4 of the equipment.
 fn at(im4: f64, im5: f64) -> IntensityMeasures {
-    IntensityMeasures { im1: None, im2: None, im3: Some(im4 / im5), im4, im5, im6: None }
+    IntensityMeasures::of_peaks(im4, im5)
 }
 
 fn calibrated(cases: &Cases) -> Model {
@@ -35,7 +35,7 @@ fn logits_are_those_of_python() {
     assert!(rows.len() >= 50);
     for (kind, p, alpha, eta, im3, im4, im5, limit, pro, pex) in rows {
         let structure = Structure::new("any", p, alpha, eta).unwrap();
-        let measures = IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5, im6: None };
+        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::of_peaks(im4, im5) };
         let kind: Kind = kind.parse().unwrap();
         for (ours, theirs) in [
             (logit_overturning(kind, &structure, &measures).unwrap(), pro),
@@ -91,27 +91,16 @@ fn of_structure(rows: &[Case], answer: &Answer, in_clusters: bool) -> Cases {
     let Case { p_rad_s, alpha_rad, eta, .. } = *rows[0];
     let structure = Structure::new("any", p_rad_s, alpha_rad, eta).unwrap();
     let suite = (answer.kind != Kind::Recorded).then(|| answer.kind.as_str());
-    let mut builder = CasesBuilder::new(suite, structure, &[]);
+    let mut cases = Cases::new(suite, structure);
     for row in rows {
-        let Case { im4, im5, pga_m_s2, pgv_m_s, .. } = *row;
+        let Case { im3, im4, im5, pga_m_s2, pgv_m_s, .. } = *row;
         let outcome = if row.overturned == 1 { Outcome::Overturning } else { Outcome::SafeRocking };
-        let case = CaseRow {
-            p_rad_s,
-            alpha_rad,
-            eta,
-            outcome,
-            edp: row.edp.filter(|_| row.overturned == 0),
-            measures: IntensityMeasures { im1: None, im2: None, im3: Some(row.im3), im4, im5, im6: None },
-            pga_m_s2,
-            pgv_m_s,
-            mw: None,
-            re_km: None,
-            earthquake: Some(if in_clusters { &row.cluster } else { "one" }),
-            candidates: &[],
-        };
-        builder.push(&case).unwrap();
+        let response = Response { outcome, edp: row.edp.unwrap_or(f64::NAN), impacts: 0 };
+        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::of_peaks(im4, im5) };
+        let cluster = if in_clusters { &row.cluster } else { "one" };
+        cases.push(&response, &measures, [pga_m_s2, pgv_m_s], Cluster::of(Some(cluster), 0.0, 0.0));
     }
-    builder.finish()
+    cases
 }
 
 #[test]

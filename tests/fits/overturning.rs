@@ -151,9 +151,9 @@ fn curves_that_cannot_be_made_have_a_status_and_no_numbers() {
         FitStatus::Degenerate
     );
     assert_eq!(status(&cases, Event::Overturning, Measure::Im3, None), FitStatus::WrongSign);
-    cases.im[3].iter_mut().zip(&cases.outcome).for_each(|(im4, outcome)| {
-        *im4 = if *outcome == Outcome::Overturning { *im4 + 100.0 } else { *im4 };
-    });
+    let outcomes = cases.outcome.clone();
+    let overturned = cases.column_mut(Measure::Im4).iter_mut().zip(outcomes);
+    overturned.filter(|(_, of)| *of == Outcome::Overturning).for_each(|(im4, _)| *im4 += 100.0);
     assert_eq!(status(&cases, Event::Overturning, Measure::Im4, None), FitStatus::Separated);
 }
 

@@ -17,7 +17,11 @@ use crate::common::{equipment, rocking};
 /// Writes the fits of the equipment under these suites.
 fn folder(suites: &[&str]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let of_suite = |suite: &&str| Cases { suite: Some(suite.to_string()), ..rocking(600) };
+    let of_suite = |suite: &&str| {
+        let mut cases = rocking(600);
+        cases.suite = Some(suite.to_string());
+        cases
+    };
     let all: Vec<Cases> = suites.iter().map(of_suite).collect();
     let curves = CurveOptions {
         event: Event::Overturning,

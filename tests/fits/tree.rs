@@ -25,8 +25,7 @@ fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
     let curve = fit_curve(&cases, Event::Overturning, Measure::Im4, Some(Measure::Im3Inverse));
     let b = &curve.coefficients;
     for (im4, im3) in [(1.1, 2.0), (1.29, 0.7), (1.31, 0.7), (3.5, 1.1)] {
-        let measures =
-            IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5: im4 / im3, im6: None };
+        let measures = IntensityMeasures::of_peaks(im4, im4 / im3);
         let given = paper_probabilities(&planes, &curve, &measures, 0.1, 0.95).given_rocking.unwrap();
         let plane = &planes[usize::from(im4 >= 1.3)];
         let a = &plane.coefficients;

@@ -3,8 +3,9 @@
 use std::slice::from_ref;
 
 use resvg::{tiny_skia::Pixmap, usvg};
+use rockfrag::motion::IntensityMeasures;
+use rockfrag::number;
 use rockfrag::report::figures::*;
-use rockfrag::report::text::number;
 use rockfrag::report::{
     Axis, Column, Estimate, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg,
 };
@@ -17,11 +18,11 @@ fn group(count: usize) -> Group {
         let (im4, im3) = (1.02 + 0.01 * k as f64, 5.0 + (k % 7) as f64);
         let [ln_a, b1, b2] = PLANES[usize::from(im4 >= 1.3)];
         let edp = (ln_a + b1 * im4.ln() + b2 * im3.ln()).exp();
-        let im = [None, Some(2.0), Some(im3), Some(im4), Some(im4 / im3), Some(0.0)];
+        let measures = IntensityMeasures::of_peaks(im4, im4 / im3);
         RockingCase {
             pgv_m_s: im4 / im3,
             tp_s: k.is_multiple_of(2).then_some(1.0),
-            im,
+            measures: IntensityMeasures { im2: Some(2.0), im6: Some(0.0), ..measures },
             edp: (k < 90).then_some(edp),
         }
     };
@@ -31,7 +32,7 @@ fn group(count: usize) -> Group {
 /// All fifteen figures, of `count` data, which may be none.
 fn figures(count: usize) -> Vec<Figure> {
     let fit = Some(MeasureFit { ln_a: -2.0, b: 1.5, r2: 0.5, beta: 0.9 });
-    let fits = [fit, None, fit, None, None, None];
+    let fits = vec![fit, None, fit, None, None, None];
     let wave: Vec<f64> = (0..50 * count).map(|k| (0.02 * k as f64).sin()).collect();
     let history = |p_rad_s| History { p_rad_s, alpha_rad: 0.15, dt_s: 0.01, theta_rad: wave.clone() };
     let record = Motion {
@@ -62,7 +63,11 @@ fn figures(count: usize) -> Vec<Figure> {
         exceedance(from_ref(&panel)),
         overturning(&[panel.clone(), panel.clone()]),
         hybrids(from_ref(&panel)),
-        calibrated(&[panel]),
+        maps(&[Map {
+            rocks: vec![[0.3, 0.2]; count],
+            lines: [(); 4].map(|()| vec![[0.4, 0.5]; count]),
+            ..Map::default()
+        }]),
         rates(&vec![object.clone(); count]),
         list(&vec![object; count]),
         ida(&[analysis]),
@@ -141,10 +146,16 @@ fn the_page_is_static_and_escapes_what_it_holds() {
 
 #[test]
 fn numbers_are_as_short_as_a_reader_needs() {
-    let written =
-        [0.0, 0.123456, 8.3e-5, 2.9e-3, 12_345.6, -0.5, f64::NAN].map(|x| number::significant(x, 2));
-    assert_eq!(written, ["0", "0.12", "8.3e-5", "2.9e-3", "12346", "\u{2212}0.50", "\u{2013}"]);
-    assert_eq!([9999, 10_000, 1_234_567].map(number::count), ["9999", "10\u{a0}000", "1\u{a0}234\u{a0}567"]);
+    let written = [0.0, 0.123456, 0.3, 8.3e-5, 2.9e-3, 9.96, 12_345.6, -0.5, 2.5e7, f64::NAN]
+        .map(|x| number::significant(x, 2));
+    assert_eq!(written, ["0", "0.12", "0.30", "8.3e-5", "0.0029", "10", "12,346", "-0.50", "2.5e7", "-"]);
+    assert_eq!([999, 27_000, 1_234_567].map(number::count), ["999", "27,000", "1,234,567"]);
+    assert_eq!([0.8, 0.905, 12.0].map(number::length), ["0.80", "0.905", "12.00"]);
+    assert_eq!([9.66, 1449.0, 27_290.0].map(number::period), ["9.7", "1,400", "27,000"]);
+    let of = [Some(0.0069), Some(0.005), Some(0.00984)];
+    assert_eq!(number::PERCENT.both(of, "95 % limits "), "0.69 % (95 % limits 0.50 to 0.98 %)");
+    assert_eq!(number::PERCENT.both([None, Some(0.0), Some(0.9999)], ""), "0 to >99.9 %");
+    assert_eq!([-1234.5, -123.0].map(|x| number::fixed(x, 1)), ["-1,234.5", "-123.0"]);
 }
 
 const RUN: &str = "\

@@ -2,6 +2,7 @@ use crate::sheet::SheetError;
 
 /// An error in the file of a record: place (lines count from 1), value found, value expected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the message says it")]
 pub enum RecordFileError {
     #[error(transparent)]
     Sheet(#[from] SheetError),

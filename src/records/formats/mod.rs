@@ -6,6 +6,7 @@
 //! esm       Engineering Strong Motion database
 //! knet      K-NET and KiK-net
 //! csv       columns of a table, with or without times
+//! format    the list of these
 //! header    fields and blocks of numbers, common to several formats
 //! error     errors of a file
 //! ```
@@ -14,29 +15,18 @@ mod cosmos;
 mod csv;
 mod error;
 mod esm;
+mod format;
 mod header;
 mod knet;
 mod peer_at2;
 
 pub use error::RecordFileError;
+pub use format::Format;
 
 use super::{HeaderPga, ReadOptions, RecordedMotion};
-use crate::keyword::{Keyword, keywords};
+use crate::keyword::Keyword;
 use crate::motion::measures::peak;
 use crate::sheet::decode;
-
-/// A text format, in order of detection.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    Cosmos,
-    /// KiK-net too.
-    Knet,
-    Esm,
-    PeerAt2,
-    Csv,
-}
-
-keywords!(Format { Cosmos = "cosmos", Knet = "knet", Esm = "esm", PeerAt2 = "at2", Csv = "csv" });
 
 /// Reads the motions in the bytes of a file, and compares them with the peaks in their headers.
 pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {

@@ -41,6 +41,7 @@ pub struct PulseIndicator {
 /// Whether a record has a pulse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
+    /// It has an early pulse.
     Pulse,
     /// The indicator is too low.
     NoPulse,

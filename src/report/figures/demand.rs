@@ -1,8 +1,9 @@
 //! Figures 3, 4, 7 and 8: the demand over peak velocity, period and the measures of Eq. 13.
 
-use super::{Group, MEASURES, RockingCase, compare, demand_axis, file_words};
+use super::{Group, RockingCase, compare, demand_axis, file_words, label, name};
+use crate::fragility::Measure;
+use crate::number;
 use crate::report::figure::{Axis, Estimate, Figure, Ink, Layer, Panel};
-use crate::report::text::number;
 
 type CaseValue = fn(&RockingCase) -> Option<f64>;
 type FitValue = fn(&MeasureFit) -> Option<f64>;
@@ -67,14 +68,17 @@ pub fn demand(groups: &[Group]) -> Figure {
 }
 
 /// Figure 7: the demand in safe rocking over each measure, with its regression if there is one.
-pub fn regressions(group: &Group, fits: &[Option<MeasureFit>; 6]) -> Figure {
-    let panels = MEASURES.iter().zip(fits).enumerate().map(|(k, (label, fit))| {
-        let points: Vec<[f64; 2]> =
-            group.cases.iter().filter_map(|case| Some([case.im[k]?, case.demand()?])).collect();
+pub fn regressions(group: &Group, fits: &[Option<MeasureFit>]) -> Figure {
+    let panels = Measure::SCALAR.into_iter().zip(fits).map(|(measure, fit)| {
+        let points: Vec<[f64; 2]> = group
+            .cases
+            .iter()
+            .filter_map(|case| Some([measure.value_of(&case.measures)?, case.demand()?]))
+            .collect();
         let [low, high] =
             points.iter().fold([f64::INFINITY, 0.0_f64], |[low, high], [x, _]| [low.min(*x), high.max(*x)]);
         let mut layers = vec![Layer::points("safe rocking", Ink::Data(0), points)];
-        let mut title = format!("IM{}", k + 1);
+        let mut title = name(measure);
         if let Some(fit) = fit.filter(|_| low < high) {
             let line = [low, high].map(|im| [im, (fit.ln_a + fit.b * im.ln()).exp()]);
             layers.push(Layer::line("regression", Ink::Data(1), line.to_vec()));
@@ -82,7 +86,7 @@ pub fn regressions(group: &Group, fits: &[Option<MeasureFit>; 6]) -> Figure {
             let [r2, beta] = [fit.r2, fit.beta].map(|value| number::fixed(value, 2));
             title = format!("{title}\u{2003}*R*^{{2}} {r2}\u{2002}*β* {beta}\u{2002}*ζ* {zeta}");
         }
-        Panel { title, x: Axis::log(label), y: demand_axis(), layers, notes: Vec::new() }
+        Panel { title, x: Axis::log(label(measure)), y: demand_axis(), layers, notes: Vec::new() }
     });
     Figure {
         name: format!("regressions-{}", file_words(&group.name)),
@@ -98,14 +102,16 @@ pub fn regressions(group: &Group, fits: &[Option<MeasureFit>; 6]) -> Figure {
 }
 
 /// Figure 8: R2, beta and zeta of the regressions of each group.
-pub fn quality(groups: &[(String, [Option<MeasureFit>; 6])]) -> Figure {
+pub fn quality(groups: &[(String, Vec<Option<MeasureFit>>)]) -> Figure {
     let qualities: [(&str, &str, FitValue); 3] = [
         ("More is better", "*R*^{2}", |fit| Some(fit.r2)),
         ("Less is better", "*β*", |fit| Some(fit.beta)),
         ("Less is better", "*ζ* = *β* / *b*", MeasureFit::zeta),
     ];
     let panels = qualities.map(|(title, label, value)| {
-        let values = |fits: &[Option<MeasureFit>; 6]| fits.map(|fit| fit.as_ref().and_then(value));
+        let values = |fits: &[Option<MeasureFit>]| -> Vec<Option<f64>> {
+            fits.iter().map(|fit| fit.as_ref().and_then(value)).collect()
+        };
         let all = || groups.iter().flat_map(|(_, fits)| values(fits)).flatten();
         let [least, largest] = [all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max)];
         let layers = groups.iter().enumerate().map(|(group, (name, fits))| {
@@ -123,14 +129,14 @@ pub fn quality(groups: &[(String, [Option<MeasureFit>; 6])]) -> Figure {
         Panel {
             title: title.to_string(),
             x: Axis::linear(label).over(0.0, 1.08 * largest.min(MOST_ZETA * least.max(0.2))),
-            y: Axis::names((1..=6).map(|k| format!("IM{k}"))),
+            y: Axis::names(Measure::SCALAR.into_iter().map(name)),
             layers: layers.collect(),
             notes: Vec::new(),
         }
     });
     Figure {
         name: "quality".to_string(),
-        title: "Quality of the six measures".to_string(),
+        title: "Quality of the measures".to_string(),
         caption: format!(
             "Of the regressions of the demand on one measure. A measure without a dot has no such number, or one far to the right. {}",
             compare("Figure 8")

@@ -2,6 +2,7 @@
 //! plain numbers.
 
 mod demand;
+mod map;
 mod motion;
 mod planes;
 mod probability;
@@ -10,13 +11,15 @@ mod similarity;
 mod studies;
 
 use super::figure::{Axis, Estimate};
+use crate::fragility::Measure;
+use crate::keyword::Keyword;
+use crate::motion::IntensityMeasures;
 
 pub use demand::{MeasureFit, demand, quality, regressions};
+pub use map::{LEVELS, Map, maps};
 pub use motion::{Motion, motion};
 pub use planes::{GroupPlanes, planes};
-pub use probability::{
-    Curve, ProbabilityPanel, StructureCurves, calibrated, exceedance, hybrids, overturning,
-};
+pub use probability::{Curve, ProbabilityPanel, StructureCurves, exceedance, hybrids, overturning};
 pub use rates::{AnnualRate, list, rates};
 pub use similarity::{History, similarity};
 pub use studies::{Ida, NamedEstimates, ida, ranking, validation};
@@ -27,8 +30,8 @@ pub struct RockingCase {
     pub pgv_m_s: f64,
     /// Period of the pulse, s, if known.
     pub tp_s: Option<f64>,
-    /// IM1 to IM6 of Eq. 13.
-    pub im: [Option<f64>; 6],
+    /// Those of Eq. 13.
+    pub measures: IntensityMeasures,
     /// |theta|max / alpha (Eq. 7); none if it overturned.
     pub edp: Option<f64>,
 }
@@ -48,15 +51,23 @@ impl RockingCase {
     }
 }
 
-/// Labels of IM1 to IM6 (Eq. 13).
-pub const MEASURES: [&str; 6] = [
-    "*ω*_{p} / *p*",
-    "*ω*_{m} / *p*",
-    "PGA / (*p* PGV)",
-    "PGA / (*g* tan *α*)",
-    "*p* PGV / (*g* tan *α*)",
-    "*ω*_{m} PGV / (*g* tan *α*)",
-];
+/// Label of a measure (Eq. 13).
+pub fn label(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Im1 => "*ω*_{p} / *p*",
+        Measure::Im2 => "*ω*_{m} / *p*",
+        Measure::Im3 => "PGA / (*p* PGV)",
+        Measure::Im4 => "PGA / (*g* tan *α*)",
+        Measure::Im5 => "*p* PGV / (*g* tan *α*)",
+        Measure::Im6 => "*ω*_{m} PGV / (*g* tan *α*)",
+        Measure::Im3Inverse => "*p* PGV / PGA",
+    }
+}
+
+/// Name of a measure: IM4.
+fn name(measure: Measure) -> String {
+    measure.as_str().to_uppercase()
+}
 
 /// Axis of the demand (Eq. 7).
 fn demand_axis() -> Axis {
@@ -93,13 +104,6 @@ pub fn observed_shares(
         Estimate { x: sum / n as f64, y: events as f64 / n as f64, low, high, n: n as f64 }
     };
     bins.iter().filter(|(_, n, _)| *n > 0).map(share).collect()
-}
-
-/// Bins of equal numbers of values, for [`observed_shares`].
-pub fn equal_numbers(mut values: Vec<f64>, count: usize) -> impl Fn(f64) -> usize {
-    values.sort_by(f64::total_cmp);
-    let edges: Vec<f64> = (1..count).map(|k| values[k * values.len() / count]).collect();
-    move |value| edges.partition_point(|edge| *edge <= value)
 }
 
 /// Bins of equal ratio between two values, for [`observed_shares`].

@@ -1,8 +1,9 @@
 //! Figure 9: the two planes of the demand (Eqs. 17 and 18, Table II), seen along the line in which they meet.
 
 use super::{Group, RockingCase, compare};
+use crate::fragility::PLANE;
+use crate::number;
 use crate::report::figure::{Axis, Figure, Ink, Layer, Panel};
-use crate::report::text::number;
 
 type Vector = [f64; 3];
 
@@ -37,7 +38,8 @@ fn panel(GroupPlanes { group, transition, planes }: &GroupPlanes) -> Panel {
     let sides = [("below the transition", Ink::Data(2), true), ("above it", Ink::Data(0), false)];
     for ((label, ink, is_below), [ln_a, b1, b2]) in sides.into_iter().zip(planes) {
         let logarithms = |case: &RockingCase| -> Option<Vector> {
-            Some([case.im[3]?.ln(), case.im[2]?.ln(), case.demand()?.ln()])
+            let [im4, im3] = PLANE.map(|measure| measure.value_of(&case.measures));
+            Some([im4?.ln(), im3?.ln(), case.demand()?.ln()])
         };
         let cases = group.cases.iter().filter_map(logarithms);
         let cases: Vec<Vector> = cases.filter(|case| (case[0] < transition.ln()) == is_below).collect();

@@ -1,4 +1,4 @@
-//! Figures 10, 11, 12 and the calibrated curves: probabilities over a measure, with the observed shares.
+//! Figures 10, 11 and 12: probabilities over a measure, with the observed shares.
 
 use super::compare;
 use crate::report::figure::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
@@ -33,13 +33,18 @@ pub struct ProbabilityPanel {
     pub notes: Vec<String>,
 }
 
+/// What the notes in a panel say.
+const SCORES: &str = "In the corner, for each structure: the mean log score of its own curve and of the other's on its cases, the nearer to 0 the better.";
 const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
 
 /// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one.
 pub fn exceedance(panels: &[ProbabilityPanel]) -> Figure {
     figure(
         ["exceedance", "Exceeding the limit state in safe rocking", "*P*_{ex}"],
-        format!("By the two planes, at quantiles of IM3, and by IM4 alone. {}", compare("Figure 10")),
+        format!(
+            "Probability of exceeding the limit state by the two planes, at quantiles of IM3, and by IM4 alone. {}",
+            compare("Figure 10")
+        ),
         panels,
     )
 }
@@ -49,7 +54,7 @@ pub fn overturning(panels: &[ProbabilityPanel]) -> Figure {
     figure(
         ["overturning", "Overturning over single measures", "*P*_{ro}"],
         format!(
-            "Lognormal curves with 95 % bands, and observed shares with 95 % limits. {}",
+            "Lognormal curves with 95 % bands, and observed fractions with 95 % limits. {SCORES} {}",
             compare("Figure 11")
         ),
         panels,
@@ -61,18 +66,9 @@ pub fn hybrids(panels: &[ProbabilityPanel]) -> Figure {
     figure(
         ["overturning-hybrid", "Overturning over hybrid measures", "*P*_{ro}"],
         format!(
-            "As over single measures, over the hybrid measure of each structure (Eq. 23). {}",
+            "Lognormal curves over the hybrid measure of each structure (Eq. 23) with 95 % bands, and observed fractions with 95 % limits. {SCORES} {}",
             compare("Figure 12")
         ),
-        panels,
-    )
-}
-
-/// The calibrated curves over PGA, means over the motions in bins.
-pub fn calibrated(panels: &[ProbabilityPanel]) -> Figure {
-    figure(
-        ["calibrated", "Overturning: calibrated curves", "*P*_{ro}"],
-        "Means over the motions in bins of PGA: the universal surface, calibrated with these responses (95 % band) and as it is shipped, and observed shares with 95 % limits.".to_string(),
         panels,
     )
 }
@@ -113,7 +109,7 @@ fn panel(of: &ProbabilityPanel, probability: &str, names: &[&str]) -> Panel {
         layers.push(Layer::curve(&curve.label, Ink::Muted, dash, Vec::new(), Vec::new()));
     }
     for structure in of.structures.iter().filter(|structure| !structure.shares.is_empty()) {
-        layers.push(Layer::estimates("observed share", Ink::Muted, Vec::new()));
+        layers.push(Layer::estimates("observed fraction", Ink::Muted, Vec::new()));
         layers.push(Layer::estimates("", ink(structure), structure.shares.clone()));
     }
     Panel {

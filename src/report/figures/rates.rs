@@ -30,7 +30,7 @@ fn rows(name: &str, title: &str, label: &str, rates: &[AnnualRate]) -> Figure {
     Figure {
         name: name.to_string(),
         title: title.to_string(),
-        caption: "Annual rates with 95 % limits.".to_string(),
+        caption: "Annual rates with the 95 % limits of the model.".to_string(),
         columns: 1,
         panels: vec![Panel {
             x: Axis::log(label),

@@ -1,8 +1,8 @@
 //! Figure 5: the responses of two similar structures to similar motions, which are one in dimensionless axes.
 
 use super::{compare, envelope};
+use crate::number;
 use crate::report::figure::{Axis, Dash, Figure, Ink, Layer, Panel};
-use crate::report::text::number;
 
 /// The rotation of a structure over time.
 #[derive(Debug, Clone, PartialEq)]

@@ -36,7 +36,7 @@ pub fn ida(analyses: &[Ida]) -> Figure {
         Panel {
             title: of.name.clone(),
             x: Axis::log(&of.intensity),
-            y: Axis::probability("share that overturns"),
+            y: Axis::probability("fraction that overturns"),
             layers: vec![
                 Layer::curve("lognormal curve", Ink::Data(1), Dash::Solid, points, band),
                 Layer::line("at or below the intensity", Ink::Muted, steps.collect()),
@@ -48,7 +48,7 @@ pub fn ida(analyses: &[Ida]) -> Figure {
     Figure {
         name: "ida".to_string(),
         title: "Incremental dynamic analysis".to_string(),
-        caption: "Share of the motions whose lowest overturning intensity is reached, its lognormal curve, and share that overturns at each intensity with 95 % limits: less where structures survive stronger motions than some that overturn them.".to_string(),
+        caption: "Grey: fraction of the motions that have overturned the structure at or below an intensity, with its lognormal curve (orange). Blue: fraction that overturns it at exactly this intensity, with 95 % limits; it is lower where a structure survives a stronger version of a motion that overturned it.".to_string(),
         columns: analyses.len().min(2),
         height: 118.0,
         panels: analyses.iter().map(panel).collect(),
@@ -72,7 +72,7 @@ pub fn validation(groups: &[NamedEstimates]) -> Figure {
         Panel {
             title: title.clone(),
             x: Axis::probability("predicted probability"),
-            y: Axis::probability("observed share"),
+            y: Axis::probability("observed fraction"),
             layers: [equal].into_iter().chain(series.iter().enumerate().map(of)).collect(),
             notes: Vec::new(),
         }
@@ -80,8 +80,9 @@ pub fn validation(groups: &[NamedEstimates]) -> Figure {
     Figure {
         name: "validation".to_string(),
         title: "Predicted and observed".to_string(),
-        caption: "Cases in bins of predicted probability: its mean, and the observed share with 95 % limits."
-            .to_string(),
+        caption:
+            "Cases in bins of predicted probability: its mean, and the observed fraction with 95 % limits."
+                .to_string(),
         columns: groups.len().min(2),
         height: 140.0,
         panels: groups.iter().map(panel).collect(),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::fragility::{Calibration, Kind, Model, Scenarios};
+use crate::fragility::{Calibration, Kind, Measure, Model, Scenarios};
 use crate::hazard::{Budget, Part};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
@@ -37,16 +37,11 @@ pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2], budget:
     }
     let [pga, pgv] = [motion[0] / G_M_S2, motion[1]].map(|peak| significant(peak, 3));
     let _ = writeln!(text, "motion:      PGA {pga} g, PGV {pgv} m/s");
-    let IntensityMeasures { im1, im2, im3, im4, im5, im6 } = measures;
-    let named = ["IM1", "IM2", "IM3", "IM4", "IM5", "IM6"].into_iter().zip([
-        im1,
-        im2,
-        im3,
-        Some(im4),
-        Some(im5),
-        im6,
-    ]);
-    let named = named.filter_map(|(name, value)| Some(format!("{name} {}", significant(value?, 3))));
+    let named = |measure: &Measure| {
+        let value = measure.raw_value_of(&measures)?;
+        Some(format!("{} {}", measure.as_str().to_uppercase(), significant(value, 3)))
+    };
+    let named = Measure::SCALAR.iter().filter_map(named);
     let _ = writeln!(text, "measures:    {}", named.collect::<Vec<_>>().join(", "));
     let limit_state = match model {
         Model::Calibrated { exceeding, .. } => exceeding.limit_state,

@@ -13,21 +13,21 @@ use crate::rocking::Structure;
 use crate::sheet::{Heading, Sheet};
 use crate::stages::shared::hazard::{Renamed, headings, peak, rename};
 use crate::table::TableError;
-use crate::table::columns::Columns;
+use crate::table::columns::Batch;
 use crate::table::file::Table;
 
 /// Reads the rows of a table.
-pub fn read(path: &Path, renamed: &[Renamed]) -> anyhow::Result<Vec<RecordBatch>> {
+pub fn read(path: &Path, renamed: &[Renamed]) -> anyhow::Result<Vec<Batch>> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
-        return Ok(vec![read_csv(path, renamed)?]);
+        return Ok(vec![Batch { path: path.into(), first_row: 0, rows: read_csv(path, renamed)? }]);
     }
     let table = Table::open(path)?;
-    Ok(table.batches(&|_| true).map(|batch| Ok(batch?.rows)).collect::<Result<_, TableError>>()?)
+    Ok(table.batches(&|_| true).collect::<Result<_, TableError>>()?)
 }
 
 /// A peak of each row, m/s2 or m/s.
-pub fn peaks(columns: &Columns, wanted: Peak) -> anyhow::Result<Vec<f64>> {
-    let schema = columns.batch.schema();
+pub fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
+    let schema = batch.rows.schema();
     let found = schema.fields().iter().find_map(|field| {
         let (peak, unit) = peak(&Heading::of(field.name()))?;
         (peak == wanted).then(|| (field.name().clone(), unit))
@@ -40,26 +40,23 @@ pub fn peaks(columns: &Columns, wanted: Peak) -> anyhow::Result<Vec<f64>> {
         let names: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
         return Err(UsageError::because(format!(
             "{}: columns {}; expected {expected}; --columns {column}=HEADING renames one",
-            columns.path.display(),
+            batch.path.display(),
             names.join(", ")
         )));
     };
     let judged = |(row, value): (usize, f64)| match judge_peak(wanted == Peak::Pgv, value * unit) {
         Ok(()) => Ok(value * unit),
-        Err(possible) => Err(columns.value_error(row, expected, format!("expected {possible}")).into()),
+        Err(possible) => Err(batch.value_error(row, expected, format!("expected {possible}")).into()),
     };
-    columns.numbers(&name)?.into_iter().enumerate().map(judged).collect()
+    batch.numbers(&name)?.into_iter().enumerate().map(judged).collect()
 }
 
 /// The structure of each row.
-pub fn structures(columns: &Columns) -> anyhow::Result<Vec<Structure>> {
-    let (p, alpha) = (columns.required_numbers("p_rad_s")?, columns.required_numbers("alpha_rad")?);
-    let eta = columns.required_numbers("eta")?;
-    let structure = |row: usize| {
-        Structure::new("structure", p[row], alpha[row], eta[row])
-            .map_err(|error| columns.value_error(row, "p_rad_s", error.to_string()).into())
-    };
-    (0..columns.rows()).map(structure).collect()
+pub fn structures(batch: &Batch) -> anyhow::Result<Vec<Structure>> {
+    let (p, alpha) = (batch.required_numbers("p_rad_s")?, batch.required_numbers("alpha_rad")?);
+    let eta = batch.required_numbers("eta")?;
+    let structure = |row: usize| Ok(batch.structure(row, "structure", [p[row], alpha[row], eta[row]])?);
+    (0..batch.rows.num_rows()).map(structure).collect()
 }
 
 /// The columns of a CSV table: numbers where all cells are, else text. Peaks are kept under their headings.

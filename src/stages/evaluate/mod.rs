@@ -40,11 +40,12 @@ use crate::units::G_M_S2;
 use crate::warning::Warning;
 
 use self::object::{Answer, Prediction, Subject};
-pub use self::object::{ObjectRow, Predicted};
+pub use self::object::{ErrorsRow, ObjectRow, Predicted};
 use self::output::Output;
 pub use self::point::TreeRow;
 pub use self::rates::RatesRow;
 use self::target::Target;
+pub use self::words::size;
 
 /// Predict how probable rocking and overturning are: under a motion, under each of a table, or a year at
 /// a site
@@ -213,7 +214,7 @@ impl Evaluate {
                     None => Err(UsageError::because(reason)),
                 }
             }
-            _ => Ok(objects),
+            _ => Ok(objects.to_vec()),
         }
     }
 

@@ -99,6 +99,22 @@ pub struct ErrorsRow {
 }
 
 impl ErrorsRow {
+    /// The parts that are there, in words, and the largest.
+    pub fn words(&self) -> (Vec<&'static str>, Option<&'static str>) {
+        let parts = [
+            (self.error_fit, Part::Fit),
+            (self.error_magnitude, Part::Magnitude),
+            (self.error_velocity, Part::Velocity),
+            (self.error_eta, Part::Eta),
+            (self.error_object, Part::Object),
+            (self.error_floor, Part::Floor),
+            (self.error_hazard, Part::Hazard),
+        ];
+        let known = parts.into_iter().filter_map(|(sd, part)| Some((sd?, part)));
+        let largest = known.clone().max_by(|a, b| a.0.total_cmp(&b.0));
+        (known.map(|(_, part)| part.words()).collect(), largest.map(|(_, part)| part.words()))
+    }
+
     pub fn of(budget: &Budget) -> ErrorsRow {
         ErrorsRow {
             error_fit: budget.sd_of(Part::Fit),

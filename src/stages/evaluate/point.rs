@@ -132,9 +132,9 @@ fn of_one(answer: &Answer<TreeRow>) -> String {
         (Some(_), None) => "Add --pgv.",
         _ => "Add --pga.",
     };
-    let unknown = mostly_unknown(budget, "the other peak", add).map_or(String::new(), |text| text + "\n");
+    let unknown = mostly_unknown(budget, add).map_or(String::new(), |text| text + "\n");
     let peaks = words_of_peaks(tree);
-    let by = format!("{} {peaks}, by {}. {}\n", title(object), model(object), validity(object));
+    let by = format!("{} {peaks}, by {}.\n{}\n", title(object), model(object), validity(object));
     if !tree.rocks() {
         return uplift + &by;
     }

@@ -147,7 +147,7 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<Target>) -> Str
         format!("Width for {target} {}: {}; {} by the upper limit.\n", in_years(rates), by[0], by[1])
     });
     format!(
-        "{}: {}\n{}{}{widths}By {}. {}\n",
+        "{}: {}\n{}{}{widths}By {}.\n{}\n",
         title(object),
         how_often(rates, site, "95 % limits "),
         aligned(&lines, |_| false),
@@ -236,7 +236,7 @@ fn about_limits(answer: &Answer<RatesRow>, site: &Site) -> String {
         _ => "",
     };
     let is_known = answer.row.overturning_per_year.is_some_and(|rate| rate > 0.0);
-    let unknown = mostly_unknown(&answer.budget, "PGV", advice).filter(|_| is_known);
+    let unknown = mostly_unknown(&answer.budget, advice).filter(|_| is_known);
     let without = not_in_limits(site, "Not in the limits: ");
     let without = Some(format!("{without}.")).filter(|without| is_known && without.len() > 1);
     let parts = [unknown, without, extrapolated(&answer.row).map(|text| format!("{text}."))];

@@ -21,7 +21,7 @@ use crate::stages::shared::model_args::Models;
 use crate::stages::shared::motions::known;
 use crate::stages::shared::structures::{Place, StructureArgs, warnings_of};
 use crate::table::TableError;
-use crate::table::columns::Columns;
+use crate::table::columns::Batch;
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 
@@ -46,29 +46,26 @@ pub fn evaluate(
     }
     let given = given.first().map(|object| Subject::of(object, models)).transpose()?;
     let given = given.transpose().map_err(|reason| UsageError::because(reason.to_string()))?;
-    let (mut known, mut evaluated, mut first_row) = (HashMap::new(), Vec::new(), 0);
-    for batch in batches {
-        let columns = Columns { path, first_row, batch: &batch };
-        evaluated.push(of_batch(&columns, given.as_ref(), models, &mut known, context)?);
-        first_row += batch.num_rows() as u64;
-    }
-    match first_row {
+    let mut known = HashMap::new();
+    let evaluate = |batch: &Batch| of_batch(batch, given.as_ref(), models, &mut known, context);
+    let evaluated = batches.iter().map(evaluate).collect::<anyhow::Result<Vec<RecordBatch>>>()?;
+    match batches.iter().map(|batch| batch.rows.num_rows()).sum() {
         0 => Err(TableError::table(path, "no rows; expected intensities").into()),
-        rows => Ok((evaluated, format!("{} evaluated\n", counted(rows as usize, "row")))),
+        rows => Ok((evaluated, format!("{} evaluated\n", counted(rows, "row")))),
     }
 }
 
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
 fn of_batch(
-    columns: &Columns,
+    batch: &Batch,
     given: Option<&Known>,
     models: &Models,
     known_structures: &mut HashMap<[u64; 3], Known>,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
-    let [pga, pgv] = [peaks(columns, Peak::Pga)?, peaks(columns, Peak::Pgv)?];
-    let mw = columns.numbers("mw")?;
-    let structures = if given.is_some() { Vec::new() } else { intensities::structures(columns)? };
+    let [pga, pgv] = [peaks(batch, Peak::Pga)?, peaks(batch, Peak::Pgv)?];
+    let mw = batch.numbers("mw")?;
+    let structures = if given.is_some() { Vec::new() } else { intensities::structures(batch)? };
     let key =
         |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits);
     for structure in &structures {
@@ -88,16 +85,16 @@ fn of_batch(
         ((tree.with_warnings(texts(&warnings)), ErrorsRow::of(&budget)), warnings)
     };
     let (rows_of_all, warnings): (Vec<(TreeRow, ErrorsRow)>, Vec<Vec<Warning>>) =
-        (0..columns.rows()).into_par_iter().map(of_row).unzip();
+        (0..batch.rows.num_rows()).into_par_iter().map(of_row).unzip();
     let (trees, errors): (Vec<TreeRow>, Vec<ErrorsRow>) = rows_of_all.into_iter().unzip();
     for (row, warnings) in warnings.into_iter().enumerate() {
-        let place = format!("row {}", columns.first_row + row as u64);
+        let place = format!("row {}", batch.first_row + row as u64);
         context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect::<Warnings>());
     }
     let own = rows::side_by_side(&[rows::batch(&trees)?, rows::batch(&errors)?])?;
-    let schema = columns.batch.schema();
+    let schema = batch.rows.schema();
     let kept: Vec<usize> = (0..schema.fields().len())
         .filter(|&at| own.schema().index_of(schema.field(at).name()).is_err())
         .collect();
-    rows::side_by_side(&[own, columns.batch.project(&kept)?])
+    rows::side_by_side(&[own, batch.rows.project(&kept)?])
 }

@@ -21,6 +21,7 @@ pub fn title(object: &ObjectRow) -> String {
     }
 }
 
+/// Width and height, else p and alpha.
 pub fn size(object: &ObjectRow) -> String {
     size_alone(object) + &floor(object)
 }
@@ -71,18 +72,19 @@ pub fn too_far(object: &ObjectRow) -> String {
     format!("rocks beyond {} of its slenderness", number::PERCENT.one(limit_state))
 }
 
-/// The largest part of the error, and what would narrow it. Of PGV / PGA it has a name and advice of its own.
-pub fn mostly_unknown(budget: &Budget, velocity: &str, advice: &str) -> Option<String> {
-    let (what, advice) = match budget.largest()? {
-        Part::Fit => ("the fragility", "Calibrate it by responses of the object (--fits)."),
-        Part::Magnitude => ("magnitude", "Add --magnitude."),
-        Part::Velocity => (velocity, advice),
-        Part::Eta => ("eta", "Measure it (--eta, --eta-sd)."),
-        Part::Object => ("the object's body", "Measure its centre of mass."),
-        Part::Floor => ("the building's period", "Measure it (--period, --period-sd)."),
-        Part::Hazard => ("the hazard", "See its fractiles."),
+/// The largest part of the error, and what would narrow it: of PGV / PGA this advice.
+pub fn mostly_unknown(budget: &Budget, of_velocity: &str) -> Option<String> {
+    let part = budget.largest()?;
+    let advice = match part {
+        Part::Fit => "Calibrate it by responses of the object (--fits).",
+        Part::Magnitude => "Add --magnitude.",
+        Part::Velocity => of_velocity,
+        Part::Eta => "Measure it (--eta, --eta-sd).",
+        Part::Object => "Measure its centre of mass.",
+        Part::Floor => "Measure its period (--period, --period-sd).",
+        Part::Hazard => "",
     };
-    Some(format!("Mostly unknown: {what}. {advice}").trim_end().to_string())
+    Some(format!("Mostly unknown: {}. {advice}", part.words()).trim_end().to_string())
 }
 
 /// The warnings of a row in a few words; the reason in full if the row cannot be right.

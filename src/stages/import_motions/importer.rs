@@ -12,7 +12,7 @@ use crate::records::plausibility::Implausibility;
 use crate::records::processing::{ImportedMotion, NamedRecord, Processing, ProcessingError, SourceFile};
 use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
 use crate::rocking::Record;
-use crate::table::provenance;
+use crate::table::keys;
 use crate::warning::Warning;
 
 /// The files of a call, and what is done to them.
@@ -38,7 +38,7 @@ impl Importer {
         reading: ReadOptions,
         processing: Processing,
     ) -> anyhow::Result<Importer> {
-        let mut files = provenance::files_below(given)?;
+        let mut files = keys::files_below(given)?;
         let out = std::path::absolute(out)?;
         files.retain(|file| std::path::absolute(file).is_ok_and(|file| file != out));
         let mut names = HashMap::new();

@@ -24,7 +24,7 @@ use crate::records::processing::{Implausible, ImportedMotion, Processing, PulseS
 use crate::records::rotation::Direction;
 use crate::records::signal::{Baseline, HighPass, Scaling};
 use crate::records::{Format, ReadOptions};
-use crate::units::{G_M_S2, Quantity, Unit};
+use crate::units::{G_M_S2, Unit};
 use crate::warning::{Warning, Warnings};
 
 /// Files, or pairs of components, that are processed at once.
@@ -47,7 +47,7 @@ pub struct ImportMotions {
     dt: Option<f64>,
     /// Unit of acceleration, where files do not state it: g, m/s2, cm/s2 (gal), mm/s2, mg, %g, ft/s2
     /// or in/s2
-    #[arg(long, value_parser = acceleration_unit)]
+    #[arg(long, value_parser = Unit::of_acceleration)]
     unit: Option<Unit>,
     /// Column of acceleration in CSV: number, heading, or all where one series wraps over lines
     #[arg(long, value_name = "N|NAME|all")]
@@ -206,10 +206,4 @@ fn warnings(imported: &[ImportedMotion]) -> Warnings {
         Some((Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, motion.warning?)))
     };
     imported.iter().filter_map(warning).collect()
-}
-
-/// The unit of acceleration of this name.
-fn acceleration_unit(text: &str) -> Result<Unit, String> {
-    let unit = Unit::parse(text).filter(|unit| unit.quantity == Quantity::Acceleration);
-    unit.ok_or_else(|| "expected g, m/s2, cm/s2, gal, mm/s2, mg, %g, ft/s2 or in/s2".to_string())
 }

@@ -3,16 +3,19 @@
 use std::f64::consts::TAU;
 
 use super::studies;
-use super::tables::Tables;
-use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
-use crate::fragility::{Probability, Scenarios, hybrid_measure, lambda};
+use super::tables::{Tables, name};
+use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Event, Kind, Measure};
+use crate::fragility::{Probability, Scenarios};
 use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Suite, measures};
-use crate::report::figures::{self as draw, MEASURES, MeasureFit, ProbabilityPanel, StructureCurves};
-use crate::report::text::number;
+use crate::number;
+use crate::report::figures::{self as draw, MeasureFit, ProbabilityPanel, StructureCurves};
+use crate::report::text::minus;
 use crate::report::{Estimate, Figure};
 use crate::rocking::{Outcome, Record, Structure, simulate, trace, with_tail};
-use crate::statistics::scores::log_score;
+use crate::statistics::numerics::first;
+use crate::statistics::scores::sample_quantile;
+use crate::studies::{log_score_on, measure_of, motion_at};
 use crate::table::motions::Motion;
 use crate::units::G_M_S2;
 
@@ -46,7 +49,7 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
         drawn(draw::rates, studies::states(tables)),
         drawn(draw::ida, studies::analyses(tables)?),
         drawn(draw::hybrids, over(Measure::Im4, Some(Measure::Im3Inverse))),
-        drawn(draw::calibrated, panels(&|groups| over_pga(tables, groups))),
+        drawn(draw::maps, suites.iter().filter_map(|groups| map(tables, groups)).collect()),
         drawn(draw::validation, studies::tests(tables)?),
         drawn(draw::ranking, studies::targets(tables)?),
         a_motion(&motions),
@@ -55,28 +58,13 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
         drawn(draw::exceedance, panels(&|groups| exceeding(tables, groups))),
         drawn(draw::overturning, single),
         drawn(draw::demand, groups.iter().map(|cases| group(cases)).collect()),
-        drawn(draw::quality, fits.iter().map(|(cases, fits)| (name(cases), *fits)).collect()),
+        drawn(draw::quality, fits.iter().map(|(cases, fits)| (name(cases), fits.clone())).collect()),
     ];
     Ok(figures.into_iter().flatten().chain(regressions).collect())
 }
 
 fn drawn<T>(draw: fn(&[T]) -> Figure, data: Vec<T>) -> Option<Figure> {
     (!data.is_empty()).then(|| draw(&data))
-}
-
-/// Structure and, of synthetic motions, suite.
-pub fn title(structure: &str, suite: Option<&str>) -> String {
-    let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
-    synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
-}
-
-/// Whether a row of this suite and structure is of some cases.
-pub fn is_of(cases: &Cases, suite: &Option<String>, structure: &str) -> bool {
-    *suite == cases.suite && structure == cases.structure.name
-}
-
-pub fn name(cases: &Cases) -> String {
-    title(&cases.structure.name, cases.suite.as_deref())
 }
 
 /// The responses of each suite.
@@ -98,7 +86,7 @@ fn group(cases: &Cases) -> draw::Group {
         draw::RockingCase {
             pgv_m_s: cases.pgv_m_s[k],
             tp_s: measures.im1.map(|im1| TAU / (im1 * cases.structure.p_rad_s)),
-            im: Measure::SCALAR.map(|measure| measure.value_of(&measures)),
+            measures,
             edp: Some(cases.edp[k]).filter(|_| !overturned),
         }
     };
@@ -168,15 +156,16 @@ fn regressions<'a>(
     of: &'a Cases,
     model: DemandModel,
 ) -> impl Iterator<Item = &'a DemandFit> {
-    let its = all.demand.iter().filter(|fit| is_of(of, &fit.suite, &fit.structure));
+    let its = all.demand.iter().filter(|fit| fit.group() == of.group());
     its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
 }
 
-fn measure_fits(tables: &Tables, cases: &Cases) -> [Option<MeasureFit>; 6] {
-    Measure::SCALAR.map(|measure| {
+fn measure_fits(tables: &Tables, cases: &Cases) -> Vec<Option<MeasureFit>> {
+    let fit = |measure: Measure| {
         let fit = regressions(tables, cases, DemandModel::Univariate).find(|fit| fit.im_x == measure)?;
         Some(MeasureFit { ln_a: fit.coefficients[0], b: fit.coefficients[1], r2: fit.r2?, beta: fit.beta? })
-    })
+    };
+    Measure::SCALAR.into_iter().map(fit).collect()
 }
 
 fn planes(tables: &Tables, cases: &Cases) -> Option<draw::GroupPlanes> {
@@ -216,27 +205,22 @@ fn panel(groups: &[&Cases], measure: &str, structures: Vec<StructureCurves>) -> 
 
 /// The measures of a motion with these IM4 and IM3.
 fn measures(im4: f64, im3: f64) -> IntensityMeasures {
-    IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5: im4 / im3, im6: None }
-}
-
-fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
-    values.retain(|value| !value.is_nan());
-    values.sort_unstable_by(f64::total_cmp);
-    values.get((share * values.len() as f64) as usize).copied()
+    IntensityMeasures::of_peaks(im4, im4 / im3)
 }
 
 /// Figure 10: P_ex by the planes at quantiles of IM3, and by IM4 alone.
 fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
-    let safe = |cases: &&Cases, im: usize| -> Vec<f64> {
-        (0..cases.len()).filter(|&k| cases.ln_demand(k).is_some()).map(|k| cases.im[im][k]).collect()
+    let safe = |cases: &&Cases, measure: Measure| -> Vec<f64> {
+        let column = cases.column(measure);
+        (0..cases.len()).filter(|&k| cases.ln_demand(k).is_some()).map(|k| column[k]).collect()
     };
-    let all = |im: usize| groups.iter().flat_map(|cases| safe(cases, im)).collect::<Vec<f64>>();
-    let (im3, most) = (all(2), all(3).into_iter().fold(1.5, f64::max));
+    let all = |measure| groups.iter().flat_map(|cases| safe(cases, measure)).collect::<Vec<f64>>();
+    let (im3, most) = (all(Measure::Im3), all(Measure::Im4).into_iter().fold(1.5, f64::max));
     let limit_state = tables.limit_state;
     let structure = |cases: &&Cases| {
         let planes: Vec<&DemandFit> = regressions(tables, cases, DemandModel::Biplanar).collect();
         let at_share = |share: f64| {
-            let (im3, transition) = (quantile(im3.clone(), share)?, planes.last()?.range_low?);
+            let (im3, transition) = (sample_quantile(im3.clone(), share)?, planes.last()?.range_low?);
             let below = ratios([1.0, transition * (1.0 - 1e-9)]).chain([f64::NAN]);
             let p = |im4: f64| {
                 let plane = planes.iter().find(|fit| fit.holds_at(im4))?;
@@ -251,7 +235,7 @@ fn exceeding(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
         let curves = SHARES.into_iter().filter_map(at_share).chain(alone).collect();
         StructureCurves { name: cases.structure.name.clone(), curves, shares: Vec::new() }
     };
-    panel(groups, MEASURES[3], groups.iter().map(structure).collect())
+    panel(groups, draw::label(Measure::Im4), groups.iter().map(structure).collect())
 }
 
 /// Figures 11 and 12: P_ro over a measure, or over a hybrid one at the median IM3, and how well the curves of
@@ -263,35 +247,32 @@ fn over(
     im_y: Option<Measure>,
 ) -> Option<ProbabilityPanel> {
     let fit = |cases: &Cases| {
-        let is_its = |fit: &&CurveFit| {
-            is_of(cases, &fit.suite, &fit.structure)
-                && (fit.im_x, fit.im_y) == (im_x, im_y)
-                && fit.coefficients[1..].iter().sum::<f64>() > 0.0
-        };
-        tables.curves.iter().find(is_its)
+        let mut its = tables.curves.iter().filter(|fit| fit.group() == cases.group());
+        its.find(|fit| {
+            (fit.im_x, fit.im_y) == (im_x, im_y) && fit.coefficients[1..].iter().sum::<f64>() > 0.0
+        })
     };
     let structure = |cases: &&Cases| {
         let name = cases.structure.name.clone();
         let Some(fit) = fit(cases) else { return StructureCurves { name, ..StructureCurves::default() } };
-        let value = |k: usize| {
-            let (measures, b) = (cases.measures(k), &fit.coefficients);
-            let (x, y) = (im_x.value_of(&measures)?, im_y.map(|im_y| im_y.value_of(&measures)));
-            y.map_or(Some(x), |y| Some(hybrid_measure(x, y?, lambda(b).0)))
-        };
+        let value = |k: usize| measure_of(fit, &cases.measures(k));
         let shares: Vec<(f64, bool)> =
             rocked(cases).filter_map(|(k, event)| Some((value(k)?, event))).collect();
-        let im3 = quantile(cases.im[2].clone(), 0.5).unwrap_or(1.0);
-        let p = |value: f64| fit.probability(&measures(im4_at(fit, value, im3), im3), CONFIDENCE);
-        StructureCurves { name, curves: vec![curve("", ratios(ends(&shares)), p)], shares: binned(&shares) }
+        let im3 = sample_quantile(cases.column(Measure::Im3).to_vec(), 0.5).unwrap_or(1.0);
+        let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
+        StructureCurves {
+            name,
+            curves: vec![curve("", ratios(ends(shares.iter().map(|share| share.0))), p)],
+            shares: binned(&shares),
+        }
     };
-    let place = Measure::SCALAR.iter().position(|measure| *measure == im_x)?;
-    let measure = if im_y.is_some() { "hybrid measure" } else { MEASURES[place] };
+    let measure = if im_y.is_some() { "hybrid measure" } else { draw::label(im_x) };
     let mut panel = panel(groups, measure, groups.iter().map(structure).collect())?;
     if let [a, b] = groups
         && let (Some(of_a), Some(of_b)) = (fit(a), fit(b))
     {
         let row = |cases: &Cases, own: &CurveFit, other: &CurveFit| {
-            let [own, other] = [own, other].map(|fit| number::fixed(score(fit, cases), 2));
+            let [own, other] = [own, other].map(|fit| minus(number::fixed(log_score_on(fit, cases), 2)));
             format!("{}: {own}, {other}", cases.structure.name)
         };
         let head = "log score by own curve, by the other's".to_string();
@@ -300,61 +281,60 @@ fn over(
     Some(panel)
 }
 
-/// IM4 of a motion at which the measure of a curve has this value.
-fn im4_at(fit: &CurveFit, value: f64, im3: f64) -> f64 {
-    match (fit.im_x, &fit.coefficients[..]) {
-        (_, [_, b1, b2]) => (((b1 + b2) * value.ln() + b2 * im3.ln()) / b1).exp(),
-        (Measure::Im5, _) => value * im3,
-        _ => value,
+/// The map of the first structure of a suite, and the lines of the others.
+fn map(tables: &Tables, groups: &[&Cases]) -> Option<draw::Map> {
+    let (cases, others) = groups.split_first()?;
+    let mut map = draw::Map { title: name(cases), ..draw::Map::default() };
+    for (k, overturned) in rocked(cases) {
+        let point = [cases.pga_m_s2[k] / G_M_S2, cases.pgv_m_s[k]];
+        if overturned { map.overturns.push(point) } else { map.rocks.push(point) }
     }
+    let [low, high] = ends(cases.pga_m_s2.iter().copied());
+    let pga = [low.max(0.5 * cases.structure.uplift_acceleration_m_s2()), high];
+    let pgv = ends(cases.pgv_m_s.iter().copied());
+    map.lines = draw::LEVELS.map(|level| line(tables, cases, level, pga, pgv));
+    map.others = others
+        .iter()
+        .map(|cases| (cases.structure.name.clone(), line(tables, cases, 0.5, pga, pgv)))
+        .collect();
+    Some(map)
 }
 
-/// Mean log score of a curve on the cases of any structure.
-fn score(fit: &CurveFit, cases: &Cases) -> f64 {
-    const LEAST: f64 = 1e-12;
-    let p = |k: usize| Some(fit.probability(&cases.measures(k), CONFIDENCE)?.value.clamp(LEAST, 1.0 - LEAST));
-    let (p, events): (Vec<f64>, Vec<bool>) =
-        rocked(cases).filter_map(|(k, event)| Some((p(k)?, event))).unzip();
-    log_score(&p, &events)
-}
-
-/// P_ro over PGA: means over the motions in each bin, of the calibrated curve and of the surface as shipped.
-fn over_pga(tables: &Tables, groups: &[&Cases]) -> Option<ProbabilityPanel> {
-    let structure = |cases: &&Cases| {
-        let own = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure))?;
-        let shares: Vec<(f64, bool)> =
-            rocked(cases).map(|(k, event)| (cases.pga_m_s2[k] / G_M_S2, event)).collect();
-        let bins = bins(&shares);
-        let bin = draw::equal_numbers(shares.iter().map(|(pga, _)| *pga).collect(), bins);
-        let drawn = |label: &str, row: &Calibration| {
-            let mut sums = vec![[0.0; 5]; bins];
-            for (&(pga, _), (k, _)) in shares.iter().zip(rocked(cases)) {
-                let logit = row.logit(&cases.structure, &cases.measures(k));
-                let Some(p) = logit.map(|logit| row.probability(logit, Scenarios::Many)) else { continue };
-                let terms = [1.0, pga, p.value, p.low, p.high];
-                sums[bin(pga)].iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
-            }
-            let means = sums.iter().filter(|sum| sum[0] > 0.0).map(|sum| sum.map(|term| term / sum[0]));
-            let (points, band) = means.map(|[_, pga, p, low, high]| ([pga, p], [low, high])).unzip();
-            draw::Curve { label: label.to_string(), points, band }
-        };
-        let surface = drawn("surface", &Calibration::shipped(own.kind, &cases.structure, None));
-        let curves = vec![drawn("calibrated", own), draw::Curve { band: Vec::new(), ..surface }];
-        let observed = draw::observed_shares(&shares, &bin, studies::wilson);
-        Some(StructureCurves { name: cases.structure.name.clone(), curves, shares: observed })
+/// The motions under which a structure overturns with this probability, between these PGA and PGV (m/s2 and
+/// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
+fn line(tables: &Tables, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f64; 2]) -> Vec<[f64; 2]> {
+    let structure = &cases.structure;
+    let fitted = tables.calibrations.iter().find(|row| row.group() == cases.group());
+    let shipped = || Calibration::shipped(kind_of(cases), structure, None);
+    let calibration = fitted.cloned().unwrap_or_else(shipped);
+    let reaches = |pga: f64, ln_pgv: f64| {
+        let measures = IntensityMeasures::new(structure, pga, ln_pgv.exp(), None, None);
+        let logit = calibration.logit(structure, &measures).filter(|_| measures.im4 >= 1.0);
+        logit.is_some_and(|logit| calibration.probability(logit, Scenarios::One).value >= level)
     };
-    panel(groups, "PGA (g)", groups.iter().filter_map(structure).collect())
+    let mut points = Vec::new();
+    for pga in ratios(pga) {
+        let is_crossed = reaches(pga, most.ln()) && !reaches(pga, least.ln());
+        let ln_pgv = is_crossed.then(|| first(least.ln(), most.ln(), |ln_pgv| reaches(pga, ln_pgv)));
+        points.push([pga / G_M_S2, ln_pgv.map_or(f64::NAN, f64::exp)]);
+    }
+    points
 }
 
-fn ends(cases: &[(f64, bool)]) -> [f64; 2] {
-    cases.iter().fold([f64::INFINITY, 0.0], |[low, high], (value, _)| [low.min(*value), high.max(*value)])
+fn kind_of(cases: &Cases) -> Kind {
+    Kind::of_word(cases.suite.as_deref())
 }
 
-fn bins(cases: &[(f64, bool)]) -> usize {
-    (cases.len() / CASES).clamp(4, BINS)
+fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, 0.0], |[low, high], value| [low.min(value), high.max(value)])
 }
 
 /// Shares of events in bins of equal ratio, with Wilson's limits.
 fn binned(cases: &[(f64, bool)]) -> Vec<Estimate> {
-    draw::observed_shares(cases, draw::equal_ratios(ends(cases), bins(cases)), studies::wilson)
+    let bins = (cases.len() / CASES).clamp(4, BINS);
+    draw::observed_shares(
+        cases,
+        draw::equal_ratios(ends(cases.iter().map(|case| case.0)), bins),
+        studies::wilson,
+    )
 }

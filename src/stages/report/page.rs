@@ -3,14 +3,16 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::figures::{is_of, name};
 use super::studies;
-use super::tables::Tables;
+use super::tables::{Tables, name};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
-use crate::report::text::number;
+use crate::number::{self, OF_HUNDRED, RATE, TWO_DIGITS};
+use crate::pipeline::options::listed;
+use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
-use crate::rocking::Outcome;
-use crate::stages::evaluate::{ObjectRow, RatesRow};
+use crate::rocking::{Outcome, Structure};
+use crate::stages::compare_paper::both;
+use crate::stages::evaluate::{ObjectRow, RatesRow, size};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
@@ -20,11 +22,11 @@ use crate::warning::Warnings;
 /// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
 const MOST_WARNINGS: usize = 3;
 const MOST_NAMED: usize = 4;
-/// Figures that are seen: of annual rates, of the paper, of other responses. The others are folded.
-const OF_RATES: &[&str] = &["list", "rates"];
-const OF_PAPER: &[&str] =
-    &["overturning-hybrid", "calibrated", "motion", "similarity", "planes", "exceedance"];
-const OF_RESPONSES: &[&str] = &["ida", "calibrated", "overturning", "validation"];
+/// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded; of
+/// a list there are only these.
+const OF_RATES: &[&str] = &["list", "rates", "map", "ida", "validation"];
+const OF_PAPER: &[&str] = &["overturning-hybrid", "map", "motion", "similarity", "planes", "exceedance"];
+const OF_RESPONSES: &[&str] = &["ida", "map", "overturning", "validation"];
 
 /// What is said of each stage that made a table.
 const METHOD: &str = "\
@@ -44,7 +46,7 @@ ida: Incremental dynamic analysis scales each motion until it overturns the stru
 distribution of these intensities has the median.
 validate: Validation compares predicted probabilities with the outcomes of motions that were not fitted.
 evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
-surface, calibrated where there are responses. The limits do not have the error of the hazard.";
+surface, calibrated where there are responses.";
 
 /// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
@@ -53,12 +55,14 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
         ([], compared) => (tables.answer_of("compare-paper"), planes(compared), OF_PAPER),
         (objects, _) => (tables.answer_of("evaluate"), rates(objects), OF_RATES),
     };
-    let (seen, more) = figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
+    let (seen, more): (_, Vec<Figure>) =
+        figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
+    let more = if tables.objects.is_empty() { more } else { Vec::new() };
     let made = tables.files.iter().filter_map(|(.., made)| made.as_ref());
     let mut joined = Warnings::default();
     made.for_each(|made| joined.join(&made.warnings));
-    let mut warnings = joined.lines();
-    let others = warnings.split_off(warnings.len().min(MOST_WARNINGS));
+    let mut warnings = [tables.left_out.clone(), joined.lines()].concat();
+    let others = warnings.split_off(warnings.len().min(MOST_WARNINGS.max(tables.left_out.len())));
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
     let section = |heading: &str, paragraphs: Vec<String>, tables: Vec<Table>, figures: Vec<Figure>| {
@@ -74,6 +78,7 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     let sections = sections.into_iter().flatten().collect();
     Ok(Page {
         sentence,
+        facts: facts(tables),
         table: Some(first),
         notes: warnings,
         figures: seen,
@@ -81,6 +86,50 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
         key,
         ..Page::default()
     })
+}
+
+/// What was asked, of which objects, by which motions and hazard, and what the limits leave out.
+fn facts(tables: &Tables) -> Vec<String> {
+    let mut facts = Vec::new();
+    if let Some((_, rates)) = tables.objects.first() {
+        let made = tables.made_by("evaluate");
+        let hazard = made.and_then(|made| made.files.get("hazard")).map_or("a hazard", |name| name);
+        let years = number::plain(rates.years.unwrap_or(f64::NAN));
+        let objects = number::counted(tables.objects.len(), "object");
+        facts.push(format!(
+            "Asked: the annual rate of overturning of {objects}, and its probability in {years} years, over {hazard}."
+        ));
+        let mut models: Vec<&str> =
+            tables.objects.iter().filter_map(|(object, _)| object.model.as_deref()).collect();
+        models.sort_unstable();
+        models.dedup();
+        facts.push(format!("By {}.", listed(&models, MOST_NAMED)));
+        if let Some(errors) = &tables.errors {
+            let (parts, largest) = errors.words();
+            let without = if errors.error_hazard.is_none() { ", without those of the hazard" } else { "" };
+            facts.push(format!("The 95 % limits hold the errors of {}{without}.", parts.join(", ")));
+            facts.extend(largest.map(|largest| format!("Mostly unknown: {largest}.")));
+        }
+        return facts;
+    }
+    for stage in ["synthesize-motions", "import-motions"] {
+        let answer = tables.answer_of(stage);
+        if !answer.is_empty() {
+            facts.push(format!("Motions: {answer}."));
+        }
+    }
+    let mut structures: Vec<String> = Vec::new();
+    for Structure { name, p_rad_s, alpha_rad, eta } in tables.groups.iter().map(|cases| &cases.structure) {
+        let [p, alpha, eta] = [p_rad_s, alpha_rad, eta].map(|value| number::significant(*value, 3));
+        let structure = format!("{name} (*p* {p} rad/s, *α* {alpha}, *η* {eta})");
+        if !structures.contains(&structure) {
+            structures.push(structure);
+        }
+    }
+    if !structures.is_empty() {
+        facts.push(format!("Structures: {}.", listed(&structures, MOST_NAMED)));
+    }
+    facts
 }
 
 /// Some fields of rows, under their names; those that no row has are left out.
@@ -91,13 +140,13 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
     let plain = |text: &str| if text.contains('{') { text.to_string() } else { text.replace('_', " ") };
     let is_number = |value: &Value| match value {
         Value::String(text) => {
-            text.starts_with(|sign: char| sign.is_ascii_digit() || "\u{2212}\u{2013}".contains(sign))
+            text.starts_with(|sign: char| sign.is_ascii_digit() || "-\u{2212}".contains(sign))
         }
         other => other.is_number(),
     };
     let cell = |value: &Value| match value {
         Value::Number(count) if count.is_u64() => number::count(count.as_u64().unwrap_or(0) as usize),
-        Value::Number(value) => number::significant(value.as_f64().unwrap_or(f64::NAN), 3),
+        Value::Number(value) => minus(number::significant(value.as_f64().unwrap_or(f64::NAN), 3)),
         Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
         Value::String(text) if text.starts_with("im") => text.to_uppercase(),
         Value::String(text) => plain(text),
@@ -112,37 +161,18 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
     Table { caption: caption.to_string(), columns, rows: rows.iter().map(cells).collect() }
 }
 
-/// A value with its limits, or limits alone.
-fn limits([value, low, high]: [Option<f64>; 3]) -> String {
-    let [x, a, b] = [value, low, high].map(|x| number::significant(x.unwrap_or(f64::NAN), 2));
-    match (value, low) {
-        (Some(_), Some(_)) => format!("{x} ({a} to {b})"),
-        (None, Some(_)) => format!("{a} to {b}"),
-        _ => x,
-    }
-}
-
-/// Years to two digits.
-fn once_in(rate: f64) -> String {
-    let unit = 10_f64.powf((1.0 / rate).log10().floor() - 1.0).max(1.0);
-    number::count(((1.0 / rate / unit).round() * unit) as usize)
-}
-
-/// A row an object.
+/// One row per object.
 fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
     let years = objects.iter().find_map(|(_, row)| row.years).unwrap_or(f64::NAN);
     let percent = format!("% in {} years (95 % limits)", number::plain(years));
     let row = |(object, row): &(ObjectRow, RatesRow)| {
-        let size = object.width_m.zip(object.height_m);
-        let p = [row.p_overturning, row.p_overturning_low, row.p_overturning_high];
-        let once = row.overturning_per_year.filter(|rate| *rate > 0.0).map(once_in);
         json!({
             "object": object.structure,
-            "size": size.map(|(width, height)| format!("{width:.2} \u{d7} {height:.2} m")),
-            "rocks a year": row.rocking_per_year.map(|rate| number::significant(rate, 2)),
-            "overturns a year": row.overturning_per_year.map(|rate| number::significant(rate, 2)),
-            "once in years": once,
-            (percent.as_str()): limits(p.map(|p| p.map(|p| 100.0 * p))),
+            "size": object.p_rad_s.map(|_| size(object)),
+            "rocks a year": row.rocking_per_year.map(|rate| RATE.one(rate)),
+            "overturns a year": row.overturning_per_year.map(|rate| RATE.one(rate)),
+            "once in years": row.return_period_years.map(number::period),
+            (percent.as_str()): OF_HUNDRED.both(row.in_years(), ""),
             "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
             "warning": row.warnings.as_ref().filter(|_| row.rocking_per_year.is_none()),
         })
@@ -162,22 +192,20 @@ fn planes(compared: &[Comparison]) -> Table {
                 (&number.quantity, &number.suite, &number.structure)
                     == (&quantity, &plane.suite, &plane.structure)
             };
-            let both = compared.iter().find(is_its).map(|number| [number.published, number.ours]);
-            both.map(|both| both.map(|value| number::fixed(value.unwrap_or(f64::NAN), 2)).join(" / "))
+            compared.iter().find(is_its).map(|number| minus(both(number)))
         };
         json!({
             "structure": plane.structure, "motions": plane.suite,
             "plane": if side == "low" { "below" } else { "above" },
             "ln *a*": cell("ln_a"), "*b*_{1}": cell("b1"), "*b*_{2}": cell("b2"), "*R*^{2}": cell("r2"),
-            "*p*": plane.t2_p,
         })
     };
     let of_planes = compared.iter().filter(|number| number.quantity.ends_with("_plane"));
     table(
-        "Table II, the planes of the demand below and above the transition, published / ours. *p* is the \
-         probability of so large a difference between seeds.",
+        "Table II, the planes of the demand below and above the transition: published / this run (*z*). *z* is their \
+         difference over the standard deviation between seeds.",
         of_planes.map(row),
-        "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}|*p*",
+        "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}",
     )
 }
 
@@ -202,14 +230,14 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
-        let calibration = tables.calibrations.iter().find(|row| is_of(cases, &row.suite, &row.structure));
+        let calibration = tables.calibrations.iter().find(|row| row.group() == cases.group());
         let often = calibration.map(|row| row.n_events as f64 / row.expected);
         let often = often.map(|often| format!("{} times", number::significant(often, 2)));
-        let mut capacities = capacities.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
+        let mut capacities = capacities.iter().filter(|fit| fit.group() == cases.group());
         let of_capacity = capacities
             .next()
             .map(|fit| [[fit.theta, fit.theta_low, fit.theta_high], [fit.beta, fit.beta_low, fit.beta_high]]);
-        let mut curves = tables.curves.iter().filter(|fit| is_of(cases, &fit.suite, &fit.structure));
+        let mut curves = tables.curves.iter().filter(|fit| fit.group() == cases.group());
         let curve = curves.find(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
         let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
         let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
@@ -219,7 +247,7 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
                 row.map_or([None; 3], |row| [row.value, row.low, row.high].map(|value| Some(unit * value)))
             })
         };
-        let [theta, beta] = of_capacity.unwrap_or_else(of_curve).map(limits);
+        let [theta, beta] = of_capacity.unwrap_or_else(of_curve).map(|of| TWO_DIGITS.both(of, ""));
         json!({
             "structure": cases.structure.name, "motions": cases.suite, "number": cases.len(),
             "rock": cases.len() - count(cases, Outcome::NoRocking),
@@ -247,7 +275,7 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let validations: Vec<Validation> = tables.rows("validation")?;
     let mut all = vec![
         table(
-            "Further numbers of the paper beside ours; *z* is (published \u{2212} mean) / sd over seeds",
+            "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd over seeds",
             published,
             "quantity|structure|suite|published|ours|mean|sd|z",
         ),

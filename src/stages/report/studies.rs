@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::figures::title;
-use super::tables::Tables;
-use crate::fragility::{Z_95, p_overturning};
+use super::tables::{Tables, title};
+use crate::fragility::{Measure, Z_95, grouped, p_overturning};
 use crate::report::Estimate;
-use crate::report::figures::{AnnualRate, Curve, Ida, MEASURES, NamedEstimates, observed_shares};
+use crate::report::figures::{AnnualRate, Curve, Ida, NamedEstimates, label, observed_shares};
 use crate::rocking::{CapacityStatus, Outcome};
 use crate::stages::evaluate::RatesRow;
 use crate::stages::ida::{CapacityFitRow, CapacityRow, ScaledMeasure};
@@ -54,9 +53,9 @@ pub fn words(measure: ScaledMeasure) -> &'static str {
         ScaledMeasure::Scale => "factor on the motion",
         ScaledMeasure::Pga => "PGA (g)",
         ScaledMeasure::Pgv => "PGV (m/s)",
-        ScaledMeasure::Im4 => MEASURES[3],
-        ScaledMeasure::Im5 => MEASURES[4],
-        ScaledMeasure::Im6 => MEASURES[5],
+        ScaledMeasure::Im4 => label(Measure::Im4),
+        ScaledMeasure::Im5 => label(Measure::Im5),
+        ScaledMeasure::Im6 => label(Measure::Im6),
     }
 }
 
@@ -69,6 +68,8 @@ struct Stripe {
     outcome: Outcome,
 }
 
+grouped!(Stripe);
+
 /// Incremental dynamic analyses.
 pub fn analyses(tables: &Tables) -> Result<Vec<Ida>, TableError> {
     let fits: Vec<CapacityFitRow> = tables.rows("ida.fragility")?;
@@ -79,14 +80,12 @@ pub fn analyses(tables: &Tables) -> Result<Vec<Ida>, TableError> {
     let [low, high] = [levels.first(), levels.last()].map(|level| level.copied().unwrap_or(f64::NAN));
     let at = |k: usize| low * (high / low).powf(k as f64 / STEPS as f64);
     let analysis = |fit: &CapacityFitRow| {
-        let is_its =
-            |suite: &Option<String>, structure: &str| *suite == fit.suite && structure == fit.structure;
-        let its = stripes.iter().filter(|stripe| is_its(&stripe.suite, &stripe.structure));
+        let its = stripes.iter().filter(|stripe| stripe.group() == fit.group());
         let cases: Vec<_> =
             its.map(|stripe| (stripe.intensity, stripe.outcome == Outcome::Overturning)).collect();
         let shares = observed_shares(&cases, |x| levels.partition_point(|level| *level < x), wilson);
         let below = |row: &CapacityRow| Some(low).filter(|_| row.capacity == CapacityStatus::Below);
-        let its = rows.iter().filter(|row| is_its(&row.suite, &row.structure));
+        let its = rows.iter().filter(|row| row.group() == fit.group());
         let mut capacities: Vec<f64> =
             its.filter_map(|row| row.overturning_intensity.or(below(row))).collect();
         capacities.sort_unstable_by(f64::total_cmp);

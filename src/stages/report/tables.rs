@@ -3,12 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event};
+use crate::keyword::Keyword;
+use crate::motion::Suite;
 use crate::paper;
-use crate::stages::evaluate::{ObjectRow, Predicted, RatesRow};
+use crate::stages::evaluate::{ErrorsRow, ObjectRow, Predicted, RatesRow};
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
 use crate::table::file::{self, Table};
+use crate::table::keys::key_of;
 use crate::table::motions::{Motion, Motions};
 use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
@@ -20,16 +23,22 @@ pub struct Tables {
     /// Responses by suite and structure.
     pub groups: Vec<Cases>,
     pub demand: Vec<DemandFit>,
-    /// Of overturning, as the next.
+    /// Of overturning.
     pub curves: Vec<CurveFit>,
+    /// Of overturning.
     pub calibrations: Vec<Calibration>,
     /// Demand whose exceedance was fitted.
     pub limit_state: f64,
     pub compared: Vec<Comparison>,
     /// Objects with annual rates, the worst first.
     pub objects: Vec<(ObjectRow, RatesRow)>,
+    /// The parts of the error of the first of them.
+    pub errors: Option<ErrorsRow>,
     /// Each file with its number of rows and, if it is ours, what made it.
     pub files: Vec<(PathBuf, u64, Option<Provenance>)>,
+    /// What is not shown, and why.
+    pub left_out: Vec<String>,
+    strangers: Vec<&'static str>,
 }
 
 /// A column of annual rates, by which their table is known whatever it is called.
@@ -37,12 +46,31 @@ const RATES: &str = "overturning_per_year";
 /// Motions of a row group that rockfrag wrote.
 const MOTIONS_IN_GROUP: u64 = 64;
 
+/// Structure and, of synthetic motions, suite.
+pub fn title(structure: &str, suite: Option<&str>) -> String {
+    let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
+    synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
+}
+
+/// The same of some cases.
+pub fn name(cases: &Cases) -> String {
+    title(&cases.structure.name, cases.suite.as_deref())
+}
+
 impl Tables {
     /// Reads what there is in a folder.
     pub fn read(folder: &Path) -> anyhow::Result<Tables> {
         let mut tables = Tables { folder: folder.to_path_buf(), ..Tables::default() };
+        for path in file::tables(folder)? {
+            tables.files.push((path.clone(), Table::open(&path)?.rows(), Provenance::of_file(&path)?));
+        }
+        tables.leave_out_strangers()?;
         if let Some(path) = tables.place("responses") {
             tables.groups = responses::read(&path)?;
+        }
+        if tables.files.is_empty() && tables.groups.is_empty() {
+            let folder = folder.display();
+            anyhow::bail!("{folder}: no tables; expected those of simulate, fit-pro, ida or evaluate");
         }
         tables.demand = tables.rows("pex")?;
         tables.curves = tables.rows("pro")?;
@@ -51,16 +79,68 @@ impl Tables {
         let exceeding: Vec<Calibration> = tables.rows("pex.calibration")?;
         tables.limit_state = exceeding.first().and_then(|row| row.limit_state).unwrap_or(paper::LIMIT_STATE);
         tables.compared = tables.rows("paper")?;
-        for path in file::tables(folder)? {
-            let table = Table::open(&path)?;
-            if table.schema().index_of(RATES).is_ok() {
-                tables.objects.extend(rows::read(&path)?.into_iter().zip(rows::read(&path)?));
-            }
-            let made = Provenance::of_file(&path)?;
-            tables.files.push((path, table.rows(), made));
-        }
-        tables.objects.sort_by(|a, b| b.1.severity().total_cmp(&a.1.severity()));
+        tables.read_objects()?;
         Ok(tables)
+    }
+
+    /// Reads the objects with annual rates: all tables of them, if they are of one hazard and time.
+    fn read_objects(&mut self) -> anyhow::Result<()> {
+        let mut first: Option<(Option<&String>, Option<&Vec<String>>)> = None;
+        for (path, _, made) in &self.files {
+            if Table::open(path)?.schema().index_of(RATES).is_err() {
+                continue;
+            }
+            let made = made.as_ref();
+            let question =
+                made.map_or((None, None), |made| (made.inputs.get("hazard"), made.arguments.get("years")));
+            if *first.get_or_insert(question) != question {
+                let file = path.file_name().unwrap_or_default().to_string_lossy();
+                self.left_out.push(format!("{file} is not shown: it is of another hazard or time."));
+                continue;
+            }
+            self.objects.extend(rows::read(path)?.into_iter().zip(rows::read(path)?));
+            self.errors = self.errors.take().or(rows::read(path)?.into_iter().next());
+        }
+        self.objects.sort_by(|a, b| b.1.severity().total_cmp(&a.1.severity()));
+        Ok(())
+    }
+
+    /// Leaves out the tables that were made of other responses, motions or fits than those of the folder: names
+    /// of structures alone do not tell.
+    fn leave_out_strangers(&mut self) -> Result<(), TableError> {
+        let key = |name: &str| self.place(name).map(|path| key_of(&path)).transpose();
+        let input = |name: &str, flag: &str| {
+            let path = self.folder.join(format!("{name}.parquet"));
+            let made = self.files.iter().find(|file| file.0 == path).and_then(|file| file.2.as_ref());
+            let keys = made.and_then(|made| made.inputs.get(flag));
+            keys.and_then(|keys| keys.split(' ').next()).map(str::to_string)
+        };
+        let responses = key("responses")?.or(input("pro", "in"));
+        let motions = input("responses", "in").or(key("motions")?);
+        let strangers = [
+            ("motions", key("motions")?, motions.clone(), "responses"),
+            ("ida", input("ida", "in"), motions, "motions"),
+            ("pex", input("pex", "in"), responses.clone(), "responses"),
+            ("pro", input("pro", "in"), responses.clone(), "responses"),
+            ("ranking", input("ranking", "in"), responses, "responses"),
+            ("paper", input("paper", "pro"), key("pro")?, "fits"),
+            ("validation", input("validation", "fits"), key("pro")?, "fits"),
+            ("evaluated", input("evaluated", "fits"), key("pro")?, "fits"),
+        ];
+        let mut left_out = Vec::new();
+        for (name, has, expected, what) in strangers {
+            if has.is_some() && expected.is_some() && has != expected {
+                left_out.push((name, format!("{name}.parquet is not shown: it belongs to other {what}.")));
+            }
+        }
+        for (name, reason) in left_out {
+            self.files.retain(|(path, ..)| {
+                path.file_name().is_some_and(|file| !file.to_string_lossy().starts_with(&format!("{name}.")))
+            });
+            self.strangers.push(name);
+            self.left_out.push(reason);
+        }
+        Ok(())
     }
 
     /// The rows of a table; none where it is not there.
@@ -70,20 +150,26 @@ impl Tables {
 
     /// The file of a table, or the folder of its partitions.
     fn place(&self, name: &str) -> Option<PathBuf> {
+        if self.strangers.iter().any(|stranger| name.split('.').next() == Some(stranger)) {
+            return None;
+        }
         let (file, parts) = (self.folder.join(format!("{name}.parquet")), self.folder.join(name));
         if file.exists() { Some(file) } else { Some(parts).filter(|parts| parts.is_dir()) }
     }
 
     /// Whether a stage made one of them.
     pub fn are_of(&self, stage: &str) -> bool {
-        self.files.iter().any(|(.., made)| made.as_ref().is_some_and(|made| made.stage == stage))
+        self.made_by(stage).is_some()
+    }
+
+    /// What a stage has made.
+    pub fn made_by(&self, stage: &str) -> Option<&Provenance> {
+        self.files.iter().filter_map(|(.., made)| made.as_ref()).find(|made| made.stage == stage)
     }
 
     /// The first line that a stage has printed.
     pub fn answer_of(&self, stage: &str) -> String {
-        let mut made = self.files.iter().filter_map(|(.., made)| made.as_ref());
-        let summary = made.find(|made| made.stage == stage).map_or("", |made| &made.summary);
-        summary.lines().next().unwrap_or_default().to_string()
+        self.made_by(stage).map_or("", |made| &made.summary).lines().next().unwrap_or_default().to_string()
     }
 
     /// The motions of a row group in the middle of the file.

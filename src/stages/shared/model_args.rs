@@ -204,9 +204,7 @@ impl Models {
     /// The row of P_ex beside one of P_ro.
     fn exceeding(&self, overturning: &Calibration) -> anyhow::Result<&Calibration> {
         let limit_state = self.args.limit_state;
-        let is_of =
-            |row: &&Calibration| (&row.suite, &row.structure) == (&overturning.suite, &overturning.structure);
-        let rows = || self.exceeding.iter().filter(is_of);
+        let rows = || self.exceeding.iter().filter(|row| row.group() == overturning.group());
         let is_same = |other: f64| (other - limit_state).abs() <= 1e-9 * limit_state;
         if let Some(row) = rows().find(|row| row.limit_state.is_some_and(is_same)) {
             return Ok(row);
@@ -224,21 +222,18 @@ impl Models {
 
     /// The two planes of the paper.
     fn planes(&self, row: &Calibration) -> Vec<DemandFit> {
-        let is_its = |fit: &&DemandFit| {
-            (&fit.suite, &fit.structure, fit.model) == (&row.suite, &row.structure, DemandModel::Biplanar)
-        };
-        self.demand.iter().filter(is_its).cloned().collect()
+        let planes = self.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
+        planes.filter(|fit| fit.group() == row.group()).cloned().collect()
     }
 
     /// The paper's curve of the hybrid measure of its worked example; where that has no fit, of IM5.
     fn curve(&self, row: &Calibration) -> anyhow::Result<CurveFit> {
-        let is_its = |fit: &&CurveFit| {
-            (&fit.suite, &fit.structure, fit.event) == (&row.suite, &row.structure, Event::Overturning)
-        };
+        let curves = self.curves.iter().filter(|fit| fit.event == Event::Overturning);
+        let curves: Vec<&CurveFit> = curves.filter(|fit| fit.group() == row.group()).collect();
         let over = [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im5, None)];
         let fits: Vec<&CurveFit> = over
             .iter()
-            .filter_map(|over| self.curves.iter().filter(is_its).find(|fit| (fit.im_x, fit.im_y) == *over))
+            .filter_map(|over| curves.iter().find(|fit| (fit.im_x, fit.im_y) == *over).copied())
             .collect();
         if let Some(usable) = fits.iter().find(|fit| fit.status.is_usable()) {
             return Ok((*usable).clone());
@@ -263,8 +258,8 @@ pub fn words_of(model: &Model) -> String {
             }
         }
         Model::Paper { overturning, .. } => {
-            let suite = overturning.suite.as_deref().and_then(|suite| suite.parse().ok());
-            let (n, motions) = (responses(overturning.n), words_of_kind(Kind::of(suite)));
+            let kind = Kind::of_word(overturning.suite.as_deref());
+            let (n, motions) = (responses(overturning.n), words_of_kind(kind));
             format!("rockfrag's fit of the paper's curve and planes to {n} to {motions}")
         }
     }

@@ -54,7 +54,6 @@ impl Measures {
 
     /// The row of the response of a structure to the motion.
     pub fn response_row(&self, motion: &Motion, structure: &Structure, response: Response) -> ResponseRow {
-        let IntensityMeasures { im1, im2, im3, im4, im5, im6 } = self.of_structure(structure);
         ResponseRow {
             motion_id: motion.motion_id.clone(),
             suite: motion.suite.clone(),
@@ -72,12 +71,6 @@ impl Measures {
             pgv_m_s: self.pgv_m_s,
             tp_s: self.tp_s,
             tm_s: self.tm_s,
-            im1,
-            im2,
-            im3,
-            im4,
-            im5,
-            im6,
         }
     }
 }

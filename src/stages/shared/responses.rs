@@ -1,19 +1,17 @@
 //! The responses of each suite and structure, as the fits take them.
 
-use std::collections::HashMap;
 use std::path::Path;
 
-use crate::fragility::{CaseRow, Cases, CasesBuilder};
-use crate::keyword;
-use crate::motion::IntensityMeasures;
+use crate::fragility::{Cases, Cluster, Group, MOST_CASES, Measure};
+use crate::keyword::Keyword;
 use crate::rocking::{Outcome, Structure};
-use crate::stages::shared::motions::known;
 use crate::table::TableError;
-use crate::table::columns::Columns;
+use crate::table::columns::Batch;
 use crate::table::file::Table;
+use crate::table::frame;
 
-/// What is read of a response.
-const COLUMNS: [&str; 19] = [
+/// What is read of a response besides the measures of Eq. 13.
+const COLUMNS: [&str; 13] = [
     "motion_id",
     "suite",
     "structure",
@@ -27,128 +25,119 @@ const COLUMNS: [&str; 19] = [
     "earthquake",
     "pga_m_s2",
     "pgv_m_s",
-    "im1",
-    "im2",
-    "im3",
-    "im4",
-    "im5",
-    "im6",
 ];
+
+/// Gives further measures by name, a column each, of the motions of these names and a structure.
+pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<(String, Vec<f64>)>>;
 
 /// Reads the responses in a file or folder, grouped by suite and structure in the order in which these first
 /// come.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
-    read_with(path, &[], |_, _| Ok(Vec::new()))
+    read_with(path, &|_, _| Ok(Vec::new()))
 }
 
-/// The same with candidate measures: `candidates` gives their values for the motion of this name and a
-/// structure.
-pub fn read_with(
-    path: &Path,
-    names: &[String],
-    candidates: impl Fn(&str, &Structure) -> anyhow::Result<Vec<f64>>,
-) -> anyhow::Result<Vec<Cases>> {
+/// The same with candidate measures.
+pub fn read_with(path: &Path, candidates: Candidates) -> anyhow::Result<Vec<Cases>> {
+    let is_wanted = |name: &str| {
+        COLUMNS.contains(&name) || Measure::SCALAR.iter().any(|measure| measure.as_str() == name)
+    };
     let table = Table::open(path)?;
-    let mut groups: Vec<CasesBuilder> = Vec::new();
-    let mut places: HashMap<(Option<String>, String), usize> = HashMap::new();
-    for batch in table.batches(&|name| COLUMNS.contains(&name)) {
-        let batch = batch?;
-        let columns = batch.columns();
-        let rows = Rows::read(&columns)?;
-        for (row, structure) in rows.structures.iter().enumerate() {
-            let name = (rows.suites[row].clone(), structure.name.clone());
-            let next = groups.len();
-            let place = *places.entry(name).or_insert_with_key(|(suite, _)| {
-                groups.push(CasesBuilder::new(suite.as_deref(), structure.clone(), names));
-                next
-            });
-            let values = candidates(&rows.motions[row], structure)?;
-            groups[place].push(&rows.case(row, &values))?;
-        }
+    let mut all: Vec<Cases> = Vec::new();
+    for batch in table.batches(&is_wanted) {
+        add(&mut all, &batch?, candidates)?;
     }
-    match groups.is_empty() {
+    all.iter_mut().for_each(Cases::sort_clusters);
+    match all.is_empty() {
         true => Err(TableError::table(path, "no responses; expected at least one").into()),
-        false => Ok(groups.into_iter().map(CasesBuilder::finish).collect()),
+        false => Ok(all),
     }
 }
 
-/// Some responses, as columns.
-struct Rows {
-    motions: Vec<String>,
-    suites: Vec<Option<String>>,
-    structures: Vec<Structure>,
-    outcomes: Vec<Outcome>,
-    earthquakes: Vec<Option<String>>,
-    edp: Vec<f64>,
-    pga_m_s2: Vec<f64>,
-    pgv_m_s: Vec<f64>,
-    mw: Vec<f64>,
-    re_km: Vec<f64>,
-    /// IM1 to IM6.
-    im: [Vec<f64>; 6],
+/// Adds the responses of a batch to the cases of their suites and structures.
+fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Candidates) -> anyhow::Result<()> {
+    let (suites, names) = (batch.texts("suite")?, batch.required_texts("structure")?);
+    let p_rad_s = batch.required_numbers("p_rad_s")?;
+    let alpha_rad = batch.required_numbers("alpha_rad")?;
+    let eta = batch.required_numbers("eta")?;
+    let outcomes = batch.required_words::<Outcome>("outcome")?;
+    let edp = demands(batch, &outcomes)?;
+    let (pga, pgv) = (batch.required_numbers("pga_m_s2")?, batch.required_numbers("pgv_m_s")?);
+    let (mw, re_km, earthquakes) =
+        (batch.numbers("mw")?, batch.numbers("re_km")?, batch.texts("earthquake")?);
+    let motions = batch.required_texts("motion_id")?;
+    let measure = |measure: &Measure| match measure {
+        Measure::Im4 | Measure::Im5 => batch.required_numbers(measure.as_str()),
+        other => batch.numbers(other.as_str()),
+    };
+    let measures = Measure::SCALAR.iter().map(measure).collect::<Result<Vec<_>, TableError>>()?;
+    for rows in frame::groups(&suites, &names)? {
+        let group = Group { suite: suites[rows[0]].as_deref(), structure: &names[rows[0]] };
+        let of = |row: usize| [p_rad_s[row], alpha_rad[row], eta[row]];
+        let place = match all.iter().position(|cases| cases.group() == group) {
+            Some(place) => place,
+            None => {
+                all.push(Cases::new(group.suite, batch.structure(rows[0], group.structure, of(rows[0]))?));
+                all.len() - 1
+            }
+        };
+        let cases = &mut all[place];
+        expect_same(batch, &cases.structure, rows.iter().map(|&row| (row, of(row))))?;
+        if cases.len() + rows.len() > MOST_CASES {
+            let problem = format!(
+                "more than {MOST_CASES} responses of '{}'; take a sample of the rows",
+                group.structure
+            );
+            return Err(TableError::table(&batch.path, problem).into());
+        }
+        let its = |column: &[f64]| rows.iter().map(|&row| column[row]).collect::<Vec<f64>>();
+        cases.outcome.extend(rows.iter().map(|&row| outcomes[row]));
+        cases.edp.extend(its(&edp));
+        cases.pga_m_s2.extend(its(&pga));
+        cases.pgv_m_s.extend(its(&pgv));
+        for (measure, column) in Measure::SCALAR.into_iter().zip(&measures) {
+            cases.column_mut(measure).extend(its(column));
+        }
+        for &row in &rows {
+            cases.push_cluster(Cluster::of(earthquakes[row].as_deref(), mw[row], re_km[row]));
+        }
+        let motions: Vec<&str> = rows.iter().map(|&row| motions[row].as_str()).collect();
+        for (name, values) in candidates(&motions, &cases.structure)? {
+            match cases.candidates.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, column)) => column.extend(values),
+                None => cases.candidates.push((name, values)),
+            }
+        }
+    }
+    Ok(())
 }
 
-impl Rows {
-    fn read(columns: &Columns) -> Result<Rows, TableError> {
-        let names = columns.required_texts("structure")?;
-        let (p, alpha) = (columns.required_numbers("p_rad_s")?, columns.required_numbers("alpha_rad")?);
-        let eta = columns.required_numbers("eta")?;
-        let structure =
-            |(row, name)| Structure { name, p_rad_s: p[row], alpha_rad: alpha[row], eta: eta[row] };
-        let outcomes = columns.required_texts("outcome")?;
-        let outcome = |(row, word): (usize, &String)| {
-            keyword::parse(word).map_err(|unknown| columns.value_error(row, "outcome", unknown.to_string()))
-        };
-        let rows = Rows {
-            motions: columns.required_texts("motion_id")?,
-            suites: columns.texts("suite")?,
-            structures: names.into_iter().enumerate().map(structure).collect(),
-            outcomes: outcomes.iter().enumerate().map(outcome).collect::<Result<_, _>>()?,
-            earthquakes: columns.texts("earthquake")?,
-            edp: columns.numbers("edp")?,
-            pga_m_s2: columns.required_numbers("pga_m_s2")?,
-            pgv_m_s: columns.required_numbers("pgv_m_s")?,
-            mw: columns.numbers("mw")?,
-            re_km: columns.numbers("re_km")?,
-            im: [
-                columns.numbers("im1")?,
-                columns.numbers("im2")?,
-                columns.numbers("im3")?,
-                columns.required_numbers("im4")?,
-                columns.required_numbers("im5")?,
-                columns.numbers("im6")?,
-            ],
-        };
-        let lacks = |row: &usize| rows.edp[*row].is_nan() && rows.outcomes[*row] != Outcome::Overturning;
-        match (0..columns.rows()).find(lacks) {
-            Some(row) => Err(columns.value_error(row, "edp", "null; expected a number unless it overturns")),
-            None => Ok(rows),
+/// The demands, which only overturned structures lack.
+fn demands(batch: &Batch, outcomes: &[Outcome]) -> Result<Vec<f64>, TableError> {
+    let mut edp = batch.numbers("edp")?;
+    for (row, (edp, outcome)) in edp.iter_mut().zip(outcomes).enumerate() {
+        if *outcome == Outcome::Overturning {
+            *edp = f64::NAN;
+        } else if edp.is_nan() {
+            return Err(batch.value_error(row, "edp", "null; expected a number unless it overturns"));
         }
     }
+    Ok(edp)
+}
 
-    fn case<'a>(&'a self, row: usize, candidates: &'a [f64]) -> CaseRow<'a> {
-        let Structure { p_rad_s, alpha_rad, eta, .. } = self.structures[row];
-        let [im1, im2, im3, im4, im5, im6] = self.im.each_ref().map(|column| column[row]);
-        CaseRow {
-            p_rad_s,
-            alpha_rad,
-            eta,
-            outcome: self.outcomes[row],
-            edp: known(self.edp[row]).filter(|_| self.outcomes[row] != Outcome::Overturning),
-            measures: IntensityMeasures {
-                im1: known(im1),
-                im2: known(im2),
-                im3: known(im3),
-                im4,
-                im5,
-                im6: known(im6),
-            },
-            pga_m_s2: self.pga_m_s2[row],
-            pgv_m_s: self.pgv_m_s[row],
-            mw: known(self.mw[row]),
-            re_km: known(self.re_km[row]),
-            earthquake: self.earthquakes[row].as_deref(),
-            candidates,
-        }
-    }
+/// Checks that these rows have the p, alpha and eta of a structure.
+fn expect_same(
+    batch: &Batch,
+    structure: &Structure,
+    mut rows: impl Iterator<Item = (usize, [f64; 3])>,
+) -> Result<(), TableError> {
+    let Structure { name, p_rad_s, alpha_rad, eta } = structure;
+    let first = [*p_rad_s, *alpha_rad, *eta];
+    let Some((row, of)) = rows.find(|(_, of)| *of != first) else { return Ok(()) };
+    batch.structure(row, name, of)?;
+    let others = ["p_rad_s", "alpha_rad", "eta"].into_iter().zip(of).zip(first);
+    let mut others = others.filter(|((_, value), first)| value != first);
+    let ((column, value), first) = others.next().unwrap_or((("p_rad_s", of[0]), first[0]));
+    let problem =
+        format!("{value}; structure '{name}' has {first} in another row: give each structure its own name");
+    Err(batch.value_error(row, column, problem))
 }

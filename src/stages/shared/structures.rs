@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 use std::str::FromStr;
+use std::sync::OnceLock;
 
 use clap::{Args, ValueHint};
 
-use super::object_list;
+use super::object_list::{self, Listed};
 use super::objects::Object;
 use crate::keyword::nearest;
 use crate::paper;
@@ -28,6 +29,9 @@ pub struct StructureArgs {
     /// of the paper
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["one", "structure"])]
     pub structures: Option<PathBuf>,
+    /// What a list says, once it was asked for.
+    #[arg(skip)]
+    known: OnceLock<Listed>,
 }
 
 /// A structure as it is given: its dimensions, or p, alpha and eta.
@@ -259,13 +263,18 @@ impl StructureArgs {
         structures.map_err(UsageError::because)
     }
 
-    /// All objects, each with what is wrong with it, and the columns of a list that say nothing of them.
+    /// All objects, each with what is wrong with it, and the columns of a list that say nothing of them. A list is
+    /// read once.
     pub fn objects(&self, place: &Place) -> anyhow::Result<(Vec<Object>, Vec<String>)> {
         let (specs, unused) = match &self.structures {
             Some(path) if path.as_os_str() == "paper" => {
                 return Ok((paper::structures().into_iter().map(Object::from).collect(), Vec::new()));
             }
-            Some(path) => object_list::read(path)?,
+            Some(path) => {
+                let listed =
+                    self.known.get().map_or_else(|| object_list::read(path), |known| Ok(known.clone()))?;
+                self.known.get_or_init(|| listed).clone()
+            }
             None if self.is_given() => {
                 let one =
                     if self.structure.is_empty() { std::slice::from_ref(&self.one) } else { &self.structure };

@@ -1,0 +1,125 @@
+//! A column of lists of numbers, read by Parquet's own reader: the values, and where each list begins.
+
+use std::fs::File;
+use std::path::Path;
+use std::sync::Arc;
+
+use arrow_schema::DataType::*;
+use parquet::basic::Repetition;
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
+use parquet::data_type::DataType as Number;
+use parquet::errors::ParquetError;
+use parquet::file::serialized_reader::SerializedPageReader;
+use parquet::schema::types::ColumnDescriptor;
+
+use super::TableError;
+use super::file::{RowGroup, Table, expect_small, guarded};
+
+/// The lists of a row group, row by row.
+pub struct Lists {
+    path: Arc<Path>,
+    column: &'static str,
+    next_row: u64,
+    next: Box<Next>,
+}
+
+/// Levels that are searched at once.
+const BLOCK: usize = 512;
+
+/// Reads the lists of the next rows, none where one is null.
+type Next = dyn FnMut(usize) -> Result<Vec<Option<Vec<f64>>>, ParquetError> + Send;
+
+impl Lists {
+    /// Begins to read the lists of a row group.
+    pub fn open(table: &Table, group: &RowGroup, column: &'static str) -> Result<Lists, TableError> {
+        let (path, metadata, number) = table.place(group);
+        let (data, schema) = (metadata.metadata().row_group(number), metadata.parquet_schema());
+        let missing = || TableError::missing_column(path, column);
+        let leaf = (0..schema.num_columns()).find(|leaf| schema.get_column_root(*leaf).name() == column);
+        let leaf = leaf.ok_or_else(missing)?;
+        let found = metadata.schema().field_with_name(column).map_err(|_| missing())?.data_type();
+        let item = match found {
+            List(item) | LargeList(item) | FixedSizeList(item, _) => item.data_type(),
+            _ => &Null,
+        };
+        // The file keeps unsigned integers of 32 bits and more as signed ones.
+        if !matches!(item, Float32 | Float64 | Int8 | Int16 | Int32 | Int64 | UInt8 | UInt16) {
+            return Err(TableError::other_type(path, column, found, "a list of numbers"));
+        }
+        expect_small(path, data, &[schema.get_column_root_idx(leaf)])?;
+        let file = File::open(path).map_err(|source| TableError::io(path, source))?;
+        let rows = data.num_rows() as usize;
+        let next = guarded(path, || {
+            let pages = SerializedPageReader::new(Arc::new(file), data.column(leaf), rows, None)?;
+            let (of, skipped) = (schema.column(leaf), group.rows.start as usize);
+            Ok::<_, ParquetError>(match get_column_reader(of.clone(), Box::new(pages)) {
+                ColumnReader::FloatColumnReader(reader) => next(reader, &of, skipped, |x| f64::from(*x)),
+                ColumnReader::DoubleColumnReader(reader) => next(reader, &of, skipped, |x| *x),
+                ColumnReader::Int32ColumnReader(reader) => next(reader, &of, skipped, |x| f64::from(*x)),
+                ColumnReader::Int64ColumnReader(reader) => next(reader, &of, skipped, |x| *x as f64),
+                _ => Box::new(|_| Ok(Vec::new())),
+            })
+        })?;
+        Ok(Lists { path: path.clone(), column, next_row: group.first_row, next })
+    }
+
+    /// Reads the next `rows` lists; NaN where an item is null.
+    pub fn read(&mut self, rows: usize) -> Result<Vec<Vec<f64>>, TableError> {
+        let first_row = self.next_row;
+        self.next_row += rows as u64;
+        let lists = guarded(&self.path, || (self.next)(rows))?;
+        if lists.len() < rows {
+            return Err(TableError::parquet(&self.path, format!("column '{}' ends early", self.column)));
+        }
+        let list = |(row, list): (u64, Option<Vec<f64>>)| {
+            let (path, problem) = (self.path.to_path_buf(), "null; expected a list of numbers".to_string());
+            list.ok_or(TableError::Value { path, row, column: self.column, problem })
+        };
+        (first_row..).zip(lists).map(list).collect()
+    }
+}
+
+/// Makes the reader of a column of lists behind its first rows.
+fn next<T: Number>(
+    mut reader: ColumnReaderImpl<T>,
+    column: &ColumnDescriptor,
+    mut skipped: usize,
+    number: impl Fn(&T::T) -> f64 + Copy + Send + 'static,
+) -> Box<Next> {
+    // The definition level of a number, and the least one of an item, which may be null.
+    let known = column.max_def_level();
+    let is_nullable = column.self_type().get_basic_info().repetition() == Repetition::OPTIONAL;
+    let item = known - i16::from(is_nullable);
+    let (mut levels, mut repeated, mut values) = (Vec::new(), Vec::new(), Vec::new());
+    Box::new(move |rows| {
+        reader.skip_records(std::mem::take(&mut skipped))?;
+        levels.clear();
+        repeated.clear();
+        values.clear();
+        reader.read_records(rows, Some(&mut levels), Some(&mut repeated), &mut values)?;
+        let mut rest = &values[..];
+        let mut list = |items: &[i16]| {
+            if items[0] < item {
+                // An empty list, unless it is null itself.
+                return (items[0] + 1 == item).then(Vec::new);
+            }
+            let (its, later) = rest.split_at(items.iter().filter(|level| **level == known).count());
+            rest = later;
+            let mut numbers = its.iter().map(number);
+            if its.len() == items.len() {
+                return Some(numbers.collect());
+            }
+            let mut number = |level: &i16| if *level == known { numbers.next() } else { None };
+            Some(items.iter().map(|level| number(level).unwrap_or(f64::NAN)).collect())
+        };
+        // Most blocks are within a list.
+        let mut starts = Vec::with_capacity(rows + 1);
+        for (at, block) in
+            (0..).step_by(BLOCK).zip(repeated.chunks(BLOCK)).filter(|(_, block)| block.contains(&0))
+        {
+            starts.extend((at..).zip(block).filter(|(_, level)| **level == 0).map(|(at, _)| at));
+        }
+        starts.push(levels.len());
+        Ok(starts.windows(2).map(|ends| list(&levels[ends[0]..ends[1]])).collect())
+    })
+}
