@@ -97,6 +97,8 @@
 //!
 //! `docs/review/architecture.md` has the picture of the code.
 
+#![warn(missing_docs)]
+
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]

@@ -27,7 +27,7 @@ pub enum Scenarios {
 
 /// The calibration of a structure: a row of pro.calibration.parquet or pex.calibration.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "table/dictionary.rs says it")]
+#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct Calibration {
     pub suite: Option<String>,
     pub kind: Kind,

@@ -47,7 +47,9 @@ impl Event {
 /// The suite and the structure that responses, and rows of fits, are of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Group<'a> {
+    /// Suite of the motions, if they have one.
     pub suite: Option<&'a str>,
+    /// Name of the structure.
     pub structure: &'a str,
 }
 
@@ -67,14 +69,15 @@ pub(crate) use grouped;
 /// What the motions of cases share, so that the cases may depend on each other.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cluster {
+    /// Name of the earthquake.
     Earthquake(String),
     /// Magnitude and distance, as the bits of these numbers.
     Cell([u64; 2]),
 }
 
 impl Cluster {
-    /// Returns that of a motion: its earthquake, else its magnitude and distance (km); NaN where unknown. None
-    /// of a motion that shares nothing.
+    /// Returns that of a motion: its earthquake, else its magnitude and distance (km); NaN where unknown.
+    /// None of a motion that shares nothing.
     pub fn of(earthquake: Option<&str>, mw: f64, re_km: f64) -> Option<Cluster> {
         match earthquake {
             Some(name) => Some(Cluster::Earthquake(name.to_string())),
@@ -87,12 +90,17 @@ impl Cluster {
 /// The responses of one structure to one suite; all columns are as long.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cases {
+    /// Suite of the motions, if they have one.
     pub suite: Option<String>,
+    /// The structure.
     pub structure: Structure,
+    /// Whether it rocked, and overturned.
     pub outcome: Vec<Outcome>,
     /// Demand |theta|max / alpha (Eq. 7); NaN where it overturned.
     pub edp: Vec<f64>,
+    /// Peak ground acceleration, m/s2.
     pub pga_m_s2: Vec<f64>,
+    /// Peak ground velocity, m/s.
     pub pgv_m_s: Vec<f64>,
     /// Number of the cluster, from 0: cases of one cluster may depend on each other.
     pub cluster: Vec<u32>,
@@ -190,7 +198,9 @@ fn place(measure: Measure) -> usize {
 pub struct Sample<Y> {
     /// ln IM, a column for each measure.
     pub ln_im: Vec<Vec<f64>>,
+    /// What was observed.
     pub y: Vec<Y>,
+    /// Number of the cluster of each case.
     pub clusters: Vec<u32>,
     /// Least and largest value of each measure.
     pub ranges: Vec<[f64; 2]>,

@@ -178,7 +178,7 @@ keywords!(DemandModel { Univariate = "univariate", Plane = "plane", Biplanar = "
 
 /// A regression of ln EDP in safe rocking: a row of pex.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "table/dictionary.rs says it")]
+#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct DemandFit {
     pub suite: Option<String>,
     pub structure: String,

@@ -121,7 +121,7 @@ pub fn fit_curves(cases: &Cases, options: &CurveOptions) -> Vec<CurveFit> {
 
 /// A fragility curve: a row of pro.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "table/dictionary.rs says it")]
+#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct CurveFit {
     pub suite: Option<String>,
     pub structure: String,

@@ -53,8 +53,11 @@ impl Part {
 /// the result itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unknown<T> {
+    /// Whose it is.
     pub part: Part,
+    /// 16 % quantile.
     pub low: T,
+    /// 84 % quantile.
     pub high: T,
 }
 
@@ -104,6 +107,7 @@ impl Budget {
 
 /// The budgets of two results: of failure and of overturning.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct Budgets {
     pub failure: Budget,
     pub overturning: Budget,

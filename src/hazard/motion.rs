@@ -13,11 +13,13 @@ pub struct Motion {
     pub pga_m_s2: Option<f64>,
     /// m/s.
     pub pgv_m_s: Option<f64>,
+    /// Moment magnitude.
     pub mw: Option<f64>,
 }
 
 /// Probabilities of LS1, LS2 and LS3, and the errors of the logits of the last two.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct MotionProbabilities {
     pub states: [Probability; 3],
     pub budgets: Budgets,

@@ -17,6 +17,7 @@ use crate::warning::Warning;
 /// The hazard of a site.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hazard {
+    /// Annual rates at which one peak is exceeded.
     Curve(PeakHazard),
     /// Annual rates at which pairs of peaks occur.
     Joint(JointHazard),
@@ -25,6 +26,7 @@ pub enum Hazard {
 /// Annual rates at which a peak is exceeded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PeakHazard {
+    /// The peak.
     pub peak: Peak,
     /// m/s2 or m/s.
     pub curve: HazardCurve,
@@ -53,6 +55,7 @@ pub fn strongest(peak: Peak) -> f64 {
 /// The hazard of a site, and how rates over it are computed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Site {
+    /// The hazard.
     pub hazard: Hazard,
     /// PGV / PGA of all motions, s.
     pub ratio_s: Option<f64>,
@@ -68,6 +71,7 @@ pub struct Site {
 
 /// Annual rates of a structure. Where the hazard ends too early for a value there are bounds alone.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct SiteRates {
     pub rocking: Option<f64>,
     pub failure: Limited,

@@ -40,6 +40,7 @@ pub struct Velocity {
     per_magnitude: f64,
     /// Standard deviation of the level of ln(PGV / PGA).
     sd: f64,
+    /// Where it comes from.
     pub source: VelocitySource,
 }
 
@@ -75,6 +76,7 @@ const POSSIBLE: [f64; 2] = [0.01, 0.5];
 
 /// Why two curves do not belong together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the message says it")]
 pub enum MatchError {
     #[error("the curves have no rates in common: {0:.1e} to {1:.1e} a year; expected three times as far")]
     NothingInCommon(f64, f64),

@@ -22,8 +22,9 @@ pub struct FloorPeaks {
     pub pfa_m_s2: f64,
     /// Peak floor velocity, m/s.
     pub pfv_m_s: f64,
-    /// Standard deviations of the logarithms of both, whose correlation is [`CORRELATION`].
+    /// Standard deviation of ln PFA.
     pub sd_ln_pfa: f64,
+    /// Standard deviation of ln PFV; the correlation of both is [`CORRELATION`].
     pub sd_ln_pfv: f64,
     /// Share of resonance in the squared velocity, 0 on the ground: how narrow the band of its motion is.
     pub resonant_share: f64,

@@ -1,6 +1,6 @@
 //! The files of a command: which arguments name them, and where they are if nobody says so.
 //!
-//! * In a run all default files are in its folder, and [`IN_RUN`] adds inputs that have no default.
+//! * In a run all default files are in its folder, and `IN_RUN` adds inputs that have no default.
 //! * With `--in` and without `--out` the result goes beside what is read.
 //! * Further results of a stage are `NAME.more.parquet` beside `NAME.parquet` ([`part`]).
 //! * A partition is written as a file of the folder that stands for the whole ([`out_of_partition`]).
@@ -19,7 +19,7 @@ use crate::table::file::Partition;
 pub enum Role {
     /// A file or folder to read: it enters the key by its content.
     Input,
-    /// A folder of fits, of which [`FITS`] are read.
+    /// A folder of fits, of which `FITS` are read.
     Fits,
     Output,
     Parameter,

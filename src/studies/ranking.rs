@@ -48,7 +48,7 @@ pub struct RankingRules {
 
 /// Scores of a set of measures: a row of ranking.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "table/dictionary.rs says it")]
+#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct RankedSet {
     pub suite: Option<String>,
     pub structure: String,

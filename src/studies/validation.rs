@@ -14,6 +14,7 @@ const LEAST: f64 = 1e-15;
 
 /// Probabilities of an event in some cases of a structure and suite by one model, and whether it happened.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct Forecasts<'a> {
     pub suite: Option<&'a str>,
     pub structure: &'a str,
@@ -28,6 +29,7 @@ pub struct Forecasts<'a> {
 
 /// How forecasts did: a row of validation.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct Validation {
     pub suite: Option<String>,
     pub structure: String,
@@ -54,6 +56,7 @@ pub struct Validation {
 
 /// Cases of about the same probability: a row of validation.reliability.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct ReliabilityBin {
     pub suite: Option<String>,
     pub structure: String,
