@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let block = Structure::rectangular_block("block", 0.5, 2.0, None)?;
     let model = Model::shipped(Kind::Recorded, &block, 0.10);
     let motion = IntensityMeasures::new(&block, 0.5 * G_M_S2, 0.6, None, None);
-    if let Some(given) = model.probabilities(&block, &motion, Scenarios::One).given_rocking {
+    if let Some(given) = model.probabilities(&block, &motion, None, Scenarios::One).given_rocking {
         let p = given.p_ro;
         println!("PGA 0.5 g, PGV 0.6 m/s: overturns with {:.3} ({:.3} to {:.3})", p.value, p.low, p.high);
     }
@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // PGV/PGA is that of sites in general, in earthquakes of magnitude 6.5.
     let ratio = Velocity::of_model(&model, Peak::Pga).ratio(6.5, 0.0);
     let directions = [(block.clone(), model.clone())];
-    let given_pga = GivenPeak { directions: &directions, peak: Peak::Pga, ratio };
+    let given_pga = GivenPeak { directions: &directions, peak: Peak::Pga, ratio, mw: None };
     let [rocks, fails, overturns] = rates_over_curve(&given_pga, &hazard).map(|rate| rate.value);
     println!("a year it rocks {rocks:.1e}, fails {fails:.1e} and overturns {overturns:.1e} times");
     Ok(())

@@ -4,7 +4,7 @@ its PGV rises, or a structure becomes narrower, smaller or bouncier."""
 import numpy as np
 from scipy.optimize import minimize
 
-from surface import DOMAIN, MOST_IM4, design, scaled, some, uplift
+from surface import DOMAIN, design, scaled, some, uplift
 
 SLACK, STEP = 1e-3, 1.02
 SOUGHT = np.log([2.0, 0.2, 0.5])
@@ -13,8 +13,9 @@ SOUGHT = np.log([2.0, 0.2, 0.5])
 def monotone_logistic(columns, happened, rises, ridge=0.5, added=0.0, b=None):
     """Returns coefficients b of a logistic regression with `rises @ b` >= 0: a quadratic penalty, ever
     stronger. `added` is a known part of the logit."""
+    weights = (0.0, 1e2, 1e4, 1e6, 1e8) if b is None else (1e4, 1e6, 1e8)
     b = np.zeros(columns.shape[1]) if b is None else b
-    for weight in (0.0, 1e2, 1e4, 1e6, 1e8):
+    for weight in weights:
 
         def loss(b):
             z, lack = columns @ b + added, np.minimum(rises @ b - SLACK, 0)
@@ -34,20 +35,22 @@ def monotone_logistic(columns, happened, rises, ridge=0.5, added=0.0, b=None):
     return b
 
 
-def rises(event, n=6000):
+def rises(event, n=2500):
     """What a logit gains, per unit of ln, as a motion becomes stronger, PGV alone rises, a structure becomes
-    smaller at the same shape or bouncier, or the limit falls: at points of the domain and to twice beyond."""
+    smaller at the same shape or bouncier, or the limit falls: at points within the domain and beyond it, on a
+    grid (functions are linear in eta) and at random."""
     rng = np.random.default_rng(5)
-    log_uniform = lambda low, high: np.exp(rng.uniform(np.log(low / 2), np.log(high * 2), n))
-    im4 = np.maximum(log_uniform(1.0, MOST_IM4), 1.0)
-    here = {"im4": np.where(rng.random(n) < 0.3, 1.0 + 0.3 * rng.random(n) ** 2, im4)}
-    here |= {"p_rad_s": log_uniform(*DOMAIN["p"]), "eta": np.clip(rng.uniform(0.65, 1.05, n), *DOMAIN["eta"])}
-    here["im5"] = here["im4"] * here["p_rad_s"] / log_uniform(*DOMAIN["ratio"])
-    limit = log_uniform(*DOMAIN["limit"])
+    axes = [[1, 1.02, 1.1, 1.3, 2, 4, 7, 12, 18, 24], [0.7, 1, 2.6, 6.7, 17, 44, 60]]
+    axes += [[0.3, 0.4, 1.3, 3, 7.8, 11], [0.7, 0.995], [0.02, 0.2, 0.88] if event == "pex" else [0.2]]
+    drawn = np.log([(1, 24), (0.7, 60), (0.3, 11), (0.7, 0.995), (0.02, 0.88)])
+    drawn = np.exp(rng.uniform(drawn[:, 0], drawn[:, 1], (n, 5)))
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 5)
+    im4, ratio, p, eta, limit = np.concatenate([grid, drawn]).T
+    here = {"im4": im4, "im5": im4 * p / ratio, "p_rad_s": p, "eta": eta}
     at = lambda limit=limit, **changed: design(event, here | changed, limit)
-    faster, smaller = here["im5"] * STEP, here["p_rad_s"] * STEP
+    faster, smaller = here["im5"] * STEP, p * STEP
     gains = [at(**scaled(here, STEP)), at(im5=faster), at(im5=faster, p_rad_s=smaller)]
-    gains += [at(eta=here["eta"] + 0.003), at(limit / STEP)]
+    gains += [at(eta=eta + 0.003), at(limit / STEP)]
     gains = np.concatenate([gain - at() for gain in gains]) / np.log(STEP)
     return gains[np.abs(gains).max(axis=1) > 1e-9]
 

@@ -6,9 +6,10 @@ import numpy as np
 KINDS = ("recorded", "csgm", "pulse", "hfc")
 LIMITS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5)
 BOTH = ["1", "x", "w", "x^2", "eta", "p", "x*p", "x*eta", "x*r^2", "w^3"]
-TERMS = {"pro": [*BOTH, "r^2", "r^3"], "pex": [*BOTH, "limit", "x*w", "x^2*r", "eta*p"]}
+TERMS = {"pro": [*BOTH, "r^2", "r^3"], "pex": [*BOTH, "limit", "end", "x*w", "x^2*r", "eta*p"]}
 DOMAIN = {"p": (0.4, 8.0), "eta": (0.7, 0.999), "alpha": (0.04, 0.5), "limit": (0.02, 0.9), "ratio": (1.0, 45.0)}
 MOST_IM4 = 18.61
+NOWHERE = {"im4": 1.0, "im5": 1.0, "p_rad_s": 1.0, "eta": 0.9}
 
 
 def features(event, cases, limit):
@@ -16,10 +17,11 @@ def features(event, cases, limit):
     held = lambda name, values: np.clip(values, *DOMAIN[name])
     p, ln_im4 = held("p", cases["p_rad_s"]), np.log(np.clip(cases["im4"], 1.0, MOST_IM4))
     r = np.log(held("ratio", cases["im4"] / cases["im5"] * cases["p_rad_s"]) / p)
-    limit = np.log(held("limit", limit) / 0.2) if event == "pex" else 0.0
+    limit = held("limit", limit) if event == "pex" else 0.2
+    end, limit = np.log(1.1 - limit) * (event == "pex"), np.log(limit / 0.2)
     return {
         "x": np.log(ln_im4 + 0.2), "w": ln_im4 - r - 0.4 * limit, "r": r, "p": np.log(p / 2.0),
-        "eta": (held("eta", cases["eta"]) - 0.85) / 0.1, "limit": limit,
+        "eta": (held("eta", cases["eta"]) - 0.85) / 0.1, "limit": limit, "end": end,
     }  # fmt: skip
 
 
@@ -91,7 +93,7 @@ class Surface:
     def prior(self, event, kind, limit=0.1):
         """Means and sds of c, ln s and m; c at this limit state."""
         *six, _, by_limit = self.calibration[kind, event]
-        return (six[0] + (by_limit * np.log(limit / 0.1) if event == "pex" else 0.0), *six[1:])
+        return (six[0] + by_limit * features(event, NOWHERE, limit)["end"], *six[1:])
 
     def z(self, event, kind, cases, limit=0.2):
         """The logit as shipped."""

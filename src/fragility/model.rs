@@ -5,7 +5,7 @@ use super::demand::DemandFit;
 use super::on_floor;
 use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
-use super::surface::{self, Kind};
+use super::surface::{self, Kind, Predictor};
 use super::tree::{GivenRocking, Probabilities, Probability, p_failure_given_rocking, p_no_rocking};
 use crate::motion::{Floor, IntensityMeasures};
 use crate::rocking::Structure;
@@ -53,6 +53,7 @@ impl Model {
         &self,
         structure: &Structure,
         measures: &IntensityMeasures,
+        mw: Option<f64>,
         scenarios: Scenarios,
     ) -> Probabilities {
         let (overturning, exceeding, floor) = match self {
@@ -61,16 +62,19 @@ impl Model {
                 return paper_probabilities(demand, overturning, measures, *limit_state, CONFIDENCE);
             }
         };
+        // Magnitude is that of the ground's motion, whatever a floor makes of it.
+        let of_ground = |calibration: &Calibration| calibration.predictor(structure, measures, mw);
+        let of_ground = [of_ground(overturning), of_ground(exceeding)];
         let given = |measures: &IntensityMeasures, added: [f64; 2]| {
             Probabilities::new(measures.im4, || {
-                let of = |calibration: &Calibration, added: f64| {
-                    Some(calibration.probability_with(
-                        calibration.logit(structure, measures)?,
-                        added,
-                        scenarios,
-                    ))
+                let of = |calibration: &Calibration, of_ground: Option<Predictor>, added: f64| {
+                    let Predictor { magnitude, magnitude_sd, .. } = of_ground?;
+                    let here = calibration.predictor(structure, measures, mw)?;
+                    let here = Predictor { magnitude, magnitude_sd, added: here.added + added, ..here };
+                    Some(calibration.probability(&here, scenarios))
                 };
-                let (p_ro, p_ex) = (of(overturning, added[0])?, of(exceeding, added[1])?);
+                let p_ro = of(overturning, of_ground[0], added[0])?;
+                let p_ex = of(exceeding, of_ground[1], added[1])?;
                 // What is not known of a structure moves both branches the same way.
                 let p_failure = Probability {
                     value: p_failure_given_rocking(p_ro.value, p_ex.value),
@@ -97,9 +101,9 @@ impl Model {
         }
     }
 
-    /// Whether the level depends on magnitude: that of recorded motions does.
+    /// Whether probabilities depend on magnitude: those of the paper do not.
     pub fn depends_on_magnitude(&self) -> bool {
-        matches!(self, Model::Calibrated { overturning, .. } if overturning.kind == Kind::Recorded)
+        matches!(self, Model::Calibrated { .. })
     }
 
     /// How PGA and PGV go together in the motions that it stands for.
@@ -120,9 +124,10 @@ impl Model {
         let rocks = p_no_rocking(measures.im4) == 0.0;
         let mut warnings = match self {
             Model::Calibrated { overturning, exceeding, .. } => {
-                let covered =
-                    exceeding.limit_state.is_none_or(|limit| surface::covers_motion(measures, limit))
-                        && overturning.covers(structure, measures);
+                let covered = exceeding
+                    .limit_state
+                    .is_none_or(|limit| surface::covers_motion(structure, measures, limit))
+                    && overturning.covers(structure, measures);
                 let unusual = (!surface::covers_structure(structure)).then_some(Warning::UnusualStructure);
                 let outside = (rocks && !covered).then_some(Warning::Extrapolated);
                 let of_fits = [overturning.warnings(), exceeding.warnings()].concat();

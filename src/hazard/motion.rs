@@ -56,9 +56,10 @@ impl Motion {
         let states = |directions: &[(Structure, Model)], mw: f64, ln: f64, scenarios: Scenarios| {
             let Some(((peak, intensity), velocity)) = one.zip(velocity) else {
                 let peaks = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
-                return limit_states_at(directions, peaks, scenarios);
+                return limit_states_at(directions, peaks, self.mw, scenarios);
             };
-            GivenPeak { directions, peak, ratio: velocity.ratio(mw, ln) }.limit_states(intensity, scenarios)
+            let (ratio, mw) = (velocity.ratio(mw, ln), velocity.magnitude(self.mw, mw));
+            GivenPeak { directions, peak, ratio, mw }.limit_states(intensity, scenarios)
         };
         let logits = |directions: &[(Structure, Model)], mw: f64, ln: f64| {
             let [_, failure, overturning] = states(directions, mw, ln, Scenarios::Many);
@@ -69,7 +70,8 @@ impl Motion {
         let fit = [of_many[1], of_many[2]].map(sd_of_limits);
         let mut budgets = Budgets::default();
         budgets.add(Part::Fit, fit);
-        if model.depends_on_magnitude() {
+        // Of a motion whose peaks are both known, what magnitude adds is beside tau in its own limits.
+        if model.depends_on_magnitude() && one.is_some() && self.mw.is_none() {
             budgets.vary(&of_magnitude, |mw| logits(directions, *mw, 0.0));
         }
         if let Some(velocity) = velocity {

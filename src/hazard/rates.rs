@@ -32,10 +32,10 @@ pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
 }
 
 /// Sums the probabilities of an object in its directions over the bins of a joint hazard.
-pub fn rates_over_pairs(directions: &[(Structure, Model)], joint: &JointHazard) -> Rates {
+pub fn rates_over_pairs(directions: &[(Structure, Model)], mw: Option<f64>, joint: &JointHazard) -> Rates {
     let states = |bin: &PairOfPeaks| {
         let peaks = [bin.pga_m_s2, bin.pgv_m_s];
-        terms(limit_states_at(directions, peaks, Scenarios::Many))
+        terms(limit_states_at(directions, peaks, bin.mw.or(mw), Scenarios::Many))
     };
     rates(joint.mean_annual_rates(states), [[0.0; 2]; 3])
 }

@@ -100,11 +100,12 @@ impl Site {
         match &self.hazard {
             Hazard::Curve(hazard) => self.rates_over_curve(hazard, directions, unknowns),
             Hazard::Joint(joint) => {
-                let value = rates_over_pairs(directions, joint);
+                let rates = |directions: &[(Structure, Model)]| rates_over_pairs(directions, self.mw, joint);
+                let value = rates(directions);
                 let mut budgets = Budgets::default();
                 budgets.add(Part::Fit, sds_of_fit(&value));
                 for unknown in unknowns {
-                    budgets.vary(unknown, |directions| ln_rates(&rates_over_pairs(directions, joint)));
+                    budgets.vary(unknown, |directions| ln_rates(&rates(directions)));
                 }
                 let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
                 let motion = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
@@ -123,7 +124,10 @@ impl Site {
         let of_curves = || hazard.velocity.unwrap_or_else(|| Velocity::of_model(model, peak));
         let velocity = self.ratio_s.map_or_else(of_curves, Velocity::given);
         let (mw, of_magnitude) = magnitude(self.mw);
-        let given = |mw: f64, ln: f64| GivenPeak { directions, peak, ratio: velocity.ratio(mw, ln) };
+        let given = |mw: f64, ln: f64| {
+            let of_motions = velocity.magnitude(self.mw, mw);
+            GivenPeak { directions, peak, ratio: velocity.ratio(mw, ln), mw: of_motions }
+        };
         let middle = given(mw, 0.0);
         let as_given = rates_over_curve(&middle, &hazard.curve);
         let [(first, _), (last, _)] = hazard.curve.ends();

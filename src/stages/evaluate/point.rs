@@ -44,7 +44,8 @@ impl TreeRow {
         let p_ex = match (&subject.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
             ([(structure, model)], Some(pga), Some(pgv)) => {
                 let measures = IntensityMeasures::new(structure, pga, pgv, None, None);
-                let given = model.probabilities(structure, &measures, Scenarios::One).given_rocking;
+                let given =
+                    model.probabilities(structure, &measures, motion.mw, Scenarios::One).given_rocking;
                 given.map(|given| given.p_ex).filter(|p| !p.value.is_nan())
             }
             _ => None,

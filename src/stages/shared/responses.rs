@@ -94,6 +94,7 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Candidates) -> anyhow::R
         cases.edp.extend(its(&edp));
         cases.pga_m_s2.extend(its(&pga));
         cases.pgv_m_s.extend(its(&pgv));
+        cases.mw.extend(its(&mw));
         for (measure, column) in Measure::SCALAR.into_iter().zip(&measures) {
             cases.column_mut(measure).extend(its(column));
         }
