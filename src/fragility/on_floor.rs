@@ -8,8 +8,8 @@ use crate::statistics::normal;
 
 /// What a floor adds to the logits of P_ro and of P_ex: f (a + b ln(p T1)), f the resonant share of its velocity; of
 /// P_ex a falls with ln of the limit state over 0.1. By scripts/floors/surface.py.
-const OVERTURNING: [f64; 2] = [-2.27, 1.90];
-const EXCEEDING: [f64; 3] = [-0.36, 1.80, -0.60];
+const OVERTURNING: [f64; 2] = [-1.69, 1.94];
+const EXCEEDING: [f64; 3] = [-0.09, 1.74, -1.22];
 /// No floor has a larger peak acceleration than this times that of the ground; the median one that it has at most.
 const MOST_AMPLIFIED: f64 = 7.0;
 const MEDIAN_AMPLIFIED: f64 = 2.5;

@@ -8,6 +8,7 @@ mod coverage;
 mod demand;
 mod hazard;
 mod model;
+mod on_floor;
 mod normal;
 mod overturning;
 mod paper;

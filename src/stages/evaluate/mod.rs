@@ -27,7 +27,7 @@ use clap::{Args, ValueHint};
 
 use super::shared::hazard::{self, Renamed};
 use super::shared::model_args::{ModelArgs, Models};
-use super::shared::objects::Object;
+use super::shared::objects::{Object, Reason};
 use super::shared::responses;
 use super::shared::structures::{Place, StructureArgs};
 use crate::hazard::{Hazard, Motion, Site};
@@ -203,18 +203,19 @@ impl Evaluate {
     /// Returns the given structures, or all fitted ones.
     fn objects(&self, models: &Models, context: &Context) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.model.fits.is_some() {
-            return Ok(models.structures()?.into_iter().map(Object::from).collect());
+            let on_place = |structure| Object::from(structure).at(self.place);
+            return Ok(models.structures()?.into_iter().map(on_place).collect());
         }
         let (objects, unused) = self.structures.objects(&self.place)?;
         context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());
-        match objects.iter().find_map(|object| object.structure().err()) {
-            Some(reason) if objects.iter().all(|object| object.directions.is_err()) => {
-                match self.structures.structures {
-                    Some(_) => anyhow::bail!("{reason}; no other row can be right either"),
-                    None => Err(UsageError::because(reason)),
-                }
-            }
-            _ => Ok(objects.to_vec()),
+        let reasons = objects.iter().map(|object| match &object.directions {
+            Err(Reason::Implausible(reason)) => Some(reason),
+            _ => None,
+        });
+        match (reasons.collect::<Option<Vec<&String>>>().as_deref(), &self.structures.structures) {
+            (Some([reason, ..]), Some(_)) => anyhow::bail!("{reason}; no other row can be right either"),
+            (Some([reason, ..]), None) => Err(UsageError::because(reason.as_str())),
+            _ => Ok(objects),
         }
     }
 

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, ObjectRow, Predicted, Subject};
 use super::words::{
-    brief, friction, linear, model, mostly_unknown, size, table, title, too_far, validity, with_sentences,
+    brief, friction, linear, model, mostly_unknown, size, table, title, too_far, unanswered, validity,
+    with_sentences,
 };
 use crate::fragility::{Probability, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities};
@@ -104,6 +105,7 @@ impl Predicted for TreeRow {
 pub fn text(all: &[Answer<TreeRow>], sentence: bool) -> String {
     let text = match all {
         [] => String::new(),
+        [answer] if answer.object.p_rad_s.is_none() => unanswered(answer, &answer.row.warnings),
         [answer] => of_one(answer),
         [worst, ..] => of_several(worst, all),
     };

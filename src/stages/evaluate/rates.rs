@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::object::{Answer, Predicted};
 use super::target::Target;
 use super::words::{
-    brief, friction, linear, model, mostly_unknown, size, table, title, too_far, validity, with_sentences,
+    brief, friction, linear, model, mostly_unknown, size, table, title, too_far, unanswered, validity,
+    with_sentences,
 };
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
@@ -112,6 +113,7 @@ impl Predicted for RatesRow {
 pub fn text(all: &[Answer<RatesRow>], site: &Site, target: Option<Target>, sentence: bool) -> String {
     let text = match all {
         [] => String::new(),
+        [answer] if answer.object.p_rad_s.is_none() => unanswered(answer, &answer.row.warnings),
         [answer] => of_one(answer, site, target),
         [worst, ..] => of_several(worst, all, site, target),
     };

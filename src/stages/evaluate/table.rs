@@ -44,6 +44,11 @@ pub fn evaluate(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
         ));
     }
+    if given.is_empty() && *place != Place::default() {
+        return Err(UsageError::because(
+            "a table with structures of its own: they stand on the ground; give one structure by options",
+        ));
+    }
     let given = given.first().map(|object| Subject::of(object, models)).transpose()?;
     let given = given.transpose().map_err(|reason| UsageError::because(reason.to_string()))?;
     let mut known = HashMap::new();

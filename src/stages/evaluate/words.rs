@@ -87,6 +87,11 @@ pub fn mostly_unknown(budget: &Budget, of_velocity: &str) -> Option<String> {
     Some(format!("Mostly unknown: {}. {advice}", part.words()).trim_end().to_string())
 }
 
+/// Why an object has no answer.
+pub fn unanswered<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
+    format!("{}: {}\n", title(&answer.object), reason.as_deref().unwrap_or("no answer"))
+}
+
 /// The warnings of a row in a few words; the reason in full if the row cannot be right.
 pub fn brief<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
     match reason {

@@ -71,6 +71,12 @@ impl Object {
         Object { spec, directions }
     }
 
+    /// The same in this place.
+    pub fn at(self, place: Place) -> Object {
+        let directions = self.directions.and_then(|directions| place.rocking(directions));
+        Object { spec: Spec { place, ..self.spec }, directions }
+    }
+
     /// One that cannot be read.
     pub fn refused(spec: Spec, reason: String) -> Object {
         Object { spec, directions: Err(Reason::Implausible(reason)) }
@@ -102,6 +108,20 @@ impl Object {
     /// Number of such objects.
     pub fn count(&self) -> f64 {
         self.spec.place.count.unwrap_or(1.0)
+    }
+}
+
+impl Place {
+    /// The directions in which friction lets an object rock.
+    fn rocking(&self, directions: Vec<Direction>) -> Result<Vec<Direction>, Reason> {
+        let Some(friction) = self.friction else { return Ok(directions) };
+        let tan = |direction: &Direction| direction.structure.alpha_rad.tan();
+        let least = tan(&directions[0]);
+        let rocking: Vec<Direction> = directions.into_iter().filter(|of| tan(of) <= friction).collect();
+        match rocking.is_empty() {
+            true => Err(Reason::Held(format!("slides first: it rocks from a friction of {least:.2} on"))),
+            false => Ok(rocking),
+        }
     }
 }
 
@@ -207,15 +227,7 @@ impl Spec {
             _ => return Err(named("expected p, alpha and eta, or width and height".to_string())),
         };
         directions.sort_by(|a, b| a.structure.alpha_rad.total_cmp(&b.structure.alpha_rad));
-        if let Some(friction) = self.place.friction {
-            let least = directions[0].structure.alpha_rad.tan();
-            directions.retain(|direction| direction.structure.alpha_rad.tan() <= friction);
-            if directions.is_empty() {
-                let reason = format!("slides first: it rocks from a friction of {least:.2} on");
-                return Err(Reason::Held(reason));
-            }
-        }
-        Ok(directions)
+        self.place.rocking(directions)
     }
 
     /// A structure of which nothing but eta is unknown.

@@ -268,7 +268,9 @@ impl StructureArgs {
     pub fn objects(&self, place: &Place) -> anyhow::Result<(Vec<Object>, Vec<String>)> {
         let (specs, unused) = match &self.structures {
             Some(path) if path.as_os_str() == "paper" => {
-                return Ok((paper::structures().into_iter().map(Object::from).collect(), Vec::new()));
+                let of_paper =
+                    paper::structures().into_iter().map(|structure| Object::from(structure).at(*place));
+                return Ok((of_paper.collect(), Vec::new()));
             }
             Some(path) => {
                 let listed =
