@@ -84,7 +84,7 @@ impl Warning {
             Warning::ScanEndsEarly => "too few motions overturn it for a median; raise --to",
             Warning::UnreadableFile => "not imported",
             Warning::UnusedColumns => "columns that say nothing to rockfrag; a floor needs level and period",
-            Warning::NoPartner => "vertical, or no partner at right angles: left out",
+            Warning::NoPartner => "no partner at right angles: left out",
         }
     }
 }

@@ -6,7 +6,9 @@ use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, RotD};
 use super::signal::{Baseline, HighPass, Scaling, resample, resampled_length};
 use crate::keyword::keywords;
-use crate::motion::{LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, Suite, measures};
+use crate::motion::{LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, MotionMeasures, Suite, measures};
+use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
+use crate::units::G_M_S2;
 
 /// A file and the hash of its content.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -38,6 +40,14 @@ pub enum ProcessingError {
     Resampled { samples: f64, dt_s: f64 },
     #[error("the motion is zero throughout; it cannot be scaled to a peak")]
     Zero,
+    #[error(
+        "corner of the high-pass {corner_hz} Hz; expected less than half the sampling rate, {nyquist_hz} Hz"
+    )]
+    Corner { corner_hz: f64, nyquist_hz: f64 },
+    #[error(
+        "PGA {pga_g:.1} g and PGV {pgv_m_s:.1} m/s when scaled by {scale}; none as strong was ever recorded"
+    )]
+    Scaled { scale: f64, pga_g: f64, pgv_m_s: f64 },
 }
 
 /// An imported motion.
@@ -145,6 +155,10 @@ impl Processing {
     ) -> Result<(NamedRecord, Option<Implausibility>), ProcessingError> {
         let motion = &mut record.motion;
         self.baseline.remove_from(&mut motion.acceleration_m_s2);
+        let nyquist_hz = 0.5 / motion.dt_s;
+        if let Some(HighPass { corner_hz }) = self.high_pass.filter(|filter| filter.corner_hz >= nyquist_hz) {
+            return Err(ProcessingError::Corner { corner_hz, nyquist_hz });
+        }
         if let Some(high_pass) = self.high_pass {
             high_pass.apply(&mut motion.acceleration_m_s2, motion.dt_s);
         }
@@ -212,7 +226,8 @@ impl Processing {
         let samples = motion.acceleration_m_s2;
         let motion = RecordedMotion { acceleration_m_s2: Vec::new(), ..motion };
         let several = factors.len() > 1;
-        let motions = factors.into_iter().flat_map(|scale| {
+        let mut motions = Vec::new();
+        for scale in factors {
             let acceleration_m_s2: Vec<f32> = samples.iter().map(|&a| (scale * a) as f32).collect();
             let scaled = ImportedMotion {
                 motion_id: if several { format!("{motion_id} x{scale}") } else { motion_id.clone() },
@@ -227,10 +242,17 @@ impl Processing {
                 indicator,
                 pulse: fitted.map(|fitted| fitted.scaled(scale)),
             };
+            let MotionMeasures { pga_m_s2, pgv_m_s, .. } = scaled.measured.measures;
+            let pga_g = pga_m_s2 / G_M_S2;
+            let is_too_strong = pga_g > STRONGEST_PGA_G || pgv_m_s > STRONGEST_PGV_M_S;
+            if scale != 1.0 && is_too_strong && self.implausible == Implausible::Refuse {
+                return Err(ProcessingError::Scaled { scale, pga_g, pgv_m_s });
+            }
             let residual = scaled.pulse.filter(|_| self.residual).map(|pulse| self.residual(&scaled, pulse));
-            [Some(scaled), residual].into_iter().flatten()
-        });
-        Ok(motions.collect())
+            motions.push(scaled);
+            motions.extend(residual);
+        }
+        Ok(motions)
     }
 
     /// Searches a record for a pulse, and fits it.

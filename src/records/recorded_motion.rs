@@ -1,6 +1,7 @@
 //! A record as in its file, and options for reading files.
 
 use super::formats::Format;
+use crate::keyword::Keyword;
 use crate::units::Unit;
 
 /// One component of a record.
@@ -40,6 +41,21 @@ impl RecordedMotion {
             format: "",
             unit,
         }
+    }
+}
+
+/// Words for a vertical component, in capitals.
+const VERTICAL: [&str; 10] = ["UP", "UD", "U-D", "U", "V", "Z", "VER", "VERT", "VERTICAL", "DWN"];
+
+impl RecordedMotion {
+    /// Whether the component of a network's file is vertical, by its name or, as in HNZ, the last letter of its
+    /// channel code. Columns of CSV are what the user has chosen.
+    pub fn is_vertical(&self) -> bool {
+        let name = self.component.as_deref().unwrap_or_default().to_ascii_uppercase();
+        let is_code = name.len() == 3 && name.ends_with('Z');
+        let mut words = name.split(|sign: char| sign.is_whitespace() || "(),:;".contains(sign));
+        let is_named = is_code || words.any(|word| VERTICAL.contains(&word));
+        is_named && self.azimuth_deg.is_none() && self.format != Format::Csv.as_str()
     }
 }
 

@@ -2,10 +2,13 @@
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
+use anyhow::bail;
 use rayon::prelude::*;
 
 use crate::motion::LONGEST_MOTION;
+use crate::number::counted;
 use crate::pipeline::context::Context;
 use crate::records::pairs::{Pairs, pairs};
 use crate::records::plausibility::Implausibility;
@@ -22,6 +25,9 @@ pub struct Importer {
     names: HashMap<String, usize>,
     reading: ReadOptions,
     processing: Processing,
+    /// Whether vertical components are imported too, and how many were not.
+    vertical: bool,
+    left_out: AtomicUsize,
 }
 
 /// What one thread imports: a file, or two components by their file and number.
@@ -37,6 +43,7 @@ impl Importer {
         out: &Path,
         reading: ReadOptions,
         processing: Processing,
+        vertical: bool,
     ) -> anyhow::Result<Importer> {
         let mut files = keys::files_below(given)?;
         let out = std::path::absolute(out)?;
@@ -46,7 +53,7 @@ impl Importer {
             let both: HashSet<String> = [file.file_stem(), file.file_name()].map(text).into();
             both.into_iter().for_each(|name| *names.entry(name).or_insert(0) += 1);
         }
-        Ok(Importer { files, names, reading, processing })
+        Ok(Importer { files, names, reading, processing, vertical, left_out: AtomicUsize::new(0) })
     }
 
     /// All work in order, and what cannot be read already.
@@ -56,25 +63,53 @@ impl Importer {
         }
         let (mut components, mut refused) = (Vec::new(), Vec::new());
         for (file, read) in self.files.par_iter().map(|file| (file, self.read(file))).collect::<Vec<_>>() {
-            match read {
-                // Samples are read again once a pair is found: that takes less memory than keeping all of
-                // them.
-                Ok(records) => components.extend(records.into_iter().enumerate().map(|(index, record)| {
-                    let motion = RecordedMotion { acceleration_m_s2: Vec::new(), ..record.motion };
-                    (motion, (file.clone(), index))
-                })),
-                Err(refusal) => refused.push(refusal),
+            let records = match read {
+                Ok(records) => records,
+                Err(refusal) => {
+                    refused.push(refusal);
+                    continue;
+                }
+            };
+            for (index, record) in records.into_iter().enumerate() {
+                if record.motion.is_vertical() {
+                    self.left_out.fetch_add(1, Ordering::Relaxed);
+                    continue;
+                }
+                // Samples are read again once a pair is found: that takes less memory than keeping all of them.
+                let motion = RecordedMotion { acceleration_m_s2: Vec::new(), ..record.motion };
+                components.push((motion, (file.clone(), index)));
             }
         }
+        let horizontal = counted(components.len(), "horizontal component");
         let Pairs { pairs, left_out } = pairs(components);
+        if pairs.is_empty() && refused.is_empty() {
+            bail!(
+                "no pair among {horizontal}; expected two of one event, station and time step at right angles. \
+                 Without --rotate each is imported by itself"
+            );
+        }
         let warning = |(file, _): (PathBuf, usize)| (Warning::NoPartner, text(file.file_name()));
         context.warn(left_out.into_iter().map(warning).collect());
         Ok((pairs.into_iter().map(Work::Pair).collect(), refused))
     }
 
+    /// How many vertical components were left out.
+    pub fn left_out(&self) -> usize {
+        self.left_out.load(Ordering::Relaxed)
+    }
+
+    /// The records of a file without vertical components, which are counted.
+    fn horizontal(&self, file: &Path) -> Result<Vec<NamedRecord>, String> {
+        let mut records = self.read(file)?;
+        let all = records.len();
+        records.retain(|record| self.vertical || !record.motion.is_vertical());
+        self.left_out.fetch_add(all - records.len(), Ordering::Relaxed);
+        Ok(records)
+    }
+
     pub fn import(&self, work: &Work) -> Vec<Result<Vec<ImportedMotion>, String>> {
         match work {
-            Work::File(file) => match self.read(file) {
+            Work::File(file) => match self.horizontal(file) {
                 Ok(records) => {
                     let import =
                         |record| self.processing.import(record).map_err(|error| unprocessed(file, &error));
@@ -152,9 +187,11 @@ fn unprocessed(file: &Path, error: &ProcessingError) -> String {
         ProcessingError::Implausible(Implausibility::Drift { .. }) => {
             " (--baseline linear corrects it, --accept-implausible imports it anyway)"
         }
-        ProcessingError::Implausible(_) => " (--accept-implausible imports it anyway)",
+        ProcessingError::Implausible(_) | ProcessingError::Scaled { .. } => {
+            " (--accept-implausible imports it anyway)"
+        }
         ProcessingError::Resampled { .. } => ": choose another for --resample",
-        ProcessingError::Zero => "",
+        ProcessingError::Zero | ProcessingError::Corner { .. } => "",
     };
     format!("{}{option}", refusal(file, error))
 }

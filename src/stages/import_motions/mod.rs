@@ -15,6 +15,7 @@ use self::columns::batch;
 use self::importer::Importer;
 use self::summary::Summary;
 use crate::motion::MeasurePlan;
+use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number};
@@ -59,7 +60,7 @@ pub struct ImportMotions {
     #[arg(long, default_value = "none")]
     baseline: Baseline,
     /// Corner of a zero-phase high-pass filter of order 4, Hz
-    #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1e3, "a frequency above 0 Hz"))]
+    #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1.0, "above 0 and up to 1 Hz: motions above 1 Hz rock structures"))]
     high_pass: Option<f64>,
     /// Resample to this time step, s
     #[arg(long, value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
@@ -89,6 +90,9 @@ pub struct ImportMotions {
     /// Also compute the Housner intensity (15 times as slow)
     #[arg(long)]
     housner: bool,
+    /// Import vertical components too
+    #[arg(long)]
+    vertical: bool,
     /// Import motions that no earthquake is likely to have made
     #[arg(long)]
     accept_implausible: bool,
@@ -115,7 +119,7 @@ impl Stage for ImportMotions {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let processing = self.processing()?;
         let periods = processing.plan.sa_periods_s.clone();
-        let importer = Importer::new(&self.files, &self.out, self.reading(), processing)?;
+        let importer = Importer::new(&self.files, &self.out, self.reading(), processing, self.vertical)?;
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         let (work, mut refused) = importer.work(context)?;
         let (mut ids, mut summary) = (HashSet::new(), Summary::default());
@@ -148,6 +152,10 @@ impl Stage for ImportMotions {
                 Ok(())
             },
         )?;
+        if ids.is_empty() && refused.is_empty() {
+            let verticals = counted(importer.left_out(), "vertical component");
+            anyhow::bail!("no horizontal component; {verticals}, which --vertical imports");
+        }
         if ids.is_empty() || !refused.is_empty() && !self.keep_going {
             let others = if ids.is_empty() { "" } else { "\n--keep-going imports the others" };
             anyhow::bail!(
@@ -158,7 +166,7 @@ impl Stage for ImportMotions {
             );
         }
         context.warn(refused.into_iter().map(|refusal| (Warning::UnreadableFile, refusal)).collect());
-        let summary = summary.text();
+        let summary = summary.text(importer.left_out());
         context.finish(writer, &summary)?;
         Ok(summary)
     }

@@ -36,15 +36,19 @@ impl Summary {
         }
     }
 
-    pub fn text(&self) -> String {
+    pub fn text(&self, verticals: usize) -> String {
         let kinds: Vec<String> = self.kinds.iter().map(|(kind, n)| format!("{} {kind}", count(*n))).collect();
         let range = |peak: usize| {
             let values = self.peaks.iter().map(|peaks| peaks[peak]);
             let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));
             format!("{} to {}", fixed(low, 3), fixed(high, 3))
         };
+        let left_out = match verticals {
+            0 => String::new(),
+            n => format!("; {} left out", counted(n, "vertical component")),
+        };
         format!(
-            "{} ({}), {} with a pulse\nPGA {} g, PGV {} m/s\n",
+            "{} ({}), {} with a pulse{left_out}\nPGA {} g, PGV {} m/s\n",
             counted(self.motions, "motion"),
             listed(&kinds, NAMED),
             count(self.pulses),

@@ -290,8 +290,9 @@ fn map(tables: &Tables, groups: &[&Cases]) -> Option<draw::Map> {
         if overturned { map.overturns.push(point) } else { map.rocks.push(point) }
     }
     let [low, high] = ends(cases.pga_m_s2.iter().copied());
-    let pga = [low.max(0.5 * cases.structure.uplift_acceleration_m_s2()), high];
-    let pgv = ends(cases.pgv_m_s.iter().copied());
+    let pga = [low.max(cases.structure.uplift_acceleration_m_s2()), high];
+    let [least, most] = ends(cases.pgv_m_s.iter().copied());
+    let pgv = [least, 1.5 * most];
     map.lines = draw::LEVELS.map(|level| line(tables, cases, level, pga, pgv));
     map.others = others
         .iter()
