@@ -23,8 +23,8 @@ pub struct GivenPeak<'a> {
     pub mw: Option<f64>,
 }
 
-/// Probabilities of LS1, LS2 and LS3 of an object under motions of a PGA and PGV (m/s2 and m/s): in either of its
-/// directions, which fall independently under one motion. NaN where a model has none.
+/// Probabilities of LS1, LS2 and LS3 of an object under motions of a PGA and PGV (m/s2 and m/s): in either of
+/// its directions, which fall independently under one motion. NaN where a model has none.
 pub fn limit_states_at(
     directions: &[(Structure, Model)],
     [pga_m_s2, pgv_m_s]: [f64; 2],
@@ -88,8 +88,8 @@ impl GivenPeak<'_> {
         }
     }
 
-    /// Widest panel of ln of the peak over which probabilities are smooth: the paper's lower plane under pulses has
-    /// a dispersion of 0.03.
+    /// Widest panel of ln of the peak over which probabilities are smooth: the paper's lower plane under
+    /// pulses has a dispersion of 0.03.
     pub fn widest_panel(&self) -> f64 {
         let is_of_paper = |(_, model): &(Structure, Model)| matches!(model, Model::Paper { .. });
         if self.directions.iter().any(is_of_paper) { 0.02 } else { 0.2 }

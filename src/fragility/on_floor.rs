@@ -1,19 +1,21 @@
-//! The probabilities on a floor: those at its own peaks, averaged over what they may be, and moved by how narrow the
-//! band of its motion is.
+//! The probabilities on a floor: those at its own peaks, averaged over what they may be, and moved by how
+//! narrow the band of its motion is.
 
 use super::tree::{GivenRocking, Probabilities, Probability};
 use crate::motion::{Floor, IntensityMeasures, floor};
 use crate::rocking::Structure;
 use crate::statistics::normal;
 
-/// What a floor adds to the logits of P_ro and of P_ex: f (a + b ln(p T1)), f the resonant share of its velocity; of
-/// P_ex a falls with ln of the limit state over 0.1. By scripts/floors/surface.py.
+/// What a floor adds to the logits of P_ro and of P_ex: f (a + b ln(p T1)), f the resonant share of its
+/// velocity; of P_ex a falls with ln of the limit state over 0.1. By scripts/floors/surface.py.
 const OVERTURNING: [f64; 2] = [-1.69, 1.94];
 const EXCEEDING: [f64; 3] = [-0.09, 1.74, -1.22];
-/// No floor has a larger peak acceleration than this times that of the ground; the median one that it has at most.
+/// No floor has a larger peak acceleration than this times that of the ground; the median one that it has at
+/// most.
 const MOST_AMPLIFIED: f64 = 7.0;
 const MEDIAN_AMPLIFIED: f64 = 2.5;
-/// Seven nodes of the standard normal in a plane, exact to degree 5: the middle, and six around it (Stroud 1971).
+/// Seven nodes of the standard normal in a plane, exact to degree 5: the middle, and six around it (Stroud
+/// 1971).
 const AROUND: (f64, f64) = (2.0, 1.0 / 12.0);
 const MIDDLE: f64 = 0.5;
 
@@ -33,8 +35,8 @@ pub(super) fn median_measures(
     IntensityMeasures::new(structure, peaks.pfa_m_s2, peaks.pfv_m_s, None, None)
 }
 
-/// Averages the probabilities over the peaks of a floor. `given` gives those at its measures, with this added to the
-/// logits of P_ro and P_ex.
+/// Averages the probabilities over the peaks of a floor. `given` gives those at its measures, with this added
+/// to the logits of P_ro and P_ex.
 pub(super) fn probabilities(
     floor: Floor,
     structure: &Structure,

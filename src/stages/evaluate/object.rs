@@ -129,7 +129,7 @@ impl ErrorsRow {
     }
 }
 
-/// What is predicted for: an object in its directions, the weaker first, each with the model that predicts for it.
+/// An object in its directions, the weaker first, each with the model that predicts for it.
 pub struct Subject {
     pub directions: Vec<(Structure, Model)>,
     /// What is not known of them.

@@ -159,8 +159,8 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<Target>) -> Str
     )
 }
 
-/// The expected number of a list, and the probability that one or more overturns: between that of the worst and that of
-/// independent ones.
+/// The expected number of a list, and the probability that one or more overturns: between that of the worst
+/// and that of independent ones.
 fn of_all(all: &[Answer<RatesRow>]) -> Option<String> {
     let known: Vec<(f64, f64)> = all
         .iter()

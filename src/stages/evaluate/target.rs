@@ -73,8 +73,8 @@ impl<F: Fn(f64) -> Option<Limited>> CostFunction for Excess<F> {
     }
 }
 
-/// Widths (m) that meet a target by the estimate and by its upper limit: at the same height, depth, rule of eta and
-/// relative offset; none where none within the domain of the surface does.
+/// Widths (m) that meet a target by the estimate and by its upper limit: at the same height, depth, rule of
+/// eta and relative offset; none where none within the domain of the surface does.
 pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target: Target) -> [Option<f64>; 2] {
     let Some((width, height)) = object.spec.width.zip(object.spec.height) else { return [None; 2] };
     let centre_height = object.spec.centre_height.unwrap_or(0.5 * height);

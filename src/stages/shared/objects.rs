@@ -46,11 +46,12 @@ pub struct Direction {
 const UNNAMED: &str = "structure";
 /// Standard deviation of the logarithm of a building's period that is not given.
 const SD_OF_PERIOD: f64 = 0.25;
-/// Standard deviation of ln(1 - eta) about Housner's, by free rocking tests: blocks on concrete lost 1.2 to 1.8 times
-/// as much (ElGawady et al. 2006), concrete and stone members less, down to 0.6 (Kalliontzis et al. 2016, Ther &
-/// Kollar 2017).
+/// Standard deviation of ln(1 - eta) about Housner's, by free rocking tests: blocks on concrete lost 1.2 to
+/// 1.8 times as much (ElGawady et al. 2006), concrete and stone members less, down to 0.6 (Kalliontzis et al.
+/// 2016, Ther & Kollar 2017).
 const SD_OF_LOSS: f64 = 0.4;
-/// Largest share of the half width, or of the height, that a centre of mass is away from the middle or the base.
+/// Largest share of the half width, or of the height, that a centre of mass is away from the middle or the
+/// base.
 const FARTHEST: f64 = 0.98;
 
 impl From<Structure> for Object {
@@ -250,7 +251,8 @@ impl Spec {
         }
     }
 
-    /// The direction of a side of the base; the inertia about the other axis differs by that of a solid block.
+    /// The direction of a side of the base; the inertia about the other axis differs by that of a solid
+    /// block.
     fn side(
         &self,
         name: &str,

@@ -231,7 +231,8 @@ impl Spec {
         numbers.chain(eta).collect()
     }
 
-    /// The same with a base so many times as wide: the offset with it, and the inertia as that of a solid block.
+    /// The same with a base so many times as wide: the offset with it, and the inertia as that of a solid
+    /// block.
     pub fn resized(&self, factor: f64) -> Spec {
         let width = self.width.unwrap_or(0.0);
         let added = width * width * (factor * factor - 1.0) / 12.0;
@@ -263,8 +264,8 @@ impl StructureArgs {
         structures.map_err(UsageError::because)
     }
 
-    /// All objects, each with what is wrong with it, and the columns of a list that say nothing of them. A list is
-    /// read once.
+    /// All objects, each with what is wrong with it, and the columns of a list that say nothing of them. A
+    /// list is read once.
     pub fn objects(&self, place: &Place) -> anyhow::Result<(Vec<Object>, Vec<String>)> {
         let (specs, unused) = match &self.structures {
             Some(path) if path.as_os_str() == "paper" => {
