@@ -128,7 +128,7 @@ fn a_list_keeps_its_bad_rows_and_fails_only_if_all_are_bad() {
         let all = rows(folder.path(), &format!("--structures list.csv {question}"));
         let names: Vec<&str> = all.iter().map(|row| row["structure"].as_str().unwrap()).collect();
         assert_eq!(names, ["shelf", "rack", "wrong", "no height"], "worst first, {question}");
-        assert!((number(&all[0], "width_m") - 0.3).abs() < 1e-12, "the smaller of width and depth");
+        assert!((number(&all[0], "depth_m") - 0.3).abs() < 1e-12);
         assert!((number(&all[1], "height_m") - 2.0).abs() < 1e-12);
         assert!(all[2]["warnings"].is_string() && all[2]["p_rad_s"].is_null());
         let (_, warned) = succeed(folder.path(), &format!("evaluate --structures list.csv {question}"));

@@ -33,6 +33,8 @@ const SLENDERNESSES: [f64; 2] = [0.04, 0.5];
 /// Relative accuracy of a width, and largest number of steps.
 const ACCURACY: f64 = 1e-4;
 const MOST_STEPS: u64 = 60;
+/// Halvings of the widths to the end of the hazard.
+const HALVINGS: usize = 8;
 /// Probabilities count as no less.
 const LEAST: f64 = 1e-12;
 
@@ -49,8 +51,18 @@ impl<F: Fn(f64) -> Option<Limited>> Excess<F> {
         Some(((self.in_years)(width)?[self.which]?.max(LEAST) / self.target).ln())
     }
 
-    /// The least width between two that meets the target; none if not even the larger does.
-    fn root(self, [least, most]: [f64; 2]) -> Option<f64> {
+    /// The least width between two that meets the target; none if not even the largest does of which the hazard
+    /// tells a rate.
+    fn root(self, [least, end]: [f64; 2]) -> Option<f64> {
+        let is_known = |width: f64| (self.in_years)(width).is_some_and(|p| p[0].is_some());
+        let mut most = end;
+        if !is_known(end) {
+            let halve = |(known, unknown): (f64, f64), _| {
+                let middle = 0.5 * (known + unknown);
+                if is_known(middle) { (middle, unknown) } else { (known, middle) }
+            };
+            most = (0..HALVINGS).fold((least, end), halve).0;
+        }
         if self.of(most)? > 0.0 {
             return None;
         }

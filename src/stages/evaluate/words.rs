@@ -29,7 +29,7 @@ pub fn size(object: &ObjectRow) -> String {
 /// The floor that it stands on.
 fn floor(object: &ObjectRow) -> String {
     object.floor_level.zip(object.floor_period_s).map_or(String::new(), |(level, period)| {
-        let [level, period] = [level, period].map(|value| number::significant(value, 3));
+        let [level, period] = [level, period].map(number::plain);
         format!(" at level {level} of a {period} s building")
     })
 }
