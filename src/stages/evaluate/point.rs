@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, ObjectRow, Predicted, Subject};
 use super::words::{
-    brief, friction, linear, model, mostly_unknown, size, table, title, too_far, unanswered, validity,
+    brief, friction, linear, model, model_of_all, mostly_unknown, size, table, title, too_far, unanswered,
+    validity,
     with_sentences,
 };
 use crate::fragility::{Probability, Scenarios};
@@ -177,7 +178,7 @@ fn of_several(worst: &Answer<TreeRow>, all: &[Answer<TreeRow>]) -> String {
         ]
     });
     let linear = linear(all.iter().map(|answer| &answer.object));
-    format!("{first}\n{table}All {}, by {}.{linear}\n", words_of_peaks(&worst.row), model(&worst.object))
+    format!("{first}\n{table}All {}, by {}.{linear}\n", words_of_peaks(&worst.row), model_of_all(all))
 }
 
 fn words_of_peaks(tree: &TreeRow) -> String {

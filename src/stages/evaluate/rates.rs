@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::object::{Answer, Predicted};
 use super::target::Target;
 use super::words::{
-    brief, friction, linear, model, mostly_unknown, size, table, title, too_far, unanswered, validity,
+    brief, friction, linear, model, model_of_all, mostly_unknown, size, table, title, too_far, unanswered,
+    validity,
     with_sentences,
 };
 use crate::fragility::Peak;
@@ -217,7 +218,7 @@ fn of_several(
         how_often.trim_start_matches("overturns "),
         of_all(all).unwrap_or_default(),
         about_limits(worst, site),
-        model(&worst.object),
+        model_of_all(all),
         linear(all.iter().map(|answer| &answer.object)),
     )
 }

@@ -49,6 +49,15 @@ pub fn evaluate(
             "a table with structures of its own: they stand on the ground; give one structure by options",
         ));
     }
+    let of_structures = ["p_rad_s", "alpha_rad", "eta", "width", "height", "width_m", "height_m"];
+    let columns = batches.first().map(|batch| batch.rows.schema());
+    let column = columns.and_then(|all| of_structures.into_iter().find(|name| all.index_of(name).is_ok()));
+    if let Some(column) = column.filter(|_| !given.is_empty()) {
+        let path = path.display();
+        return Err(UsageError::because(format!(
+            "{path}: column {column} and options of a structure; leave out the one or the other"
+        )));
+    }
     let given = given.first().map(|object| Subject::of(object, models)).transpose()?;
     let given = given.transpose().map_err(|reason| UsageError::because(reason.to_string()))?;
     let mut known = HashMap::new();
