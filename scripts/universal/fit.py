@@ -4,7 +4,7 @@ its PGV rises, or a structure becomes narrower, smaller or bouncier."""
 import numpy as np
 from scipy.optimize import minimize
 
-from surface import DOMAIN, design, scaled, some, uplift
+from surface import DOMAIN, MOST_IM4, design, scaled, some, uplift
 
 SLACK, STEP = 1e-3, 1.02
 SOUGHT = np.log([2.0, 0.2, 0.5])
@@ -35,17 +35,16 @@ def monotone_logistic(columns, happened, rises, ridge=0.5, added=0.0, b=None):
     return b
 
 
-def rises(event, n=2500):
+def rises(event, points=(9, 6, 5)):
     """What a logit gains, per unit of ln, as a motion becomes stronger, PGV alone rises, a structure becomes
-    smaller at the same shape or bouncier, or the limit falls: at points within the domain and beyond it, on a
-    grid (functions are linear in eta) and at random."""
-    rng = np.random.default_rng(5)
-    axes = [[1, 1.02, 1.1, 1.3, 2, 4, 7, 12, 18, 24], [0.7, 1, 2.6, 6.7, 17, 44, 60]]
-    axes += [[0.3, 0.4, 1.3, 3, 7.8, 11], [0.7, 0.995], [0.02, 0.2, 0.88] if event == "pex" else [0.2]]
-    drawn = np.log([(1, 24), (0.7, 60), (0.3, 11), (0.7, 0.995), (0.02, 0.88)])
-    drawn = np.exp(rng.uniform(drawn[:, 0], drawn[:, 1], (n, 5)))
-    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 5)
-    im4, ratio, p, eta, limit = np.concatenate([grid, drawn]).T
+    smaller at the same shape or bouncier, or the limit falls: on a grid over the domain and p beyond it, with
+    so many values of IM4, PGA/PGV and p, and the ends of eta, in which all functions are linear."""
+    spaced = lambda ends, n: np.exp(np.linspace(*np.log(ends), n))
+    im4 = np.append([1.0, 1.02, 1.05, 1.1, 1.2], spaced((1.4, MOST_IM4 / STEP), points[0]))
+    p = np.concatenate([[0.35], spaced(DOMAIN["p"], points[2]), [9.0]])
+    limits = [0.02, 0.1, 0.4, 0.88] if event == "pex" else [0.2]
+    axes = im4, spaced(DOMAIN["ratio"], points[1]), p, [0.7, 0.995], limits
+    im4, ratio, p, eta, limit = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
     here = {"im4": im4, "im5": im4 * p / ratio, "p_rad_s": p, "eta": eta}
     at = lambda limit=limit, **changed: design(event, here | changed, limit)
     faster, smaller = here["im5"] * STEP, p * STEP
@@ -78,14 +77,16 @@ def uplift_numbers(cases, happened, logit, start=SOUGHT):
 def surface(event, cases, with_magnitude):
     """Returns the coefficients, that of M - 6.9, and n, d and k of one kind of motion."""
     cases, limit, happened = sample(event, cases)
-    columns, gains = design(event, cases, limit), rises(event)
+    columns, gains, fine = design(event, cases, limit), rises(event), rises(event, (24, 13, 10))
     if with_magnitude:
         columns = np.column_stack([columns, cases["mw"] - 6.9])
-        gains = np.column_stack([gains, np.zeros(len(gains))])
+        gains, fine = (np.column_stack([rows, np.zeros(len(rows))]) for rows in (gains, fine))
     numbers, b = SOUGHT, None
     for _ in range(4):
         b = monotone_logistic(columns, happened, gains, added=uplift(cases, np.exp(numbers)), b=b)
         numbers = uplift_numbers(cases, happened, columns @ b, numbers)
-    b = monotone_logistic(columns, happened, gains, added=uplift(cases, np.exp(numbers)), b=b)
+    for _ in range(3):
+        gains = np.concatenate([gains, fine[fine @ b < 20 * SLACK]])
+        b = monotone_logistic(columns, happened, gains, added=uplift(cases, np.exp(numbers)), b=b)
     k = gains.shape[1] - with_magnitude
     return b[:k], b[k] if with_magnitude else 0.0, np.exp(numbers)

@@ -139,7 +139,7 @@ def former(event, cases):
     known["w"] = known["w"] - 0.4 * limit
     known |= {"r": np.log(cases["im3"]), "eta": (cases["eta"] - 0.85) / 0.1, "limit": limit}
     known["p"], logit = np.log(cases["p_rad_s"] / 2.0), 0.0
-    for line in open(sys.argv[3]):
+    for line in (line for line in open(sys.argv[3]) if not line.startswith("#")):
         what, curve, *cells = line.strip().split(",")
         if (what, curve) == ("term", event):
             factors = [name.partition("^") for name in cells[0].split("*") if name != "1"]

@@ -26,8 +26,8 @@ for seed in 101 102 103; do
     call simulate --in "study_$seed.motions.parquet" --structures study.csv --out "study_$seed.parquet"
 done
 tail -n +2 "$table" | cut -d, -f2 | sort -u | sed "s|^|$at2/|" > files.txt
-xargs "$rockfrag" import-motions --pulses skip --quiet --progress never --out at2.parquet < files.txt > /dev/null
-python3 "$here/cases.py" motions records.motions.parquet at2.parquet "$table"
+xargs "$rockfrag" import-motions --about "$table" --pulses skip --quiet --out at2.parquet < files.txt > /dev/null
+python3 "$here/cases.py" motions records.motions.parquet at2.parquet
 for list in records blocks; do
     call simulate --in records.motions.parquet --structures $list.csv --out $list.parquet
 done

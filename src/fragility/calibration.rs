@@ -156,13 +156,18 @@ impl Calibration {
     }
 
     fn calibrated(&self, of: &Predictor) -> f64 {
-        self.c + self.ln_s.exp() * of.logit + self.m * of.magnitude + of.added
+        self.c + self.ln_s.exp() * of.logit + self.m * self.magnitude(of) + of.added
+    }
+
+    /// M - 6.9. That which PGV / PGA tells does not count where P falls with it: P never falls as PGV rises.
+    fn magnitude(&self, of: &Predictor) -> f64 {
+        if self.m < 0.0 && of.magnitude_sd > 0.0 { of.middle } else { of.magnitude }
     }
 
     /// Computes the calibrated probability, with 95 % limits: those of c + s L + m (M - 6.9) by the delta
     /// method, J V J', and of one scenario by tau and the spread of an unknown magnitude too.
     pub fn probability(&self, of: &Predictor, scenarios: Scenarios) -> Probability {
-        let by_parameters = [1.0, self.ln_s.exp() * of.logit, of.magnitude];
+        let by_parameters = [1.0, self.ln_s.exp() * of.logit, self.magnitude(of)];
         let between = match scenarios {
             Scenarios::One => self.tau.hypot(self.m * of.magnitude_sd),
             Scenarios::Many => 0.0,

@@ -46,8 +46,10 @@ impl Kind {
 pub struct Predictor {
     /// L, the logit of the surface.
     pub logit: f64,
-    /// M - 6.9, M within the magnitudes of the kind of motion; expected where M is not known.
+    /// M - 6.9, M within the magnitudes of the kind of motion; where M is not known, that which PGV / PGA tells.
     pub magnitude: f64,
+    /// The same in the middle of these magnitudes.
+    pub middle: f64,
     /// Standard deviation of M where it is not known, else 0.
     pub magnitude_sd: f64,
     /// What the calibrated logit gains: ln(1 - exp(-((IM4 - 1) IM5^k / d)^n)), minus infinity at uplift.
@@ -73,6 +75,7 @@ pub fn predictor(
     Some(Predictor {
         logit: SURFACE.logit(curve, kind, &features(structure, measures, im5, limit_state)),
         magnitude: mw.unwrap_or_else(mean).clamp(low, high) - REFERENCE_MAGNITUDE,
+        middle: 0.5 * (low + high) - REFERENCE_MAGNITUDE,
         magnitude_sd: if mw.is_some() { 0.0 } else { expected.sd },
         added: known.uplift[curve as usize].gain(measures.im4, im5),
     })
