@@ -147,7 +147,7 @@ fn every_file_has_its_schema() {
     let of_record = table.batches(&is_wanted).next().unwrap().unwrap();
     assert_eq!(of_record.numbers("mw").unwrap(), [7.3]);
     assert_eq!(of_record.numbers("re_km").unwrap(), [4.5]);
-    assert_eq!(of_record.texts("earthquake").unwrap(), [Some("A".to_string())]);
+    assert_eq!(of_record.texts("earthquake").unwrap(), [Some("A".into())]);
     std::fs::write(folder.join("about.csv"), "file,magnitude\nrecord.csv,73\n").unwrap();
     fail(folder, "import-motions record.csv --out other.parquet --about about.csv", 2, &["about.csv", "73"]);
     let mut files: Vec<_> =
