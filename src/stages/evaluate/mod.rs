@@ -213,7 +213,9 @@ impl Evaluate {
             _ => None,
         });
         match (reasons.collect::<Option<Vec<&String>>>().as_deref(), &self.structures.structures) {
-            (Some([reason, ..]), Some(_)) => anyhow::bail!("{reason}; no other row can be right either"),
+            (Some([reason, ..]), Some(path)) => {
+                anyhow::bail!("{}: {reason}; no other row can be right either", path.display())
+            }
             (Some([reason, ..]), None) => Err(UsageError::because(reason.as_str())),
             _ => Ok(objects),
         }

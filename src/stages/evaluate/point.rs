@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::object::{Answer, ObjectRow, Predicted, Subject};
 use super::words::{
     brief, friction, linear, model, model_of_all, mostly_unknown, size, table, title, too_far, unanswered,
-    validity,
-    with_sentences,
+    validity, with_sentences,
 };
 use crate::fragility::{Probability, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities};

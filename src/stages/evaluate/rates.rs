@@ -6,8 +6,7 @@ use super::object::{Answer, Predicted};
 use super::target::Target;
 use super::words::{
     brief, friction, linear, model, model_of_all, mostly_unknown, size, table, title, too_far, unanswered,
-    validity,
-    with_sentences,
+    validity, with_sentences,
 };
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
