@@ -235,7 +235,8 @@ fn probabilities_go_to_0_at_uplift_and_fall_with_the_limit_state() {
 /// Limits that are finite, hold the value, and are not all of 0 to 1.
 fn expect_limits(p: Probability) {
     assert!(0.0 <= p.low && p.low <= p.value && p.value <= p.high && p.high <= 1.0, "{p:?}");
-    assert!(p.high - p.low < 0.95, "{p:?}");
+    // Magnitude is not known of any of these motions.
+    assert!(p.high - p.low < 0.98, "{p:?}");
 }
 
 #[test]

@@ -36,13 +36,14 @@ impl About {
         if magnitude.or(distance).or(earthquake).is_none() {
             return Err(problem("expected a column 'magnitude', 'distance' or 'earthquake'".to_string()));
         }
-        let number = |row: usize, column: Option<usize>, is_possible: &dyn Fn(f64) -> bool, expected: &str| {
-            let Some(column) = column.filter(|&column| !sheet.cell(row, column).is_empty()) else {
-                return Ok(None);
+        let number =
+            |row: usize, column: Option<usize>, is_possible: &dyn Fn(f64) -> bool, expected: &str| {
+                let Some(column) = column.filter(|&column| !sheet.cell(row, column).is_empty()) else {
+                    return Ok(None);
+                };
+                let value = sheet.number(row, column)?;
+                if is_possible(value) { Ok(Some(value)) } else { Err(sheet.refusal(row, column, expected)) }
             };
-            let value = sheet.number(row, column)?;
-            if is_possible(value) { Ok(Some(value)) } else { Err(sheet.refusal(row, column, expected)) }
-        };
         let known = |row: usize| -> Result<(String, Known), SheetError> {
             let mw = number(row, magnitude, &|mw| MAGNITUDES.contains(&mw), "a moment magnitude")?;
             let re_km = number(row, distance, &|km| km >= 0.0, "a distance of 0 km or more")?;
