@@ -10,6 +10,7 @@ use crate::keyword::keywords;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "text() says it")]
 pub enum Warning {
+    UnusualScenario,
     ImplausibleRow,
     ImplausibleRecord,
     OtherPeak,
@@ -19,6 +20,7 @@ pub enum Warning {
     HazardExtrapolated,
     HazardStartsLate,
     NotFitted,
+    OtherStructure,
     Extrapolated,
     UnusualStructure,
     PoorFit,
@@ -31,6 +33,7 @@ pub enum Warning {
 }
 
 keywords!(Warning {
+    UnusualScenario = "unusual_scenario",
     ImplausibleRow = "implausible_row",
     ImplausibleRecord = "implausible_record",
     OtherPeak = "other_peak",
@@ -40,6 +43,7 @@ keywords!(Warning {
     HazardExtrapolated = "hazard_extrapolated",
     HazardStartsLate = "hazard_starts_late",
     NotFitted = "not_fitted",
+    OtherStructure = "other_structure",
     Extrapolated = "extrapolated",
     UnusualStructure = "unusual_structure",
     PoorFit = "poor_fit",
@@ -55,6 +59,9 @@ impl Warning {
     /// In at most 15 words.
     pub fn text(self) -> &'static str {
         match self {
+            Warning::UnusualScenario => {
+                "outside of the earthquakes of the paper: magnitude 5.5 to 7.5, distance up to 20 km"
+            }
             Warning::ImplausibleRow => "this row cannot be right; it has no result",
             Warning::ImplausibleRecord => "this is no plausible record of an earthquake",
             Warning::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",
@@ -66,6 +73,7 @@ impl Warning {
                 "the hazard curve starts above the intensity that uplifts it: rates are too low"
             }
             Warning::NotFitted => "not among the fitted structures: the universal surface is used",
+            Warning::OtherStructure => "calibrated on responses of another structure, as --name has it",
             Warning::Extrapolated => "outside of the motions that the model was fitted to",
             Warning::UnusualStructure => "outside of the structures that the universal surface was fitted to",
             Warning::PoorFit => "the paper's curve or planes do not fit these responses",

@@ -159,6 +159,7 @@ pub fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<(Ca
         matches = parse(&[words, vec![out]].concat())?;
     }
     let stage = Stages::of(command.get_name(), &matches)?;
+    files::check_out(command, &matches)?;
     stage.check()?;
     Ok((Call::new(command, &matches, stage), matches))
 }

@@ -9,8 +9,9 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
-use clap::{Arg, ArgMatches, ValueHint};
+use clap::{Arg, ArgMatches, Command, ValueHint};
 
+use super::UsageError;
 use crate::table::file::Partition;
 
 /// What an argument is to a stage. Its value hint says so, which completions need as well: an argument without
@@ -87,6 +88,20 @@ pub fn out_beside_in(matches: &ArgMatches) -> Option<OsString> {
     }
     let [input, out] = ["in", "out"].map(|id| matches.get_one::<PathBuf>(id).cloned().unwrap_or_default());
     Some(assigned("out", input.with_file_name(out).as_os_str()))
+}
+
+/// Checks that what a stage writes as Parquet has no other ending.
+pub fn check_out(command: &Command, matches: &ArgMatches) -> anyhow::Result<()> {
+    let is_parquet = |path: &Path| path.extension().is_some_and(|ending| ending == "parquet");
+    let Some(arg) = command.get_arguments().find(|arg| role(arg) == Role::Output) else { return Ok(()) };
+    let is_written_so = arg.get_default_values().iter().any(|default| is_parquet(Path::new(default)));
+    match matches.try_get_one::<PathBuf>("out").ok().flatten() {
+        Some(out) if is_written_so && out.extension().is_some() && !is_parquet(out) => {
+            let out = out.display();
+            Err(UsageError::because(format!("out is {out}; expected a name that ends in .parquet")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Returns `--flag=value`; the value may begin with a minus sign.

@@ -2,7 +2,10 @@
 
 use std::fmt::Display;
 use std::ops::RangeInclusive;
+use std::path::Path;
 use std::str::FromStr;
+
+use crate::number::count;
 
 /// Returns a parser of numbers in a range; `expected` describes them, with unit and range.
 pub fn number<T: FromStr + PartialOrd + Clone>(
@@ -44,6 +47,20 @@ impl FromStr for Steps {
         let rising = values.iter().all(|value| value.is_finite()) && values.is_sorted_by(|a, b| a < b);
         if rising { Ok(Steps(values)) } else { Err(expected()) }
     }
+}
+
+/// Lines that are printed of a list.
+pub const MOST_LINES: usize = 10;
+
+/// Returns the first lines of a printed list after its headings, and where all are.
+pub fn first_lines(text: &str, headings: usize, file: &Path) -> String {
+    let (lines, most) = (text.lines().count(), headings + MOST_LINES);
+    if lines <= most {
+        return text.to_string();
+    }
+    let first: String = text.lines().take(most - 1).map(|line| format!("{line}\n")).collect();
+    let file = file.file_name().unwrap_or_default().to_string_lossy();
+    format!("{first}and {} more, in {file}\n", count(lines + 1 - most))
 }
 
 /// Joins the items of a list, the first few by name: `a, b, c and 9 more`.

@@ -1,7 +1,7 @@
 //! fit-pex: the probability of a demand above the limit state in safe rocking, by the paper's lines and
 //! planes (Eqs. 14 to 18).
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{Args, ValueHint};
@@ -84,8 +84,8 @@ impl Stage for FitPex {
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let summary = format!(
             "{}\n{}",
-            calibrations_text(&calibrations, ["rock safely", "exceed"])?,
-            planes_text(&fits)?
+            calibrations_text(&calibrations, ["rock safely", "exceed"], &self.out)?,
+            planes_text(&fits, &self.out)?
         );
         context.warn(warnings(&calibrations));
         context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
@@ -108,7 +108,7 @@ struct PlanesLine {
     verdict: String,
 }
 
-fn planes_text(fits: &[DemandFit]) -> anyhow::Result<String> {
+fn planes_text(fits: &[DemandFit], out: &Path) -> anyhow::Result<String> {
     let planes: Vec<&DemandFit> = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar).collect();
     let line = |pair: &[&DemandFit]| {
         let (below, above) = (pair[0], pair[1]);
@@ -122,5 +122,5 @@ fn planes_text(fits: &[DemandFit]) -> anyhow::Result<String> {
         }
     };
     let lines: Vec<PlanesLine> = planes.chunks_exact(2).map(line).collect();
-    Ok(format!("planes (paper), below and above the transition\n{}", text(&lines)?))
+    Ok(format!("planes (paper), below and above the transition\n{}", text(&lines, out)?))
 }

@@ -1,6 +1,6 @@
 //! fit-pro: the probability of overturning, by the paper's lognormal curves (Eqs. 19 to 24).
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use serde::{Deserialize, Serialize};
@@ -66,9 +66,11 @@ impl Stage for FitPro {
             bar.advance(1)?;
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
-        let curves = curves_text(&fits, self.confidence)?;
+        let curves = curves_text(&fits, self.confidence, &self.out)?;
         let summary = match self.calibrates() {
-            true => format!("{}\n{curves}", calibrations_text(&calibrations, ["rock", "overturn"])?),
+            true => {
+                format!("{}\n{curves}", calibrations_text(&calibrations, ["rock", "overturn"], &self.out)?)
+            }
             false => curves,
         };
         context.warn(warnings(&calibrations));
@@ -98,7 +100,7 @@ struct CurveLine {
     verdict: String,
 }
 
-fn curves_text(fits: &[CurveFit], confidence: f64) -> anyhow::Result<String> {
+fn curves_text(fits: &[CurveFit], confidence: f64, out: &Path) -> anyhow::Result<String> {
     let line = |fit: &CurveFit| {
         let parameters = fit.parameters(confidence);
         let of = |wanted: Parameter| {
@@ -116,5 +118,5 @@ fn curves_text(fits: &[CurveFit], confidence: f64) -> anyhow::Result<String> {
     let of_im5 = fits.iter().filter(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
     let lines: Vec<CurveLine> = of_im5.map(line).collect();
     let limits = 100.0 * confidence;
-    Ok(format!("lognormal curve (paper) of IM5, with {limits} % limits\n{}", text(&lines)?))
+    Ok(format!("lognormal curve (paper) of IM5, with {limits} % limits\n{}", text(&lines, out)?))
 }

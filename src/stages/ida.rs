@@ -1,6 +1,6 @@
 //! ida: every structure under every motion at rising intensity.
 
-use std::fmt::Write as _;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,10 +14,11 @@ use super::shared::structures::{StructureArgs, warnings_of_all};
 use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, MeasureScratch};
+use crate::number::{THREE_DIGITS, counted, fixed, significant};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
-use crate::pipeline::options::number;
+use crate::pipeline::options::{MOST_LINES, first_lines, number};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{
@@ -87,6 +88,7 @@ keywords!(ScaledMeasure { Scale = "scale", Pga = "pga", Pgv = "pgv", Im4 = "im4"
 pub struct CapacityRow {
     pub motion_id: String,
     pub suite: Option<String>,
+    pub earthquake: Option<String>,
     pub structure: String,
     pub measure: ScaledMeasure,
     pub unscaled: f64,
@@ -156,6 +158,14 @@ impl Stage for Ida {
                 self.to, self.from
             )));
         }
+        let (most, expected) = match self.measure {
+            ScaledMeasure::Pga => (20.0, "a PGA up to 20 g: is it in m/s2?"),
+            ScaledMeasure::Pgv => (20.0, "a PGV up to 20 m/s: is it in cm/s?"),
+            _ => (f64::INFINITY, ""),
+        };
+        if self.to > most {
+            return Err(UsageError::because(format!("to is {}; expected {expected}", self.to)));
+        }
         self.structures.resolve().map(|_| ())
     }
 
@@ -192,7 +202,7 @@ impl Stage for Ida {
         )?;
         let fits = fits(&capacities, &scan)?;
         context.warn(ends_early(&fits));
-        let summary = summary(&fits);
+        let summary = summary(&fits, &self.out);
         context.finish(stripes, &summary)?;
         context.write(&fragility_file, &fits, &summary)?;
         context.write(&self.out, &capacities, &summary)?;
@@ -263,6 +273,7 @@ impl Ida {
         CapacityRow {
             motion_id: case.motion.motion_id.clone(),
             suite: case.motion.suite.clone(),
+            earthquake: case.motion.earthquake.clone(),
             structure: case.structure.name.clone(),
             measure: self.measure,
             unscaled: case.unscaled,
@@ -275,6 +286,18 @@ impl Ida {
 }
 
 impl ScaledMeasure {
+    /// Its name and unit, as they are printed.
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            ScaledMeasure::Scale => ("scale factor", ""),
+            ScaledMeasure::Pga => ("PGA", " g"),
+            ScaledMeasure::Pgv => ("PGV", " m/s"),
+            ScaledMeasure::Im4 => ("IM4", ""),
+            ScaledMeasure::Im5 => ("IM5", ""),
+            ScaledMeasure::Im6 => ("IM6", ""),
+        }
+    }
+
     /// That of a motion as it is; none where it has none, or the ground does not move.
     fn unscaled(self, measures: &Measures, structure: &Structure) -> Option<f64> {
         let dimensionless = measures.of_structure(structure);
@@ -340,22 +363,28 @@ fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
 
 /// The lognormal distribution of the capacities of each suite and structure.
 fn fits(capacities: &[CapacityRow], scan: &Scan) -> anyhow::Result<Vec<CapacityFitRow>> {
-    let suites: Vec<_> = capacities.iter().map(|row| row.suite.clone()).collect();
-    let structures: Vec<_> = capacities.iter().map(|row| row.structure.clone()).collect();
     let of = |rows: Vec<usize>| {
         let rows: Vec<&CapacityRow> = rows.into_iter().map(|row| &capacities[row]).collect();
         fit(&rows, scan)
     };
-    Ok(frame::groups(&suites, &structures)?.into_iter().map(of).collect())
+    Ok(frame::groups(capacities.iter().map(CapacityRow::group))?.into_iter().map(of).collect())
 }
 
-fn fit(rows: &[&CapacityRow], scan: &Scan) -> CapacityFitRow {
+fn fit<'a>(rows: &[&'a CapacityRow], scan: &Scan) -> CapacityFitRow {
     let known = |row: &&CapacityRow| match (row.capacity, row.overturning_intensity) {
         (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
         (CapacityStatus::Below, _) => KnownCapacity::Below(scan.lowest()),
         _ => KnownCapacity::Above(scan.highest()),
     };
-    let fit = fit_capacities(&rows.iter().map(known).collect::<Vec<_>>());
+    // Motions of one earthquake are one cluster, those of an unknown one each its own.
+    let mut numbers: HashMap<&str, u32> = HashMap::new();
+    let cluster = |row: &&'a CapacityRow| {
+        let name = row.earthquake.as_deref().unwrap_or(&row.motion_id);
+        let next = numbers.len() as u32;
+        *numbers.entry(name).or_insert(next)
+    };
+    let clusters: Vec<u32> = rows.iter().map(cluster).collect();
+    let fit = fit_capacities(&rows.iter().map(known).collect::<Vec<_>>(), &clusters);
     let of = |value: fn(&CapacityFit) -> f64| fit.as_ref().ok().map(value);
     let count = |status: CapacityStatus| rows.iter().filter(|row| row.capacity == status).count() as i64;
     CapacityFitRow {
@@ -381,23 +410,31 @@ fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
     without.map(|row| (Warning::ScanEndsEarly, row.structure.clone())).collect()
 }
 
-/// A line a structure: its median intensity of overturning with limits.
-fn summary(fits: &[CapacityFitRow]) -> String {
-    let mut text = String::new();
-    for row in fits {
-        let suite = row.suite.as_deref().map_or(String::new(), |suite| format!(" ({suite})"));
-        let _ = match (row.theta, row.theta_low, row.theta_high, row.beta) {
-            (Some(theta), Some(low), Some(high), Some(beta)) => writeln!(
-                text,
-                "{}{suite}: half of the motions overturn it at {} {theta:.3} (95 % limits {low:.3} to {high:.3}), dispersion {beta:.2}",
-                row.structure, row.measure
-            ),
-            _ => writeln!(
-                text,
-                "{}{suite}: no median; {} of {} motions do not overturn it",
-                row.structure, row.n_safe, row.n
-            ),
-        };
+/// One line per structure: the median of its lowest overturning intensities, with limits; of many, the weakest.
+fn summary(fits: &[CapacityFitRow], out: &Path) -> String {
+    let mut fits: Vec<&CapacityFitRow> = fits.iter().collect();
+    if fits.len() > MOST_LINES {
+        fits.sort_by(|a, b| a.theta.unwrap_or(f64::INFINITY).total_cmp(&b.theta.unwrap_or(f64::INFINITY)));
     }
-    text
+    let line = |row: &&CapacityFitRow| {
+        let suite = row.suite.as_deref().map_or(String::new(), |suite| format!(" ({suite})"));
+        let name = format!("{}{suite}", row.structure);
+        let (name_of_measure, unit) = row.measure.words();
+        match (row.theta, row.beta) {
+            (Some(theta), Some(beta)) => {
+                let median = significant(theta, 3);
+                let limits = THREE_DIGITS.limits([row.theta, row.theta_low, row.theta_high], "95 % limits ");
+                let beta = fixed(beta, 2);
+                format!(
+                    "{name}: median of the lowest {name_of_measure} that overturns it {median}{unit} {limits}, dispersion {beta}\n"
+                )
+            }
+            _ => format!(
+                "{name}: no median; {} of {} do not overturn it\n",
+                row.n_safe,
+                counted(row.n as usize, "motion")
+            ),
+        }
+    };
+    first_lines(&fits.iter().map(line).collect::<String>(), 0, out)
 }

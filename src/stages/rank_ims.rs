@@ -1,5 +1,6 @@
 //! rank-ims: which intensity measures predict best, alone, in pairs and in triples.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
@@ -7,7 +8,7 @@ use anyhow::Context as _;
 use clap::{Args, ValueHint};
 use polars::prelude::SortMultipleOptions;
 
-use super::shared::responses;
+use super::shared::responses::{self, Candidates};
 use crate::motion::Dimension;
 use crate::paper;
 use crate::pipeline::UsageError;
@@ -78,7 +79,9 @@ impl Stage for RankIms {
             Some(path) => Further::read(path, &self.candidate)?,
             None => Further::default(),
         };
-        let groups = responses::read_with(&self.input, &|motions, structure| further.of(motions, structure))?;
+        let of_motions = |motions: &[&str], structure: &Structure| further.of(motions, structure);
+        let candidates = self.motions.is_some().then_some(&of_motions as Candidates);
+        let groups = responses::read_with(&self.input, candidates)?;
         let rules = RankingRules { terms: self.terms, folds: self.folds, transition: self.transition };
         let bar = context.bar(2 * groups.len() as u64);
         let (mut sets, mut incomplete) = (Vec::new(), BTreeMap::new());
@@ -175,7 +178,8 @@ impl Further {
             for measure in &mut measures {
                 measure.values.extend(batch.numbers(&measure.column)?);
             }
-            places.extend(batch.required_texts("motion_id")?.into_iter().zip(rows..));
+            let ids = batch.required_texts("motion_id")?.into_iter().map(Cow::into_owned);
+            places.extend(ids.zip(rows..));
             rows += batch.rows.num_rows();
         }
         // A measure that no motion has does not compete.

@@ -6,10 +6,12 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
 use crate::motion::{Design, Grid};
+use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number};
 use crate::pipeline::stage::Stage;
+use crate::warning::Warning;
 
 /// Sample earthquake scenarios on a magnitude-distance grid
 #[derive(Debug, Args)]
@@ -34,6 +36,10 @@ pub struct SampleScenarios {
     out: PathBuf,
 }
 
+/// Magnitudes that the paper samples, and distances up to those, km: Eqs. 2 and 3 hold near the fault.
+const PAPER_MW: [f64; 2] = [5.5, 7.5];
+const PAPER_RE_KM: [f64; 2] = [0.0, 20.0];
+
 impl Stage for SampleScenarios {
     fn outputs(&self) -> Vec<PathBuf> {
         vec![self.out.clone()]
@@ -57,7 +63,14 @@ impl Stage for SampleScenarios {
         let cells: Vec<_> =
             (0..grid.cells()).into_par_iter().map(|cell| grid.scenarios_of_cell(cell)).collect();
         let scenarios = cells.concat();
-        let summary = format!("{} scenarios in {} cells\n", scenarios.len(), grid.cells());
+        let summary =
+            format!("{} in {}\n", counted(scenarios.len(), "scenario"), counted(grid.cells(), "cell"));
+        let unusual = |name: &str, values: &[f64], [low, high]: [f64; 2]| {
+            let value = values.iter().find(|value| !(low..=high).contains(*value))?;
+            Some((Warning::UnusualScenario, format!("{name} {value}")))
+        };
+        let both = [unusual("mw", &mw.0, PAPER_MW), unusual("re", &re.0, PAPER_RE_KM)];
+        context.warn(both.into_iter().flatten().collect());
         context.write(&self.out, &scenarios, &summary)?;
         Ok(summary)
     }

@@ -10,9 +10,10 @@ use rayon::prelude::*;
 use super::shared::motions::{DistinctIds, Measures, record, warnings};
 use super::shared::structures::{StructureArgs, warnings_of_all};
 use crate::motion::MeasureScratch;
+use crate::number;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::{out_of_partition, part};
-use crate::pipeline::options::listed;
+use crate::pipeline::options::{MOST_LINES, first_lines, listed};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
@@ -94,7 +95,7 @@ impl Stage for Simulate {
                 Ok(())
             },
         )?;
-        let summary = overturned.text(&structures, motions.rows());
+        let summary = overturned.text(&structures, motions.rows(), &self.out);
         if let Some(id) =
             self.trace.iter().find(|id| traces.iter().all(|row: &TraceRow| row.motion_id != **id))
         {
@@ -197,17 +198,25 @@ impl Overturned {
         known.1.extend(named.into_iter().take(NAMED - known.1.len().min(NAMED)));
     }
 
-    /// A line a structure.
-    fn text(&self, structures: &[Structure], motions: u64) -> String {
-        let line = |structure: &Structure| {
+    /// One line per structure; of many, those that overturn most.
+    fn text(&self, structures: &[Structure], motions: u64, out: &Path) -> String {
+        let mut structures: Vec<&Structure> = structures.iter().collect();
+        if structures.len() > MOST_LINES {
+            let count = |structure: &Structure| self.0.get(&structure.name).map_or(0, |(count, _)| *count);
+            structures.sort_by_key(|structure| std::cmp::Reverse(count(structure)));
+        }
+        let line = |structure: &&Structure| {
             let (count, named) = self.0.get(&structure.name).cloned().unwrap_or_default();
             let named = if (1..=NAMED as u64).contains(&count) {
                 format!(" ({})", listed(&named, NAMED))
             } else {
                 String::new()
             };
-            format!("{}: {count} of {motions} motions overturn it{named}\n", structure.name)
+            let overturn = if count == 1 { "overturns" } else { "overturn" };
+            let (count, motions) =
+                (number::count(count as usize), number::counted(motions as usize, "motion"));
+            format!("{}: {count} of {motions} {overturn} it{named}\n", structure.name)
         };
-        structures.iter().map(line).collect()
+        first_lines(&structures.iter().map(line).collect::<String>(), 0, out)
     }
 }

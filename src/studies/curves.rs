@@ -24,7 +24,7 @@ pub fn motion_at(fit: &CurveFit, value: f64, im3: f64) -> IntensityMeasures {
         (Measure::Im5, _) => value * im3,
         _ => value,
     };
-    IntensityMeasures { im1: None, im2: None, im3: Some(im3), im4, im5: im4 / im3, im6: None }
+    IntensityMeasures::of_peaks(im4, im4 / im3)
 }
 
 /// Computes the mean log score of a curve of overturning on the cases of any structure that rocked.

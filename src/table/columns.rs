@@ -1,5 +1,6 @@
 //! Columns of a batch by name, as numbers, texts or words, from any program.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -44,22 +45,22 @@ impl Batch {
     }
 
     /// Returns the texts of a column (integers as texts), `None` for null or if it is missing.
-    pub fn texts(&self, name: &str) -> Result<Vec<Option<String>>, TableError> {
+    pub fn texts(&self, name: &str) -> Result<Vec<Option<Cow<'_, str>>>, TableError> {
         let Some(column) = self.rows.column_by_name(name) else {
             return Ok(vec![None; self.rows.num_rows()]);
         };
         if let Some(texts) = column.as_string_opt::<i32>() {
-            return Ok(texts.iter().map(|text| text.map(str::to_string)).collect());
+            return Ok(texts.iter().map(|text| text.map(Cow::Borrowed)).collect());
         }
         let whole = column.data_type().is_integer().then(|| numbers(column)).flatten();
         let whole = whole.ok_or_else(|| self.other_type(name, column, "text"))?;
-        Ok(whole.iter().map(|number| (!number.is_nan()).then(|| number.to_string())).collect())
+        Ok(whole.iter().map(|number| (!number.is_nan()).then(|| Cow::Owned(number.to_string()))).collect())
     }
 
     /// Returns the texts of a column without nulls.
-    pub fn required_texts(&self, name: &'static str) -> Result<Vec<String>, TableError> {
+    pub fn required_texts(&self, name: &'static str) -> Result<Vec<Cow<'_, str>>, TableError> {
         self.expect(name)?;
-        let text = |(row, text): (usize, Option<String>)| {
+        let text = |(row, text): (usize, Option<_>)| {
             text.ok_or_else(|| self.value_error(row, name, "null; expected a text"))
         };
         self.texts(name)?.into_iter().enumerate().map(text).collect()
@@ -67,7 +68,7 @@ impl Batch {
 
     /// Returns the words of a column without nulls.
     pub fn required_words<T: Keyword>(&self, name: &'static str) -> Result<Vec<T>, TableError> {
-        let word = |(row, text): (usize, String)| {
+        let word = |(row, text): (usize, Cow<str>)| {
             keyword::parse(&text).map_err(|unknown| self.value_error(row, name, unknown.to_string()))
         };
         self.required_texts(name)?.into_iter().enumerate().map(word).collect()

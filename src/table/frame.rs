@@ -8,6 +8,7 @@ use serde_json::{Map, Value};
 
 use super::columns::numbers;
 use super::file::{NARROW_BATCH, Table};
+use crate::fragility::Group;
 use crate::keyword::keywords;
 use crate::number::aligned;
 
@@ -46,13 +47,15 @@ pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
 }
 
 /// The rows of each suite and structure, in the order in which these first come.
-pub fn groups(suites: &[Option<String>], structures: &[String]) -> Result<Vec<Vec<usize>>, PolarsError> {
+pub fn groups<'a>(of: impl Iterator<Item = Group<'a>>) -> Result<Vec<Vec<usize>>, PolarsError> {
+    let (suites, structures): (Vec<_>, Vec<_>) = of.map(|group| (group.suite, group.structure)).unzip();
+    let height = structures.len();
     let keys = vec![
         Series::new("suite".into(), suites).into_column(),
         Series::new("structure".into(), structures).into_column(),
     ];
     // On this thread: the pool of polars does not know --threads.
-    let frame = DataFrame::new(structures.len(), keys)?;
+    let frame = DataFrame::new(height, keys)?;
     let groups = frame.group_by_with_series(frame.columns().to_vec(), false, true)?;
     let rows = |group: GroupsIndicator| match group {
         GroupsIndicator::Idx((_, rows)) => rows.iter().map(|&row| row as usize).collect(),

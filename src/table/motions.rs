@@ -1,6 +1,7 @@
 //! The motions file: one motion per row, its samples as a list. The required columns are motion_id, dt_s and
 //! acceleration_m_s2.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -143,7 +144,9 @@ fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
     let (mw, re_km, pga, pgv, tm, tp) = (mw?, re_km?, pga?, pgv?, tm?, tp?);
     let (suites, earthquakes) = (batch.texts("suite")?, batch.texts("earthquake")?);
     let (ids, dt) = (batch.required_texts("motion_id")?, batch.required_numbers("dt_s")?);
-    let rows = ids.into_iter().zip(suites).zip(earthquakes).zip(samples).enumerate();
+    let owned = |text: Option<Cow<str>>| text.map(Cow::into_owned);
+    let (suites, earthquakes) = (suites.into_iter().map(owned), earthquakes.into_iter().map(owned));
+    let rows = ids.into_iter().map(Cow::into_owned).zip(suites).zip(earthquakes).zip(samples).enumerate();
     let motion = |(at, (((motion_id, suite), earthquake), acceleration_m_s2))| Motion {
         motion_id,
         suite,

@@ -42,6 +42,8 @@ fn mistakes_on_the_command_line_are_named() {
         ("synthesize-motions --suite pulse,pulse", vec!["suite"]),
         ("synthesize-motions --site swamp --in out.parquet", vec!["out.parquet"]),
         ("ida --from 2 --to 1 --structures paper", vec!["to", "2"]),
+        ("ida --measure pgv --to 300 --structures paper", vec!["to", "300", "cm/s"]),
+        ("simulate --structures paper --out responses.csv", vec!["responses.csv", ".parquet"]),
     ] {
         let code = if call.contains("out.parquet") { 1 } else { 2 };
         fail(folder.path(), call, code, &named);

@@ -148,6 +148,7 @@ fn slips_are_refused_or_warned() {
         ("hazard.csv", &curve(1.0)),
         ("percent.csv", &curve(100.0)),
         ("impossible.csv", &curve(1e300)),
+        ("both.csv", "pga_g,pgv_m_s,p_rad_s,alpha_rad,eta\n0.5,0.6,2.5,0.2,0.92\n"),
         ("sign.csv", "pga_g,annual rate (%)\n0.1,1.8\n1,0.02\n"),
     ]);
     for (arguments, code, named) in [
@@ -162,9 +163,13 @@ fn slips_are_refused_or_warned() {
         (&format!("{BLOCK} --hazard hazard.csv --pga 0.5 --pgv 0.6"), 2, vec!["--hazard", "--pga"]),
         (&format!("{BLOCK} --pga 0.5 --pgv 0.6 --out answer.txt"), 2, vec!["answer.txt"]),
         ("--pga 0.5 --pgv 0.6", 2, vec!["--width"]),
+        (&format!("{BLOCK} --in both.csv"), 2, vec!["both.csv", "p_rad_s"]),
         (BLOCK, 2, vec!["--pga", "--hazard"]),
     ] {
         fail(folder.path(), &format!("evaluate {arguments}"), code, &named);
+    }
+    for _ in 0..2 {
+        succeed(folder.path(), "evaluate --in both.csv --out written.csv");
     }
     let warned = |arguments: &str| succeed(folder.path(), &format!("evaluate {arguments}")).1;
     let plausible = format!("{BLOCK} --hazard hazard.csv");
@@ -206,6 +211,8 @@ fn a_run_ends_with_the_rate_and_its_fits_answer_validate_and_export() {
     let all = rows(folder.path(), "--fits out --hazard hazard.csv");
     assert_eq!(all.len(), 1, "without a structure, all that are fitted");
     assert!(near(number(&all[0], "overturning_per_year"), number(row, "overturning_per_year"), 1e-12));
+    let other = "evaluate --fits out --name cabinet --width 0.4 --height 1.6 --pga 0.8 --pgv 0.9";
+    assert!(succeed(folder.path(), other).1.contains(Warning::OtherStructure.text()));
     let limit_state = format!("evaluate --fits out {cabinet} --hazard hazard.csv --limit-state 0.3");
     fail(folder.path(), &limit_state, 1, &["0.3", "fit-pex"]);
     succeed(folder.path(), &format!("export --to pelicun --im pgv --fits out {cabinet} --out curve.csv"));

@@ -1,10 +1,28 @@
 //! The distribution of the capacities of an incremental dynamic analysis against scipy.
 
 use rand_distr::{Distribution, StandardNormal};
-use rockfrag::fragility::{KnownCapacity, fit_capacities};
+use rockfrag::fragility::{CapacityFit, KnownCapacity};
 use rockfrag::statistics::FitStatus;
 
 use crate::common::{close, random, read};
+
+/// Each capacity is a cluster of its own.
+fn fit_capacities(capacities: &[KnownCapacity]) -> Result<CapacityFit, FitStatus> {
+    let clusters: Vec<u32> = (0..capacities.len() as u32).collect();
+    rockfrag::fragility::fit_capacities(capacities, &clusters)
+}
+
+#[test]
+fn a_capacity_that_comes_twice_in_a_cluster_counts_once() {
+    let once: Vec<KnownCapacity> = (1..=20).map(|k| KnownCapacity::At(1.1_f64.powi(k * k % 17))).collect();
+    let twice: Vec<KnownCapacity> = once.iter().flat_map(|&capacity| [capacity; 2]).collect();
+    let clusters: Vec<u32> = (0..40).map(|k| k / 2).collect();
+    let width = |fit: CapacityFit| (fit.theta_high / fit.theta_low).ln();
+    let (alone, of_pairs) =
+        (fit_capacities(&twice).unwrap(), rockfrag::fragility::fit_capacities(&twice, &clusters).unwrap());
+    close(width(of_pairs) / width(alone), (2.0_f64 * (20.0 / 19.0) * (39.0 / 40.0)).sqrt(), 1e-12);
+    close(of_pairs.theta, fit_capacities(&once).unwrap().theta, 1e-12);
+}
 
 #[test]
 fn limits_of_known_capacities_are_scipys() {

@@ -202,4 +202,11 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
     assert!(!is_done && error.contains("planes.svg") && error.contains("--force"), "{error}");
     assert!(call("report --in out --title Again --force").0);
     assert!(std::fs::read_to_string(at("out/report.html")).unwrap().contains("<h1>Again</h1>"));
+    // Responses of another structure under the same names: their fits are left out, and the page says so.
+    let simulate = "simulate --in out/motions.parquet --out out/responses.parquet";
+    assert!(call(&format!("{simulate} --structure name=a,p=2,alpha=0.3,eta=0.9")).0);
+    assert!(call("report --in out --title Other --force").0);
+    let page = std::fs::read_to_string(at("out/report.html")).unwrap();
+    assert!(page.contains("pro.parquet is not shown") && page.contains("pex.parquet is not shown"));
+    assert!(!call("report --in empty").0);
 }

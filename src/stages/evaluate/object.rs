@@ -23,6 +23,8 @@ pub struct Answer<R> {
     pub budget: Budget,
     /// The model and the measures of the motion, if requested.
     pub explained: String,
+    /// Responses that the model was fitted to.
+    pub responses: i64,
 }
 
 /// A row of predictions; the default one is that of an object whose row cannot be right.
@@ -145,6 +147,7 @@ pub fn answers<R: Predicted>(
                     warnings: vec![Warning::ImplausibleRow],
                     budget: Budget::default(),
                     explained: String::new(),
+                    responses: 0,
                 });
             }
         };
@@ -162,6 +165,10 @@ pub fn answers<R: Predicted>(
             row: row.with_warnings(texts(&warnings)),
             warnings,
             budget,
+            responses: match &model {
+                Model::Calibrated { overturning, .. } => overturning.n,
+                Model::Paper { overturning, .. } => overturning.n,
+            },
             explained: if explain { explained(&model, structure, motion, &budget) } else { String::new() },
         })
     };

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, ObjectRow, Predicted};
 use super::words::{
-    brief, friction, model, mostly_unknown, size, table, title, too_far, validity, with_sentences,
+    brief, friction, model, model_of_all, mostly_unknown, size, table, title, too_far, validity,
+    with_sentences,
 };
 use crate::fragility::{Model, Probability, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities, Unknown};
@@ -172,7 +173,7 @@ fn of_several(worst: &Answer<TreeRow>, all: &[Answer<TreeRow>]) -> String {
             brief(answer, &tree.warnings),
         ]
     });
-    format!("{first}\n{table}All {}, by {}.\n", words_of_peaks(&worst.row), model(&worst.object))
+    format!("{first}\n{table}All {}, by {}.\n", words_of_peaks(&worst.row), model_of_all(all))
 }
 
 fn words_of_peaks(tree: &TreeRow) -> String {

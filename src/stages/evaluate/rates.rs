@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, Predicted};
 use super::words::{
-    brief, friction, model, mostly_unknown, size, table, title, too_far, validity, with_sentences,
+    brief, friction, model, model_of_all, mostly_unknown, size, table, title, too_far, validity,
+    with_sentences,
 };
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
@@ -169,7 +170,7 @@ fn of_several(worst: &Answer<RatesRow>, all: &[Answer<RatesRow>], site: &Site) -
         worst.object.structure,
         how_often.trim_start_matches("overturns "),
         about_limits(worst, site),
-        model(&worst.object),
+        model_of_all(all),
     )
 }
 

@@ -44,6 +44,15 @@ pub fn evaluate(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
         ));
     }
+    let of_structures = ["p_rad_s", "alpha_rad", "eta", "width", "height", "width_m", "height_m"];
+    let columns = batches.first().map(|batch| batch.rows.schema());
+    let column = columns.and_then(|all| of_structures.into_iter().find(|name| all.index_of(name).is_ok()));
+    if let Some(column) = column.filter(|_| !given.is_empty()) {
+        let path = path.display();
+        return Err(UsageError::because(format!(
+            "{path}: column {column} and options of a structure; leave out the one or the other"
+        )));
+    }
     let mut known = KnownModels::new();
     let evaluate = |batch: &Batch| of_batch(batch, given.first(), models, &mut known, context);
     let evaluated = batches.iter().map(evaluate).collect::<anyhow::Result<Vec<RecordBatch>>>()?;

@@ -80,11 +80,29 @@ pub fn brief<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
     }
 }
 
-/// A table of a list: a heading, and a row per object.
+/// A table of a list: a heading, and a row per object; at its end the responses to which each was fitted, if these
+/// are not the same for all.
 pub fn table<R>(heading: &[&str], all: &[Answer<R>], row: impl Fn(&Answer<R>) -> Vec<String>) -> String {
-    let heading = heading.iter().map(|head| head.to_string()).collect();
+    let differ = is_fitted_each(all);
+    let responses = |answer: &Answer<R>| differ.then(|| number::count(answer.responses as usize));
+    let heading = heading.iter().copied().chain(differ.then_some("responses")).map(str::to_string).collect();
+    let row = |answer: &Answer<R>| row(answer).into_iter().chain(responses(answer)).collect();
     let rows: Vec<Vec<String>> = std::iter::once(heading).chain(all.iter().map(row)).collect();
     number::aligned(&rows, |_| false)
+}
+
+fn is_fitted_each<R>(all: &[Answer<R>]) -> bool {
+    let known = || all.iter().filter(|answer| answer.object.p_rad_s.is_some());
+    known().zip(known().skip(1)).any(|(a, b)| a.object.model != b.object.model)
+}
+
+/// What predicts for all objects, the worst of which is the first.
+pub fn model_of_all<R>(all: &[Answer<R>]) -> String {
+    let Some(worst) = all.first() else { return String::new() };
+    match is_fitted_each(all) {
+        true => "rockfrag's universal surface, calibrated where there are responses".to_string(),
+        false => model(&worst.object).to_string(),
+    }
 }
 
 /// Adds the sentences for a report, if requested, and the explanations. A sentence goes on after the name.

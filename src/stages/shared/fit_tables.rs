@@ -1,10 +1,13 @@
 //! What a stage that fits prints, and what speaks against its fits.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 use crate::fragility::Calibration;
 use crate::keyword::Keyword;
 use crate::number::{THREE_DIGITS, significant};
+use crate::pipeline::options::first_lines;
 use crate::statistics::FitStatus;
 use crate::table::frame;
 use crate::table::rows::{self, Row};
@@ -22,7 +25,11 @@ struct CalibrationLine {
 }
 
 /// Calibrations as a table, with these headings of cases and events.
-pub fn calibrations_text(rows: &[Calibration], [cases, events]: [&str; 2]) -> anyhow::Result<String> {
+pub fn calibrations_text(
+    rows: &[Calibration],
+    [cases, events]: [&str; 2],
+    out: &Path,
+) -> anyhow::Result<String> {
     let line = |row: &Calibration| CalibrationLine {
         suite: suite_name(&row.suite),
         structure: row.structure.clone(),
@@ -37,7 +44,7 @@ pub fn calibrations_text(rows: &[Calibration], [cases, events]: [&str; 2]) -> an
     if rows.iter().all(|row| row.limit_state.is_none()) {
         frame = frame.drop("limit")?;
     }
-    Ok(frame::text(&frame))
+    Ok(first_lines(&frame::text(&frame), 1, out))
 }
 
 fn calibration_in_words(row: &Calibration) -> String {
@@ -48,9 +55,9 @@ fn calibration_in_words(row: &Calibration) -> String {
     }
 }
 
-/// Rows as a table.
-pub fn text<R: Row>(lines: &[R]) -> anyhow::Result<String> {
-    Ok(frame::text(&frame::of_batch(&rows::batch(lines)?)?))
+/// The first rows as a table; all are in a file.
+pub fn text<R: Row>(lines: &[R], out: &Path) -> anyhow::Result<String> {
+    Ok(first_lines(&frame::text(&frame::of_batch(&rows::batch(lines)?)?), 1, out))
 }
 
 /// A number with its limits, to three digits.

@@ -117,7 +117,10 @@ impl Models {
                 peaks,
             },
         };
-        Ok((model, (overturning.n == 0).then_some(Warning::NotFitted).into_iter().collect()))
+        let is_other = self.args.name.is_some() && !structure.is_like(&self.structure(overturning)?);
+        let warnings =
+            [(overturning.n == 0).then_some(Warning::NotFitted), is_other.then_some(Warning::OtherStructure)];
+        Ok((model, warnings.into_iter().flatten().collect()))
     }
 
     /// The same for this kind of motion.
@@ -251,13 +254,17 @@ pub fn words_of(model: &Model) -> String {
             let motions = words_of_kind(overturning.kind);
             match overturning.n {
                 0 => format!("rockfrag's universal surface for {motions}"),
-                n => format!("rockfrag's universal surface, calibrated on {} to {motions}", responses(n)),
+                n => {
+                    let (responses, name) = (responses(n), &overturning.structure);
+                    format!("rockfrag's universal surface, calibrated on {responses} of {name} to {motions}")
+                }
             }
         }
         Model::Paper { overturning, .. } => {
             let kind = Kind::of_word(overturning.suite.as_deref());
             let (n, motions) = (responses(overturning.n), words_of_kind(kind));
-            format!("rockfrag's fit of the paper's curve and planes to {n} to {motions}")
+            let name = &overturning.structure;
+            format!("rockfrag's fit of the paper's curve and planes to {n} of {name} to {motions}")
         }
     }
 }

@@ -11,8 +11,7 @@ use crate::table::file::Table;
 use crate::table::frame;
 
 /// What is read of a response besides the measures of Eq. 13.
-const COLUMNS: [&str; 13] = [
-    "motion_id",
+const COLUMNS: [&str; 12] = [
     "suite",
     "structure",
     "p_rad_s",
@@ -33,13 +32,14 @@ pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<
 /// Reads the responses in a file or folder, grouped by suite and structure in the order in which these first
 /// come.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
-    read_with(path, &|_, _| Ok(Vec::new()))
+    read_with(path, None)
 }
 
 /// The same with candidate measures.
-pub fn read_with(path: &Path, candidates: Candidates) -> anyhow::Result<Vec<Cases>> {
+pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<Vec<Cases>> {
+    let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
     let is_wanted = |name: &str| {
-        COLUMNS.contains(&name) || Measure::SCALAR.iter().any(|measure| measure.as_str() == name)
+        COLUMNS.contains(&name) || is_measure(name) || (candidates.is_some() && name == "motion_id")
     };
     let table = Table::open(path)?;
     let mut all: Vec<Cases> = Vec::new();
@@ -54,7 +54,7 @@ pub fn read_with(path: &Path, candidates: Candidates) -> anyhow::Result<Vec<Case
 }
 
 /// Adds the responses of a batch to the cases of their suites and structures.
-fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Candidates) -> anyhow::Result<()> {
+fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> anyhow::Result<()> {
     let (suites, names) = (batch.texts("suite")?, batch.required_texts("structure")?);
     let p_rad_s = batch.required_numbers("p_rad_s")?;
     let alpha_rad = batch.required_numbers("alpha_rad")?;
@@ -64,14 +64,15 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Candidates) -> anyhow::R
     let (pga, pgv) = (batch.required_numbers("pga_m_s2")?, batch.required_numbers("pgv_m_s")?);
     let (mw, re_km, earthquakes) =
         (batch.numbers("mw")?, batch.numbers("re_km")?, batch.texts("earthquake")?);
-    let motions = batch.required_texts("motion_id")?;
     let measure = |measure: &Measure| match measure {
         Measure::Im4 | Measure::Im5 => batch.required_numbers(measure.as_str()),
         other => batch.numbers(other.as_str()),
     };
     let measures = Measure::SCALAR.iter().map(measure).collect::<Result<Vec<_>, TableError>>()?;
-    for rows in frame::groups(&suites, &names)? {
-        let group = Group { suite: suites[rows[0]].as_deref(), structure: &names[rows[0]] };
+    let motions = candidates.map(|_| batch.required_texts("motion_id")).transpose()?;
+    let group = |row: usize| Group { suite: suites[row].as_deref(), structure: &names[row] };
+    for rows in frame::groups((0..names.len()).map(group))? {
+        let group = group(rows[0]);
         let of = |row: usize| [p_rad_s[row], alpha_rad[row], eta[row]];
         let place = match all.iter().position(|cases| cases.group() == group) {
             Some(place) => place,
@@ -89,18 +90,18 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Candidates) -> anyhow::R
             );
             return Err(TableError::table(&batch.path, problem).into());
         }
-        let its = |column: &[f64]| rows.iter().map(|&row| column[row]).collect::<Vec<f64>>();
         cases.outcome.extend(rows.iter().map(|&row| outcomes[row]));
-        cases.edp.extend(its(&edp));
-        cases.pga_m_s2.extend(its(&pga));
-        cases.pgv_m_s.extend(its(&pgv));
+        cases.edp.extend(of_rows(&rows, &edp));
+        cases.pga_m_s2.extend(of_rows(&rows, &pga));
+        cases.pgv_m_s.extend(of_rows(&rows, &pgv));
         for (measure, column) in Measure::SCALAR.into_iter().zip(&measures) {
-            cases.column_mut(measure).extend(its(column));
+            cases.column_mut(measure).extend(of_rows(&rows, column));
         }
         for &row in &rows {
             cases.push_cluster(Cluster::of(earthquakes[row].as_deref(), mw[row], re_km[row]));
         }
-        let motions: Vec<&str> = rows.iter().map(|&row| motions[row].as_str()).collect();
+        let Some((candidates, motions)) = candidates.zip(motions.as_ref()) else { continue };
+        let motions: Vec<&str> = rows.iter().map(|&row| &*motions[row]).collect();
         for (name, values) in candidates(&motions, &cases.structure)? {
             match cases.candidates.iter_mut().find(|(known, _)| *known == name) {
                 Some((_, column)) => column.extend(values),
@@ -109,6 +110,11 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Candidates) -> anyhow::R
         }
     }
     Ok(())
+}
+
+/// Some rows of a column.
+fn of_rows<'a>(rows: &'a [usize], column: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+    rows.iter().map(|&row| column[row])
 }
 
 /// The demands, which only overturned structures lack.
