@@ -5,7 +5,7 @@
 #     make check-docs      the commands of README and docs
 #     make check-exports   OpenQuake and pelicun read what export writes (1.5 GB for the time of the check)
 #     make spread          the numbers over twenty seeds that are shipped in data/
-#     make universal       the fragility surface that is shipped in the program
+#     make universal       the fragility surface that is shipped, of records: AT2=folder TABLE=list.csv
 #     make peers           the table of speeds in docs/review/speed.md
 # `rockfrag run` does the same from pipeline.yaml alone. A stage that is up to date leaves its file as it is; touching it
 # tells make so.
@@ -52,7 +52,7 @@ spread: | $(ROCKFRAG)
 	python3 scripts/seed_spread.py $(ROCKFRAG) && python3 scripts/paper_planes.py
 
 universal: | $(ROCKFRAG)
-	scripts/universal/make.sh $(ROCKFRAG) $(OUT)/universal
+	scripts/universal/make.sh $(ROCKFRAG) $(OUT)/universal $(AT2) $(TABLE)
 
 peers: | $(ROCKFRAG)
 	python3 scripts/peers/table.py $(ROCKFRAG)

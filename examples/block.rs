@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let block = Structure::rectangular_block("block", 0.5, 2.0, None)?;
     let model = Model::shipped(Kind::Recorded, &block, 0.10);
     let motion = IntensityMeasures::new(&block, 0.5 * G_M_S2, 0.6, None, None);
-    if let Some(given) = model.probabilities(&block, &motion, Scenarios::One).given_rocking {
+    if let Some(given) = model.probabilities(&block, &motion, None, Scenarios::One).given_rocking {
         let p = given.p_ro;
         println!("PGA 0.5 g, PGV 0.6 m/s: overturns with {:.3} ({:.3} to {:.3})", p.value, p.low, p.high);
     }
@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hazard = HazardCurve::new(rates.map(|(pga_g, rate)| (pga_g * G_M_S2, rate)).to_vec())?;
     // PGV/PGA is that of sites in general, in earthquakes of magnitude 6.5.
     let ratio = Velocity::of_model(&model, Peak::Pga).ratio(6.5, 0.0);
-    let given_pga = GivenPeak { model: &model, structure: &block, peak: Peak::Pga, ratio };
+    let given_pga = GivenPeak { model: &model, structure: &block, peak: Peak::Pga, ratio, mw: None };
     let [rocks, fails, overturns] = rates_over_curve(&given_pga, &hazard).map(|rate| rate.value);
     println!("a year it rocks {rocks:.1e}, fails {fails:.1e} and overturns {overturns:.1e} times");
     Ok(())

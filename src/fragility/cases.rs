@@ -102,6 +102,8 @@ pub struct Cases {
     pub pga_m_s2: Vec<f64>,
     /// Peak ground velocity, m/s.
     pub pgv_m_s: Vec<f64>,
+    /// Magnitude; NaN where unknown.
+    pub mw: Vec<f64>,
     /// Number of the cluster, from 0: cases of one cluster may depend on each other.
     pub cluster: Vec<u32>,
     /// Further measures by name; NaN where unknown.
@@ -123,6 +125,7 @@ impl Cases {
             edp: Vec::new(),
             pga_m_s2: Vec::new(),
             pgv_m_s: Vec::new(),
+            mw: Vec::new(),
             cluster: Vec::new(),
             candidates: Vec::new(),
             im: Default::default(),
@@ -131,7 +134,8 @@ impl Cases {
         }
     }
 
-    /// Adds the response to a motion with these measures, PGA (m/s2), PGV (m/s) and cluster.
+    /// Adds the response to a motion with these measures, PGA (m/s2), PGV (m/s) and cluster, of unknown
+    /// magnitude.
     pub fn push(
         &mut self,
         response: &Response,
@@ -144,6 +148,7 @@ impl Cases {
         self.edp.push(if overturned { f64::NAN } else { response.edp });
         self.pga_m_s2.push(pga_m_s2);
         self.pgv_m_s.push(pgv_m_s);
+        self.mw.push(f64::NAN);
         for measure in Measure::SCALAR {
             self.column_mut(measure).push(measure.raw_value_of(measures).unwrap_or(f64::NAN));
         }
@@ -227,6 +232,11 @@ impl Cases {
     /// Returns whether there is no case.
     pub fn is_empty(&self) -> bool {
         self.outcome.is_empty()
+    }
+
+    /// Returns the magnitude of the motion of a case, where it is known.
+    pub fn magnitude(&self, case: usize) -> Option<f64> {
+        Some(self.mw[case]).filter(|mw| !mw.is_nan())
     }
 
     /// Returns the measures of a case.

@@ -21,6 +21,8 @@ pub struct GivenPeak<'a> {
     pub peak: Peak,
     /// PGV / PGA of the motions, given the peak.
     pub ratio: RatioGiven,
+    /// Magnitude of the motions; none where that is what PGV / PGA tells.
+    pub mw: Option<f64>,
 }
 
 /// Probabilities of LS1, LS2 and LS3 under motions of a PGA and PGV (m/s2 and m/s); NaN where the model has
@@ -29,10 +31,11 @@ pub fn limit_states_at(
     model: &Model,
     structure: &Structure,
     [pga_m_s2, pgv_m_s]: [f64; 2],
+    mw: Option<f64>,
     scenarios: Scenarios,
 ) -> [Probability; 3] {
     let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None);
-    let probabilities = model.probabilities(structure, &measures, scenarios);
+    let probabilities = model.probabilities(structure, &measures, mw, scenarios);
     let rocking = Probability::exact(1.0 - probabilities.p_nr);
     probabilities.limit_states().unwrap_or([rocking, Probability::UNKNOWN, Probability::UNKNOWN])
 }
@@ -58,7 +61,7 @@ impl GivenPeak<'_> {
         let mut mean = [Probability::exact(0.0); 3];
         for (node, weight) in self.nodes(intensity) {
             let peaks = self.peaks(intensity, node);
-            let states = limit_states_at(self.model, self.structure, peaks, scenarios);
+            let states = limit_states_at(self.model, self.structure, peaks, self.mw, scenarios);
             for (sum, state) in mean.iter_mut().zip(states) {
                 sum.value += weight * state.value;
                 sum.low += weight * state.low;

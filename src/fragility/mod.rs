@@ -39,6 +39,6 @@ pub use overturning::{CurveFit, CurveOptions, fit_curve, fit_curves};
 pub use overturning::{beta, hybrid_measure, lambda, mu, p_overturning};
 pub use parameter::{Parameter, ParameterRow};
 pub use peaks::{JointPeaks, Peak, RatioGiven};
-pub use surface::{Kind, logit_exceeding, logit_overturning};
+pub use surface::{Kind, Predictor, predictor};
 pub use tree::{GivenRocking, LimitState, Probabilities, Probability, Z_95};
 pub use tree::{p_failure, p_failure_given_rocking, p_no_rocking};

@@ -40,6 +40,7 @@ impl Model {
         &self,
         structure: &Structure,
         measures: &IntensityMeasures,
+        mw: Option<f64>,
         scenarios: Scenarios,
     ) -> Probabilities {
         let (overturning, exceeding) = match self {
@@ -50,7 +51,7 @@ impl Model {
         };
         Probabilities::new(measures.im4, || {
             let of = |calibration: &Calibration| {
-                Some(calibration.probability(calibration.logit(structure, measures)?, scenarios))
+                Some(calibration.probability(&calibration.predictor(structure, measures, mw)?, scenarios))
             };
             let (p_ro, p_ex) = (of(overturning)?, of(exceeding)?);
             // What is not known of a structure moves both branches the same way.
@@ -63,9 +64,9 @@ impl Model {
         })
     }
 
-    /// Whether the level depends on magnitude: that of recorded motions does.
+    /// Whether probabilities depend on magnitude: those of the paper do not.
     pub fn depends_on_magnitude(&self) -> bool {
-        matches!(self, Model::Calibrated { overturning, .. } if overturning.kind == Kind::Recorded)
+        matches!(self, Model::Calibrated { .. })
     }
 
     /// How PGA and PGV go together in the motions that it stands for.
@@ -80,9 +81,10 @@ impl Model {
         let rocks = p_no_rocking(measures.im4) == 0.0;
         let mut warnings = match self {
             Model::Calibrated { overturning, exceeding, .. } => {
-                let covered =
-                    exceeding.limit_state.is_none_or(|limit| surface::covers_motion(measures, limit))
-                        && overturning.covers(structure, measures);
+                let covered = exceeding
+                    .limit_state
+                    .is_none_or(|limit| surface::covers_motion(structure, measures, limit))
+                    && overturning.covers(structure, measures);
                 let unusual = (!surface::covers_structure(structure)).then_some(Warning::UnusualStructure);
                 let outside = (rocks && !covered).then_some(Warning::Extrapolated);
                 let of_fits = [overturning.warnings(), exceeding.warnings()].concat();

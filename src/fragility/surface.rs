@@ -39,32 +39,46 @@ impl Kind {
     pub fn of_word(suite: Option<&str>) -> Kind {
         Kind::of(suite.and_then(|word| word.parse().ok()))
     }
-
-    /// The column of its coefficients: recorded motions have those of high frequencies.
-    fn column(self) -> usize {
-        match self {
-            Kind::Csgm => 0,
-            Kind::Pulse => 1,
-            Kind::Recorded | Kind::Hfc => 2,
-        }
-    }
 }
 
-/// The logit of P_ro by the surface; none where a measure is missing.
-pub fn logit_overturning(kind: Kind, structure: &Structure, measures: &IntensityMeasures) -> Option<f64> {
-    let features = features(structure, measures, None)?;
-    Some(SURFACE.logit(Curve::Pro, kind, &features))
+/// What the surface says of one case, to be calibrated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Predictor {
+    /// L, the logit of the surface.
+    pub logit: f64,
+    /// M - 6.9, M within the magnitudes of the kind of motion; where M is not known, that which PGV / PGA tells.
+    pub magnitude: f64,
+    /// The same in the middle of these magnitudes.
+    pub middle: f64,
+    /// Standard deviation of M where it is not known, else 0.
+    pub magnitude_sd: f64,
+    /// What the calibrated logit gains: ln(1 - exp(-((IM4 - 1) IM5^k / d)^n)), minus infinity at uplift.
+    pub added: f64,
 }
 
-/// The logit of P_ex by the surface at a limit state |theta|max / alpha; none where a measure is missing.
-pub fn logit_exceeding(
+/// That of P_ro, or of P_ex at a limit state |theta|max / alpha, under a motion of magnitude `mw`, where it
+/// is known; none where a measure is missing.
+pub fn predictor(
     kind: Kind,
     structure: &Structure,
     measures: &IntensityMeasures,
-    limit_state: f64,
-) -> Option<f64> {
-    let features = features(structure, measures, Some(limit_state))?;
-    Some(SURFACE.logit(Curve::Pex, kind, &features))
+    mw: Option<f64>,
+    limit_state: Option<f64>,
+) -> Option<Predictor> {
+    let im5 = Measure::Im5.value_of(measures)?;
+    let curve = Curve::of(limit_state);
+    let known = SURFACE.of_kind(kind);
+    let expected = known.magnitude;
+    let [low, high] = expected.range;
+    let seconds = im5 / (measures.im4 * structure.p_rad_s);
+    let mean = || expected.intercept + expected.slope * seconds.ln();
+    Some(Predictor {
+        logit: SURFACE.logit(curve, kind, &features(structure, measures, im5, limit_state)),
+        magnitude: mw.unwrap_or_else(mean).clamp(low, high) - REFERENCE_MAGNITUDE,
+        middle: 0.5 * (low + high) - REFERENCE_MAGNITUDE,
+        magnitude_sd: if mw.is_some() { 0.0 } else { expected.sd },
+        added: known.uplift[curve as usize].gain(measures.im4, im5),
+    })
 }
 
 /// Returns whether a structure is within those that the surface was fitted to.
@@ -75,18 +89,19 @@ pub fn covers_structure(structure: &Structure) -> bool {
 
 /// Returns whether the measures of a motion, and a limit state, are within those that the surface was fitted
 /// to.
-pub fn covers_motion(measures: &IntensityMeasures, limit_state: f64) -> bool {
-    let is_known =
-        |measure: &Measure| measure.value_of(measures).is_none_or(|value| is_inside(measure.as_str(), value));
-    [Measure::Im4, Measure::Im3, Measure::Im5].iter().all(is_known) && is_inside("limit", limit_state)
+pub fn covers_motion(structure: &Structure, measures: &IntensityMeasures, limit_state: f64) -> bool {
+    let ratio = structure.p_rad_s * measures.im4 / measures.im5;
+    [("im4", measures.im4), ("im5", measures.im5), ("ratio", ratio), ("limit", limit_state)]
+        .iter()
+        .all(|(name, value)| is_inside(name, *value))
 }
 
 /// The relative amount by which a value may pass a bound, as rounding in print does.
 const UNSEEN: f64 = 1e-5;
 
 fn is_inside(name: &str, value: f64) -> bool {
-    let bounds = SURFACE.domain.iter().find(|(other, _)| *other == name);
-    bounds.is_none_or(|(_, [low, high])| (low * (1.0 - UNSEEN)..=high * (1.0 + UNSEEN)).contains(&value))
+    let [low, high] = SURFACE.range(name);
+    (low * (1.0 - UNSEEN)..=high * (1.0 + UNSEEN)).contains(&value)
 }
 
 /// The probabilities of the surface.
@@ -96,61 +111,113 @@ pub(super) enum Curve {
     Pex,
 }
 
-/// How the calibrations of structures under a kind of motion are distributed: c and ln s are normal.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Prior {
-    pub c: f64,
-    pub ln_s: f64,
-    pub sd_c: f64,
-    pub sd_ln_s: f64,
-    /// Standard deviation of the logit between cells or earthquakes.
-    pub tau: f64,
+impl Curve {
+    /// P_ex has a limit state, P_ro has none.
+    pub(super) fn of(limit_state: Option<f64>) -> Curve {
+        if limit_state.is_some() { Curve::Pex } else { Curve::Pro }
+    }
 }
 
-/// The prior of a kind of motion.
-pub(super) fn prior(kind: Kind, curve: Curve) -> Prior {
-    let is_same = |(of, other, _): &&(Kind, Curve, Prior)| *of == kind && *other == curve;
-    SURFACE.priors.iter().find(is_same).expect("each kind has a calibration").2
+/// How the calibrations of structures under a kind of motion are distributed: c, ln s and m are normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Prior {
+    pub mean: [f64; 3],
+    pub sd: [f64; 3],
+    /// Standard deviation of the logit between cells or earthquakes.
+    pub tau: f64,
+    /// By how much c rises with [`limits`]' second.
+    by_limit: f64,
+}
+
+/// The prior of a kind of motion, of P_ex at a limit state.
+pub(super) fn prior(kind: Kind, limit_state: Option<f64>) -> Prior {
+    let mut prior = SURFACE.of_kind(kind).priors[Curve::of(limit_state) as usize];
+    prior.mean[0] += prior.by_limit * limits(limit_state)[1];
+    prior
 }
 
 /// How PGA and PGV go together in the motions of a kind.
 pub(super) fn peaks(kind: Kind) -> JointPeaks {
-    let of = |peak: &str| {
-        let is_same = |(of, other, _): &&(Kind, &str, RatioGiven)| *of == kind && *other == peak;
-        SURFACE.peaks.iter().find(is_same).expect("each kind has peaks").2
-    };
-    JointPeaks { given_pga: of("pga"), given_pgv: of("pgv") }
+    let [given_pga, given_pgv] = SURFACE.of_kind(kind).peaks;
+    JointPeaks { given_pga, given_pgv }
 }
 
-/// No motion is stronger; from some 2000 on the cubes would let the probability fall.
-const MOST_IM5: f64 = 100.0;
+/// At this magnitude m does not count.
+const REFERENCE_MAGNITUDE: f64 = 6.9;
 
-const FEATURES: [&str; 6] = ["x", "w", "r", "eta", "p", "limit"];
+const FEATURES: [&str; 7] = ["x", "w", "r", "eta", "p", "limit", "end"];
 
-/// Computes x = ln(ln IM4 + 0.2), w = ln IM5 - 0.4 l, r = ln IM3, (eta - 0.85)/0.1, ln(p/2) and l = ln(c/0.2)
-/// of a limit state c, 0 of P_ro. None where the ground has no velocity.
+/// Of a limit state c, held within the domain, ln(c/0.2), and ln(1.1 - c), which falls steeply where nothing
+/// is left below overturning; 0 of P_ro.
+fn limits(limit_state: Option<f64>) -> [f64; 2] {
+    limit_state.map_or([0.0; 2], |limit_state| {
+        let held = held("limit", limit_state);
+        [(held / 0.2).ln(), (1.1 - held).ln()]
+    })
+}
+
+fn held(name: &str, value: f64) -> f64 {
+    let [low, high] = SURFACE.range(name);
+    value.clamp(low, high)
+}
+
+/// Computes x = ln(ln IM4 + 0.2), w = ln IM4 - r - 0.4 l, r = ln(PGA / (p PGV)), (eta - 0.85)/0.1, ln(p/2) and
+/// l = ln(c/0.2) of a limit state c, 0 of P_ro. PGA/PGV, p, eta and c are held within the domain, IM4 below
+/// its end: beyond, a polynomial means nothing.
 fn features(
     structure: &Structure,
     measures: &IntensityMeasures,
+    im5: f64,
     limit_state: Option<f64>,
-) -> Option<[f64; FEATURES.len()]> {
-    let limit = limit_state.map_or(0.0, |limit_state| (limit_state / 0.2).ln());
-    Some([
-        (measures.im4.max(1.0).ln() + 0.2).ln(),
-        Measure::Im5.value_of(measures)?.min(MOST_IM5).ln() - 0.4 * limit,
-        Measure::Im3.value_of(measures)?.ln(),
-        (structure.eta - 0.85) / 0.1,
-        (structure.p_rad_s / 2.0).ln(),
-        limit,
-    ])
+) -> [f64; FEATURES.len()] {
+    let [limit, end] = limits(limit_state);
+    let (p, ln_im4) = (held("p", structure.p_rad_s), held("im4", measures.im4).ln());
+    let r = (held("ratio", structure.p_rad_s * measures.im4 / im5) / p).ln();
+    let eta = (held("eta", structure.eta) - 0.85) / 0.1;
+    [(ln_im4 + 0.2).ln(), ln_im4 - r - 0.4 * limit, r, eta, (p / 2.0).ln(), limit, end]
 }
 
 /// The file, read.
 struct Surface {
     domain: Vec<(&'static str, [f64; 2])>,
     terms: Vec<Term>,
-    priors: Vec<(Kind, Curve, Prior)>,
-    peaks: Vec<(Kind, &'static str, RatioGiven)>,
+    /// Of each kind of motion.
+    kinds: [OfKind; 4],
+}
+
+/// What the file says of a kind of motion; of P_ro and P_ex, or given PGA and PGV.
+#[derive(Clone, Copy)]
+struct OfKind {
+    magnitude: ExpectedMagnitude,
+    uplift: [Uplift; 2],
+    priors: [Prior; 2],
+    peaks: [RatioGiven; 2],
+}
+
+/// The magnitude of motions, normal about intercept + slope ln(PGV / PGA), s, and the range of the data.
+#[derive(Clone, Copy)]
+struct ExpectedMagnitude {
+    intercept: f64,
+    slope: f64,
+    sd: f64,
+    range: [f64; 2],
+}
+
+/// How fast a probability rises from uplift on.
+#[derive(Clone, Copy)]
+struct Uplift {
+    n: f64,
+    d: f64,
+    k: f64,
+}
+
+impl Uplift {
+    /// Computes ln(1 - exp(-((IM4 - 1) IM5^k / d)^n)).
+    fn gain(&self, im4: f64, im5: f64) -> f64 {
+        let ln_power = self.n * ((im4 - 1.0).max(0.0).ln() + self.k * im5.ln() - self.d.ln());
+        // Of a small power the logarithm is that of the power itself.
+        if ln_power < -30.0 { ln_power } else { (-(-ln_power.exp()).exp_m1()).ln() }
+    }
 }
 
 /// A product of powers of features.
@@ -158,8 +225,8 @@ struct Term {
     curve: Curve,
     /// Feature and power of each.
     factors: Vec<(usize, i32)>,
-    /// For combined motions, pulses and high frequencies.
-    coefficients: [f64; 3],
+    /// Of each kind of motion.
+    coefficients: [f64; 4],
 }
 
 static SURFACE: LazyLock<Surface> =
@@ -169,30 +236,28 @@ impl Surface {
     /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which
     /// tests find.
     fn parse(text: &'static str) -> Surface {
-        let mut surface = Surface { domain: vec![], terms: vec![], priors: vec![], peaks: vec![] };
-        for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
-            let cells: Vec<&str> = line.split(',').collect();
-            let number = |place: usize| cells[place].parse::<f64>().expect(line);
-            let kind = || cells[1].parse::<Kind>().expect(line);
-            let curve = |place: usize| if cells[place] == "pro" { Curve::Pro } else { Curve::Pex };
-            match cells[0] {
-                "domain" => surface.domain.push((cells[1], [number(2), number(3)])),
-                "calibration" => {
-                    let [c, ln_s, sd_c, sd_ln_s, tau] = [3, 4, 5, 6, 7].map(number);
-                    surface.priors.push((kind(), curve(2), Prior { c, ln_s, sd_c, sd_ln_s, tau }));
-                }
-                "peaks" => {
-                    let numbers = [3, 4, 5, 6, 7, 8].map(number);
-                    surface.peaks.push((kind(), cells[2], RatioGiven::of_numbers(&numbers).expect(line)));
-                }
-                _ => surface.terms.push(Term {
-                    curve: curve(1),
-                    factors: factors(cells[2]),
-                    coefficients: [3, 4, 5].map(number),
-                }),
-            }
+        let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+        let domain = rows_of(&rows, "domain").map(|row| (row[1], numbers(row, 2)));
+        let term = |row: &Vec<&'static str>| Term {
+            curve: if row[1] == "pro" { Curve::Pro } else { Curve::Pex },
+            factors: factors(row[2]),
+            coefficients: numbers(row, 3),
+        };
+        Surface {
+            domain: domain.collect(),
+            terms: rows_of(&rows, "term").map(term).collect(),
+            kinds: [Kind::Recorded, Kind::Csgm, Kind::Pulse, Kind::Hfc]
+                .map(|kind| OfKind::parse(&rows, kind)),
         }
-        surface
+    }
+
+    fn of_kind(&self, kind: Kind) -> &OfKind {
+        &self.kinds[kind as usize]
+    }
+
+    fn range(&self, name: &str) -> [f64; 2] {
+        self.domain.iter().find(|(other, _)| *other == name).expect("the domain has it").1
     }
 
     fn logit(&self, curve: Curve, kind: Kind, features: &[f64; FEATURES.len()]) -> f64 {
@@ -200,8 +265,47 @@ impl Surface {
             term.factors.iter().map(|&(feature, power)| features[feature].powi(power)).product::<f64>()
         };
         let terms = self.terms.iter().filter(|term| term.curve == curve);
-        terms.map(|term| term.coefficients[kind.column()] * product(term)).sum()
+        terms.map(|term| term.coefficients[kind as usize] * product(term)).sum()
     }
+}
+
+impl OfKind {
+    fn parse(rows: &[Vec<&'static str>], kind: Kind) -> OfKind {
+        let row = |what: &'static str, of: Option<&str>| {
+            let is_it = |row: &&Vec<&str>| row[1] == kind.as_str() && of.is_none_or(|of| row[2] == of);
+            rows_of(rows, what).find(is_it).expect("each kind has it")
+        };
+        let [intercept, slope, sd, low, high] = numbers(row("magnitude", None), 2);
+        OfKind {
+            magnitude: ExpectedMagnitude { intercept, slope, sd, range: [low, high] },
+            uplift: ["pro", "pex"].map(|curve| {
+                let [n, d, k] = numbers(row("uplift", Some(curve)), 3);
+                Uplift { n, d, k }
+            }),
+            priors: ["pro", "pex"].map(|curve| {
+                let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] =
+                    numbers(row("calibration", Some(curve)), 3);
+                Prior { mean: [c, ln_s, m], sd: [sd_c, sd_ln_s, sd_m], tau, by_limit }
+            }),
+            peaks: ["pga", "pgv"].map(|peak| {
+                let six: [f64; 6] = numbers(row("peaks", Some(peak)), 3);
+                RatioGiven::of_numbers(&six).expect("six numbers")
+            }),
+        }
+    }
+}
+
+/// The rows of a kind of row.
+fn rows_of<'a>(
+    rows: &'a [Vec<&'static str>],
+    what: &'static str,
+) -> impl Iterator<Item = &'a Vec<&'static str>> {
+    rows.iter().filter(move |row| row[0] == what)
+}
+
+/// The numbers of a row from a place on.
+fn numbers<const N: usize>(row: &[&str], from: usize) -> [f64; N] {
+    std::array::from_fn(|k| row[from + k].parse().expect("a number"))
 }
 
 /// Reads a product such as `x*w^2`; 1 is the empty one.

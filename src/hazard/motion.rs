@@ -56,11 +56,12 @@ impl Motion {
         let states = |structure: &Structure, mw: f64, ln: f64, scenarios: Scenarios| match (one, velocity) {
             (Some((peak, intensity)), Some(velocity)) => {
                 let ratio = velocity.ratio(mw, ln);
-                GivenPeak { model, structure, peak, ratio }.limit_states(intensity, scenarios)
+                let mw = velocity.magnitude(self.mw, mw);
+                GivenPeak { model, structure, peak, ratio, mw }.limit_states(intensity, scenarios)
             }
             _ => {
                 let peaks = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
-                limit_states_at(model, structure, peaks, scenarios)
+                limit_states_at(model, structure, peaks, self.mw, scenarios)
             }
         };
         let logits = |structure: &Structure, mw: f64, ln: f64| {
@@ -72,7 +73,8 @@ impl Motion {
         let fit = [of_many[1], of_many[2]].map(sd_of_limits);
         let mut budgets = Budgets::default();
         budgets.add(Part::Fit, fit);
-        if model.depends_on_magnitude() {
+        // Of a motion whose peaks are both known, what magnitude adds is beside tau in its own limits.
+        if model.depends_on_magnitude() && one.is_some() && self.mw.is_none() {
             budgets.vary(&of_magnitude, |mw| logits(structure, *mw, 0.0));
         }
         if let Some(velocity) = velocity {

@@ -32,10 +32,10 @@ pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
 }
 
 /// Sums the probabilities over the bins of a joint hazard.
-pub fn rates_over_pairs(model: &Model, structure: &Structure, joint: &JointHazard) -> Rates {
+pub fn rates_over_pairs(model: &Model, structure: &Structure, mw: Option<f64>, joint: &JointHazard) -> Rates {
     let states = |bin: &PairOfPeaks| {
         let peaks = [bin.pga_m_s2, bin.pgv_m_s];
-        terms(limit_states_at(model, structure, peaks, Scenarios::Many))
+        terms(limit_states_at(model, structure, peaks, bin.mw.or(mw), Scenarios::Many))
     };
     rates(joint.mean_annual_rates(states), [[0.0; 2]; 3])
 }

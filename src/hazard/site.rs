@@ -96,7 +96,7 @@ impl Site {
         match &self.hazard {
             Hazard::Curve(hazard) => self.rates_over_curve(hazard, structure, unknowns, model),
             Hazard::Joint(joint) => {
-                let rates = |structure: &Structure| rates_over_pairs(model, structure, joint);
+                let rates = |structure: &Structure| rates_over_pairs(model, structure, self.mw, joint);
                 let value = rates(structure);
                 let mut budgets = Budgets::default();
                 budgets.add(Part::Fit, sds_of_fit(&value));
@@ -121,7 +121,10 @@ impl Site {
         let of_curves = || hazard.velocity.unwrap_or_else(|| Velocity::of_model(model, peak));
         let velocity = self.ratio_s.map_or_else(of_curves, Velocity::given);
         let (mw, of_magnitude) = magnitude(self.mw);
-        let given = |mw: f64, ln: f64| GivenPeak { model, structure, peak, ratio: velocity.ratio(mw, ln) };
+        let given = |mw: f64, ln: f64| {
+            let of_motions = velocity.magnitude(self.mw, mw);
+            GivenPeak { model, structure, peak, ratio: velocity.ratio(mw, ln), mw: of_motions }
+        };
         let middle = given(mw, 0.0);
         let as_given = rates_over_curve(&middle, &hazard.curve);
         let [(first, _), (last, _)] = hazard.curve.ends();

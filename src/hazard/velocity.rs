@@ -182,6 +182,12 @@ impl Velocity {
         Unknown { part: Part::Velocity, low: -self.sd, high: self.sd }
     }
 
+    /// The magnitude of the motions: `median`, but none where none is given and PGV / PGA, as in the motions of
+    /// the model, tells it.
+    pub fn magnitude(&self, given: Option<f64>, median: f64) -> Option<f64> {
+        if self.source == VelocitySource::Motions { given.map(|_| median) } else { Some(median) }
+    }
+
     /// PGV / PGA given the peak in earthquakes of a magnitude, times exp(`ln`).
     pub fn ratio(&self, mw: f64, ln: f64) -> RatioGiven {
         self.ratio.raised(self.per_magnitude * (mw - MIDDLE) + ln)

@@ -13,6 +13,10 @@ pub struct RecordedMotion {
     pub acceleration_m_s2: Vec<f64>,
     /// Earthquake, as named in the file.
     pub event: Option<String>,
+    /// Magnitude of the earthquake.
+    pub mw: Option<f64>,
+    /// Distance from the rupture, km.
+    pub re_km: Option<f64>,
     /// Station, as named in the file.
     pub station: Option<String>,
     /// Component, as named in the file.
@@ -34,6 +38,8 @@ impl RecordedMotion {
             dt_s,
             acceleration_m_s2: samples.into_iter().map(|value| value * unit.si).collect(),
             event: None,
+            mw: None,
+            re_km: None,
             station: None,
             component: None,
             azimuth_deg: None,

@@ -67,8 +67,9 @@ impl Stage for Export {
             let (model, mut warnings) = models.model(structure)?;
             warnings.extend(warnings_of(structure));
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
-            let ratio = Velocity::of_model(&model, self.im).ratio(magnitude(None).0, 0.0);
-            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio };
+            let (velocity, median) = (Velocity::of_model(&model, self.im), magnitude(None).0);
+            let (ratio, mw) = (velocity.ratio(median, 0.0), velocity.magnitude(None, median));
+            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio, mw };
             functions.push(self.function(structure, &given_peak));
             description = words_of(&model);
         }

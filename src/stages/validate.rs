@@ -91,7 +91,8 @@ fn validate(
     for case in 0..cases.len() {
         let Some(has_happened) = cases.happened(case, event, limit_state) else { continue };
         let measures = cases.measures(case);
-        let predicted = model.probabilities(&cases.structure, &measures, Scenarios::Many).given_rocking;
+        let mw = cases.magnitude(case);
+        let predicted = model.probabilities(&cases.structure, &measures, mw, Scenarios::Many).given_rocking;
         let Some(given) = predicted else { continue };
         let p = match event {
             Event::Overturning => given.p_ro,

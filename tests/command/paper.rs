@@ -12,10 +12,11 @@ use rockfrag::fragility::{lambda, mu};
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::studies::{ReliabilityBin, Validation};
+use rockfrag::table::file::Table;
 use rockfrag::table::responses::ResponseRow;
 use rockfrag::table::rows;
 
-use crate::common::{folder_with, succeed};
+use crate::common::{fail, folder_with, succeed};
 
 /// The folder of the run. It holds `out`.
 static RUN: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
@@ -131,14 +132,24 @@ fn every_file_has_its_schema() {
             .map(|k| format!("{},{}\n", f64::from(k) * 0.01, (f64::from(k) * 0.1).sin()))
             .collect::<String>();
     std::fs::write(folder.join("record.csv"), record).unwrap();
+    let about = "file,magnitude,distance (km),earthquake\nother.csv,6.1,,B\nrecord.csv,7.3,4.5,A\n";
+    std::fs::write(folder.join("about.csv"), about).unwrap();
     for call in [
-        "import-motions record.csv --out out/records.parquet --accept-implausible",
+        "import-motions record.csv --out out/records.parquet --accept-implausible --about about.csv",
         "simulate --in out/motions.parquet --p 2.5 --alpha 0.2 --eta 0.92 --trace 1 --out out/one.parquet",
         "ida --in out/records.parquet --p 2.5 --alpha 0.2 --eta 0.92 --out out/ida.parquet",
         "rank-ims --in out/responses.parquet --terms 1 --out out/ranking.parquet",
     ] {
         succeed(folder, call);
     }
+    let is_wanted = |name: &str| ["mw", "re_km", "earthquake"].contains(&name);
+    let table = Table::open(&folder.join("out/records.parquet")).unwrap();
+    let of_record = table.batches(&is_wanted).next().unwrap().unwrap();
+    assert_eq!(of_record.numbers("mw").unwrap(), [7.3]);
+    assert_eq!(of_record.numbers("re_km").unwrap(), [4.5]);
+    assert_eq!(of_record.texts("earthquake").unwrap(), [Some("A".into())]);
+    std::fs::write(folder.join("about.csv"), "file,magnitude\nrecord.csv,73\n").unwrap();
+    fail(folder, "import-motions record.csv --out other.parquet --about about.csv", 2, &["about.csv", "73"]);
     let mut files: Vec<_> =
         folder.join("out").read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|ending| ending == "parquet"));

@@ -114,7 +114,7 @@ fn a_power_law_and_a_bivariate_lognormal_have_a_rate_in_closed_form() {
             (Peak::Pgv, of_constant - b[1] * level, b[1] * (1.0 - slope) + b[2], b[1] * sd),
         ] {
             let wider = 1.0_f64.hypot(per_z);
-            let given = GivenPeak { model: &model, structure: &structure, peak, ratio };
+            let given = GivenPeak { model: &model, structure: &structure, peak, ratio, mw: None };
             let rate = rates_over_curve(&given, &curve)[2].value;
             let expected = rate_in_closed_form(k0, k, constant / wider, per_ln / wider);
             assert!((rate / expected - 1.0).abs() < 1e-6, "{peak}: {rate} for {expected}");

@@ -4,7 +4,7 @@
 use rand::RngExt;
 use rockfrag::fragility::{
     Calibration, Cases, Cluster, Event, Kind, Measure, Model, Probability, Scenarios, fit_curve,
-    logit_exceeding, logit_overturning, p_failure_given_rocking,
+    p_failure_given_rocking, predictor,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
@@ -28,24 +28,46 @@ fn calibrated(cases: &Cases) -> Model {
     Model::Calibrated { overturning, exceeding, peaks }
 }
 
+#[derive(serde::Deserialize)]
+struct Point {
+    kind: Kind,
+    p_rad_s: f64,
+    alpha_rad: f64,
+    eta: f64,
+    im3: f64,
+    im4: f64,
+    im5: f64,
+    mw: f64,
+    limit_state: f64,
+    logit_pro: f64,
+    logit_pex: f64,
+    magnitude: f64,
+    added_pro: f64,
+    added_pex: f64,
+}
+
 #[test]
 fn logits_are_those_of_python() {
-    type Row = (String, f64, f64, f64, f64, f64, f64, f64, f64, f64);
-    let rows: Vec<Row> = read("universal_answers.csv");
+    let rows: Vec<Point> = read("universal_answers.csv");
     assert!(rows.len() >= 50);
-    for (kind, p, alpha, eta, im3, im4, im5, limit, pro, pex) in rows {
-        let structure = Structure::new("any", p, alpha, eta).unwrap();
+    for row in rows {
+        let structure = Structure::new("any", row.p_rad_s, row.alpha_rad, row.eta).unwrap();
+        let Point { im3, im4, im5, .. } = row;
         let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::of_peaks(im4, im5) };
-        let kind: Kind = kind.parse().unwrap();
-        for (ours, theirs) in [
-            (logit_overturning(kind, &structure, &measures).unwrap(), pro),
-            (logit_exceeding(kind, &structure, &measures, limit).unwrap(), pex),
-        ] {
-            assert!(
-                (ours - theirs).abs() < 1e-9 * theirs.abs().max(1.0),
-                "{ours} {theirs} {kind} {structure:?}"
-            );
+        let mw = Some(row.mw).filter(|mw| *mw > 0.0);
+        let of = |limit| predictor(row.kind, &structure, &measures, mw, limit).unwrap();
+        let (pro, pex) = (of(None), of(Some(row.limit_state)));
+        let pairs = [
+            (pro.logit, row.logit_pro),
+            (pex.logit, row.logit_pex),
+            (pro.magnitude, row.magnitude),
+            (pro.added, row.added_pro),
+            (pex.added, row.added_pex),
+        ];
+        for (ours, theirs) in pairs {
+            assert!((ours - theirs).abs() < 1e-9 * theirs.abs().max(1.0), "{ours} {theirs} {structure:?}");
         }
+        assert_eq!(pro.magnitude_sd == 0.0, mw.is_some());
     }
 }
 
@@ -61,6 +83,7 @@ struct Case {
     im3: f64,
     im4: f64,
     im5: f64,
+    mw: f64,
     cluster: String,
     overturned: u8,
     edp: Option<f64>,
@@ -76,12 +99,20 @@ struct Answer {
     n_clusters: i64,
     c: f64,
     ln_s: f64,
-    v_cc: f64,
-    v_cs: f64,
-    v_ss: f64,
-    clustered_cc: f64,
-    clustered_cs: f64,
-    clustered_ss: f64,
+    m: f64,
+    /// The upper triangle of the covariance, row by row.
+    v_00: f64,
+    v_01: f64,
+    v_02: f64,
+    v_11: f64,
+    v_12: f64,
+    v_22: f64,
+    clustered_00: f64,
+    clustered_01: f64,
+    clustered_02: f64,
+    clustered_11: f64,
+    clustered_12: f64,
+    clustered_22: f64,
 }
 
 /// The cases of a structure, in their clusters or all in one.
@@ -99,6 +130,7 @@ fn of_structure(rows: &[Case], answer: &Answer, in_clusters: bool) -> Cases {
         let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::of_peaks(im4, im5) };
         let cluster = if in_clusters { &row.cluster } else { "one" };
         cases.push(&response, &measures, [pga_m_s2, pgv_m_s], Cluster::of(Some(cluster), 0.0, 0.0));
+        *cases.mw.last_mut().unwrap() = row.mw;
     }
     cases
 }
@@ -112,53 +144,89 @@ fn calibrations_are_those_of_python() {
         let limit_state = (answer.event == "pex").then_some(0.1);
         let own = Calibration::fit(&of_structure(&rows, answer, true), limit_state);
         assert_eq!((own.n, own.n_events, own.n_clusters), (answer.n, answer.n_events, answer.n_clusters));
-        for (ours, theirs) in [(own.c, answer.c), (own.ln_s, answer.ln_s)] {
-            assert!((ours - theirs).abs() < 1e-9, "{ours} {theirs}");
+        for (ours, theirs) in [(own.c, answer.c), (own.ln_s, answer.ln_s), (own.m, answer.m)] {
+            assert!((ours - theirs).abs() < 1e-8, "{ours} {theirs}");
         }
-        let [cc, cs, _, ss] = own.covariance[..] else { panic!("{:?}", own.covariance) };
-        let alone = Calibration::fit(&of_structure(&rows, answer, false), limit_state).covariance;
-        for (ours, theirs) in [
-            (cc, answer.clustered_cc),
-            (cs, answer.clustered_cs),
-            (ss, answer.clustered_ss),
-            (alone[0], answer.v_cc),
-            (alone[1], answer.v_cs),
-            (alone[3], answer.v_ss),
-        ] {
-            assert!((ours - theirs).abs() < 1e-9, "{ours} {theirs}");
+        let alone = Calibration::fit(&of_structure(&rows, answer, false), limit_state);
+        let triangle = |of: &Calibration| [0, 1, 2, 4, 5, 8].map(|at| of.covariance[at]);
+        let Answer { v_00, v_01, v_02, v_11, v_12, v_22, .. } = *answer;
+        let Answer { clustered_00, clustered_01, clustered_02, .. } = *answer;
+        let Answer { clustered_11, clustered_12, clustered_22, .. } = *answer;
+        let clustered = [clustered_00, clustered_01, clustered_02, clustered_11, clustered_12, clustered_22];
+        for (ours, theirs) in
+            [(triangle(&own), clustered), (triangle(&alone), [v_00, v_01, v_02, v_11, v_12, v_22])]
+        {
+            let pairs = ours.iter().zip(theirs);
+            pairs.for_each(|(ours, theirs)| assert!((ours - theirs).abs() < 1e-8, "{ours} {theirs}"));
         }
     }
 }
 
+/// One direction in which no probability falls.
+fn step(line: usize, [p, alpha, eta, pga, pgv]: [f64; 5], by: f64) -> [f64; 5] {
+    match line % 5 {
+        0 => [p, alpha, eta, pga * by, pgv * by],
+        1 => [p, alpha, eta, pga, pgv * by],
+        // Narrower: p does not change, the centre of mass stays as far from the corner.
+        2 => [p, (alpha.tan() / by).atan(), eta, pga, pgv],
+        3 => [p * by, alpha, eta, pga, pgv],
+        _ => [p, alpha, 1.0 - (1.0 - eta) / by, pga, pgv],
+    }
+}
+
 #[test]
-fn probabilities_do_not_fall_as_a_motion_is_scaled_up() {
+fn probabilities_never_fall_along_20000_lines() {
     let mut random = random(5);
     let own = calibrated(&rocking(400));
+    let mut ln = |low: f64, high: f64| random.random_range(low.ln()..high.ln()).exp();
     for kind in Kind::ALL {
-        for _ in 0..100 {
-            let ln = |random: &mut rand_chacha::ChaCha8Rng, low: f64, high: f64| {
-                random.random_range(low.ln()..high.ln()).exp()
+        let mut largest = [0.0_f64; 5];
+        for line in 0..20_000 {
+            // Half of the lines begin at a tenth of the least of the domain and end at ten times the largest.
+            let wide = if line % 2 == 0 { 10.0 } else { 1.0 };
+            let (alpha, mw) = (ln(0.04, 0.5), (line % 3 == 0).then(|| ln(4.5, 8.0)));
+            let pga = 9.81 * alpha.tan() * ln(1.0, 18.0 * wide);
+            let p = ln(0.4 / wide, 8.0 * wide);
+            let mut at = [p, alpha, 1.0 - ln(0.001, 0.3), pga, pga / ln(1.0 / wide, 45.0 * wide)];
+            let mut last = [0.0; 3];
+            for _ in 0..12 {
+                let Ok(structure) = Structure::new("any", at[0], at[1], at[2]) else { break };
+                let of_motion = measures(&structure, at[3], at[4]);
+                let shipped = Model::shipped(*kind, &structure, [0.02, 0.1, 0.5, 0.9][line % 4]);
+                let model = if line % 7 == 0 { &own } else { &shipped };
+                let given = model.probabilities(&structure, &of_motion, mw, Scenarios::One).given_rocking;
+                let Some(given) = given else { continue };
+                let p = [given.p_ro.value, given.p_ex.value, given.p_failure.value];
+                let fall = (0..3).map(|k| last[k] - p[k]).fold(0.0, f64::max);
+                largest[line % 5] = largest[line % 5].max(fall);
+                (last, at) = (p, step(line, at, 1.0 + 0.4 * wide / 10.0));
+            }
+        }
+        eprintln!("{kind}: largest falls {largest:.6?}");
+        assert!(largest.iter().all(|fall| *fall <= 0.001), "{kind} {largest:?}");
+    }
+}
+
+#[test]
+fn probabilities_go_to_0_at_uplift_and_fall_with_the_limit_state() {
+    for kind in Kind::ALL {
+        for (p, eta) in [(0.5, 0.75), (2.5, 0.92), (7.8, 0.99)] {
+            let structure = Structure::new("any", p, 0.2, eta).unwrap();
+            let at = |im4: f64, limit_state: f64| {
+                let of_motion = at(im4, 0.2 * p);
+                let model = Model::shipped(*kind, &structure, limit_state);
+                let given = model.probabilities(&structure, &of_motion, None, Scenarios::One);
+                given.given_rocking.unwrap()
             };
-            let (p, alpha) = (ln(&mut random, 0.4, 8.0), ln(&mut random, 0.04, 0.5));
-            let structure = Structure::new("any", p, alpha, random.random_range(0.7..0.999)).unwrap();
-            let unit = structure.uplift_acceleration_m_s2();
-            for motion in 0..20 {
-                let ratio = ln(&mut random, 0.05, 0.5);
-                let own = if motion % 2 == 0 { Some(&own) } else { None };
-                let shipped = Model::shipped(*kind, &structure, 0.1);
-                let mut last = [0.0; 3];
-                for step in 0..60 {
-                    let pga = unit * 1.0001 * (0.15 * f64::from(step)).exp();
-                    let measures = measures(&structure, pga, pga * ratio);
-                    let model = own.unwrap_or(&shipped);
-                    let given = model.probabilities(&structure, &measures, Scenarios::One).given_rocking;
-                    let given = given.unwrap();
-                    let now = [given.p_ro.value, given.p_ex.value, given.p_failure.value];
-                    for (now, last) in now.iter().zip(&mut last) {
-                        assert!(*now > *last - 0.01, "{now} after {last}: {kind} {structure:?} {measures:?}");
-                        *last = last.max(*now);
-                    }
-                }
+            for p in [at(1.0, 0.1).p_ro, at(1.0, 0.1).p_ex] {
+                assert_eq!([p.low, p.value, p.high], [0.0; 3]);
+            }
+            assert!(at(1.0001, 0.1).p_failure.value < 1e-3, "{kind} {:?}", at(1.0001, 0.1));
+            let mut last = 1.0;
+            for limit_state in [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.9, 1.5] {
+                let p = at(2.0, limit_state).p_failure.value;
+                assert!(p <= last, "{kind} {limit_state}: {p} {last}");
+                last = p;
             }
         }
     }
@@ -167,14 +235,16 @@ fn probabilities_do_not_fall_as_a_motion_is_scaled_up() {
 /// Limits that are finite, hold the value, and are not all of 0 to 1.
 fn expect_limits(p: Probability) {
     assert!(0.0 <= p.low && p.low <= p.value && p.value <= p.high && p.high <= 1.0, "{p:?}");
-    assert!(p.high - p.low < 0.95, "{p:?}");
+    // Magnitude is not known of any of these motions.
+    assert!(p.high - p.low < 0.98, "{p:?}");
 }
 
 #[test]
 fn limits_are_finite_without_events_with_nothing_else_and_of_eight_records() {
-    let strength = |k: u32| 1.1 + 0.05 * f64::from(k % 40);
     for n in [8, 400] {
-        for overturns in [Outcome::SafeRocking, Outcome::Overturning] {
+        for (overturns, least) in [(Outcome::SafeRocking, 1.1), (Outcome::Overturning, 1.6)] {
+            // Nothing overturns at uplift.
+            let strength = |k: u32| least + 0.05 * f64::from(k % 40);
             let model = calibrated(&cases(
                 (0..n).map(|k| (overturns, 0.05, strength(k), 2.0, if n == 8 { k } else { k % 30 })),
             ));
@@ -183,7 +253,8 @@ fn limits_are_finite_without_events_with_nothing_else_and_of_eight_records() {
             assert!(overturning.warnings().contains(&Warning::NoEvents));
             assert_eq!(overturning.warnings().contains(&Warning::FewClusters), n == 8);
             for im4 in [1.2, 2.0, 3.0] {
-                let probabilities = model.probabilities(&equipment(), &at(im4, im4 / 2.0), Scenarios::One);
+                let probabilities =
+                    model.probabilities(&equipment(), &at(im4, im4 / 2.0), None, Scenarios::One);
                 let given = probabilities.given_rocking.unwrap();
                 [given.p_ro, given.p_ex, given.p_failure].into_iter().for_each(expect_limits);
             }
@@ -207,7 +278,7 @@ fn a_pair_that_leaves_the_probit_without_a_fit_leaves_moderate_limits() {
     for im4 in [2.0, 3.0, 4.0] {
         let p_ro = |model: &Model| {
             let measures = at(im4, im4 / 2.0);
-            model.probabilities(&equipment(), &measures, Scenarios::Many).given_rocking.unwrap().p_ro
+            model.probabilities(&equipment(), &measures, None, Scenarios::Many).given_rocking.unwrap().p_ro
         };
         expect_limits(p_ro(&with));
         assert!((p_ro(&with).value - p_ro(&without).value).abs() < 0.1);
@@ -220,7 +291,7 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
     let model = Model::shipped(Kind::Csgm, &block, 0.1);
     for (pga, pgv) in [(3.0, 0.2), (5.0, 0.6), (9.0, 1.5), (20.0, 5.0)] {
         let of = |scenarios| {
-            model.probabilities(&block, &measures(&block, pga, pgv), scenarios).given_rocking.unwrap()
+            model.probabilities(&block, &measures(&block, pga, pgv), None, scenarios).given_rocking.unwrap()
         };
         let (one, many) = (of(Scenarios::One), of(Scenarios::Many));
         let joined = |of: fn(Probability) -> f64| p_failure_given_rocking(of(one.p_ro), of(one.p_ex));
@@ -233,9 +304,9 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
             assert!(many.value <= many.high && many.high <= one.high);
         }
     }
-    let still = model.probabilities(&block, &measures(&block, 1.0, 0.5), Scenarios::One);
+    let still = model.probabilities(&block, &measures(&block, 1.0, 0.5), None, Scenarios::One);
     assert_eq!(still.limit_states(), Some([Probability::exact(0.0); 3]));
-    let unknown = model.probabilities(&block, &measures(&block, 9.0, 0.0), Scenarios::One);
+    let unknown = model.probabilities(&block, &measures(&block, 9.0, 0.0), None, Scenarios::One);
     assert_eq!(unknown.limit_states(), None, "no velocity");
 }
 
@@ -261,13 +332,25 @@ fn what_lies_outside_is_warned_once() {
 fn limits_at_one_motion_are_1_96_standard_errors_of_the_logit() {
     let structure = Structure::new("any", 2.5, 0.2, 0.92).unwrap();
     let shipped = Calibration::shipped(Kind::Recorded, &structure, None);
-    let slope = 0.7 * shipped.ln_s.exp();
-    let variance = shipped.covariance[0] + slope * slope * shipped.covariance[3];
+    let of_motion = measures(&structure, 4.0, 0.4);
     let logit = |p: f64| (p / (1.0 - p)).ln();
-    for (scenarios, tau) in [(Scenarios::One, shipped.tau), (Scenarios::Many, 0.0)] {
-        let p = shipped.probability(0.7, scenarios);
-        let half_width = 1.959_963_984_540_054 * (variance + tau * tau).sqrt();
-        assert!((logit(p.high) - logit(p.value) - half_width).abs() < 1e-9);
-        assert!((logit(p.value) - logit(p.low) - half_width).abs() < 1e-9);
+    for mw in [None, Some(7.2)] {
+        let of = shipped.predictor(&structure, &of_motion, mw).unwrap();
+        let slope = of.logit * shipped.ln_s.exp();
+        let variance = shipped.covariance[0]
+            + slope * slope * shipped.covariance[4]
+            + of.magnitude * of.magnitude * shipped.covariance[8];
+        let of_magnitude = if mw.is_none() { shipped.m * of.magnitude_sd } else { 0.0 };
+        let spread = shipped.tau * shipped.tau + of_magnitude * of_magnitude;
+        for (scenarios, between) in [(Scenarios::One, spread), (Scenarios::Many, 0.0)] {
+            let p = shipped.probability(&of, scenarios);
+            let half_width = 1.959_963_984_540_054 * (variance + between).sqrt();
+            assert!((logit(p.high) - logit(p.value) - half_width).abs() < 1e-9);
+            assert!((logit(p.value) - logit(p.low) - half_width).abs() < 1e-9);
+        }
     }
+    // A unit of magnitude is worth m, and none beyond the magnitudes of the data.
+    let of = |mw| shipped.predictor(&structure, &of_motion, Some(mw)).unwrap().magnitude;
+    assert!((of(7.0) - of(6.0) - 1.0).abs() < 1e-12);
+    assert_eq!((of(3.0), of(9.0)), (of(5.0), of(7.6)));
 }

@@ -53,6 +53,8 @@ fn what_is_written_is_read() {
         let [read_motion] = &read(&text).unwrap()[..] else { panic!("{format:?}: one motion") };
         let RecordedMotion { event, station, component, acceleration_m_s2, .. } = read_motion;
         assert_eq!((read_motion.format, read_motion.azimuth_deg), (format.as_str(), Some(azimuth_deg)));
+        let mw = [(Format::Esm, 6.0), (Format::Knet, 9.0)].into_iter().find(|(of, _)| *of == format);
+        assert_eq!(read_motion.mw, mw.map(|(_, mw)| mw));
         assert!((read_motion.dt_s - DT).abs() < 1e-12 && acceleration_m_s2.len() == 1000);
         let offset = if format == Format::Knet { mean } else { 0.0 };
         for (a, b) in acceleration_m_s2.iter().zip(motion(1000)) {

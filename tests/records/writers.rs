@@ -69,7 +69,7 @@ pub fn cosmos(samples: &[f64], azimuth: i64) -> String {
 pub fn esm(samples: &[f64]) -> String {
     let in_cm = in_cm(samples);
     format!(
-        "EVENT_NAME: NORTHERN_ITALY\nEVENT_ID: IT-2012-0011\nEVENT_DATE_YYYYMMDD: 20120529\nEVENT_TIME_HHMMSS: 070002\n\
+        "EVENT_NAME: NORTHERN_ITALY\nEVENT_ID: IT-2012-0011\nEVENT_DATE_YYYYMMDD: 20120529\nEVENT_TIME_HHMMSS: 070002\nMAGNITUDE_W: 6.0\n\
          NETWORK: IT\nSTATION_CODE: MRN\nSTATION_NAME: MIRANDOLA\nVS30_M/S:\nSAMPLING_INTERVAL_S: {DT:.6}\nNDATA: {}\n\
          STREAM: HNE\nUNITS: cm/s^2\nPGA_CM/S^2: {:.6}\nDATA_TYPE: ACCELERATION\nUSER5:\n{}",
         samples.len(),

@@ -41,6 +41,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let letter = stream.get(stream.len().saturating_sub(1)..).unwrap_or("");
     Ok(RecordedMotion {
         event: joined(["EVENT_NAME", "EVENT_DATE_YYYYMMDD", "EVENT_TIME_HHMMSS"]),
+        mw: number("MAGNITUDE_W").map(|(_, mw)| mw),
         station: joined(["NETWORK", "STATION_CODE", "STATION_NAME"]),
         component: words(stream),
         azimuth_deg: azimuth_of(letter).filter(|_| !letter.starts_with(|c: char| c.is_ascii_digit())),

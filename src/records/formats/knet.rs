@@ -47,6 +47,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let place = number.map_or("", |number| if number <= 3 { "borehole" } else { "surface" });
     Ok(RecordedMotion {
         event: find("Origin Time").and_then(|(_, time)| words(time)),
+        mw: find("Mag.").and_then(|(_, magnitude)| leading_number(magnitude)),
         station: find("Station Code").and_then(|(_, code)| words(&format!("{code} {place}"))),
         component: words(component),
         azimuth_deg: azimuth_of(component),

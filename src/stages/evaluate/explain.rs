@@ -49,7 +49,7 @@ pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2], budget:
     };
     let other = |&kind: &Kind| {
         let shipped = Model::shipped(kind, structure, limit_state?);
-        let given = shipped.probabilities(structure, &measures, Scenarios::One).given_rocking?;
+        let given = shipped.probabilities(structure, &measures, None, Scenarios::One).given_rocking?;
         Some(format!("{} by the surface for {}", PERCENT.one(given.p_ro.value), words_of_kind(kind)))
     };
     let part = |part: &Part| Some(format!("{part} {}", significant(budget.sd_of(*part)?, 2)));
@@ -75,9 +75,10 @@ fn calibration(of: &Calibration) -> String {
         }
     };
     format!(
-        "logit P = {:.2} + {:.2} logit P of the surface ({kind}); tau {:.2}{fit}",
+        "logit P = {:.2} + {:.2} logit P of the surface ({kind}) + {:.2} (M - 6.9); tau {:.2}{fit}",
         of.c,
         of.ln_s.exp(),
+        of.m,
         of.tau
     )
 }

@@ -50,7 +50,7 @@ impl TreeRow {
         // The demand has a probability of its own under a motion that is known.
         let p_ex = motion.pga_m_s2.zip(motion.pgv_m_s).and_then(|(pga, pgv)| {
             let measures = IntensityMeasures::new(structure, pga, pgv, None, None);
-            Some(model.probabilities(structure, &measures, Scenarios::One).given_rocking?.p_ex)
+            Some(model.probabilities(structure, &measures, motion.mw, Scenarios::One).given_rocking?.p_ex)
         });
         let [p_ex, p_ex_low, p_ex_high] = match p_ex.filter(|p| !p.value.is_nan()) {
             Some(p) => [p.value, p.low, p.high].map(Some),

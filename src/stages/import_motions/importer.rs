@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::bail;
 use rayon::prelude::*;
 
+use super::about::About;
 use crate::motion::LONGEST_MOTION;
 use crate::number::counted;
 use crate::pipeline::context::Context;
@@ -25,6 +26,7 @@ pub struct Importer {
     names: HashMap<String, usize>,
     reading: ReadOptions,
     processing: Processing,
+    about: About,
     /// Whether vertical components are imported too, and how many were not.
     vertical: bool,
     left_out: AtomicUsize,
@@ -43,6 +45,7 @@ impl Importer {
         out: &Path,
         reading: ReadOptions,
         processing: Processing,
+        about: About,
         vertical: bool,
     ) -> anyhow::Result<Importer> {
         let mut files = keys::files_below(given)?;
@@ -53,7 +56,8 @@ impl Importer {
             let both: HashSet<String> = [file.file_stem(), file.file_name()].map(text).into();
             both.into_iter().for_each(|name| *names.entry(name).or_insert(0) += 1);
         }
-        Ok(Importer { files, names, reading, processing, vertical, left_out: AtomicUsize::new(0) })
+        let left_out = AtomicUsize::new(0);
+        Ok(Importer { files, names, reading, processing, about, vertical, left_out })
     }
 
     /// All work in order, and what cannot be read already.
@@ -139,7 +143,8 @@ impl Importer {
         };
         let motions = read_records(&bytes, &self.reading).map_err(|error| unread(file, &error))?;
         let several = motions.len() > 1;
-        let named = |(index, motion): (usize, RecordedMotion)| {
+        let named = |(index, mut motion): (usize, RecordedMotion)| {
+            self.about.add(file, &mut motion);
             let samples = motion.acceleration_m_s2.len();
             if samples > LONGEST_MOTION {
                 return Err(refusal(file, &format!("{samples} samples; expected {LONGEST_MOTION} at most")));

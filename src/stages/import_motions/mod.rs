@@ -1,6 +1,7 @@
 //! import-motions: recorded ground motions from the files of strong-motion networks and people, as motions
 //! that simulate reads.
 
+mod about;
 mod columns;
 mod importer;
 mod summary;
@@ -11,6 +12,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
+use self::about::About;
 use self::columns::batch;
 use self::importer::Importer;
 use self::summary::Summary;
@@ -90,6 +92,10 @@ pub struct ImportMotions {
     /// Also compute the Housner intensity (15 times as slow)
     #[arg(long)]
     housner: bool,
+    /// Table with the magnitude, distance (km) or earthquake of each file: columns file, magnitude,
+    /// distance, earthquake
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    about: Option<PathBuf>,
     /// Import vertical components too
     #[arg(long)]
     vertical: bool,
@@ -119,7 +125,9 @@ impl Stage for ImportMotions {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let processing = self.processing()?;
         let periods = processing.plan.sa_periods_s.clone();
-        let importer = Importer::new(&self.files, &self.out, self.reading(), processing, self.vertical)?;
+        let about = self.about.as_deref().map_or(Ok(About::default()), About::read)?;
+        let (reading, given) = (self.reading(), &self.files);
+        let importer = Importer::new(given, &self.out, reading, processing, about, self.vertical)?;
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         let (work, mut refused) = importer.work(context)?;
         let (mut ids, mut summary) = (HashSet::new(), Summary::default());

@@ -310,8 +310,8 @@ fn line(tables: &Tables, cases: &Cases, level: f64, pga: [f64; 2], [least, most]
     let calibration = fitted.cloned().unwrap_or_else(shipped);
     let reaches = |pga: f64, ln_pgv: f64| {
         let measures = IntensityMeasures::new(structure, pga, ln_pgv.exp(), None, None);
-        let logit = calibration.logit(structure, &measures).filter(|_| measures.im4 >= 1.0);
-        logit.is_some_and(|logit| calibration.probability(logit, Scenarios::One).value >= level)
+        let of = calibration.predictor(structure, &measures, None).filter(|_| measures.im4 >= 1.0);
+        of.is_some_and(|of| calibration.probability(&of, Scenarios::One).value >= level)
     };
     let mut points = Vec::new();
     for pga in ratios(pga) {

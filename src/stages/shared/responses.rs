@@ -94,6 +94,7 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> a
         cases.edp.extend(of_rows(&rows, &edp));
         cases.pga_m_s2.extend(of_rows(&rows, &pga));
         cases.pgv_m_s.extend(of_rows(&rows, &pgv));
+        cases.mw.extend(of_rows(&rows, &mw));
         for (measure, column) in Measure::SCALAR.into_iter().zip(&measures) {
             cases.column_mut(measure).extend(of_rows(&rows, column));
         }

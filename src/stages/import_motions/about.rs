@@ -1,0 +1,67 @@
+//! What a table says about records: magnitude, distance and earthquake, which few files have.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use crate::pipeline::UsageError;
+use crate::records::RecordedMotion;
+use crate::sheet::{Sheet, SheetError};
+
+/// What is known of each record, by the name of its file, with its ending or without.
+#[derive(Default)]
+pub struct About(HashMap<String, Known>);
+
+#[derive(Clone)]
+struct Known {
+    mw: Option<f64>,
+    re_km: Option<f64>,
+    earthquake: Option<String>,
+}
+
+/// Magnitudes that were ever recorded.
+const MAGNITUDES: std::ops::RangeInclusive<f64> = 1.0..=9.9;
+
+impl About {
+    /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`.
+    pub fn read(path: &Path) -> anyhow::Result<About> {
+        let problem = |problem: String| UsageError::because(format!("{}: {problem}", path.display()));
+        let bytes = std::fs::read(path).map_err(|error| problem(error.to_string()))?;
+        let sheet = Sheet::parse(&bytes).map_err(|error| problem(error.to_string()))?;
+        let Some(name) = sheet.column(&["file", "name", "motion_id"]) else {
+            return Err(problem("no column 'file' or 'name'".to_string()));
+        };
+        let magnitude = sheet.column(&["magnitude", "mw", "m"]);
+        let distance = sheet.column(&["distance", "distance_km", "re_km", "re"]);
+        let earthquake = sheet.column(&["earthquake", "event"]);
+        if magnitude.or(distance).or(earthquake).is_none() {
+            return Err(problem("expected a column 'magnitude', 'distance' or 'earthquake'".to_string()));
+        }
+        let number =
+            |row: usize, column: Option<usize>, is_possible: &dyn Fn(f64) -> bool, expected: &str| {
+                let Some(column) = column.filter(|&column| !sheet.cell(row, column).is_empty()) else {
+                    return Ok(None);
+                };
+                let value = sheet.number(row, column)?;
+                if is_possible(value) { Ok(Some(value)) } else { Err(sheet.refusal(row, column, expected)) }
+            };
+        let known = |row: usize| -> Result<(String, Known), SheetError> {
+            let mw = number(row, magnitude, &|mw| MAGNITUDES.contains(&mw), "a moment magnitude")?;
+            let re_km = number(row, distance, &|km| km >= 0.0, "a distance of 0 km or more")?;
+            let cell = |column| sheet.cell(row, column).to_string();
+            let earthquake = earthquake.map(cell).filter(|name| !name.is_empty());
+            Ok((cell(name), Known { mw, re_km, earthquake }))
+        };
+        let rows: Result<_, SheetError> = (0..sheet.lines.len()).map(known).collect();
+        Ok(About(rows.map_err(|error| problem(error.to_string()))?))
+    }
+
+    /// Adds to a record what the table says of its file.
+    pub fn add(&self, file: &Path, motion: &mut RecordedMotion) {
+        let names = [file.file_name(), file.file_stem()];
+        let found = names.into_iter().flatten().find_map(|name| self.0.get(name.to_str()?));
+        let Some(Known { mw, re_km, earthquake }) = found.cloned() else { return };
+        motion.mw = mw.or(motion.mw);
+        motion.re_km = re_km.or(motion.re_km);
+        motion.event = earthquake.or(motion.event.take());
+    }
+}
