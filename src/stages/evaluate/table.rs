@@ -102,7 +102,7 @@ fn of_batch(
         (0..batch.rows.num_rows()).into_par_iter().map(of_row).unzip();
     let (trees, errors): (Vec<TreeRow>, Vec<ErrorsRow>) = rows_of_all.into_iter().unzip();
     for (row, warnings) in warnings.into_iter().enumerate() {
-        let place = format!("row {}", batch.first_row + row as u64);
+        let place = format!("row {}", batch.first_row + row as u64 + 1);
         context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect::<Warnings>());
     }
     let own = rows::side_by_side(&[rows::batch(&trees)?, rows::batch(&errors)?])?;
