@@ -117,8 +117,10 @@ impl Tables {
         };
         let responses = key("responses")?.or(input("pro", "in"));
         let motions = input("responses", "in").or(key("motions")?);
+        // On a floor the responses are to its motions, which are made of these.
+        let ground = if key("floor")? == motions { None } else { key("motions")? };
         let strangers = [
-            ("motions", key("motions")?, motions.clone(), "responses"),
+            ("motions", ground, motions.clone(), "responses"),
             ("ida", input("ida", "in"), motions, "motions"),
             ("pex", input("pex", "in"), responses.clone(), "responses"),
             ("pro", input("pro", "in"), responses.clone(), "responses"),
