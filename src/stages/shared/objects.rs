@@ -54,6 +54,9 @@ const SD_OF_LOSS: f64 = 0.4;
 /// base.
 const FARTHEST: f64 = 0.98;
 
+/// Depth of an object over its height that no object has.
+const LONGEST: f64 = 20.0;
+
 impl From<Structure> for Object {
     fn from(structure: Structure) -> Object {
         let spec = Spec { name: Some(structure.name.clone()), ..Spec::default() };
@@ -166,7 +169,12 @@ impl Spec {
         let longer = |side: &str| format!("a length above 0 m, up to 200 m{side}: is it in cm or mm?");
         let bounds: [(&str, f64, f64, String); 12] = [
             ("width", 1e-4, 200.0, longer("")),
-            ("depth", 1e-4, 200.0, longer("")),
+            (
+                "depth",
+                1e-4,
+                (LONGEST * height).min(200.0),
+                longer(&format!(" and {LONGEST} times the height")),
+            ),
             ("centre-height", 1e-6, height * (1.0 - 1e-9), centre),
             ("centre-offset", -0.4999 * width, 0.4999 * width, offset),
             ("inertia", 1e-9, radius, inertia),
