@@ -78,20 +78,20 @@ pub struct SiteRates {
     pub overturning: Limited,
     /// Standard deviations of ln rate.
     pub budgets: Budgets,
-    /// From what PGV / PGA is known; none where the hazard has both peaks of each motion.
+    /// Source of PGV / PGA; none where the hazard has both peaks of each motion.
     pub velocity: Option<VelocitySource>,
     /// The share of the rate of overturning beyond the last point of a curve that is extrapolated.
     pub beyond: Option<f64>,
     /// The rate of overturning, counted among the responses.
     pub counted: Option<CountedRate>,
-    /// PGA and PGV (m/s2 and m/s) of a motion that half of the rate of overturning is above; of a joint hazard
+    /// PGA and PGV (m/s2 and m/s) of a motion above which half of the rate of overturning lies; of a joint hazard
     /// those of the strongest.
     pub motion: [f64; 2],
     pub warnings: Vec<Warning>,
 }
 
 impl Site {
-    /// The rates of an object in its directions, of which this is not known.
+    /// The rates of an object in its directions, given its uncertain inputs.
     pub fn rates(
         &self,
         directions: &[(Structure, Model)],

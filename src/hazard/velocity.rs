@@ -8,7 +8,7 @@ use crate::keyword::keywords;
 use crate::statistics::normal;
 use crate::units::G_M_S2;
 
-/// From what PGV / PGA is known.
+/// Source of PGV / PGA.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VelocitySource {
     /// Curves of PGA and PGV.
@@ -85,7 +85,7 @@ pub enum MatchError {
     )]
     ImpossibleRatio { ratio_s: f64, pga_g: f64 },
     #[error(
-        "by no PGV/PGA do both curves belong together: rates differ by {:.0} %; expected at most 50 %: curves of one \
+        "no PGV/PGA reconciles the two curves: rates differ by {:.0} %; expected at most 50 %: curves of one \
          site?",
         100.0 * (.0.exp() - 1.0)
     )]
