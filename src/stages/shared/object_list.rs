@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Context;
 
-use super::structures::{NUMBERS, Spec};
+use super::spec::{NUMBERS, Spec};
 use crate::sheet::{Heading, Sheet};
 use crate::units::Quantity;
 

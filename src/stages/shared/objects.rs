@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use super::structures::{Place, Restitution, Spec};
+use super::spec::{Place, Restitution, Spec};
 use crate::hazard::{Part, Unknown};
 use crate::motion::Floor;
 use crate::plausibility::check_structure;
@@ -56,6 +56,13 @@ const FARTHEST: f64 = 0.98;
 
 /// Depth of an object over its height that no object has.
 const LONGEST: f64 = 20.0;
+
+impl Spec {
+    /// The structure of its weaker direction, if its parameters can be right.
+    pub fn structure(&self) -> Result<Structure, String> {
+        Object::new(self.clone()).structure().cloned()
+    }
+}
 
 impl From<Structure> for Object {
     fn from(structure: Structure) -> Object {
