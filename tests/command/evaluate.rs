@@ -72,8 +72,9 @@ fn rates_over_a_power_law_are_those_of_closed_forms() {
     // Overturning: the sum of P_ro at the middles of narrow bins times their rates; beyond 4.5 g as at 4.5 g.
     let edges: Vec<f64> = (0..=400).map(|k| 0.25 * 18_f64.powf(f64::from(k) / 400.0)).collect();
     let middles = edges.windows(2).map(|edge| (edge[0] * edge[1]).sqrt()).chain([4.5]);
-    let lines = middles.map(|pga| format!("{pga},{}\n", 0.1 * pga * G_M_S2));
-    let table = format!("pga_g,pgv_m_s\n{}", lines.collect::<String>());
+    let lines = middles.map(|pga| format!("{pga},{},6.35\n", 0.1 * pga * G_M_S2));
+    // Without --magnitude a site has motions of 6.35.
+    let table = format!("pga_g,pgv_m_s,mw\n{}", lines.collect::<String>());
     std::fs::write(folder.path().join("table.csv"), table).unwrap();
     let p: Vec<f64> = rows(folder.path(), &format!("{BLOCK} --in table.csv --out t.csv"))
         .iter()
