@@ -17,7 +17,8 @@ OUT := out
 
 all: $(OUT)/paper.parquet $(OUT)/report.html
 
-$(ROCKFRAG): Cargo.toml Cargo.lock $(shell find src data -type f)
+# Another ROCKFRAG is used as it is.
+target/release/rockfrag: Cargo.toml Cargo.lock $(shell find src data -type f)
 	cargo build --release --locked
 
 $(OUT)/scenarios.parquet: pipeline.yaml | $(ROCKFRAG)

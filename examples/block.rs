@@ -21,7 +21,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hazard = HazardCurve::new(rates.map(|(pga_g, rate)| (pga_g * G_M_S2, rate)).to_vec())?;
     // PGV/PGA is that of sites in general, in earthquakes of magnitude 6.5.
     let ratio = Velocity::of_model(&model, Peak::Pga).ratio(6.5, 0.0);
-    let given_pga = GivenPeak { model: &model, structure: &block, peak: Peak::Pga, ratio, mw: None };
+    let directions = [(block.clone(), model.clone())];
+    let given_pga = GivenPeak { directions: &directions, peak: Peak::Pga, ratio, mw: None };
     let [rocks, fails, overturns] = rates_over_curve(&given_pga, &hazard).map(|rate| rate.value);
     println!("a year it rocks {rocks:.1e}, fails {fails:.1e} and overturns {overturns:.1e} times");
     Ok(())

@@ -12,6 +12,7 @@ use crate::keyword::keywords;
 pub enum Warning {
     UnusualScenario,
     ImplausibleRow,
+    NotRocking,
     ImplausibleRecord,
     OtherPeak,
     ImplausibleSize,
@@ -30,11 +31,13 @@ pub enum Warning {
     ScanEndsEarly,
     UnreadableFile,
     NoPartner,
+    UnusedColumns,
 }
 
 keywords!(Warning {
     UnusualScenario = "unusual_scenario",
     ImplausibleRow = "implausible_row",
+    NotRocking = "not_rocking",
     ImplausibleRecord = "implausible_record",
     OtherPeak = "other_peak",
     ImplausibleSize = "implausible_size",
@@ -53,6 +56,7 @@ keywords!(Warning {
     ScanEndsEarly = "scan_ends_early",
     UnreadableFile = "unreadable_file",
     NoPartner = "no_partner",
+    UnusedColumns = "unused_columns",
 });
 
 impl Warning {
@@ -63,6 +67,7 @@ impl Warning {
                 "outside of the earthquakes of the paper: magnitude 5.5 to 7.5, distance up to 20 km"
             }
             Warning::ImplausibleRow => "this row cannot be right; it has no result",
+            Warning::NotRocking => "it is held, or slides: no result",
             Warning::ImplausibleRecord => "this is no plausible record of an earthquake",
             Warning::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",
             Warning::ImplausibleSize => "no solid block is as high: are its dimensions in cm?",
@@ -86,6 +91,7 @@ impl Warning {
             }
             Warning::ScanEndsEarly => "too few motions overturn it for a median; raise --to",
             Warning::UnreadableFile => "not imported",
+            Warning::UnusedColumns => "columns that say nothing to rockfrag; a floor needs level and period",
             Warning::NoPartner => "no partner at right angles: left out",
         }
     }

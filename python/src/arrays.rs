@@ -5,6 +5,7 @@ use pyo3::types::{PyBytes, PyDict};
 use rockfrag::fragility::{beta, mu};
 use rockfrag::keyword::Keyword;
 use rockfrag::pipeline::UsageError;
+use rockfrag::records::plausibility::implausibility;
 use rockfrag::rocking::{Outcome, Record, TracePoint, simulate, trace, with_tail};
 use rockfrag::stages::shared::structures::Spec;
 use rockfrag::statistics::distributions::t_quantile;
@@ -60,6 +61,8 @@ pub fn simulate_motion<'py>(
     result.set_item("p", structure.p_rad_s)?;
     result.set_item("alpha", structure.alpha_rad)?;
     result.set_item("eta", structure.eta)?;
+    let implausible = implausibility(&numbers(acceleration), dt_s);
+    result.set_item("warnings", implausible.map(|of| of.to_string()).into_iter().collect::<Vec<_>>())?;
     Ok(result)
 }
 

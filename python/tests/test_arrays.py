@@ -123,3 +123,23 @@ def test_probabilities_come_from_fits_too(tmp_path, responses):
     fitted = rockfrag.probability(0.5, 0.6, fits=tmp_path, suite="csgm", **structure)
     assert 0 < fitted.p_ro < 1
     assert fitted.p_ro != rockfrag.probability(0.5, 0.6, suite="csgm", **structure).p_ro
+
+
+def test_an_implausible_motion_is_a_warning_of_python():
+    time = np.arange(0, 5, 0.01)
+    with pytest.warns(UserWarning, match="40 g") as told:
+        rockfrag.simulate_motion(40 * 9.81 * np.sin(20 * time), 0.01, **BLOCK)
+    assert [warning.filename for warning in told] == [__file__]
+
+
+def test_a_print_of_probabilities_is_six_lines():
+    assert len(repr(rockfrag.probability([0.5, 0.9], 0.6, **BLOCK)).splitlines()) == 6
+    with pytest.raises(ValueError, match="cm/s"):
+        rockfrag.probability(0.8, 90.0, **BLOCK)
+
+
+def test_an_error_leaves_no_folder(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    with pytest.raises(ValueError):
+        rockfrag.evaluate(pga=0.5, pgv=0.6)
+    assert list(tmp_path.iterdir()) == []

@@ -1,7 +1,7 @@
 """Fits what a floor adds to the surface: python surface.py UNIVERSAL.csv GROUND_RESPONSES FLOOR_RESPONSES
 
-logit P = c + s L + m (M - 6.9) + f (a + b ln(p T1)), L the logit of the surface at the floor's own peaks, f the resonant
-share of the floor's velocity; on the ground f is 0."""
+logit P = Z + f (a + b ln(p T1)), of P_ex also + f h ln(limit/0.1): Z the logit as shipped at the floor's own peaks and the
+magnitude, f the resonant share of the floor's velocity; on the ground f is 0."""
 
 import pathlib
 import sys
@@ -47,19 +47,20 @@ def read(ground, floor):
     return cases
 
 
-def fit(logit, cases, happened, with_floor, with_magnitude):
-    columns = np.stack([cases["share"], cases["share"] * np.log(cases["p_rad_s"] * cases["period"]), cases["mw"] - 6.9])
-    columns = columns[[k for k, on in enumerate((with_floor, with_floor, with_magnitude)) if on]]
+def columns(cases, limit):
+    narrow = np.log(cases["p_rad_s"] * cases["period"])
+    return cases["share"] * np.stack([np.ones_like(narrow), narrow, np.full_like(narrow, np.log(limit / 0.1))])
+
+
+def fit(z, terms, happened):
+    """The numbers of the terms that are added to z."""
 
     def loss(b):
-        z = b[0] + np.exp(b[1]) * logit + b[2:] @ columns
-        p = 1 / (1 + np.exp(-z))
-        gradient = p - happened
-        return (np.logaddexp(0, z) - happened * z).mean() + 1e-6 * b @ b, np.concatenate(
-            [[gradient.mean(), (gradient * np.exp(b[1]) * logit).mean()], columns @ gradient / len(z)]
-        ) + 2e-6 * b
+        full = z + b @ terms
+        p = 1 / (1 + np.exp(-full))
+        return (np.logaddexp(0, full) - happened * full).mean() + 1e-9 * b @ b, terms @ (p - happened) / len(z) + 2e-9 * b
 
-    return minimize(loss, np.zeros(2 + len(columns)), jac=True, method="BFGS").x
+    return minimize(loss, np.zeros(len(terms)), jac=True, method="BFGS").x
 
 
 def score(z, happened):
@@ -69,29 +70,30 @@ def score(z, happened):
 def main():
     surface = Surface(sys.argv[1])
     cases = read(*sys.argv[2:4])
+    cases = some(cases, cases["level"] > 0)
     names = sorted(set(cases["cluster"]))
     place = dict(zip(names, np.random.default_rng(2).permutation(len(names)) % FOLDS))
-    fold = np.array([place[name] for name in cases["cluster"]])
-    for event, limit in (("pro", 0.2), ("pex", 0.1), ("pex", 0.05), ("pex", 0.2), ("pex", 0.5)):
+    for event, limits in (("pro", (0.2,)), ("pex", (0.05, 0.1, 0.2, 0.5))):
         of = cases if event == "pro" else some(cases, ~cases["overturned"])
-        folds = fold if event == "pro" else fold[~cases["overturned"]]
-        logit = surface.logit(event, "recorded", of, limit)
-        happened = (of["overturned"] if event == "pro" else of["edp"] > limit).astype(float)
-        floor = of["level"] > 0
-        for with_floor, with_magnitude in ((False, False), (False, True), (True, False), (True, True)):
-            z = np.zeros(len(logit))
-            for k in range(FOLDS):
-                train = folds != k
-                b = fit(logit[train], some(of, train), happened[train], with_floor, with_magnitude)
-                z[~train] = apply(b, logit[~train], some(of, ~train), with_floor, with_magnitude)
-            b = fit(logit, of, happened, with_floor, with_magnitude)
-            print(f"{event} {limit} floor {with_floor} magnitude {with_magnitude}:", np.round(b, 3), f"left out: ground {score(z[~floor], happened[~floor]):.4f}, floors {score(z[floor], happened[floor]):.4f}, observed/expected {happened[floor].sum() / (1 / (1 + np.exp(-z[floor]))).sum():.3f}")
-
-
-def apply(b, logit, cases, with_floor, with_magnitude):
-    columns = np.stack([cases["share"], cases["share"] * np.log(cases["p_rad_s"] * cases["period"]), cases["mw"] - 6.9])
-    columns = columns[[k for k, on in enumerate((with_floor, with_floor, with_magnitude)) if on]]
-    return b[0] + np.exp(b[1]) * logit + b[2:] @ columns
+        fold = np.array([place[name] for name in of["cluster"]])
+        z, terms, happened, folds = [], [], [], []
+        for limit in limits:
+            of_limit = np.full(len(fold), limit)
+            z.append(surface.z(event, "recorded", of, limit))
+            terms.append(columns(of, limit)[: 2 if event == "pro" else 3])
+            happened.append((of["overturned"] if event == "pro" else of["edp"] > limit).astype(float))
+            folds.append(fold)
+        z, terms, happened, folds = np.concatenate(z), np.concatenate(terms, axis=1), np.concatenate(happened), np.concatenate(folds)
+        known = np.isfinite(z)
+        z, terms, happened, folds = z[known], terms[:, known], happened[known], folds[known]
+        left = z.copy()
+        for k in range(FOLDS):
+            left[folds == k] += fit(z[folds != k], terms[:, folds != k], happened[folds != k]) @ terms[:, folds == k]
+        p = 1 / (1 + np.exp(-left))
+        print(event, np.round(fit(z, terms, happened), 3), f"log score as on the ground {score(z, happened):.4f} (observed/expected {happened.sum() / (1 / (1 + np.exp(-z))).sum():.3f}), earthquakes left out {score(left, happened):.4f} ({happened.sum() / p.sum():.3f})")
+        for low, high in ((0.1, 0.3), (0.3, 0.7), (0.7, 1.4), (1.4, 3.0)):
+            here = np.tile((of["period"] > low) & (of["period"] <= high), len(limits))[known]
+            print(f"   T1 {low} to {high} s: observed/expected {happened[here].sum() / p[here].sum():.2f}, as on the ground {happened[here].sum() / (1 / (1 + np.exp(-z[here]))).sum():.2f}")
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ use crate::table::file::quiet_damage;
 /// Default pipeline file.
 const PIPELINE: &str = "pipeline.yaml";
 
-/// Dimensionless fragility curves for rocking structures in near-fault earthquakes
+/// How likely free-standing structures are to rock or overturn in an earthquake, and how often at a site
 #[derive(Debug, Parser)]
 #[command(name = "rockfrag", version, arg_required_else_help = true, args_override_self = true)]
 #[command(after_help = "First: rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6")]

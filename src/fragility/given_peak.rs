@@ -10,13 +10,11 @@ use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::statistics::numerics::{first, quadrature};
 
-/// The motions of one peak, as they meet a structure.
+/// The motions of one peak, as they meet an object.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenPeak<'a> {
-    /// What gives the probabilities.
-    pub model: &'a Model,
-    /// The structure that moves.
-    pub structure: &'a Structure,
+    /// A structure with the model that predicts for it, in each direction in which the object falls.
+    pub directions: &'a [(Structure, Model)],
     /// The peak that is given.
     pub peak: Peak,
     /// PGV / PGA of the motions, given the peak.
@@ -25,19 +23,22 @@ pub struct GivenPeak<'a> {
     pub mw: Option<f64>,
 }
 
-/// Probabilities of LS1, LS2 and LS3 under motions of a PGA and PGV (m/s2 and m/s); NaN where the model has
-/// none.
+/// Probabilities of LS1, LS2 and LS3 of an object under motions of a PGA and PGV (m/s2 and m/s): in either of
+/// its directions, which fall independently under one motion. NaN where a model has none.
 pub fn limit_states_at(
-    model: &Model,
-    structure: &Structure,
+    directions: &[(Structure, Model)],
     [pga_m_s2, pgv_m_s]: [f64; 2],
     mw: Option<f64>,
     scenarios: Scenarios,
 ) -> [Probability; 3] {
-    let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None);
-    let probabilities = model.probabilities(structure, &measures, mw, scenarios);
-    let rocking = Probability::exact(1.0 - probabilities.p_nr);
-    probabilities.limit_states().unwrap_or([rocking, Probability::UNKNOWN, Probability::UNKNOWN])
+    let of = |(structure, model): &(Structure, Model)| {
+        let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None);
+        let probabilities = model.probabilities(structure, &measures, mw, scenarios);
+        let rocking = Probability::exact(1.0 - probabilities.p_nr);
+        probabilities.limit_states().unwrap_or([rocking, Probability::UNKNOWN, Probability::UNKNOWN])
+    };
+    let either = |a: [Probability; 3], b: [Probability; 3]| [0, 1, 2].map(|k| a[k].or(b[k]));
+    directions.iter().map(of).reduce(either).unwrap_or([Probability::exact(0.0); 3])
 }
 
 /// Standard deviations from the median within which all ratios lie that count.
@@ -61,7 +62,7 @@ impl GivenPeak<'_> {
         let mut mean = [Probability::exact(0.0); 3];
         for (node, weight) in self.nodes(intensity) {
             let peaks = self.peaks(intensity, node);
-            let states = limit_states_at(self.model, self.structure, peaks, self.mw, scenarios);
+            let states = limit_states_at(self.directions, peaks, self.mw, scenarios);
             for (sum, state) in mean.iter_mut().zip(states) {
                 sum.value += weight * state.value;
                 sum.low += weight * state.low;
@@ -71,10 +72,11 @@ impl GivenPeak<'_> {
         mean
     }
 
-    /// Least intensity that uplifts the structure, and that which does so with the median PGV / PGA.
+    /// Least intensity that uplifts the object, and that which does so with the median PGV / PGA.
     pub fn uplift(&self) -> [f64; 2] {
-        let uplift = self.structure.uplift_acceleration_m_s2();
-        [-FARTHEST, 0.0].map(|node| self.intensity_of(uplift, node))
+        let of_all = self.directions.iter().map(|(structure, model)| model.uplift_m_s2(structure));
+        let [least, usual] = of_all.fold([f64::INFINITY; 2], |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
+        [self.intensity_of(least, -FARTHEST), self.intensity_of(usual, 0.0)]
     }
 
     /// Intensities at which a probability jumps: that of uplift, and that of the planes' transition. Over a
@@ -86,24 +88,27 @@ impl GivenPeak<'_> {
         }
     }
 
-    /// Widest panel of ln of the peak over which probabilities are smooth: the paper's lower plane under pulses has
-    /// a dispersion of 0.03.
+    /// Widest panel of ln of the peak over which probabilities are smooth: the paper's lower plane under
+    /// pulses has a dispersion of 0.03.
     pub fn widest_panel(&self) -> f64 {
-        match self.model {
-            Model::Paper { .. } => 0.02,
-            Model::Calibrated { .. } => 0.2,
-        }
+        let is_of_paper = |(_, model): &(Structure, Model)| matches!(model, Model::Paper { .. });
+        if self.directions.iter().any(is_of_paper) { 0.02 } else { 0.2 }
     }
 
     /// PGA at which a probability jumps, m/s2, rising.
     fn jumps_of_pga(&self) -> Vec<f64> {
-        let transitions: Vec<f64> = match self.model {
-            Model::Paper { demand, .. } => demand.iter().filter_map(|fit| fit.range_low).collect(),
-            Model::Calibrated { .. } => Vec::new(),
+        let of = |(structure, model): &(Structure, Model)| {
+            let transitions: Vec<f64> = match model {
+                Model::Paper { demand, .. } => demand.iter().filter_map(|fit| fit.range_low).collect(),
+                Model::Calibrated { .. } => Vec::new(),
+            };
+            let [uplift, _] = model.uplift_m_s2(structure);
+            let levels = std::iter::once(1.0).chain(transitions.into_iter().filter(|&im4| im4 > 1.0));
+            levels.map(move |im4| im4 * uplift)
         };
-        let uplift = self.structure.uplift_acceleration_m_s2();
-        let levels = std::iter::once(1.0).chain(transitions.into_iter().filter(|&im4| im4 > 1.0));
-        levels.map(|im4| im4 * uplift).collect()
+        let mut all: Vec<f64> = self.directions.iter().flat_map(of).collect();
+        all.sort_by(f64::total_cmp);
+        all
     }
 
     /// The intensity at which motions this many standard deviations from the median have a PGA (m/s2): by

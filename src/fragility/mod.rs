@@ -8,6 +8,7 @@
 //! tree         the event tree that joins them (Eq. 12)
 //! surface      P_ro and P_ex of any structure; calibration: the surface, calibrated by responses
 //! model        the model that predicts: the calibrated surface, or the paper's fits
+//! on_floor     the model on a floor of a building
 //! peaks        PGV / PGA of motions of one PGA or PGV; given_peak: probabilities given that peak alone
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
@@ -19,6 +20,7 @@ mod demand;
 mod given_peak;
 mod measure;
 mod model;
+mod on_floor;
 mod overturning;
 mod parameter;
 mod peaks;

@@ -2,11 +2,12 @@
 
 use super::calibration::{Calibration, Scenarios};
 use super::demand::DemandFit;
+use super::on_floor;
 use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
-use super::surface::{self, Kind};
+use super::surface::{self, Kind, Predictor};
 use super::tree::{GivenRocking, Probabilities, Probability, p_failure_given_rocking, p_no_rocking};
-use crate::motion::IntensityMeasures;
+use crate::motion::{Floor, IntensityMeasures};
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
 use crate::warning::Warning;
@@ -17,7 +18,7 @@ use crate::warning::Warning;
 #[expect(missing_docs, reason = "the types say it")]
 pub enum Model {
     /// The universal surface, calibrated.
-    Calibrated { overturning: Calibration, exceeding: Calibration, peaks: JointPeaks },
+    Calibrated { overturning: Calibration, exceeding: Calibration, peaks: JointPeaks, floor: Option<Floor> },
     /// The paper's planes (or the one line that holds everywhere) and its lognormal curve.
     Paper { demand: Vec<DemandFit>, overturning: CurveFit, limit_state: f64, peaks: JointPeaks },
 }
@@ -32,6 +33,18 @@ impl Model {
             overturning: Calibration::shipped(kind, structure, None),
             exceeding: Calibration::shipped(kind, structure, Some(limit_state)),
             peaks: surface::peaks(kind),
+            floor: None,
+        }
+    }
+
+    /// The same on a floor; none of the paper's model, which is fitted to the ground.
+    pub fn on(&self, floor: Option<Floor>) -> Option<Model> {
+        match (self.clone(), floor) {
+            (Model::Calibrated { overturning, exceeding, peaks, .. }, floor) => {
+                Some(Model::Calibrated { overturning, exceeding, peaks, floor })
+            }
+            (model, None) => Some(model),
+            (Model::Paper { .. }, Some(_)) => None,
         }
     }
 
@@ -43,25 +56,49 @@ impl Model {
         mw: Option<f64>,
         scenarios: Scenarios,
     ) -> Probabilities {
-        let (overturning, exceeding) = match self {
-            Model::Calibrated { overturning, exceeding, .. } => (overturning, exceeding),
+        let (overturning, exceeding, floor) = match self {
+            Model::Calibrated { overturning, exceeding, floor, .. } => (overturning, exceeding, floor),
             Model::Paper { demand, overturning, limit_state, .. } => {
                 return paper_probabilities(demand, overturning, measures, *limit_state, CONFIDENCE);
             }
         };
-        Probabilities::new(measures.im4, || {
-            let of = |calibration: &Calibration| {
-                Some(calibration.probability(&calibration.predictor(structure, measures, mw)?, scenarios))
-            };
-            let (p_ro, p_ex) = (of(overturning)?, of(exceeding)?);
-            // What is not known of a structure moves both branches the same way.
-            let p_failure = Probability {
-                value: p_failure_given_rocking(p_ro.value, p_ex.value),
-                low: p_failure_given_rocking(p_ro.low, p_ex.low),
-                high: p_failure_given_rocking(p_ro.high, p_ex.high),
-            };
-            Some(GivenRocking { p_ex, p_ro, p_failure })
-        })
+        // Magnitude is that of the ground's motion, whatever a floor makes of it.
+        let of_ground = |calibration: &Calibration| calibration.predictor(structure, measures, mw);
+        let of_ground = [of_ground(overturning), of_ground(exceeding)];
+        let given = |measures: &IntensityMeasures, added: [f64; 2]| {
+            Probabilities::new(measures.im4, || {
+                let of = |calibration: &Calibration, of_ground: Option<Predictor>, added: f64| {
+                    let Predictor { magnitude, magnitude_sd, .. } = of_ground?;
+                    let here = calibration.predictor(structure, measures, mw)?;
+                    let here = Predictor { magnitude, magnitude_sd, added: here.added + added, ..here };
+                    Some(calibration.probability(&here, scenarios))
+                };
+                let p_ro = of(overturning, of_ground[0], added[0])?;
+                let p_ex = of(exceeding, of_ground[1], added[1])?;
+                // What is not known of a structure moves both branches the same way.
+                let p_failure = Probability {
+                    value: p_failure_given_rocking(p_ro.value, p_ex.value),
+                    low: p_failure_given_rocking(p_ro.low, p_ex.low),
+                    high: p_failure_given_rocking(p_ro.high, p_ex.high),
+                };
+                Some(GivenRocking { p_ex, p_ro, p_failure })
+            })
+        };
+        match floor {
+            Some(floor) => {
+                let limit_state = exceeding.limit_state.unwrap_or(f64::NAN);
+                on_floor::probabilities(*floor, structure, measures, limit_state, given)
+            }
+            None => given(measures, [0.0; 2]),
+        }
+    }
+
+    /// Ground accelerations that uplift a structure: the least, and a usual one, m/s2.
+    pub fn uplift_m_s2(&self, structure: &Structure) -> [f64; 2] {
+        match self {
+            Model::Calibrated { floor: Some(_), .. } => on_floor::uplift_m_s2(structure),
+            _ => [structure.uplift_acceleration_m_s2(); 2],
+        }
     }
 
     /// Whether probabilities depend on magnitude: those of the paper do not.
@@ -78,6 +115,12 @@ impl Model {
 
     /// Returns what speaks against its prediction at an intensity.
     pub fn warnings(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Warning> {
+        let measures = match self {
+            Model::Calibrated { floor: Some(floor), .. } => {
+                &on_floor::median_measures(*floor, structure, measures)
+            }
+            _ => measures,
+        };
         let rocks = p_no_rocking(measures.im4) == 0.0;
         let mut warnings = match self {
             Model::Calibrated { overturning, exceeding, .. } => {

@@ -60,6 +60,16 @@ impl Probability {
         Probability { value, low, high }
     }
 
+    /// Of one or the other of two independent events, with errors of the same causes.
+    pub fn or(self, other: Probability) -> Probability {
+        let either = |a: f64, b: f64| a + b - a * b;
+        Probability {
+            value: either(self.value, other.value),
+            low: either(self.low, other.low),
+            high: either(self.high, other.high),
+        }
+    }
+
     /// Applies a rising function to the value and both limits.
     fn map(self, f: impl Fn(f64) -> f64) -> Probability {
         let [value, low, high] = [self.value, self.low, self.high].map(f);

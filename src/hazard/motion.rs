@@ -39,13 +39,13 @@ impl Motion {
         }
     }
 
-    /// The probabilities for a structure, averaged over the peak that is not known.
+    /// The probabilities for an object in its directions, averaged over the peak that is not known.
     pub fn probabilities(
         &self,
-        structure: &Structure,
-        unknowns: &[Unknown<Structure>],
-        model: &Model,
+        directions: &[(Structure, Model)],
+        unknowns: &[Unknown<Vec<(Structure, Model)>>],
     ) -> MotionProbabilities {
+        let model = &directions[0].1;
         let (mw, of_magnitude) = magnitude(self.mw);
         let one = match (self.pga_m_s2, self.pgv_m_s) {
             (Some(_), Some(_)) => None,
@@ -53,35 +53,32 @@ impl Motion {
             (None, pgv) => Some((Peak::Pgv, pgv.unwrap_or(0.0))),
         };
         let velocity = one.map(|(peak, _)| Velocity::of_model(model, peak));
-        let states = |structure: &Structure, mw: f64, ln: f64, scenarios: Scenarios| match (one, velocity) {
-            (Some((peak, intensity)), Some(velocity)) => {
-                let ratio = velocity.ratio(mw, ln);
-                let mw = velocity.magnitude(self.mw, mw);
-                GivenPeak { model, structure, peak, ratio, mw }.limit_states(intensity, scenarios)
-            }
-            _ => {
+        let states = |directions: &[(Structure, Model)], mw: f64, ln: f64, scenarios: Scenarios| {
+            let Some(((peak, intensity), velocity)) = one.zip(velocity) else {
                 let peaks = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
-                limit_states_at(model, structure, peaks, self.mw, scenarios)
-            }
+                return limit_states_at(directions, peaks, self.mw, scenarios);
+            };
+            let (ratio, mw) = (velocity.ratio(mw, ln), velocity.magnitude(self.mw, mw));
+            GivenPeak { directions, peak, ratio, mw }.limit_states(intensity, scenarios)
         };
-        let logits = |structure: &Structure, mw: f64, ln: f64| {
-            let [_, failure, overturning] = states(structure, mw, ln, Scenarios::Many);
+        let logits = |directions: &[(Structure, Model)], mw: f64, ln: f64| {
+            let [_, failure, overturning] = states(directions, mw, ln, Scenarios::Many);
             [failure, overturning].map(|p| logit(p.value))
         };
-        let (of_one, of_many) =
-            (states(structure, mw, 0.0, Scenarios::One), states(structure, mw, 0.0, Scenarios::Many));
+        let [of_one, of_many] =
+            [Scenarios::One, Scenarios::Many].map(|scenarios| states(directions, mw, 0.0, scenarios));
         let fit = [of_many[1], of_many[2]].map(sd_of_limits);
         let mut budgets = Budgets::default();
         budgets.add(Part::Fit, fit);
         // Of a motion whose peaks are both known, what magnitude adds is beside tau in its own limits.
         if model.depends_on_magnitude() && one.is_some() && self.mw.is_none() {
-            budgets.vary(&of_magnitude, |mw| logits(structure, *mw, 0.0));
+            budgets.vary(&of_magnitude, |mw| logits(directions, *mw, 0.0));
         }
         if let Some(velocity) = velocity {
-            budgets.vary(&velocity.unknown(), |ln| logits(structure, mw, *ln));
+            budgets.vary(&velocity.unknown(), |ln| logits(directions, mw, *ln));
         }
         for unknown in unknowns {
-            budgets.vary(unknown, |structure| logits(structure, mw, 0.0));
+            budgets.vary(unknown, |directions| logits(directions, mw, 0.0));
         }
         let tau = [0, 1].map(|k| (sd_of_limits(of_one[k + 1]).powi(2) - fit[k] * fit[k]).max(0.0).sqrt());
         let [rocking, failure, overturning] = of_many;

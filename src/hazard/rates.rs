@@ -31,11 +31,11 @@ pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
     rates(sums, at_last.map(|state| [state.value, (1.0 - state.value).max(0.0)].map(|p| p * rate_beyond)))
 }
 
-/// Sums the probabilities over the bins of a joint hazard.
-pub fn rates_over_pairs(model: &Model, structure: &Structure, mw: Option<f64>, joint: &JointHazard) -> Rates {
+/// Sums the probabilities of an object in its directions over the bins of a joint hazard.
+pub fn rates_over_pairs(directions: &[(Structure, Model)], mw: Option<f64>, joint: &JointHazard) -> Rates {
     let states = |bin: &PairOfPeaks| {
         let peaks = [bin.pga_m_s2, bin.pgv_m_s];
-        terms(limit_states_at(model, structure, peaks, bin.mw.or(mw), Scenarios::Many))
+        terms(limit_states_at(directions, peaks, bin.mw.or(mw), Scenarios::Many))
     };
     rates(joint.mean_annual_rates(states), [[0.0; 2]; 3])
 }

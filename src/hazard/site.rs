@@ -91,17 +91,21 @@ pub struct SiteRates {
 }
 
 impl Site {
-    /// The rates of a structure, of which this is not known.
-    pub fn rates(&self, structure: &Structure, unknowns: &[Unknown<Structure>], model: &Model) -> SiteRates {
+    /// The rates of an object in its directions, of which this is not known.
+    pub fn rates(
+        &self,
+        directions: &[(Structure, Model)],
+        unknowns: &[Unknown<Vec<(Structure, Model)>>],
+    ) -> SiteRates {
         match &self.hazard {
-            Hazard::Curve(hazard) => self.rates_over_curve(hazard, structure, unknowns, model),
+            Hazard::Curve(hazard) => self.rates_over_curve(hazard, directions, unknowns),
             Hazard::Joint(joint) => {
-                let rates = |structure: &Structure| rates_over_pairs(model, structure, self.mw, joint);
-                let value = rates(structure);
+                let rates = |directions: &[(Structure, Model)]| rates_over_pairs(directions, self.mw, joint);
+                let value = rates(directions);
                 let mut budgets = Budgets::default();
                 budgets.add(Part::Fit, sds_of_fit(&value));
                 for unknown in unknowns {
-                    budgets.vary(unknown, |structure| ln_rates(&rates(structure)));
+                    budgets.vary(unknown, |directions| ln_rates(&rates(directions)));
                 }
                 let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
                 let motion = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
@@ -113,17 +117,16 @@ impl Site {
     fn rates_over_curve(
         &self,
         hazard: &PeakHazard,
-        structure: &Structure,
-        unknowns: &[Unknown<Structure>],
-        model: &Model,
+        directions: &[(Structure, Model)],
+        unknowns: &[Unknown<Vec<(Structure, Model)>>],
     ) -> SiteRates {
-        let peak = hazard.peak;
+        let (peak, model) = (hazard.peak, &directions[0].1);
         let of_curves = || hazard.velocity.unwrap_or_else(|| Velocity::of_model(model, peak));
         let velocity = self.ratio_s.map_or_else(of_curves, Velocity::given);
         let (mw, of_magnitude) = magnitude(self.mw);
         let given = |mw: f64, ln: f64| {
             let of_motions = velocity.magnitude(self.mw, mw);
-            GivenPeak { model, structure, peak, ratio: velocity.ratio(mw, ln), mw: of_motions }
+            GivenPeak { directions, peak, ratio: velocity.ratio(mw, ln), mw: of_motions }
         };
         let middle = given(mw, 0.0);
         let as_given = rates_over_curve(&middle, &hazard.curve);
@@ -143,7 +146,7 @@ impl Site {
         }
         budgets.vary(&velocity.unknown(), |ln| of(&given(mw, *ln), &curve));
         for unknown in unknowns {
-            budgets.vary(unknown, |structure| of(&GivenPeak { structure, ..middle }, &curve));
+            budgets.vary(unknown, |directions| of(&GivenPeak { directions, ..middle }, &curve));
         }
         if let Some([low, high]) = &hazard.fractiles {
             let fractiles = Unknown { part: Part::Hazard, low: extended(low), high: extended(high) };
@@ -168,12 +171,12 @@ impl Site {
     /// The rate of overturning, counted among the responses of this structure to this kind of motion.
     fn count(&self, given: &GivenPeak, curve: &HazardCurve) -> Option<CountedRate> {
         let kind_of = |suite: &Option<String>| Kind::of_word(suite.as_deref());
-        let kind = match given.model {
+        let [(structure, model)] = given.directions else { return None };
+        let kind = match model {
             Model::Calibrated { overturning, .. } => overturning.kind,
             Model::Paper { overturning, .. } => kind_of(&overturning.suite),
         };
-        let is_same =
-            |cases: &&Cases| kind_of(&cases.suite) == kind && given.structure.is_like(&cases.structure);
+        let is_same = |cases: &&Cases| kind_of(&cases.suite) == kind && structure.is_like(&cases.structure);
         let cases = self.responses.iter().find(is_same)?;
         let motion = |case: usize| CountedMotion {
             intensity: if given.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
@@ -183,7 +186,7 @@ impl Site {
         let motions: Vec<CountedMotion> = (0..cases.len()).map(motion).collect();
         // Weaker motions uplift nothing.
         let least = match given.peak {
-            Peak::Pga => given.structure.uplift_acceleration_m_s2(),
+            Peak::Pga => structure.uplift_acceleration_m_s2(),
             Peak::Pgv => given.uplift()[0],
         };
         counted_rate(curve, least, motions, SEED)

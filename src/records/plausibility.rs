@@ -2,6 +2,7 @@
 //! give motions that no instrument has recorded.
 
 use crate::motion::measures::{peak, velocity};
+use crate::number::significant;
 use crate::units::G_M_S2;
 
 /// Time steps of records, s: 200 to 500 samples a second to film digitised by hand, with a margin.
@@ -37,29 +38,29 @@ const WEAKEST_PGA_G: f64 = 1e-3;
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the message says it")]
 pub enum Implausibility {
-    #[error("dt {} s; expected 0.0001 to 0.1 s: milliseconds, or sample numbers?", rounded(*.dt_s))]
+    #[error("dt {} s; expected 0.0001 to 0.1 s: milliseconds, or sample numbers?", significant(*.dt_s, 3))]
     TimeStep { dt_s: f64 },
     #[error("{samples} samples; expected 25 or more: a part of a record, or another table?")]
     FewSamples { samples: usize },
     #[error("0 throughout; expected a motion: another column?")]
     Still,
-    #[error("sample {sample} of {} g; those beside it are below a quarter: a spike?", rounded(*.pga_g))]
+    #[error("sample {sample} of {} g; those beside it are below a quarter: a spike?", significant(*.pga_g, 3))]
     Spike { sample: usize, pga_g: f64 },
-    #[error("PGA {} g; the largest ever recorded is 4 g: another unit, such as cm/s2?", rounded(*.pga_g))]
+    #[error("PGA {} g; the largest ever recorded is 4 g: another unit, such as cm/s2?", significant(*.pga_g, 3))]
     Pga { pga_g: f64 },
-    #[error("velocity {} m/s at the end; expected rest: an uncorrected baseline?", rounded(*.velocity_m_s))]
+    #[error("velocity {} m/s at the end; expected rest: an uncorrected baseline?", significant(*.velocity_m_s, 3))]
     Drift { velocity_m_s: f64 },
-    #[error("PGV {} m/s; records reach 3 m/s: another unit or time step?", rounded(*.pgv_m_s))]
+    #[error("PGV {} m/s; records reach 3 m/s: another unit or time step?", significant(*.pgv_m_s, 3))]
     Pgv { pgv_m_s: f64 },
-    #[error("PGV/PGA {} s; FEMA P695 has up to 0.5 s: velocity, or another time step?", rounded(*.ratio_s))]
+    #[error("PGV/PGA {} s; FEMA P695 has up to 0.5 s: velocity, or another time step?", significant(*.ratio_s, 3))]
     Slow { ratio_s: f64 },
-    #[error("mean frequency {} Hz; records reach 20 Hz: another time step?", rounded(*.frequency_hz))]
+    #[error("mean frequency {} Hz; records reach 20 Hz: another time step?", significant(*.frequency_hz, 3))]
     Fast { frequency_hz: f64 },
-    #[error("PGA {} g; too weak to rock anything: g in place of cm/s2?", rounded(*.pga_g))]
+    #[error("PGA {} g; too weak to rock anything: g in place of cm/s2?", significant(*.pga_g, 3))]
     WeakPga { pga_g: f64 },
-    #[error("PGA {} g; few records exceed 2 g: is it in m/s2, and called g?", rounded(*.pga_g))]
+    #[error("PGA {} g; few records exceed 2 g: is it in m/s2, and called g?", significant(*.pga_g, 3))]
     RarePga { pga_g: f64 },
-    #[error("PGV {} m/s; few records exceed 2.5 m/s: is it in m/s2, and called g?", rounded(*.pgv_m_s))]
+    #[error("PGV {} m/s; few records exceed 2.5 m/s: is it in m/s2, and called g?", significant(*.pgv_m_s, 3))]
     RarePgv { pgv_m_s: f64 },
 }
 
@@ -113,11 +114,4 @@ fn mean_frequency_hz(acceleration: &[f64], dt_s: f64) -> f64 {
     let steps: f64 = acceleration.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
     let squares: f64 = acceleration.iter().map(|a| a * a).sum();
     (steps / squares).sqrt() / (std::f64::consts::TAU * dt_s)
-}
-
-/// Formats a value with three digits.
-fn rounded(value: f64) -> String {
-    let digits = format!("{value:.2e}");
-    let plain = digits.parse::<f64>().ok().filter(|value| (1e-6..1e6).contains(&value.abs()));
-    plain.map_or(digits, |value| value.to_string())
 }

@@ -69,7 +69,8 @@ impl Stage for Export {
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
             let (velocity, median) = (Velocity::of_model(&model, self.im), magnitude(None).0);
             let (ratio, mw) = (velocity.ratio(median, 0.0), velocity.magnitude(None, median));
-            let given_peak = GivenPeak { model: &model, structure, peak: self.im, ratio, mw };
+            let directions = [(structure.clone(), model.clone())];
+            let given_peak = GivenPeak { directions: &directions, peak: self.im, ratio, mw };
             functions.push(self.function(structure, &given_peak));
             description = words_of(&model);
         }

@@ -69,7 +69,10 @@ impl Stage for FitPro {
         let curves = curves_text(&fits, self.confidence, &self.out)?;
         let summary = match self.calibrates() {
             true => {
-                format!("{}\n{curves}", calibrations_text(&calibrations, ["rock", "overturn"], &self.out)?)
+                format!(
+                    "{}\n{curves}",
+                    calibrations_text(&calibrations, ["rock", "overturn"], &part(&self.out, "calibration"))?
+                )
             }
             false => curves,
         };

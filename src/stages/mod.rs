@@ -16,6 +16,7 @@ macro_rules! stages {
 
         /// All stages.
         #[derive(Debug, Subcommand)]
+        #[expect(clippy::large_enum_variant, reason = "clap makes one for each call")]
         pub enum Stages {
             $($stage($module::$stage)),*
         }

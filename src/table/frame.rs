@@ -10,7 +10,7 @@ use super::columns::numbers;
 use super::file::{NARROW_BATCH, Table};
 use crate::fragility::Group;
 use crate::keyword::keywords;
-use crate::number::aligned;
+use crate::number::{aligned, fixed, significant};
 
 /// Format of a printed table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -142,21 +142,11 @@ pub fn text(frame: &DataFrame) -> String {
     let columns = frame.columns();
     let names = columns.iter().map(|column| column.name().to_string()).collect();
     let cell = |column: &Column, row: usize| match value(column, row) {
-        AnyValue::Float64(number) => short(number),
+        AnyValue::Float64(value) => significant(value, 4),
+        AnyValue::Int64(count) => fixed(count as f64, 0),
         other => cell(&other, "-"),
     };
     let cells = (0..frame.height()).map(|row| columns.iter().map(|column| cell(column, row)).collect());
     let rows: Vec<Vec<String>> = std::iter::once(names).chain(cells).collect();
     aligned(&rows, |column| columns[column].dtype() != &DataType::String)
-}
-
-/// Formats a number with four significant digits.
-pub fn short(number: f64) -> String {
-    if number == 0.0 {
-        return "0".to_string();
-    }
-    match number.abs().log10().floor() as i32 {
-        magnitude @ -4..5 => format!("{number:.*}", (3 - magnitude).max(0) as usize),
-        _ => format!("{number:.3e}"),
-    }
 }

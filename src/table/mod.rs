@@ -43,7 +43,8 @@ pub enum TableError {
     MissingColumn { path: PathBuf, column: String, expected: String },
     #[error("{}: column '{column}' is {found}; expected {expected}", path.display())]
     ColumnType { path: PathBuf, column: String, found: String, expected: &'static str },
-    #[error("{}: row {row}, column '{column}': {problem}", path.display())]
+    /// `row` counts from 0, in words from 1.
+    #[error("{}: row {}, column '{column}': {problem}", path.display(), row + 1)]
     Value { path: PathBuf, row: u64, column: &'static str, problem: String },
     #[error("{}: {problem}", path.display())]
     Table { path: PathBuf, problem: String },

@@ -15,11 +15,11 @@ fn motions_that_cannot_be_used_are_named() {
     let nan: &[f64] = &[0.0, f64::NAN];
     let (fine, short, huge): (&[f64], &[f64], &[f64]) = (&[0.0, 1.0], &[1.0], &[0.0, f64::INFINITY]);
     for (dt, motions, named) in [
-        (0.01, vec![fine, nan], vec!["m.parquet", "row 1", "acceleration_m_s2"]),
-        (0.01, vec![huge], vec!["row 0", "acceleration_m_s2"]),
-        (0.01, vec![short], vec!["row 0", "acceleration_m_s2"]),
-        (0.0, vec![fine], vec!["row 0", "dt_s"]),
-        (f64::NAN, vec![fine], vec!["row 0", "dt_s"]),
+        (0.01, vec![fine, nan], vec!["m.parquet", "row 2", "acceleration_m_s2"]),
+        (0.01, vec![huge], vec!["row 1", "acceleration_m_s2"]),
+        (0.01, vec![short], vec!["row 1", "acceleration_m_s2"]),
+        (0.0, vec![fine], vec!["row 1", "dt_s"]),
+        (f64::NAN, vec![fine], vec!["row 1", "dt_s"]),
         (0.01, vec![], vec!["m.parquet"]),
     ] {
         write_motions(&folder.path().join("m.parquet"), dt, &motions);
@@ -77,13 +77,13 @@ fn responses_that_cannot_be_right_are_named() {
         crate::common::write(&folder.path().join("responses.parquet"), all.collect());
     };
     for (column, values, named) in [
-        ("p_rad_s", numbers(-1.0, -1.0), vec!["row 0", "p_rad_s", "-1"]),
-        ("p_rad_s", numbers(2.5, f64::NAN), vec!["row 1", "p_rad_s"]),
-        ("alpha_rad", numbers(0.2, 0.19), vec!["row 1", "alpha_rad", "0.19", "own name"]),
-        ("eta", numbers(0.92, 1.5), vec!["row 1", "eta", "1.5"]),
-        ("outcome", text("falls"), vec!["row 1", "outcome", "falls"]),
-        ("outcome", text(""), vec!["row 1", "outcome"]),
-        ("edp", numbers(0.1, f64::NAN), vec!["row 1", "edp"]),
+        ("p_rad_s", numbers(-1.0, -1.0), vec!["row 1", "p_rad_s", "-1"]),
+        ("p_rad_s", numbers(2.5, f64::NAN), vec!["row 2", "p_rad_s"]),
+        ("alpha_rad", numbers(0.2, 0.19), vec!["row 2", "alpha_rad", "0.19", "own name"]),
+        ("eta", numbers(0.92, 1.5), vec!["row 2", "eta", "1.5"]),
+        ("outcome", text("falls"), vec!["row 2", "outcome", "falls"]),
+        ("outcome", text(""), vec!["row 2", "outcome"]),
+        ("edp", numbers(0.1, f64::NAN), vec!["row 2", "edp"]),
     ] {
         write(column, values);
         fail(folder.path(), "fit-pro", 1, &[&["responses.parquet"], &named[..]].concat());

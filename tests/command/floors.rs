@@ -95,5 +95,5 @@ fn what_is_no_motion_of_the_ground_is_refused() {
     fail(here, "floor-motions --period 0.8 --level 3", 2, &["--level", "0 to 1"]);
     fail(here, "floor-motions --period 0.8 --level 1 --damping 5", 2, &["--damping", "percent"]);
     write_motions(&here.join("damaged.parquet"), 0.01, &[&[0.0, 1.0, 0.0], &[0.0, f64::NAN]]);
-    fail(here, "floor-motions --in damaged.parquet --period 0.8 --level 1", 1, &["damaged.parquet", "row 1"]);
+    fail(here, "floor-motions --in damaged.parquet --period 0.8 --level 1", 1, &["damaged.parquet", "row 2"]);
 }

@@ -7,5 +7,6 @@ mod files;
 mod floors;
 mod hazard;
 mod interruption;
+mod objects;
 mod paper;
 mod pipeline;

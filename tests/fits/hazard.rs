@@ -114,7 +114,8 @@ fn a_power_law_and_a_bivariate_lognormal_have_a_rate_in_closed_form() {
             (Peak::Pgv, of_constant - b[1] * level, b[1] * (1.0 - slope) + b[2], b[1] * sd),
         ] {
             let wider = 1.0_f64.hypot(per_z);
-            let given = GivenPeak { model: &model, structure: &structure, peak, ratio, mw: None };
+            let directions = [(structure.clone(), model.clone())];
+            let given = GivenPeak { directions: &directions, peak, ratio, mw: None };
             let rate = rates_over_curve(&given, &curve)[2].value;
             let expected = rate_in_closed_form(k0, k, constant / wider, per_ln / wider);
             assert!((rate / expected - 1.0).abs() < 1e-6, "{peak}: {rate} for {expected}");
@@ -142,7 +143,7 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
         limit_state: 0.1,
         responses: vec![],
     };
-    let rates = site.rates(&structure, &[], &model);
+    let rates = site.rates(&[(structure, model)], &[]);
     let errors = rates.budgets.overturning;
     let of_velocity = errors.sd_of(Part::Velocity).unwrap();
     let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.unknown().high;

@@ -9,6 +9,7 @@ mod demand;
 mod hazard;
 mod model;
 mod normal;
+mod on_floor;
 mod overturning;
 mod paper;
 mod ranking;

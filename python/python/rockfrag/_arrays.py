@@ -5,6 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from itertools import starmap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -64,6 +65,7 @@ def simulate_motion(
         raise ValueError(f"acceleration has {samples.ndim} dimensions; expected 1")
     words = ",".join(["name=structure", *(f"{name}={value}" for name, value in structure.items())])
     solved = _rockfrag.simulate_motion(samples.tobytes(), dt, words, tail)
+    _bridge.warn(solved.pop("warnings"))
     solved.update({name: np.frombuffer(solved[name]) for name in ("time", "theta", "theta_dot")})
     return Response(**solved)
 
@@ -130,7 +132,17 @@ def fit_fragility(im: ArrayLike, outcome: ArrayLike, *, confidence: float = 0.95
     return FragilityCurve(**fit)
 
 
-@dataclass(frozen=True, eq=False)
+#: What a print of probabilities shows.
+LINES = [
+    ("p_nr", "p_nr   does not rock"),
+    ("p_ex", "p_ex   exceeds, rocking safely"),
+    ("p_ro", "p_ro   overturns, given rocking"),
+    ("p_f_r", "p_f_r  fails, given rocking"),
+    ("p_f", "p_f    fails"),
+]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Probabilities:
     """The probabilities of the tree (Eq. 12) with 95 % limits, of the shape of the intensities.
 
@@ -151,6 +163,20 @@ class Probabilities:
     p_f: Floats
     #: What speaks against them.
     warnings: list[str]
+
+    def __repr__(self) -> str:
+        def line(name: str, words: str) -> str:
+            known = [of[~np.isnan(of)] for of in map(self._of, (name, f"{name}_low", f"{name}_high"))]
+            if not known[0].size:
+                return f"{words:<32} none"
+            limits = f"  (95 % limits {known[1].min():.3g} to {known[2].max():.3g})" if known[1].size else ""
+            ends = sorted({f"{known[0].min():.3g}", f"{known[0].max():.3g}"}, key=float)
+            return f"{words:<32} {' to '.join(ends)}{limits}"
+
+        return "\n".join([f"Probabilities at {np.size(self.p_nr)} intensities", *starmap(line, LINES)])
+
+    def _of(self, name: str) -> Floats:
+        return np.asarray(getattr(self, name, np.empty(0)))
 
 
 def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities:

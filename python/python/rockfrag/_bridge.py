@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+import shutil
+import sys
 import tempfile
 import textwrap
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from inspect import Parameter, Signature
 from pathlib import Path
@@ -93,7 +97,9 @@ def call(
     if threads is not None:
         words["threads"] = threads
     files = {flag(option.name): option for option in stage.options if option.file}
-    with tempfile.TemporaryDirectory(prefix="rockfrag.") as scratch:
+    with tempfile.TemporaryDirectory(prefix="rockfrag.") as scratch, contextlib.ExitStack() as failed:
+        if folder is not None:
+            failed.callback(shutil.rmtree, folder)
         for name, option in files.items():
             if hasattr(words.get(name), "__arrow_c_stream__"):
                 words[name] = written(words[name], Path(scratch, name), option)
@@ -107,6 +113,7 @@ def call(
         except (_rockfrag.Error, ValueError, FileNotFoundError) as error:
             # A table has no path.
             raise type(error)(str(error).replace(f"{scratch}{os.sep}", "")) from None
+        failed.pop_all()
     return result(made, folder)
 
 
@@ -117,8 +124,18 @@ def flag(name: str) -> str:
 
 def result(made: tuple[str, list[Path], str, list[str]], folder: Path | None = None) -> Result:
     """What came of a stage that is done."""
-    stage, paths, summary, warnings = made
-    return Result(stage, paths[-1] if paths else None, summary, warnings, folder)
+    stage, paths, summary, texts = made
+    warn(texts)
+    return Result(stage, paths[-1] if paths else None, summary, texts, folder)
+
+
+def warn(texts: Iterable[str]) -> None:
+    """Makes each a warning of Python, at the line that called the package."""
+    level = 1
+    while sys._getframe(level).f_globals.get("__package__") == __package__:
+        level += 1
+    for text in texts:
+        warnings.warn(text, stacklevel=level + 1)
 
 
 def written(table: Any, path: Path, option: Option) -> Path:

@@ -4,6 +4,7 @@
 //! object       what is predicted for each object of a call, the worst first
 //! point        probabilities at one PGA and PGV
 //! rates        annual rates at a site
+//! target       the width of a base that meets a target
 //! table        probabilities at each intensity of a table; intensities reads it
 //! words        an object, its model and its warnings in words
 //! explain      the model and the measures behind an answer
@@ -17,6 +18,7 @@ mod output;
 mod point;
 mod rates;
 mod table;
+mod target;
 mod words;
 
 use std::path::{Path, PathBuf};
@@ -25,23 +27,24 @@ use clap::{Args, ValueHint};
 
 use super::shared::hazard::{self, Renamed};
 use super::shared::model_args::{ModelArgs, Models};
+use super::shared::objects::{Object, Reason};
 use super::shared::responses;
-use super::shared::structures::{Object, StructureArgs};
-use crate::fragility::Model;
-use crate::hazard::{Hazard, Motion, Site, Unknown};
+use super::shared::structures::{Place, StructureArgs};
+use crate::hazard::{Hazard, Motion, Site};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::Stage;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
-use crate::rocking::Structure;
 use crate::units::G_M_S2;
+use crate::warning::Warning;
 
-use self::object::{Answer, Prediction};
+use self::object::{Answer, Prediction, Subject};
 pub use self::object::{ErrorsRow, ObjectRow, Predicted};
 use self::output::Output;
 pub use self::point::TreeRow;
 pub use self::rates::RatesRow;
+use self::target::Target;
 pub use self::words::size;
 
 /// Predict how probable rocking and overturning are: under a motion, under each of a table, or a year at
@@ -82,6 +85,9 @@ pub struct Evaluate {
     #[arg(long, value_name = "S", requires = "hazard",
           value_parser = number(0.005..=1.0, "PGV/PGA in s, from 0.005 to 1, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
+    /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
+    #[arg(long, value_name = "P", requires = "hazard")]
+    target: Option<Target>,
     /// Responses to count overturning in, beside the rate
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     responses: Option<PathBuf>,
@@ -100,6 +106,8 @@ pub struct Evaluate {
     model: ModelArgs,
     #[command(flatten)]
     structures: StructureArgs,
+    #[command(flatten)]
+    place: Place,
 }
 
 /// What is evaluated.
@@ -125,7 +133,8 @@ impl Stage for Evaluate {
             Question::Motion(motion) => self.under_motion(&motion, &models, context),
             Question::Hazard => self.over_hazard(&models, context),
             Question::Table(path) => {
-                let (rows, text) = table::evaluate(path, &self.columns, &self.structures, &models, context)?;
+                let (rows, text) =
+                    table::evaluate(path, &self.columns, &self.structures, &self.place, &models, context)?;
                 self.output.write(&rows, text, Some(path), context)
             }
         }
@@ -148,23 +157,26 @@ impl Evaluate {
     }
 
     fn under_motion(&self, motion: &Motion, models: &Models, context: &Context) -> anyhow::Result<String> {
-        let predict = |structure: &Structure, unknowns: &[Unknown<Structure>], model: &Model| {
-            let (row, budget) = TreeRow::new(motion, structure, unknowns, model);
-            Prediction { row, budget, motion: motion.peaks(model), warnings: Vec::new() }
+        let predict = |_: &Object, subject: &Subject| {
+            let (row, budget) = TreeRow::new(motion, subject);
+            Prediction { row, budget, motion: motion.peaks(&subject.weaker().1), warnings: Vec::new() }
         };
-        let all = object::answers(self.objects(models)?, models, self.explain, predict)?;
+        let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
         self.finish(&all, point::text(&all, self.sentence), context)
     }
 
     fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
         let site = self.site()?;
-        let predict = |structure: &Structure, unknowns: &[Unknown<Structure>], model: &Model| {
-            let rates = site.rates(structure, unknowns, model);
-            let (row, budget) = (RatesRow::new(&rates, self.years), rates.budgets.overturning);
+        let predict = |object: &Object, subject: &Subject| {
+            let rates = site.rates(&subject.directions, &subject.unknowns);
+            let widths = |target| target::widths(object, models, &site, self.years, target);
+            let mut row = RatesRow::new(&rates, self.years);
+            [row.target_width_m, row.target_width_m_high] = self.target.map_or([None; 2], widths);
+            let budget = rates.budgets.overturning;
             Prediction { row, budget, motion: rates.motion, warnings: rates.warnings }
         };
-        let all = object::answers(self.objects(models)?, models, self.explain, predict)?;
-        self.finish(&all, rates::text(&all, &site, self.sentence), context)
+        let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
+        self.finish(&all, rates::text(&all, &site, self.target, self.sentence), context)
     }
 
     /// Reads the hazard and what rates over it need.
@@ -189,19 +201,23 @@ impl Evaluate {
     }
 
     /// Returns the given structures, or all fitted ones.
-    fn objects(&self, models: &Models) -> anyhow::Result<Vec<Object>> {
+    fn objects(&self, models: &Models, context: &Context) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.model.fits.is_some() {
-            return Ok(models.structures()?.into_iter().map(Object::from).collect());
+            let on_place = |structure| Object::from(structure).at(self.place);
+            return Ok(models.structures()?.into_iter().map(on_place).collect());
         }
-        let objects = self.structures.objects()?;
-        match objects.iter().find_map(|object| object.structure.as_ref().err()) {
-            Some(reason) if objects.iter().all(|object| object.structure.is_err()) => {
-                match self.structures.structures {
-                    Some(_) => anyhow::bail!("{reason}; no other row can be right either"),
-                    None => Err(UsageError::because(reason)),
-                }
+        let (objects, unused) = self.structures.objects(&self.place)?;
+        context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());
+        let reasons = objects.iter().map(|object| match &object.directions {
+            Err(Reason::Implausible(reason)) => Some(reason),
+            _ => None,
+        });
+        match (reasons.collect::<Option<Vec<&String>>>().as_deref(), &self.structures.structures) {
+            (Some([reason, ..]), Some(path)) => {
+                anyhow::bail!("{}: {reason}; no other row can be right either", path.display())
             }
-            _ => Ok(objects.to_vec()),
+            (Some([reason, ..]), None) => Err(UsageError::because(reason.as_str())),
+            _ => Ok(objects),
         }
     }
 

@@ -7,10 +7,12 @@ use serde::{Deserialize, Serialize};
 use super::explain::explained;
 use crate::fragility::Model;
 use crate::hazard::{Budget, Part, Unknown};
-use crate::motion::IntensityMeasures;
+use crate::motion::{Floor, IntensityMeasures};
+use crate::pipeline::UsageError;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::{Models, words_of};
-use crate::stages::shared::structures::{Object, warnings_of};
+use crate::stages::shared::objects::{Direction, Object, Reason};
+use crate::stages::shared::structures::warnings_of;
 use crate::table::rows::{self, Row};
 use crate::warning::{Warning, Warnings};
 
@@ -40,7 +42,12 @@ pub trait Predicted: Row + Default + Send + Sync {
 pub struct ObjectRow {
     pub structure: String,
     pub width_m: Option<f64>,
+    pub depth_m: Option<f64>,
     pub height_m: Option<f64>,
+    pub floor_period_s: Option<f64>,
+    pub floor_level: Option<f64>,
+    /// Number of such objects.
+    pub count: Option<f64>,
     pub p_rad_s: Option<f64>,
     pub alpha_rad: Option<f64>,
     pub eta: Option<f64>,
@@ -63,12 +70,16 @@ impl ObjectRow {
         }
     }
 
-    /// Of an object whose row cannot be right.
+    /// Of an object without an answer.
     fn refused(object: &Object) -> ObjectRow {
         ObjectRow {
-            structure: object.name.clone(),
-            width_m: object.size_m.map(|size| size[0]),
-            height_m: object.size_m.map(|size| size[1]),
+            structure: object.name().to_string(),
+            width_m: object.spec.width,
+            depth_m: object.spec.depth,
+            height_m: object.spec.height,
+            floor_period_s: object.floor().map(|floor| floor.period_s),
+            floor_level: object.floor().map(|floor| floor.level),
+            count: object.spec.place.count,
             ..ObjectRow::default()
         }
     }
@@ -120,7 +131,70 @@ impl ErrorsRow {
     }
 }
 
-/// What is predicted for one structure.
+/// An object in its directions, the weaker first, each with the model that predicts for it.
+pub struct Subject {
+    pub directions: Vec<(Structure, Model)>,
+    /// What is not known of them.
+    pub unknowns: Vec<Unknown<Vec<(Structure, Model)>>>,
+}
+
+impl Subject {
+    /// An object on its floor, and what speaks against the models.
+    pub fn of(object: &Object, models: &Models) -> anyhow::Result<Result<(Subject, Vec<Warning>), Reason>> {
+        let found = match &object.directions {
+            Ok(directions) => directions,
+            Err(reason) => return Ok(Err(reason.clone())),
+        };
+        let (mut on_ground, mut warnings) = (Vec::new(), Vec::new());
+        for Direction { structure, .. } in found {
+            let (model, of_model) = models.model(structure)?;
+            warnings.extend(of_model);
+            warnings.extend(warnings_of(structure));
+            on_ground.push(model);
+        }
+        let on = |floor: Option<Floor>| -> anyhow::Result<Vec<Model>> {
+            let problem = || UsageError::because("period: the paper's model is that of the ground");
+            on_ground.iter().map(|model| model.on(floor).ok_or_else(problem)).collect()
+        };
+        let structures = || found.iter().map(|direction| direction.structure.clone());
+        let models = on(object.floor())?;
+        let mut unknowns = Vec::new();
+        for number in 0..found.iter().map(|direction| direction.unknowns.len()).min().unwrap_or(0) {
+            let of = |end: fn(&Unknown<Structure>) -> &Structure| {
+                let structures = found.iter().map(|direction| end(&direction.unknowns[number]).clone());
+                structures.zip(models.iter().cloned()).collect()
+            };
+            let part = found[0].unknowns[number].part;
+            unknowns.push(Unknown {
+                part,
+                low: of(|unknown| &unknown.low),
+                high: of(|unknown| &unknown.high),
+            });
+        }
+        if let Some(Unknown { part, low, high }) = object.unknown_floor() {
+            let of = |floor| anyhow::Ok(structures().zip(on(Some(floor))?).collect());
+            unknowns.push(Unknown { part, low: of(low)?, high: of(high)? });
+        }
+        let directions = structures().zip(models.iter().cloned()).collect();
+        Ok(Ok((Subject { directions, unknowns }, warnings)))
+    }
+
+    /// The weaker direction.
+    pub fn weaker(&self) -> &(Structure, Model) {
+        &self.directions[0]
+    }
+
+    /// What speaks against predictions at a motion (m/s2 and m/s).
+    pub fn warnings(&self, motion: [f64; 2]) -> Vec<Warning> {
+        let of = |(structure, model): &(Structure, Model)| {
+            let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
+            model.warnings(structure, &measures)
+        };
+        self.directions.iter().flat_map(of).collect()
+    }
+}
+
+/// What is predicted for one object.
 pub struct Prediction<R> {
     pub row: R,
     /// Errors of the logit of the probability of overturning, or of ln of its rate.
@@ -135,41 +209,42 @@ pub fn answers<R: Predicted>(
     objects: Vec<Object>,
     models: &Models,
     explain: bool,
-    predict: impl Fn(&Structure, &[Unknown<Structure>], &Model) -> Prediction<R> + Sync,
+    predict: impl Fn(&Object, &Subject) -> Prediction<R> + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
-        let structure = match &object.structure {
-            Ok(structure) => structure,
+        let (subject, mut warnings) = match Subject::of(&object, models)? {
+            Ok(found) => found,
             Err(reason) => {
+                let (warning, reason) = match reason {
+                    Reason::Implausible(reason) => (Warning::ImplausibleRow, reason),
+                    Reason::Held(reason) => (Warning::NotRocking, reason),
+                };
                 return Ok(Answer {
                     object: ObjectRow::refused(&object),
-                    row: R::default().with_warnings(Some(reason.clone())),
-                    warnings: vec![Warning::ImplausibleRow],
+                    row: R::default().with_warnings(Some(reason)),
+                    warnings: vec![warning],
                     budget: Budget::default(),
                     explained: String::new(),
                     responses: 0,
                 });
             }
         };
-        let (model, mut warnings) = models.model(structure)?;
-        let Prediction { row, budget, motion, warnings: of_prediction } =
-            predict(structure, &object.unknowns, &model);
-        let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
+        let Prediction { row, budget, motion, warnings: of_prediction } = predict(&object, &subject);
         warnings.extend(of_prediction);
-        warnings.extend(warnings_of(structure));
-        warnings.extend(model.warnings(structure, &measures));
+        warnings.extend(subject.warnings(motion));
         warnings.sort();
         warnings.dedup();
+        let (structure, model) = subject.weaker();
         Ok(Answer {
-            object: ObjectRow::new(&object, structure, &model, models.limit_state()),
+            object: ObjectRow::new(&object, structure, model, models.limit_state()),
             row: row.with_warnings(texts(&warnings)),
             warnings,
             budget,
-            responses: match &model {
+            responses: match model {
                 Model::Calibrated { overturning, .. } => overturning.n,
                 Model::Paper { overturning, .. } => overturning.n,
             },
-            explained: if explain { explained(&model, structure, motion, &budget) } else { String::new() },
+            explained: if explain { explained(model, structure, motion, &budget) } else { String::new() },
         })
     };
     let mut all = objects.into_par_iter().map(answer).collect::<anyhow::Result<Vec<_>>>()?;

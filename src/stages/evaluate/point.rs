@@ -2,16 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::object::{Answer, ObjectRow, Predicted};
+use super::object::{Answer, ObjectRow, Predicted, Subject};
 use super::words::{
-    brief, friction, model, model_of_all, mostly_unknown, size, table, title, too_far, validity,
-    with_sentences,
+    brief, friction, linear, model, model_of_all, mostly_unknown, size, table, title, too_far, unanswered,
+    validity, with_sentences,
 };
-use crate::fragility::{Model, Probability, Scenarios};
-use crate::hazard::{Budget, Motion, MotionProbabilities, Unknown};
-use crate::motion::IntensityMeasures;
+use crate::fragility::{Probability, Scenarios};
+use crate::hazard::{Budget, Motion, MotionProbabilities};
+use crate::motion::{Floor, IntensityMeasures};
 use crate::number::{Limited, PERCENT, aligned, fixed, plain};
-use crate::rocking::Structure;
 use crate::units::G_M_S2;
 
 /// The probabilities of the tree at an intensity; none where they are not known.
@@ -34,25 +33,25 @@ pub struct TreeRow {
 }
 
 impl TreeRow {
-    /// Of a structure under a motion, with the errors of the logit of P_ro.
-    pub fn new(
-        motion: &Motion,
-        structure: &Structure,
-        unknowns: &[Unknown<Structure>],
-        model: &Model,
-    ) -> (TreeRow, Budget) {
+    /// Of an object under a motion, with the errors of the logit of P_ro.
+    pub fn new(motion: &Motion, subject: &Subject) -> (TreeRow, Budget) {
         let MotionProbabilities { states: [rocking, failure, overturning], budgets } =
-            motion.probabilities(structure, unknowns, model);
+            motion.probabilities(&subject.directions, &subject.unknowns);
         let given_rocking = |p: Probability| {
             let known = |p: f64| Some(p / rocking.value).filter(|p| p.is_finite());
             [known(p.value), known(p.low), known(p.high)]
         };
         // The demand has a probability of its own under a motion that is known.
-        let p_ex = motion.pga_m_s2.zip(motion.pgv_m_s).and_then(|(pga, pgv)| {
-            let measures = IntensityMeasures::new(structure, pga, pgv, None, None);
-            Some(model.probabilities(structure, &measures, motion.mw, Scenarios::One).given_rocking?.p_ex)
-        });
-        let [p_ex, p_ex_low, p_ex_high] = match p_ex.filter(|p| !p.value.is_nan()) {
+        let p_ex = match (&subject.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
+            ([(structure, model)], Some(pga), Some(pgv)) => {
+                let measures = IntensityMeasures::new(structure, pga, pgv, None, None);
+                let given =
+                    model.probabilities(structure, &measures, motion.mw, Scenarios::One).given_rocking;
+                given.map(|given| given.p_ex).filter(|p| !p.value.is_nan())
+            }
+            _ => None,
+        };
+        let [p_ex, p_ex_low, p_ex_high] = match p_ex {
             Some(p) => [p.value, p.low, p.high].map(Some),
             None => [None; 3],
         };
@@ -106,6 +105,7 @@ impl Predicted for TreeRow {
 pub fn text(all: &[Answer<TreeRow>], sentence: bool) -> String {
     let text = match all {
         [] => String::new(),
+        [answer] if answer.object.p_rad_s.is_none() => unanswered(answer, &answer.row.warnings),
         [answer] => of_one(answer),
         [worst, ..] => of_several(worst, all),
     };
@@ -124,8 +124,11 @@ pub fn text(all: &[Answer<TreeRow>], sentence: bool) -> String {
 fn of_one(answer: &Answer<TreeRow>) -> String {
     let Answer { object, row: tree, budget, .. } = answer;
     let rocks = if tree.rocks() { "rocks" } else { "does not rock" };
+    let peak = if object.floor_level.is_some() { "the floor's peak acceleration" } else { "PGA" };
     let uplift = match tree.pga_m_s2 {
-        Some(pga) => format!("{rocks}: PGA is {} times what uplifts it\n", times_uplift(object, pga)),
+        Some(pga) => {
+            format!("{rocks}: {peak} is {} times what uplifts it\n", times_uplift(object, tree, pga))
+        }
         None => format!("rocks with a probability of {}\n", PERCENT.one(1.0 - tree.p_nr.unwrap_or(f64::NAN))),
     };
     let add = match (tree.pga_m_s2, tree.pgv_m_s) {
@@ -173,7 +176,8 @@ fn of_several(worst: &Answer<TreeRow>, all: &[Answer<TreeRow>]) -> String {
             brief(answer, &tree.warnings),
         ]
     });
-    format!("{first}\n{table}All {}, by {}.\n", words_of_peaks(&worst.row), model_of_all(all))
+    let linear = linear(all.iter().map(|answer| &answer.object));
+    format!("{first}\n{table}All {}, by {}.{linear}\n", words_of_peaks(&worst.row), model_of_all(all))
 }
 
 fn words_of_peaks(tree: &TreeRow) -> String {
@@ -183,7 +187,11 @@ fn words_of_peaks(tree: &TreeRow) -> String {
 }
 
 /// PGA over that of uplift.
-fn times_uplift(object: &ObjectRow, pga_m_s2: f64) -> String {
-    let times = pga_m_s2 / (object.friction.unwrap_or(f64::NAN) * G_M_S2);
+fn times_uplift(object: &ObjectRow, tree: &TreeRow, pga_m_s2: f64) -> String {
+    let floor = object.floor_period_s.zip(object.floor_level);
+    let pfa_m_s2 = floor
+        .zip(tree.pgv_m_s)
+        .map_or(pga_m_s2, |((period_s, level), pgv)| Floor { period_s, level }.peaks(pga_m_s2, pgv).pfa_m_s2);
+    let times = pfa_m_s2 / (object.friction.unwrap_or(f64::NAN) * G_M_S2);
     fixed(times, if times > 10.0 { 0 } else { 1 })
 }

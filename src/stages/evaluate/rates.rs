@@ -3,9 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, Predicted};
+use super::target::Target;
 use super::words::{
-    brief, friction, model, model_of_all, mostly_unknown, size, table, title, too_far, validity,
-    with_sentences,
+    brief, friction, linear, model, model_of_all, mostly_unknown, size, table, title, too_far, unanswered,
+    validity, with_sentences,
 };
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
@@ -40,6 +41,9 @@ pub struct RatesRow {
     pub counted_per_year: Option<f64>,
     pub counted_per_year_low: Option<f64>,
     pub counted_per_year_high: Option<f64>,
+    /// Widths of the base that meet the target by the estimate and by its upper limit.
+    pub target_width_m: Option<f64>,
+    pub target_width_m_high: Option<f64>,
     pub warnings: Option<String>,
 }
 
@@ -73,6 +77,8 @@ impl RatesRow {
             counted_per_year: counted.map(|rate| rate.value),
             counted_per_year_low: counted.map(|rate| rate.limits.low),
             counted_per_year_high: counted.map(|rate| rate.limits.high),
+            target_width_m: None,
+            target_width_m_high: None,
             warnings: None,
         }
     }
@@ -104,11 +110,12 @@ impl Predicted for RatesRow {
 }
 
 /// The answer for all objects, in words.
-pub fn text(all: &[Answer<RatesRow>], site: &Site, sentence: bool) -> String {
+pub fn text(all: &[Answer<RatesRow>], site: &Site, target: Option<Target>, sentence: bool) -> String {
     let text = match all {
         [] => String::new(),
-        [answer] => of_one(answer, site),
-        [worst, ..] => of_several(worst, all, site),
+        [answer] if answer.object.p_rad_s.is_none() => unanswered(answer, &answer.row.warnings),
+        [answer] => of_one(answer, site, target),
+        [worst, ..] => of_several(worst, all, site, target),
     };
     with_sentences(text, all, sentence, |object, rates| {
         let how_often = how_often(rates, site, "95 % confidence limits ");
@@ -117,7 +124,7 @@ pub fn text(all: &[Answer<RatesRow>], site: &Site, sentence: bool) -> String {
     })
 }
 
-fn of_one(answer: &Answer<RatesRow>, site: &Site) -> String {
+fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<Target>) -> String {
     let Answer { object, row: rates, .. } = answer;
     let years = rates.years.unwrap_or(f64::NAN);
     let line = |name: String, rate: Limited| {
@@ -135,8 +142,14 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site) -> String {
         let rate = [rates.counted_per_year, rates.counted_per_year_low, rates.counted_per_year_high];
         lines.push(line(format!("overturns, counted among {motions}"), rate));
     }
+    let widths = target.map_or(String::new(), |target| {
+        let width = |width: Option<f64>| width.map_or("none".to_string(), |width| format!("{width:.2} m"));
+        let (target, by) =
+            (PERCENT.one(target.0), [rates.target_width_m, rates.target_width_m_high].map(width));
+        format!("Width for {target} {}: {}; {} by the upper limit.\n", in_years(rates), by[0], by[1])
+    });
     format!(
-        "{}: {}\n{}{}By {}.\n{}\n",
+        "{}: {}\n{}{}{widths}By {}.\n{}\n",
         title(object),
         how_often(rates, site, "95 % limits "),
         aligned(&lines, |_| false),
@@ -146,13 +159,42 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site) -> String {
     )
 }
 
-fn of_several(worst: &Answer<RatesRow>, all: &[Answer<RatesRow>], site: &Site) -> String {
+/// The expected number of a list, and the probability that one or more overturns: between that of the worst
+/// and that of independent ones.
+fn of_all(all: &[Answer<RatesRow>]) -> Option<String> {
+    let known: Vec<(f64, f64)> = all
+        .iter()
+        .filter_map(|answer| Some((answer.object.count.unwrap_or(1.0), answer.row.p_overturning?)))
+        .collect();
+    let number: f64 = known.iter().map(|(count, _)| count).sum();
+    let expected: f64 = known.iter().map(|(count, p)| count * p).sum();
+    let worst = known.iter().filter(|(count, _)| *count > 0.0).map(|(_, p)| *p).fold(0.0, f64::max);
+    let independent = -known.iter().map(|(count, p)| count * (-p).ln_1p()).sum::<f64>();
+    let years = in_years(&all.first()?.row);
+    (number > 1.0).then(|| {
+        let [low, high] = [worst, -(-independent).exp_m1()];
+        let limits = PERCENT.value([None, Some(low), Some(high)]);
+        format!(
+            "Of {} objects {} overturn {years} on average; at least one: {limits}.\n",
+            plain(number),
+            significant(expected, 2)
+        )
+    })
+}
+
+fn of_several(
+    worst: &Answer<RatesRow>,
+    all: &[Answer<RatesRow>],
+    site: &Site,
+    target: Option<Target>,
+) -> String {
     let years = in_years(&worst.row);
-    let heading =
-        ["object", "size", "rocks", "overturns", "once in years", &years, "", "friction", "warning"];
+    let width = target.map(|target| format!("width for {}", PERCENT.one(target.0)));
+    let heading = ["object", "size", "rocks", "overturns", "once in years", &years, "", "friction"];
+    let heading: Vec<&str> = heading.into_iter().chain(width.as_deref()).chain(["warning"]).collect();
     let table = table(&heading, all, |answer| {
         let Answer { object, row: rates, .. } = answer;
-        vec![
+        let mut cells = vec![
             object.structure.clone(),
             size(object),
             RATE.value([rates.rocking_per_year, None, None]),
@@ -161,16 +203,22 @@ fn of_several(worst: &Answer<RatesRow>, all: &[Answer<RatesRow>], site: &Site) -
             PERCENT.value(rates.in_years()),
             PERCENT.limits(rates.in_years(), ""),
             friction(object),
-            brief(answer, &rates.warnings),
-        ]
+        ];
+        if target.is_some() {
+            cells.push(rates.target_width_m.map_or("-".to_string(), |width| format!("{width:.2} m")));
+        }
+        cells.push(brief(answer, &rates.warnings));
+        cells
     });
     let how_often = how_often(&worst.row, site, "95 % limits ");
     format!(
-        "{} overturns most often: {}\n{table}{}Rates a year, by {}. Below its friction an object slides instead.\n",
+        "{} overturns most often: {}\n{table}{}{}Rates a year, by {}. Below its friction an object slides instead.{}\n",
         worst.object.structure,
         how_often.trim_start_matches("overturns "),
+        of_all(all).unwrap_or_default(),
         about_limits(worst, site),
         model_of_all(all),
+        linear(all.iter().map(|answer| &answer.object)),
     )
 }
 

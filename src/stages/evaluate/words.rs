@@ -14,7 +14,7 @@ pub fn title(object: &ObjectRow) -> String {
     match (object.structure.as_str(), object.width_m, object.height_m, object.p_rad_s) {
         (UNNAMED, Some(width), Some(height), Some(p)) => {
             let is_block = (rectangular_p(0.5 * width.hypot(height)) / p - 1.0).abs() < 1e-9;
-            format!("{} of {size}", if is_block { "Block" } else { "Frame of columns" })
+            format!("{} of {size}", if is_block { "Block" } else { "Body" })
         }
         (UNNAMED, ..) => format!("Structure of {size}"),
         (name, ..) => format!("{name}, {size}"),
@@ -23,9 +23,28 @@ pub fn title(object: &ObjectRow) -> String {
 
 /// Width and height, else p and alpha.
 pub fn size(object: &ObjectRow) -> String {
+    size_alone(object) + &floor(object)
+}
+
+/// The floor that it stands on.
+fn floor(object: &ObjectRow) -> String {
+    object.floor_level.zip(object.floor_period_s).map_or(String::new(), |(level, period)| {
+        let [level, period] = [level, period].map(number::plain);
+        format!(" at level {level} of a {period} s building")
+    })
+}
+
+/// What is taken of the buildings, if an object stands on a floor.
+pub fn linear<'a>(mut objects: impl Iterator<Item = &'a ObjectRow>) -> &'static str {
+    let is_any = objects.any(|object| object.floor_level.is_some());
+    if is_any { " The building is taken as linear." } else { "" }
+}
+
+fn size_alone(object: &ObjectRow) -> String {
+    let depth = object.depth_m.map_or(String::new(), |depth| format!(" x {}", number::length(depth)));
     match (object.width_m, object.height_m, object.p_rad_s, object.alpha_rad) {
         (Some(width), Some(height), ..) => {
-            format!("{} x {} m", number::length(width), number::length(height))
+            format!("{}{depth} x {} m", number::length(width), number::length(height))
         }
         (.., Some(p), Some(alpha)) => {
             let [p, alpha] = [p, alpha].map(|value| number::significant(value, 3));
@@ -40,7 +59,8 @@ pub fn model(object: &ObjectRow) -> &str {
 }
 
 pub fn validity(object: &ObjectRow) -> String {
-    format!("Valid if friction is above {}; else it slides.", friction(object))
+    let linear = linear(std::iter::once(object));
+    format!("Valid if friction is above {}; else it slides.{linear}", friction(object))
 }
 
 pub fn friction(object: &ObjectRow) -> String {
@@ -65,6 +85,11 @@ pub fn mostly_unknown(budget: &Budget, of_velocity: &str) -> Option<String> {
         Part::Hazard => "",
     };
     Some(format!("Mostly unknown: {}. {advice}", part.words()).trim_end().to_string())
+}
+
+/// Why an object has no answer.
+pub fn unanswered<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
+    format!("{}: {}\n", title(&answer.object), reason.as_deref().unwrap_or("no answer"))
 }
 
 /// The warnings of a row in a few words; the reason in full if the row cannot be right.

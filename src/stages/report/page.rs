@@ -64,7 +64,8 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     let mut warnings = [tables.left_out.clone(), joined.lines()].concat();
     let others = warnings.split_off(warnings.len().min(MOST_WARNINGS.max(tables.left_out.len())));
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
-    let method = method.filter(|(stage, _)| tables.are_of(stage)).map(|(_, words)| words.to_string());
+    let is_shown = |stage: &str| tables.are_of(stage) && (stage != "fit-pex" || tables.objects.is_empty());
+    let method = method.filter(|(stage, _)| is_shown(stage)).map(|(_, words)| words.to_string());
     let section = |heading: &str, paragraphs: Vec<String>, tables: Vec<Table>, figures: Vec<Figure>| {
         let is_there = figures.len() + paragraphs.len() + tables.len() > 0;
         is_there.then(|| Section { heading: heading.to_string(), paragraphs, tables, figures })
@@ -226,7 +227,7 @@ fn overturned(groups: &[Cases]) -> String {
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let capacities: Vec<CapacityFitRow> = tables.rows("ida.fragility")?;
     let median = match capacities.first() {
-        Some(fit) => format!("half overturn it at {}", studies::words(fit.measure)),
+        Some(fit) => format!("median of the lowest overturning {}", studies::words(fit.measure)),
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
@@ -273,6 +274,16 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let published = tables.compared.iter().filter(|number| !is_of_plane(number));
     let planes = tables.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
     let validations: Vec<Validation> = tables.rows("validation")?;
+    let validations = table(
+        "Validation: events observed and expected",
+        validations,
+        "structure|suite|event|model|n|observed|expected|expected_error|log_score|calibration_slope",
+    );
+    // A client's page has no curves and planes of the paper.
+    if !tables.objects.is_empty() {
+        let both = [outcomes(tables)?, validations];
+        return Ok(both.into_iter().filter(|table| !table.rows.is_empty()).collect());
+    }
     let mut all = vec![
         table(
             "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd over seeds",
@@ -285,13 +296,9 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
             "structure|suite|im_x|im_y|auc|n|n_events|status",
         ),
         table("Planes of the demand", planes, "structure|suite|range_low|range_high|r2|beta|n|status"),
-        table(
-            "Validation: events observed and expected",
-            validations,
-            "structure|suite|event|model|n|observed|expected|expected_error|log_score|calibration_slope",
-        ),
+        validations,
     ];
-    if !(tables.objects.is_empty() && tables.compared.is_empty()) {
+    if !tables.compared.is_empty() {
         all.insert(0, outcomes(tables)?);
     }
     all.retain(|table| !table.rows.is_empty());

@@ -4,5 +4,7 @@ pub mod fit_tables;
 pub mod hazard;
 pub mod model_args;
 pub mod motions;
+pub mod object_list;
+pub mod objects;
 pub mod responses;
 pub mod structures;

@@ -107,9 +107,12 @@ impl Models {
         let shipped = || *Model::shipped(overturning.kind, structure, limit_state).peaks();
         let peaks = overturning.peaks().unwrap_or_else(shipped);
         let model = match model {
-            ModelName::Calibrated => {
-                Model::Calibrated { overturning: overturning.clone(), exceeding: exceeding.clone(), peaks }
-            }
+            ModelName::Calibrated => Model::Calibrated {
+                overturning: overturning.clone(),
+                exceeding: exceeding.clone(),
+                peaks,
+                floor: None,
+            },
             ModelName::Paper => Model::Paper {
                 demand: self.planes(overturning),
                 overturning: self.curve(overturning)?,

@@ -1,32 +1,66 @@
 //! The options by which every stage takes structures: parameters, dimensions, or a list.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::str::FromStr;
 use std::sync::OnceLock;
 
-use anyhow::Context;
 use clap::{Args, ValueHint};
 
-use crate::hazard::{Part, Unknown};
+use super::object_list::{self, Listed};
+use super::objects::Object;
 use crate::keyword::nearest;
 use crate::paper;
 use crate::pipeline::UsageError;
-use crate::plausibility::{check_structure, is_too_high};
-use crate::rocking::{Structure, housner_eta};
-use crate::sheet::Sheet;
-use crate::units::Quantity;
+use crate::pipeline::options::number;
+use crate::plausibility::is_too_high;
+use crate::rocking::Structure;
 use crate::warning::{Warning, Warnings};
 
 /// The structures of a call.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Structure")]
 pub struct StructureArgs {
-    /// Width of the block or column, m
+    #[command(flatten)]
+    pub one: Spec,
+    /// One of several: name=frame,p=1.0,alpha=0.15,eta=0.92 or name=cabinet,width=0.8,height=2.2
+    #[arg(long, value_name = "NAME=VALUE,...", conflicts_with = "one")]
+    pub structure: Vec<Spec>,
+    /// CSV list: a name, and the same in columns (m, cm or mm by the heading); the word paper for the two
+    /// of the paper
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["one", "structure"])]
+    pub structures: Option<PathBuf>,
+    /// What a list says, once it was asked for.
+    #[arg(skip)]
+    known: OnceLock<Listed>,
+}
+
+/// A structure as it is given: its dimensions, or p, alpha and eta.
+#[derive(Debug, Clone, Default, PartialEq, Args)]
+#[group(id = "one", multiple = true)]
+pub struct Spec {
+    #[arg(skip)]
+    pub name: Option<String>,
+    /// Width of the base of a block, body or column, m; without --depth the smaller side
     #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
     pub width: Option<f64>,
-    /// Height of the block or column, m
+    /// Height of the block, body or column, m
     #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
     pub height: Option<f64>,
+    /// Depth of the base, m: it may fall that way too
+    #[arg(long, value_name = "M", requires = "width")]
+    pub depth: Option<f64>,
+    /// Height of the centre of mass above the base, m [default: half of the height]
+    #[arg(long, value_name = "M", requires = "height")]
+    pub centre_height: Option<f64>,
+    /// Distance of the centre of mass from the middle of the width, m [default: 0]
+    #[arg(long, value_name = "M", requires = "width", allow_negative_numbers = true)]
+    pub centre_offset: Option<f64>,
+    /// Moment of inertia about the centre of mass over mass, m2 [default: of a solid block]
+    #[arg(long, value_name = "M2", requires = "height")]
+    pub inertia: Option<f64>,
+    /// Of a frame: mass of the beam over that of all columns
+    #[arg(long, value_name = "RATIO", conflicts_with_all = ["p", "alpha", "depth", "centre_height", "centre_offset", "inertia"])]
+    pub beam_mass_ratio: Option<f64>,
     /// Frequency parameter, rad/s
     #[arg(long, value_name = "RAD/S")]
     pub p: Option<f64>,
@@ -36,36 +70,57 @@ pub struct StructureArgs {
     /// Coefficient of restitution, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions]
     #[arg(long)]
     pub eta: Option<Restitution>,
-    /// Standard deviation of eta [default: 0 of a number; that of tests if it is computed]
-    #[arg(long, value_name = "SD", requires = "eta")]
-    pub eta_sd: Option<f64>,
-    /// Of a frame: mass of the beam over that of all columns
-    #[arg(long, value_name = "RATIO", conflicts_with_all = ["p", "alpha"])]
-    pub beam_mass_ratio: Option<f64>,
-    /// One of several: name=frame,p=1.0,alpha=0.15,eta=0.92 or name=cabinet,width=0.8,height=2.2
-    #[arg(long, value_name = "NAME=VALUE,...", conflicts_with_all = ["p", "alpha", "eta", "width", "height", "beam_mass_ratio"])]
-    pub structure: Vec<Spec>,
-    /// CSV list: name; width, depth, height (m, cm or mm by the heading) or p, alpha, eta; the word
-    /// paper for the two of the paper
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
-          conflicts_with_all = ["p", "alpha", "eta", "width", "height", "beam_mass_ratio", "structure"])]
-    pub structures: Option<PathBuf>,
-    /// What these give, once it was asked for.
     #[arg(skip)]
-    known: OnceLock<Vec<Object>>,
+    pub place: Place,
+    /// Why it is not free to rock.
+    #[arg(skip)]
+    pub held: Option<String>,
 }
 
-/// A structure as it is given.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Spec {
-    name: Option<String>,
-    p: Option<f64>,
-    alpha: Option<f64>,
-    eta: Option<Restitution>,
-    eta_sd: Option<f64>,
-    width: Option<f64>,
-    height: Option<f64>,
-    beam_mass_ratio: Option<f64>,
+/// Where an object stands, and how well it is known; of all objects of a list that do not say so themselves.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Args)]
+#[command(next_help_heading = "Object")]
+pub struct Place {
+    /// First period of the building, s [default: it stands on the ground]
+    #[arg(long, value_name = "S", value_parser = number(0.02..=10.0, "a period from 0.02 to 10 s: is it in Hz?"))]
+    pub period: Option<f64>,
+    /// Height of the floor over that of the roof, 0 to 1
+    #[arg(long, value_name = "Z", value_parser = number(0.0..=1.0, "the height over that of the roof, 0 to 1: 0.6 for storey 3 of 5"))]
+    pub level: Option<f64>,
+    /// Standard deviation of ln(period) [default: 0.25]
+    #[arg(long, value_name = "SD", value_parser = number(0.0..=1.0, "a standard deviation of ln(period), 0 to 1: is it in s or percent?"))]
+    pub period_sd: Option<f64>,
+    /// Coefficient of friction: where tan(alpha) is above it, the object slides
+    #[arg(long, value_name = "MU", value_parser = number(0.01..=2.0, "a coefficient of friction from 0.01 to 2"))]
+    pub friction: Option<f64>,
+    /// Standard deviation of eta [default: 0 of a number; that of tests if it is computed]
+    #[arg(long, value_name = "SD", value_parser = number(0.0..=0.5, "a standard deviation from 0 to 0.5"))]
+    pub eta_sd: Option<f64>,
+    /// Standard deviation of the height of the centre of mass, m
+    #[arg(long, value_name = "M", value_parser = number(0.0..=100.0, "a length of 0 m or more"))]
+    pub centre_height_sd: Option<f64>,
+    /// Standard deviation of the offset of the centre of mass, m
+    #[arg(long, value_name = "M", value_parser = number(0.0..=100.0, "a length of 0 m or more"))]
+    pub centre_offset_sd: Option<f64>,
+    /// Number of such objects.
+    #[arg(skip)]
+    pub count: Option<f64>,
+}
+
+impl Place {
+    /// What is given of it, else what `other` says.
+    pub fn or(self, other: &Place) -> Place {
+        Place {
+            period: self.period.or(other.period),
+            level: self.level.or(other.level),
+            period_sd: self.period_sd.or(other.period_sd),
+            friction: self.friction.or(other.friction),
+            eta_sd: self.eta_sd.or(other.eta_sd),
+            centre_height_sd: self.centre_height_sd.or(other.centre_height_sd),
+            centre_offset_sd: self.centre_offset_sd.or(other.centre_offset_sd),
+            count: self.count.or(other.count),
+        }
+    }
 }
 
 /// A coefficient of restitution as it is given.
@@ -87,7 +142,26 @@ impl FromStr for Restitution {
     }
 }
 
-const KEYS: [&str; 8] = ["name", "p", "alpha", "eta", "eta-sd", "width", "height", "beam-mass-ratio"];
+/// The parameters of a structure that are numbers.
+pub const NUMBERS: [&str; 17] = [
+    "p",
+    "alpha",
+    "width",
+    "height",
+    "depth",
+    "centre-height",
+    "centre-offset",
+    "inertia",
+    "beam-mass-ratio",
+    "period",
+    "level",
+    "period-sd",
+    "friction",
+    "eta-sd",
+    "centre-height-sd",
+    "centre-offset-sd",
+    "count",
+];
 
 impl FromStr for Spec {
     type Err = String;
@@ -97,7 +171,7 @@ impl FromStr for Spec {
         for pair in text.split(',') {
             let (key, value) = pair
                 .split_once('=')
-                .ok_or_else(|| format!("'{pair}': expected {}=VALUE", KEYS.join("=, ")))?;
+                .ok_or_else(|| format!("'{pair}': expected name=, eta=, {}=VALUE", NUMBERS.join("=, ")))?;
             spec.set(&key.trim().replace('_', "-"), value.trim())?;
         }
         Ok(spec)
@@ -106,96 +180,108 @@ impl FromStr for Spec {
 
 impl Spec {
     fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
-        let number = || value.parse().map(Some).map_err(|_| format!("{key} is '{value}'; expected a number"));
-        match key {
-            "name" => self.name = Some(value.to_string()),
-            "p" => self.p = number()?,
-            "alpha" => self.alpha = number()?,
-            "eta" => self.eta = Some(value.parse()?),
-            "eta-sd" => self.eta_sd = number()?,
-            "width" => self.width = number()?,
-            "height" => self.height = number()?,
-            "beam-mass-ratio" => self.beam_mass_ratio = number()?,
+        match (key, self.number_mut(key)) {
+            (_, Some(number)) => {
+                *number = Some(value.parse().map_err(|_| format!("{key} is '{value}'; expected a number"))?);
+            }
+            ("name", _) => self.name = Some(value.to_string()),
+            ("eta", _) => self.eta = Some(value.parse()?),
             _ => {
+                let known = [&["name", "eta"], &NUMBERS[..]].concat();
                 let hint =
-                    nearest(key, &KEYS).map_or(String::new(), |near| format!("; did you mean '{near}'?"));
+                    nearest(key, &known).map_or(String::new(), |near| format!("; did you mean '{near}'?"));
                 return Err(format!("unknown parameter '{key}'{hint}"));
             }
         }
         Ok(())
     }
 
-    /// The structure, if its parameters can be right.
-    pub fn structure(&self) -> Result<Structure, String> {
-        let Spec { ref name, p, alpha, eta, width, height, beam_mass_ratio, .. } = *self;
-        let name = name.as_deref().unwrap_or("structure");
-        let eta_number = eta.and_then(|eta| match eta {
-            Restitution::Number(eta) => Some(eta),
-            Restitution::Housner => None,
-        });
-        let given = [
-            ("p", p),
-            ("alpha", alpha),
-            ("eta", eta_number),
-            ("width", width),
-            ("height", height),
-            ("beam-mass-ratio", beam_mass_ratio),
-        ];
-        let given: Vec<(&str, f64)> =
-            given.into_iter().filter_map(|(key, value)| Some((key, value?))).collect();
-        check_structure(name, &given).map_err(|error| error.to_string())?;
-        let structure = match (p, alpha, eta, width, height) {
-            (Some(p), Some(alpha), Some(Restitution::Number(eta)), None, None) => {
-                Structure::new(name, p, alpha, eta)
-            }
-            (Some(p), Some(alpha), Some(Restitution::Housner), None, None) => {
-                Structure::new(name, p, alpha, housner_eta(alpha))
-            }
-            (None, None, _, Some(width), Some(height)) => match beam_mass_ratio {
-                Some(ratio) => Structure::frame(name, width, height, ratio, eta_number),
-                None => Structure::rectangular_block(name, width, height, eta_number),
-            },
-            _ => return Err(format!("structure '{name}': expected p, alpha and eta, or width and height")),
+    /// The number of this name.
+    pub fn number_mut(&mut self, key: &str) -> Option<&mut Option<f64>> {
+        Some(match key {
+            "p" => &mut self.p,
+            "alpha" => &mut self.alpha,
+            "width" => &mut self.width,
+            "height" => &mut self.height,
+            "depth" => &mut self.depth,
+            "centre-height" => &mut self.centre_height,
+            "centre-offset" => &mut self.centre_offset,
+            "inertia" => &mut self.inertia,
+            "beam-mass-ratio" => &mut self.beam_mass_ratio,
+            "period" => &mut self.place.period,
+            "level" => &mut self.place.level,
+            "period-sd" => &mut self.place.period_sd,
+            "friction" => &mut self.place.friction,
+            "eta-sd" => &mut self.place.eta_sd,
+            "centre-height-sd" => &mut self.place.centre_height_sd,
+            "centre-offset-sd" => &mut self.place.centre_offset_sd,
+            "count" => &mut self.place.count,
+            _ => return None,
+        })
+    }
+
+    /// The numbers that are given, by name.
+    pub fn given(&self) -> Vec<(&'static str, f64)> {
+        let mut spec = self.clone();
+        let eta = match self.eta {
+            Some(Restitution::Number(eta)) => Some(("eta", eta)),
+            _ => None,
         };
-        structure.map_err(|error| error.to_string())
+        let numbers = NUMBERS.iter().filter_map(|key| Some((*key, (*spec.number_mut(key)?)?)));
+        numbers.chain(eta).collect()
+    }
+
+    /// The same with a base so many times as wide: the offset with it, and the inertia as that of a solid
+    /// block.
+    pub fn resized(&self, factor: f64) -> Spec {
+        let width = self.width.unwrap_or(0.0);
+        let added = width * width * (factor * factor - 1.0) / 12.0;
+        Spec {
+            width: Some(factor * width),
+            centre_offset: self.centre_offset.map(|offset| factor * offset),
+            inertia: self.inertia.map(|inertia| inertia + added),
+            ..self.clone()
+        }
+    }
+
+    /// The structure of its weaker direction, if its parameters can be right.
+    pub fn structure(&self) -> Result<Structure, String> {
+        Object::new(self.clone()).structure().cloned()
     }
 }
 
 impl StructureArgs {
     /// Whether any is given.
     pub fn is_given(&self) -> bool {
-        let StructureArgs { p, alpha, eta, width, height, structure, structures, .. } = self;
-        let numbers = [p, alpha, width, height].iter().any(|number| number.is_some());
-        numbers || eta.is_some() || structures.is_some() || !structure.is_empty()
+        self.structures.is_some() || !self.structure.is_empty() || self.one != Spec::default()
     }
 
-    /// All structures.
+    /// All structures, each of the weaker direction of an object.
     pub fn resolve(&self) -> anyhow::Result<Vec<Structure>> {
-        let structures = self.objects()?.iter().map(|object| object.structure.clone());
-        structures.collect::<Result<Vec<Structure>, String>>().map_err(UsageError::because)
+        let (objects, _) = self.objects(&Place::default())?;
+        let structures: Result<Vec<Structure>, String> =
+            objects.iter().map(|object| object.structure().cloned()).collect();
+        structures.map_err(UsageError::because)
     }
 
-    /// All structures, each with what is wrong with it. A list is read once.
-    pub fn objects(&self) -> anyhow::Result<&[Object]> {
-        let known = self.known.get().map_or_else(|| self.read(), |_| Ok(Vec::new()))?;
-        Ok(self.known.get_or_init(|| known))
-    }
-
-    fn read(&self) -> anyhow::Result<Vec<Object>> {
-        let StructureArgs { p, alpha, eta, eta_sd, width, height, beam_mass_ratio, .. } = *self;
-        let objects = match &self.structures {
+    /// All objects, each with what is wrong with it, and the columns of a list that say nothing of them. A
+    /// list is read once.
+    pub fn objects(&self, place: &Place) -> anyhow::Result<(Vec<Object>, Vec<String>)> {
+        let (specs, unused) = match &self.structures {
             Some(path) if path.as_os_str() == "paper" => {
-                paper::structures().into_iter().map(Object::from).collect()
+                let of_paper =
+                    paper::structures().into_iter().map(|structure| Object::from(structure).at(*place));
+                return Ok((of_paper.collect(), Vec::new()));
             }
-            Some(path) => read_list(path)?,
-            None if !self.structure.is_empty() => {
-                self.structure.iter().map(|spec| Object::of_spec(spec, None)).collect()
+            Some(path) => {
+                let listed =
+                    self.known.get().map_or_else(|| object_list::read(path), |known| Ok(known.clone()))?;
+                self.known.get_or_init(|| listed).clone()
             }
             None if self.is_given() => {
-                vec![Object::of_spec(
-                    &Spec { name: None, p, alpha, eta, eta_sd, width, height, beam_mass_ratio },
-                    None,
-                )]
+                let one =
+                    if self.structure.is_empty() { std::slice::from_ref(&self.one) } else { &self.structure };
+                (one.iter().cloned().map(Ok).collect(), Vec::new())
             }
             None => {
                 return Err(UsageError::because(
@@ -203,14 +289,19 @@ impl StructureArgs {
                 ));
             }
         };
-        let mut names: Vec<&str> = objects.iter().map(|object| object.name.as_str()).collect();
+        let object = |spec: Result<Spec, (String, String)>| match spec {
+            Ok(spec) => Object::new(Spec { place: spec.place.or(place), ..spec }),
+            Err((name, reason)) => Object::refused(Spec { name: Some(name), ..Spec::default() }, reason),
+        };
+        let objects: Vec<Object> = specs.into_iter().map(object).collect();
+        let mut names: Vec<&str> = objects.iter().map(Object::name).collect();
         names.sort_unstable();
         match names.windows(2).find(|pair| pair[0] == pair[1]) {
             Some(pair) => Err(UsageError::because(format!(
                 "two structures are called '{}'; expected distinct names",
                 pair[0]
             ))),
-            None => Ok(objects),
+            None => Ok((objects, unused)),
         }
     }
 }
@@ -233,114 +324,4 @@ pub fn warnings_of_all(structures: &[Structure]) -> Warnings {
             .collect::<Vec<_>>()
     };
     structures.iter().flat_map(of).collect()
-}
-
-/// An object of a list: a structure, or what is wrong with its row.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Object {
-    pub name: String,
-    /// Width of the base and height, m, if it is given by its dimensions.
-    pub size_m: Option<[f64; 2]>,
-    pub structure: Result<Structure, String>,
-    /// What is not known of it: the structure at the 16 and 84 % quantiles.
-    pub unknowns: Vec<Unknown<Structure>>,
-}
-
-impl From<Structure> for Object {
-    fn from(structure: Structure) -> Object {
-        Object {
-            name: structure.name.clone(),
-            size_m: None,
-            unknowns: unknown_eta(&structure, None).into_iter().collect(),
-            structure: Ok(structure),
-        }
-    }
-}
-
-impl Object {
-    fn of_spec(spec: &Spec, row: Option<&str>) -> Object {
-        let place = row.map_or(String::new(), |row| format!("{row}: "));
-        let structure = spec.structure();
-        Object {
-            name: spec.name.clone().unwrap_or_else(|| "structure".to_string()),
-            size_m: spec.width.zip(spec.height).map(|(width, height)| [width, height]),
-            unknowns: structure.iter().filter_map(|structure| unknown_eta(structure, spec.eta_sd)).collect(),
-            structure: structure.map_err(|error| format!("{place}{error}")),
-        }
-    }
-}
-
-/// Standard deviation of ln(1 - eta) about Housner's, by free rocking tests: blocks on concrete lost 1.2 to 1.8 times
-/// as much (ElGawady et al. 2006), concrete and stone members less, down to 0.6 (Kalliontzis et al. 2016, Ther &
-/// Kollar 2017).
-const SD_OF_LOSS: f64 = 0.4;
-
-/// What is not known of eta: by its standard deviation if it was measured, of Housner's by tests.
-fn unknown_eta(structure: &Structure, sd: Option<f64>) -> Option<Unknown<Structure>> {
-    let is_computed = (structure.eta - housner_eta(structure.alpha_rad)).abs() < 1e-6;
-    let with = |eta: f64| Structure { eta: eta.clamp(0.01, 1.0), ..structure.clone() };
-    let [low, high] = match sd {
-        Some(sd) => [-sd, sd].map(|off| with(structure.eta + off)),
-        None if is_computed => {
-            [SD_OF_LOSS, -SD_OF_LOSS].map(|ln| with(1.0 - (1.0 - structure.eta) * ln.exp()))
-        }
-        None => return None,
-    };
-    Some(Unknown { part: Part::Eta, low, high })
-}
-
-/// Reads a list of objects: the smaller of width and depth is the base.
-fn read_list(path: &Path) -> anyhow::Result<Vec<Object>> {
-    let place = || path.display().to_string();
-    let sheet = Sheet::parse(&std::fs::read(path).with_context(place)?).with_context(place)?;
-    let known = sheet.headings.iter().any(|heading| ["height", "p"].contains(&heading.name.as_str()));
-    if !known {
-        let headings: Vec<&str> = sheet.headings.iter().map(|heading| heading.text.as_str()).collect();
-        anyhow::bail!(
-            "{}: headings {}; expected name, width, depth and height, or p, alpha and eta",
-            place(),
-            headings.join(", ")
-        );
-    }
-    let place = |row| format!("{}, line {}", path.display(), sheet.lines[row]);
-    Ok((0..sheet.lines.len()).map(|row| object(&sheet, row, &place(row))).collect())
-}
-
-/// The object of a row; `place` is its line in the file.
-fn object(sheet: &Sheet, row: usize, place: &str) -> Object {
-    let name = sheet.column(&["name"]).map_or("", |column| sheet.cell(row, column));
-    let name = if name.is_empty() { format!("line {}", sheet.lines[row]) } else { name.to_string() };
-    match spec(sheet, row) {
-        Ok(spec) => Object::of_spec(&Spec { name: Some(name), ..spec }, Some(place)),
-        Err(problem) => {
-            Object { name, size_m: None, structure: Err(format!("{place}: {problem}")), unknowns: Vec::new() }
-        }
-    }
-}
-
-fn spec(sheet: &Sheet, row: usize) -> Result<Spec, String> {
-    let cell = |name: &str| sheet.column(&[name]).filter(|column| !sheet.cell(row, *column).is_empty());
-    let number = |name: &str| {
-        let number = cell(name).map(|column| sheet.number(row, column));
-        number.transpose().map_err(|error| error.to_string())
-    };
-    let length = |name: &str| -> Result<Option<f64>, String> {
-        let metres = match cell(name).and_then(|column| sheet.headings[column].unit) {
-            None => 1.0,
-            Some(unit) if unit.quantity == Quantity::Length => unit.si,
-            Some(unit) => return Err(format!("{name} is in {}; expected m, cm or mm", unit.name)),
-        };
-        Ok(number(name)?.map(|length| length * metres))
-    };
-    let (width, depth) = (length("width")?, length("depth")?);
-    Ok(Spec {
-        name: None,
-        p: number("p")?,
-        alpha: number("alpha")?,
-        eta_sd: number("eta_sd")?,
-        eta: cell("eta").map(|column| sheet.cell(row, column).parse()).transpose()?,
-        width: width.zip(depth).map(|(width, depth)| width.min(depth)).or(width).or(depth),
-        height: length("height")?,
-        beam_mass_ratio: number("beam_mass_ratio")?,
-    })
 }

@@ -1,0 +1,101 @@
+//! The width of a base that meets a target: all else of the object the same.
+
+use std::str::FromStr;
+
+use argmin::core::{CostFunction, Error, Executor};
+use argmin::solver::brent::BrentRoot;
+
+use super::object::Subject;
+use super::rates::RatesRow;
+use crate::hazard::Site;
+use crate::number::Limited;
+use crate::stages::shared::model_args::Models;
+use crate::stages::shared::objects::Object;
+
+/// A probability of overturning in the time of exposure: 1% or 0.01.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target(pub f64);
+
+impl FromStr for Target {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Target, String> {
+        let (number, size) = text.strip_suffix('%').map_or((text, 1.0), |share| (share.trim_end(), 0.01));
+        match number.parse::<f64>().map(|number| size * number) {
+            Ok(target) if target > 0.0 && target < 1.0 => Ok(Target(target)),
+            _ => Err("expected a probability in --years, such as 1% or 0.01".to_string()),
+        }
+    }
+}
+
+/// Slendernesses of the structures that the surface knows, rad.
+const SLENDERNESSES: [f64; 2] = [0.04, 0.5];
+/// Relative accuracy of a width, and largest number of steps.
+const ACCURACY: f64 = 1e-4;
+const MOST_STEPS: u64 = 60;
+/// Halvings of the widths to the end of the hazard.
+const HALVINGS: usize = 8;
+/// Probabilities count as no less.
+const LEAST: f64 = 1e-12;
+
+/// ln of the probability by its estimate or upper limit over the target, of a width.
+struct Excess<F> {
+    in_years: F,
+    /// Which of estimate, lower and upper limit.
+    which: usize,
+    target: f64,
+}
+
+impl<F: Fn(f64) -> Option<Limited>> Excess<F> {
+    fn of(&self, width: f64) -> Option<f64> {
+        Some(((self.in_years)(width)?[self.which]?.max(LEAST) / self.target).ln())
+    }
+
+    /// The least width between two that meets the target; none if not even the largest does of which the hazard
+    /// tells a rate.
+    fn root(self, [least, end]: [f64; 2]) -> Option<f64> {
+        let is_known = |width: f64| (self.in_years)(width).is_some_and(|p| p[0].is_some());
+        let mut most = end;
+        if !is_known(end) {
+            let halve = |(known, unknown): (f64, f64), _| {
+                let middle = 0.5 * (known + unknown);
+                if is_known(middle) { (middle, unknown) } else { (known, middle) }
+            };
+            most = (0..HALVINGS).fold((least, end), halve).0;
+        }
+        if self.of(most)? > 0.0 {
+            return None;
+        }
+        if self.of(least)? <= 0.0 {
+            return Some(least);
+        }
+        let solver = BrentRoot::new(least, most, ACCURACY);
+        let search = Executor::new(self, solver).timer(false);
+        let search = search.configure(|state| state.param(0.5 * (least + most)).max_iters(MOST_STEPS));
+        search.run().ok()?.state.best_param
+    }
+}
+
+impl<F: Fn(f64) -> Option<Limited>> CostFunction for Excess<F> {
+    type Param = f64;
+    type Output = f64;
+
+    fn cost(&self, width: &f64) -> Result<f64, Error> {
+        self.of(*width).ok_or_else(|| Error::msg("no rate"))
+    }
+}
+
+/// Widths (m) that meet a target by the estimate and by its upper limit: at the same height, depth, rule of
+/// eta and relative offset; none where none within the domain of the surface does.
+pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target: Target) -> [Option<f64>; 2] {
+    let Some((width, height)) = object.spec.width.zip(object.spec.height) else { return [None; 2] };
+    let centre_height = object.spec.centre_height.unwrap_or(0.5 * height);
+    let nearer = 1.0 - object.spec.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
+    let range = SLENDERNESSES.map(|alpha| 2.0 * centre_height * alpha.tan() / nearer);
+    let in_years = |width_m: f64| -> Option<Limited> {
+        let resized = Object::new(object.spec.resized(width_m / width));
+        let (subject, _) = Subject::of(&resized, models).ok()?.ok()?;
+        Some(RatesRow::new(&site.rates(&subject.directions, &subject.unknowns), years).in_years())
+    };
+    [0, 2].map(|which| Excess { in_years, which, target: target.0 }.root(range))
+}
