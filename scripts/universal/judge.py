@@ -189,7 +189,7 @@ def few_records(event):
             for block in range(60):
                 mine = (cases["structure"] == block) & (cases["mw"] >= low) & (cases["mw"] < high)
                 mine = np.flatnonzero(mine)
-                if min(happened[mine].sum(), (~happened[mine]).sum()) < 5:
+                if min(happened[mine].sum(), (~happened[mine]).sum()) < 5 or len(mine) < 2 * n:
                     continue
                 truth, _ = calibrate(at(parts, mine), happened[mine], (*prior[:3], 2.0, 1.0, 0.5))
                 pool = mine[np.abs(apply(truth, at(parts, mine))) < 3.9]
