@@ -155,7 +155,7 @@ pub fn check_structure(structure: &str, given: &[(&'static str, f64)]) -> Result
 /// Solid blocks of a smaller p (rad/s) are higher than about 90 m.
 const LEAST_P_RAD_S: f64 = 0.4;
 
-/// Returns whether no solid block is as high: its dimensions are probably in cm.
+/// Returns whether a solid block would be implausibly tall: its dimensions are probably in cm.
 pub fn is_too_high(structure: &Structure) -> bool {
     structure.p_rad_s < LEAST_P_RAD_S
 }

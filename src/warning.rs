@@ -68,9 +68,9 @@ impl Warning {
             }
             Warning::ImplausibleRow => "this row cannot be right; it has no result",
             Warning::NotRocking => "it is held, or slides: no result",
-            Warning::ImplausibleRecord => "this is no plausible record of an earthquake",
+            Warning::ImplausibleRecord => "this is not a plausible earthquake record",
             Warning::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",
-            Warning::ImplausibleSize => "no solid block is as high: are its dimensions in cm?",
+            Warning::ImplausibleSize => "it is implausibly tall: are its dimensions in cm?",
             Warning::LowRestitution => "eta is below 0.5: a typing error?",
             Warning::HazardEndsEarly => "the hazard curve ends too early: bounds in place of a value",
             Warning::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
@@ -78,7 +78,7 @@ impl Warning {
                 "the hazard curve starts above the intensity that uplifts it: rates are too low"
             }
             Warning::NotFitted => "not among the fitted structures: the universal surface is used",
-            Warning::OtherStructure => "calibrated on responses of another structure, as --name has it",
+            Warning::OtherStructure => "calibrated on responses of another structure, chosen by --name",
             Warning::Extrapolated => "outside of the motions that the model was fitted to",
             Warning::UnusualStructure => "outside of the structures that the universal surface was fitted to",
             Warning::PoorFit => "the paper's curve or planes do not fit these responses",

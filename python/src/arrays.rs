@@ -10,8 +10,13 @@ use rockfrag::rocking::{Outcome, Record, TracePoint, simulate, trace, with_tail}
 use rockfrag::stages::shared::structures::Spec;
 use rockfrag::statistics::distributions::t_quantile;
 use rockfrag::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
+use rockfrag::units::G_M_S2;
 
 use crate::error::to_python;
+
+/// The largest acceleration, g, and the longest time step, s, of a motion that is not in a wrong unit.
+const MOST_G: f64 = 20.0;
+const LONGEST_STEP_S: f64 = 0.1;
 
 /// Numbers from their bytes.
 pub fn numbers(bytes: &[u8]) -> Vec<f64> {
@@ -42,6 +47,15 @@ pub fn simulate_motion<'py>(
             return Err(usage(&format!("tail is {tail_s}; expected 0 to 1000 s")));
         }
         let acceleration = numbers(acceleration);
+        let pga_g = acceleration.iter().fold(0.0_f64, |most, a| most.max(a.abs())) / G_M_S2;
+        if pga_g > MOST_G {
+            return Err(usage(&format!(
+                "acceleration reaches {pga_g:.1} g; expected m/s2, up to {MOST_G} g"
+            )));
+        }
+        if dt_s > LONGEST_STEP_S {
+            return Err(usage(&format!("dt is {dt_s} s; expected at most {LONGEST_STEP_S} s: is it in ms?")));
+        }
         let record = Record::new(&acceleration, dt_s).map_err(|error| usage(&error))?;
         let ended = with_tail(&record, tail_s);
         let points = trace(&structure, &Record::new(&ended, dt_s)?).1;

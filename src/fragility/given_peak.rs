@@ -126,8 +126,11 @@ impl GivenPeak<'_> {
         let density = |z: f64| (-0.5 * z * z).exp() / TAU.sqrt();
         match (self.ratio.is_exact(), self.peak) {
             (false, Peak::Pga) => {
-                let last = (FARTHEST / STEP).ceil() as i32;
-                (-last..=last).map(|k| STEP * f64::from(k)).map(|z| (z, STEP * density(z))).collect()
+                // What a floor may make of a motion leaves nothing sharp.
+                let is_on_floor = self.directions.iter().all(|(_, model)| model.floor().is_some());
+                let step = if is_on_floor { 2.0 * STEP } else { STEP };
+                let last = (FARTHEST / step).ceil() as i32;
+                (-last..=last).map(|k| step * f64::from(k)).map(|z| (z, step * density(z))).collect()
             }
             (false, Peak::Pgv) => {
                 let edges = self.edges(intensity);

@@ -93,6 +93,14 @@ impl Model {
         }
     }
 
+    /// The floor that it is for; none of the ground.
+    pub fn floor(&self) -> Option<Floor> {
+        match self {
+            Model::Calibrated { floor, .. } => *floor,
+            Model::Paper { .. } => None,
+        }
+    }
+
     /// Ground accelerations that uplift a structure: the least, and a usual one, m/s2.
     pub fn uplift_m_s2(&self, structure: &Structure) -> [f64; 2] {
         match self {

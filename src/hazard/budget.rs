@@ -61,68 +61,83 @@ pub struct Unknown<T> {
     pub high: T,
 }
 
-/// Standard deviations of a result: of ln of an annual rate, or of the logit of a probability, by part.
+/// Standard deviations of a result, of ln of an annual rate or of the logit of a probability, by part: downwards
+/// and upwards, since a rate saturates.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budget {
-    variances: [f64; Part::ALL.len()],
+    variances: [[f64; 2]; Part::ALL.len()],
 }
 
 impl Budget {
     /// Adds an error that is independent of the others.
-    fn add(&mut self, part: Part, sd: f64) {
-        self.variances[part as usize] += if sd.is_finite() { sd * sd } else { 0.0 };
+    fn add(&mut self, part: Part, sds: [f64; 2]) {
+        for (sum, sd) in self.variances[part as usize].iter_mut().zip(sds) {
+            *sum += if sd.is_finite() { sd * sd } else { 0.0 };
+        }
     }
 
-    /// The standard deviation that a part causes; none where nothing of it is unknown.
+    /// The standard deviation that a part causes, the mean of both; none where nothing of it is unknown.
     pub fn sd_of(&self, part: Part) -> Option<f64> {
-        Some(self.variances[part as usize].sqrt()).filter(|sd| *sd > 0.0)
+        let [down, up] = self.variances[part as usize].map(f64::sqrt);
+        Some(0.5 * (down + up)).filter(|sd| *sd > 0.0)
     }
 
-    /// The standard deviation of all parts together.
-    pub fn sd(&self) -> f64 {
-        self.variances.iter().sum::<f64>().sqrt()
+    /// Those of all parts together.
+    pub fn sds(&self) -> [f64; 2] {
+        [0, 1].map(|side| self.variances.iter().map(|part| part[side]).sum::<f64>().sqrt())
     }
 
     /// The part that causes most.
     pub fn largest(&self) -> Option<Part> {
-        let variance = |part: &Part| self.variances[*part as usize];
-        let largest = Part::ALL.iter().copied().max_by(|a, b| variance(a).total_cmp(&variance(b)));
-        largest.filter(|part| variance(part) > 0.0)
+        let sd = |part: &Part| self.sd_of(*part);
+        let known = Part::ALL.iter().copied().filter(|part| sd(part).is_some());
+        known.max_by(|a, b| sd(a).unwrap_or(0.0).total_cmp(&sd(b).unwrap_or(0.0)))
     }
 
     /// 95 % limits of an annual rate, which is never above that of rocking.
     pub fn limits_of_rate(&self, rate: f64, of_rocking: f64) -> Limits {
-        let factor = (Z_95 * self.sd()).exp();
-        Limits { low: rate / factor, high: (rate * factor).min(of_rocking.max(rate)) }
+        let [down, up] = self.sds().map(|sd| (Z_95 * sd).exp());
+        Limits { low: rate / down, high: (rate * up).min(of_rocking.max(rate)) }
     }
 
     /// 95 % limits of a probability under one motion; `tau` is the standard deviation of the logit between
     /// earthquakes.
     pub fn limits_of_probability(&self, p: f64, tau: f64) -> Limits {
-        let half = Z_95 * self.sd().hypot(tau);
-        let [low, high] = [-half, half].map(|off| 1.0 / (1.0 + (1.0 - p) / p * (-off).exp()));
+        let [down, up] = self.sds().map(|sd| Z_95 * sd.hypot(tau));
+        let [low, high] = [-down, up].map(|off| 1.0 / (1.0 + (1.0 - p) / p * (-off).exp()));
         Limits { low, high }
     }
 }
 
-/// The budgets of two results: of failure and of overturning.
+/// The budgets of two results, of failure and of overturning, about their values at all medians.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Budgets {
+    /// Of a demand above the limit state, or overturning.
     pub failure: Budget,
+    /// Of overturning.
     pub overturning: Budget,
+    values: [f64; 2],
 }
 
 impl Budgets {
-    /// Adds the standard deviations of both results.
-    pub fn add(&mut self, part: Part, [failure, overturning]: [f64; 2]) {
+    /// Without errors.
+    pub fn about(values: [f64; 2]) -> Budgets {
+        Budgets { values, ..Budgets::default() }
+    }
+
+    /// Adds the standard deviations of both results, downwards and upwards.
+    pub fn add(&mut self, part: Part, [failure, overturning]: [[f64; 2]; 2]) {
         self.failure.add(part, failure);
         self.overturning.add(part, overturning);
     }
 
-    /// Adds what an unknown causes: half of the difference of the results between its quantiles.
+    /// Adds what an unknown causes: how far the results fall and rise between its quantiles.
     pub fn vary<T>(&mut self, unknown: &Unknown<T>, results: impl Fn(&T) -> [f64; 2]) {
         let [low, high] = [results(&unknown.low), results(&unknown.high)];
-        self.add(unknown.part, [0, 1].map(|k| 0.5 * (high[k] - low[k])));
+        let sds = |k: usize| {
+            let off = [low[k] - self.values[k], high[k] - self.values[k]];
+            [-off[0].min(off[1]).min(0.0), off[0].max(off[1]).max(0.0)]
+        };
+        self.add(unknown.part, [sds(0), sds(1)]);
     }
 }

@@ -68,8 +68,8 @@ impl Motion {
         let [of_one, of_many] =
             [Scenarios::One, Scenarios::Many].map(|scenarios| states(directions, mw, 0.0, scenarios));
         let fit = [of_many[1], of_many[2]].map(sd_of_limits);
-        let mut budgets = Budgets::default();
-        budgets.add(Part::Fit, fit);
+        let mut budgets = Budgets::about(logits(directions, mw, 0.0));
+        budgets.add(Part::Fit, fit.map(|sd| [sd, sd]));
         // Of a motion whose peaks are both known, what magnitude adds is beside tau in its own limits.
         if model.depends_on_magnitude() && one.is_some() && self.mw.is_none() {
             budgets.vary(&of_magnitude, |mw| logits(directions, *mw, 0.0));

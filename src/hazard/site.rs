@@ -78,20 +78,20 @@ pub struct SiteRates {
     pub overturning: Limited,
     /// Standard deviations of ln rate.
     pub budgets: Budgets,
-    /// From what PGV / PGA is known; none where the hazard has both peaks of each motion.
+    /// Source of PGV / PGA; none where the hazard has both peaks of each motion.
     pub velocity: Option<VelocitySource>,
     /// The share of the rate of overturning beyond the last point of a curve that is extrapolated.
     pub beyond: Option<f64>,
     /// The rate of overturning, counted among the responses.
     pub counted: Option<CountedRate>,
-    /// PGA and PGV (m/s2 and m/s) of a motion that half of the rate of overturning is above; of a joint hazard
+    /// PGA and PGV (m/s2 and m/s) of a motion above which half of the rate of overturning lies; of a joint hazard
     /// those of the strongest.
     pub motion: [f64; 2],
     pub warnings: Vec<Warning>,
 }
 
 impl Site {
-    /// The rates of an object in its directions, of which this is not known.
+    /// The rates of an object in its directions, given its uncertain inputs.
     pub fn rates(
         &self,
         directions: &[(Structure, Model)],
@@ -102,7 +102,7 @@ impl Site {
             Hazard::Joint(joint) => {
                 let rates = |directions: &[(Structure, Model)]| rates_over_pairs(directions, self.mw, joint);
                 let value = rates(directions);
-                let mut budgets = Budgets::default();
+                let mut budgets = Budgets::about(ln_rates(&value));
                 budgets.add(Part::Fit, sds_of_fit(&value));
                 for unknown in unknowns {
                     budgets.vary(unknown, |directions| ln_rates(&rates(directions)));
@@ -138,7 +138,7 @@ impl Site {
         let curve = extended(&hazard.curve);
         let rates = if is_extrapolated { rates_over_curve(&middle, &curve) } else { as_given };
 
-        let mut budgets = Budgets::default();
+        let mut budgets = Budgets::about(ln_rates(&rates));
         budgets.add(Part::Fit, sds_of_fit(&rates));
         let of = |given: &GivenPeak, curve: &HazardCurve| ln_rates(&rates_over_curve(given, curve));
         if model.depends_on_magnitude() {
@@ -226,7 +226,10 @@ fn ln_rates(rates: &Rates) -> [f64; 2] {
     [rates[1], rates[2]].map(|rate| rate.value.max(LEAST).ln())
 }
 
-/// Their standard deviations by the model's limits.
-fn sds_of_fit(rates: &Rates) -> [f64; 2] {
-    [rates[1], rates[2]].map(|rate| (rate.high.max(LEAST) / rate.low.max(LEAST)).ln() / (2.0 * Z_95))
+/// Their standard deviations by the model's limits, downwards and upwards.
+fn sds_of_fit(rates: &Rates) -> [[f64; 2]; 2] {
+    [rates[1], rates[2]].map(|rate| {
+        let [value, low, high] = [rate.value, rate.low, rate.high].map(|rate| rate.max(LEAST).ln());
+        [(value - low) / Z_95, (high - value) / Z_95]
+    })
 }

@@ -8,7 +8,7 @@ use crate::keyword::keywords;
 use crate::statistics::normal;
 use crate::units::G_M_S2;
 
-/// From what PGV / PGA is known.
+/// Source of PGV / PGA.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VelocitySource {
     /// Curves of PGA and PGV.
@@ -53,12 +53,12 @@ const SD_OF_MEAN: f64 = 0.2;
 /// Lines of sites in general (scripts/reference/sites.py): ln(PGV / PGA) in s at PGA of 0.4 g or PGV of 0.4 m/s,
 /// its slope over ln of the peak, the standard deviation about it, its rise with magnitude, and the standard
 /// deviation of the level between sites of one magnitude.
-const GIVEN_PGA: [f64; 5] = [-2.88, -0.06, 0.57, 0.35, 0.28];
+const GIVEN_PGA: [f64; 5] = [-2.86, -0.06, 0.58, 0.30, 0.28];
 const GIVEN_PGV: [f64; 5] = [-2.21, 0.25, 0.50, 0.33, 0.23];
 /// Where the lines of sites in general have their level: m/s2 and m/s.
 const LEVEL_AT: [f64; 2] = [0.4 * G_M_S2, 0.4];
 /// Standard deviation of ln(PGV / PGA) given PGA, where the curves of both peaks give the line.
-const SCATTER: f64 = 0.45;
+const SCATTER: f64 = 0.42;
 /// Standard deviations of the level by two curves: of PGA and PGV, and of PGA and SA(1.0 s).
 const SD_BY_CURVES: [f64; 2] = [0.08, 0.18];
 /// PGV over SA(1.0 s) 1 s / (2 pi) (Newmark & Hall 1982, in FEMA P-58 and HAZUS).
@@ -85,7 +85,7 @@ pub enum MatchError {
     )]
     ImpossibleRatio { ratio_s: f64, pga_g: f64 },
     #[error(
-        "by no PGV/PGA do both curves belong together: rates differ by {:.0} %; expected at most 50 %: curves of one \
+        "no PGV/PGA reconciles the two curves: rates differ by {:.0} %; expected at most 50 %: curves of one \
          site?",
         100.0 * (.0.exp() - 1.0)
     )]
@@ -182,10 +182,13 @@ impl Velocity {
         Unknown { part: Part::Velocity, low: -self.sd, high: self.sd }
     }
 
-    /// The magnitude of the motions: `median`, but none where none is given and PGV / PGA, as in the motions of
-    /// the model, tells it.
+    /// The magnitude of the motions: `median`, but none where none is given and PGV / PGA tells it, which is known
+    /// by two curves or that of the model's motions.
     pub fn magnitude(&self, given: Option<f64>, median: f64) -> Option<f64> {
-        if self.source == VelocitySource::Motions { given.map(|_| median) } else { Some(median) }
+        match self.source {
+            VelocitySource::Sites | VelocitySource::Given => Some(median),
+            _ => given.map(|_| median),
+        }
     }
 
     /// PGV / PGA given the peak in earthquakes of a magnitude, times exp(`ln`).

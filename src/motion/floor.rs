@@ -65,7 +65,7 @@ impl Floor {
 
     /// Computes the absolute acceleration of the floor (m/s2) under one of the ground, lines between samples
     /// of step `dt_s`, of modes with this damping ratio: a (1 - sum G_i) + sum G_i A_i, A_i that of an
-    /// oscillator. Behind the last sample the ground is at rest until the first mode has all but decayed; at
+    /// oscillator. After the last sample the ground is at rest until the first mode has all but decayed; at
     /// level 0 the floor is the ground.
     pub fn motion(&self, ground: &[f64], dt_s: f64, damping: f64) -> Vec<f64> {
         if self.level == 0.0 {

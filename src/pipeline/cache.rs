@@ -42,7 +42,7 @@ pub fn freshness(call: &Call, planned: &Provenance) -> Freshness {
             Ok(Some(made)) if made.key() == planned.key() => last = Some(made),
             Ok(Some(made)) => return Freshness::Stale(made.difference(planned).unwrap_or_default()),
             Ok(None) => return Freshness::Stale(format!("{name} does not say how it was made")),
-            Err(TableError::Missing(_)) => return Freshness::Stale(format!("{name} is not there")),
+            Err(TableError::Missing(_)) => return Freshness::Stale(format!("{name} is missing")),
             Err(_) => return Freshness::Stale(format!("{name} cannot be read")),
         }
     }

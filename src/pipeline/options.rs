@@ -49,6 +49,13 @@ impl FromStr for Steps {
     }
 }
 
+/// Parses periods of spectral accelerations, s.
+pub fn periods(text: &str) -> Result<Steps, String> {
+    let steps: Steps = text.parse()?;
+    let is_within = steps.0.iter().all(|period| (0.01..=20.0).contains(period));
+    if is_within { Ok(steps) } else { Err("expected periods in s, from 0.01 to 20".to_string()) }
+}
+
 /// Lines that are printed of a list.
 pub const MOST_LINES: usize = 10;
 

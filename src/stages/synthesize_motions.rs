@@ -14,7 +14,7 @@ use crate::motion::{
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::out_of_partition;
-use crate::pipeline::options::{Steps, number};
+use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::sheet::Sheet;
@@ -68,7 +68,7 @@ pub struct SynthesizeMotions {
     #[arg(long)]
     housner: bool,
     /// Add spectral accelerations (5 % damping) at these periods, s, as sa_0p20_m_s2
-    #[arg(long, value_name = "S,...")]
+    #[arg(long, value_name = "S,...", value_parser = periods)]
     sa: Option<Steps>,
     /// Only part i of n (0 to n - 1), into the folder --out
     #[arg(long, value_name = "I/N")]

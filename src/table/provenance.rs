@@ -68,7 +68,7 @@ impl Provenance {
     /// Describes the first difference from the planned provenance.
     pub fn difference(&self, now: &Provenance) -> Option<String> {
         if self.stage != now.stage {
-            return Some(format!("the file is of {}", self.stage));
+            return Some(format!("the file was made by {}", self.stage));
         }
         if self.version != now.version {
             return Some(format!("it is of rockfrag {}", self.version));

@@ -151,7 +151,7 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     assert!((errors.sd_of(Part::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
     assert_eq!(errors.sd_of(Part::Magnitude), None);
     let [value, low, high] = rates.overturning.map(Option::unwrap);
-    assert!(((value / low).ln() - 1.959_964 * errors.sd()).abs() < 1e-6 && high > value);
+    assert!(((value / low).ln() - 1.959_964 * errors.sds()[0]).abs() < 1e-6 && high > value);
 }
 
 /// The curve of PGV that a line of PGV / PGA gives over 1e-3 PGA^-k, which is a power law too.
@@ -183,17 +183,20 @@ fn two_curves_tell_the_line_by_which_they_belong_together() {
 
 #[test]
 fn limits_are_those_of_normal_errors() {
-    let mut budgets = rockfrag::hazard::Budgets::default();
-    budgets.add(Part::Fit, [0.1, 0.3]);
-    budgets.vary(&Unknown { part: Part::Eta, low: -1.0, high: 1.0 }, |x| [0.0, 0.4 * x]);
-    budgets.add(Part::Floor, [0.0, f64::NAN]);
+    let mut budgets = rockfrag::hazard::Budgets::about([0.0, 1.0]);
+    budgets.add(Part::Fit, [[0.1, 0.1], [0.3, 0.3]]);
+    budgets.vary(&Unknown { part: Part::Eta, low: -1.0, high: 1.0 }, |x| [0.0, 1.0 + 0.4 * x]);
+    // What only raises a result, such as an offset to either side, has no lower side.
+    budgets.vary(&Unknown { part: Part::Object, low: -1.0, high: 1.0 }, |x: &f64| [0.0, 1.0 + 1.2 * x.abs()]);
+    budgets.add(Part::Floor, [[0.0; 2], [f64::NAN; 2]]);
     let budget: Budget = budgets.overturning;
-    assert!((budget.sd() - 0.5).abs() < 1e-12);
-    assert_eq!((budget.largest(), budget.sd_of(Part::Floor)), (Some(Part::Eta), None));
+    let [down, up] = budget.sds();
+    assert!((down - 0.5).abs() < 1e-12 && (up - 1.3).abs() < 1e-12);
+    assert_eq!((budget.largest(), budget.sd_of(Part::Floor)), (Some(Part::Object), None));
     let limits = budget.limits_of_rate(1e-4, 2e-4);
     assert!((limits.low / (1e-4 * (-0.979_982_f64).exp()) - 1.0).abs() < 1e-6);
     assert_eq!(limits.high, 2e-4, "never above the rate of rocking");
     let p = budget.limits_of_probability(0.5, 1.2);
-    close(p.high, 1.0 / (1.0 + (-1.959_964 * 1.3_f64).exp()), 1e-6);
-    close(p.low, 1.0 - p.high, 1e-9);
+    close(p.low, 1.0 / (1.0 + (1.959_964 * 1.3_f64).exp()), 1e-6);
+    close(p.high, 1.0 / (1.0 + (-1.959_964 * 1.3_f64.hypot(1.2)).exp()), 1e-6);
 }

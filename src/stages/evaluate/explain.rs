@@ -55,8 +55,9 @@ pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2], budget:
     let part = |part: &Part| Some(format!("{part} {}", significant(budget.sd_of(*part)?, 2)));
     let parts: Vec<String> = Part::ALL.iter().filter_map(part).collect();
     if !parts.is_empty() {
-        let all = significant(budget.sd(), 2);
-        let _ = writeln!(text, "errors:      {}; all {all} (sd of ln rate, or of logit)", parts.join(", "));
+        let [down, up] = budget.sds().map(|sd| significant(sd, 2));
+        let parts = parts.join(", ");
+        let _ = writeln!(text, "errors:      {parts}; all -{down} +{up} (sd of ln rate, or of logit)");
     }
     let others: Vec<String> = Kind::ALL.iter().filter_map(other).collect();
     if !others.is_empty() {

@@ -89,7 +89,7 @@ pub struct Evaluate {
     #[arg(long, value_name = "P", requires = "hazard")]
     target: Option<Target>,
     /// Responses to count overturning in, beside the rate
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "hazard")]
     responses: Option<PathBuf>,
     /// Continue the hazard curve with its last slope
     #[arg(long, requires = "hazard")]
@@ -186,8 +186,9 @@ impl Evaluate {
             if self.ratio.is_some() {
                 return Err(UsageError::because("ratio: the hazard has PGA and PGV of each motion"));
             }
-            if self.extrapolate {
-                return Err(UsageError::because("extrapolate: expected a hazard curve of one peak"));
+            if self.extrapolate || self.responses.is_some() {
+                let option = if self.extrapolate { "extrapolate" } else { "responses" };
+                return Err(UsageError::because(format!("{option}: expected a hazard curve of one peak")));
             }
         }
         Ok(Site {

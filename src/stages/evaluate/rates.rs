@@ -33,7 +33,7 @@ pub struct RatesRow {
     pub p_overturning: Option<f64>,
     pub p_overturning_low: Option<f64>,
     pub p_overturning_high: Option<f64>,
-    /// From what PGV / PGA is known.
+    /// Source of PGV / PGA.
     pub velocity_by: Option<String>,
     /// Share of the rate of overturning beyond the last point of a curve that is extrapolated.
     pub share_extrapolated: Option<f64>,
@@ -239,7 +239,7 @@ fn about_limits(answer: &Answer<RatesRow>, site: &Site) -> String {
     };
     let is_known = answer.row.overturning_per_year.is_some_and(|rate| rate > 0.0);
     let unknown = mostly_unknown(&answer.budget, advice).filter(|_| is_known);
-    let without = not_in_limits(site, "Not in the limits: ");
+    let without = not_in_limits(site, "The limits exclude ");
     let without = Some(format!("{without}.")).filter(|without| is_known && without.len() > 1);
     let parts = [unknown, without, extrapolated(&answer.row).map(|text| format!("{text}."))];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
@@ -249,7 +249,7 @@ fn about_limits(answer: &Answer<RatesRow>, site: &Site) -> String {
 fn not_in_limits(site: &Site, before: &str) -> String {
     match &site.hazard {
         Hazard::Curve(PeakHazard { fractiles: Some(_), .. }) => String::new(),
-        _ => format!("{before}the hazard's own error"),
+        _ => format!("{before}the uncertainty of the hazard"),
     }
 }
 

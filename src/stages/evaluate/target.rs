@@ -6,8 +6,7 @@ use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentRoot;
 
 use super::object::Subject;
-use super::rates::RatesRow;
-use crate::hazard::Site;
+use crate::hazard::{Site, probability_in_years};
 use crate::number::Limited;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::objects::Object;
@@ -95,7 +94,8 @@ pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target:
     let in_years = |width_m: f64| -> Option<Limited> {
         let resized = Object::new(object.spec.resized(width_m / width));
         let (subject, _) = Subject::of(&resized, models).ok()?.ok()?;
-        Some(RatesRow::new(&site.rates(&subject.directions, &subject.unknowns), years).in_years())
+        let rates = site.rates(&subject.directions, &subject.unknowns).overturning;
+        Some(rates.map(|rate| Some(probability_in_years(rate?, years))))
     };
     [0, 2].map(|which| Excess { in_years, which, target: target.0 }.root(range))
 }

@@ -84,7 +84,7 @@ pub fn mostly_unknown(budget: &Budget, of_velocity: &str) -> Option<String> {
         Part::Floor => "Measure its period (--period, --period-sd).",
         Part::Hazard => "",
     };
-    Some(format!("Mostly unknown: {}. {advice}", part.words()).trim_end().to_string())
+    Some(format!("Largest uncertainty: {}. {advice}", part.words()).trim_end().to_string())
 }
 
 /// Why an object has no answer.
@@ -124,7 +124,8 @@ fn is_fitted_each<R>(all: &[Answer<R>]) -> bool {
 /// What predicts for all objects, the worst of which is the first.
 pub fn model_of_all<R>(all: &[Answer<R>]) -> String {
     let Some(worst) = all.first() else { return String::new() };
-    match is_fitted_each(all) {
+    let is_of_surface = worst.object.model.as_deref().is_some_and(|model| model.contains("surface"));
+    match is_of_surface && is_fitted_each(all) {
         true => "rockfrag's universal surface, calibrated where there are responses".to_string(),
         false => model(&worst.object).to_string(),
     }

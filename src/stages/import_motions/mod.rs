@@ -20,7 +20,7 @@ use crate::motion::MeasurePlan;
 use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Steps, number};
+use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::pipelined;
 use crate::records::processing::{Implausible, ImportedMotion, Processing, PulseSearch};
@@ -87,7 +87,7 @@ pub struct ImportMotions {
     #[arg(long)]
     residual: bool,
     /// Add spectral accelerations (5 % damping) at these periods, s, as sa_0p20_m_s2
-    #[arg(long, value_name = "S,...")]
+    #[arg(long, value_name = "S,...", value_parser = periods)]
     sa: Option<Steps>,
     /// Also compute the Housner intensity (15 times as slow)
     #[arg(long)]

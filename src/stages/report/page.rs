@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use super::studies;
 use super::tables::{Tables, name};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
+use crate::keyword::Keyword;
 use crate::number::{self, OF_HUNDRED, RATE, TWO_DIGITS};
 use crate::pipeline::options::listed;
 use crate::report::text::minus;
@@ -109,7 +110,7 @@ fn facts(tables: &Tables) -> Vec<String> {
             let (parts, largest) = errors.words();
             let without = if errors.error_hazard.is_none() { ", without those of the hazard" } else { "" };
             facts.push(format!("The 95 % limits hold the errors of {}{without}.", parts.join(", ")));
-            facts.extend(largest.map(|largest| format!("Mostly unknown: {largest}.")));
+            facts.extend(largest.map(|largest| format!("Largest uncertainty: {largest}.")));
         }
         return facts;
     }
@@ -145,11 +146,13 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
         }
         other => other.is_number(),
     };
-    let cell = |value: &Value| match value {
+    let is_measure = |text: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == text);
+    let cell = |field: &str, value: &Value| match value {
         Value::Number(count) if count.is_u64() => number::count(count.as_u64().unwrap_or(0) as usize),
         Value::Number(value) => minus(number::significant(value.as_f64().unwrap_or(f64::NAN), 3)),
         Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
-        Value::String(text) if text.starts_with("im") => text.to_uppercase(),
+        Value::String(text) if is_measure(text) => text.to_uppercase(),
+        Value::String(text) if ["structure", "object", "motion_id"].contains(&field) => text.clone(),
         Value::String(text) => plain(text),
         _ => String::new(),
     };
@@ -157,7 +160,7 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
         head: plain(field),
         is_number: rows.iter().any(|row| is_number(&row[*field])),
     };
-    let cells = |row: &Value| fields.iter().map(|field| cell(&row[*field])).collect();
+    let cells = |row: &Value| fields.iter().map(|field| cell(field, &row[*field])).collect();
     let columns = fields.iter().map(column).collect();
     Table { caption: caption.to_string(), columns, rows: rows.iter().map(cells).collect() }
 }

@@ -85,6 +85,7 @@ impl Tables {
 
     /// Reads the objects with annual rates: all tables of them, if they are of one hazard and time.
     fn read_objects(&mut self) -> anyhow::Result<()> {
+        let mut all: Vec<((ObjectRow, RatesRow), ErrorsRow)> = Vec::new();
         let mut first: Option<(Option<&String>, Option<&Vec<String>>)> = None;
         for (path, _, made) in &self.files {
             if Table::open(path)?.schema().index_of(RATES).is_err() {
@@ -98,10 +99,12 @@ impl Tables {
                 self.left_out.push(format!("{file} is not shown: it is of another hazard or time."));
                 continue;
             }
-            self.objects.extend(rows::read(path)?.into_iter().zip(rows::read(path)?));
-            self.errors = self.errors.take().or(rows::read(path)?.into_iter().next());
+            let objects = rows::read::<ObjectRow>(path)?.into_iter().zip(rows::read::<RatesRow>(path)?);
+            all.extend(objects.zip(rows::read::<ErrorsRow>(path)?));
         }
-        self.objects.sort_by(|a, b| b.1.severity().total_cmp(&a.1.severity()));
+        all.sort_by(|((_, a), _), ((_, b), _)| b.severity().total_cmp(&a.severity()));
+        self.errors = all.first().map(|(_, errors)| errors.clone());
+        self.objects = all.into_iter().map(|(object, _)| object).collect();
         Ok(())
     }
 
@@ -117,8 +120,10 @@ impl Tables {
         };
         let responses = key("responses")?.or(input("pro", "in"));
         let motions = input("responses", "in").or(key("motions")?);
+        // On a floor the responses are to its motions, which are made of these.
+        let ground = if key("floor")? == motions { None } else { key("motions")? };
         let strangers = [
-            ("motions", key("motions")?, motions.clone(), "responses"),
+            ("motions", ground, motions.clone(), "responses"),
             ("ida", input("ida", "in"), motions, "motions"),
             ("pex", input("pex", "in"), responses.clone(), "responses"),
             ("pro", input("pro", "in"), responses.clone(), "responses"),

@@ -7,4 +7,5 @@ pub mod motions;
 pub mod object_list;
 pub mod objects;
 pub mod responses;
+pub mod spec;
 pub mod structures;

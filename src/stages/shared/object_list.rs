@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Context;
 
-use super::structures::{NUMBERS, Spec};
+use super::spec::{NUMBERS, Spec};
 use crate::sheet::{Heading, Sheet};
 use crate::units::Quantity;
 
@@ -104,7 +104,7 @@ fn spec(sheet: &Sheet, columns: &[Column], row: usize) -> Result<Spec, String> {
     for (at, column) in columns.iter().enumerate() {
         let cell = sheet.cell(row, at);
         match column {
-            Column::Held => spec.held = spec.held.or(held(cell)),
+            Column::Held => spec.held = spec.held.or(held(&sheet.headings[at].text, cell)),
             _ if cell.is_empty() => {}
             Column::Number(key, quantity) => {
                 let (heading, number) = (&sheet.headings[at], sheet.number(row, at));
@@ -130,13 +130,14 @@ fn spec(sheet: &Sheet, columns: &[Column], row: usize) -> Result<Spec, String> {
     Ok(spec)
 }
 
-/// Why an object with this cell under a heading of anchors is not free to rock.
-fn held(cell: &str) -> Option<String> {
-    let word = cell.trim().to_lowercase();
-    let rolls = ["castor", "caster", "wheel"].iter().any(|wheels| word.contains(wheels));
+/// Why an object with this cell under this heading of anchors is not free to rock.
+fn held(heading: &str, cell: &str) -> Option<String> {
+    let [heading, word] = [heading, cell].map(|text| text.trim().to_lowercase());
+    let rolls =
+        ["castor", "caster", "wheel"].iter().any(|wheels| heading.contains(wheels) || word.contains(wheels));
     match FREE.contains(&word.as_str()) {
         true => None,
         false if rolls => Some("on castors: it rolls, and does not rock".to_string()),
-        false => Some(format!("held ({cell}): it is not free to rock")),
+        false => Some(format!("{heading}: {word}; it is not free to rock")),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use super::structures::{Place, Restitution, Spec};
+use super::spec::{Place, Restitution, Spec};
 use crate::hazard::{Part, Unknown};
 use crate::motion::Floor;
 use crate::plausibility::check_structure;
@@ -53,6 +53,16 @@ const SD_OF_LOSS: f64 = 0.4;
 /// Largest share of the half width, or of the height, that a centre of mass is away from the middle or the
 /// base.
 const FARTHEST: f64 = 0.98;
+
+/// Depth of an object over its height that no object has.
+const LONGEST: f64 = 20.0;
+
+impl Spec {
+    /// The structure of its weaker direction, if its parameters can be right.
+    pub fn structure(&self) -> Result<Structure, String> {
+        Object::new(self.clone()).structure().cloned()
+    }
+}
 
 impl From<Structure> for Object {
     fn from(structure: Structure) -> Object {
@@ -166,7 +176,12 @@ impl Spec {
         let longer = |side: &str| format!("a length above 0 m, up to 200 m{side}: is it in cm or mm?");
         let bounds: [(&str, f64, f64, String); 12] = [
             ("width", 1e-4, 200.0, longer("")),
-            ("depth", 1e-4, 200.0, longer("")),
+            (
+                "depth",
+                1e-4,
+                (LONGEST * height).min(200.0),
+                longer(&format!(" and {LONGEST} times the height")),
+            ),
             ("centre-height", 1e-6, height * (1.0 - 1e-9), centre),
             ("centre-offset", -0.4999 * width, 0.4999 * width, offset),
             ("inertia", 1e-9, radius, inertia),
