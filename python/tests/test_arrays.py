@@ -127,14 +127,16 @@ def test_probabilities_come_from_fits_too(tmp_path, responses):
 
 def test_an_implausible_motion_is_a_warning_of_python():
     time = np.arange(0, 5, 0.01)
-    with pytest.warns(UserWarning, match="40 g") as told:
-        rockfrag.simulate_motion(40 * 9.81 * np.sin(20 * time), 0.01, **BLOCK)
+    with pytest.warns(UserWarning, match="PGA 3 g") as told:
+        rockfrag.simulate_motion(3 * 9.81 * np.cos(4 * np.pi * time), 0.01, **BLOCK)
+    with pytest.raises(ValueError):
+        rockfrag.simulate_motion(40 * 9.81 * np.cos(4 * np.pi * time), 0.01, **BLOCK)
     assert [warning.filename for warning in told] == [__file__]
 
 
 def test_a_print_of_probabilities_is_six_lines():
     assert len(repr(rockfrag.probability([0.5, 0.9], 0.6, **BLOCK)).splitlines()) == 6
-    with pytest.raises(ValueError, match="cm/s"):
+    with pytest.raises(rockfrag.Error, match="cm/s"):
         rockfrag.probability(0.8, 90.0, **BLOCK)
 
 
