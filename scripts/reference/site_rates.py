@@ -19,7 +19,9 @@ import sites as S
 
 OBJECTS = {"cabinet": (0.8, 2.2), "rack": (0.6, 2.0), "statue": (0.45, 1.7), "shelf": (0.35, 1.5)}
 SD_OF_LOSS = 0.4
-DRAWS = 60
+DRAWS = 40
+# The magnitude that the level of the surface is for, and within which it counts.
+MIDDLE, RANGE = 6.9, (5.0, 7.6)
 LN_LOSS = np.linspace(-1.2, 1.2, 7)
 folder, binary = pathlib.Path(sys.argv[1]), sys.argv[2]
 root = pathlib.Path(__file__).resolve().parents[2]
@@ -36,9 +38,9 @@ def call(*options):
 
 
 def calibration():
-    """c, ln s and their standard deviations, of P_ro under recorded motions."""
+    """c, ln s, m and their standard deviations, of P_ro under recorded motions."""
     rows = csv.reader(line for line in open(root / "data/universal.csv") if line.startswith("calibration,recorded,pro"))
-    return next([float(cell) for cell in row[3:7]] for row in rows)
+    return next([float(cell) for cell in row[3:9]] for row in rows)
 
 
 def surface(width, height, eta, mw):
@@ -60,20 +62,20 @@ class Truth:
 
     def __init__(self, width, height):
         housner = 1 - 1.5 * np.sin(np.arctan(width / height)) ** 2
-        self.c, self.ln_s, self.sd_c, self.sd_ln_s = calibration()
+        self.c, _, self.m, *self.sds = calibration()
+        self.tan_alpha = width / height
         etas = 1 - (1 - housner) * np.exp(LN_LOSS)
-        self.logits = np.array([surface(width, height, eta, 6.5) for eta in etas])
-        self.per_mw = surface(width, height, housner, 7.5) - surface(width, height, housner, 6.5)
+        self.logits = np.array([surface(width, height, eta, MIDDLE) for eta in etas])
         self.rocks = np.isfinite(self.logits[0])
 
-    def rate(self, rates, c=0.0, ln_s=0.0, loss=0.0):
-        """Of a site, with c, ln s and ln(1 - eta) off by so much."""
+    def rate(self, rates, c=0.0, ln_s=0.0, m=0.0, loss=0.0):
+        """Of a site, with c, ln s, m and ln(1 - eta) off by so much."""
         at = np.clip((loss - LN_LOSS[0]) / (LN_LOSS[1] - LN_LOSS[0]), 0, len(LN_LOSS) - 1.001)
         low, share = int(at), at - int(at)
         z = (1 - share) * self.logits[low][self.rocks] + share * self.logits[low + 1][self.rocks]
         z = self.c + c + np.exp(ln_s) * (z - self.c)
-        per_mw = np.nan_to_num(self.per_mw[self.rocks])
-        return sum(expit(z + per_mw * (mw - 6.5)) @ rates[k][self.rocks] for k, mw in enumerate(S.MAGNITUDES))
+        of = lambda mw: (self.m + m) * (np.clip(mw, *RANGE) - MIDDLE)
+        return sum(expit(z + of(mw)) @ rates[k][self.rocks] for k, mw in enumerate(S.MAGNITUDES))
 
 
 def write_curve(name, heading, unit, curve):
@@ -108,31 +110,37 @@ def answers(k, route):
     return {row["structure"]: row for row in rows}
 
 
-(folder / "objects.csv").write_text("name,width,height\n" + "".join(f"{n},{w},{h}\n" for n, (w, h) in OBJECTS.items()))
-truths = {name: Truth(*size) for name, size in OBJECTS.items()}
-found = {}
-for k, (kind, *_) in enumerate(names):
-    write(k)
-    drawn = {}
-    for name, truth in truths.items():
-        sds = [truth.sd_c, truth.sd_ln_s, SD_OF_LOSS]
-        drawn[name] = [truth.rate(joint[k], *(random.normal(size=3) * sds)) for _ in range(DRAWS)]
-    for route in ROUTES:
-        rows = answers(k, route)
-        for name, truth in truths.items():
-            true = truth.rate(joint[k])
-            if true > 1e-9:
-                low, high = [rows[name][f"overturning_per_year_{end}"] for end in ("low", "high")]
-                value = rows[name]["overturning_per_year"]
-                if value is None:
-                    continue
-                held = np.mean([low <= rate <= high for rate in drawn[name]])
-                entry = (np.log(value / true), held, np.log(high / low), names[k][1], names[k][2])
-                found.setdefault((str(kind), route), []).append(entry)
 
-print(f"{'sites':6} {'route':12} {'n':>4} {'median':>6} {'rms ln':>6} {'in 1.5':>6} {'worst':>6} {'held':>5} {'high/low':>8}")
-for (kind, route), rows in found.items():
-    off, held, width = (np.array([row[i] for row in rows]) for i in range(3))
-    print(f"{kind:6} {route:12} {len(off):4} {np.exp(np.median(off)):6.2f} {np.sqrt(np.mean(off**2)):6.2f} "
-          f"{np.mean(abs(off) < np.log(1.5)):6.2f} {np.exp(abs(off).max()):6.1f} {np.mean(held):5.3f} {np.exp(np.mean(width)):8.1f}")
-json.dump({"|".join(key): rows for key, rows in found.items()}, open(folder / "found.json", "w"))
+def main():
+    (folder / "objects.csv").write_text("name,width,height\n" + "".join(f"{n},{w},{h}\n" for n, (w, h) in OBJECTS.items()))
+    truths = {name: Truth(*size) for name, size in OBJECTS.items()}
+    found = {}
+    for k, (kind, *_) in enumerate(names):
+        write(k)
+        drawn = {}
+        for name, truth in truths.items():
+            sds = [*truth.sds, SD_OF_LOSS]
+            drawn[name] = [truth.rate(joint[k], *(random.normal(size=4) * sds)) for _ in range(DRAWS)]
+        for route in ROUTES:
+            rows = answers(k, route)
+            for name, truth in truths.items():
+                true = truth.rate(joint[k])
+                if true > 1e-9:
+                    low, high = [rows[name][f"overturning_per_year_{end}"] for end in ("low", "high")]
+                    value = rows[name]["overturning_per_year"]
+                    if value is None:
+                        continue
+                    held = np.mean([low <= rate <= high for rate in drawn[name]])
+                    entry = (np.log(value / true), held, np.log(high / low), names[k][1], names[k][2])
+                    found.setdefault((str(kind), route), []).append(entry)
+
+    print(f"{'sites':6} {'route':12} {'n':>4} {'median':>6} {'rms ln':>6} {'in 1.5':>6} {'worst':>6} {'held':>5} {'high/low':>8}")
+    for (kind, route), rows in found.items():
+        off, held, width = (np.array([row[i] for row in rows]) for i in range(3))
+        print(f"{kind:6} {route:12} {len(off):4} {np.exp(np.median(off)):6.2f} {np.sqrt(np.mean(off**2)):6.2f} "
+              f"{np.mean(abs(off) < np.log(1.5)):6.2f} {np.exp(abs(off).max()):6.1f} {np.mean(held):5.3f} {np.exp(np.mean(width)):8.1f}")
+    json.dump({"|".join(key): rows for key, rows in found.items()}, open(folder / "found.json", "w"))
+
+
+if __name__ == "__main__":
+    main()

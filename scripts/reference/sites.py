@@ -1,9 +1,9 @@
 """Hazards of PGA, PGV and SA(1.0 s) at sites of ground-motion models: python sites.py FOLDER
 
 Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 give the joint rates of PGA, PGV and
-magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the line of sites in general (`fit_line`), the
-sites `check`, of other sources and models, judge it. Writes FOLDER/sites.npz and the line as it stands in
-data/universal.csv. Needs openquake.engine (scripts/check_exports.sh tells how).
+magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in general (src/hazard/velocity.rs), the
+sites `check`, of other sources and models, judge them. Writes FOLDER/sites.npz and prints the lines of both. Needs
+openquake.engine (scripts/check_exports.sh tells how).
 """
 
 import pathlib
@@ -143,6 +143,29 @@ def all_sites():
                     yield name, geometry, model, vs30, site(model, vs30, sources, rho)
 
 
+def line(joints, mean_mw, peak):
+    """Level at 0.4 g or 0.4 m/s, slope and rise with magnitude of ln(PGV/PGA), its scatter, and the sd between sites."""
+    x, y = (0.5 * (edges[1:] + edges[:-1]) for edges in (LN_PGA, LN_PGV))
+    at, low, high = (x - np.log(0.4 * G), 0.15 * G, 1.5 * G) if peak == "pga" else (y - np.log(0.4), 0.1, 2.0)
+    ratio, axis = y[None, :] - x[:, None], 1 if peak == "pga" else 0
+    rows, means, variances, places = [], [], [], []
+    for k, joint in enumerate(joints):
+        rates = joint.sum(axis=0)
+        total = rates.sum(axis=axis)
+        mean = (rates * ratio).sum(axis=axis) / total
+        variance = (rates * ratio**2).sum(axis=axis) / total - mean**2
+        level = x if peak == "pga" else y
+        for i in np.flatnonzero((np.exp(level) > low) & (np.exp(level) < high) & (total > 1e-7)):
+            rows.append([1, at[i], mean_mw[k] - 6.3])
+            means.append(mean[i])
+            variances.append(variance[i])
+            places.append(k)
+    b = np.linalg.lstsq(np.array(rows), np.array(means), rcond=None)[0]
+    off = np.array(means) - np.array(rows) @ b
+    between = np.std([off[np.array(places) == k].mean() for k in set(places)])
+    return [*b, np.sqrt(np.mean(variances)), between]
+
+
 if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1])
     names, data = [], {"joint": [], "pga": [], "pgv": [], "sa1": [], "mw": []}
@@ -152,3 +175,8 @@ if __name__ == "__main__":
             data[key].append(value)
         print(name, geometry, model, vs30, round(float(made["mw"]), 2), flush=True)
     np.savez_compressed(folder / "sites.npz", names=np.array(names), **{k: np.array(v) for k, v in data.items()})
+    kinds, joints, mean_mw = np.array(names)[:, 0], np.array(data["joint"]), np.array(data["mw"])
+    for kind in SETS:
+        for peak in ("pga", "pgv"):
+            found = line(joints[kinds == kind], mean_mw[kinds == kind], peak)
+            print(kind, peak, "level, slope, per magnitude, scatter, sd between sites:", *np.round(found, 2))

@@ -1,0 +1,106 @@
+"""Holds the budget of errors against draws of all unknowns: python budget_draws.py FOLDER ROCKFRAG, after site_rates.py
+
+Six cases: routes, objects and sites. 10,000 draws of c, ln s, m, magnitude, level of PGV/PGA and eta give rates by a
+quadrature of our own; the distances of their 2.5 and 97.5 % quantiles from the median, in ln, stand beside those of
+the limits of evaluate.
+"""
+
+import re
+
+import numpy as np
+from scipy.interpolate import RegularGridInterpolator
+from scipy.optimize import least_squares
+from scipy.special import expit
+from scipy.stats import norm
+
+import site_rates as R
+
+DRAWS = 10_000
+SOURCE = (R.root / "src/hazard/velocity.rs").read_text()
+Z = np.linspace(-5, 5, 31)
+WEIGHT = norm.pdf(Z) / norm.pdf(Z).sum()
+AT = np.log(0.4 * 9.81)
+
+
+def constants(name):
+    found = re.search(name + r": (?:\[f64; \d\]|f64) = \[?([^;\]]*)", SOURCE)[1]
+    values = [float(x) for x in found.split(",")]
+    return values if len(values) > 1 else values[0]
+
+
+def thinned(curve):
+    return curve[(curve[:, 1] > 1e-9) & (curve[:, 1] < 0.5)]
+
+
+def exceeds(curve, ln_level):
+    return np.exp(np.interp(ln_level, np.log(curve[:, 0]), np.log(curve[:, 1])))
+
+
+def matched(pga, pgv, scatter):
+    """Level and slope by which the curve of PGA has the rates of that of PGV."""
+    x = np.linspace(np.log(pga[0, 0]), np.log(pga[-1, 0]), 400)
+    weight, middle = -np.diff(exceeds(pga, x)), 0.5 * (x[1:] + x[:-1])
+    rates = np.geomspace(min(2e-2, 0.5 * pga[0, 1], pgv[0, 1]), max(1e-6, 2 * pga[-1, 1], pgv[-1, 1]), 16)
+    levels = np.interp(-np.log(rates), -np.log(pgv[:, 1]), np.log(pgv[:, 0]))
+    of = lambda b: norm.sf((levels[:, None] - middle - b[0] - b[1] * (middle - AT)) / scatter) @ weight + pga[-1, 1]
+    return least_squares(lambda b: np.log(of(b) / rates), [-2.9, 0.0]).x
+
+
+def surface(truth):
+    """Logits less c by ln loss, ln PGA and ln PGV; below uplift they fall off."""
+    logits = np.where(np.isfinite(truth.logits), truth.logits - truth.c, -60.0)
+    return RegularGridInterpolator((R.LN_LOSS, R.ln_pga, R.ln_pgv), logits)
+
+
+def rates(k, truth, line, scatter, draws):
+    """The rates of a site for draws of c, ln s, m, magnitude, level and ln loss."""
+    curve = thinned(R.data["pga"][k])
+    x = np.linspace(np.log(9.81 * truth.tan_alpha) + 1e-3, np.log(min(curve[-1, 0], np.exp(R.ln_pga[-1]) * (1 - 1e-9))), 60)
+    h = exceeds(curve, x)
+    ln_pga, weight = np.append(0.5 * (x[1:] + x[:-1]), x[-1]), np.append(-np.diff(h), h[-1])
+    of, result = surface(truth), []
+    for c, ln_s, m, mw, level, loss in draws:
+        ln_pgv = ln_pga[:, None] + line(ln_pga, mw)[:, None] + level + scatter * Z
+        ln_pgv = np.clip(ln_pgv, R.ln_pgv[0], np.log(4.9))
+        loss = np.clip(loss, R.LN_LOSS[0], R.LN_LOSS[-1])
+        z = of(np.stack(np.broadcast_arrays(loss, ln_pga[:, None], ln_pgv), -1))
+        of_mw = (truth.m + m) * (np.clip(mw, *R.RANGE) - R.MIDDLE)
+        result.append(weight @ (expit(truth.c + c + np.exp(ln_s) * z + of_mw) @ WEIGHT))
+    return np.array(result)
+
+
+def case(k, name, route, random):
+    truth = R.Truth(*R.OBJECTS[name])
+    level, slope, scatter, per_mw, sd_level = constants("GIVEN_PGA")
+    mw, sd_mw = constants("MAGNITUDE")
+    if route.endswith("M"):
+        mw, sd_mw = R.mean_mw[k], constants("SD_OF_MEAN")
+    line = lambda ln_pga, mw: level + slope * (ln_pga - AT) + per_mw * (mw - constants("MIDDLE"))
+    if "," in R.ROUTES[route][0]:
+        pgv = thinned(R.data["pgv"][k]).copy()
+        if "SA" in route:
+            pgv = thinned(R.data["sa1"][k]) * [1 / (2 * np.pi * 1.65), 1]
+        scatter, sd_level = constants("SCATTER"), constants("SD_BY_CURVES")["SA" in route]
+        a, b = matched(thinned(R.data["pga"][k]), pgv, scatter)
+        line = lambda ln_pga, mw: a + b * (ln_pga - AT)
+    sds = np.array([*truth.sds, sd_mw, sd_level, R.SD_OF_LOSS])
+    draws = random.normal(size=(DRAWS, 6)) * sds + [0, 0, 0, mw, 0, 0]
+    drawn = np.log(rates(k, truth, line, scatter, draws))
+    at_medians = np.log(rates(k, truth, line, scatter, [[0, 0, 0, mw, 0, 0]])[0])
+    R.write(k)
+    row = R.answers(k, route)[name]
+    value, low, high = (np.log(row[f"overturning_per_year{end}"]) for end in ("", "_low", "_high"))
+    quantiles = np.quantile(drawn, [0.025, 0.5, 0.975])
+    below, above = quantiles[1] - quantiles[0], quantiles[2] - quantiles[1]
+    geometry, model, vs30 = R.names[k][1:]
+    print(f"{name:8} {route:9} {geometry:12.12} {model:12.12} {vs30:6} rate {np.exp(value):.1e} (ours {np.exp(at_medians):.1e}, "
+          f"median of draws {np.exp(quantiles[1]):.1e})  limits -{value - low:.2f} +{high - value:.2f}  draws -{below:.2f} +{above:.2f}  "
+          f"ratio {(value - low) / below:.2f} {(high - value) / above:.2f}", flush=True)
+
+
+if __name__ == "__main__":
+    generator = np.random.default_rng(7)
+    (R.folder / "objects.csv").write_text("name,width,height\n" + "".join(f"{n},{w},{h}\n" for n, (w, h) in R.OBJECTS.items()))
+    for site, thing, way in [(14, "cabinet", "PGA"), (50, "shelf", "PGA"), (20, "rack", "PGA, M"),
+                             (30, "cabinet", "PGA, SA"), (62, "statue", "PGA, PGV"), (90, "cabinet", "PGA, PGV, M")]:
+        case(site, thing, way, generator)
