@@ -43,7 +43,8 @@ def rises(event, points=(9, 6, 5)):
     im4 = np.append([1.0, 1.02, 1.05, 1.1, 1.2], spaced((1.4, MOST_IM4 / STEP), points[0]))
     p = np.concatenate([[0.35], spaced(DOMAIN["p"], points[2]), [9.0]])
     limits = [0.02, 0.1, 0.4, 0.88] if event == "pex" else [0.2]
-    axes = im4, spaced(DOMAIN["ratio"], points[1]), p, [0.7, 0.995], limits
+    low, high = DOMAIN["ratio"]
+    axes = im4, spaced((low * STEP, high), points[1]), p, [0.7, 0.995], limits
     im4, ratio, p, eta, limit = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
     here = {"im4": im4, "im5": im4 * p / ratio, "p_rad_s": p, "eta": eta}
     at = lambda limit=limit, **changed: design(event, here | changed, limit)
@@ -77,7 +78,7 @@ def uplift_numbers(cases, happened, logit, start=SOUGHT):
 def surface(event, cases, with_magnitude):
     """Returns the coefficients, that of M - 6.9, and n, d and k of one kind of motion."""
     cases, limit, happened = sample(event, cases)
-    columns, gains, fine = design(event, cases, limit), rises(event), rises(event, (24, 13, 10))
+    columns, gains, fine = design(event, cases, limit), rises(event), rises(event, (24, 25, 10))
     if with_magnitude:
         columns = np.column_stack([columns, cases["mw"] - 6.9])
         gains, fine = (np.column_stack([rows, np.zeros(len(rows))]) for rows in (gains, fine))

@@ -1,6 +1,4 @@
-"""Prints how well the surface does, as tables in Markdown: python judge.py SURFACE.csv FOLDER [FORMER.csv]
-
-FORMER, a surface before magnitude (tree 84b834e), is scored beside it."""
+"""Prints how well the surface does, as tables in Markdown: python judge.py SURFACE.csv FOLDER"""
 
 import sys
 
@@ -11,13 +9,14 @@ from scipy.special import log_ndtr, ndtr
 import cases as of
 from calibration import NODES, WEIGHTS, apply, calibrate, logistic
 from fit import monotone_logistic
-from make import LIMIT, chosen, shift
-from surface import KINDS, LIMITS, Surface, magnitude, some, uplift
+from make import LIMIT, chosen
+from surface import KINDS, LIMITS, Surface, magnitude, some
 
-_, path, FOLDER, *_ = sys.argv
+_, path, FOLDER = sys.argv
 surface = Surface(path)
 rng = np.random.default_rng(1)
 CLASSES = {"all": (0, 9), "below 5.5": (0, 5.5), "5.5 to 6.4": (5.5, 6.4), "6.4 and more": (6.4, 9)}
+WIDE = (0.0, 0.0, 0.0, 5.0, 5.0, 5.0)
 CUTS = np.array([0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95])
 
 
@@ -98,62 +97,40 @@ def own_responses(event):
 
 
 def left_out(event):
-    """Each earthquake of the table predicted by the others, of both sources: with magnitude, and without."""
-    cases = of.read([f"{FOLDER}/records.parquet"])
-    counted, happened = chosen(event, cases)
-    shared = np.char.find(counted["motion_id"].astype(str), "field") < 0
-    b = {True: np.full(len(happened), np.nan), False: np.full(len(happened), np.nan)}
-    logit = lambda c, limit: surface.logit(event, "recorded", c, limit)
-    unknown = np.full(len(cases["im4"]), np.nan)
-    for earthquake in np.unique(counted["cluster"][shared]):
-        others = some(cases, cases["cluster"] != earthquake)
-        c, ln_s, m, _, *numbers = shift(event, logit, others)
-        test = counted["cluster"] == earthquake
-        c = c + np.exp(ln_s) * logit(some(counted, test), LIMIT) + uplift(some(counted, test), np.exp(numbers))
-        line = surface.magnitude["recorded"]
-        b[True][test] = c + m * magnitude(some(counted, test), line)
-        b[False][test] = c + m * magnitude(some(counted, test) | {"mw": unknown[: test.sum()]}, line)
-    models = {"with M": b[True], "M unknown": b[False]}
-    if len(sys.argv) > 3:
-        models = {"former": former(event, counted)} | models
+    """Each earthquake of the table predicted by c, ln s and m of the others, of both sources: with magnitude,
+    and without."""
+    cases, happened = chosen(event, of.read([f"{FOLDER}/records.parquet"]))
+    parts = surface.parts(event, "recorded", cases, LIMIT)
+    unknown = cases | {"mw": np.full(len(happened), np.nan)}
+    expected = magnitude(unknown, surface.magnitude["recorded"])
+    ours = np.char.find(cases["motion_id"].astype(str), "field") < 0
+    models = {"with M": np.full(len(happened), np.nan), "M unknown": np.full(len(happened), np.nan)}
+    for earthquake in np.unique(cases["cluster"][ours]):
+        test = cases["cluster"] == earthquake
+        b, _ = calibrate(at(parts, ~test), happened[~test], WIDE)
+        models["with M"][test] = apply(b, at(parts, test))
+        models["M unknown"][test] = apply(b, at((parts[0], expected, parts[2]), test))
     rows = []
     for name, (low, high) in CLASSES.items():
-        k = shared & (counted["mw"] >= low) & (counted["mw"] < high)
+        k = ours & (cases["mw"] >= low) & (cases["mw"] < high)
         y = happened[k]
         each = [(log_scores(logistic(z[k]), y).mean(), y.sum() / logistic(z[k]).sum()) for z in models.values()]
         rows.append((name, int(k.sum()), *(number for pair in each for number in pair)))
     head = [f"{name}: {what}" for name in models for what in ("score", "observed/expected")]
     table(f"Records, {event}: earthquakes left out", ["M", "cases", *head], rows)
     for name, z in models.items():
-        p, y = logistic(z[shared]), happened[shared]
+        p, y = logistic(z[ours]), happened[ours]
         bins = [np.digitize(p, CUTS) == k for k in range(9)]
         rows = [("predicted", *(p[k].mean() for k in bins)), ("observed", *(y[k].mean() for k in bins))]
         table(f"Records, {event}, {name}: nine bins", ["", *map(str, CUTS), "1"], rows)
-    coverage(event, "recorded", models["with M"], happened, counted, counted["cluster"])
+    coverage(event, "recorded", models["with M"][ours], happened[ours], some(cases, ours))
 
 
-def former(event, cases):
-    """The logit of tree 84b834e: two numbers, no magnitude, the coefficients of hfc."""
-    known = {"x": np.log(np.log(cases["im4"]) + 0.2), "w": np.log(np.minimum(cases["im5"], 100))}
-    limit = np.log(LIMIT / 0.2) if event == "pex" else 0.0
-    known["w"] = known["w"] - 0.4 * limit
-    known |= {"r": np.log(cases["im3"]), "eta": (cases["eta"] - 0.85) / 0.1, "limit": limit}
-    known["p"], logit = np.log(cases["p_rad_s"] / 2.0), 0.0
-    for line in (line for line in open(sys.argv[3]) if not line.startswith("#")):
-        what, curve, *cells = line.strip().split(",")
-        if (what, curve) == ("term", event):
-            factors = [name.partition("^") for name in cells[0].split("*") if name != "1"]
-            logit = logit + float(cells[3]) * np.prod([known[f] ** int(k or 1) for f, _, k in factors], axis=0)
-        if (what, curve) == ("calibration", "recorded") and cells[0] == event:
-            c, ln_s = float(cells[1]), float(cells[2])
-    return c + np.exp(ln_s) * logit
-
-
-def coverage(event, kind, z, happened, cases, clusters):
+def coverage(event, kind, z, happened, cases):
     """How often the count in a structure and cluster is one that limits of 95 % allow, with tau and without:
     a count allows for chance, so that it lies between the 2.5 and 97.5 % quantiles of its distribution."""
     tau = surface.calibration[kind, event][6]
-    groups = np.char.add(cases["structure"].astype(str), np.char.add(" ", clusters.astype(str)))
+    groups = np.char.add(cases["structure"].astype(str), np.char.add(" ", cases["cluster"].astype(str)))
     names, which = np.unique(groups, return_inverse=True)
     order = np.argsort(which, kind="stable")
     rows = {}
@@ -195,7 +172,7 @@ def cells_left_out(event):
                 b, _ = calibrate(at(parts, fitted), happened[fitted], surface.prior(event, kind, LIMIT))
                 other = mine & (np.isin(cases["cluster"], half) != side)
                 z[other] = apply(b, at(parts, other))
-        coverage(event, kind, z, happened, cases, cases["cluster"])
+        coverage(event, kind, z, happened, cases)
 
 
 def few_records(event):
@@ -212,7 +189,7 @@ def few_records(event):
             for block in range(60):
                 mine = (cases["structure"] == block) & (cases["mw"] >= low) & (cases["mw"] < high)
                 mine = np.flatnonzero(mine)
-                if min(happened[mine].sum(), (~happened[mine]).sum()) < 5:
+                if min(happened[mine].sum(), (~happened[mine]).sum()) < 5 or len(mine) < 2 * n:
                     continue
                 truth, _ = calibrate(at(parts, mine), happened[mine], (*prior[:3], 2.0, 1.0, 0.5))
                 pool = mine[np.abs(apply(truth, at(parts, mine))) < 3.9]
@@ -238,7 +215,7 @@ def few_records(event):
     table(f"Few records of one's own, {event}", [*head, "score as shipped", "calibrated"], rows)
 
 
-def by_limit_and_scale():
+def by_limit():
     cases = of.read([f"{FOLDER}/records.parquet"])
     safe = some(cases, ~cases["overturned"])
     row = lambda limit: (safe["edp"] > limit, logistic(surface.z("pex", "recorded", safe, limit)))
@@ -262,7 +239,7 @@ def near_uplift(event):
     table(f"Near uplift, {event}: observed/expected", head, rows)
 
 
-by_limit_and_scale()
+by_limit()
 for event in ("pro", "pex"):
     left_out(event)
     near_uplift(event)

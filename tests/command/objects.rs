@@ -155,7 +155,7 @@ fn slips_are_named() {
     refused("--centre-height 0", &["centre-height"]);
     refused("--centre-offset 0.5", &["centre-offset", "edge"]);
     refused("--inertia 300", &["inertia", "mass"]);
-    refused("--depth 100 --centre-height-sd 20", &["centre-height-sd"]);
+    refused("--depth 10 --centre-height-sd 20", &["centre-height-sd"]);
     refused("--friction 30", &["friction"]);
     refused("--depth 90", &["depth", "cm"]);
     refused("--eta-sd 8", &["eta-sd"]);

@@ -48,7 +48,7 @@ fn level_0_is_the_ground_and_a_rigid_building_moves_with_it() {
     for (pga, pgv) in [(3.0, 0.5), (6.0, 0.8), (12.0, 1.5)] {
         let ground = overturning(&model, &structure, pga, pgv);
         for (floor, tolerance) in
-            [(Floor { period_s: 0.6, level: 0.0 }, 1e-12), (Floor { period_s: 1e-5, level: 1.0 }, 0.02)]
+            [(Floor { period_s: 0.6, level: 0.0 }, 1e-12), (Floor { period_s: 1e-8, level: 1.0 }, 0.02)]
         {
             let found = overturning(&model.on(Some(floor)).unwrap(), &structure, pga, pgv);
             assert!((found[1] / ground[1] - 1.0).abs() < tolerance, "{floor:?}: {found:?}, {ground:?}");

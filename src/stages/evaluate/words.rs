@@ -14,7 +14,13 @@ pub fn title(object: &ObjectRow) -> String {
     match (object.structure.as_str(), object.width_m, object.height_m, object.p_rad_s) {
         (UNNAMED, Some(width), Some(height), Some(p)) => {
             let is_block = (rectangular_p(0.5 * width.hypot(height)) / p - 1.0).abs() < 1e-9;
-            format!("{} of {size}", if is_block { "Block" } else { "Body" })
+            let is_upright = object.friction.is_some_and(|tan| (tan * height / width - 1.0).abs() < 1e-9);
+            let what = match (is_block, is_upright && object.depth_m.is_none()) {
+                (true, _) => "Block",
+                (_, true) => "Frame of columns",
+                _ => "Body",
+            };
+            format!("{what} of {size}")
         }
         (UNNAMED, ..) => format!("Structure of {size}"),
         (name, ..) => format!("{name}, {size}"),

@@ -11,6 +11,7 @@ use anyhow::bail;
 use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
+use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::pipeline::cache::is_ours;
 use crate::pipeline::context::Context;
@@ -73,7 +74,7 @@ impl Stage for Report {
         let tables = Tables::read(&self.input)?;
         let figures = figures::all(&tables)?;
         let (page, folder) = (self.page(), self.page().with_extension(""));
-        let summary = format!("{}: {} figures\n", page.display(), figures.len());
+        let summary = format!("{}: {}\n", page.display(), counted(figures.len(), "figure"));
         let key = context.provenance(&summary)?.json();
         let stems: Vec<PathBuf> = figures.iter().map(|figure| folder.join(&figure.name)).collect();
         if let Some(other) = stems.iter().find_map(|stem| foreign(stem)).filter(|_| !context.force) {
