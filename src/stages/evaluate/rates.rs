@@ -134,7 +134,7 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<Target>) -> Str
     let mut lines = vec![
         vec![String::new(), "a year".to_string(), in_years(rates)],
         line("rocks".to_string(), [rates.rocking_per_year, None, None]),
-        line(format!("{}, or more", too_far(object)), rates.failure()),
+        line(format!("{}, or overturns", too_far(object)), rates.failure()),
         line("overturns".to_string(), rates.overturning()),
     ];
     if let Some(motions) = rates.counted_motions {

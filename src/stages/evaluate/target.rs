@@ -27,8 +27,8 @@ impl FromStr for Target {
     }
 }
 
-/// Slendernesses of the structures that the surface knows, rad.
-const SLENDERNESSES: [f64; 2] = [0.04, 0.5];
+/// Slendernesses of the structures that the surface knows, rad: eta of a wider solid block is below 0.7.
+const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
 /// Relative accuracy of a width, and largest number of steps.
 const ACCURACY: f64 = 1e-4;
 const MOST_STEPS: u64 = 60;
@@ -50,18 +50,8 @@ impl<F: Fn(f64) -> Option<Limited>> Excess<F> {
         Some(((self.in_years)(width)?[self.which]?.max(LEAST) / self.target).ln())
     }
 
-    /// The least width between two that meets the target; none if not even the largest does of which the hazard
-    /// tells a rate.
-    fn root(self, [least, end]: [f64; 2]) -> Option<f64> {
-        let is_known = |width: f64| (self.in_years)(width).is_some_and(|p| p[0].is_some());
-        let mut most = end;
-        if !is_known(end) {
-            let halve = |(known, unknown): (f64, f64), _| {
-                let middle = 0.5 * (known + unknown);
-                if is_known(middle) { (middle, unknown) } else { (known, middle) }
-            };
-            most = (0..HALVINGS).fold((least, end), halve).0;
-        }
+    /// The least width between two that meets the target; none if not even the larger does.
+    fn root(self, [least, most]: [f64; 2]) -> Option<f64> {
         if self.of(most)? > 0.0 {
             return None;
         }
@@ -90,12 +80,24 @@ pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target:
     let Some((width, height)) = object.spec.width.zip(object.spec.height) else { return [None; 2] };
     let centre_height = object.spec.centre_height.unwrap_or(0.5 * height);
     let nearer = 1.0 - object.spec.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
-    let range = SLENDERNESSES.map(|alpha| 2.0 * centre_height * alpha.tan() / nearer);
-    let in_years = |width_m: f64| -> Option<Limited> {
+    let [least, end] = SLENDERNESSES.map(|alpha| 2.0 * centre_height * alpha.tan() / nearer);
+    // What is not known does not matter to an estimate, and takes most of the time.
+    let in_years = |width_m: f64, with_unknowns: bool| -> Option<Limited> {
         let resized = Object::new(object.spec.resized(width_m / width));
         let (subject, _) = Subject::of(&resized, models).ok()?.ok()?;
-        let rates = site.rates(&subject.directions, &subject.unknowns).overturning;
+        let unknowns = if with_unknowns { &subject.unknowns[..] } else { &[] };
+        let rates = site.rates(&subject.directions, unknowns).overturning;
         Some(rates.map(|rate| Some(probability_in_years(rate?, years))))
     };
-    [0, 2].map(|which| Excess { in_years, which, target: target.0 }.root(range))
+    // The hazard of a wide object may end too early for a rate.
+    let is_known = |width_m: f64| in_years(width_m, false).is_some_and(|p| p[0].is_some());
+    let halve = |(known, unknown): (f64, f64), _| {
+        let middle = 0.5 * (known + unknown);
+        if is_known(middle) { (middle, unknown) } else { (known, middle) }
+    };
+    let most = if is_known(end) { end } else { (0..HALVINGS).fold((least, end), halve).0 };
+    [0, 2].map(|which| {
+        let in_years = |width_m: f64| in_years(width_m, which == 2);
+        Excess { in_years, which, target: target.0 }.root([least, most])
+    })
 }
