@@ -45,7 +45,9 @@ pub fn limit_states_at(
 const FARTHEST: f64 = 6.0;
 /// Step of the trapezoidal rule, in standard deviations: exact to 1e-6 for smooth functions under a normal
 /// density.
-const STEP: f64 = 0.4;
+const STEP: f64 = 0.6;
+/// The same on floors, where nothing is sharp.
+const STEP_ON_FLOORS: f64 = 0.8;
 /// Widest panel of the quadrature, in standard deviations.
 const PANEL: f64 = 1.6;
 /// PGV between which the uplift of any structure is sought, m/s.
@@ -60,6 +62,10 @@ impl GivenPeak<'_> {
     /// Probabilities of LS1, LS2 and LS3 at an intensity, with limits; NaN where the model has none.
     pub fn limit_states(&self, intensity: f64, scenarios: Scenarios) -> [Probability; 3] {
         let mut mean = [Probability::exact(0.0); 3];
+        let uplifts = |(structure, model): &(Structure, Model)| intensity >= model.uplift_m_s2(structure)[0];
+        if self.peak == Peak::Pga && !self.directions.iter().any(uplifts) {
+            return mean;
+        }
         for (node, weight) in self.nodes(intensity) {
             let peaks = self.peaks(intensity, node);
             let states = limit_states_at(self.directions, peaks, self.mw, scenarios);
@@ -126,9 +132,8 @@ impl GivenPeak<'_> {
         let density = |z: f64| (-0.5 * z * z).exp() / TAU.sqrt();
         match (self.ratio.is_exact(), self.peak) {
             (false, Peak::Pga) => {
-                // What a floor may make of a motion leaves nothing sharp.
                 let is_on_floor = self.directions.iter().all(|(_, model)| model.floor().is_some());
-                let step = if is_on_floor { 2.0 * STEP } else { STEP };
+                let step = if is_on_floor { STEP_ON_FLOORS } else { STEP };
                 let last = (FARTHEST / step).ceil() as i32;
                 (-last..=last).map(|k| step * f64::from(k)).map(|z| (z, step * density(z))).collect()
             }

@@ -141,7 +141,7 @@ impl Site {
         let mut budgets = Budgets::about(ln_rates(&rates));
         budgets.add(Part::Fit, sds_of_fit(&rates));
         let of = |given: &GivenPeak, curve: &HazardCurve| ln_rates(&rates_over_curve(given, curve));
-        if model.depends_on_magnitude() {
+        if model.depends_on_magnitude() && middle.mw.is_some() {
             budgets.vary(&of_magnitude, |mw| of(&given(*mw, 0.0), &curve));
         }
         budgets.vary(&velocity.unknown(), |ln| of(&given(mw, *ln), &curve));

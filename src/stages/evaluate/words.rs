@@ -82,7 +82,7 @@ pub fn too_far(object: &ObjectRow) -> String {
 pub fn mostly_unknown(budget: &Budget, of_velocity: &str) -> Option<String> {
     let part = budget.largest()?;
     let advice = match part {
-        Part::Fit => "Calibrate it by responses of the object (--fits).",
+        Part::Fit => "Calibrate it (--fits).",
         Part::Magnitude => "Add --magnitude.",
         Part::Velocity => of_velocity,
         Part::Eta => "Measure it (--eta, --eta-sd).",
