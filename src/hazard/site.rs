@@ -7,10 +7,10 @@ use super::curve::HazardCurve;
 use super::joint::JointHazard;
 use super::rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
 use super::velocity::{Velocity, VelocitySource, magnitude};
-use crate::fragility::{Cases, Event, GivenPeak, Kind, Model, Peak, Z_95};
+use crate::fragility::{Cases, GivenPeak, Kind, Model, Peak, Z_95};
 use crate::number::Limited;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
-use crate::rocking::Structure;
+use crate::rocking::{Outcome, Structure};
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
@@ -63,8 +63,6 @@ pub struct Site {
     pub mw: Option<f64>,
     /// Whether a curve that ends too early is continued.
     pub extrapolate: bool,
-    /// Demand |theta|max / alpha that is the limit state.
-    pub limit_state: f64,
     /// Responses to count in, of each suite and structure.
     pub responses: Vec<Cases>,
 }
@@ -180,7 +178,7 @@ impl Site {
         let cases = self.responses.iter().find(is_same)?;
         let motion = |case: usize| CountedMotion {
             intensity: if given.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
-            event: cases.happened(case, Event::Overturning, self.limit_state) == Some(true),
+            event: cases.outcome[case] == Outcome::Overturning,
             cluster: cases.cluster[case],
         };
         let motions: Vec<CountedMotion> = (0..cases.len()).map(motion).collect();

@@ -48,16 +48,6 @@ pub struct Column {
     pub is_number: bool,
 }
 
-impl Column {
-    pub fn text(head: &str) -> Column {
-        Column { head: head.to_string(), is_number: false }
-    }
-
-    pub fn number(head: &str) -> Column {
-        Column { head: head.to_string(), is_number: true }
-    }
-}
-
 impl Page {
     /// Writes the page.
     pub fn html(&self) -> String {

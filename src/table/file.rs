@@ -97,16 +97,6 @@ pub struct RowGroup {
 
 impl RowGroup {
     /// Returns the number of rows.
-    pub fn len(&self) -> usize {
-        (self.rows.end - self.rows.start) as usize
-    }
-
-    /// Returns whether there are no rows.
-    pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
-    }
-
-    /// Returns the number of rows.
     pub fn count(&self) -> usize {
         (self.rows.end - self.rows.start) as usize
     }

@@ -140,7 +140,6 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
         ratio_s: None,
         mw: None,
         extrapolate: false,
-        limit_state: 0.1,
         responses: vec![],
     };
     let rates = site.rates(&[(structure, model)], &[]);

@@ -134,7 +134,13 @@ fn shares_count_cases_and_events() {
 #[test]
 fn the_page_is_static_and_escapes_what_it_holds() {
     let rows = vec![vec!["<script>alert(1)</script>".to_string(), "*P*_{ro}".to_string()]];
-    let table = Table { columns: vec![Column::text("a"), Column::number("b")], rows, ..Default::default() };
+    let table = Table {
+        columns: [("a", false), ("b", true)]
+            .map(|(head, is_number)| Column { head: head.into(), is_number })
+            .into(),
+        rows,
+        ..Default::default()
+    };
     let sections = vec![Section { tables: vec![table.clone()], ..Default::default() }];
     let (title, figures) = ("{sentence} <b>".to_string(), figures(3));
     let page = Page { title, table: Some(table), figures, sections, ..Default::default() }.html();

@@ -196,7 +196,6 @@ impl Evaluate {
             ratio_s: self.ratio,
             mw: self.magnitude,
             extrapolate: self.extrapolate,
-            limit_state: self.model.limit_state,
             responses: self.responses.as_deref().map_or(Ok(Vec::new()), responses::read)?,
         })
     }
