@@ -215,7 +215,9 @@ impl Evaluate {
         match objects.first().map_or(Ok(()), |object| object.structure().map(|_| ())) {
             Err(reason) if !objects.iter().any(|object| object.directions.is_ok() || is_held(object)) => {
                 match &self.structures.structures {
-                    Some(path) => anyhow::bail!("{}: {reason}; no other row can be right either", path.display()),
+                    Some(path) => {
+                        anyhow::bail!("{}: {reason}; no other row can be right either", path.display())
+                    }
                     None => Err(UsageError::because(reason)),
                 }
             }

@@ -99,9 +99,7 @@ pub fn unanswered<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
 /// The warnings of a row in a few words; the reason in full if the row cannot be right.
 pub fn brief<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
     match reason {
-        Some(reason) if answer.object.p_rad_s.is_none() => {
-            reason.clone()
-        }
+        Some(reason) if answer.object.p_rad_s.is_none() => reason.clone(),
         _ => {
             let words = answer.warnings.iter().map(|warning| warning.to_string().replace('_', " "));
             words.collect::<Vec<_>>().join(", ")
