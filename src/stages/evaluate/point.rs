@@ -85,7 +85,8 @@ pub fn text(all: &[Answer<TreeRow>], sentence: bool) -> String {
 fn of_one(answer: &Answer<TreeRow>) -> String {
     let Answer { object, row: tree, .. } = answer;
     let [failure, overturning] = tree.states;
-    let cells = |name: String, p: Limited, limits: &str| vec![name, PERCENT.value(p), PERCENT.limits(p, limits)];
+    let cells =
+        |name: String, p: Limited, limits: &str| vec![name, PERCENT.value(p), PERCENT.limits(p, limits)];
     let lines = [
         cells("overturns".to_string(), overturning, "95 % limits "),
         cells(format!("overturns, or {}", too_far(object)), failure, ""),
@@ -95,7 +96,8 @@ fn of_one(answer: &Answer<TreeRow>) -> String {
         true => (aligned(&lines, |_| false), line([mostly_unknown(answer, add)])),
         false => Default::default(),
     };
-    let (uplift, title, peaks, model) = (uplift(object, tree), title(object), words_of_peaks(tree), model(object));
+    let (uplift, title, peaks, model) =
+        (uplift(object, tree), title(object), words_of_peaks(tree), model(object));
     format!("{lines}{uplift}{unknown}{title} {peaks}, by {model}.\n{}", validity(object))
 }
 
@@ -107,17 +109,21 @@ fn of_several(worst: &Answer<TreeRow>, all: &[Answer<TreeRow>]) -> String {
             format!("{name} overturns most probably: {p}")
         }
     };
-    let table = table(&["rocks", "overturns", "", "or too far", "friction"], all, |Answer { object, row, .. }| {
-        let [failure, overturning] = row.states;
-        let rocks = row.p_nr.map_or("-", |_| if row.rocks() { "yes" } else { "no" });
-        vec![
-            rocks.to_string(),
-            PERCENT.value(overturning),
-            PERCENT.limits(overturning, ""),
-            PERCENT.value(failure),
-            friction(object),
-        ]
-    });
+    let table = table(
+        &["rocks", "overturns", "", "or too far", "friction"],
+        all,
+        |Answer { object, row, .. }| {
+            let [failure, overturning] = row.states;
+            let rocks = row.p_nr.map_or("-", |_| if row.rocks() { "yes" } else { "no" });
+            vec![
+                rocks.to_string(),
+                PERCENT.value(overturning),
+                PERCENT.limits(overturning, ""),
+                PERCENT.value(failure),
+                friction(object),
+            ]
+        },
+    );
     let by = format!("All {}, by {}.", words_of_peaks(&worst.row), model_of_all(all));
     let linear = linear(all.iter().map(|answer| &answer.object));
     format!("{first}\n{table}{}", line([Some(by), linear]))

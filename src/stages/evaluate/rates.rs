@@ -8,9 +8,7 @@ use super::words::{
     friction, line, linear, model, model_of_all, mostly_unknown, table, title, too_far, validity,
 };
 use crate::fragility::Peak;
-use crate::hazard::{
-    CountedRate, Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years,
-};
+use crate::hazard::{CountedRate, Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
 use crate::number::{Limited, PERCENT, RATE, aligned, count, counted, period, plain, significant};
 use crate::units::G_M_S2;
 
@@ -39,7 +37,11 @@ pub struct RatesRow {
 }
 
 impl RatesRow {
-    pub fn new(rates: &SiteRates, years: f64, [target_width_m, target_width_m_high]: [Option<f64>; 2]) -> RatesRow {
+    pub fn new(
+        rates: &SiteRates,
+        years: f64,
+        [target_width_m, target_width_m_high]: [Option<f64>; 2],
+    ) -> RatesRow {
         let in_years = |rate: f64| probability_in_years(rate, years);
         let counted = rates.counted.as_ref();
         let of_count = |rate: &CountedRate| [rate.value, rate.limits.low, rate.limits.high].map(Some);
@@ -160,8 +162,7 @@ fn of_several(
         cells.into_iter().chain(target.map(|_| width())).collect()
     });
     let how_often = how_often(&worst.row, site, "95 % limits ");
-    let by =
-        format!("Rates a year, by {}. Below its friction an object slides instead.", model_of_all(all));
+    let by = format!("Rates a year, by {}. Below its friction an object slides instead.", model_of_all(all));
     format!(
         "{} overturns most often: {}\n{table}{}{}{}",
         worst.object.structure,

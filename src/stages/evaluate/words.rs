@@ -15,7 +15,9 @@ pub fn text<R>(
 ) -> String {
     let mut text = match all {
         [] => String::new(),
-        [answer] if answer.object.p_rad_s.is_none() => format!("{}: {}\n", title(&answer.object), brief(answer)),
+        [answer] if answer.object.p_rad_s.is_none() => {
+            format!("{}: {}\n", title(&answer.object), brief(answer))
+        }
         [answer] => of_one(answer),
         [worst, ..] => of_several(worst),
     };
@@ -122,7 +124,8 @@ fn brief<R>(answer: &Answer<R>) -> String {
 /// which each was fitted, if these are not the same for all.
 pub fn table<R>(headings: &[&str], all: &[Answer<R>], cells: impl Fn(&Answer<R>) -> Vec<String>) -> String {
     let responses = is_fitted_each(all).then_some("responses");
-    let heading = ["object", "size"].into_iter().chain(headings.iter().copied()).chain(["warning"]).chain(responses);
+    let heading =
+        ["object", "size"].into_iter().chain(headings.iter().copied()).chain(["warning"]).chain(responses);
     let row = |answer: &Answer<R>| {
         let name = [answer.object.structure.clone(), size(&answer.object)].into_iter();
         let responses = responses.map(|_| number::count(answer.responses as usize));
