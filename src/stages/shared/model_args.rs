@@ -103,20 +103,17 @@ impl Models {
             return Ok((Model::shipped(kind, structure, limit_state), warning.into_iter().collect()));
         };
         let exceeding = self.exceeding(overturning)?;
-        let shipped = || *Model::shipped(overturning.kind, structure, limit_state).peaks();
-        let peaks = overturning.peaks().unwrap_or_else(shipped);
         let model = match model {
             ModelName::Calibrated => Model::Calibrated {
                 overturning: overturning.clone(),
                 exceeding: exceeding.clone(),
-                peaks,
                 floor: None,
             },
             ModelName::Paper => Model::Paper {
                 demand: self.planes(overturning),
                 overturning: self.curve(overturning)?,
                 limit_state,
-                peaks,
+                peaks: overturning.peaks(),
             },
         };
         let is_other = self.args.name.is_some() && !structure.is_like(&structure_of(overturning));
