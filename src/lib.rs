@@ -76,7 +76,8 @@
 //! Names end in their unit: `pga_m_s2`, `p_rad_s`. Quantities without a unit have none: demands are |*θ*|max /
 //! *α*, and IM1 to IM6 are those of Eq. 13. A fit takes columns of length n and has k coefficients, the
 //! intercept first; a covariance is k × k, row by row. An unknown number is `None`, and NaN in a slice of
-//! numbers. Limits hold 95 % unless a confidence is given. The same seed gives the same numbers for any number of threads.
+//! numbers. Limits hold 95 % unless a confidence is given. The same seed gives the same numbers for any
+//! number of threads.
 //!
 //! The modules above read no files. Fits, counts and rankings share their work among the threads of rayon.
 //! Before 1.0, any version may change them.

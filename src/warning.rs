@@ -36,7 +36,6 @@ keywords! {
     }
 }
 
-
 impl Warning {
     /// In at most 15 words.
     pub fn text(self) -> &'static str {

@@ -24,7 +24,6 @@ keywords! {
     }
 }
 
-
 impl Event {
     /// Returns whether it happened in a response with this outcome and demand; none where the response does
     /// not count.

@@ -175,7 +175,6 @@ keywords! {
     }
 }
 
-
 /// A regression of ln EDP in safe rocking: a row of pex.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "data/columns.csv says it")]

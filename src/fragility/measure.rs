@@ -27,7 +27,6 @@ keywords! {
     }
 }
 
-
 impl Measure {
     /// The six of Eq. 13.
     pub const SCALAR: [Measure; 6] =

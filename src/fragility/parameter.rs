@@ -27,7 +27,6 @@ keywords! {
     }
 }
 
-
 /// A parameter of a fit: a row of pex.parameters.parquet or pro.parameters.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "data/columns.csv says it")]

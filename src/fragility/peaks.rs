@@ -13,7 +13,6 @@ keywords! {
     }
 }
 
-
 /// The ratio PGV / PGA given each peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointPeaks {

@@ -23,7 +23,6 @@ keywords! {
     }
 }
 
-
 impl Kind {
     /// The kind of a suite of motions; those without a suite are taken for recorded ones.
     pub fn of(suite: Option<Suite>) -> Kind {

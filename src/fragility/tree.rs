@@ -17,7 +17,6 @@ keywords! {
     }
 }
 
-
 /// Computes the probability of no rocking, P_nr: 1 below uplift at IM4 = PGA/(g tan alpha) = 1 (Eq. 5), 0
 /// from there on; NaN of NaN.
 pub fn p_no_rocking(im4: f64) -> f64 {

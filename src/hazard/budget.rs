@@ -25,7 +25,6 @@ keywords! {
     }
 }
 
-
 impl Part {
     /// What is unknown, in words.
     pub fn words(self) -> &'static str {

@@ -24,7 +24,6 @@ keywords! {
     }
 }
 
-
 /// PGV / PGA of the motions of a site.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Velocity {

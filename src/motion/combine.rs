@@ -31,7 +31,6 @@ keywords! {
     }
 }
 
-
 impl Difference {
     /// Computes D', the amplitude of the high frequencies in the combined motion, from |H| and |P|.
     pub fn kept(self, h: f64, p: f64) -> f64 {

@@ -17,7 +17,6 @@ keywords! {
     }
 }
 
-
 /// Number of random parameters: Vp, Tp, gamma and nu.
 const DIMENSIONS: usize = 4;
 

@@ -98,7 +98,6 @@ keywords! {
     }
 }
 
-
 keywords! {
     /// A kind of ground motion that is synthesized from a scenario.
     #[derive(Hash)]
@@ -111,7 +110,6 @@ keywords! {
         Hfc = "hfc",
     }
 }
-
 
 impl SyntheticSuite {
     /// Motion numbers reserved for each scenario.

@@ -50,7 +50,6 @@ keywords! {
     }
 }
 
-
 /// A program that observes the progress of a stage, in place of the terminal.
 pub trait Listener: Send + Sync {
     /// Begins a number of steps.

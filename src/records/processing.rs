@@ -97,7 +97,6 @@ keywords! {
     }
 }
 
-
 /// Treatment of implausible motions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Implausible {

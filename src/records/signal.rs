@@ -29,7 +29,6 @@ keywords! {
     }
 }
 
-
 impl Baseline {
     /// Removes the baseline from samples, in place.
     pub fn remove_from(self, samples: &mut [f64]) {

@@ -215,7 +215,6 @@ keywords! {
     }
 }
 
-
 /// The overturning capacity of a structure in a scan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Capacity {

@@ -17,7 +17,6 @@ keywords! {
     }
 }
 
-
 /// The response of one structure to one ground motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {

@@ -17,7 +17,6 @@ keywords! {
     }
 }
 
-
 /// A point of a traced response: a sample of the record, or an event between two samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TracePoint {

@@ -25,7 +25,6 @@ keywords! {
     }
 }
 
-
 impl FitStatus {
     /// Returns whether the fit is usable.
     pub fn is_usable(self) -> bool {

@@ -23,7 +23,6 @@ keywords! {
     }
 }
 
-
 keywords! {
     /// Form of a set of measures: linear in their logarithms, and so a power law of their product.
     pub enum Form {
@@ -33,7 +32,6 @@ keywords! {
         Biplanar = "biplanar",
     }
 }
-
 
 /// Options of a ranking.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -134,7 +134,11 @@ impl Table {
     }
 
     /// Checks that the first file, of the table at `path`, has these columns.
-    pub fn expect<'a>(&self, path: &Path, columns: impl IntoIterator<Item = &'a str>) -> Result<(), TableError> {
+    pub fn expect<'a>(
+        &self,
+        path: &Path,
+        columns: impl IntoIterator<Item = &'a str>,
+    ) -> Result<(), TableError> {
         let missing = columns.into_iter().find(|column| self.schema().index_of(column).is_err());
         missing.map_or(Ok(()), |column| Err(TableError::missing_column(path, column)))
     }

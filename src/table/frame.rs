@@ -22,7 +22,6 @@ keywords! {
     }
 }
 
-
 /// Reads the first rows of a table, at most this many; a list is shown by its length.
 pub fn read(table: &Table, most: usize) -> anyhow::Result<DataFrame> {
     let mut whole = DataFrame::default();

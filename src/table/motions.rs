@@ -142,7 +142,7 @@ fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
     let (suites, earthquakes) = (batch.texts("suite")?, batch.texts("earthquake")?);
     let (ids, dt) = (batch.required_texts("motion_id")?, batch.required_numbers("dt_s")?);
     let text = |texts: &[Option<Cow<str>>], at: usize| texts[at].as_deref().map(str::to_string);
-    let motion = |(at, acceleration_m_s2)| Motion {
+    let motion = |(at, acceleration_m_s2): (usize, Vec<f64>)| Motion {
         motion_id: ids[at].to_string(),
         suite: text(&suites, at),
         earthquake: text(&earthquakes, at),

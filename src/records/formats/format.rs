@@ -17,4 +17,3 @@ keywords! {
         Csv = "csv",
     }
 }
-

@@ -52,7 +52,6 @@ keywords! {
     }
 }
 
-
 impl PulseIndicator {
     /// Computes the indicator of a velocity (m/s) at steps of `dt_s`; none if it is zero.
     pub fn of(velocity: &[f64], dt_s: f64) -> Option<PulseIndicator> {

@@ -25,7 +25,6 @@ keywords! {
     }
 }
 
-
 /// The model of a call.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Model")]
