@@ -43,7 +43,6 @@ keywords! {
     }
 }
 
-
 /// Largest error of straight lines between the levels for OpenQuake.
 const TOLERANCE: f64 = 4e-6;
 

@@ -82,7 +82,6 @@ keywords! {
     }
 }
 
-
 /// The capacity of a structure under a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CapacityRow {
