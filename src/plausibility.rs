@@ -1,8 +1,6 @@
 //! What structures and ground motions can be: ranges within which a number given by a user can be right.
 
-use std::f64::consts::FRAC_PI_4;
-
-use crate::rocking::{Structure, StructureError};
+use crate::rocking::Structure;
 
 /// PGA, g, beyond which nothing was ever recorded.
 pub const STRONGEST_PGA_G: f64 = 4.5;
@@ -55,103 +53,6 @@ pub fn judge_peak(is_velocity: bool, value: f64) -> Result<(), &'static str> {
         (true, false) => Err("0 to 5 m/s, more than was ever recorded: is it in cm/s?"),
     }
 }
-/// The range of a parameter that a user may give, and the likely mistake outside it.
-struct Bound {
-    /// Its name among the options.
-    parameter: &'static str,
-    /// Least and largest value.
-    range: (f64, f64),
-    /// The range in words.
-    expected: &'static str,
-    /// The likely mistake.
-    slip: &'static str,
-}
-
-const fn bound(
-    parameter: &'static str,
-    range: (f64, f64),
-    expected: &'static str,
-    slip: &'static str,
-) -> Bound {
-    Bound { parameter, range, expected, slip }
-}
-
-/// Narrower than what [`Structure::new`] accepts. Other numbers are likely in a wrong unit: no rocking
-/// structure is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s),
-/// is wider than tall (it slides), or has a beam of 50 times the column mass.
-const BOUNDS: [Bound; 6] = [
-    bound("width", (1e-4, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
-    bound("height", (1e-3, 200.0), "a length above 0 m, up to 200 m", "is it in cm or mm?"),
-    bound("beam-mass-ratio", (0.0, 50.0), "a mass ratio of 0 or more, up to 50", "is it in percent?"),
-    bound(
-        "p",
-        (0.2, 50.0),
-        "a frequency parameter above 0 rad/s, from 0.2 to 50",
-        "is it in Hz, or of dimensions in cm or mm?",
-    ),
-    bound(
-        "alpha",
-        (0.01, FRAC_PI_4),
-        "a slenderness between 0 and pi/2 rad, from 0.01 to 0.7854 (45 degrees)",
-        "is it in degrees, or height over width?",
-    ),
-    bound(
-        "eta",
-        (f64::MIN_POSITIVE, 1.0),
-        "a coefficient of restitution above 0 and up to 1",
-        "is it in percent?",
-    ),
-];
-
-impl Bound {
-    /// Finds the range of a parameter.
-    fn of(parameter: &str) -> Option<&'static Bound> {
-        BOUNDS.iter().find(|bound| bound.parameter == parameter)
-    }
-
-    /// Returns the expected range and likely mistake of a number out of range; none of a valid number.
-    fn refusal(&self, value: f64) -> Option<String> {
-        let Bound { range: (least, most), expected, slip, .. } = *self;
-        match value {
-            _ if value >= least && value <= most => None,
-            _ if value > 0.0 && value.is_finite() => Some(format!("{expected}; {slip}")),
-            _ => Some(expected.to_string()),
-        }
-    }
-}
-
-/// Checks the parameters of a structure as a user gives them, by name.
-///
-/// # Errors
-/// If one is out of range, p and alpha are exchanged, or the width exceeds the height.
-pub fn check_structure(structure: &str, given: &[(&'static str, f64)]) -> Result<(), StructureError> {
-    let value =
-        |wanted: &str| given.iter().find(|(parameter, _)| *parameter == wanted).map(|&(_, value)| value);
-    let can_be = |parameter: &str, value: f64| {
-        Bound::of(parameter).is_some_and(|bound| bound.refusal(value).is_none())
-    };
-    if let (Some(p), Some(alpha)) = (value("p"), value("alpha"))
-        && !can_be("alpha", alpha)
-        && can_be("alpha", p)
-        && can_be("p", alpha)
-    {
-        let expected = "a slenderness up to 0.7854 rad; were p and alpha exchanged?";
-        return Err(StructureError::new(structure, "alpha", alpha, expected));
-    }
-    for &(parameter, value) in given {
-        if let Some(expected) = Bound::of(parameter).and_then(|bound| bound.refusal(value)) {
-            return Err(StructureError::new(structure, parameter, value, expected));
-        }
-    }
-    match (value("width"), value("height")) {
-        (Some(width), Some(height)) if width > height => {
-            let expected = format!("no more than the height, {height} m; were they exchanged?");
-            Err(StructureError::new(structure, "width", width, expected))
-        }
-        _ => Ok(()),
-    }
-}
-
 /// Solid blocks of a smaller p (rad/s) are higher than about 90 m.
 const LEAST_P_RAD_S: f64 = 0.4;
 

@@ -113,7 +113,7 @@ struct Subjects {
 /// Subjects that a line names.
 const NAMED: usize = 3;
 /// The name of a structure that has none.
-const UNNAMED: &str = "structure";
+pub const UNNAMED: &str = "structure";
 
 impl Warnings {
     /// Returns one line for each warning, the weightiest first, with the first subjects that it is about.

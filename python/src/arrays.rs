@@ -7,7 +7,7 @@ use rockfrag::keyword::Keyword;
 use rockfrag::pipeline::UsageError;
 use rockfrag::records::plausibility::implausibility;
 use rockfrag::rocking::{Outcome, Record, TracePoint, simulate, trace, with_tail};
-use rockfrag::stages::shared::structures::Spec;
+use rockfrag::stages::shared::objects::Object;
 use rockfrag::statistics::distributions::t_quantile;
 use rockfrag::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
 use rockfrag::units::G_M_S2;
@@ -41,8 +41,10 @@ pub fn simulate_motion<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let solve = || -> anyhow::Result<_> {
         let usage = |error: &dyn ToString| UsageError::because(error.to_string());
-        let structure =
-            structure.parse().and_then(|spec: Spec| spec.structure()).map_err(|error| usage(&error))?;
+        let structure = structure
+            .parse()
+            .and_then(|spec| Object::new(spec).structure().cloned())
+            .map_err(|error| usage(&error))?;
         if !(0.0..=1000.0).contains(&tail_s) {
             return Err(usage(&format!("tail is {tail_s}; expected 0 to 1000 s")));
         }

@@ -13,6 +13,7 @@ use clap_complete::Shell;
 use self::config::{Config, lenient};
 use crate::pipeline::call::Call;
 use crate::pipeline::context::{Common, Context};
+use crate::pipeline::options::in_one_line;
 use crate::pipeline::{UsageError, cache, files};
 use crate::stages::{Stages, init, inspect, run};
 use crate::table::file::quiet_damage;
@@ -174,7 +175,7 @@ pub fn calls_of(config: &Config, out: Option<PathBuf>, pipeline: &Path) -> anyho
         Err(error) => Err(match error.downcast_ref::<clap::Error>() {
             Some(refused) => {
                 let (file, section) = (pipeline.display(), command.get_name());
-                UsageError::because(format!("{file}: {section}: {}", first_line(refused)))
+                UsageError::because(format!("{file}: {section}: {}", in_one_line(refused)))
             }
             None => error,
         }),
@@ -185,11 +186,6 @@ pub fn calls_of(config: &Config, out: Option<PathBuf>, pipeline: &Path) -> anyho
         true => Err(UsageError::because(format!("{}: no stage; expected at least one", pipeline.display()))),
         false => Ok(calls),
     }
-}
-
-/// Returns an error of clap in one line.
-fn first_line(refused: &clap::Error) -> String {
-    refused.to_string().lines().next().unwrap_or_default().trim_start_matches("error: ").to_string()
 }
 
 /// Reads a pipeline file; without one, the error names `rockfrag init`.

@@ -1,9 +1,12 @@
 //! Option types of several stages.
 
+use std::error::Error;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::str::FromStr;
+
+use clap::error::{ContextKind, ErrorKind};
 
 use crate::number::count;
 
@@ -68,6 +71,25 @@ pub fn first_lines(text: &str, headings: usize, file: &Path) -> String {
     let first: String = text.lines().take(most - 1).map(|line| format!("{line}\n")).collect();
     let file = file.file_name().unwrap_or_default().to_string_lossy();
     format!("{first}and {} more, in {file}\n", count(lines + 1 - most))
+}
+
+/// Returns a refusal of options that are not on the command line, in one line.
+pub fn in_one_line(refused: &clap::Error) -> String {
+    let word = |kind| refused.get(kind).map(|word| word.to_string());
+    let option = |kind| Some(word(kind)?.split(' ').next()?.trim_start_matches('-').to_string());
+    let value = word(ContextKind::InvalidValue).unwrap_or_default();
+    match (refused.kind(), option(ContextKind::InvalidArg), refused.source()) {
+        (ErrorKind::ValueValidation, Some(name), Some(expected)) => format!("{name} is {value}; {expected}"),
+        (ErrorKind::UnknownArgument, Some(name), _) => {
+            let similar = option(ContextKind::SuggestedArg);
+            let hint = similar.map_or(String::new(), |similar| format!("; did you mean '{similar}'?"));
+            format!("unknown option '{name}'{hint}")
+        }
+        _ => {
+            let text = refused.to_string();
+            text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_string()
+        }
+    }
 }
 
 /// Joins the items of a list, the first few by name: `a, b, c and 9 more`.

@@ -160,6 +160,7 @@ fn slips_are_named() {
     refused("--depth 90", &["depth", "cm"]);
     refused("--eta-sd 8", &["eta-sd"]);
     refused("--beam-mass-ratio 2 --depth 1", &["depth"]);
+    refused("--beam-mass-ratio 50", &["beam-mass-ratio", "50"]);
     let squat = succeed(here, &format!("evaluate --width 1.6 --height 2 --centre-height 0.4 {HAZARD}")).0;
     assert!(squat.contains("squat"), "{squat}");
 }

@@ -27,9 +27,10 @@ use clap::{Args, ValueHint};
 
 use super::shared::hazard::{self, Renamed};
 use super::shared::model_args::{ModelArgs, Models};
-use super::shared::objects::{Object, Reason};
+use super::shared::objects::Object;
 use super::shared::responses;
-use super::shared::structures::{Place, StructureArgs};
+use super::shared::spec::{Place, Restitution, Spec};
+use super::shared::structures::StructureArgs;
 use crate::hazard::{Hazard, Motion, Site};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
@@ -203,20 +204,23 @@ impl Evaluate {
     /// Returns the given structures, or all fitted ones.
     fn objects(&self, models: &Models, context: &Context) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.model.fits.is_some() {
-            let on_place = |structure| Object::from(structure).at(self.place);
-            return Ok(models.structures()?.into_iter().map(on_place).collect());
+            let fitted = |structure| Spec::of_structure(structure, Restitution::Fitted).at(&self.place);
+            return Ok(models.structures()?.into_iter().map(fitted).map(Object::new).collect());
         }
         let (objects, unused) = self.structures.objects(&self.place)?;
         context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());
-        let reasons = objects.iter().map(|object| match &object.directions {
-            Err(Reason::Implausible(reason)) => Some(reason),
-            _ => None,
-        });
-        match (reasons.collect::<Option<Vec<&String>>>().as_deref(), &self.structures.structures) {
-            (Some([reason, ..]), Some(path)) => {
-                anyhow::bail!("{}: {reason}; no other row can be right either", path.display())
+        let is_held = |object: &Object| {
+            object.directions.as_ref().is_err_and(|reason| reason.warning == Warning::NotRocking)
+        };
+        match objects.first().map_or(Ok(()), |object| object.structure().map(|_| ())) {
+            Err(reason) if !objects.iter().any(|object| object.directions.is_ok() || is_held(object)) => {
+                match &self.structures.structures {
+                    Some(path) => {
+                        anyhow::bail!("{}: {reason}; no other row can be right either", path.display())
+                    }
+                    None => Err(UsageError::because(reason)),
+                }
             }
-            (Some([reason, ..]), None) => Err(UsageError::because(reason.as_str())),
             _ => Ok(objects),
         }
     }

@@ -11,7 +11,8 @@ use crate::motion::{Floor, IntensityMeasures};
 use crate::pipeline::UsageError;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::{Models, words_of};
-use crate::stages::shared::objects::{Direction, Object, Reason};
+use crate::stages::shared::objects::{Direction, Object};
+use crate::stages::shared::spec::Reason;
 use crate::stages::shared::structures::warnings_of;
 use crate::table::rows::{self, Row};
 use crate::warning::{Warning, Warnings};
@@ -73,13 +74,13 @@ impl ObjectRow {
     /// Of an object without an answer.
     fn refused(object: &Object) -> ObjectRow {
         ObjectRow {
-            structure: object.name().to_string(),
-            width_m: object.spec.width,
-            depth_m: object.spec.depth,
-            height_m: object.spec.height,
+            structure: object.spec.name.clone(),
+            width_m: object.spec.shape.width,
+            depth_m: object.spec.shape.depth,
+            height_m: object.spec.shape.height,
             floor_period_s: object.floor().map(|floor| floor.period_s),
             floor_level: object.floor().map(|floor| floor.level),
-            count: object.spec.place.count,
+            count: object.spec.count.map(f64::from),
             ..ObjectRow::default()
         }
     }
@@ -139,12 +140,12 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// An object on its floor, and what speaks against the models.
-    pub fn of(object: &Object, models: &Models) -> anyhow::Result<Result<(Subject, Vec<Warning>), Reason>> {
-        let found = match &object.directions {
-            Ok(directions) => directions,
-            Err(reason) => return Ok(Err(reason.clone())),
-        };
+    /// An object that rocks in these directions, on its floor, and what speaks against the models.
+    pub fn of(
+        object: &Object,
+        found: &[Direction],
+        models: &Models,
+    ) -> anyhow::Result<(Subject, Vec<Warning>)> {
         let (mut on_ground, mut warnings) = (Vec::new(), Vec::new());
         for Direction { structure, .. } in found {
             let (model, of_model) = models.model(structure)?;
@@ -176,7 +177,7 @@ impl Subject {
             unknowns.push(Unknown { part, low: of(low)?, high: of(high)? });
         }
         let directions = structures().zip(models.iter().cloned()).collect();
-        Ok(Ok((Subject { directions, unknowns }, warnings)))
+        Ok((Subject { directions, unknowns }, warnings))
     }
 
     /// The weaker direction.
@@ -212,17 +213,13 @@ pub fn answers<R: Predicted>(
     predict: impl Fn(&Object, &Subject) -> Prediction<R> + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
-        let (subject, mut warnings) = match Subject::of(&object, models)? {
-            Ok(found) => found,
-            Err(reason) => {
-                let (warning, reason) = match reason {
-                    Reason::Implausible(reason) => (Warning::ImplausibleRow, reason),
-                    Reason::Held(reason) => (Warning::NotRocking, reason),
-                };
+        let (subject, mut warnings) = match &object.directions {
+            Ok(found) => Subject::of(&object, found, models)?,
+            Err(Reason { warning, text }) => {
                 return Ok(Answer {
                     object: ObjectRow::refused(&object),
-                    row: R::default().with_warnings(Some(reason)),
-                    warnings: vec![warning],
+                    row: R::default().with_warnings(Some(text.clone())),
+                    warnings: vec![*warning],
                     budget: Budget::default(),
                     explained: String::new(),
                     responses: 0,

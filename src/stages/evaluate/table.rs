@@ -19,7 +19,9 @@ use crate::rocking::Structure;
 use crate::stages::shared::hazard::Renamed;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::motions::known;
-use crate::stages::shared::structures::{Place, StructureArgs, warnings_of};
+use crate::stages::shared::objects::Object;
+use crate::stages::shared::spec::Place;
+use crate::stages::shared::structures::{StructureArgs, warnings_of};
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::rows;
@@ -58,8 +60,11 @@ pub fn evaluate(
             "{path}: column {column} and options of a structure; leave out the one or the other"
         )));
     }
-    let given = given.first().map(|object| Subject::of(object, models)).transpose()?;
-    let given = given.transpose().map_err(|reason| UsageError::because(reason.to_string()))?;
+    let subject = |object: &Object| {
+        object.structure().map_err(UsageError::because)?;
+        Subject::of(object, object.directions.as_deref().unwrap_or_default(), models)
+    };
+    let given = given.first().map(subject).transpose()?;
     let mut known = HashMap::new();
     let evaluate = |batch: &Batch| of_batch(batch, given.as_ref(), models, &mut known, context);
     let evaluated = batches.iter().map(evaluate).collect::<anyhow::Result<Vec<RecordBatch>>>()?;

@@ -77,14 +77,15 @@ impl<F: Fn(f64) -> Option<Limited>> CostFunction for Excess<F> {
 /// Widths (m) that meet a target by the estimate and by its upper limit: at the same height, depth, rule of
 /// eta and relative offset; none where none within the domain of the surface does.
 pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target: Target) -> [Option<f64>; 2] {
-    let Some((width, height)) = object.spec.width.zip(object.spec.height) else { return [None; 2] };
-    let centre_height = object.spec.centre_height.unwrap_or(0.5 * height);
-    let nearer = 1.0 - object.spec.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
+    let shape = &object.spec.shape;
+    let Some((width, height)) = shape.width.zip(shape.height) else { return [None; 2] };
+    let centre_height = shape.centre_height.unwrap_or(0.5 * height);
+    let nearer = 1.0 - shape.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
     let [least, end] = SLENDERNESSES.map(|alpha| 2.0 * centre_height * alpha.tan() / nearer);
     // What is not known does not matter to an estimate, and takes most of the time.
     let in_years = |width_m: f64, with_unknowns: bool| -> Option<Limited> {
         let resized = Object::new(object.spec.resized(width_m / width));
-        let (subject, _) = Subject::of(&resized, models).ok()?.ok()?;
+        let (subject, _) = Subject::of(&resized, resized.directions.as_ref().ok()?, models).ok()?;
         let unknowns = if with_unknowns { &subject.unknowns[..] } else { &[] };
         let rates = site.rates(&subject.directions, unknowns).overturning;
         Some(rates.map(|rate| Some(probability_in_years(rate?, years))))

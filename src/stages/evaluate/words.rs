@@ -4,9 +4,7 @@ use super::object::{Answer, ObjectRow};
 use crate::hazard::{Budget, Part};
 use crate::number;
 use crate::rocking::rectangular_p;
-
-/// The name of a structure that the user gave none.
-const UNNAMED: &str = "structure";
+use crate::warning::UNNAMED;
 
 /// An object that has a name by it, others by what they are.
 pub fn title(object: &ObjectRow) -> String {
@@ -101,9 +99,7 @@ pub fn unanswered<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
 /// The warnings of a row in a few words; the reason in full if the row cannot be right.
 pub fn brief<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
     match reason {
-        Some(reason) if answer.object.p_rad_s.is_none() => {
-            reason.rsplit("': ").next().unwrap_or_default().to_string()
-        }
+        Some(reason) if answer.object.p_rad_s.is_none() => reason.clone(),
         _ => {
             let words = answer.warnings.iter().map(|warning| warning.to_string().replace('_', " "));
             words.collect::<Vec<_>>().join(", ")

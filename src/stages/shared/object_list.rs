@@ -3,22 +3,17 @@
 use std::path::Path;
 
 use anyhow::Context;
+use clap::CommandFactory;
 
-use super::spec::{NUMBERS, Spec};
+use super::spec::{Reason, Shape, Spec};
 use crate::sheet::{Heading, Sheet};
 use crate::units::Quantity;
 
-/// The specification of each row, or its name and what is wrong with it; and the headings of columns that say
-/// nothing of objects.
-pub type Listed = (Vec<Result<Spec, (String, String)>>, Vec<String>);
-
 /// What a column is about.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 enum Column {
-    /// A number, and the quantity that it has a unit of.
-    Number(&'static str, Option<Quantity>),
-    Eta,
-    Name,
+    /// An option, and the quantity that it has a unit of.
+    Option(String, Option<Quantity>),
     /// What holds an object.
     Held,
     Unused,
@@ -43,15 +38,12 @@ const HELD: [&str; 7] = ["anchor", "brac", "fix", "restrain", "castor", "caster"
 /// Cells that say that nothing does.
 const FREE: [&str; 10] = ["", "no", "n", "none", "false", "0", "-", "free", "unanchored", "free-standing"];
 
-/// Reads a list.
-pub fn read(path: &Path) -> anyhow::Result<Listed> {
+/// Reads a list: the objects of its rows, and the headings of columns that say nothing of them.
+pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
     let place = || path.display().to_string();
     let sheet = Sheet::parse(&std::fs::read(path).with_context(place)?).with_context(place)?;
-    let named = NAMES.iter().find_map(|name| sheet.column(&[name]));
-    let columns: Vec<Column> = (0..sheet.columns)
-        .map(|at| if Some(at) == named { Column::Name } else { meaning(sheet.headings.get(at)) })
-        .collect();
-    let has = |key: &str| columns.iter().any(|column| matches!(column, Column::Number(of, _) if *of == key));
+    let columns: Vec<Column> = sheet.headings.iter().map(meaning).collect();
+    let has = |name: &str| columns.iter().any(|column| matches!(column, Column::Option(of, _) if of == name));
     let texts = || sheet.headings.iter().map(|heading| heading.text.clone());
     if !(has("height") || has("p")) {
         let headings = texts().collect::<Vec<_>>().join(", ");
@@ -60,84 +52,82 @@ pub fn read(path: &Path) -> anyhow::Result<Listed> {
             place()
         );
     }
-    let unused = texts().zip(&columns).filter(|(_, column)| **column == Column::Unused).map(|(text, _)| text);
-    let names: Vec<String> = (0..sheet.lines.len()).map(|row| name(&sheet, named, row)).collect();
+    let named = NAMES.iter().find_map(|name| sheet.column(&[name]));
+    let name = |row: usize| match named.map_or("", |column| sheet.cell(row, column)) {
+        "" => format!("line {}", sheet.lines[row]),
+        name => name.to_string(),
+    };
+    let rows = 0..sheet.lines.len();
+    let names: Vec<String> = rows.clone().map(name).collect();
     let spec = |row: usize| {
-        let is_other = |name: &&String| **name == names[row];
-        let name = match names.iter().filter(is_other).count() {
+        let name = match names.iter().filter(|name| **name == names[row]).count() {
             1 => names[row].clone(),
             _ => format!("{} (line {})", names[row], sheet.lines[row]),
         };
-        let refused = |problem: String| (name.clone(), format!("{}: structure '{name}': {problem}", place()));
-        let spec = spec(&sheet, &columns, row).map_err(refused)?;
-        Ok(Spec { name: Some(name), ..spec })
+        let held = columns.iter().enumerate().filter(|(_, column)| **column == Column::Held);
+        let held = held.filter_map(|(at, _)| held_by(&sheet.headings[at].text, sheet.cell(row, at))).next();
+        match spec(&sheet, &columns, row) {
+            Ok(spec) => Spec { name, refused: held, ..spec },
+            Err(problem) => {
+                Spec { name, refused: Some(Reason::implausible(problem)), ..Spec::from(Shape::default()) }
+            }
+        }
     };
-    Ok(((0..sheet.lines.len()).map(spec).collect(), unused.collect()))
+    let unused = texts().enumerate().filter(|(at, _)| columns[*at] == Column::Unused && Some(*at) != named);
+    Ok((rows.map(spec).collect(), unused.map(|(_, text)| text).collect()))
 }
 
-fn name(sheet: &Sheet, column: Option<usize>, row: usize) -> String {
-    match column.map_or("", |column| sheet.cell(row, column)) {
-        "" => format!("line {}", sheet.lines[row]),
-        name => name.to_string(),
-    }
-}
-
-fn meaning(heading: Option<&Heading>) -> Column {
-    let Some(heading) = heading else { return Column::Unused };
-    let key = heading.name.replace('_', "-").replace("center", "centre");
-    let synonym = SYNONYMS.iter().find(|(other, _)| *other == key).map(|(_, key)| *key);
+fn meaning(heading: &Heading) -> Column {
+    let name = heading.name.replace('_', "-").replace("center", "centre");
+    let synonym = SYNONYMS.iter().find(|(other, _)| *other == name).map(|(_, name)| *name);
     let is_count = heading.unit.is_some_and(|unit| unit.quantity == Quantity::Counts);
-    let key = if is_count { "count" } else { synonym.unwrap_or(&key) };
-    match NUMBERS.iter().find(|number| **number == key) {
-        Some(number @ (&"width" | &"height" | &"depth")) => Column::Number(number, Some(Quantity::Length)),
-        Some(number) if number.starts_with("centre") => Column::Number(number, Some(Quantity::Length)),
-        Some(number @ &"period") => Column::Number(number, Some(Quantity::Time)),
-        Some(number) => Column::Number(number, None),
-        None if key == "eta" => Column::Eta,
-        None if HELD.iter().any(|start| key.starts_with(start)) => Column::Held,
+    let name = if is_count { "count" } else { synonym.unwrap_or(&name) };
+    let command = Spec::command();
+    let option = command.get_arguments().find(|option| option.get_long() == Some(name) && name != "name");
+    match option.and_then(|option| option.get_value_names()).map(|names| names[0].as_str()) {
+        Some("M") => Column::Option(name.to_string(), Some(Quantity::Length)),
+        Some("S") => Column::Option(name.to_string(), Some(Quantity::Time)),
+        Some(_) => Column::Option(name.to_string(), None),
+        None if HELD.iter().any(|start| name.starts_with(start)) => Column::Held,
         None => Column::Unused,
     }
 }
 
 fn spec(sheet: &Sheet, columns: &[Column], row: usize) -> Result<Spec, String> {
-    let mut spec = Spec::default();
+    let mut pairs: Vec<(String, String)> = Vec::new();
     for (at, column) in columns.iter().enumerate() {
-        let cell = sheet.cell(row, at);
-        match column {
-            Column::Held => spec.held = spec.held.or(held(&sheet.headings[at].text, cell)),
-            _ if cell.is_empty() => {}
-            Column::Number(key, quantity) => {
-                let (heading, number) = (&sheet.headings[at], sheet.number(row, at));
-                let size = match (quantity, heading.unit) {
-                    (Some(quantity), Some(unit)) if unit.quantity == *quantity => unit.si,
-                    (Some(Quantity::Length), Some(unit)) => {
-                        return Err(format!("{key} is in {}; expected m, cm or mm", unit.name));
-                    }
-                    (Some(_), Some(unit)) => return Err(format!("{key} is in {}; expected s", unit.name)),
-                    _ => 1.0,
-                };
-                let value = size * number.map_err(|error| error.to_string())?;
-                spec.number_mut(key).expect("each column of numbers has a field").replace(value);
+        let (cell, unit) = (sheet.cell(row, at), sheet.headings[at].unit);
+        let Column::Option(name, quantity) = column else { continue };
+        let size = match (quantity, unit) {
+            _ if cell.is_empty() => continue,
+            (Some(quantity), Some(unit)) if unit.quantity == *quantity => unit.si,
+            (Some(quantity), Some(unit)) => {
+                let expected = if *quantity == Quantity::Time { "s" } else { "m, cm or mm" };
+                return Err(format!("{name} is in {}; expected {expected}", unit.name));
             }
-            Column::Eta => spec.eta = Some(cell.parse()?),
-            Column::Name | Column::Unused => {}
-        }
+            _ => 1.0,
+        };
+        let number = sheet.number(row, at).map(|number| (size * number).to_string());
+        pairs.push((name.clone(), number.unwrap_or(cell.to_string())));
     }
     // Of one side alone it is the width.
-    if spec.width.is_none() {
-        spec.width = spec.depth.take();
+    if pairs.iter().all(|(name, _)| name != "width") {
+        pairs
+            .iter_mut()
+            .filter(|(name, _)| name == "depth")
+            .for_each(|(name, _)| *name = "width".to_string());
     }
-    Ok(spec)
+    Spec::of_pairs(pairs.into_iter())
 }
 
 /// Why an object with this cell under this heading of anchors is not free to rock.
-fn held(heading: &str, cell: &str) -> Option<String> {
+fn held_by(heading: &str, cell: &str) -> Option<Reason> {
     let [heading, word] = [heading, cell].map(|text| text.trim().to_lowercase());
     let rolls =
         ["castor", "caster", "wheel"].iter().any(|wheels| heading.contains(wheels) || word.contains(wheels));
     match FREE.contains(&word.as_str()) {
         true => None,
-        false if rolls => Some("on castors: it rolls, and does not rock".to_string()),
-        false => Some(format!("{heading}: {word}; it is not free to rock")),
+        false if rolls => Some(Reason::not_rocking("on castors: it rolls, and does not rock")),
+        false => Some(Reason::not_rocking(format!("{heading}: {word}; it is not free to rock"))),
     }
 }

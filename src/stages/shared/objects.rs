@@ -1,37 +1,19 @@
-//! An object as it is given, as the structures that it rocks like, and what is not known of it.
+//! An object as the structures that it rocks like, and what is not known of it.
 
 use std::f64::consts::FRAC_PI_4;
 
-use super::spec::{Place, Restitution, Spec};
+use super::spec::{Place, Reason, Restitution, Shape, Spec};
 use crate::hazard::{Part, Unknown};
 use crate::motion::Floor;
-use crate::plausibility::check_structure;
-use crate::rocking::{Body, Structure, housner_eta};
+use crate::rocking::{Body, Structure};
 use crate::statistics::{normal, numerics};
 
-/// An object of a list: the structures that it rocks like, or why there is no answer.
+/// An object: the structures that it rocks like, or why there is no answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object {
     pub spec: Spec,
     /// The weaker direction first.
     pub directions: Result<Vec<Direction>, Reason>,
-}
-
-/// Why there is no answer for an object.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Reason {
-    /// What is given cannot be right.
-    Implausible(String),
-    /// It does not rock.
-    Held(String),
-}
-
-impl std::fmt::Display for Reason {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        match self {
-            Reason::Implausible(reason) | Reason::Held(reason) => f.write_str(reason),
-        }
-    }
 }
 
 /// A direction in which an object rocks.
@@ -42,8 +24,6 @@ pub struct Direction {
     pub unknowns: Vec<Unknown<Structure>>,
 }
 
-/// The name of an object that has none.
-const UNNAMED: &str = "structure";
 /// Standard deviation of the logarithm of a building's period that is not given.
 const SD_OF_PERIOD: f64 = 0.25;
 /// Standard deviation of ln(1 - eta) about Housner's, by free rocking tests: blocks on concrete lost 1.2 to
@@ -53,59 +33,23 @@ const SD_OF_LOSS: f64 = 0.4;
 /// Largest share of the half width, or of the height, that a centre of mass is away from the middle or the
 /// base.
 const FARTHEST: f64 = 0.98;
-
 /// Depth of an object over its height that no object has.
 const LONGEST: f64 = 20.0;
 
-impl Spec {
-    /// The structure of its weaker direction, if its parameters can be right.
-    pub fn structure(&self) -> Result<Structure, String> {
-        Object::new(self.clone()).structure().cloned()
-    }
-}
-
-impl From<Structure> for Object {
-    fn from(structure: Structure) -> Object {
-        let spec = Spec { name: Some(structure.name.clone()), ..Spec::default() };
-        let is_computed = (structure.eta - housner_eta(structure.alpha_rad)).abs() < 1e-6;
-        let unknowns = unknown_eta(&structure, None, is_computed).into_iter().collect();
-        Object { spec, directions: Ok(vec![Direction { structure, unknowns }]) }
-    }
-}
-
 impl Object {
     pub fn new(spec: Spec) -> Object {
-        let directions = match &spec.held {
-            Some(reason) => Err(Reason::Held(reason.clone())),
-            None => spec.directions(),
-        };
-        Object { spec, directions }
+        Object { directions: spec.directions(), spec }
     }
 
-    /// The same in this place.
-    pub fn at(self, place: Place) -> Object {
-        let directions = self.directions.and_then(|directions| place.rocking(directions));
-        Object { spec: Spec { place, ..self.spec }, directions }
-    }
-
-    /// One that cannot be read.
-    pub fn refused(spec: Spec, reason: String) -> Object {
-        Object { spec, directions: Err(Reason::Implausible(reason)) }
-    }
-
-    pub fn name(&self) -> &str {
-        self.spec.name.as_deref().unwrap_or(UNNAMED)
-    }
-
-    /// The structure of its weaker direction.
+    /// The structure of its weaker direction, or why there is none, with its name.
     pub fn structure(&self) -> Result<&Structure, String> {
-        self.directions.as_ref().map(|directions| &directions[0].structure).map_err(Reason::to_string)
+        let named = |reason: &Reason| format!("structure '{}': {}", self.spec.name, reason.text);
+        self.directions.as_ref().map(|directions| &directions[0].structure).map_err(named)
     }
 
     /// The floor that it stands on; none on the ground.
     pub fn floor(&self) -> Option<Floor> {
-        let Place { period, level, .. } = self.spec.place;
-        let (period_s, level) = period.zip(level)?;
+        let (period_s, level) = self.spec.place.period.zip(self.spec.place.level)?;
         (level > 0.0).then_some(Floor { period_s, level })
     }
 
@@ -115,38 +59,6 @@ impl Object {
         let with = |ln: f64| Floor { period_s: floor.period_s * ln.exp(), ..floor };
         Some(Unknown { part: Part::Floor, low: with(-sd), high: with(sd) })
     }
-
-    /// Number of such objects.
-    pub fn count(&self) -> f64 {
-        self.spec.place.count.unwrap_or(1.0)
-    }
-}
-
-impl Place {
-    /// The directions in which friction lets an object rock.
-    fn rocking(&self, directions: Vec<Direction>) -> Result<Vec<Direction>, Reason> {
-        let Some(friction) = self.friction else { return Ok(directions) };
-        let tan = |direction: &Direction| direction.structure.alpha_rad.tan();
-        let least = tan(&directions[0]);
-        let rocking: Vec<Direction> = directions.into_iter().filter(|of| tan(of) <= friction).collect();
-        match rocking.is_empty() {
-            true => Err(Reason::Held(format!("slides first: it rocks from a friction of {least:.2} on"))),
-            false => Ok(rocking),
-        }
-    }
-}
-
-/// What is not known of eta: by its standard deviation if it was measured, of a computed one by tests.
-fn unknown_eta(structure: &Structure, sd: Option<f64>, is_computed: bool) -> Option<Unknown<Structure>> {
-    let with = |eta: f64| Structure { eta: eta.clamp(0.01, 1.0), ..structure.clone() };
-    let [low, high] = match sd {
-        Some(sd) => [-sd, sd].map(|off| with(structure.eta + off)),
-        None if is_computed => {
-            [SD_OF_LOSS, -SD_OF_LOSS].map(|ln| with(1.0 - (1.0 - structure.eta) * ln.exp()))
-        }
-        None => return None,
-    };
-    Some(Unknown { part: Part::Eta, low, high })
 }
 
 /// The 16, 50 and 84 % quantiles of |x| of a normal x: an offset to either side is as bad.
@@ -159,158 +71,146 @@ fn folded(mean: f64, sd: f64) -> [f64; 3] {
 }
 
 impl Spec {
-    /// Checks that what is given can be right.
-    fn check(&self) -> Result<(), String> {
-        let name = self.name.as_deref().unwrap_or(UNNAMED);
-        let side = self.width.zip(self.depth).map(|(width, depth)| width.min(depth)).or(self.width);
-        let given: Vec<(&str, f64)> = self.given();
-        let of_structure = ["p", "alpha", "eta", "height", "beam-mass-ratio"];
-        let plain = given.iter().copied().filter(|(key, _)| of_structure.contains(key));
-        let plain: Vec<(&str, f64)> = plain.chain(side.map(|side| ("width", side))).collect();
-        check_structure(name, &plain).map_err(|error| error.to_string())?;
-        let (width, height) = (self.width.unwrap_or(f64::INFINITY), self.height.unwrap_or(f64::INFINITY));
-        let centre = format!("above 0 and below the height, {height} m: were they exchanged?");
-        let offset = format!("less than half of the width, {} m: is it from an edge, or in cm?", 0.5 * width);
-        let radius = Body::solid_inertia_m2(width, height) * 3.0;
-        let inertia = format!("m2, above 0 and up to {radius:.2}: is it about an edge, or times mass?");
-        let longer = |side: &str| format!("a length above 0 m, up to 200 m{side}: is it in cm or mm?");
-        let bounds: [(&str, f64, f64, String); 12] = [
-            ("width", 1e-4, 200.0, longer("")),
-            (
-                "depth",
-                1e-4,
-                (LONGEST * height).min(200.0),
-                longer(&format!(" and {LONGEST} times the height")),
-            ),
-            ("centre-height", 1e-6, height * (1.0 - 1e-9), centre),
-            ("centre-offset", -0.4999 * width, 0.4999 * width, offset),
-            ("inertia", 1e-9, radius, inertia),
-            ("period", 0.02, 10.0, "s, from 0.02 to 10: is it in Hz?".to_string()),
-            ("level", 0.0, 1.0, "height over that of the roof, 0 to 1: 0.6 for storey 3 of 5".to_string()),
-            ("period-sd", 0.0, 1.0, "sd of ln(period), 0 to 1: is it in s or percent?".to_string()),
-            ("friction", 0.01, 2.0, "a coefficient of friction from 0.01 to 2".to_string()),
-            ("eta-sd", 0.0, 0.5, "a standard deviation from 0 to 0.5".to_string()),
-            ("centre-height-sd", 0.0, height, "0 m or more, up to the height: is it in cm?".to_string()),
-            ("centre-offset-sd", 0.0, width, "0 m or more, up to the width: is it in cm?".to_string()),
-        ];
-        for (key, least, most, expected) in bounds {
-            if let Some((_, value)) =
-                given.iter().find(|(other, value)| *other == key && !(least..=most).contains(value))
-            {
-                return Err(format!("structure '{name}': {key} is {value}; expected {expected}"));
-            }
+    fn directions(&self) -> Result<Vec<Direction>, Reason> {
+        if let Some(reason) = &self.refused {
+            return Err(reason.clone());
         }
         match self.place {
-            Place { count: Some(count), .. } if !(0.0..=1e6).contains(&count) || count.fract() != 0.0 => {
-                Err(format!("structure '{name}': count is {count}; expected a whole number of objects"))
-            }
             Place { level: Some(level), period: None, .. } if level > 0.0 => {
-                Err(format!("structure '{name}': level needs period, the first of the building (s)"))
+                return Err(Reason::implausible("level needs period, the first of the building (s)"));
             }
-            Place { level: None, period: Some(_), .. } => Err(format!(
-                "structure '{name}': period needs level, the height of the floor over that of the roof"
-            )),
-            _ => Ok(()),
+            Place { level: None, period: Some(_), .. } => {
+                let text = "period needs level, the height of the floor over that of the roof";
+                return Err(Reason::implausible(text));
+            }
+            _ => {}
+        }
+        let Shape { p, alpha, eta, width, height, beam_mass_ratio, .. } = self.shape;
+        let mut directions = match (p, alpha, eta, width, height) {
+            (Some(p), Some(alpha), Some(eta), None, None) => {
+                vec![self.known(Structure::new(&self.name, p, alpha, eta.value(alpha))?)]
+            }
+            (None, None, _, Some(width), Some(height)) => {
+                self.check(width, height)?;
+                match beam_mass_ratio {
+                    Some(ratio) => {
+                        vec![self.known(Structure::frame(&self.name, width, height, ratio, self.eta())?)]
+                    }
+                    None => self.sides(width, height)?,
+                }
+            }
+            _ => return Err(Reason::implausible("expected p, alpha and eta, or width and height")),
+        };
+        let tan = |direction: &Direction| direction.structure.alpha_rad.tan();
+        directions.sort_by(|a, b| tan(a).total_cmp(&tan(b)));
+        let (least, friction) = (tan(&directions[0]), self.place.friction.unwrap_or(f64::INFINITY));
+        directions.retain(|direction| tan(direction) <= friction);
+        match directions.is_empty() {
+            true => {
+                Err(Reason::not_rocking(format!("slides first: it rocks from a friction of {least:.2} on")))
+            }
+            false => Ok(directions),
         }
     }
 
-    fn directions(&self) -> Result<Vec<Direction>, Reason> {
-        let named = |problem: String| {
-            let name = self.name.as_deref().unwrap_or(UNNAMED);
-            Reason::Implausible(format!("structure '{name}': {problem}"))
-        };
-        let name = self.name.as_deref().unwrap_or(UNNAMED);
-        self.check().map_err(Reason::Implausible)?;
-        let eta = match self.eta {
-            Some(Restitution::Number(eta)) => Some(eta),
-            _ => None,
-        };
-        let refused = |error: crate::rocking::StructureError| Reason::Implausible(error.to_string());
-        let mut directions = match (self.p, self.alpha, self.eta, self.width, self.height) {
-            (Some(p), Some(alpha), Some(restitution), None, None) => {
-                let eta = match restitution {
-                    Restitution::Number(eta) => eta,
-                    Restitution::Housner => housner_eta(alpha),
-                };
-                vec![self.known(Structure::new(name, p, alpha, eta).map_err(refused)?)]
+    /// Checks that dimensions can be right beside each other.
+    fn check(&self, width: f64, height: f64) -> Result<(), Reason> {
+        let (shape, place) = (&self.shape, &self.place);
+        let side = shape.depth.map_or(width, |depth| depth.min(width));
+        let inertia = 3.0 * Body::solid_inertia_m2(width, height);
+        let most = [
+            ("width", Some(side), height, "m, the height: were they exchanged?"),
+            ("depth", shape.depth, LONGEST * height, "m, 20 times the height: is it in cm or mm?"),
+            ("centre-height", shape.centre_height, height, "m, the height: were they exchanged?"),
+            (
+                "centre-offset",
+                shape.centre_offset.map(f64::abs),
+                0.5 * width,
+                "m, half of the width: is it from an edge, or in cm?",
+            ),
+            ("inertia", shape.inertia, inertia, "m2: is it about an edge, or times mass?"),
+            ("centre-height-sd", place.centre_height_sd, height, "m, the height: is it in cm?"),
+            ("centre-offset-sd", place.centre_offset_sd, width, "m, the width: is it in cm?"),
+        ];
+        for (name, value, most, expected) in most {
+            if let Some(value) = value.filter(|value| *value > most) {
+                return Err(Reason::implausible(format!(
+                    "{name} is {value}; expected up to {most} {expected}"
+                )));
             }
-            (None, None, _, Some(width), Some(height)) => match self.beam_mass_ratio {
-                Some(ratio) => {
-                    vec![self.known(Structure::frame(name, width, height, ratio, eta).map_err(refused)?)]
-                }
-                None => self.sides(name, width, height, eta)?,
-            },
-            _ => return Err(named("expected p, alpha and eta, or width and height".to_string())),
-        };
-        directions.sort_by(|a, b| a.structure.alpha_rad.total_cmp(&b.structure.alpha_rad));
-        self.place.rocking(directions)
+        }
+        Ok(())
     }
 
-    /// A structure of which nothing but eta is unknown.
+    /// The coefficient of restitution if it is given as a number.
+    fn eta(&self) -> Option<f64> {
+        match self.shape.eta {
+            Some(Restitution::Number(eta)) => Some(eta),
+            _ => None,
+        }
+    }
+
+    /// A structure of which nothing but eta is unknown: by its standard deviation if that is given, of a
+    /// computed one by tests.
     fn known(&self, structure: Structure) -> Direction {
-        let is_computed = !matches!(self.eta, Some(Restitution::Number(_)));
-        let unknowns = unknown_eta(&structure, self.place.eta_sd, is_computed).into_iter().collect();
-        Direction { structure, unknowns }
+        let with = |eta: f64| Structure { eta: eta.clamp(0.01, 1.0), ..structure.clone() };
+        let limits = match (self.place.eta_sd, self.eta()) {
+            (Some(sd), _) => Some([-sd, sd].map(|off| with(structure.eta + off))),
+            (None, Some(_)) => None,
+            (None, None) => {
+                Some([SD_OF_LOSS, -SD_OF_LOSS].map(|ln| with(1.0 - (1.0 - structure.eta) * ln.exp())))
+            }
+        };
+        let unknown = limits.map(|[low, high]| Unknown { part: Part::Eta, low, high });
+        Direction { structure, unknowns: unknown.into_iter().collect() }
     }
 
     /// Both directions of a body, or that of its width.
-    fn sides(&self, name: &str, width: f64, height: f64, eta: Option<f64>) -> Result<Vec<Direction>, Reason> {
-        let sides = std::iter::once((width, self.centre_offset.unwrap_or(0.0)));
-        let sides: Vec<(f64, f64)> = sides.chain(self.depth.map(|depth| (depth, 0.0))).collect();
-        let of_side = |&(side, offset): &(f64, f64)| self.side(name, [width, side, height], offset, eta);
-        let (rocking, squat): (Vec<_>, Vec<_>) = sides.iter().map(of_side).partition(Result::is_ok);
-        match rocking.is_empty() {
+    fn sides(&self, width: f64, height: f64) -> Result<Vec<Direction>, Reason> {
+        let of_width = self.side([width, width, height], self.shape.centre_offset.unwrap_or(0.0));
+        let of_depth = self.shape.depth.map(|depth| self.side([width, depth, height], 0.0));
+        let sides: Vec<Result<Direction, Reason>> =
+            [Some(of_width), of_depth].into_iter().flatten().collect();
+        match sides.iter().any(Result::is_ok) {
             // A direction that is squat is no danger beside one that is not.
-            false => rocking.into_iter().collect(),
-            true => squat.into_iter().take(1).collect(),
+            true => Ok(sides.into_iter().flatten().collect()),
+            false => sides.into_iter().collect(),
         }
     }
 
     /// The direction of a side of the base; the inertia about the other axis differs by that of a solid
     /// block.
-    fn side(
-        &self,
-        name: &str,
-        [width, side, height]: [f64; 3],
-        offset: f64,
-        eta: Option<f64>,
-    ) -> Result<Direction, Reason> {
+    fn side(&self, [width, side, height]: [f64; 3], offset: f64) -> Result<Direction, Reason> {
         let Place { centre_height_sd, centre_offset_sd, .. } = self.place;
         let solid = Body::solid(side, height);
         let of_width = Body::solid(width, height).inertia_m2;
         let inertia_m2 =
-            self.inertia.map_or(solid.inertia_m2, |inertia| inertia + solid.inertia_m2 - of_width);
-        let centre = self.centre_height.unwrap_or(0.5 * height);
-        let offsets = folded(offset, centre_offset_sd.unwrap_or(0.0));
+            self.shape.inertia.map_or(solid.inertia_m2, |inertia| inertia + solid.inertia_m2 - of_width);
+        let centre = self.shape.centre_height.unwrap_or(0.5 * height);
+        let [left, middle, right] = folded(offset, centre_offset_sd.unwrap_or(0.0));
         let at = |centre_height_m: f64, centre_offset_m: f64| Body {
             width_m: side,
             centre_height_m: centre_height_m.clamp((1.0 - FARTHEST) * height, FARTHEST * height),
             centre_offset_m: centre_offset_m.min(FARTHEST * 0.5 * side),
             inertia_m2,
         };
-        let body = at(centre, offsets[1]);
-        let structure = match body == solid {
-            true => Structure::rectangular_block(name, side, height, eta),
-            false => body.structure(name, eta),
+        let structure = |body: Body| match body == solid {
+            true => Structure::rectangular_block(&self.name, side, height, self.eta()),
+            false => body.structure(&self.name, self.eta()),
         };
-        let structure = structure.map_err(|error| Reason::Implausible(error.to_string()))?;
-        if structure.alpha_rad > FRAC_PI_4 {
-            let tan = structure.alpha_rad.tan();
-            return Err(Reason::Held(format!("squat: it slides unless its friction is above {tan:.2}")));
+        let mut direction = self.known(structure(at(centre, middle))?);
+        let alpha_rad = direction.structure.alpha_rad;
+        if alpha_rad > FRAC_PI_4 {
+            let tan = alpha_rad.tan();
+            let text = format!("squat: it slides unless its friction is above {tan:.2}");
+            return Err(Reason::not_rocking(text));
         }
-        let mut direction = self.known(structure);
-        let part = Part::Object;
-        let mut vary = |low: Body, high: Body| {
-            let varied = |body: Body| body.structure(name, eta);
-            if let (Ok(low), Ok(high)) = (varied(low), varied(high)) {
-                direction.unknowns.push(Unknown { part, low, high });
+        let of_height = centre_height_sd.map(|sd| [at(centre - sd, middle), at(centre + sd, middle)]);
+        let of_offset = centre_offset_sd.map(|_| [at(centre, left), at(centre, right)]);
+        for [low, high] in [of_height, of_offset].into_iter().flatten() {
+            if let (Ok(low), Ok(high)) = (structure(low), structure(high)) {
+                direction.unknowns.push(Unknown { part: Part::Object, low, high });
             }
-        };
-        if let Some(sd) = centre_height_sd {
-            vary(at(centre - sd, offsets[1]), at(centre + sd, offsets[1]));
-        }
-        if centre_offset_sd.is_some() {
-            vary(at(centre, offsets[0]), at(centre, offsets[2]));
         }
         Ok(direction)
     }

@@ -1,53 +1,75 @@
-//! A structure as it is given, and where it stands: as options, as NAME=VALUE, or as a row of a list.
+//! An object as it is given: as options, as NAME=VALUE, or as a row of a list.
 
+use std::f64::consts::FRAC_PI_4;
 use std::str::FromStr;
 
-use clap::Args;
+use clap::{Args, Parser};
 
-use crate::keyword::nearest;
-use crate::pipeline::options::number;
+use crate::pipeline::options::{in_one_line, number};
+use crate::rocking::{Structure, StructureError, housner_eta};
+use crate::warning::{UNNAMED, Warning};
 
-/// A structure as it is given: its dimensions, or p, alpha and eta.
+/// An object as it is given.
+#[derive(Debug, Clone, PartialEq, Parser)]
+#[command(no_binary_name = true, disable_help_flag = true, args_override_self = true)]
+pub struct Spec {
+    #[arg(long, default_value = UNNAMED)]
+    pub name: String,
+    /// Number of such objects.
+    #[arg(long, value_parser = number(0..=1_000_000_u32, "a whole number of objects"))]
+    pub count: Option<u32>,
+    #[command(flatten)]
+    pub shape: Shape,
+    #[command(flatten)]
+    pub place: Place,
+    /// Why there is no answer for a row of a list.
+    #[arg(skip)]
+    pub refused: Option<Reason>,
+}
+
+const LENGTH: &str = "a length above 0 m, up to 200 m: is it in cm or mm?";
+const SD: &str = "a standard deviation of 0 m or more, up to 100 m: is it in cm?";
+
+/// A structure: its dimensions, or p, alpha and eta. No rocking structure is taller than 200 m, has a
+/// semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or is wider than tall (it slides).
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 #[group(id = "one", multiple = true)]
-pub struct Spec {
-    #[arg(skip)]
-    pub name: Option<String>,
+pub struct Shape {
     /// Width of the base of a block, body or column, m; without --depth the smaller side
-    #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
+    #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"], value_parser = number(1e-4..=200.0, LENGTH))]
     pub width: Option<f64>,
     /// Height of the block, body or column, m
-    #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"])]
+    #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"], value_parser = number(1e-3..=200.0, LENGTH))]
     pub height: Option<f64>,
     /// Depth of the base, m: it may fall that way too
-    #[arg(long, value_name = "M", requires = "width")]
+    #[arg(long, value_name = "M", requires = "width", value_parser = number(1e-4..=200.0, LENGTH))]
     pub depth: Option<f64>,
     /// Height of the centre of mass above the base, m [default: half of the height]
-    #[arg(long, value_name = "M", requires = "height")]
+    #[arg(long, value_name = "M", requires = "height", value_parser = number(1e-6..=200.0, LENGTH))]
     pub centre_height: Option<f64>,
     /// Distance of the centre of mass from the middle of the width, m [default: 0]
-    #[arg(long, value_name = "M", requires = "width", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", requires = "width", allow_negative_numbers = true,
+          value_parser = number(-100.0..=100.0, "a length up to 100 m: is it in cm or mm?"))]
     pub centre_offset: Option<f64>,
     /// Moment of inertia about the centre of mass over mass, m2 [default: of a solid block]
-    #[arg(long, value_name = "M2", requires = "height")]
+    #[arg(long, value_name = "M2", requires = "height",
+          value_parser = number(1e-9..=2e4, "m2, above 0: is it about an edge, or times mass?"))]
     pub inertia: Option<f64>,
     /// Of a frame: mass of the beam over that of all columns
-    #[arg(long, value_name = "RATIO", conflicts_with_all = ["p", "alpha", "depth", "centre_height", "centre_offset", "inertia"])]
+    #[arg(long, value_name = "RATIO", conflicts_with_all = ["p", "alpha", "depth", "centre_height", "centre_offset", "inertia"],
+          value_parser = number(0.0..=20.0, "a mass ratio from 0 to 20: is it in percent?"))]
     pub beam_mass_ratio: Option<f64>,
     /// Frequency parameter, rad/s
-    #[arg(long, value_name = "RAD/S")]
+    #[arg(long, value_name = "RAD/S",
+          value_parser = number(0.2..=50.0, "rad/s, from 0.2 to 50: is it in Hz, or of dimensions in cm or mm?"))]
     pub p: Option<f64>,
     /// Slenderness, rad
-    #[arg(long, value_name = "RAD")]
+    #[arg(long, value_name = "RAD",
+          value_parser = number(0.01..=FRAC_PI_4, "rad, from 0.01 to 0.7854 (45 degrees): is it in degrees, height over width, or p?"))]
     pub alpha: Option<f64>,
     /// Coefficient of restitution, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions]
     #[arg(long)]
     pub eta: Option<Restitution>,
-    #[arg(skip)]
-    pub place: Place,
-    /// Why it is not free to rock.
-    #[arg(skip)]
-    pub held: Option<String>,
 }
 
 /// Where an object stands, and how well it is known; of all objects of a list that do not say so themselves.
@@ -70,29 +92,33 @@ pub struct Place {
     #[arg(long, value_name = "SD", value_parser = number(0.0..=0.5, "a standard deviation from 0 to 0.5"))]
     pub eta_sd: Option<f64>,
     /// Standard deviation of the height of the centre of mass, m
-    #[arg(long, value_name = "M", value_parser = number(0.0..=100.0, "a length of 0 m or more"))]
+    #[arg(long, value_name = "M", value_parser = number(0.0..=100.0, SD))]
     pub centre_height_sd: Option<f64>,
     /// Standard deviation of the offset of the centre of mass, m
-    #[arg(long, value_name = "M", value_parser = number(0.0..=100.0, "a length of 0 m or more"))]
+    #[arg(long, value_name = "M", value_parser = number(0.0..=100.0, SD))]
     pub centre_offset_sd: Option<f64>,
-    /// Number of such objects.
-    #[arg(skip)]
-    pub count: Option<f64>,
 }
 
-impl Place {
-    /// What is given of it, else what `other` says.
-    pub fn or(self, other: &Place) -> Place {
-        Place {
-            period: self.period.or(other.period),
-            level: self.level.or(other.level),
-            period_sd: self.period_sd.or(other.period_sd),
-            friction: self.friction.or(other.friction),
-            eta_sd: self.eta_sd.or(other.eta_sd),
-            centre_height_sd: self.centre_height_sd.or(other.centre_height_sd),
-            centre_offset_sd: self.centre_offset_sd.or(other.centre_offset_sd),
-            count: self.count.or(other.count),
-        }
+/// Why there is no answer for an object: what is given cannot be right, or it does not rock.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reason {
+    pub warning: Warning,
+    pub text: String,
+}
+
+impl Reason {
+    pub fn implausible(text: impl Into<String>) -> Reason {
+        Reason { warning: Warning::ImplausibleRow, text: text.into() }
+    }
+
+    pub fn not_rocking(text: impl Into<String>) -> Reason {
+        Reason { warning: Warning::NotRocking, text: text.into() }
+    }
+}
+
+impl From<StructureError> for Reason {
+    fn from(StructureError { parameter, value, expected, .. }: StructureError) -> Reason {
+        Reason::implausible(format!("{parameter} is {value}; expected {expected}"))
     }
 }
 
@@ -101,6 +127,8 @@ impl Place {
 pub enum Restitution {
     Number(f64),
     Housner,
+    /// Of a fitted structure: its fits do not say how it was found.
+    Fitted(f64),
 }
 
 impl FromStr for Restitution {
@@ -108,112 +136,83 @@ impl FromStr for Restitution {
 
     fn from_str(text: &str) -> Result<Restitution, String> {
         match text.parse() {
-            Ok(eta) => Ok(Restitution::Number(eta)),
+            Ok(eta) if eta > 0.0 && eta <= 1.0 => Ok(Restitution::Number(eta)),
             Err(_) if text == "housner" => Ok(Restitution::Housner),
-            Err(_) => Err("expected a number above 0 and up to 1, or housner".to_string()),
+            _ => Err("expected a number above 0 and up to 1, or housner".to_string()),
         }
     }
 }
 
-/// The parameters of a structure that are numbers.
-pub const NUMBERS: [&str; 17] = [
-    "p",
-    "alpha",
-    "width",
-    "height",
-    "depth",
-    "centre-height",
-    "centre-offset",
-    "inertia",
-    "beam-mass-ratio",
-    "period",
-    "level",
-    "period-sd",
-    "friction",
-    "eta-sd",
-    "centre-height-sd",
-    "centre-offset-sd",
-    "count",
-];
+impl Restitution {
+    /// Its value for a slenderness.
+    pub fn value(self, alpha_rad: f64) -> f64 {
+        match self {
+            Restitution::Number(eta) | Restitution::Fitted(eta) => eta,
+            Restitution::Housner => housner_eta(alpha_rad),
+        }
+    }
+}
 
 impl FromStr for Spec {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Spec, String> {
-        let mut spec = Spec::default();
-        for pair in text.split(',') {
-            let (key, value) = pair
-                .split_once('=')
-                .ok_or_else(|| format!("'{pair}': expected name=, eta=, {}=VALUE", NUMBERS.join("=, ")))?;
-            spec.set(&key.trim().replace('_', "-"), value.trim())?;
-        }
-        Ok(spec)
+        let pair = |pair: &str| {
+            let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
+            (name.trim().replace('_', "-"), value.trim().to_string())
+        };
+        Spec::of_pairs(text.split(',').map(pair))
+    }
+}
+
+impl From<Shape> for Spec {
+    fn from(shape: Shape) -> Spec {
+        Spec { name: UNNAMED.to_string(), count: None, shape, place: Place::default(), refused: None }
     }
 }
 
 impl Spec {
-    fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
-        match (key, self.number_mut(key)) {
-            (_, Some(number)) => {
-                *number = Some(value.parse().map_err(|_| format!("{key} is '{value}'; expected a number"))?);
-            }
-            ("name", _) => self.name = Some(value.to_string()),
-            ("eta", _) => self.eta = Some(value.parse()?),
-            _ => {
-                let known = [&["name", "eta"], &NUMBERS[..]].concat();
-                let hint =
-                    nearest(key, &known).map_or(String::new(), |near| format!("; did you mean '{near}'?"));
-                return Err(format!("unknown parameter '{key}'{hint}"));
-            }
-        }
-        Ok(())
+    /// Reads names and values as the options that they are.
+    pub fn of_pairs(pairs: impl Iterator<Item = (String, String)>) -> Result<Spec, String> {
+        let words = pairs.map(|(name, value)| format!("--{name}={value}"));
+        Spec::try_parse_from(words).map_err(|refused| in_one_line(&refused))
     }
 
-    /// The number of this name.
-    pub fn number_mut(&mut self, key: &str) -> Option<&mut Option<f64>> {
-        Some(match key {
-            "p" => &mut self.p,
-            "alpha" => &mut self.alpha,
-            "width" => &mut self.width,
-            "height" => &mut self.height,
-            "depth" => &mut self.depth,
-            "centre-height" => &mut self.centre_height,
-            "centre-offset" => &mut self.centre_offset,
-            "inertia" => &mut self.inertia,
-            "beam-mass-ratio" => &mut self.beam_mass_ratio,
-            "period" => &mut self.place.period,
-            "level" => &mut self.place.level,
-            "period-sd" => &mut self.place.period_sd,
-            "friction" => &mut self.place.friction,
-            "eta-sd" => &mut self.place.eta_sd,
-            "centre-height-sd" => &mut self.place.centre_height_sd,
-            "centre-offset-sd" => &mut self.place.centre_offset_sd,
-            "count" => &mut self.place.count,
-            _ => return None,
-        })
+    /// A structure whose parameters are known.
+    pub fn of_structure(structure: Structure, eta: fn(f64) -> Restitution) -> Spec {
+        let Structure { name, p_rad_s, alpha_rad, eta: value } = structure;
+        let shape =
+            Shape { p: Some(p_rad_s), alpha: Some(alpha_rad), eta: Some(eta(value)), ..Shape::default() };
+        Spec { name, ..Spec::from(shape) }
     }
 
-    /// The numbers that are given, by name.
-    pub fn given(&self) -> Vec<(&'static str, f64)> {
-        let mut spec = self.clone();
-        let eta = match self.eta {
-            Some(Restitution::Number(eta)) => Some(("eta", eta)),
-            _ => None,
+    /// Where it does not say itself where it stands, it stands in this place.
+    pub fn at(self, other: &Place) -> Spec {
+        let own = self.place;
+        let place = Place {
+            period: own.period.or(other.period),
+            level: own.level.or(other.level),
+            period_sd: own.period_sd.or(other.period_sd),
+            friction: own.friction.or(other.friction),
+            eta_sd: own.eta_sd.or(other.eta_sd),
+            centre_height_sd: own.centre_height_sd.or(other.centre_height_sd),
+            centre_offset_sd: own.centre_offset_sd.or(other.centre_offset_sd),
         };
-        let numbers = NUMBERS.iter().filter_map(|key| Some((*key, (*spec.number_mut(key)?)?)));
-        numbers.chain(eta).collect()
+        Spec { place, ..self }
     }
 
     /// The same with a base so many times as wide: the offset with it, and the inertia as that of a solid
     /// block.
     pub fn resized(&self, factor: f64) -> Spec {
-        let width = self.width.unwrap_or(0.0);
+        let shape = &self.shape;
+        let width = shape.width.unwrap_or(0.0);
         let added = width * width * (factor * factor - 1.0) / 12.0;
-        Spec {
+        let shape = Shape {
             width: Some(factor * width),
-            centre_offset: self.centre_offset.map(|offset| factor * offset),
-            inertia: self.inertia.map(|inertia| inertia + added),
-            ..self.clone()
-        }
+            centre_offset: shape.centre_offset.map(|offset| factor * offset),
+            inertia: shape.inertia.map(|inertia| inertia + added),
+            ..shape.clone()
+        };
+        Spec { shape, ..self.clone() }
     }
 }

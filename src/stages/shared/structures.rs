@@ -1,13 +1,12 @@
 //! The options by which every stage takes structures: parameters, dimensions, or a list.
 
 use std::path::PathBuf;
-use std::sync::OnceLock;
 
 use clap::{Args, ValueHint};
 
-use super::object_list::{self, Listed};
+use super::object_list;
 use super::objects::Object;
-pub use super::spec::{Place, Spec};
+use super::spec::{Place, Restitution, Shape, Spec};
 use crate::paper;
 use crate::pipeline::UsageError;
 use crate::plausibility::is_too_high;
@@ -19,7 +18,7 @@ use crate::warning::{Warning, Warnings};
 #[command(next_help_heading = "Structure")]
 pub struct StructureArgs {
     #[command(flatten)]
-    pub one: Spec,
+    pub one: Shape,
     /// One of several: name=frame,p=1.0,alpha=0.15,eta=0.92 or name=cabinet,width=0.8,height=2.2
     #[arg(long, value_name = "NAME=VALUE,...", conflicts_with = "one")]
     pub structure: Vec<Spec>,
@@ -27,15 +26,12 @@ pub struct StructureArgs {
     /// of the paper
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["one", "structure"])]
     pub structures: Option<PathBuf>,
-    /// What a list says, once it was asked for.
-    #[arg(skip)]
-    known: OnceLock<Listed>,
 }
 
 impl StructureArgs {
     /// Whether any is given.
     pub fn is_given(&self) -> bool {
-        self.structures.is_some() || !self.structure.is_empty() || self.one != Spec::default()
+        self.structures.is_some() || !self.structure.is_empty() || self.one != Shape::default()
     }
 
     /// All structures, each of the weaker direction of an object.
@@ -46,37 +42,11 @@ impl StructureArgs {
         structures.map_err(UsageError::because)
     }
 
-    /// All objects, each with what is wrong with it, and the columns of a list that say nothing of them. A
-    /// list is read once.
+    /// All objects, each with what is wrong with it, and the columns of a list that say nothing of them.
     pub fn objects(&self, place: &Place) -> anyhow::Result<(Vec<Object>, Vec<String>)> {
-        let (specs, unused) = match &self.structures {
-            Some(path) if path.as_os_str() == "paper" => {
-                let of_paper =
-                    paper::structures().into_iter().map(|structure| Object::from(structure).at(*place));
-                return Ok((of_paper.collect(), Vec::new()));
-            }
-            Some(path) => {
-                let listed =
-                    self.known.get().map_or_else(|| object_list::read(path), |known| Ok(known.clone()))?;
-                self.known.get_or_init(|| listed).clone()
-            }
-            None if self.is_given() => {
-                let one =
-                    if self.structure.is_empty() { std::slice::from_ref(&self.one) } else { &self.structure };
-                (one.iter().cloned().map(Ok).collect(), Vec::new())
-            }
-            None => {
-                return Err(UsageError::because(
-                    "no structure; expected --width and --height of a block, or --p, --alpha and --eta, or --structures FILE",
-                ));
-            }
-        };
-        let object = |spec: Result<Spec, (String, String)>| match spec {
-            Ok(spec) => Object::new(Spec { place: spec.place.or(place), ..spec }),
-            Err((name, reason)) => Object::refused(Spec { name: Some(name), ..Spec::default() }, reason),
-        };
-        let objects: Vec<Object> = specs.into_iter().map(object).collect();
-        let mut names: Vec<&str> = objects.iter().map(Object::name).collect();
+        let (specs, unused) = self.specs()?;
+        let objects: Vec<Object> = specs.into_iter().map(|spec| Object::new(spec.at(place))).collect();
+        let mut names: Vec<&str> = objects.iter().map(|object| object.spec.name.as_str()).collect();
         names.sort_unstable();
         match names.windows(2).find(|pair| pair[0] == pair[1]) {
             Some(pair) => Err(UsageError::because(format!(
@@ -84,6 +54,22 @@ impl StructureArgs {
                 pair[0]
             ))),
             None => Ok((objects, unused)),
+        }
+    }
+
+    /// What is given.
+    fn specs(&self) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
+        let of_paper = |structure| Spec::of_structure(structure, Restitution::Number);
+        match &self.structures {
+            Some(path) if path.as_os_str() == "paper" => {
+                Ok((paper::structures().into_iter().map(of_paper).collect(), Vec::new()))
+            }
+            Some(path) => object_list::read(path),
+            None if !self.structure.is_empty() => Ok((self.structure.clone(), Vec::new())),
+            None if self.is_given() => Ok((vec![Spec::from(self.one.clone())], Vec::new())),
+            None => Err(UsageError::because(
+                "no structure; expected --width and --height of a block, or --p, --alpha and --eta, or --structures FILE",
+            )),
         }
     }
 }
